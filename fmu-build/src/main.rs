@@ -1,0 +1,2 @@
+//! Packs Brinell scenes into FMUs and runs them.
+fn main() {}

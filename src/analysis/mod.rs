@@ -1,0 +1,1 @@
+//! What an engineer reads out of a scene or a recording. A leaf: nothing imports it.

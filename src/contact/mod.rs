@@ -1,0 +1,1 @@
+//! Contact of one rolling element with a raceway. Knows no time, no cage, no ring.

@@ -1,0 +1,1 @@
+//! Equations of motion of rings, elements and sensor.

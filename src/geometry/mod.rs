@@ -1,0 +1,1 @@
+//! Bearing geometry, Hertz constants and characteristic frequencies.

@@ -1,0 +1,15 @@
+//! Brinell turns a rolling bearing with a real surface defect into an FMI 2.0 co-simulation unit.
+//!
+//! Data flows one way through the modules, and a module imports only from those above it:
+//! `numerics → scene → geometry → surface → contact → dynamics → simulation → fmi2`.
+//! `analysis` is a leaf: it may import everything but `fmi2`, and nothing imports it.
+
+pub mod numerics;
+pub mod scene;
+pub mod geometry;
+pub mod surface;
+pub mod contact;
+pub mod dynamics;
+pub mod simulation;
+pub mod fmi2;
+pub mod analysis;

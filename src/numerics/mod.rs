@@ -1,0 +1,1 @@
+//! Deterministic elementary functions and small numerical tools that know nothing of bearings.

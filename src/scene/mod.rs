@@ -1,0 +1,174 @@
+//! What a user describes: one bearing, its surroundings and the run, in SI units and checked.
+//!
+//! A [`Scene`] that exists is possible: everything after this module relies on that and checks nothing again.
+
+/// One bearing in its surroundings. All quantities in SI units, all values checked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// Name; letters, digits, `-` and `_`. Gives the file name of the FMU.
+    pub name: String,
+    /// One line for the reader.
+    pub description: String,
+    /// Gravity [m/s²], x and y.
+    pub gravity: [f64; 2],
+    /// The bearing itself.
+    pub bearing: Bearing,
+    /// Contact law and damping.
+    pub contact: Contact,
+    /// The cage's kinematics.
+    pub cage: Cage,
+    /// The defect of the outer raceway; `None` for a healthy bearing.
+    pub defect: Option<Defect>,
+    /// The inner ring.
+    pub shaft: Ring,
+    /// Shaft speed [rad/s], the start value of the input `shaft.speed`.
+    pub shaft_speed: f64,
+    /// The outer ring.
+    pub housing: Ring,
+    /// Accelerometer on the housing; `None` for none.
+    pub sensor: Option<Sensor>,
+    /// Relative tolerance of the time integration.
+    pub tolerance: f64,
+    /// Sampling rate of the recorder inside the step [Hz]; `None` for none.
+    pub recorder_rate: Option<f64>,
+    /// Default run.
+    pub experiment: Experiment,
+}
+
+/// Dimensions and material of the bearing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bearing {
+    /// Number of rolling elements Z.
+    pub element_count: usize,
+    /// Rolling element diameter D_w [m].
+    pub element_diameter: f64,
+    /// Pitch diameter D_pw [m].
+    pub pitch_diameter: f64,
+    /// Groove conformity of the inner ring f_i = r_gi/D_w, above 0.5.
+    pub conformity_inner: f64,
+    /// Groove conformity of the outer ring f_o = r_go/D_w, above 0.5.
+    pub conformity_outer: f64,
+    /// Radial internal clearance G_r [m]; negative is a preload.
+    pub radial_clearance: f64,
+    /// Young's modulus of rings and elements [Pa].
+    pub youngs_modulus: f64,
+    /// Poisson's ratio of rings and elements.
+    pub poissons_ratio: f64,
+    /// Density of the elements [kg/m³].
+    pub density: f64,
+    /// Mass of one element [kg], when it overrides the solid sphere's.
+    pub element_mass: Option<f64>,
+    /// Hertz constant of the inner contact [N/m^1.5], when it overrides the computed one.
+    pub hertz_inner: Option<f64>,
+    /// Hertz constant of the outer contact [N/m^1.5], when it overrides the computed one.
+    pub hertz_outer: Option<f64>,
+}
+
+/// How forces in the contacts are computed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// Law of the outer contact near the defect.
+    pub law: ContactLaw,
+    /// Contact damping.
+    pub damping: Damping,
+}
+
+/// Law of the outer contact near the defect. On the smooth raceway all three are Hertz's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ContactLaw {
+    /// The earlier model: Hertz against the rigid path of the element's centre.
+    Hertz,
+    /// Love's half-space through a potential computed beforehand.
+    Map,
+    /// Love's half-space solved on a grid inside the step.
+    Love,
+}
+
+/// Contact damping; never pulls.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Damping {
+    /// Q = Kδ^1.5 · max(0, 1 + χ δ̇), with χ [s/m].
+    HuntCrossley(f64),
+    /// Q = max(0, Kδ^1.5 + 1.5 τ K δ^0.5 δ̇), with τ [s].
+    Proportional(f64),
+}
+
+/// Kinematics of the cage.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cage {
+    /// Slip: the cage's lag behind pure rolling, 0 for none, 1 for a cage that stands.
+    pub slip: f64,
+    /// Angle of element 1 at the start [rad], counter-clockwise from +x.
+    pub initial_angle: f64,
+}
+
+/// A defect of the outer raceway.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Defect {
+    /// Angle of its centre [rad], counter-clockwise from +x.
+    pub angle: f64,
+    /// Its shape.
+    pub shape: DefectShape,
+}
+
+/// Shape of a defect.
+#[derive(Debug, Clone, PartialEq)]
+pub enum DefectShape {
+    /// A trapezoid: flat floor, straight flanks, the full width of the raceway.
+    Spall {
+        /// Length along the raceway at its surface [m].
+        length: f64,
+        /// Depth of the floor [m].
+        depth: f64,
+        /// Steepness of the flanks [rad]; π/2 for vertical edges.
+        edge_slope: f64,
+    },
+    /// A measured profile: file name beside the scene file.
+    Profile(String),
+}
+
+/// Who moves a ring.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Motion {
+    /// The host prescribes position and velocity.
+    Host,
+    /// The ring has a mass and moves under the forces on it.
+    Internal,
+    /// The ring stands.
+    Fixed,
+}
+
+/// A ring and its support.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ring {
+    /// Who moves it.
+    pub motion: Motion,
+    /// External load [N], x and y: start value of the load inputs. Zero unless `motion` is internal.
+    pub load: [f64; 2],
+    /// Mass [kg].
+    pub mass: f64,
+    /// Viscous damping to ground [N s/m].
+    pub damping: f64,
+    /// Stiffness to ground [N/m].
+    pub stiffness: f64,
+}
+
+/// An accelerometer, a damped resonator on the housing that measures along y.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sensor {
+    /// Mass [kg].
+    pub mass: f64,
+    /// Stiffness [N/m].
+    pub stiffness: f64,
+    /// Damping [N s/m].
+    pub damping: f64,
+}
+
+/// Default run of the scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Experiment {
+    /// Stop time [s].
+    pub stop: f64,
+    /// Communication step [s].
+    pub step: f64,
+}

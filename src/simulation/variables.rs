@@ -1,0 +1,110 @@
+//! The variable table: name, reference, causality, unit and start value of everything a host can see.
+//!
+//! The table is a function of the scene and is written once, here. The model description, get, set,
+//! the derivatives and the documentation's tables all follow from it.
+
+/// A variable that a host can see.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Variable {
+    /// Structured name, as in `element[3].force.outer`.
+    pub name: String,
+    /// One line for the reader.
+    pub description: String,
+    /// FMI value reference: the variable's index in the table, whatever its type.
+    pub reference: u32,
+    /// Type, with what belongs to it.
+    pub kind: Kind,
+    /// Causality.
+    pub causality: Causality,
+    /// Variability.
+    pub variability: Variability,
+    /// For outputs: the table indices, ascending, of all inputs that it depends on directly.
+    pub depends_on: Vec<u32>,
+}
+
+/// Type of a variable.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Kind {
+    /// `fmi2Real`.
+    Real {
+        /// Unit.
+        unit: Unit,
+        /// Start value; for inputs and parameters only.
+        start: Option<f64>,
+        /// Smallest value that may be set.
+        min: Option<f64>,
+        /// Largest value that may be set.
+        max: Option<f64>,
+        /// Order of magnitude.
+        nominal: f64,
+    },
+    /// `fmi2Integer`.
+    Integer,
+    /// An enumeration, set and read as `fmi2Integer`, counted from 1.
+    Enumeration {
+        /// Name of the type.
+        type_name: &'static str,
+        /// Names of its items, the first having value 1, with a description each.
+        items: &'static [(&'static str, &'static str)],
+        /// Start value.
+        start: i32,
+    },
+    /// `fmi2String`.
+    Text {
+        /// Start value.
+        start: String,
+    },
+}
+
+/// FMI causality, as far as Brinell uses it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Causality {
+    /// Fixed before initialization.
+    Parameter,
+    /// Set by the host at communication points.
+    Input,
+    /// Computed.
+    Output,
+}
+
+/// FMI variability, as far as Brinell uses it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Variability {
+    /// Does not change after initialization.
+    Fixed,
+    /// Changes at communication points only.
+    Discrete,
+    /// Changes with time.
+    Continuous,
+}
+
+/// Unit of a variable.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Unit {
+    /// 1
+    One,
+    /// kg
+    Kilogram,
+    /// m
+    Metre,
+    /// s
+    Second,
+    /// rad
+    Radian,
+    /// m/s
+    MetrePerSecond,
+    /// m/s2
+    MetrePerSecondSquared,
+    /// rad/s, shown as rev/min
+    RadianPerSecond,
+    /// N
+    Newton,
+    /// N.m
+    NewtonMetre,
+    /// N/m
+    NewtonPerMetre,
+    /// N.s/m
+    NewtonSecondPerMetre,
+    /// s/m
+    SecondPerMetre,
+}

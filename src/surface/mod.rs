@@ -1,0 +1,1 @@
+//! The outer raceway as it was measured or described.
