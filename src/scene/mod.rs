@@ -2,6 +2,15 @@
 //!
 //! A [`Scene`] that exists is possible: everything after this module relies on that and checks nothing again.
 
+mod check;
+mod error;
+mod file;
+mod quantity;
+
+pub use error::{Bound, Limits, SceneError};
+
+use serde::Deserialize;
+
 /// One bearing in its surroundings. All quantities in SI units, all values checked.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
@@ -35,6 +44,13 @@ pub struct Scene {
     pub experiment: Experiment,
 }
 
+impl Scene {
+    /// The C identifier of the scene's model: `Brinell_er16k_tb1` for the scene `er16k-tb1`.
+    pub fn model_identifier(&self) -> String {
+        format!("Brinell_{}", self.name.replace('-', "_"))
+    }
+}
+
 /// Dimensions and material of the bearing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bearing {
@@ -64,6 +80,18 @@ pub struct Bearing {
     pub hertz_outer: Option<f64>,
 }
 
+impl Bearing {
+    /// Radius of the outer raceway at the groove's bottom, R_o = (D_pw + D_w + G_r)/2 [m].
+    pub fn outer_raceway_radius(&self) -> f64 {
+        (self.pitch_diameter + self.element_diameter + self.radial_clearance) / 2.0
+    }
+
+    /// Radius of the inner raceway at the groove's bottom, R_i = (D_pw − D_w − G_r)/2 [m].
+    pub fn inner_raceway_radius(&self) -> f64 {
+        (self.pitch_diameter - self.element_diameter - self.radial_clearance) / 2.0
+    }
+}
+
 /// How forces in the contacts are computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
@@ -74,7 +102,8 @@ pub struct Contact {
 }
 
 /// Law of the outer contact near the defect. On the smooth raceway all three are Hertz's.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum ContactLaw {
     /// The earlier model: Hertz against the rigid path of the element's centre.
     Hertz,
@@ -128,7 +157,8 @@ pub enum DefectShape {
 }
 
 /// Who moves a ring.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Motion {
     /// The host prescribes position and velocity.
     Host,
@@ -143,7 +173,7 @@ pub enum Motion {
 pub struct Ring {
     /// Who moves it.
     pub motion: Motion,
-    /// External load [N], x and y: start value of the load inputs. Zero unless `motion` is internal.
+    /// External load [N], x and y: start value of the load inputs. This and what follows: zero unless `motion` is internal.
     pub load: [f64; 2],
     /// Mass [kg].
     pub mass: f64,

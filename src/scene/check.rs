@@ -1,0 +1,249 @@
+//! What a scene must satisfy to be possible. Run once when the file is read, and again when a host has changed parameters.
+//!
+//! Three kinds of limit. *Physical*: a negative mass, elements that overlap. *Of the model*: a preload beyond the elastic range,
+//! a defect deeper than an element's radius. *Of plausibility*: upper bounds far beyond any bearing built, which catch a value
+//! in the wrong unit before it becomes an overflow in the equations.
+//!
+//! Smallest clearance. With both rings concentric an element is squeezed by −G_r, half of it in each contact. ISO 76 puts the
+//! limit of elastic behaviour of a ball bearing at 4200 MPa. For bearing steel and conformities near 0.52 this pressure belongs
+//! to an approach of 0.0037 D_w in each contact (30 µm for D_w = 7.94 mm; Hertzian approach at a given pressure grows in
+//! proportion to size), hence G_r ≥ −0.0075 D_w. Ceramic or very open grooves would allow somewhat less; the limit is not scaled for them.
+
+use super::error::SceneError;
+use super::quantity::*;
+use super::{Bearing, Contact, Damping, Defect, DefectShape, Motion, Ring, Scene};
+use std::f64::consts::{PI, TAU};
+
+/// Longest name of a scene.
+pub(super) const LONGEST_NAME: usize = 64;
+
+/// Smallest clearance over element diameter; see the head of this file.
+const SMALLEST_RELATIVE_CLEARANCE: f64 = -0.0075;
+
+impl Scene {
+    /// Checks every physical quantity.
+    ///
+    /// # Errors
+    /// The first quantity that is outside its limits.
+    pub fn check(&self) -> Result<(), SceneError> {
+        check_name(&self.name)?;
+        GRAVITY.check_all(&self.gravity)?;
+        self.bearing.check()?;
+        self.contact.check()?;
+        CAGE_SLIP.check(self.cage.slip)?;
+        INITIAL_ANGLE.check(self.cage.initial_angle)?;
+        if let Some(defect) = &self.defect {
+            defect.check(&self.bearing)?;
+        }
+        self.check_rings()?;
+        self.check_sensor()?;
+        TOLERANCE.check(self.tolerance)?;
+        if let Some(rate) = self.recorder_rate {
+            RECORDER_RATE.check(rate)?;
+        }
+        self.check_experiment()
+    }
+
+    fn check_rings(&self) -> Result<(), SceneError> {
+        check_ring(&self.shaft, "shaft", &SHAFT)?;
+        check_ring(&self.housing, "housing", &HOUSING)?;
+        SPEED.check(self.shaft_speed)?;
+        let free = |ring: &Ring| ring.motion == Motion::Internal && ring.stiffness == 0.0;
+        if free(&self.shaft) && free(&self.housing) {
+            return Err(SceneError::NothingHolds);
+        }
+        Ok(())
+    }
+
+    fn check_sensor(&self) -> Result<(), SceneError> {
+        let Some(sensor) = &self.sensor else {
+            return Ok(());
+        };
+        if self.housing.motion == Motion::Fixed {
+            return Err(SceneError::SensorOnFixedHousing);
+        }
+        SENSOR_MASS.check(sensor.mass)?;
+        SENSOR_STIFFNESS.check(sensor.stiffness)?;
+        SENSOR_DAMPING.check(sensor.damping)
+    }
+
+    fn check_experiment(&self) -> Result<(), SceneError> {
+        let (stop, step) = (self.experiment.stop, self.experiment.step);
+        STOP.check(stop)?;
+        STEP.check(step)?;
+        if step > stop {
+            return Err(SceneError::StepBeyondStop { step, stop });
+        }
+        Ok(())
+    }
+}
+
+impl Bearing {
+    /// Smallest radial clearance [m]; negative. Below it the contacts leave the elastic range.
+    pub fn smallest_radial_clearance(&self) -> f64 {
+        SMALLEST_RELATIVE_CLEARANCE * self.element_diameter
+    }
+
+    /// Largest radial clearance [m]: the radius of an element.
+    pub fn largest_radial_clearance(&self) -> f64 {
+        self.element_diameter / 2.0
+    }
+
+    fn check(&self) -> Result<(), SceneError> {
+        ELEMENT_COUNT.check(self.element_count as f64)?;
+        ELEMENT_DIAMETER.check(self.element_diameter)?;
+        PITCH_DIAMETER.check(self.pitch_diameter)?;
+        self.check_overlap()?;
+        check_groove("inner", self.conformity_inner, &CONFORMITY_INNER)?;
+        check_groove("outer", self.conformity_outer, &CONFORMITY_OUTER)?;
+        self.check_clearance()?;
+        YOUNGS_MODULUS.check(self.youngs_modulus)?;
+        POISSONS_RATIO.check(self.poissons_ratio)?;
+        ELEMENT_MASS.check_all(self.element_mass.as_slice())?;
+        DENSITY.check(self.density)?;
+        HERTZ_INNER.check_all(self.hertz_inner.as_slice())?;
+        HERTZ_OUTER.check_all(self.hertz_outer.as_slice())
+    }
+
+    fn check_overlap(&self) -> Result<(), SceneError> {
+        // Neighbours' centres are a chord of D_pw sin(π/Z) apart. One element has no neighbour.
+        let chord = self.pitch_diameter * libm::sin(PI / self.element_count as f64);
+        if self.element_count > 1 && self.element_diameter > chord {
+            return Err(SceneError::ElementsOverlap {
+                count: self.element_count,
+                diameter_mm: shown(self.element_diameter * 1e3),
+                pitch_diameter_mm: shown(self.pitch_diameter * 1e3),
+                limit_mm: shown(chord * 1e3),
+            });
+        }
+        Ok(())
+    }
+
+    fn check_clearance(&self) -> Result<(), SceneError> {
+        CLEARANCE.check(self.radial_clearance)?;
+        let clearance_um = shown(self.radial_clearance * 1e6);
+        let limit_um = shown(self.smallest_radial_clearance() * 1e6);
+        if clearance_um < limit_um {
+            return Err(SceneError::NoRoom {
+                clearance_um,
+                limit_um,
+            });
+        }
+        let limit_um = shown(self.largest_radial_clearance() * 1e6);
+        if clearance_um > limit_um {
+            return Err(SceneError::TooLoose {
+                clearance_um,
+                limit_um,
+            });
+        }
+        if self.inner_raceway_radius() <= 0.0 {
+            return Err(SceneError::NoInnerRaceway {
+                pitch_diameter_mm: shown(self.pitch_diameter * 1e3),
+                limit_mm: shown((self.element_diameter + self.radial_clearance) * 1e3),
+            });
+        }
+        Ok(())
+    }
+}
+
+impl Contact {
+    fn check(&self) -> Result<(), SceneError> {
+        match self.damping {
+            Damping::HuntCrossley(chi) => DAMPING_CHI.check(chi),
+            Damping::Proportional(tau) => DAMPING_TAU.check(tau),
+        }
+    }
+}
+
+impl Defect {
+    fn check(&self, bearing: &Bearing) -> Result<(), SceneError> {
+        DEFECT_ANGLE.check(self.angle)?;
+        match &self.shape {
+            DefectShape::Spall {
+                length,
+                depth,
+                edge_slope,
+            } => check_spall(*length, *depth, *edge_slope, bearing),
+            DefectShape::Profile(name) => check_profile_name(name),
+        }
+    }
+}
+
+fn check_spall(
+    length: f64,
+    depth: f64,
+    edge_slope: f64,
+    bearing: &Bearing,
+) -> Result<(), SceneError> {
+    SPALL_LENGTH.check(length)?;
+    SPALL_DEPTH.check(depth)?;
+    EDGE_SLOPE.check(edge_slope)?;
+    let (length_mm, depth_um) = (shown(length * 1e3), shown(depth * 1e6));
+    let limit_mm = shown(TAU * bearing.outer_raceway_radius() * 1e3);
+    if length_mm >= limit_mm {
+        return Err(SceneError::SpallTooLong {
+            length_mm,
+            limit_mm,
+        });
+    }
+    let limit_um = shown(bearing.element_diameter / 2.0 * 1e6);
+    if depth_um >= limit_um {
+        return Err(SceneError::SpallTooDeep { depth_um, limit_um });
+    }
+    // tan of the right angle is large, not infinite, which is all that is asked of it here.
+    let limit_um = shown(0.5 * length * libm::tan(edge_slope).abs() * 1e6);
+    if depth_um > limit_um {
+        let edge_slope_deg = shown(edge_slope.to_degrees());
+        return Err(SceneError::FlanksMeet {
+            depth_um,
+            edge_slope_deg,
+            limit_um,
+            length_mm,
+        });
+    }
+    Ok(())
+}
+
+fn check_name(name: &str) -> Result<(), SceneError> {
+    let legal = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    if name.is_empty() || name.len() > LONGEST_NAME || !name.chars().all(legal) {
+        return Err(SceneError::Name(name.to_owned()));
+    }
+    Ok(())
+}
+
+/// The packed model holds the profile beside the scene, so a name that leads elsewhere would not be found there.
+fn check_profile_name(name: &str) -> Result<(), SceneError> {
+    let illegal = |c: char| matches!(c, '/' | '\\' | ':') || c.is_control();
+    if name.is_empty() || name == "." || name == ".." || name.chars().any(illegal) {
+        return Err(SceneError::ProfileName(name.to_owned()));
+    }
+    Ok(())
+}
+
+fn check_groove(ring: &'static str, conformity: f64, range: &Quantity) -> Result<(), SceneError> {
+    if conformity > 0.0 && conformity < SMALLEST_CONFORMITY {
+        return Err(SceneError::GrooveTooNarrow {
+            ring,
+            conformity: shown(conformity),
+            limit: SMALLEST_CONFORMITY,
+        });
+    }
+    range.check(conformity)
+}
+
+fn check_ring(ring: &Ring, name: &'static str, of: &RingQuantities) -> Result<(), SceneError> {
+    of.load.check_all(&ring.load)?;
+    if ring.motion != Motion::Internal {
+        if ring.load != [0.0; 2] {
+            return Err(SceneError::LoadNotInternal {
+                ring: name,
+                load: ring.load,
+            });
+        }
+        return Ok(());
+    }
+    of.mass.check(ring.mass)?;
+    of.damping.check(ring.damping)?;
+    of.stiffness.check(ring.stiffness)
+}

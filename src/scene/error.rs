@@ -1,0 +1,269 @@
+//! What can be wrong with a scene. Each message gives the quantity with its key in the scene file, its value and the limit.
+
+use std::fmt;
+
+/// A scene that cannot be read or cannot exist.
+///
+/// Values are shown in the unit of the key, so that a reader finds in the file what the message speaks of.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SceneError {
+    /// Broken TOML, an unknown or missing key, or a value of the wrong type.
+    #[error("scene file: {0}")]
+    Toml(#[from] toml::de::Error),
+    /// Two keys that exclude each other.
+    #[error("scene file: {first} and {second} exclude each other: give only one")]
+    Both {
+        /// One key.
+        first: &'static str,
+        /// The other key.
+        second: &'static str,
+    },
+    /// Neither of two keys of which one is needed.
+    #[error("scene file: one of {first} and {second} is needed, neither is given")]
+    Neither {
+        /// One key.
+        first: &'static str,
+        /// The other key.
+        second: &'static str,
+    },
+    /// A key that is needed because of what else the file says.
+    #[error("scene file: {key} is missing: {why}")]
+    Missing {
+        /// The key.
+        key: &'static str,
+        /// Why it is needed.
+        why: &'static str,
+    },
+    /// A key that has no meaning for a ring that does not move by itself.
+    #[error(
+        "scene file: {key} = {value} has no effect while {ring}.motion is \"{motion}\": it needs \"internal\""
+    )]
+    NotInternal {
+        /// Table of the ring.
+        ring: &'static str,
+        /// The key.
+        key: String,
+        /// The value given.
+        value: String,
+        /// The ring's motion.
+        motion: super::Motion,
+    },
+    /// A constant of the damping model that was not chosen.
+    #[error(
+        "scene file: {key} = {value} does not belong to contact.damping = \"{model}\", which takes {wanted}"
+    )]
+    WrongDampingKey {
+        /// The key given.
+        key: &'static str,
+        /// The value given.
+        value: f64,
+        /// The model chosen, or the default.
+        model: &'static str,
+        /// The key of that model.
+        wanted: &'static str,
+    },
+    /// A name that cannot become a file name and a C identifier.
+    #[error(
+        "name \"{0}\": 1 to {max} characters, each an ASCII letter, a digit, - or _",
+        max = super::check::LONGEST_NAME
+    )]
+    Name(String),
+    /// A profile that is not a plain file name.
+    #[error(
+        "defect profile (defect.profile) \"{0}\": it must be the name of a file beside the scene file, without a folder"
+    )]
+    ProfileName(String),
+    /// A quantity outside its limits, or not finite.
+    #[error("{quantity} ({key}) is {value}: it must be {limits}")]
+    OutOfRange {
+        /// The field's term for it.
+        quantity: &'static str,
+        /// Its key, or keys, in the scene file.
+        key: &'static str,
+        /// Its value in the unit of the key.
+        value: f64,
+        /// What it may be, in the same unit.
+        limits: Limits,
+    },
+    /// A groove in which the element does not fit.
+    #[error(
+        "groove conformity of the {ring} ring (bearing.groove_diameter_mm/2 over bearing.element_diameter_mm, or \
+         bearing.conformity_{ring}) is {conformity}: it must be at least {limit}, at 0.5 the groove is as narrow as the element"
+    )]
+    GrooveTooNarrow {
+        /// "inner" or "outer".
+        ring: &'static str,
+        /// Groove radius over element diameter.
+        conformity: f64,
+        /// Smallest conformity.
+        limit: f64,
+    },
+    /// More or larger elements than the pitch circle holds.
+    #[error(
+        "element diameter (bearing.element_diameter_mm) is {diameter_mm}: {count} elements on a pitch circle of \
+         {pitch_diameter_mm} mm overlap above {limit_mm} mm"
+    )]
+    ElementsOverlap {
+        /// Number of elements.
+        count: usize,
+        /// Element diameter [mm].
+        diameter_mm: f64,
+        /// Pitch diameter [mm].
+        pitch_diameter_mm: f64,
+        /// Largest diameter that fits [mm].
+        limit_mm: f64,
+    },
+    /// An inner raceway without a radius.
+    #[error(
+        "pitch diameter (bearing.pitch_diameter_mm) is {pitch_diameter_mm}: it must be above {limit_mm}, the element diameter \
+         and the radial clearance together, or no inner raceway is left"
+    )]
+    NoInnerRaceway {
+        /// Pitch diameter [mm].
+        pitch_diameter_mm: f64,
+        /// What it must exceed [mm].
+        limit_mm: f64,
+    },
+    /// A preload that squeezes the elements beyond what the model describes.
+    #[error(
+        "radial clearance (bearing.radial_clearance_um) is {clearance_um}: below {limit_um} inner groove, element and outer \
+         groove overlap by more than the contacts can take elastically"
+    )]
+    NoRoom {
+        /// Clearance [µm].
+        clearance_um: f64,
+        /// Smallest clearance [µm].
+        limit_um: f64,
+    },
+    /// A clearance from which the elements fall.
+    #[error(
+        "radial clearance (bearing.radial_clearance_um) is {clearance_um}: it must be at most {limit_um}, the radius of an element"
+    )]
+    TooLoose {
+        /// Clearance [µm].
+        clearance_um: f64,
+        /// Largest clearance [µm].
+        limit_um: f64,
+    },
+    /// A spall as long as the raceway or longer.
+    #[error(
+        "spall length (defect.length_deg or defect.length_mm) is {length_mm} mm: it must be below {limit_mm} mm, the \
+         circumference of the outer raceway"
+    )]
+    SpallTooLong {
+        /// Length [mm].
+        length_mm: f64,
+        /// Circumference of the outer raceway [mm].
+        limit_mm: f64,
+    },
+    /// A spall as deep as the element's radius or deeper.
+    #[error(
+        "spall depth (defect.depth_um) is {depth_um}: it must be below {limit_um}, the radius of an element"
+    )]
+    SpallTooDeep {
+        /// Depth [µm].
+        depth_um: f64,
+        /// Radius of an element [µm].
+        limit_um: f64,
+    },
+    /// Flanks that meet before they reach the floor.
+    #[error(
+        "spall depth (defect.depth_um) is {depth_um}: flanks of {edge_slope_deg} degrees (defect.edge_slope_deg) meet at \
+         {limit_um} um in a spall of {length_mm} mm"
+    )]
+    FlanksMeet {
+        /// Depth [µm].
+        depth_um: f64,
+        /// Steepness of the flanks [°].
+        edge_slope_deg: f64,
+        /// Depth at which they meet [µm].
+        limit_um: f64,
+        /// Length [mm].
+        length_mm: f64,
+    },
+    /// A load on a ring that does not move by itself.
+    #[error("load on the {ring} ({ring}.load_n) is [{}, {}]: it must be [0, 0] unless {ring}.motion is \"internal\"", load[0], load[1])]
+    LoadNotInternal {
+        /// Table of the ring.
+        ring: &'static str,
+        /// The load [N].
+        load: [f64; 2],
+    },
+    /// Two free rings, so that no load has an equilibrium.
+    #[error(
+        "stiffness to ground (shaft.stiffness_n_m, housing.stiffness_n_m) is 0 for both rings: where both move by \
+         themselves, one must be above 0 or nothing holds the bearing"
+    )]
+    NothingHolds,
+    /// An accelerometer on a ring that stands.
+    #[error(
+        "sensor: it would measure nothing while housing.motion is \"fixed\", it needs \"internal\" or \"host\""
+    )]
+    SensorOnFixedHousing,
+    /// A communication step longer than the run.
+    #[error(
+        "communication step (experiment.step_s) is {step}: it must be at most {stop}, the stop time (experiment.stop_s)"
+    )]
+    StepBeyondStop {
+        /// Communication step [s].
+        step: f64,
+        /// Stop time [s].
+        stop: f64,
+    },
+}
+
+/// Limits of a quantity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// Smallest value.
+    pub low: Bound,
+    /// Largest value.
+    pub high: Bound,
+}
+
+/// One end of a range.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Bound {
+    /// The bound itself is allowed.
+    Inclusive(f64),
+    /// The bound itself is not allowed.
+    Exclusive(f64),
+}
+
+impl Limits {
+    /// Whether the value lies within; NaN never does.
+    pub fn hold(&self, value: f64) -> bool {
+        let above = match self.low {
+            Bound::Inclusive(bound) => value >= bound,
+            Bound::Exclusive(bound) => value > bound,
+        };
+        let below = match self.high {
+            Bound::Inclusive(bound) => value <= bound,
+            Bound::Exclusive(bound) => value < bound,
+        };
+        above && below
+    }
+}
+
+impl fmt::Display for Limits {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.low {
+            Bound::Inclusive(bound) => write!(f, "at least {bound:?} ")?,
+            Bound::Exclusive(bound) => write!(f, "above {bound:?} ")?,
+        }
+        match self.high {
+            Bound::Inclusive(bound) => write!(f, "and at most {bound:?}"),
+            Bound::Exclusive(bound) => write!(f, "and below {bound:?}"),
+        }
+    }
+}
+
+impl fmt::Display for super::Motion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Host => "host",
+            Self::Internal => "internal",
+            Self::Fixed => "fixed",
+        })
+    }
+}

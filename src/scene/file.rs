@@ -1,0 +1,380 @@
+//! The scene file: TOML with the unit in each key, converted to SI units here and nowhere else.
+//!
+//! Keys that may be left out, with what then holds. The values of the support are those of published models of a bearing test
+//! rig with five degrees of freedom (attributed to Sawalhi and Randall 2008); the shaft's stiffness is 0, because a shaft that
+//! is held to the ground as stiffly as a bearing is stiff would carry the load itself.
+//!
+//! | key | default |
+//! |---|---|
+//! | `description` | empty |
+//! | `gravity_m_s2` | `[0, -9.81]` |
+//! | `bearing.radial_clearance_um` | 5 |
+//! | `bearing.density_kg_m3` | from `element_mass_g`, which is then needed |
+//! | `bearing.element_mass_g`, `hertz_inner_n_m1_5`, `hertz_outer_n_m1_5` | computed |
+//! | `contact.law` | `"map"` with a defect, else `"hertz"` |
+//! | `contact.damping` | `"hunt-crossley"`; its `damping_chi_s_m` 0.5 |
+//! | `cage.slip`, `cage.initial_angle_deg` | 0, −90 |
+//! | `defect` | none; its `edge_slope_deg` 90 |
+//! | `shaft.mass_kg`, `.damping_n_s_m`, `.stiffness_n_m` (internal only) | 3.2638, 1376.8, 0 |
+//! | `housing.mass_kg`, `.damping_n_s_m`, `.stiffness_n_m` (internal only) | 6.638, 2210.7, 1.51056e7 |
+//! | `shaft.load_n`, `housing.load_n` (internal only) | `[0, 0]` |
+//! | `sensor` | none; its `mass_kg`, `stiffness_n_m`, `damping_n_s_m` 1, 8.8826e9, 9424.8 |
+//! | `solver.tolerance` | 1e-5 |
+//! | `recorder` | none |
+//! | `experiment.stop_s`, `.step_s` | 0.5, 1e-4 |
+
+mod rings;
+
+use super::error::SceneError;
+use super::{
+    Bearing, Cage, Contact, ContactLaw, Damping, Defect, DefectShape, Experiment, Scene, Sensor,
+};
+use rings::{HousingTable, SensorTable, ShaftTable};
+use serde::Deserialize;
+use std::f64::consts::{PI, TAU};
+
+impl Scene {
+    /// Reads the text of a scene file and checks it.
+    ///
+    /// # Errors
+    /// Broken TOML, unknown, missing or contradicting keys, and every value that [`Scene::check`] refuses.
+    pub fn from_toml(text: &str) -> Result<Self, SceneError> {
+        let file: SceneFile = toml::from_str(text)?;
+        let scene = file.into_scene()?;
+        scene.check()?;
+        Ok(scene)
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SceneFile {
+    name: String,
+    #[serde(default)]
+    description: String,
+    #[serde(default = "default_gravity")]
+    gravity_m_s2: [f64; 2],
+    bearing: BearingTable,
+    #[serde(default)]
+    contact: ContactTable,
+    #[serde(default)]
+    cage: CageTable,
+    defect: Option<DefectTable>,
+    shaft: ShaftTable,
+    housing: HousingTable,
+    sensor: Option<SensorTable>,
+    #[serde(default)]
+    solver: SolverTable,
+    recorder: Option<RecorderTable>,
+    #[serde(default)]
+    experiment: ExperimentTable,
+}
+
+impl SceneFile {
+    fn into_scene(self) -> Result<Scene, SceneError> {
+        let bearing = self.bearing.into_bearing()?;
+        let contact = self.contact.into_contact(self.defect.is_some())?;
+        let defect = self
+            .defect
+            .map(|table| table.into_defect(&bearing))
+            .transpose()?;
+        let shaft_speed = self.shaft.speed_hz * TAU;
+        Ok(Scene {
+            name: self.name,
+            description: self.description,
+            gravity: self.gravity_m_s2,
+            bearing,
+            contact,
+            cage: Cage {
+                slip: self.cage.slip,
+                initial_angle: self.cage.initial_angle_deg.to_radians(),
+            },
+            defect,
+            shaft: self.shaft.into_ring()?,
+            shaft_speed,
+            housing: self.housing.into_ring()?,
+            sensor: self.sensor.map(|table| Sensor {
+                mass: table.mass_kg,
+                stiffness: table.stiffness_n_m,
+                damping: table.damping_n_s_m,
+            }),
+            tolerance: self.solver.tolerance,
+            recorder_rate: self.recorder.map(|table| table.rate_hz),
+            experiment: Experiment {
+                stop: self.experiment.stop_s,
+                step: self.experiment.step_s,
+            },
+        })
+    }
+}
+
+fn default_gravity() -> [f64; 2] {
+    [0.0, -9.81]
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BearingTable {
+    element_count: usize,
+    element_diameter_mm: f64,
+    pitch_diameter_mm: f64,
+    groove_diameter_mm: Option<f64>,
+    conformity_inner: Option<f64>,
+    conformity_outer: Option<f64>,
+    #[serde(default = "default_clearance")]
+    radial_clearance_um: f64,
+    youngs_modulus_gpa: f64,
+    poissons_ratio: f64,
+    density_kg_m3: Option<f64>,
+    element_mass_g: Option<f64>,
+    hertz_inner_n_m1_5: Option<f64>,
+    hertz_outer_n_m1_5: Option<f64>,
+}
+
+fn default_clearance() -> f64 {
+    5.0
+}
+
+impl BearingTable {
+    // 1e3 is exact and 1e-3 is not, so a division rounds once and a product twice.
+    fn into_bearing(self) -> Result<Bearing, SceneError> {
+        let (conformity_inner, conformity_outer) = self.conformities()?;
+        Ok(Bearing {
+            element_count: self.element_count,
+            element_diameter: self.element_diameter_mm / 1e3,
+            pitch_diameter: self.pitch_diameter_mm / 1e3,
+            conformity_inner,
+            conformity_outer,
+            radial_clearance: self.radial_clearance_um / 1e6,
+            youngs_modulus: self.youngs_modulus_gpa * 1e9,
+            poissons_ratio: self.poissons_ratio,
+            density: self.density()?,
+            element_mass: self.element_mass_g.map(|mass| mass / 1e3),
+            hertz_inner: self.hertz_inner_n_m1_5,
+            hertz_outer: self.hertz_outer_n_m1_5,
+        })
+    }
+
+    fn conformities(&self) -> Result<(f64, f64), SceneError> {
+        const GROOVE: &str = "bearing.groove_diameter_mm";
+        const INNER: &str = "bearing.conformity_inner";
+        const OUTER: &str = "bearing.conformity_outer";
+        match (
+            self.groove_diameter_mm,
+            self.conformity_inner,
+            self.conformity_outer,
+        ) {
+            (Some(groove), None, None) => {
+                let conformity = groove / (2.0 * self.element_diameter_mm);
+                Ok((conformity, conformity))
+            }
+            (None, Some(inner), Some(outer)) => Ok((inner, outer)),
+            (Some(_), Some(_), _) => Err(SceneError::Both {
+                first: GROOVE,
+                second: INNER,
+            }),
+            (Some(_), None, Some(_)) => Err(SceneError::Both {
+                first: GROOVE,
+                second: OUTER,
+            }),
+            (None, None, None) => Err(SceneError::Neither {
+                first: GROOVE,
+                second: INNER,
+            }),
+            (None, None, Some(_)) => Err(SceneError::Missing {
+                key: INNER,
+                why: "conformity_outer is given without it",
+            }),
+            (None, Some(_), None) => Err(SceneError::Missing {
+                key: OUTER,
+                why: "conformity_inner is given without it",
+            }),
+        }
+    }
+
+    fn density(&self) -> Result<f64, SceneError> {
+        match (self.density_kg_m3, self.element_mass_g) {
+            (Some(density), _) => Ok(density),
+            (None, Some(mass)) => {
+                let diameter = self.element_diameter_mm / 1e3;
+                Ok(mass / 1e3 / (PI / 6.0 * diameter * diameter * diameter))
+            }
+            (None, None) => Err(SceneError::Neither {
+                first: "bearing.density_kg_m3",
+                second: "bearing.element_mass_g",
+            }),
+        }
+    }
+}
+
+#[derive(Deserialize, Default)]
+#[serde(deny_unknown_fields)]
+struct ContactTable {
+    law: Option<ContactLaw>,
+    #[serde(default)]
+    damping: DampingModel,
+    damping_chi_s_m: Option<f64>,
+    damping_tau_s: Option<f64>,
+}
+
+#[derive(Deserialize, Default, Clone, Copy)]
+#[serde(rename_all = "kebab-case")]
+enum DampingModel {
+    #[default]
+    HuntCrossley,
+    Proportional,
+}
+
+impl ContactTable {
+    fn into_contact(self, defect: bool) -> Result<Contact, SceneError> {
+        const CHI: &str = "contact.damping_chi_s_m";
+        const TAU: &str = "contact.damping_tau_s";
+        let wrong = |key, value, model, wanted| {
+            Err(SceneError::WrongDampingKey {
+                key,
+                value,
+                model,
+                wanted,
+            })
+        };
+        let damping = match (self.damping, self.damping_chi_s_m, self.damping_tau_s) {
+            (DampingModel::HuntCrossley, _, Some(tau)) => {
+                return wrong(TAU, tau, "hunt-crossley", CHI);
+            }
+            (DampingModel::Proportional, Some(chi), _) => {
+                return wrong(CHI, chi, "proportional", TAU);
+            }
+            (DampingModel::HuntCrossley, chi, None) => Damping::HuntCrossley(chi.unwrap_or(0.5)),
+            (DampingModel::Proportional, None, Some(tau)) => Damping::Proportional(tau),
+            (DampingModel::Proportional, None, None) => {
+                return Err(SceneError::Missing {
+                    key: TAU,
+                    why: "contact.damping is \"proportional\"",
+                });
+            }
+        };
+        let default = if defect {
+            ContactLaw::Map
+        } else {
+            ContactLaw::Hertz
+        };
+        Ok(Contact {
+            law: self.law.unwrap_or(default),
+            damping,
+        })
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct CageTable {
+    slip: f64,
+    initial_angle_deg: f64,
+}
+
+impl Default for CageTable {
+    fn default() -> Self {
+        Self {
+            slip: 0.0,
+            initial_angle_deg: -90.0,
+        }
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DefectTable {
+    angle_deg: f64,
+    length_deg: Option<f64>,
+    length_mm: Option<f64>,
+    depth_um: Option<f64>,
+    edge_slope_deg: Option<f64>,
+    profile: Option<String>,
+}
+
+impl DefectTable {
+    fn into_defect(self, bearing: &Bearing) -> Result<Defect, SceneError> {
+        let angle = self.angle_deg.to_radians();
+        let shape = match self.profile {
+            Some(name) => {
+                let given = [
+                    ("defect.length_deg", self.length_deg),
+                    ("defect.length_mm", self.length_mm),
+                    ("defect.depth_um", self.depth_um),
+                    ("defect.edge_slope_deg", self.edge_slope_deg),
+                ];
+                if let Some((second, _)) = given.into_iter().find(|(_, value)| value.is_some()) {
+                    return Err(SceneError::Both {
+                        first: "defect.profile",
+                        second,
+                    });
+                }
+                DefectShape::Profile(name)
+            }
+            None => DefectShape::Spall {
+                length: spall_length(self.length_deg, self.length_mm, bearing)?,
+                depth: self.depth_um.ok_or(SceneError::Neither {
+                    first: "defect.depth_um",
+                    second: "defect.profile",
+                })? / 1e6,
+                edge_slope: self.edge_slope_deg.unwrap_or(90.0).to_radians(),
+            },
+        };
+        Ok(Defect { angle, shape })
+    }
+}
+
+fn spall_length(
+    degrees: Option<f64>,
+    millimetres: Option<f64>,
+    bearing: &Bearing,
+) -> Result<f64, SceneError> {
+    const DEGREES: &str = "defect.length_deg";
+    const MILLIMETRES: &str = "defect.length_mm";
+    match (degrees, millimetres) {
+        (Some(degrees), None) => Ok(degrees.to_radians() * bearing.outer_raceway_radius()),
+        (None, Some(millimetres)) => Ok(millimetres / 1e3),
+        (Some(_), Some(_)) => Err(SceneError::Both {
+            first: DEGREES,
+            second: MILLIMETRES,
+        }),
+        (None, None) => Err(SceneError::Neither {
+            first: DEGREES,
+            second: MILLIMETRES,
+        }),
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct SolverTable {
+    tolerance: f64,
+}
+
+impl Default for SolverTable {
+    fn default() -> Self {
+        Self { tolerance: 1e-5 }
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RecorderTable {
+    rate_hz: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct ExperimentTable {
+    stop_s: f64,
+    step_s: f64,
+}
+
+impl Default for ExperimentTable {
+    fn default() -> Self {
+        Self {
+            stop_s: 0.5,
+            step_s: 1e-4,
+        }
+    }
+}

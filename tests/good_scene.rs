@@ -1,0 +1,149 @@
+//! A scene file is read into SI units, and what it leaves out gets the documented default.
+
+use brinell::scene::{ContactLaw, Damping, DefectShape, Motion, Scene};
+use std::f64::consts::PI;
+
+const SHORT: &str = r#"
+name = "er16k-tb1"
+[bearing]
+element_count = 9
+element_diameter_mm = 7.94
+pitch_diameter_mm = 39.32
+groove_diameter_mm = 8.19
+youngs_modulus_gpa = 207
+poissons_ratio = 0.3
+density_kg_m3 = 7800
+[shaft]
+motion = "internal"
+speed_hz = 10
+[housing]
+motion = "internal"
+"#;
+
+const SPALL: &str = "[defect]\nangle_deg = -90\nlength_deg = 15.8\ndepth_um = 100\n";
+
+fn near(value: f64, expected: f64) -> bool {
+    // Two roundings of the conversion.
+    (value - expected).abs() <= 4.0 * f64::EPSILON * expected.abs()
+}
+
+#[test]
+fn quantities_arrive_in_si_units() {
+    let scene = Scene::from_toml(&format!("{SHORT}[sensor]\n{SPALL}")).unwrap();
+    assert!(near(scene.bearing.element_diameter, 7.94e-3));
+    assert!(near(scene.bearing.pitch_diameter, 39.32e-3));
+    assert_eq!(scene.bearing.radial_clearance, 5e-6);
+    assert_eq!(scene.bearing.youngs_modulus, 207e9);
+    assert!(near(scene.bearing.conformity_inner, 8.19 / 15.88));
+    assert_eq!(
+        scene.bearing.conformity_inner,
+        scene.bearing.conformity_outer
+    );
+    assert!(near(scene.shaft_speed, 20.0 * PI));
+    assert!(near(scene.cage.initial_angle, -PI / 2.0));
+    let defect = scene.defect.unwrap();
+    assert!(near(defect.angle, -PI / 2.0));
+    let DefectShape::Spall {
+        length,
+        depth,
+        edge_slope,
+    } = defect.shape
+    else {
+        panic!("not a spall")
+    };
+    assert!(near(length, 15.8 / 180.0 * PI * 23.6325e-3), "{length}");
+    assert_eq!(depth, 1e-4);
+    assert!(near(edge_slope, PI / 2.0));
+}
+
+#[test]
+fn the_raceways_of_the_er16k_have_their_radii() {
+    let bearing = Scene::from_toml(SHORT).unwrap().bearing;
+    assert!(near(bearing.outer_raceway_radius(), 23.6325e-3));
+    // A difference: its rounding is that of the larger numbers.
+    assert!((bearing.inner_raceway_radius() - 15.6875e-3).abs() < 1e-17);
+}
+
+#[test]
+fn a_length_in_millimetres_equals_the_same_arc_in_degrees() {
+    let length = |text: &str| match Scene::from_toml(text).unwrap().defect.unwrap().shape {
+        DefectShape::Spall { length, .. } => length,
+        DefectShape::Profile(_) => panic!("not a spall"),
+    };
+    let degrees = length(&format!("{SHORT}{SPALL}"));
+    let arc = format!("length_mm = {:?}", degrees * 1e3);
+    assert!(near(
+        length(&format!(
+            "{SHORT}{}",
+            SPALL.replace("length_deg = 15.8", &arc)
+        )),
+        degrees
+    ));
+}
+
+#[test]
+fn what_is_left_out_gets_the_documented_default() {
+    let scene = Scene::from_toml(SHORT).unwrap();
+    assert_eq!(scene.description, "");
+    assert_eq!(scene.gravity, [0.0, -9.81]);
+    assert_eq!(scene.contact.law, ContactLaw::Hertz);
+    assert_eq!(scene.contact.damping, Damping::HuntCrossley(0.5));
+    assert_eq!(scene.cage.slip, 0.0);
+    assert_eq!(scene.defect, None);
+    assert_eq!(
+        (scene.shaft.mass, scene.shaft.damping, scene.shaft.stiffness),
+        (3.2638, 1376.8, 0.0)
+    );
+    assert_eq!(
+        (
+            scene.housing.mass,
+            scene.housing.damping,
+            scene.housing.stiffness
+        ),
+        (6.638, 2210.7, 1.51056e7)
+    );
+    assert_eq!(scene.shaft.load, [0.0, 0.0]);
+    assert_eq!(scene.sensor, None);
+    assert_eq!(scene.tolerance, 1e-5);
+    assert_eq!(scene.recorder_rate, None);
+    assert_eq!((scene.experiment.stop, scene.experiment.step), (0.5, 1e-4));
+}
+
+#[test]
+fn a_defect_asks_for_the_map_unless_a_law_is_given() {
+    let scene = Scene::from_toml(&format!("{SHORT}{SPALL}")).unwrap();
+    assert_eq!(scene.contact.law, ContactLaw::Map);
+    let scene = Scene::from_toml(&format!("{SHORT}{SPALL}[contact]\nlaw = \"love\"")).unwrap();
+    assert_eq!(scene.contact.law, ContactLaw::Love);
+}
+
+#[test]
+fn an_empty_sensor_table_is_the_15_khz_resonator() {
+    let sensor = Scene::from_toml(&format!("{SHORT}[sensor]"))
+        .unwrap()
+        .sensor
+        .unwrap();
+    assert_eq!(
+        (sensor.mass, sensor.stiffness, sensor.damping),
+        (1.0, 8.8826e9, 9424.8)
+    );
+    let frequency = (sensor.stiffness / sensor.mass).sqrt() / (2.0 * PI);
+    // The stiffness is printed with five digits.
+    assert!((frequency / 15e3 - 1.0).abs() < 1e-5, "{frequency}");
+}
+
+#[test]
+fn a_hosted_ring_has_no_mass_of_its_own() {
+    let text = SHORT.replace("motion = \"internal\"", "motion = \"host\"");
+    let scene = Scene::from_toml(&text).unwrap();
+    assert_eq!(scene.shaft.motion, Motion::Host);
+    assert_eq!((scene.shaft.mass, scene.housing.stiffness), (0.0, 0.0));
+}
+
+#[test]
+fn the_model_identifier_is_a_c_identifier() {
+    assert_eq!(
+        Scene::from_toml(SHORT).unwrap().model_identifier(),
+        "Brinell_er16k_tb1"
+    );
+}
