@@ -1,1 +1,4 @@
-//! Contact of one rolling element with a raceway. Knows no time, no cage, no ring.
+//! Contact of one rolling element with a raceway. Knows no time, no cage and no ring: place and approach in, force out.
+
+pub mod force_law;
+pub mod rigid_path;

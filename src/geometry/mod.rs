@@ -1,1 +1,4 @@
-//! Bearing geometry, Hertz constants and characteristic frequencies.
+//! Bearing geometry: Hertz constants of its contacts, kinematics and characteristic frequencies.
+
+pub mod hertz_constant;
+pub mod kinematics;
