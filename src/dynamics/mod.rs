@@ -1,1 +1,10 @@
-//! Equations of motion of rings, elements and sensor.
+//! Equations of motion of rings, rolling elements and sensor: state in, derivative and forces out.
+//!
+//! Knows neither steps nor hosts. Time enters only through a [`drive::Drive`], which gives the cage angle and the
+//! prescribed motions and loads as polynomials of the time since the last communication point.
+
+pub mod drive;
+pub mod equilibrium;
+pub mod forces;
+pub mod model;
+pub mod tangent;

@@ -90,6 +90,12 @@ impl Bearing {
     pub fn inner_raceway_radius(&self) -> f64 {
         (self.pitch_diameter - self.element_diameter - self.radial_clearance) / 2.0
     }
+
+    /// Mass of one element [kg]: the scene's, or a solid sphere's.
+    pub fn mass_of_element(&self) -> f64 {
+        let d = self.element_diameter;
+        self.element_mass.unwrap_or(std::f64::consts::PI / 6.0 * d * d * d * self.density)
+    }
 }
 
 /// How forces in the contacts are computed.

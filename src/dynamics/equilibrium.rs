@@ -1,0 +1,286 @@
+//! Static equilibrium: the load distribution from which a run starts.
+//!
+//! All velocities are zero, but the elements feel gravity and the centrifugal force of the cage speed. Each element's
+//! radial balance is solved inside (its force falls monotonically with u), then the internal rings' by Newton's method on
+//! the condensed tangent with a shift that keeps a loose ring's step bounded, and a search along the step for the point
+//! at which the residual no longer pushes forward: in a convex potential that is the minimum along the line.
+//!
+//! An element that nothing pushes rests against the outer raceway without force.
+
+use super::drive::Drive;
+use super::forces::dot;
+use super::model::Model;
+use crate::scene::Motion;
+
+/// Why no equilibrium was found.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum EquilibriumError {
+    /// The residual did not vanish.
+    #[error(
+        "no static equilibrium: a net force of {residual:.3e} N stays on the rings (limit {limit:.1e} N); \
+         give the internal rings a support stiffness that can carry their load"
+    )]
+    NotFound {
+        /// Force left [N].
+        residual: f64,
+        /// Largest force allowed [N].
+        limit: f64,
+    },
+}
+
+/// Share of the largest force in play that may remain as residual: a few roundings of a sum of Z forces.
+const RESIDUAL: f64 = 1e-12;
+/// Longest step of a ring between two iterations [m].
+const LONGEST_STEP: f64 = 50e-6;
+const ITERATIONS: usize = 500;
+
+impl Model {
+    /// Writes the static equilibrium under `drive` at τ = 0 into `state`; velocities are those of rings at rest, or of
+    /// prescribed rings that carry the elements along.
+    pub fn equilibrium(&self, drive: &Drive, cells: &[u32], state: &mut [f64]) -> Result<(), EquilibriumError> {
+        state.fill(0.0);
+        let mut rings = Rings::start(self, drive);
+        let mut u = vec![0.0; self.element_count];
+        let mut balance = self.balance(drive, cells, &rings, &mut u);
+        let mut iteration = 0;
+        while balance.residual() > balance.limit {
+            iteration += 1;
+            if iteration > ITERATIONS {
+                return Err(EquilibriumError::NotFound { residual: balance.residual(), limit: balance.limit });
+            }
+            let step = self.newton_step(drive, cells, &rings, &u, &balance);
+            let Some(next) = self.along(drive, cells, &rings, &mut u, &balance, step) else {
+                return Err(EquilibriumError::NotFound { residual: balance.residual(), limit: balance.limit });
+            };
+            (rings, balance) = next;
+        }
+        self.write(drive, &rings, &u, state);
+        Ok(())
+    }
+
+    /// The path at which element `j` is in radial balance.
+    fn balanced_path(&self, j: usize, cell: u32, offset: [f64; 2], drive: &Drive) -> f64 {
+        let cage_angle = drive.cage_angle(0.0);
+        let omega = drive.cage.rate_at(0.0);
+        let force = |u: f64| {
+            let element = self.elastic_element(j, cell, u, offset, cage_angle);
+            let (contact, slope) = element.radial();
+            let rho = self.outer_centre_radius + u;
+            let body = self.element_mass * (dot(self.gravity, element.e_r) + rho * omega * omega);
+            (contact + body, slope)
+        };
+        // Where it touches the outer raceway without force: the path over the defect is where the approach vanishes.
+        let rho = self.outer_centre_radius;
+        let touch = self.near_defect(j, cell, 0.0, cage_angle, rho).map_or(0.0, |near| -near.value / near.by_path);
+        let at_touch = force(touch).0;
+        if at_touch == 0.0 {
+            return touch;
+        }
+        let outwards = at_touch > 0.0;
+        let (mut low, mut high) = (touch, touch);
+        let mut width = 1e-6;
+        while if outwards { force(high).0 > 0.0 } else { force(low).0 < 0.0 } {
+            if outwards { (low, high) = (high, high + width) } else { (low, high) = (low - width, low) }
+            width *= 2.0;
+            if width > 1.0 {
+                break;
+            }
+        }
+        // Newton inside the bracket, halving where it would leave it.
+        let mut u = 0.5 * (low + high);
+        for _ in 0..200 {
+            let (f, slope) = force(u);
+            if f > 0.0 { low = u } else { high = u }
+            let newton = u - f / slope;
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            if next == u || f == 0.0 || high <= low || (next - u).abs() < 1e-18 {
+                return next;
+            }
+            u = next;
+        }
+        u
+    }
+
+    /// Balances all elements for given rings and sums the forces on the rings.
+    fn balance(&self, drive: &Drive, cells: &[u32], rings: &Rings, u: &mut [f64]) -> Balance {
+        let offset = rings.offset();
+        let mut force = [0.0; 4];
+        let mut largest: f64 = 0.0;
+        for j in 0..self.element_count {
+            u[j] = self.balanced_path(j, cells[j], offset, drive);
+            let element = self.elastic_element(j, cells[j], u[j], offset, drive.cage_angle(0.0));
+            let on_housing = element.on_housing();
+            for a in 0..2 {
+                force[a] -= element.inner[a];
+                force[2 + a] += on_housing[a];
+                largest = largest.max(element.inner[a].abs()).max(element.outer[a].abs());
+            }
+        }
+        for a in 0..2 {
+            let loads = [drive.shaft_load[a].at(0.0), drive.housing_load[a].at(0.0)];
+            let supports = [self.shaft.stiffness * rings.position[a], self.housing.stiffness * rings.position[2 + a]];
+            for ring in 0..2 {
+                force[2 * ring + a] += loads[ring] - supports[ring];
+                largest = largest.max(loads[ring].abs()).max(supports[ring].abs());
+            }
+        }
+        for (f, free) in force.iter_mut().zip(rings.free) {
+            if !free {
+                *f = 0.0;
+            }
+        }
+        Balance { force, limit: RESIDUAL * largest }
+    }
+
+    /// A step of the free rings from the condensed tangent: (−J + μ) step = force.
+    fn newton_step(&self, drive: &Drive, cells: &[u32], rings: &Rings, u: &[f64], balance: &Balance) -> [f64; 4] {
+        let mut matrix = self.ring_jacobian(u, cells, rings.offset(), drive.cage_angle(0.0));
+        let mut largest: f64 = 0.0;
+        for (i, row) in matrix.iter_mut().enumerate() {
+            for value in row.iter_mut() {
+                *value = -*value;
+            }
+            row[i] += if i < 2 { self.shaft.stiffness } else { self.housing.stiffness };
+            largest = largest.max(row[i].abs());
+        }
+        for i in 0..4 {
+            if rings.free[i] {
+                // Keeps a ring that is loose in one direction from making the matrix singular.
+                matrix[i][i] += 1e-12 * largest;
+            } else {
+                for k in 0..4 {
+                    matrix[i][k] = 0.0;
+                    matrix[k][i] = 0.0;
+                }
+                matrix[i][i] = 1.0;
+            }
+        }
+        let mut step = solve(matrix, balance.force);
+        let length = step.iter().fold(0.0f64, |m, s| m.max(s.abs()));
+        if !length.is_finite() || dot4(step, balance.force) <= 0.0 {
+            step = balance.force.map(|f| f / balance.residual() * LONGEST_STEP);
+        } else if length > LONGEST_STEP {
+            step = step.map(|s| s * (LONGEST_STEP / length));
+        }
+        step
+    }
+
+    /// Goes along a step as far as the residual pushes forward.
+    fn along(
+        &self,
+        drive: &Drive,
+        cells: &[u32],
+        rings: &Rings,
+        u: &mut [f64],
+        start: &Balance,
+        step: [f64; 4],
+    ) -> Option<(Rings, Balance)> {
+        let push_0 = dot4(start.force, step);
+        let (mut low, mut high) = (0.0, f64::INFINITY);
+        let mut share = 1.0;
+        for _ in 0..100 {
+            let next = rings.moved(step, share);
+            let balance = self.balance(drive, cells, &next, u);
+            let push = dot4(balance.force, step);
+            if balance.residual() <= balance.limit || push.abs() <= 0.5 * push_0 || (push > 0.0 && high.is_infinite()) {
+                return Some((next, balance));
+            }
+            if push > 0.0 { low = share } else { high = share }
+            share = 0.5 * (low + high);
+        }
+        None
+    }
+
+    fn write(&self, drive: &Drive, rings: &Rings, u: &[f64], state: &mut [f64]) {
+        let z = self.element_count;
+        state[..z].copy_from_slice(u);
+        for (place, first) in [(self.layout.shaft, 0), (self.layout.housing, 2)] {
+            if let Some(i) = place {
+                state[i..i + 2].copy_from_slice(&rings.position[first..first + 2]);
+            }
+        }
+        // At rest against the outer ring: u' = 0.
+        let housing = self.housing_state(drive, 0.0, state);
+        let cage = super::forces::cos_sin(drive.cage_angle(0.0));
+        for j in 0..z {
+            state[z + j] = dot(housing.velocity, self.direction(j, cage));
+        }
+        if let Some(i) = self.layout.sensor {
+            (state[i], state[i + 1]) = (housing.position[1], housing.velocity[1]);
+        }
+    }
+}
+
+/// Positions of both rings during the search.
+#[derive(Debug, Clone, Copy)]
+struct Rings {
+    position: [f64; 4],
+    free: [bool; 4],
+}
+
+impl Rings {
+    fn start(model: &Model, drive: &Drive) -> Self {
+        let prescribed = |motion: Motion, value: f64| if motion == Motion::Host { value } else { 0.0 };
+        let (shaft, housing) = (model.shaft.motion, model.housing.motion);
+        let free = |motion: Motion| motion == Motion::Internal;
+        Self {
+            position: [
+                prescribed(shaft, drive.shaft[0].at(0.0)),
+                prescribed(shaft, drive.shaft[1].at(0.0)),
+                prescribed(housing, drive.housing[0].at(0.0)),
+                prescribed(housing, drive.housing[1].at(0.0)),
+            ],
+            free: [free(shaft), free(shaft), free(housing), free(housing)],
+        }
+    }
+
+    fn offset(&self) -> [f64; 2] {
+        [self.position[2] - self.position[0], self.position[3] - self.position[1]]
+    }
+
+    fn moved(&self, step: [f64; 4], share: f64) -> Self {
+        let mut moved = *self;
+        for i in 0..4 {
+            moved.position[i] += share * step[i];
+        }
+        moved
+    }
+}
+
+/// Net force on the free rings.
+struct Balance {
+    force: [f64; 4],
+    limit: f64,
+}
+
+impl Balance {
+    fn residual(&self) -> f64 {
+        self.force.iter().fold(0.0, |m, f| m.max(f.abs()))
+    }
+}
+
+fn dot4(a: [f64; 4], b: [f64; 4]) -> f64 {
+    (0..4).map(|i| a[i] * b[i]).sum()
+}
+
+/// Gaussian elimination with row pivoting; a singular system gives non-finite values.
+fn solve(mut a: [[f64; 4]; 4], mut b: [f64; 4]) -> [f64; 4] {
+    for i in 0..4 {
+        let pivot = (i..4).fold(i, |best, k| if a[k][i].abs() > a[best][i].abs() { k } else { best });
+        a.swap(i, pivot);
+        b.swap(i, pivot);
+        for k in i + 1..4 {
+            let factor = a[k][i] / a[i][i];
+            for l in i..4 {
+                a[k][l] -= factor * a[i][l];
+            }
+            b[k] -= factor * b[i];
+        }
+    }
+    let mut x = [0.0; 4];
+    for i in (0..4).rev() {
+        let sum: f64 = (i + 1..4).map(|k| a[i][k] * x[k]).sum();
+        x[i] = (b[i] - sum) / a[i][i];
+    }
+    x
+}

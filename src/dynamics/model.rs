@@ -1,0 +1,150 @@
+//! The parameters of the equations of motion, worked out once from a scene, and the layout of the state vector.
+//!
+//! The state is `[u_1…u_Z, w_1…w_Z, shaft x y vx vy, housing x y vx vy, sensor y vy]`; a ring that is not internal and
+//! an absent sensor take no place. u is the roller path (ρ − (R_o − r), ρ the distance of the element's centre from the
+//! *outer ring's* centre), w the radial component of the element's absolute velocity.
+
+use crate::contact::force_law::ForceLaw;
+use crate::contact::near_defect::NearDefect;
+use crate::geometry::hertz_constant::HertzConstants;
+use crate::geometry::kinematics::cage_ratio;
+use crate::numerics::sin_cos;
+use crate::scene::{Motion, Ring, Scene, Sensor};
+use std::f64::consts::TAU;
+
+/// Parameters of the equations of motion.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// Number of elements Z.
+    pub element_count: usize,
+    /// Mass of one element [kg].
+    pub element_mass: f64,
+    /// Radius of one element [m].
+    pub element_radius: f64,
+    /// R_o − r [m], the distance ρ of an element that touches the smooth outer raceway.
+    pub outer_centre_radius: f64,
+    /// Radial clearance G_r [m].
+    pub radial_clearance: f64,
+    /// Contact with the inner raceway.
+    pub inner: ForceLaw,
+    /// Contact with the outer raceway.
+    pub outer: ForceLaw,
+    /// Gravity on the elements [m/s²].
+    pub gravity: [f64; 2],
+    /// The inner ring.
+    pub shaft: Ring,
+    /// The outer ring.
+    pub housing: Ring,
+    /// The accelerometer.
+    pub sensor: Option<Sensor>,
+    /// The raceway near the defect, and the angle of its centre [rad].
+    pub defect: Option<(NearDefect, f64)>,
+    /// Cage speed per shaft speed.
+    pub cage_ratio: f64,
+    /// Places of the state vector.
+    pub layout: Layout,
+    /// cos and sin of each element's angle ahead of element 1.
+    pub(super) spacing: Vec<(f64, f64)>,
+}
+
+/// Where a state is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Layout {
+    /// Number of elements Z; `u` starts at 0 and `w` at Z.
+    pub element_count: usize,
+    /// Start of the inner ring's x, y, vx, vy.
+    pub shaft: Option<usize>,
+    /// Start of the outer ring's.
+    pub housing: Option<usize>,
+    /// Start of the sensor's y, vy.
+    pub sensor: Option<usize>,
+    /// Number of states.
+    pub len: usize,
+}
+
+impl Layout {
+    fn new(scene: &Scene) -> Self {
+        let mut len = 2 * scene.bearing.element_count;
+        let mut take = |wanted: bool, count: usize| {
+            wanted.then(|| {
+                len += count;
+                len - count
+            })
+        };
+        let shaft = take(scene.shaft.motion == Motion::Internal, 4);
+        let housing = take(scene.housing.motion == Motion::Internal, 4);
+        let sensor = take(scene.sensor.is_some(), 2);
+        Self { element_count: scene.bearing.element_count, shaft, housing, sensor, len }
+    }
+
+    /// Whether state `i` is a position; otherwise it is a velocity.
+    #[inline]
+    pub fn is_position(&self, i: usize) -> bool {
+        let within = |start: Option<usize>, count: usize| start.is_some_and(|s| i >= s && i < s + count);
+        i < self.element_count || within(self.shaft, 2) || within(self.housing, 2) || within(self.sensor, 1)
+    }
+
+    /// Name of state `i` for messages.
+    pub fn name(&self, i: usize) -> String {
+        let z = self.element_count;
+        if i < z {
+            return format!("the path of element {}", i + 1);
+        }
+        if i < 2 * z {
+            return format!("the radial velocity of element {}", i - z + 1);
+        }
+        let ring = |start: Option<usize>, count: usize| start.filter(|&s| i >= s && i < s + count).map(|s| i - s);
+        let part = ["x", "y", "vx", "vy"];
+        if let Some(k) = ring(self.shaft, 4) {
+            format!("shaft.{}", part[k])
+        } else if let Some(k) = ring(self.housing, 4) {
+            format!("housing.{}", part[k])
+        } else {
+            "the sensor's motion".to_owned()
+        }
+    }
+}
+
+impl Model {
+    /// Works the parameters out. `near_defect` is the raceway near the scene's defect under the scene's contact law.
+    pub fn new(scene: &Scene, near_defect: Option<NearDefect>) -> Self {
+        let bearing = &scene.bearing;
+        let hertz = HertzConstants::of(bearing);
+        let law = |stiffness| ForceLaw { stiffness, damping: scene.contact.damping };
+        let element_radius = 0.5 * bearing.element_diameter;
+        Self {
+            element_count: bearing.element_count,
+            element_mass: bearing.mass_of_element(),
+            element_radius,
+            outer_centre_radius: bearing.outer_raceway_radius() - element_radius,
+            radial_clearance: bearing.radial_clearance,
+            inner: law(hertz.inner),
+            outer: law(hertz.outer),
+            gravity: scene.gravity,
+            shaft: scene.shaft,
+            housing: scene.housing,
+            sensor: scene.sensor,
+            defect: near_defect.zip(scene.defect.as_ref().map(|d| d.angle)),
+            cage_ratio: cage_ratio(bearing, scene.cage.slip),
+            layout: Layout::new(scene),
+            spacing: (0..bearing.element_count)
+                .map(|j| {
+                    let (sin, cos) = sin_cos(j as f64 * TAU / bearing.element_count as f64);
+                    (cos, sin)
+                })
+                .collect(),
+        }
+    }
+
+    /// Angle of element `j` (from 0) ahead of element 1 [rad].
+    pub fn element_offset(&self, j: usize) -> f64 {
+        j as f64 * TAU / self.element_count as f64
+    }
+
+    /// Radial direction of element `j` for cos and sin of the cage angle.
+    #[inline]
+    pub(super) fn direction(&self, j: usize, cage: (f64, f64)) -> [f64; 2] {
+        let (cos, sin) = self.spacing[j];
+        [cage.0 * cos - cage.1 * sin, cage.1 * cos + cage.0 * sin]
+    }
+}
