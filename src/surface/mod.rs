@@ -1,1 +1,110 @@
 //! The outer raceway as it was measured or described.
+//!
+//! Everywhere the arc s [m] runs along the outer raceway at the groove's bottom, counter-clockwise, from the defect's centre,
+//! and the depth h [m] is that of a depression: positive into the ring. Outside the defect the raceway is smooth, h = 0.
+//! A raised rim is a negative depth.
+
+mod csv;
+mod error;
+mod profile;
+mod topography;
+mod trace;
+
+pub use error::SurfaceError;
+pub use profile::Profile;
+pub use topography::Topography;
+
+use crate::scene::{Bearing, DefectShape};
+use std::f64::consts::TAU;
+
+/// The defect of an outer raceway.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Surface {
+    /// The same depth over the whole width of the raceway.
+    Profile(Profile),
+    /// Depth over arc and width.
+    Topography(Topography),
+}
+
+impl Surface {
+    /// The surface of a defect in this bearing. `profile_text` is the text of the file that the shape names.
+    ///
+    /// A file with a column `axial_mm` is a topography, one without a trace.
+    ///
+    /// # Errors
+    /// A file that is missing, cannot be read, is longer than the raceway or deeper than an element's radius.
+    pub fn load(
+        shape: &DefectShape,
+        profile_text: Option<&str>,
+        bearing: &Bearing,
+    ) -> Result<Self, SurfaceError> {
+        let name = match shape {
+            DefectShape::Spall {
+                length,
+                depth,
+                edge_slope,
+            } => {
+                return Ok(Self::Profile(Profile::spall(*length, *depth, *edge_slope)));
+            }
+            DefectShape::Profile(name) => name,
+        };
+        let text = profile_text.ok_or_else(|| SurfaceError::NoFile { name: name.clone() })?;
+        let surface = if csv::has_column(text, topography::AXIAL) {
+            Self::Topography(Topography::from_csv(text)?)
+        } else {
+            Self::Profile(Profile::from_csv(text)?)
+        };
+        surface.check_fits(
+            TAU * bearing.outer_raceway_radius(),
+            bearing.element_diameter / 2.0,
+        )?;
+        Ok(surface)
+    }
+
+    /// First and last arc [m] of the defect.
+    pub fn extent(&self) -> (f64, f64) {
+        match self {
+            Self::Profile(profile) => profile.extent(),
+            Self::Topography(topography) => topography.extent(),
+        }
+    }
+
+    /// Arcs [m], ascending, at which the depth jumps.
+    pub fn edges(&self) -> Vec<f64> {
+        match self {
+            Self::Profile(profile) => profile.edges(),
+            Self::Topography(topography) => topography.edges(),
+        }
+    }
+
+    /// Exact mean depth [m] of the cell between two arcs and two axial coordinates [m].
+    pub fn mean_depth(&self, arc: [f64; 2], axial: [f64; 2]) -> f64 {
+        match self {
+            Self::Profile(profile) => profile.mean_depth(arc[0], arc[1]),
+            Self::Topography(topography) => topography.mean_depth(arc, axial),
+        }
+    }
+
+    /// Refuses a surface that is not possible on a raceway of this circumference [m] under elements of this radius [m].
+    fn check_fits(&self, circumference: f64, element_radius: f64) -> Result<(), SurfaceError> {
+        let (first, last) = self.extent();
+        if last - first >= circumference {
+            return Err(SurfaceError::TooLong {
+                length_mm: (last - first) * 1e3,
+                limit_mm: circumference * 1e3,
+            });
+        }
+        let (arc, depth) = match self {
+            Self::Profile(profile) => profile.farthest(),
+            Self::Topography(topography) => topography.farthest(),
+        };
+        if depth.abs() >= element_radius {
+            return Err(SurfaceError::TooDeep {
+                arc_mm: arc * 1e3,
+                depth_um: depth * 1e6,
+                limit_um: element_radius * 1e6,
+            });
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,104 @@
+//! Every scene in `scenes/` can be read, is named like its file and sources its numbers.
+
+use brinell::scene::Scene;
+use brinell::surface::{Profile, Surface};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes")
+}
+
+/// Name and text of every scene.
+fn scenes() -> Vec<(String, String)> {
+    let Ok(entries) = fs::read_dir(folder()) else {
+        panic!("no folder scenes/")
+    };
+    let files = entries.filter_map(|entry| entry.ok().map(|entry| entry.path()));
+    let mut scenes = Vec::new();
+    for path in files.filter(|path| {
+        path.extension()
+            .is_some_and(|extension| extension == "toml")
+    }) {
+        let Some(name) = path.file_stem().and_then(|stem| stem.to_str()) else {
+            panic!("{path:?} is not a name of letters")
+        };
+        scenes.push((name.to_owned(), read(&path)));
+    }
+    scenes
+}
+
+fn read(path: &Path) -> String {
+    match fs::read_to_string(path) {
+        Ok(text) => text,
+        Err(error) => panic!("{path:?}: {error}"),
+    }
+}
+
+#[test]
+fn every_shipped_scene_can_be_read_and_is_named_like_its_file() {
+    let scenes = scenes();
+    assert!(scenes.len() >= 6, "{}", scenes.len());
+    for (name, text) in scenes {
+        let scene = Scene::from_toml(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_eq!(scene.name, name);
+        assert!(!scene.description.is_empty(), "{name}");
+    }
+}
+
+#[test]
+fn every_surface_of_a_shipped_scene_can_be_loaded() {
+    for (name, text) in scenes() {
+        let scene = Scene::from_toml(&text).unwrap();
+        let Some(defect) = scene.defect else { continue };
+        let profile = match &defect.shape {
+            brinell::scene::DefectShape::Profile(file) => {
+                Some(fs::read_to_string(folder().join(file)).unwrap())
+            }
+            brinell::scene::DefectShape::Spall { .. } => None,
+        };
+        let surface = Surface::load(&defect.shape, profile.as_deref(), &scene.bearing)
+            .unwrap_or_else(|error| panic!("{name}: {error}"));
+        let (first, last) = surface.extent();
+        assert!(last > first, "{name}");
+    }
+}
+
+#[test]
+fn every_number_in_a_shipped_scene_has_a_source_or_is_assumed() {
+    for (name, text) in scenes() {
+        for line in text.lines().filter(|line| !line.starts_with('#')) {
+            let Some((_, value)) = line.split_once('=') else {
+                continue;
+            };
+            let (value, comment) = value.split_once('#').unwrap_or((value, ""));
+            if !value.contains('"') {
+                assert!(comment.trim().len() > 3, "{name}: `{line}` has no source");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_stand_in_trace_has_the_length_that_was_reported() {
+    let trace =
+        Profile::from_csv(&fs::read_to_string(folder().join("6205-epps-trace.csv")).unwrap())
+            .unwrap();
+    let deep: Vec<f64> = trace
+        .points()
+        .iter()
+        .filter(|point| point.1 > 0.0)
+        .map(|point| point.0)
+        .collect();
+    // 0.8 mm at the surface: the last points at depth lie within one spacing of 4 um of either edge.
+    let length = deep[deep.len() - 1] - deep[0];
+    assert!((0.792e-3 - 1e-9..0.8e-3).contains(&length), "{length}");
+    // An element sinks 17 um into 0.8 mm; the floor must stay out of its reach.
+    assert!(
+        trace
+            .points()
+            .iter()
+            .filter(|point| point.0.abs() < 0.39e-3)
+            .all(|point| point.1 > 30e-6)
+    );
+}
