@@ -2,62 +2,25 @@
 //!
 //! This is the whole of what `fmi2` and `fmu-build` see of the model.
 
+pub mod dormand_prince;
+pub mod error;
+pub mod outputs;
+pub mod setup;
+pub mod stepper;
+pub mod table;
 pub mod variables;
 
+pub use error::{SimulationError, VariableError};
+
+use crate::dynamics::drive::{CageAngle, Drive, Quadratic};
+use crate::dynamics::forces::Forces;
+use crate::dynamics::model::Model;
 use crate::scene::Scene;
-use variables::Variable;
-
-/// What goes wrong in setting up or stepping a bearing. Each message names the quantity, its value and the limit.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum SimulationError {
-    /// A variable was addressed wrongly or given a value that it cannot have. Nothing was changed.
-    #[error(transparent)]
-    Variable(#[from] VariableError),
-    /// A communication step that cannot be taken. Nothing was changed.
-    #[error("communication step {0} s: it must be finite and above 0")]
-    CommunicationStep(f64),
-    /// Not built yet.
-    #[error("not built yet")]
-    NotBuilt,
-}
-
-/// A variable was addressed wrongly or given a value that it cannot have. Nothing was changed.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum VariableError {
-    /// No such reference.
-    #[error("value reference {0}: this model's references end at {1}")]
-    UnknownReference(u32, u32),
-    /// The variable has another type.
-    #[error("variable {name} (value reference {reference}) is not of type {wanted}")]
-    WrongType {
-        /// Its name.
-        name: String,
-        /// Its reference.
-        reference: u32,
-        /// Type of the call.
-        wanted: &'static str,
-    },
-    /// An output, or a parameter after initialization.
-    #[error("variable {name} cannot be set: {why}")]
-    NotSettable {
-        /// Its name.
-        name: String,
-        /// The reason.
-        why: &'static str,
-    },
-    /// A value outside its range, or not finite.
-    #[error("variable {name}: {value} is outside {min} … {max}")]
-    OutOfRange {
-        /// Its name.
-        name: String,
-        /// The value given.
-        value: f64,
-        /// Smallest value allowed.
-        min: f64,
-        /// Largest value allowed.
-        max: f64,
-    },
-}
+use crate::surface::Surface;
+use setup::Inputs;
+use stepper::{Progress, Stepper};
+use table::Quantity;
+use variables::{Causality, Kind, Variable};
 
 /// A bearing that is stepped through time.
 ///
@@ -65,20 +28,85 @@ pub enum VariableError {
 /// [`step`](Self::step). Reading outputs before `initialize` computes the static equilibrium of the values set so far.
 #[derive(Debug, Clone)]
 pub struct Simulation {
+    scene: Scene,
+    surface: Option<Surface>,
     table: Vec<Variable>,
-    time: f64,
+    quantities: Vec<Quantity>,
+    inputs: Inputs,
+    /// Values of the table, by index; integers live in `integers`.
+    values: Vec<f64>,
+    integers: Vec<i32>,
+    /// First and second derivatives of inputs for the next step, by index.
+    input_rates: Vec<[f64; 2]>,
+    model: Model,
+    stepper: Stepper,
+    forces: Forces,
+    derivative: Vec<f64>,
+    stiffness: [[f64; 2]; 2],
+    state: State,
+    /// Parameters have been set since the model was built.
+    model_is_stale: bool,
+    /// Parameters or inputs have been set since the equilibrium was found.
+    equilibrium_is_stale: bool,
+    outputs_are_stale: bool,
+    stiffness_is_stale: bool,
 }
 
 /// Everything that the future of a [`Simulation`] depends on; taking it and putting it back changes no bit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
     time: f64,
+    started: bool,
+    cage: CageAngle,
+    progress: Progress,
+    /// Inputs and parameters, by index; outputs are left at what they were.
+    values: Vec<f64>,
+    integers: Vec<i32>,
+    input_rates: Vec<[f64; 2]>,
 }
 
 impl Simulation {
     /// Sets up the scene. `profile` is the text of the defect's profile file, when the scene names one.
-    pub fn new(_scene: Scene, _profile: Option<&str>) -> Result<Self, SimulationError> {
-        Ok(Self { table: Vec::new(), time: 0.0 })
+    pub fn new(scene: Scene, profile: Option<&str>) -> Result<Self, SimulationError> {
+        scene.check()?;
+        let surface = scene
+            .defect
+            .as_ref()
+            .map(|defect| Surface::load(&defect.shape, profile, &scene.bearing))
+            .transpose()?;
+        let (table, quantities): (Vec<_>, Vec<_>) = table::rows(&scene).into_iter().unzip();
+        let (values, integers) = setup::start_values(&table);
+        let model = setup::build_model(&scene, surface.as_ref())?;
+        let progress = Progress::new(model.layout.len, model.element_count);
+        let input_rates = vec![[0.0; 2]; table.len()];
+        Ok(Self {
+            inputs: Inputs::new(&quantities, table.iter().take_while(|v| v.causality == Causality::Input).count()),
+            stepper: Stepper::new(&model),
+            forces: Forces::new(model.element_count),
+            derivative: vec![0.0; model.layout.len],
+            stiffness: [[0.0; 2]; 2],
+            state: State {
+                time: 0.0,
+                started: false,
+                cage: CageAngle::new(scene.cage.initial_angle),
+                progress,
+                values: values.clone(),
+                integers: integers.clone(),
+                input_rates: input_rates.clone(),
+            },
+            scene,
+            surface,
+            table,
+            quantities,
+            values,
+            integers,
+            input_rates,
+            model,
+            model_is_stale: false,
+            equilibrium_is_stale: true,
+            outputs_are_stale: true,
+            stiffness_is_stale: true,
+        })
     }
 
     /// The variables, ordered by value reference, which is the index.
@@ -86,56 +114,310 @@ impl Simulation {
         &self.table
     }
 
+    /// The scene as it was set up.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
     /// Time [s].
     pub fn time(&self) -> f64 {
-        self.time
+        self.state.time
     }
 
     /// Sets reals; all or none. Inputs at any time, parameters before `initialize`.
-    pub fn set_reals(&mut self, _references: &[u32], _values: &[f64]) -> Result<(), VariableError> {
+    pub fn set_reals(&mut self, references: &[u32], values: &[f64]) -> Result<(), VariableError> {
+        for (&reference, &value) in references.iter().zip(values) {
+            self.check_real(reference, value)?;
+        }
+        for (&reference, &value) in references.iter().zip(values) {
+            let index = reference as usize;
+            self.values[index] = value;
+            if self.table[index].causality == Causality::Parameter {
+                self.model_is_stale = true;
+            }
+        }
+        self.mark_set();
         Ok(())
     }
 
     /// Reads reals. Outputs are computed if something has changed since they were last.
-    pub fn reals(&mut self, _references: &[u32], _values: &mut [f64]) -> Result<(), SimulationError> {
-        Err(SimulationError::NotBuilt)
+    pub fn reals(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), SimulationError> {
+        for &reference in references {
+            let variable = self.variable(reference)?;
+            if !matches!(variable.kind, Kind::Real { .. }) {
+                return Err(wrong_type(variable, "Real").into());
+            }
+        }
+        if self.outputs_are_stale {
+            self.refresh()?;
+        }
+        for (value, &reference) in values.iter_mut().zip(references) {
+            let index = reference as usize;
+            *value = match self.quantities[index] {
+                Quantity::Stiffness(row, column) => self.stiffness(row, column),
+                _ => self.values[index],
+            };
+        }
+        Ok(())
     }
 
     /// Sets integers (the enumeration `contact.law`); all or none; before `initialize`.
-    pub fn set_integers(&mut self, _references: &[u32], _values: &[i32]) -> Result<(), VariableError> {
+    pub fn set_integers(&mut self, references: &[u32], values: &[i32]) -> Result<(), VariableError> {
+        for (&reference, &value) in references.iter().zip(values) {
+            let variable = self.variable(reference)?;
+            let Kind::Enumeration { items, .. } = variable.kind else {
+                if variable.kind == Kind::Integer {
+                    return Err(not_settable(variable, "it is an output"));
+                }
+                return Err(wrong_type(variable, "Integer"));
+            };
+            if self.state.started {
+                return Err(not_settable(variable, "parameters are fixed after initialization"));
+            }
+            if value < 1 || value as usize > items.len() {
+                return Err(VariableError::OutOfRange {
+                    name: variable.name.clone(),
+                    value: value.into(),
+                    min: 1.0,
+                    max: items.len() as f64,
+                });
+            }
+        }
+        for (&reference, &value) in references.iter().zip(values) {
+            self.integers[reference as usize] = value;
+            self.model_is_stale = true;
+        }
+        self.mark_set();
         Ok(())
     }
 
     /// Reads integers and enumerations.
-    pub fn integers(&mut self, _references: &[u32], _values: &mut [i32]) -> Result<(), SimulationError> {
-        Err(SimulationError::NotBuilt)
+    pub fn integers(&mut self, references: &[u32], values: &mut [i32]) -> Result<(), SimulationError> {
+        for &reference in references {
+            let variable = self.variable(reference)?;
+            if !matches!(variable.kind, Kind::Integer | Kind::Enumeration { .. }) {
+                return Err(wrong_type(variable, "Integer").into());
+            }
+        }
+        if self.outputs_are_stale {
+            self.refresh()?;
+        }
+        for (value, &reference) in values.iter_mut().zip(references) {
+            *value = self.integers[reference as usize];
+        }
+        Ok(())
     }
 
-    /// Derivative of order 1 or 2 of real inputs, valid through the next step; all or none.
+    /// Derivatives of order 1 or 2 of real inputs, for the next step only; all or none.
+    ///
+    /// The derivative of order 1 of a velocity is the same as the acceleration input; a position already moves with its
+    /// velocity and acceleration inputs, and a derivative given for it takes their place.
     pub fn set_input_derivatives(
         &mut self,
-        _references: &[u32],
-        _orders: &[i32],
-        _values: &[f64],
+        references: &[u32],
+        orders: &[i32],
+        values: &[f64],
     ) -> Result<(), VariableError> {
+        for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
+            let variable = self.variable(reference)?;
+            if variable.causality != Causality::Input || !(1..=2).contains(&order) {
+                return Err(VariableError::Derivative { name: variable.name.clone(), order });
+            }
+            if !value.is_finite() {
+                return Err(out_of_range(variable, value, f64::MIN, f64::MAX));
+            }
+        }
+        for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
+            self.input_rates[reference as usize][order as usize - 1] = value;
+        }
         Ok(())
     }
 
     /// Solves the static equilibrium at `start` [s] and ends the setting of parameters.
-    pub fn initialize(&mut self, _start: f64) -> Result<(), SimulationError> {
-        Err(SimulationError::NotBuilt)
+    pub fn initialize(&mut self, start: f64) -> Result<(), SimulationError> {
+        self.find_equilibrium()?;
+        self.state.time = start;
+        self.state.started = true;
+        self.outputs_are_stale = true;
+        self.stiffness_is_stale = true;
+        Ok(())
     }
 
     /// Advances by exactly `step` [s].
-    pub fn step(&mut self, _step: f64) -> Result<(), SimulationError> {
-        Err(SimulationError::NotBuilt)
+    pub fn step(&mut self, step: f64) -> Result<(), SimulationError> {
+        if !(step > 0.0 && step.is_finite()) {
+            return Err(SimulationError::CommunicationStep(step));
+        }
+        if !self.state.started {
+            return Err(SimulationError::NotInitialized);
+        }
+        let drive = self.drive(true);
+        let tolerance = self.inputs.tolerance.map_or(self.scene.tolerance, |i| self.values[i]);
+        self.outputs_are_stale = true;
+        self.stiffness_is_stale = true;
+        self.stepper
+            .advance(&self.model, &drive, tolerance, step, &mut self.state.progress)
+            .map_err(|cause| SimulationError::Step { time: self.state.time, cause })?;
+        self.state.cage = self.state.cage.advanced(drive.cage.at(step));
+        self.state.time += step;
+        self.follow_prescribed_motion(&drive, step);
+        Ok(())
     }
 
     /// Takes the state.
     pub fn save(&self) -> State {
-        State { time: self.time }
+        let mut state = self.state.clone();
+        state.values.copy_from_slice(&self.values);
+        state.integers.copy_from_slice(&self.integers);
+        state.input_rates.copy_from_slice(&self.input_rates);
+        state
     }
 
     /// Puts a state of this same model back.
-    pub fn restore(&mut self, _state: &State) {}
+    pub fn restore(&mut self, state: &State) {
+        let parameters_differ = self.table.iter().enumerate().any(|(i, variable)| {
+            variable.causality == Causality::Parameter
+                && (self.values[i].to_bits() != state.values[i].to_bits() || self.integers[i] != state.integers[i])
+        });
+        self.model_is_stale |= parameters_differ;
+        self.values.copy_from_slice(&state.values);
+        self.integers.copy_from_slice(&state.integers);
+        self.input_rates.copy_from_slice(&state.input_rates);
+        self.state.clone_from(state);
+        self.equilibrium_is_stale = true;
+        self.outputs_are_stale = true;
+        self.stiffness_is_stale = true;
+    }
+
+    /// Where every external influence is during the next step.
+    fn drive(&self, stepping: bool) -> Drive {
+        let rates = |index: usize| if stepping { self.input_rates[index] } else { [0.0; 2] };
+        let value = |index: Option<usize>| index.map_or(0.0, |i| self.values[i]);
+        let load = |index: Option<usize>| {
+            index.map_or(Quadratic::default(), |i| Quadratic([self.values[i], rates(i)[0], rates(i)[1]]))
+        };
+        let place = |ring: &setup::RingInputs, axis: usize| {
+            let Some(position) = ring.position[axis] else { return Quadratic::default() };
+            let given = rates(position);
+            if given != [0.0; 2] {
+                return Quadratic([self.values[position], given[0], given[1]]);
+            }
+            let acceleration = ring.velocity[axis].map_or(0.0, |i| rates(i)[0]) + value(ring.acceleration[axis]);
+            Quadratic([self.values[position], value(ring.velocity[axis]), acceleration])
+        };
+        let speed = self.inputs.speed;
+        Drive {
+            cage_start: self.state.cage.rest,
+            cage: Quadratic([
+                0.0,
+                self.model.cage_ratio * value(speed),
+                self.model.cage_ratio * speed.map_or(0.0, |i| rates(i)[0]),
+            ]),
+            shaft: [place(&self.inputs.shaft, 0), place(&self.inputs.shaft, 1)],
+            housing: [place(&self.inputs.housing, 0), place(&self.inputs.housing, 1)],
+            shaft_load: [load(self.inputs.shaft.load[0]), load(self.inputs.shaft.load[1])],
+            housing_load: [load(self.inputs.housing.load[0]), load(self.inputs.housing.load[1])],
+        }
+    }
+
+    /// After a step the inputs stand where they were extrapolated to, so that outputs belong to the end of the step
+    /// until the host sets them anew.
+    fn follow_prescribed_motion(&mut self, drive: &Drive, step: f64) {
+        let rings = [
+            (self.inputs.shaft, drive.shaft, drive.shaft_load),
+            (self.inputs.housing, drive.housing, drive.housing_load),
+        ];
+        for (ring, place, load) in rings {
+            for axis in 0..2 {
+                let ends = [
+                    (ring.position[axis], place[axis].at(step)),
+                    (ring.velocity[axis], place[axis].rate_at(step)),
+                    (ring.load[axis], load[axis].at(step)),
+                ];
+                for (index, value) in ends {
+                    if let Some(i) = index {
+                        self.values[i] = value;
+                    }
+                }
+            }
+        }
+        if let Some(i) = self.inputs.speed {
+            self.values[i] += self.input_rates[i][0] * step;
+        }
+        for rates in &mut self.input_rates {
+            *rates = [0.0; 2];
+        }
+    }
+
+    /// Rebuilds the model if parameters were set, and finds the equilibrium.
+    fn find_equilibrium(&mut self) -> Result<(), SimulationError> {
+        self.rebuild()?;
+        let angle = setup::parameter(&self.quantities, &self.values, Quantity::CageInitialAngle);
+        self.state.cage = CageAngle::new(angle.unwrap_or(self.scene.cage.initial_angle));
+        let drive = self.drive(false);
+        let cage_angle = drive.cage_angle(0.0);
+        let progress = &mut self.state.progress;
+        *progress = Progress::new(self.model.layout.len, self.model.element_count);
+        for j in 0..self.model.element_count {
+            progress.cells[j] = self.model.cell_at(j, cage_angle);
+        }
+        self.model.equilibrium(&drive, &progress.cells, &mut progress.state)?;
+        self.model.derivative(&drive, 0.0, &progress.cells, &progress.state, &mut self.derivative, &mut self.forces);
+        let pushing = self.forces.inner_pushing.iter().chain(&self.forces.outer_pushing);
+        for (flag, &value) in progress.pushing.iter_mut().zip(pushing) {
+            *flag = value > 0.0;
+        }
+        let (shaft, housing) = (self.forces.shaft, self.forces.housing);
+        progress.mean_force = [shaft[0], shaft[1], housing[0], housing[1]];
+        self.equilibrium_is_stale = false;
+        Ok(())
+    }
+
+    fn rebuild(&mut self) -> Result<(), SimulationError> {
+        if !self.model_is_stale {
+            return Ok(());
+        }
+        let scene = setup::with_parameters(&self.scene, &self.quantities, &self.values, &self.integers)?;
+        self.model = setup::build_model(&scene, self.surface.as_ref())?;
+        self.model_is_stale = false;
+        Ok(())
+    }
+
+    fn check_real(&self, reference: u32, value: f64) -> Result<(), VariableError> {
+        let variable = self.variable(reference)?;
+        let Kind::Real { min, max, .. } = variable.kind else { return Err(wrong_type(variable, "Real")) };
+        match variable.causality {
+            Causality::Output => return Err(not_settable(variable, "it is an output")),
+            Causality::Parameter if self.state.started => {
+                return Err(not_settable(variable, "parameters are fixed after initialization"));
+            }
+            _ => {}
+        }
+        let (min, max) = (min.unwrap_or(f64::MIN), max.unwrap_or(f64::MAX));
+        if value >= min && value <= max { Ok(()) } else { Err(out_of_range(variable, value, min, max)) }
+    }
+
+    fn variable(&self, reference: u32) -> Result<&Variable, VariableError> {
+        self.table
+            .get(reference as usize)
+            .ok_or_else(|| VariableError::UnknownReference(reference, self.table.len() as u32 - 1))
+    }
+
+    fn mark_set(&mut self) {
+        self.outputs_are_stale = true;
+        self.stiffness_is_stale = true;
+        self.equilibrium_is_stale = true;
+    }
+}
+
+fn wrong_type(variable: &Variable, wanted: &'static str) -> VariableError {
+    VariableError::WrongType { name: variable.name.clone(), reference: variable.reference, wanted }
+}
+
+fn not_settable(variable: &Variable, why: &'static str) -> VariableError {
+    VariableError::NotSettable { name: variable.name.clone(), why }
+}
+
+fn out_of_range(variable: &Variable, value: f64, min: f64, max: f64) -> VariableError {
+    VariableError::OutOfRange { name: variable.name.clone(), value, min, max }
 }

@@ -1,0 +1,89 @@
+//! What goes wrong in setting up or stepping a bearing.
+
+use super::stepper::StepError;
+use crate::dynamics::equilibrium::EquilibriumError;
+use crate::scene::{ContactLaw, SceneError};
+use crate::surface::SurfaceError;
+
+/// What goes wrong in setting up or stepping a bearing. Each message names the quantity, its value and the limit.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SimulationError {
+    /// A variable was addressed wrongly or given a value that it cannot have. Nothing was changed.
+    #[error(transparent)]
+    Variable(#[from] VariableError),
+    /// The scene is impossible, perhaps only with the parameters set since.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The defect's profile cannot be used.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
+    /// No load distribution to start from.
+    #[error(transparent)]
+    Equilibrium(#[from] EquilibriumError),
+    /// The contact law cannot be used with this surface.
+    #[error("contact.law = {law:?} is not available for this defect")]
+    LawNotAvailable {
+        /// The law.
+        law: ContactLaw,
+    },
+    /// A communication step that cannot be taken. Nothing was changed.
+    #[error("communication step {0} s: it must be finite and above 0")]
+    CommunicationStep(f64),
+    /// A step was asked for before initialization.
+    #[error("a step was asked for before initialization was finished")]
+    NotInitialized,
+    /// The integration failed; the state is that of the last accepted integration step.
+    #[error("at {time:.6e} s: {cause}")]
+    Step {
+        /// Start of the communication step [s].
+        time: f64,
+        /// The reason.
+        cause: StepError,
+    },
+}
+
+/// A variable was addressed wrongly or given a value that it cannot have. Nothing was changed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum VariableError {
+    /// No such reference.
+    #[error("value reference {0} is unknown: this model's references are 0 to {1}")]
+    UnknownReference(u32, u32),
+    /// The variable has another type.
+    #[error("variable {name} (value reference {reference}) is not of type {wanted}")]
+    WrongType {
+        /// Its name.
+        name: String,
+        /// Its reference.
+        reference: u32,
+        /// Type of the call.
+        wanted: &'static str,
+    },
+    /// An output, or a parameter after initialization.
+    #[error("variable {name} cannot be set: {why}")]
+    NotSettable {
+        /// Its name.
+        name: String,
+        /// The reason.
+        why: &'static str,
+    },
+    /// A value outside its range, or not finite.
+    #[error("variable {name}: {value} is outside {min} … {max}")]
+    OutOfRange {
+        /// Its name.
+        name: String,
+        /// The value given.
+        value: f64,
+        /// Smallest value allowed.
+        min: f64,
+        /// Largest value allowed.
+        max: f64,
+    },
+    /// Derivatives are taken of inputs only, of order 1 or 2.
+    #[error("derivative of order {order} of {name}: only orders 1 and 2 of real inputs can be set")]
+    Derivative {
+        /// Its name.
+        name: String,
+        /// Order asked for.
+        order: i32,
+    },
+}

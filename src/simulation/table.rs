@@ -1,0 +1,453 @@
+//! The rows of the variable table for a scene: the one place where a variable is named.
+//!
+//! Inputs come first, then outputs, then parameters. A variable's index is its FMI value reference.
+
+use super::variables::{Causality, Kind, Unit, Variability, Variable};
+use crate::scene::{Damping, Motion, Scene};
+
+/// One of the two rings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RingName {
+    /// The inner ring.
+    Shaft,
+    /// The outer ring.
+    Housing,
+}
+
+/// What a variable stands for in the model. `usize` arguments are the axis (0 is x, 1 is y) or the element (from 0).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Quantity {
+    ShaftSpeed,
+    Load(RingName, usize),
+    Position(RingName, usize),
+    Velocity(RingName, usize),
+    Acceleration(RingName, usize),
+    Force(RingName, usize),
+    MeanForce(RingName, usize),
+    Stiffness(usize, usize),
+    SensorAcceleration,
+    CageAngle,
+    CageSpeed,
+    CageTorque,
+    ElementAngle(usize),
+    ElementPath(usize),
+    ElementInnerForce(usize),
+    ElementOuterForce(usize),
+    Steps,
+    RejectedSteps,
+    ContactSolves,
+    MapLookups,
+    RadialClearance,
+    ContactDamping,
+    ContactLaw,
+    CageSlip,
+    CageInitialAngle,
+    DefectAngle,
+    RingMass(RingName),
+    RingDamping(RingName),
+    RingStiffness(RingName),
+    Tolerance,
+}
+
+use Quantity as Q;
+
+/// Items of the enumeration type of `contact.law`, the first having value 1.
+pub const CONTACT_LAWS: &[(&str, &str)] = &[
+    ("hertz", "Hertz on the rigid path of the element's centre"),
+    ("map", "Love's half-space through a potential computed beforehand"),
+    ("love", "Love's half-space solved on a grid inside the step"),
+];
+
+/// The table of a scene, with what each variable stands for.
+pub fn rows(scene: &Scene) -> Vec<(Variable, Quantity)> {
+    let mut builder = Builder { scene, rows: Vec::new() };
+    builder.inputs();
+    builder.outputs();
+    builder.parameters();
+    builder.fill_dependencies();
+    builder.rows
+}
+
+struct Builder<'a> {
+    scene: &'a Scene,
+    rows: Vec<(Variable, Quantity)>,
+}
+
+const RINGS: [RingName; 2] = [RingName::Shaft, RingName::Housing];
+const AXES: [&str; 2] = ["x", "y"];
+
+impl Builder<'_> {
+    fn motion(&self, ring: RingName) -> Motion {
+        match ring {
+            RingName::Shaft => self.scene.shaft.motion,
+            RingName::Housing => self.scene.housing.motion,
+        }
+    }
+
+    fn inputs(&mut self) {
+        let scene = self.scene;
+        self.input(
+            "shaft.speed",
+            "Speed of the inner ring, counter-clockwise",
+            Q::ShaftSpeed,
+            Unit::RadianPerSecond,
+            scene.shaft_speed,
+            (1e5, 100.0),
+        );
+        for ring in RINGS {
+            let (name, what, load) = match ring {
+                RingName::Shaft => ("shaft", "inner ring", scene.shaft.load),
+                RingName::Housing => ("housing", "outer ring", scene.housing.load),
+            };
+            match self.motion(ring) {
+                Motion::Internal => {
+                    for (axis, letter) in AXES.iter().enumerate() {
+                        self.input(
+                            &format!("{name}.load.{letter}"),
+                            &format!("External load on the {what} along {letter}"),
+                            Q::Load(ring, axis),
+                            Unit::Newton,
+                            load[axis],
+                            (1e9, 1000.0),
+                        );
+                    }
+                }
+                Motion::Host => {
+                    let rows: [(&str, &str, fn(RingName, usize) -> Q, Unit, (f64, f64)); 3] = [
+                        ("", "Position", Q::Position, Unit::Metre, (0.01, 1e-5)),
+                        ("v", "Velocity", Q::Velocity, Unit::MetrePerSecond, (1e3, 1e-2)),
+                        ("a", "Acceleration", Q::Acceleration, Unit::MetrePerSecondSquared, (1e9, 10.0)),
+                    ];
+                    for (prefix, noun, quantity, unit, range) in rows {
+                        for (axis, letter) in AXES.iter().enumerate() {
+                            let optional = if prefix == "a" { " (optional, extrapolates within the step)" } else { "" };
+                            self.input(
+                                &format!("{name}.{prefix}{letter}"),
+                                &format!("{noun} of the {what} along {letter}{optional}"),
+                                quantity(ring, axis),
+                                unit,
+                                0.0,
+                                range,
+                            );
+                        }
+                    }
+                }
+                Motion::Fixed => {}
+            }
+        }
+    }
+
+    fn outputs(&mut self) {
+        for ring in RINGS {
+            self.ring_outputs(ring);
+        }
+        for (row, a) in AXES.iter().enumerate() {
+            for (column, b) in AXES.iter().enumerate() {
+                self.output(
+                    &format!("shaft.stiffness.{a}{b}"),
+                    &format!("Tangent stiffness: force along {a} per displacement of the inner ring along {b}"),
+                    Q::Stiffness(row, column),
+                    Unit::NewtonPerMetre,
+                    1e8,
+                );
+            }
+        }
+        if self.scene.sensor.is_some() {
+            self.output(
+                "sensor.acceleration",
+                "Acceleration that the sensor on the housing shows, along y",
+                Q::SensorAcceleration,
+                Unit::MetrePerSecondSquared,
+                10.0,
+            );
+        }
+        self.output("cage.angle", "Angle of element 1, counter-clockwise from +x", Q::CageAngle, Unit::Radian, 1.0);
+        self.output("cage.speed", "Speed of the cage", Q::CageSpeed, Unit::RadianPerSecond, 100.0);
+        self.output(
+            "cage.torque",
+            "Torque of the elements on the cage about the outer ring's centre",
+            Q::CageTorque,
+            Unit::NewtonMetre,
+            0.1,
+        );
+        for j in 0..self.scene.bearing.element_count {
+            let n = j + 1;
+            self.output(
+                &format!("element[{n}].angle"),
+                &format!("Angle of element {n}, counter-clockwise from +x"),
+                Q::ElementAngle(j),
+                Unit::Radian,
+                1.0,
+            );
+            self.output(
+                &format!("element[{n}].path"),
+                &format!("Radial path of element {n}: 0 where it touches the smooth outer raceway, positive outwards"),
+                Q::ElementPath(j),
+                Unit::Metre,
+                1e-5,
+            );
+            self.output(
+                &format!("element[{n}].force.inner"),
+                &format!("Normal force between element {n} and the inner raceway"),
+                Q::ElementInnerForce(j),
+                Unit::Newton,
+                100.0,
+            );
+            self.output(
+                &format!("element[{n}].force.outer"),
+                &format!("Normal force between element {n} and the outer raceway"),
+                Q::ElementOuterForce(j),
+                Unit::Newton,
+                100.0,
+            );
+        }
+        self.counter("solver.steps", "Integration steps taken since the start", Q::Steps);
+        self.counter(
+            "solver.rejected_steps",
+            "Integration steps taken again with a shorter one, for error or to land",
+            Q::RejectedSteps,
+        );
+        if self.scene.defect.is_some() {
+            self.counter(
+                "solver.contact_solves",
+                "Contacts near the defect that were solved on a grid since the start",
+                Q::ContactSolves,
+            );
+            self.counter(
+                "solver.map_lookups",
+                "Approaches near the defect that were looked up in the path or map since the start",
+                Q::MapLookups,
+            );
+        }
+    }
+
+    fn ring_outputs(&mut self, ring: RingName) {
+        let (name, what) = match ring {
+            RingName::Shaft => ("shaft", "inner ring"),
+            RingName::Housing => ("housing", "outer ring"),
+        };
+        let mut pair = |suffix: &str, text: &str, quantity: fn(RingName, usize) -> Q, unit: Unit, nominal: f64| {
+            for (axis, letter) in AXES.iter().enumerate() {
+                let place = suffix.replace('*', letter);
+                self.output(
+                    &format!("{name}.{place}"),
+                    &format!("{text} the {what} along {letter}"),
+                    quantity(ring, axis),
+                    unit,
+                    nominal,
+                );
+            }
+        };
+        let motion = match ring {
+            RingName::Shaft => self.scene.shaft.motion,
+            RingName::Housing => self.scene.housing.motion,
+        };
+        if motion == Motion::Internal {
+            pair("*", "Position of", Q::Position, Unit::Metre, 1e-5);
+            pair("v*", "Velocity of", Q::Velocity, Unit::MetrePerSecond, 1e-2);
+            pair("a*", "Acceleration of", Q::Acceleration, Unit::MetrePerSecondSquared, 10.0);
+        }
+        pair("force.*", "Force of the bearing's contacts, at this moment, on", Q::Force, Unit::Newton, 1000.0);
+        if motion == Motion::Host {
+            pair(
+                "mean_force.*",
+                "Force of the bearing's contacts, mean over the last communication step, on",
+                Q::MeanForce,
+                Unit::Newton,
+                1000.0,
+            );
+        }
+    }
+
+    fn parameters(&mut self) {
+        let scene = self.scene;
+        let bearing = &scene.bearing;
+        let p = |start: f64, min: f64, max: f64, nominal: f64| (start, Some(min), Some(max), nominal);
+        self.parameter(
+            "bearing.radial_clearance",
+            "Radial internal clearance; negative is a preload",
+            Q::RadialClearance,
+            Unit::Metre,
+            p(bearing.radial_clearance, -bearing.element_diameter, bearing.element_diameter, 1e-5),
+        );
+        let (damping, unit, what, nominal) = match scene.contact.damping {
+            Damping::HuntCrossley(chi) => (chi, Unit::SecondPerMetre, "Hunt-Crossley constant chi", 0.5),
+            Damping::Proportional(tau) => (tau, Unit::Second, "time constant tau of proportional damping", 1e-6),
+        };
+        self.parameter(
+            "contact.damping",
+            &format!("Contact damping: {what}"),
+            Q::ContactDamping,
+            unit,
+            p(damping, 0.0, 1e6, nominal),
+        );
+        self.push(
+            "contact.law",
+            "Law of the outer contact near the defect",
+            Kind::Enumeration {
+                type_name: "ContactLaw",
+                items: CONTACT_LAWS,
+                start: scene.contact.law as i32 + 1,
+            },
+            (Causality::Parameter, Variability::Fixed),
+            Q::ContactLaw,
+        );
+        self.parameter(
+            "cage.slip",
+            "Lag of the cage behind pure rolling",
+            Q::CageSlip,
+            Unit::One,
+            p(scene.cage.slip, 0.0, 1.0, 0.01),
+        );
+        self.parameter(
+            "cage.initial_angle",
+            "Angle of element 1 at the start, counter-clockwise from +x",
+            Q::CageInitialAngle,
+            Unit::Radian,
+            p(scene.cage.initial_angle, -1e3, 1e3, 1.0),
+        );
+        if let Some(defect) = &scene.defect {
+            self.parameter(
+                "defect.angle",
+                "Angle of the defect's centre, counter-clockwise from +x",
+                Q::DefectAngle,
+                Unit::Radian,
+                p(defect.angle, -1e3, 1e3, 1.0),
+            );
+        }
+        for ring in RINGS {
+            let (name, what, parts) = match ring {
+                RingName::Shaft => ("shaft", "inner ring", scene.shaft),
+                RingName::Housing => ("housing", "outer ring", scene.housing),
+            };
+            if self.motion(ring) != Motion::Internal {
+                continue;
+            }
+            self.parameter(
+                &format!("{name}.mass"),
+                &format!("Mass of the {what} and what moves with it"),
+                Q::RingMass(ring),
+                Unit::Kilogram,
+                p(parts.mass, 1e-6, 1e9, 1.0),
+            );
+            self.parameter(
+                &format!("{name}.damping"),
+                &format!("Viscous damping of the {what} to ground"),
+                Q::RingDamping(ring),
+                Unit::NewtonSecondPerMetre,
+                p(parts.damping, 0.0, 1e12, 1000.0),
+            );
+            self.parameter(
+                &format!("{name}.stiffness"),
+                &format!("Support stiffness of the {what} to ground"),
+                Q::RingStiffness(ring),
+                Unit::NewtonPerMetre,
+                p(parts.stiffness, 0.0, 1e15, 1e7),
+            );
+        }
+        self.parameter(
+            "solver.tolerance",
+            "Relative tolerance of the time integration",
+            Q::Tolerance,
+            Unit::One,
+            p(scene.tolerance, 1e-12, 0.1, 1e-5),
+        );
+    }
+
+    fn input(&mut self, name: &str, text: &str, quantity: Quantity, unit: Unit, start: f64, range: (f64, f64)) {
+        let kind =
+            Kind::Real { unit, start: Some(start), min: Some(-range.0), max: Some(range.0), nominal: range.1 };
+        self.push(name, text, kind, (Causality::Input, Variability::Continuous), quantity);
+    }
+
+    fn output(&mut self, name: &str, text: &str, quantity: Quantity, unit: Unit, nominal: f64) {
+        let kind = Kind::Real { unit, start: None, min: None, max: None, nominal };
+        let variability = match quantity {
+            // The mean belongs to the last communication step.
+            Q::MeanForce(..) => Variability::Discrete,
+            _ => Variability::Continuous,
+        };
+        self.push(name, text, kind, (Causality::Output, variability), quantity);
+    }
+
+    fn counter(&mut self, name: &str, text: &str, quantity: Quantity) {
+        self.push(name, text, Kind::Integer, (Causality::Output, Variability::Discrete), quantity);
+    }
+
+    fn parameter(
+        &mut self,
+        name: &str,
+        text: &str,
+        quantity: Quantity,
+        unit: Unit,
+        (start, min, max, nominal): (f64, Option<f64>, Option<f64>, f64),
+    ) {
+        let kind = Kind::Real { unit, start: Some(start), min, max, nominal };
+        self.push(name, text, kind, (Causality::Parameter, Variability::Fixed), quantity);
+    }
+
+    fn push(&mut self, name: &str, text: &str, kind: Kind, causality: (Causality, Variability), quantity: Quantity) {
+        let variable = Variable {
+            name: name.to_owned(),
+            description: text.to_owned(),
+            reference: self.rows.len() as u32,
+            kind,
+            causality: causality.0,
+            variability: causality.1,
+            depends_on: Vec::new(),
+        };
+        self.rows.push((variable, quantity));
+    }
+
+    /// Direct dependence of outputs on inputs. States do not follow inputs at once; forces follow prescribed motion.
+    fn fill_dependencies(&mut self) {
+        let inputs: Vec<Quantity> = self
+            .rows
+            .iter()
+            .take_while(|(v, _)| v.causality == Causality::Input)
+            .map(|(_, quantity)| *quantity)
+            .collect();
+        let defect = self.scene.defect.is_some();
+        let shaft_moves = self.motion(RingName::Shaft);
+        let sensor_follows_input = self.motion(RingName::Housing) == Motion::Host;
+        for (variable, quantity) in &mut self.rows {
+            if variable.causality != Causality::Output {
+                continue;
+            }
+            let follows = |input: Quantity| follows(*quantity, input, defect, shaft_moves, sensor_follows_input);
+            variable.depends_on = (0..inputs.len()).filter(|&i| follows(inputs[i])).map(|i| i as u32).collect();
+        }
+    }
+}
+
+/// Whether an output follows an input at the same instant.
+fn follows(output: Quantity, input: Quantity, defect: bool, shaft: Motion, sensor_follows_input: bool) -> bool {
+    use RingName::{Housing, Shaft};
+    let place = matches!(input, Q::Position(..));
+    let pace = matches!(input, Q::Velocity(..));
+    let speed = input == Q::ShaftSpeed;
+    match output {
+        // Inner contacts see both rings, and the cage speed through the rate of approach.
+        Q::Force(Shaft, _) | Q::ElementInnerForce(_) => place || pace || speed,
+        // Outer contacts see the path, which is measured from the outer ring, and its rate.
+        Q::Force(Housing, _) | Q::ElementOuterForce(_) => {
+            matches!(input, Q::Velocity(Housing, _)) || (defect && speed)
+        }
+        Q::Acceleration(Shaft, axis) => place || pace || speed || input == Q::Load(Shaft, axis),
+        Q::Acceleration(Housing, axis) => {
+            matches!(input, Q::Velocity(Housing, _)) || (defect && speed) || input == Q::Load(Housing, axis)
+        }
+        Q::Stiffness(..) => place,
+        Q::SensorAcceleration => sensor_follows_input && matches!(input, Q::Position(Housing, 1) | Q::Velocity(Housing, 1)),
+        Q::CageSpeed => speed,
+        // Tangential parts of the inner contacts, and the elements' inertia as the outer ring accelerates.
+        Q::CageTorque => {
+            place || pace || speed || matches!(input, Q::Acceleration(Housing, _) | Q::Load(Housing, _))
+        }
+        _ => {
+            let _ = shaft;
+            false
+        }
+    }
+}
