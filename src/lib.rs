@@ -4,12 +4,12 @@
 //! `numerics → scene → geometry → surface → contact → dynamics → simulation → fmi2`.
 //! `analysis` is a leaf: it may import everything but `fmi2`, and nothing imports it.
 
-pub mod numerics;
-pub mod scene;
-pub mod geometry;
-pub mod surface;
+pub mod analysis;
 pub mod contact;
 pub mod dynamics;
-pub mod simulation;
 pub mod fmi2;
-pub mod analysis;
+pub mod geometry;
+pub mod numerics;
+pub mod scene;
+pub mod simulation;
+pub mod surface;

@@ -35,22 +35,12 @@ fn quantities_arrive_in_si_units() {
     assert_eq!(scene.bearing.radial_clearance, 5e-6);
     assert_eq!(scene.bearing.youngs_modulus, 207e9);
     assert!(near(scene.bearing.conformity_inner, 8.19 / 15.88));
-    assert_eq!(
-        scene.bearing.conformity_inner,
-        scene.bearing.conformity_outer
-    );
+    assert_eq!(scene.bearing.conformity_inner, scene.bearing.conformity_outer);
     assert!(near(scene.shaft_speed, 20.0 * PI));
     assert!(near(scene.cage.initial_angle, -PI / 2.0));
     let defect = scene.defect.unwrap();
     assert!(near(defect.angle, -PI / 2.0));
-    let DefectShape::Spall {
-        length,
-        depth,
-        edge_slope,
-    } = defect.shape
-    else {
-        panic!("not a spall")
-    };
+    let DefectShape::Spall { length, depth, edge_slope } = defect.shape else { panic!("not a spall") };
     assert!(near(length, 15.8 / 180.0 * PI * 23.6325e-3), "{length}");
     assert_eq!(depth, 1e-4);
     assert!(near(edge_slope, PI / 2.0));
@@ -72,13 +62,7 @@ fn a_length_in_millimetres_equals_the_same_arc_in_degrees() {
     };
     let degrees = length(&format!("{SHORT}{SPALL}"));
     let arc = format!("length_mm = {:?}", degrees * 1e3);
-    assert!(near(
-        length(&format!(
-            "{SHORT}{}",
-            SPALL.replace("length_deg = 15.8", &arc)
-        )),
-        degrees
-    ));
+    assert!(near(length(&format!("{SHORT}{}", SPALL.replace("length_deg = 15.8", &arc))), degrees));
 }
 
 #[test]
@@ -90,18 +74,8 @@ fn what_is_left_out_gets_the_documented_default() {
     assert_eq!(scene.contact.damping, Damping::HuntCrossley(0.5));
     assert_eq!(scene.cage.slip, 0.0);
     assert_eq!(scene.defect, None);
-    assert_eq!(
-        (scene.shaft.mass, scene.shaft.damping, scene.shaft.stiffness),
-        (3.2638, 1376.8, 0.0)
-    );
-    assert_eq!(
-        (
-            scene.housing.mass,
-            scene.housing.damping,
-            scene.housing.stiffness
-        ),
-        (6.638, 2210.7, 1.51056e7)
-    );
+    assert_eq!((scene.shaft.mass, scene.shaft.damping, scene.shaft.stiffness), (3.2638, 1376.8, 0.0));
+    assert_eq!((scene.housing.mass, scene.housing.damping, scene.housing.stiffness), (6.638, 2210.7, 1.51056e7));
     assert_eq!(scene.shaft.load, [0.0, 0.0]);
     assert_eq!(scene.sensor, None);
     assert_eq!(scene.tolerance, 1e-5);
@@ -119,14 +93,8 @@ fn a_defect_asks_for_the_map_unless_a_law_is_given() {
 
 #[test]
 fn an_empty_sensor_table_is_the_15_khz_resonator() {
-    let sensor = Scene::from_toml(&format!("{SHORT}[sensor]"))
-        .unwrap()
-        .sensor
-        .unwrap();
-    assert_eq!(
-        (sensor.mass, sensor.stiffness, sensor.damping),
-        (1.0, 8.8826e9, 9424.8)
-    );
+    let sensor = Scene::from_toml(&format!("{SHORT}[sensor]")).unwrap().sensor.unwrap();
+    assert_eq!((sensor.mass, sensor.stiffness, sensor.damping), (1.0, 8.8826e9, 9424.8));
     let frequency = (sensor.stiffness / sensor.mass).sqrt() / (2.0 * PI);
     // The stiffness is printed with five digits.
     assert!((frequency / 15e3 - 1.0).abs() < 1e-5, "{frequency}");
@@ -142,8 +110,5 @@ fn a_hosted_ring_has_no_mass_of_its_own() {
 
 #[test]
 fn the_model_identifier_is_a_c_identifier() {
-    assert_eq!(
-        Scene::from_toml(SHORT).unwrap().model_identifier(),
-        "Brinell_er16k_tb1"
-    );
+    assert_eq!(Scene::from_toml(SHORT).unwrap().model_identifier(), "Brinell_er16k_tb1");
 }

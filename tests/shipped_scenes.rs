@@ -11,15 +11,10 @@ fn folder() -> PathBuf {
 
 /// Name and text of every scene.
 fn scenes() -> Vec<(String, String)> {
-    let Ok(entries) = fs::read_dir(folder()) else {
-        panic!("no folder scenes/")
-    };
+    let Ok(entries) = fs::read_dir(folder()) else { panic!("no folder scenes/") };
     let files = entries.filter_map(|entry| entry.ok().map(|entry| entry.path()));
     let mut scenes = Vec::new();
-    for path in files.filter(|path| {
-        path.extension()
-            .is_some_and(|extension| extension == "toml")
-    }) {
+    for path in files.filter(|path| path.extension().is_some_and(|extension| extension == "toml")) {
         let Some(name) = path.file_stem().and_then(|stem| stem.to_str()) else {
             panic!("{path:?} is not a name of letters")
         };
@@ -52,9 +47,7 @@ fn every_surface_of_a_shipped_scene_can_be_loaded() {
         let scene = Scene::from_toml(&text).unwrap();
         let Some(defect) = scene.defect else { continue };
         let profile = match &defect.shape {
-            brinell::scene::DefectShape::Profile(file) => {
-                Some(fs::read_to_string(folder().join(file)).unwrap())
-            }
+            brinell::scene::DefectShape::Profile(file) => Some(fs::read_to_string(folder().join(file)).unwrap()),
             brinell::scene::DefectShape::Spall { .. } => None,
         };
         let surface = Surface::load(&defect.shape, profile.as_deref(), &scene.bearing)
@@ -81,24 +74,11 @@ fn every_number_in_a_shipped_scene_has_a_source_or_is_assumed() {
 
 #[test]
 fn the_stand_in_trace_has_the_length_that_was_reported() {
-    let trace =
-        Profile::from_csv(&fs::read_to_string(folder().join("6205-epps-trace.csv")).unwrap())
-            .unwrap();
-    let deep: Vec<f64> = trace
-        .points()
-        .iter()
-        .filter(|point| point.1 > 0.0)
-        .map(|point| point.0)
-        .collect();
+    let trace = Profile::from_csv(&fs::read_to_string(folder().join("6205-epps-trace.csv")).unwrap()).unwrap();
+    let deep: Vec<f64> = trace.points().iter().filter(|point| point.1 > 0.0).map(|point| point.0).collect();
     // 0.8 mm at the surface: the last points at depth lie within one spacing of 4 um of either edge.
     let length = deep[deep.len() - 1] - deep[0];
     assert!((0.792e-3 - 1e-9..0.8e-3).contains(&length), "{length}");
     // An element sinks 17 um into 0.8 mm; the floor must stay out of its reach.
-    assert!(
-        trace
-            .points()
-            .iter()
-            .filter(|point| point.0.abs() < 0.39e-3)
-            .all(|point| point.1 > 30e-6)
-    );
+    assert!(trace.points().iter().filter(|point| point.0.abs() < 0.39e-3).all(|point| point.1 > 30e-6));
 }

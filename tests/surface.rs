@@ -9,10 +9,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 fn a_spall_with_vertical_edges_is_a_box() {
     let spall = Profile::spall(6.5e-3, 1e-4, 90.0_f64.to_radians());
     let half = 3.25e-3;
-    assert_eq!(
-        spall.points(),
-        [(-half, 0.0), (-half, 1e-4), (half, 1e-4), (half, 0.0)]
-    );
+    assert_eq!(spall.points(), [(-half, 0.0), (-half, 1e-4), (half, 1e-4), (half, 0.0)]);
     assert_eq!(spall.edges(), [-half, half]);
     assert_eq!(spall.extent(), (-half, half));
     assert_eq!(spall.depth_at(0.0), 1e-4);
@@ -50,30 +47,22 @@ fn a_cell_mean_over_a_spall_is_its_area() {
 
 #[test]
 fn a_trace_is_centred_and_ends_at_depth_zero() {
-    let trace =
-        Profile::from_csv("# trace\r\ndepth_um, arc_mm\r\n2, 10.0\r\n4, 10.5\r\n0, 11.0\r\n")
-            .unwrap();
+    let trace = Profile::from_csv("# trace\r\ndepth_um, arc_mm\r\n2, 10.0\r\n4, 10.5\r\n0, 11.0\r\n").unwrap();
     let expected = [(-5e-4, 0.0), (-5e-4, 2e-6), (0.0, 4e-6), (5e-4, 0.0)];
     assert_eq!(trace.points().len(), expected.len());
     for (point, expected) in trace.points().iter().zip(expected) {
         // 1e-17: half of the rounding of 10 mm would be seen if the middle were taken off in metres.
-        assert!(
-            (point.0 - expected.0).abs() < 1e-17 && (point.1 - expected.1).abs() < 1e-20,
-            "{point:?}"
-        );
+        assert!((point.0 - expected.0).abs() < 1e-17 && (point.1 - expected.1).abs() < 1e-20, "{point:?}");
     }
     assert_eq!(trace.edges(), [-5e-4]);
 }
 
 #[test]
 fn a_file_with_an_axial_column_is_a_topography() {
-    let bearing = Scene::from_toml(include_str!("../scenes/er16k-tb1.toml"))
-        .unwrap()
-        .bearing;
+    let bearing = Scene::from_toml(include_str!("../scenes/er16k-tb1.toml")).unwrap().bearing;
     let shape = DefectShape::Profile("x.csv".to_owned());
     let text = "arc_mm,axial_mm,depth_um\n0,0,0\n0,1,0\n1,0,3\n1,1,5\n";
-    let Surface::Topography(topography) = Surface::load(&shape, Some(text), &bearing).unwrap()
-    else {
+    let Surface::Topography(topography) = Surface::load(&shape, Some(text), &bearing).unwrap() else {
         panic!("not a topography");
     };
     // 1e-20: rounding of a depth of micrometres.
@@ -87,9 +76,7 @@ fn a_file_with_an_axial_column_is_a_topography() {
 #[test]
 fn the_order_of_a_topographys_lines_does_not_matter() {
     let header = "arc_mm,axial_mm,depth_um";
-    let lines = [
-        "0,-1,1", "0,2,2", "0.5,-1,3", "0.5,2,4", "0.7,-1,5", "0.7,2,6",
-    ];
+    let lines = ["0,-1,1", "0,2,2", "0.5,-1,3", "0.5,2,4", "0.7,-1,5", "0.7,2,6"];
     let text = |order: [usize; 6]| format!("{header}\n{}", order.map(|i| lines[i]).join("\n"));
     let by_arc = Topography::from_csv(&text([0, 1, 2, 3, 4, 5])).unwrap();
     let by_axial = Topography::from_csv(&text([4, 2, 0, 5, 3, 1])).unwrap();
@@ -103,10 +90,7 @@ fn a_topography_need_not_be_symmetric() {
     let left = topography.mean_depth([-1e-4, 1e-4], [-1e-3, 0.0]);
     let right = topography.mean_depth([-1e-4, 1e-4], [0.0, 1e-3]);
     // 1e-19: rounding of micrometres over a cell of fractions of a millimetre.
-    assert!(
-        (left - 2.5e-6).abs() < 1e-19 && (right - 7.5e-6).abs() < 1e-19,
-        "{left} {right}"
-    );
+    assert!((left - 2.5e-6).abs() < 1e-19 && (right - 7.5e-6).abs() < 1e-19, "{left} {right}");
 }
 
 /// Points of an arbitrary profile, vertical edges among them.
@@ -176,16 +160,7 @@ proptest! {
 
 #[test]
 fn a_vertical_edge_survives_the_conversion_from_degrees() {
-    for slope in [
-        90.0_f64.to_radians(),
-        FRAC_PI_2,
-        FRAC_PI_2 + 1e-16,
-        89.999_999_99_f64.to_radians(),
-    ] {
-        assert_eq!(
-            Profile::spall(1e-3, 1e-4, slope).edges().len(),
-            2,
-            "{slope}"
-        );
+    for slope in [90.0_f64.to_radians(), FRAC_PI_2, FRAC_PI_2 + 1e-16, 89.999_999_99_f64.to_radians()] {
+        assert_eq!(Profile::spall(1e-3, 1e-4, slope).edges().len(), 2, "{slope}");
     }
 }

@@ -97,8 +97,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn laws() -> [ForceLaw; 2] {
-        [Damping::HuntCrossley(0.5), Damping::Proportional(1e-6)]
-            .map(|damping| ForceLaw { stiffness: 1e10, damping })
+        [Damping::HuntCrossley(0.5), Damping::Proportional(1e-6)].map(|damping| ForceLaw { stiffness: 1e10, damping })
     }
 
     proptest! {

@@ -269,8 +269,7 @@ impl Roller {
             if square <= 0.0 {
                 return if phi < angle { f64::NEG_INFINITY } else { f64::INFINITY };
             }
-            slope * cos - radius * sin
-                + (radius * slope * sin * sin + radius * radius * sin * cos) / square.sqrt()
+            slope * cos - radius * sin + (radius * slope * sin * sin + radius * radius * sin * cos) / square.sqrt()
         };
         if derivative(phi0) >= 0.0 || derivative(phi1) <= 0.0 {
             return None;

@@ -80,7 +80,11 @@ impl Model {
         let (mut low, mut high) = (touch, touch);
         let mut width = 1e-6;
         while if outwards { force(high).0 > 0.0 } else { force(low).0 < 0.0 } {
-            if outwards { (low, high) = (high, high + width) } else { (low, high) = (low - width, low) }
+            if outwards {
+                (low, high) = (high, high + width)
+            } else {
+                (low, high) = (low - width, low)
+            }
             width *= 2.0;
             if width > 1.0 {
                 break;
@@ -90,7 +94,11 @@ impl Model {
         let mut u = 0.5 * (low + high);
         for _ in 0..200 {
             let (f, slope) = force(u);
-            if f > 0.0 { low = u } else { high = u }
+            if f > 0.0 {
+                low = u
+            } else {
+                high = u
+            }
             let newton = u - f / slope;
             let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
             if next == u || f == 0.0 || high <= low || (next - u).abs() < 1e-18 {
@@ -185,7 +193,11 @@ impl Model {
             if balance.residual() <= balance.limit || push.abs() <= 0.5 * push_0 || (push > 0.0 && high.is_infinite()) {
                 return Some((next, balance));
             }
-            if push > 0.0 { low = share } else { high = share }
+            if push > 0.0 {
+                low = share
+            } else {
+                high = share
+            }
             share = 0.5 * (low + high);
         }
         None

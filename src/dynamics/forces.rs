@@ -274,13 +274,7 @@ impl Model {
     }
 }
 
-fn ring_state(
-    place: Option<usize>,
-    motion: Motion,
-    prescribed: &[Quadratic; 2],
-    tau: f64,
-    state: &[f64],
-) -> RingState {
+fn ring_state(place: Option<usize>, motion: Motion, prescribed: &[Quadratic; 2], tau: f64, state: &[f64]) -> RingState {
     match (place, motion) {
         (Some(i), _) => RingState { position: [state[i], state[i + 1]], velocity: [state[i + 2], state[i + 3]] },
         (None, Motion::Host) => RingState {

@@ -44,7 +44,14 @@ impl ElasticElement {
 
 impl Model {
     /// Elastic contact forces of element `j` at path `u`, the rings' centres being `offset` (outer minus inner) apart.
-    pub(super) fn elastic_element(&self, j: usize, cell: u32, u: f64, offset: [f64; 2], cage_angle: f64) -> ElasticElement {
+    pub(super) fn elastic_element(
+        &self,
+        j: usize,
+        cell: u32,
+        u: f64,
+        offset: [f64; 2],
+        cage_angle: f64,
+    ) -> ElasticElement {
         let e_r = self.direction(j, cos_sin(cage_angle));
         let e_t = [-e_r[1], e_r[0]];
         let rho = self.outer_centre_radius + u;
@@ -62,7 +69,8 @@ impl Model {
             }
         }
         let near = self.near_defect(j, cell, u, cage_angle, rho).unwrap_or_else(|| OuterApproach::smooth(u));
-        let (outer, k_outer) = (self.outer.elastic(near.value), self.outer.elastic_stiffness(near.value) * near.by_path);
+        let (outer, k_outer) =
+            (self.outer.elastic(near.value), self.outer.elastic_stiffness(near.value) * near.by_path);
         ElasticElement {
             e_r,
             e_t,

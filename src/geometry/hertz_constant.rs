@@ -30,18 +30,10 @@ impl HertzConstants {
         let across = |conformity: f64| 1.0 / r - 1.0 / (conformity * bearing.element_diameter);
         Self {
             inner: bearing.hertz_inner.unwrap_or_else(|| {
-                point_contact(
-                    1.0 / r + 1.0 / bearing.inner_raceway_radius(),
-                    across(bearing.conformity_inner),
-                    modulus,
-                )
+                point_contact(1.0 / r + 1.0 / bearing.inner_raceway_radius(), across(bearing.conformity_inner), modulus)
             }),
             outer: bearing.hertz_outer.unwrap_or_else(|| {
-                point_contact(
-                    1.0 / r - 1.0 / bearing.outer_raceway_radius(),
-                    across(bearing.conformity_outer),
-                    modulus,
-                )
+                point_contact(1.0 / r - 1.0 / bearing.outer_raceway_radius(), across(bearing.conformity_outer), modulus)
             }),
         }
     }
@@ -65,8 +57,7 @@ pub fn point_contact(curvature_1: f64, curvature_2: f64, effective_modulus: f64)
     let m = squared_eccentricity(curvature_1.max(curvature_2) / two_a);
     let (k, e) = elliptic::complete(m);
     // K(e) − E(e) → π e²/4 for the circular contact, where the quotient below is 0/0.
-    let difference_over_m =
-        if m < 1e-8 { 0.25 * std::f64::consts::PI * (1.0 + 0.375 * m) } else { (k - e) / m };
+    let difference_over_m = if m < 1e-8 { 0.25 * std::f64::consts::PI * (1.0 + 0.375 * m) } else { (k - e) / m };
     let c = 1.5 / (std::f64::consts::PI * effective_modulus);
     1.0 / (k * k.sqrt() * c) * (difference_over_m / (0.5 * two_a)).sqrt()
 }

@@ -28,10 +28,5 @@ pub fn frequencies(bearing: &Bearing, slip: f64, speed_hz: f64) -> Frequencies {
     let gamma = bearing.element_diameter / bearing.pitch_diameter;
     let z = bearing.element_count as f64;
     let ftf = cage_ratio(bearing, slip) * speed_hz;
-    Frequencies {
-        bpfo: z * ftf,
-        bpfi: z * (speed_hz - ftf),
-        bsf: 0.5 * speed_hz * (1.0 - gamma * gamma) / gamma,
-        ftf,
-    }
+    Frequencies { bpfo: z * ftf, bpfi: z * (speed_hz - ftf), bsf: 0.5 * speed_hz * (1.0 - gamma * gamma) / gamma, ftf }
 }

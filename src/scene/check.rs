@@ -124,17 +124,11 @@ impl Bearing {
         let clearance_um = shown(self.radial_clearance * 1e6);
         let limit_um = shown(self.smallest_radial_clearance() * 1e6);
         if clearance_um < limit_um {
-            return Err(SceneError::NoRoom {
-                clearance_um,
-                limit_um,
-            });
+            return Err(SceneError::NoRoom { clearance_um, limit_um });
         }
         let limit_um = shown(self.largest_radial_clearance() * 1e6);
         if clearance_um > limit_um {
-            return Err(SceneError::TooLoose {
-                clearance_um,
-                limit_um,
-            });
+            return Err(SceneError::TooLoose { clearance_um, limit_um });
         }
         if self.inner_raceway_radius() <= 0.0 {
             return Err(SceneError::NoInnerRaceway {
@@ -159,32 +153,20 @@ impl Defect {
     fn check(&self, bearing: &Bearing) -> Result<(), SceneError> {
         DEFECT_ANGLE.check(self.angle)?;
         match &self.shape {
-            DefectShape::Spall {
-                length,
-                depth,
-                edge_slope,
-            } => check_spall(*length, *depth, *edge_slope, bearing),
+            DefectShape::Spall { length, depth, edge_slope } => check_spall(*length, *depth, *edge_slope, bearing),
             DefectShape::Profile(name) => check_profile_name(name),
         }
     }
 }
 
-fn check_spall(
-    length: f64,
-    depth: f64,
-    edge_slope: f64,
-    bearing: &Bearing,
-) -> Result<(), SceneError> {
+fn check_spall(length: f64, depth: f64, edge_slope: f64, bearing: &Bearing) -> Result<(), SceneError> {
     SPALL_LENGTH.check(length)?;
     SPALL_DEPTH.check(depth)?;
     EDGE_SLOPE.check(edge_slope)?;
     let (length_mm, depth_um) = (shown(length * 1e3), shown(depth * 1e6));
     let limit_mm = shown(TAU * bearing.outer_raceway_radius() * 1e3);
     if length_mm >= limit_mm {
-        return Err(SceneError::SpallTooLong {
-            length_mm,
-            limit_mm,
-        });
+        return Err(SceneError::SpallTooLong { length_mm, limit_mm });
     }
     let limit_um = shown(bearing.element_diameter / 2.0 * 1e6);
     if depth_um >= limit_um {
@@ -194,12 +176,7 @@ fn check_spall(
     let limit_um = shown(0.5 * length * libm::tan(edge_slope).abs() * 1e6);
     if depth_um > limit_um {
         let edge_slope_deg = shown(edge_slope.to_degrees());
-        return Err(SceneError::FlanksMeet {
-            depth_um,
-            edge_slope_deg,
-            limit_um,
-            length_mm,
-        });
+        return Err(SceneError::FlanksMeet { depth_um, edge_slope_deg, limit_um, length_mm });
     }
     Ok(())
 }
@@ -223,11 +200,7 @@ fn check_profile_name(name: &str) -> Result<(), SceneError> {
 
 fn check_groove(ring: &'static str, conformity: f64, range: &Quantity) -> Result<(), SceneError> {
     if conformity > 0.0 && conformity < SMALLEST_CONFORMITY {
-        return Err(SceneError::GrooveTooNarrow {
-            ring,
-            conformity: shown(conformity),
-            limit: SMALLEST_CONFORMITY,
-        });
+        return Err(SceneError::GrooveTooNarrow { ring, conformity: shown(conformity), limit: SMALLEST_CONFORMITY });
     }
     range.check(conformity)
 }
@@ -236,10 +209,7 @@ fn check_ring(ring: &Ring, name: &'static str, of: &RingQuantities) -> Result<()
     of.load.check_all(&ring.load)?;
     if ring.motion != Motion::Internal {
         if ring.load != [0.0; 2] {
-            return Err(SceneError::LoadNotInternal {
-                ring: name,
-                load: ring.load,
-            });
+            return Err(SceneError::LoadNotInternal { ring: name, load: ring.load });
         }
         return Ok(());
     }

@@ -35,9 +35,7 @@ pub enum SceneError {
         why: &'static str,
     },
     /// A key that has no meaning for a ring that does not move by itself.
-    #[error(
-        "scene file: {key} = {value} has no effect while {ring}.motion is \"{motion}\": it needs \"internal\""
-    )]
+    #[error("scene file: {key} = {value} has no effect while {ring}.motion is \"{motion}\": it needs \"internal\"")]
     NotInternal {
         /// Table of the ring.
         ring: &'static str,
@@ -49,9 +47,7 @@ pub enum SceneError {
         motion: super::Motion,
     },
     /// A constant of the damping model that was not chosen.
-    #[error(
-        "scene file: {key} = {value} does not belong to contact.damping = \"{model}\", which takes {wanted}"
-    )]
+    #[error("scene file: {key} = {value} does not belong to contact.damping = \"{model}\", which takes {wanted}")]
     WrongDampingKey {
         /// The key given.
         key: &'static str,
@@ -157,9 +153,7 @@ pub enum SceneError {
         limit_mm: f64,
     },
     /// A spall as deep as the element's radius or deeper.
-    #[error(
-        "spall depth (defect.depth_um) is {depth_um}: it must be below {limit_um}, the radius of an element"
-    )]
+    #[error("spall depth (defect.depth_um) is {depth_um}: it must be below {limit_um}, the radius of an element")]
     SpallTooDeep {
         /// Depth [µm].
         depth_um: f64,
@@ -196,9 +190,7 @@ pub enum SceneError {
     )]
     NothingHolds,
     /// An accelerometer on a ring that stands.
-    #[error(
-        "sensor: it would measure nothing while housing.motion is \"fixed\", it needs \"internal\" or \"host\""
-    )]
+    #[error("sensor: it would measure nothing while housing.motion is \"fixed\", it needs \"internal\" or \"host\"")]
     SensorOnFixedHousing,
     /// A communication step longer than the run.
     #[error(

@@ -26,9 +26,7 @@
 mod rings;
 
 use super::error::SceneError;
-use super::{
-    Bearing, Cage, Contact, ContactLaw, Damping, Defect, DefectShape, Experiment, Scene, Sensor,
-};
+use super::{Bearing, Cage, Contact, ContactLaw, Damping, Defect, DefectShape, Experiment, Scene, Sensor};
 use rings::{HousingTable, SensorTable, ShaftTable};
 use serde::Deserialize;
 use std::f64::consts::{PI, TAU};
@@ -74,10 +72,7 @@ impl SceneFile {
     fn into_scene(self) -> Result<Scene, SceneError> {
         let bearing = self.bearing.into_bearing()?;
         let contact = self.contact.into_contact(self.defect.is_some())?;
-        let defect = self
-            .defect
-            .map(|table| table.into_defect(&bearing))
-            .transpose()?;
+        let defect = self.defect.map(|table| table.into_defect(&bearing)).transpose()?;
         let shaft_speed = self.shaft.speed_hz * TAU;
         Ok(Scene {
             name: self.name,
@@ -85,10 +80,7 @@ impl SceneFile {
             gravity: self.gravity_m_s2,
             bearing,
             contact,
-            cage: Cage {
-                slip: self.cage.slip,
-                initial_angle: self.cage.initial_angle_deg.to_radians(),
-            },
+            cage: Cage { slip: self.cage.slip, initial_angle: self.cage.initial_angle_deg.to_radians() },
             defect,
             shaft: self.shaft.into_ring()?,
             shaft_speed,
@@ -100,10 +92,7 @@ impl SceneFile {
             }),
             tolerance: self.solver.tolerance,
             recorder_rate: self.recorder.map(|table| table.rate_hz),
-            experiment: Experiment {
-                stop: self.experiment.stop_s,
-                step: self.experiment.step_s,
-            },
+            experiment: Experiment { stop: self.experiment.stop_s, step: self.experiment.step_s },
         })
     }
 }
@@ -159,36 +148,21 @@ impl BearingTable {
         const GROOVE: &str = "bearing.groove_diameter_mm";
         const INNER: &str = "bearing.conformity_inner";
         const OUTER: &str = "bearing.conformity_outer";
-        match (
-            self.groove_diameter_mm,
-            self.conformity_inner,
-            self.conformity_outer,
-        ) {
+        match (self.groove_diameter_mm, self.conformity_inner, self.conformity_outer) {
             (Some(groove), None, None) => {
                 let conformity = groove / (2.0 * self.element_diameter_mm);
                 Ok((conformity, conformity))
             }
             (None, Some(inner), Some(outer)) => Ok((inner, outer)),
-            (Some(_), Some(_), _) => Err(SceneError::Both {
-                first: GROOVE,
-                second: INNER,
-            }),
-            (Some(_), None, Some(_)) => Err(SceneError::Both {
-                first: GROOVE,
-                second: OUTER,
-            }),
-            (None, None, None) => Err(SceneError::Neither {
-                first: GROOVE,
-                second: INNER,
-            }),
-            (None, None, Some(_)) => Err(SceneError::Missing {
-                key: INNER,
-                why: "conformity_outer is given without it",
-            }),
-            (None, Some(_), None) => Err(SceneError::Missing {
-                key: OUTER,
-                why: "conformity_inner is given without it",
-            }),
+            (Some(_), Some(_), _) => Err(SceneError::Both { first: GROOVE, second: INNER }),
+            (Some(_), None, Some(_)) => Err(SceneError::Both { first: GROOVE, second: OUTER }),
+            (None, None, None) => Err(SceneError::Neither { first: GROOVE, second: INNER }),
+            (None, None, Some(_)) => {
+                Err(SceneError::Missing { key: INNER, why: "conformity_outer is given without it" })
+            }
+            (None, Some(_), None) => {
+                Err(SceneError::Missing { key: OUTER, why: "conformity_inner is given without it" })
+            }
         }
     }
 
@@ -199,10 +173,9 @@ impl BearingTable {
                 let diameter = self.element_diameter_mm / 1e3;
                 Ok(mass / 1e3 / (PI / 6.0 * diameter * diameter * diameter))
             }
-            (None, None) => Err(SceneError::Neither {
-                first: "bearing.density_kg_m3",
-                second: "bearing.element_mass_g",
-            }),
+            (None, None) => {
+                Err(SceneError::Neither { first: "bearing.density_kg_m3", second: "bearing.element_mass_g" })
+            }
         }
     }
 }
@@ -229,14 +202,7 @@ impl ContactTable {
     fn into_contact(self, defect: bool) -> Result<Contact, SceneError> {
         const CHI: &str = "contact.damping_chi_s_m";
         const TAU: &str = "contact.damping_tau_s";
-        let wrong = |key, value, model, wanted| {
-            Err(SceneError::WrongDampingKey {
-                key,
-                value,
-                model,
-                wanted,
-            })
-        };
+        let wrong = |key, value, model, wanted| Err(SceneError::WrongDampingKey { key, value, model, wanted });
         let damping = match (self.damping, self.damping_chi_s_m, self.damping_tau_s) {
             (DampingModel::HuntCrossley, _, Some(tau)) => {
                 return wrong(TAU, tau, "hunt-crossley", CHI);
@@ -247,21 +213,11 @@ impl ContactTable {
             (DampingModel::HuntCrossley, chi, None) => Damping::HuntCrossley(chi.unwrap_or(0.5)),
             (DampingModel::Proportional, None, Some(tau)) => Damping::Proportional(tau),
             (DampingModel::Proportional, None, None) => {
-                return Err(SceneError::Missing {
-                    key: TAU,
-                    why: "contact.damping is \"proportional\"",
-                });
+                return Err(SceneError::Missing { key: TAU, why: "contact.damping is \"proportional\"" });
             }
         };
-        let default = if defect {
-            ContactLaw::Map
-        } else {
-            ContactLaw::Hertz
-        };
-        Ok(Contact {
-            law: self.law.unwrap_or(default),
-            damping,
-        })
+        let default = if defect { ContactLaw::Map } else { ContactLaw::Hertz };
+        Ok(Contact { law: self.law.unwrap_or(default), damping })
     }
 }
 
@@ -274,10 +230,7 @@ struct CageTable {
 
 impl Default for CageTable {
     fn default() -> Self {
-        Self {
-            slip: 0.0,
-            initial_angle_deg: -90.0,
-        }
+        Self { slip: 0.0, initial_angle_deg: -90.0 }
     }
 }
 
@@ -304,19 +257,16 @@ impl DefectTable {
                     ("defect.edge_slope_deg", self.edge_slope_deg),
                 ];
                 if let Some((second, _)) = given.into_iter().find(|(_, value)| value.is_some()) {
-                    return Err(SceneError::Both {
-                        first: "defect.profile",
-                        second,
-                    });
+                    return Err(SceneError::Both { first: "defect.profile", second });
                 }
                 DefectShape::Profile(name)
             }
             None => DefectShape::Spall {
                 length: spall_length(self.length_deg, self.length_mm, bearing)?,
-                depth: self.depth_um.ok_or(SceneError::Neither {
-                    first: "defect.depth_um",
-                    second: "defect.profile",
-                })? / 1e6,
+                depth: self
+                    .depth_um
+                    .ok_or(SceneError::Neither { first: "defect.depth_um", second: "defect.profile" })?
+                    / 1e6,
                 edge_slope: self.edge_slope_deg.unwrap_or(90.0).to_radians(),
             },
         };
@@ -324,24 +274,14 @@ impl DefectTable {
     }
 }
 
-fn spall_length(
-    degrees: Option<f64>,
-    millimetres: Option<f64>,
-    bearing: &Bearing,
-) -> Result<f64, SceneError> {
+fn spall_length(degrees: Option<f64>, millimetres: Option<f64>, bearing: &Bearing) -> Result<f64, SceneError> {
     const DEGREES: &str = "defect.length_deg";
     const MILLIMETRES: &str = "defect.length_mm";
     match (degrees, millimetres) {
         (Some(degrees), None) => Ok(degrees.to_radians() * bearing.outer_raceway_radius()),
         (None, Some(millimetres)) => Ok(millimetres / 1e3),
-        (Some(_), Some(_)) => Err(SceneError::Both {
-            first: DEGREES,
-            second: MILLIMETRES,
-        }),
-        (None, None) => Err(SceneError::Neither {
-            first: DEGREES,
-            second: MILLIMETRES,
-        }),
+        (Some(_), Some(_)) => Err(SceneError::Both { first: DEGREES, second: MILLIMETRES }),
+        (None, None) => Err(SceneError::Neither { first: DEGREES, second: MILLIMETRES }),
     }
 }
 
@@ -372,9 +312,6 @@ struct ExperimentTable {
 
 impl Default for ExperimentTable {
     fn default() -> Self {
-        Self {
-            stop_s: 0.5,
-            step_s: 1e-4,
-        }
+        Self { stop_s: 0.5, step_s: 1e-4 }
     }
 }

@@ -24,20 +24,12 @@ pub(super) struct RingQuantities {
 
 impl Quantity {
     pub(super) fn check(&self, si: f64) -> Result<(), SceneError> {
-        let limits = Limits {
-            low: self.low,
-            high: self.high,
-        };
+        let limits = Limits { low: self.low, high: self.high };
         let value = shown(si * self.per_si);
         if limits.hold(value) {
             return Ok(());
         }
-        Err(SceneError::OutOfRange {
-            quantity: self.quantity,
-            key: self.key,
-            value,
-            limits,
-        })
+        Err(SceneError::OutOfRange { quantity: self.quantity, key: self.key, value, limits })
     }
 
     pub(super) fn check_all(&self, si: &[f64]) -> Result<(), SceneError> {
@@ -53,53 +45,20 @@ pub(super) fn shown(value: f64) -> f64 {
 /// Smallest conformity. Below it the contact ellipse is longer than a groove is wide, and at 0.5 it has no end.
 pub(super) const SMALLEST_CONFORMITY: f64 = 0.5001;
 
-const fn quantity(
-    quantity: &'static str,
-    key: &'static str,
-    per_si: f64,
-    low: Bound,
-    high: Bound,
-) -> Quantity {
-    Quantity {
-        quantity,
-        key,
-        per_si,
-        low,
-        high,
-    }
+const fn quantity(quantity: &'static str, key: &'static str, per_si: f64, low: Bound, high: Bound) -> Quantity {
+    Quantity { quantity, key, per_si, low, high }
 }
 
 const DEG: f64 = 180.0 / PI;
 const HZ: f64 = 1.0 / TAU;
 
-pub(super) const GRAVITY: Quantity = quantity(
-    "gravity",
-    "gravity_m_s2",
-    1.0,
-    Inclusive(-1e6),
-    Inclusive(1e6),
-);
-pub(super) const ELEMENT_COUNT: Quantity = quantity(
-    "number of elements",
-    "bearing.element_count",
-    1.0,
-    Inclusive(1.0),
-    Inclusive(1000.0),
-);
-pub(super) const ELEMENT_DIAMETER: Quantity = quantity(
-    "element diameter",
-    "bearing.element_diameter_mm",
-    1e3,
-    Inclusive(0.01),
-    Inclusive(2e3),
-);
-pub(super) const PITCH_DIAMETER: Quantity = quantity(
-    "pitch diameter",
-    "bearing.pitch_diameter_mm",
-    1e3,
-    Inclusive(0.01),
-    Inclusive(2e4),
-);
+pub(super) const GRAVITY: Quantity = quantity("gravity", "gravity_m_s2", 1.0, Inclusive(-1e6), Inclusive(1e6));
+pub(super) const ELEMENT_COUNT: Quantity =
+    quantity("number of elements", "bearing.element_count", 1.0, Inclusive(1.0), Inclusive(1000.0));
+pub(super) const ELEMENT_DIAMETER: Quantity =
+    quantity("element diameter", "bearing.element_diameter_mm", 1e3, Inclusive(0.01), Inclusive(2e3));
+pub(super) const PITCH_DIAMETER: Quantity =
+    quantity("pitch diameter", "bearing.pitch_diameter_mm", 1e3, Inclusive(0.01), Inclusive(2e4));
 pub(super) const CONFORMITY_INNER: Quantity = quantity(
     "groove conformity of the inner ring",
     "bearing.groove_diameter_mm or bearing.conformity_inner",
@@ -114,225 +73,58 @@ pub(super) const CONFORMITY_OUTER: Quantity = quantity(
     Inclusive(SMALLEST_CONFORMITY),
     Inclusive(1e3),
 );
-pub(super) const CLEARANCE: Quantity = quantity(
-    "radial clearance",
-    "bearing.radial_clearance_um",
-    1e6,
-    Inclusive(-1e9),
-    Inclusive(1e9),
-);
-pub(super) const YOUNGS_MODULUS: Quantity = quantity(
-    "Young's modulus",
-    "bearing.youngs_modulus_gpa",
-    1e-9,
-    Inclusive(1e-3),
-    Inclusive(1e4),
-);
-pub(super) const POISSONS_RATIO: Quantity = quantity(
-    "Poisson's ratio",
-    "bearing.poissons_ratio",
-    1.0,
-    Exclusive(-1.0),
-    Exclusive(0.5),
-);
-pub(super) const DENSITY: Quantity = quantity(
-    "density of the elements",
-    "bearing.density_kg_m3",
-    1.0,
-    Exclusive(0.0),
-    Inclusive(1e5),
-);
-pub(super) const ELEMENT_MASS: Quantity = quantity(
-    "mass of one element",
-    "bearing.element_mass_g",
-    1e3,
-    Inclusive(1e-9),
-    Inclusive(1e9),
-);
-pub(super) const HERTZ_INNER: Quantity = quantity(
-    "Hertz constant of the inner contact",
-    "bearing.hertz_inner_n_m1_5",
-    1.0,
-    Inclusive(1.0),
-    Inclusive(1e15),
-);
-pub(super) const HERTZ_OUTER: Quantity = quantity(
-    "Hertz constant of the outer contact",
-    "bearing.hertz_outer_n_m1_5",
-    1.0,
-    Inclusive(1.0),
-    Inclusive(1e15),
-);
-pub(super) const DAMPING_CHI: Quantity = quantity(
-    "contact damping",
-    "contact.damping_chi_s_m",
-    1.0,
-    Inclusive(0.0),
-    Inclusive(1e3),
-);
-pub(super) const DAMPING_TAU: Quantity = quantity(
-    "contact damping",
-    "contact.damping_tau_s",
-    1.0,
-    Inclusive(0.0),
-    Inclusive(1.0),
-);
-pub(super) const CAGE_SLIP: Quantity = quantity(
-    "cage slip",
-    "cage.slip",
-    1.0,
-    Inclusive(0.0),
-    Inclusive(1.0),
-);
-pub(super) const INITIAL_ANGLE: Quantity = quantity(
-    "initial cage angle",
-    "cage.initial_angle_deg",
-    DEG,
-    Inclusive(-36e3),
-    Inclusive(36e3),
-);
-pub(super) const DEFECT_ANGLE: Quantity = quantity(
-    "defect angle",
-    "defect.angle_deg",
-    DEG,
-    Inclusive(-36e3),
-    Inclusive(36e3),
-);
-pub(super) const SPALL_LENGTH: Quantity = quantity(
-    "spall length, in mm",
-    "defect.length_deg or defect.length_mm",
-    1e3,
-    Exclusive(0.0),
-    Inclusive(1e6),
-);
-pub(super) const SPALL_DEPTH: Quantity = quantity(
-    "spall depth",
-    "defect.depth_um",
-    1e6,
-    Exclusive(0.0),
-    Inclusive(1e9),
-);
-pub(super) const EDGE_SLOPE: Quantity = quantity(
-    "edge slope",
-    "defect.edge_slope_deg",
-    DEG,
-    Exclusive(0.0),
-    Inclusive(90.0),
-);
+pub(super) const CLEARANCE: Quantity =
+    quantity("radial clearance", "bearing.radial_clearance_um", 1e6, Inclusive(-1e9), Inclusive(1e9));
+pub(super) const YOUNGS_MODULUS: Quantity =
+    quantity("Young's modulus", "bearing.youngs_modulus_gpa", 1e-9, Inclusive(1e-3), Inclusive(1e4));
+pub(super) const POISSONS_RATIO: Quantity =
+    quantity("Poisson's ratio", "bearing.poissons_ratio", 1.0, Exclusive(-1.0), Exclusive(0.5));
+pub(super) const DENSITY: Quantity =
+    quantity("density of the elements", "bearing.density_kg_m3", 1.0, Exclusive(0.0), Inclusive(1e5));
+pub(super) const ELEMENT_MASS: Quantity =
+    quantity("mass of one element", "bearing.element_mass_g", 1e3, Inclusive(1e-9), Inclusive(1e9));
+pub(super) const HERTZ_INNER: Quantity =
+    quantity("Hertz constant of the inner contact", "bearing.hertz_inner_n_m1_5", 1.0, Inclusive(1.0), Inclusive(1e15));
+pub(super) const HERTZ_OUTER: Quantity =
+    quantity("Hertz constant of the outer contact", "bearing.hertz_outer_n_m1_5", 1.0, Inclusive(1.0), Inclusive(1e15));
+pub(super) const DAMPING_CHI: Quantity =
+    quantity("contact damping", "contact.damping_chi_s_m", 1.0, Inclusive(0.0), Inclusive(1e3));
+pub(super) const DAMPING_TAU: Quantity =
+    quantity("contact damping", "contact.damping_tau_s", 1.0, Inclusive(0.0), Inclusive(1.0));
+pub(super) const CAGE_SLIP: Quantity = quantity("cage slip", "cage.slip", 1.0, Inclusive(0.0), Inclusive(1.0));
+pub(super) const INITIAL_ANGLE: Quantity =
+    quantity("initial cage angle", "cage.initial_angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3));
+pub(super) const DEFECT_ANGLE: Quantity =
+    quantity("defect angle", "defect.angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3));
+pub(super) const SPALL_LENGTH: Quantity =
+    quantity("spall length, in mm", "defect.length_deg or defect.length_mm", 1e3, Exclusive(0.0), Inclusive(1e6));
+pub(super) const SPALL_DEPTH: Quantity =
+    quantity("spall depth", "defect.depth_um", 1e6, Exclusive(0.0), Inclusive(1e9));
+pub(super) const EDGE_SLOPE: Quantity =
+    quantity("edge slope", "defect.edge_slope_deg", DEG, Exclusive(0.0), Inclusive(90.0));
 pub(super) const SHAFT: RingQuantities = RingQuantities {
-    load: quantity(
-        "load on the shaft",
-        "shaft.load_n",
-        1.0,
-        Inclusive(-1e9),
-        Inclusive(1e9),
-    ),
-    mass: quantity(
-        "shaft mass",
-        "shaft.mass_kg",
-        1.0,
-        Inclusive(1e-9),
-        Inclusive(1e9),
-    ),
-    damping: quantity(
-        "shaft damping",
-        "shaft.damping_n_s_m",
-        1.0,
-        Inclusive(0.0),
-        Inclusive(1e12),
-    ),
-    stiffness: quantity(
-        "shaft stiffness",
-        "shaft.stiffness_n_m",
-        1.0,
-        Inclusive(0.0),
-        Inclusive(1e15),
-    ),
+    load: quantity("load on the shaft", "shaft.load_n", 1.0, Inclusive(-1e9), Inclusive(1e9)),
+    mass: quantity("shaft mass", "shaft.mass_kg", 1.0, Inclusive(1e-9), Inclusive(1e9)),
+    damping: quantity("shaft damping", "shaft.damping_n_s_m", 1.0, Inclusive(0.0), Inclusive(1e12)),
+    stiffness: quantity("shaft stiffness", "shaft.stiffness_n_m", 1.0, Inclusive(0.0), Inclusive(1e15)),
 };
 pub(super) const HOUSING: RingQuantities = RingQuantities {
-    load: quantity(
-        "load on the housing",
-        "housing.load_n",
-        1.0,
-        Inclusive(-1e9),
-        Inclusive(1e9),
-    ),
-    mass: quantity(
-        "housing mass",
-        "housing.mass_kg",
-        1.0,
-        Inclusive(1e-9),
-        Inclusive(1e9),
-    ),
-    damping: quantity(
-        "housing damping",
-        "housing.damping_n_s_m",
-        1.0,
-        Inclusive(0.0),
-        Inclusive(1e12),
-    ),
-    stiffness: quantity(
-        "housing stiffness",
-        "housing.stiffness_n_m",
-        1.0,
-        Inclusive(0.0),
-        Inclusive(1e15),
-    ),
+    load: quantity("load on the housing", "housing.load_n", 1.0, Inclusive(-1e9), Inclusive(1e9)),
+    mass: quantity("housing mass", "housing.mass_kg", 1.0, Inclusive(1e-9), Inclusive(1e9)),
+    damping: quantity("housing damping", "housing.damping_n_s_m", 1.0, Inclusive(0.0), Inclusive(1e12)),
+    stiffness: quantity("housing stiffness", "housing.stiffness_n_m", 1.0, Inclusive(0.0), Inclusive(1e15)),
 };
 /// 10 kHz are 600 000 rev/min: a steel ring of any size bursts before.
-pub(super) const SPEED: Quantity = quantity(
-    "shaft speed",
-    "shaft.speed_hz",
-    HZ,
-    Inclusive(-1e4),
-    Inclusive(1e4),
-);
-pub(super) const SENSOR_MASS: Quantity = quantity(
-    "sensor mass",
-    "sensor.mass_kg",
-    1.0,
-    Inclusive(1e-9),
-    Inclusive(1e9),
-);
-pub(super) const SENSOR_STIFFNESS: Quantity = quantity(
-    "sensor stiffness",
-    "sensor.stiffness_n_m",
-    1.0,
-    Exclusive(0.0),
-    Inclusive(1e15),
-);
-pub(super) const SENSOR_DAMPING: Quantity = quantity(
-    "sensor damping",
-    "sensor.damping_n_s_m",
-    1.0,
-    Inclusive(0.0),
-    Inclusive(1e12),
-);
-pub(super) const TOLERANCE: Quantity = quantity(
-    "tolerance",
-    "solver.tolerance",
-    1.0,
-    Inclusive(1e-12),
-    Inclusive(0.1),
-);
-pub(super) const RECORDER_RATE: Quantity = quantity(
-    "recorder rate",
-    "recorder.rate_hz",
-    1.0,
-    Exclusive(0.0),
-    Inclusive(1e7),
-);
-pub(super) const STOP: Quantity = quantity(
-    "stop time",
-    "experiment.stop_s",
-    1.0,
-    Exclusive(0.0),
-    Inclusive(1e9),
-);
-pub(super) const STEP: Quantity = quantity(
-    "communication step",
-    "experiment.step_s",
-    1.0,
-    Exclusive(0.0),
-    Inclusive(1e9),
-);
+pub(super) const SPEED: Quantity = quantity("shaft speed", "shaft.speed_hz", HZ, Inclusive(-1e4), Inclusive(1e4));
+pub(super) const SENSOR_MASS: Quantity =
+    quantity("sensor mass", "sensor.mass_kg", 1.0, Inclusive(1e-9), Inclusive(1e9));
+pub(super) const SENSOR_STIFFNESS: Quantity =
+    quantity("sensor stiffness", "sensor.stiffness_n_m", 1.0, Exclusive(0.0), Inclusive(1e15));
+pub(super) const SENSOR_DAMPING: Quantity =
+    quantity("sensor damping", "sensor.damping_n_s_m", 1.0, Inclusive(0.0), Inclusive(1e12));
+pub(super) const TOLERANCE: Quantity = quantity("tolerance", "solver.tolerance", 1.0, Inclusive(1e-12), Inclusive(0.1));
+pub(super) const RECORDER_RATE: Quantity =
+    quantity("recorder rate", "recorder.rate_hz", 1.0, Exclusive(0.0), Inclusive(1e7));
+pub(super) const STOP: Quantity = quantity("stop time", "experiment.stop_s", 1.0, Exclusive(0.0), Inclusive(1e9));
+pub(super) const STEP: Quantity =
+    quantity("communication step", "experiment.step_s", 1.0, Exclusive(0.0), Inclusive(1e9));

@@ -69,11 +69,8 @@ impl Simulation {
     /// Sets up the scene. `profile` is the text of the defect's profile file, when the scene names one.
     pub fn new(scene: Scene, profile: Option<&str>) -> Result<Self, SimulationError> {
         scene.check()?;
-        let surface = scene
-            .defect
-            .as_ref()
-            .map(|defect| Surface::load(&defect.shape, profile, &scene.bearing))
-            .transpose()?;
+        let surface =
+            scene.defect.as_ref().map(|defect| Surface::load(&defect.shape, profile, &scene.bearing)).transpose()?;
         let (table, quantities): (Vec<_>, Vec<_>) = table::rows(&scene).into_iter().unzip();
         let (values, integers) = setup::start_values(&table);
         let model = setup::build_model(&scene, surface.as_ref())?;

@@ -12,14 +12,7 @@ impl Simulation {
         }
         let drive = self.drive(false);
         let progress = &self.state.progress;
-        self.model.derivative(
-            &drive,
-            0.0,
-            &progress.cells,
-            &progress.state,
-            &mut self.derivative,
-            &mut self.forces,
-        );
+        self.model.derivative(&drive, 0.0, &progress.cells, &progress.state, &mut self.derivative, &mut self.forces);
         let shaft = self.model.shaft_state(&drive, 0.0, &progress.state);
         let housing = self.model.housing_state(&drive, 0.0, &progress.state);
         let acceleration = [
@@ -82,8 +75,7 @@ impl Simulation {
             let shaft = self.model.shaft_state(&drive, 0.0, &progress.state);
             let housing = self.model.housing_state(&drive, 0.0, &progress.state);
             let offset = [0, 1].map(|a| housing.position[a] - shaft.position[a]);
-            let jacobian =
-                self.model.ring_jacobian(&progress.state, &progress.cells, offset, drive.cage_angle(0.0));
+            let jacobian = self.model.ring_jacobian(&progress.state, &progress.cells, offset, drive.cage_angle(0.0));
             self.stiffness = [0, 1].map(|a| [0, 1].map(|b| -jacobian[a][b]));
             self.stiffness_is_stale = false;
         }

@@ -337,7 +337,14 @@ impl Stepper {
         after
     }
 
-    fn differs_at(&mut self, model: &Model, drive: &Drive, (from, h): (f64, f64), share: f64, progress: &Progress) -> bool {
+    fn differs_at(
+        &mut self,
+        model: &Model,
+        drive: &Drive,
+        (from, h): (f64, f64),
+        share: f64,
+        progress: &Progress,
+    ) -> bool {
         self.method.dense(&progress.state, h, share, &mut self.dense);
         let tau = from + share * h;
         model.derivative(drive, tau, &progress.cells, &self.dense, &mut self.scratch, &mut self.forces);
@@ -374,7 +381,10 @@ fn next_knot(model: &Model, drive: &Drive, tau: f64, end: f64, cells: &[u32]) ->
             let beyond_down = if i == 0 { SMOOTH } else { cell - 1 };
             ((knots[i + 1] - angle).max(0.0), beyond_up, (angle - knots[i]).max(0.0), beyond_down)
         };
-        let passages = [(first_passage(speed, acceleration, up), cell_up), (first_passage(-speed, -acceleration, down), cell_down)];
+        let passages = [
+            (first_passage(speed, acceleration, up), cell_up),
+            (first_passage(-speed, -acceleration, down), cell_down),
+        ];
         for (wait, cell) in passages {
             let at = tau + wait;
             if at <= end && earliest.is_none_or(|e| at < e.tau) {

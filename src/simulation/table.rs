@@ -227,6 +227,7 @@ impl Builder<'_> {
             RingName::Shaft => ("shaft", "inner ring"),
             RingName::Housing => ("housing", "outer ring"),
         };
+        let motion = self.motion(ring);
         let mut pair = |suffix: &str, text: &str, quantity: fn(RingName, usize) -> Q, unit: Unit, nominal: f64| {
             for (axis, letter) in AXES.iter().enumerate() {
                 let place = suffix.replace('*', letter);
@@ -238,10 +239,6 @@ impl Builder<'_> {
                     nominal,
                 );
             }
-        };
-        let motion = match ring {
-            RingName::Shaft => self.scene.shaft.motion,
-            RingName::Housing => self.scene.housing.motion,
         };
         if motion == Motion::Internal {
             pair("*", "Position of", Q::Position, Unit::Metre, 1e-5);
@@ -285,11 +282,7 @@ impl Builder<'_> {
         self.push(
             "contact.law",
             "Law of the outer contact near the defect",
-            Kind::Enumeration {
-                type_name: "ContactLaw",
-                items: CONTACT_LAWS,
-                start: scene.contact.law as i32 + 1,
-            },
+            Kind::Enumeration { type_name: "ContactLaw", items: CONTACT_LAWS, start: scene.contact.law as i32 + 1 },
             (Causality::Parameter, Variability::Fixed),
             Q::ContactLaw,
         );
@@ -356,8 +349,7 @@ impl Builder<'_> {
     }
 
     fn input(&mut self, name: &str, text: &str, quantity: Quantity, unit: Unit, start: f64, range: (f64, f64)) {
-        let kind =
-            Kind::Real { unit, start: Some(start), min: Some(-range.0), max: Some(range.0), nominal: range.1 };
+        let kind = Kind::Real { unit, start: Some(start), min: Some(-range.0), max: Some(range.0), nominal: range.1 };
         self.push(name, text, kind, (Causality::Input, Variability::Continuous), quantity);
     }
 
@@ -409,20 +401,19 @@ impl Builder<'_> {
             .map(|(_, quantity)| *quantity)
             .collect();
         let defect = self.scene.defect.is_some();
-        let shaft_moves = self.motion(RingName::Shaft);
         let sensor_follows_input = self.motion(RingName::Housing) == Motion::Host;
         for (variable, quantity) in &mut self.rows {
             if variable.causality != Causality::Output {
                 continue;
             }
-            let follows = |input: Quantity| follows(*quantity, input, defect, shaft_moves, sensor_follows_input);
+            let follows = |input: Quantity| follows(*quantity, input, defect, sensor_follows_input);
             variable.depends_on = (0..inputs.len()).filter(|&i| follows(inputs[i])).map(|i| i as u32).collect();
         }
     }
 }
 
 /// Whether an output follows an input at the same instant.
-fn follows(output: Quantity, input: Quantity, defect: bool, shaft: Motion, sensor_follows_input: bool) -> bool {
+fn follows(output: Quantity, input: Quantity, defect: bool, sensor_follows_input: bool) -> bool {
     use RingName::{Housing, Shaft};
     let place = matches!(input, Q::Position(..));
     let pace = matches!(input, Q::Velocity(..));
@@ -431,23 +422,18 @@ fn follows(output: Quantity, input: Quantity, defect: bool, shaft: Motion, senso
         // Inner contacts see both rings, and the cage speed through the rate of approach.
         Q::Force(Shaft, _) | Q::ElementInnerForce(_) => place || pace || speed,
         // Outer contacts see the path, which is measured from the outer ring, and its rate.
-        Q::Force(Housing, _) | Q::ElementOuterForce(_) => {
-            matches!(input, Q::Velocity(Housing, _)) || (defect && speed)
-        }
+        Q::Force(Housing, _) | Q::ElementOuterForce(_) => matches!(input, Q::Velocity(Housing, _)) || (defect && speed),
         Q::Acceleration(Shaft, axis) => place || pace || speed || input == Q::Load(Shaft, axis),
         Q::Acceleration(Housing, axis) => {
             matches!(input, Q::Velocity(Housing, _)) || (defect && speed) || input == Q::Load(Housing, axis)
         }
         Q::Stiffness(..) => place,
-        Q::SensorAcceleration => sensor_follows_input && matches!(input, Q::Position(Housing, 1) | Q::Velocity(Housing, 1)),
+        Q::SensorAcceleration => {
+            sensor_follows_input && matches!(input, Q::Position(Housing, 1) | Q::Velocity(Housing, 1))
+        }
         Q::CageSpeed => speed,
         // Tangential parts of the inner contacts, and the elements' inertia as the outer ring accelerates.
-        Q::CageTorque => {
-            place || pace || speed || matches!(input, Q::Acceleration(Housing, _) | Q::Load(Housing, _))
-        }
-        _ => {
-            let _ = shaft;
-            false
-        }
+        Q::CageTorque => place || pace || speed || matches!(input, Q::Acceleration(Housing, _) | Q::Load(Housing, _)),
+        _ => false,
     }
 }

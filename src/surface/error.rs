@@ -10,9 +10,7 @@ pub enum SurfaceError {
         name: String,
     },
     /// Nothing but comments and blank lines.
-    #[error(
-        "defect profile: the file is empty, it must begin with a header such as arc_mm,depth_um"
-    )]
+    #[error("defect profile: the file is empty, it must begin with a header such as arc_mm,depth_um")]
     Empty,
     /// A column that is needed is not in the header.
     #[error("defect profile, line {line}: column {column} is missing, the header is \"{header}\"")]
@@ -63,9 +61,7 @@ pub enum SurfaceError {
         text: String,
     },
     /// NaN or an infinity.
-    #[error(
-        "defect profile, line {line}: {column} is {value}, it must be finite: fill gaps of the measurement before"
-    )]
+    #[error("defect profile, line {line}: {column} is {value}, it must be finite: fill gaps of the measurement before")]
     NotFinite {
         /// The line.
         line: usize,
@@ -103,9 +99,7 @@ pub enum SurfaceError {
         why: &'static str,
     },
     /// A topography that gives one place twice.
-    #[error(
-        "defect profile, line {line}: the place arc_mm = {arc_mm}, axial_mm = {axial_mm} is given a second time"
-    )]
+    #[error("defect profile, line {line}: the place arc_mm = {arc_mm}, axial_mm = {axial_mm} is given a second time")]
     RepeatedPlace {
         /// The line.
         line: usize,

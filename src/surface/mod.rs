@@ -33,17 +33,9 @@ impl Surface {
     ///
     /// # Errors
     /// A file that is missing, cannot be read, is longer than the raceway or deeper than an element's radius.
-    pub fn load(
-        shape: &DefectShape,
-        profile_text: Option<&str>,
-        bearing: &Bearing,
-    ) -> Result<Self, SurfaceError> {
+    pub fn load(shape: &DefectShape, profile_text: Option<&str>, bearing: &Bearing) -> Result<Self, SurfaceError> {
         let name = match shape {
-            DefectShape::Spall {
-                length,
-                depth,
-                edge_slope,
-            } => {
+            DefectShape::Spall { length, depth, edge_slope } => {
                 return Ok(Self::Profile(Profile::spall(*length, *depth, *edge_slope)));
             }
             DefectShape::Profile(name) => name,
@@ -54,10 +46,7 @@ impl Surface {
         } else {
             Self::Profile(Profile::from_csv(text)?)
         };
-        surface.check_fits(
-            TAU * bearing.outer_raceway_radius(),
-            bearing.element_diameter / 2.0,
-        )?;
+        surface.check_fits(TAU * bearing.outer_raceway_radius(), bearing.element_diameter / 2.0)?;
         Ok(surface)
     }
 
@@ -89,10 +78,7 @@ impl Surface {
     fn check_fits(&self, circumference: f64, element_radius: f64) -> Result<(), SurfaceError> {
         let (first, last) = self.extent();
         if last - first >= circumference {
-            return Err(SurfaceError::TooLong {
-                length_mm: (last - first) * 1e3,
-                limit_mm: circumference * 1e3,
-            });
+            return Err(SurfaceError::TooLong { length_mm: (last - first) * 1e3, limit_mm: circumference * 1e3 });
         }
         let (arc, depth) = match self {
             Self::Profile(profile) => profile.farthest(),

@@ -22,11 +22,7 @@ impl Profile {
         let half = length / 2.0;
         let run = depth / libm::tan(edge_slope);
         // π/2 is not a number of the machine: its tangent is some 1e16, and may be negative after a conversion from degrees.
-        let run = if run < 1e-9 * depth {
-            0.0
-        } else {
-            run.min(half)
-        };
+        let run = if run < 1e-9 * depth { 0.0 } else { run.min(half) };
         let mut points = vec![(-half, 0.0), (-half + run, depth)];
         if run < half {
             points.push((half - run, depth));
@@ -41,10 +37,7 @@ impl Profile {
     /// Fewer than two points, a value that is not finite, an arc below the one before, three points at one arc.
     pub fn from_points(points: Vec<(f64, f64)>) -> Result<Self, SurfaceError> {
         if points.len() < 2 {
-            return Err(SurfaceError::TooFewPoints {
-                found: points.len(),
-                column: "arc_mm",
-            });
+            return Err(SurfaceError::TooFewPoints { found: points.len(), column: "arc_mm" });
         }
         let wrong = |index, why| Err(SurfaceError::Points { index, why });
         for (index, &(arc, depth)) in points.iter().enumerate() {
@@ -79,10 +72,7 @@ impl Profile {
 
     /// Arcs [m], ascending, at which the depth jumps.
     pub fn edges(&self) -> Vec<f64> {
-        let jumps = self
-            .points
-            .windows(2)
-            .filter(|pair| pair[0].0 == pair[1].0 && pair[0].1 != pair[1].1);
+        let jumps = self.points.windows(2).filter(|pair| pair[0].0 == pair[1].0 && pair[0].1 != pair[1].1);
         jumps.map(|pair| pair[0].0).collect()
     }
 
@@ -112,10 +102,7 @@ impl Profile {
             return self.depth_at(from);
         }
         // The segment that holds `from` begins one point before the first point beyond it.
-        let first = self
-            .points
-            .partition_point(|&(s, _)| s <= from)
-            .saturating_sub(1);
+        let first = self.points.partition_point(|&(s, _)| s <= from).saturating_sub(1);
         let mut area = 0.0;
         for pair in self.points[first..].windows(2) {
             let ((s0, h0), (s1, h1)) = (pair[0], pair[1]);

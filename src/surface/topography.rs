@@ -44,17 +44,11 @@ impl Topography {
             row * axials.len() + axials.partition_point(|&value| value < axial)
         };
         if depths.is_empty() {
-            let mut taken: Vec<usize> = rows
-                .iter()
-                .map(|row| place(row.values[0], row.values[1]))
-                .collect();
+            let mut taken: Vec<usize> = rows.iter().map(|row| place(row.values[0], row.values[1])).collect();
             taken.sort_unstable();
             taken.dedup();
-            let hole = taken
-                .iter()
-                .enumerate()
-                .find(|(index, place)| index != *place)
-                .map_or(taken.len(), |(index, _)| index);
+            let hole =
+                taken.iter().enumerate().find(|(index, place)| index != *place).map_or(taken.len(), |(index, _)| index);
             return Err(SurfaceError::Hole {
                 arc_mm: arcs[hole / axials.len()],
                 axial_mm: axials[hole % axials.len()],
@@ -68,11 +62,7 @@ impl Topography {
             let [arc_mm, axial_mm, depth_um] = row.values;
             let depth = &mut depths[place(arc_mm, axial_mm)];
             if !depth.is_nan() {
-                return Err(SurfaceError::RepeatedPlace {
-                    line: row.line,
-                    arc_mm,
-                    axial_mm,
-                });
+                return Err(SurfaceError::RepeatedPlace { line: row.line, arc_mm, axial_mm });
             }
             *depth = depth_um / 1e6;
         }
@@ -98,20 +88,14 @@ impl Topography {
     pub fn edges(&self) -> Vec<f64> {
         let (first, last) = self.extent();
         let width = self.axials.len();
-        let borders = [
-            (first, &self.depths[..width]),
-            (last, &self.depths[self.depths.len() - width..]),
-        ];
-        let jumps = borders
-            .into_iter()
-            .filter(|(_, depths)| depths.iter().any(|&depth| depth != 0.0));
+        let borders = [(first, &self.depths[..width]), (last, &self.depths[self.depths.len() - width..])];
+        let jumps = borders.into_iter().filter(|(_, depths)| depths.iter().any(|&depth| depth != 0.0));
         jumps.map(|(arc, _)| arc).collect()
     }
 
     /// Depth [m] at an arc and an axial coordinate [m]; on the border the depth of the patch.
     pub fn depth_at(&self, arc: f64, axial: f64) -> f64 {
-        let (Some((i, p)), Some((j, q))) = (locate(&self.arcs, arc), locate(&self.axials, axial))
-        else {
+        let (Some((i, p)), Some((j, q))) = (locate(&self.arcs, arc), locate(&self.axials, axial)) else {
             return 0.0;
         };
         let h = |i: usize, j: usize| self.depths[i * self.axials.len() + j];
@@ -126,10 +110,7 @@ impl Topography {
         let mut volume = 0.0;
         for i in rows {
             let row = &self.depths[i * self.axials.len()..][..self.axials.len()];
-            let line: f64 = columns
-                .clone()
-                .map(|j| hat_integral(&self.axials, j, axial) * row[j])
-                .sum();
+            let line: f64 = columns.clone().map(|j| hat_integral(&self.axials, j, axial) * row[j]).sum();
             volume += hat_integral(&self.arcs, i, arc) * line;
         }
         volume / ((arc[1] - arc[0]) * (axial[1] - axial[0]))
@@ -137,12 +118,7 @@ impl Topography {
 
     /// The profile along the arc at an axial coordinate [m].
     pub fn profile_at(&self, axial: f64) -> Profile {
-        Profile::closed(
-            self.arcs
-                .iter()
-                .map(|&arc| (arc, self.depth_at(arc, axial)))
-                .collect(),
-        )
+        Profile::closed(self.arcs.iter().map(|&arc| (arc, self.depth_at(arc, axial))).collect())
     }
 
     /// Arc and depth [m] of the point farthest from the smooth raceway.
@@ -158,18 +134,12 @@ impl Topography {
 }
 
 /// Distinct coordinates in ascending order.
-fn grid_lines(
-    values: impl Iterator<Item = f64>,
-    column: &'static str,
-) -> Result<Vec<f64>, SurfaceError> {
+fn grid_lines(values: impl Iterator<Item = f64>, column: &'static str) -> Result<Vec<f64>, SurfaceError> {
     let mut lines: Vec<f64> = values.collect();
     lines.sort_unstable_by(f64::total_cmp);
     lines.dedup();
     if lines.len() < 2 {
-        return Err(SurfaceError::TooFewPoints {
-            found: lines.len(),
-            column,
-        });
+        return Err(SurfaceError::TooFewPoints { found: lines.len(), column });
     }
     Ok(lines)
 }
@@ -180,21 +150,13 @@ fn locate(lines: &[f64], value: f64) -> Option<(usize, f64)> {
     if !(lines[0]..=lines[last]).contains(&value) {
         return None;
     }
-    let index = lines
-        .partition_point(|&line| line <= value)
-        .saturating_sub(1)
-        .min(last - 1);
-    Some((
-        index,
-        (value - lines[index]) / (lines[index + 1] - lines[index]),
-    ))
+    let index = lines.partition_point(|&line| line <= value).saturating_sub(1).min(last - 1);
+    Some((index, (value - lines[index]) / (lines[index + 1] - lines[index])))
 }
 
 /// Grid lines whose hats reach into the range.
 fn touched(lines: &[f64], range: [f64; 2]) -> std::ops::Range<usize> {
-    let first = lines
-        .partition_point(|&line| line <= range[0])
-        .saturating_sub(1);
+    let first = lines.partition_point(|&line| line <= range[0]).saturating_sub(1);
     let end = lines.partition_point(|&line| line < range[1]);
     first..(end + 1).min(lines.len())
 }
@@ -202,11 +164,7 @@ fn touched(lines: &[f64], range: [f64; 2]) -> std::ops::Range<usize> {
 /// Integral over the range of the hat function of one grid line: 1 there, 0 at its neighbours.
 fn hat_integral(lines: &[f64], index: usize, range: [f64; 2]) -> f64 {
     let side = |peak: f64, foot: f64| {
-        let (low, high) = if peak < foot {
-            (peak, foot)
-        } else {
-            (foot, peak)
-        };
+        let (low, high) = if peak < foot { (peak, foot) } else { (foot, peak) };
         let (a, b) = (low.max(range[0]), high.min(range[1]));
         if b <= a {
             return 0.0;

@@ -20,20 +20,13 @@ impl Profile {
     pub fn from_csv(text: &str) -> Result<Self, SurfaceError> {
         let rows = csv::read(text, [ARC, DEPTH])?;
         let [Some(first), Some(last)] = [rows.first(), rows.last()] else {
-            return Err(SurfaceError::TooFewPoints {
-                found: 0,
-                column: ARC,
-            });
+            return Err(SurfaceError::TooFewPoints { found: 0, column: ARC });
         };
         let middle = 0.5 * (first.values[0] + last.values[0]);
         for pair in rows.windows(2) {
             let (previous_mm, arc_mm) = (pair[0].values[0], pair[1].values[0]);
             if arc_mm <= previous_mm {
-                return Err(SurfaceError::NotAscending {
-                    line: pair[1].line,
-                    arc_mm,
-                    previous_mm,
-                });
+                return Err(SurfaceError::NotAscending { line: pair[1].line, arc_mm, previous_mm });
             }
         }
         let point = |row: &csv::Row<2>| ((row.values[0] - middle) / 1e3, row.values[1] / 1e6);
