@@ -213,9 +213,7 @@ impl Model {
 
             let mut outer_rate = path_rate;
             let (mut approach, mut radial, mut tangential) = (u, 1.0, 0.0);
-            if cells[j] != SMOOTH
-                && let Some(near) = self.near_defect(j, cells[j], u, cage_angle, rho)
-            {
+            if let Some(near) = self.near_defect(j, cells[j], u, cage_angle, rho) {
                 outer_rate = near.by_path * path_rate + near.by_angle * omega;
                 (approach, radial, tangential) = (near.value, near.radial, near.tangential);
                 forces.defect_lookups += 1;
@@ -235,9 +233,12 @@ impl Model {
         }
     }
 
-    /// Approach of element `j` to the outer raceway in a cell of the defect.
+    /// Approach of element `j` to the outer raceway in a cell of the defect; `None` on the smooth raceway.
     #[inline]
     pub(super) fn near_defect(&self, j: usize, cell: u32, u: f64, cage_angle: f64, rho: f64) -> Option<OuterApproach> {
+        if cell == SMOOTH {
+            return None;
+        }
         let (near, centre) = self.defect.as_ref()?;
         Some(near.approach(cell as usize, u, self.angle_from_defect(j, cage_angle, *centre), rho))
     }
