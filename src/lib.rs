@@ -4,6 +4,9 @@
 //! `numerics → scene → geometry → surface → contact → dynamics → simulation → fmi2`.
 //! `analysis` is a leaf: it may import everything but `fmi2`, and nothing imports it.
 
+// Units in brackets, as in `[m]`, are no links.
+#![allow(rustdoc::broken_intra_doc_links)]
+
 pub mod analysis;
 pub mod contact;
 pub mod dynamics;
