@@ -197,6 +197,13 @@ impl Roller {
         }
         // Outwards from the nearest vertex, until even the shallowest point there is too far to be touched.
         let nearest = self.vertices.partition_point(|v| v.0 < angle);
+        // The straight piece above the centre first: its ends may be far away.
+        if let Some(below) = nearest.checked_sub(1)
+            && let Some(path) = self.stretch(below, angle)
+            && path < best.0
+        {
+            best = (path, Feature::Stretch(below));
+        }
         let mut consider = |index: usize| -> bool {
             let (phi, radius) = self.vertices[index];
             if self.lower_bound(phi - angle) > best.0 {
