@@ -1,0 +1,83 @@
+//! The exported functions that give and take derivatives.
+
+#![allow(non_snake_case)]
+
+use super::arguments::{array, array_mut, disjoint};
+use super::boundary;
+use super::state;
+use super::types::{Component, Integer, Real, Status, ValueReference};
+
+/// `fmi2GetDirectionalDerivative`: J·`dvKnown`, where J holds the partial derivatives of the unknowns by the knowns.
+///
+/// # Safety
+/// Pointers are null or point to `nUnknown` and `nKnown` elements, as their names say.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
+    c: Component,
+    vUnknown_ref: *const ValueReference,
+    nUnknown: usize,
+    vKnown_ref: *const ValueReference,
+    nKnown: usize,
+    dvKnown: *const Real,
+    dvUnknown: *mut Real,
+) -> Status {
+    boundary::call(c, &state::GET_DIRECTIONAL_DERIVATIVE, |instance| {
+        disjoint(vUnknown_ref, nUnknown, dvUnknown, nUnknown)?;
+        disjoint(vKnown_ref, nKnown, dvUnknown, nUnknown)?;
+        disjoint(dvKnown, nKnown, dvUnknown, nUnknown)?;
+        // SAFETY: this function's contract; null, misaligned and overlapping arrays are refused.
+        let (unknowns, knowns, seed, values) = unsafe {
+            (
+                array("vUnknown_ref", vUnknown_ref, nUnknown)?,
+                array("vKnown_ref", vKnown_ref, nKnown)?,
+                array("dvKnown", dvKnown, nKnown)?,
+                array_mut("dvUnknown", dvUnknown, nUnknown)?,
+            )
+        };
+        instance.simulation.directional_derivative(unknowns, knowns, seed, values)?;
+        instance.finite(unknowns, values)
+    })
+}
+
+/// `fmi2SetRealInputDerivatives`: derivatives of inputs by time, valid through the next step.
+///
+/// # Safety
+/// Pointers are null or point to `nvr` elements.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
+    c: Component,
+    vr: *const ValueReference,
+    nvr: usize,
+    order: *const Integer,
+    value: *const Real,
+) -> Status {
+    boundary::call(c, &state::SET_REAL_INPUT_DERIVATIVES, |instance| {
+        // SAFETY: this function's contract; null and misaligned arrays are refused.
+        let (references, orders, values) =
+            unsafe { (array("vr", vr, nvr)?, array("order", order, nvr)?, array("value", value, nvr)?) };
+        Ok(instance.simulation.set_input_derivatives(references, orders, values)?)
+    })
+}
+
+/// `fmi2GetRealOutputDerivatives`: derivatives of outputs by time at the communication point.
+///
+/// # Safety
+/// Pointers are null or point to `nvr` elements.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
+    c: Component,
+    vr: *const ValueReference,
+    nvr: usize,
+    order: *const Integer,
+    value: *mut Real,
+) -> Status {
+    boundary::call(c, &state::GET_REAL_OUTPUT_DERIVATIVES, |instance| {
+        disjoint(vr, nvr, value, nvr)?;
+        disjoint(order, nvr, value, nvr)?;
+        // SAFETY: this function's contract; null, misaligned and overlapping arrays are refused.
+        let (references, orders, values) =
+            unsafe { (array("vr", vr, nvr)?, array("order", order, nvr)?, array_mut("value", value, nvr)?) };
+        instance.simulation.output_derivatives(references, orders, values)?;
+        instance.finite(references, values)
+    })
+}

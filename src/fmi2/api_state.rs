@@ -1,0 +1,114 @@
+//! The exported functions that save and restore the state of an instance.
+
+#![allow(non_snake_case)]
+
+use std::ptr;
+
+use super::arguments::{array, array_mut, place, store};
+use super::blob;
+use super::boundary;
+use super::failure::Failure;
+use super::state;
+use super::types::{Byte, Component, FmuState, Status};
+
+/// `fmi2GetFMUstate`: saves the state; over an earlier one if `*FMUstate` is not NULL.
+///
+/// # Safety
+/// `FMUstate` is null or points to a handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetFMUstate(c: Component, FMUstate: *mut FmuState) -> Status {
+    boundary::call(c, &state::GET_FMU_STATE, |instance| {
+        // SAFETY: this function's contract; null and misaligned pointers are refused. The handle itself may be any value.
+        let handle = unsafe { place("FMUstate", FMUstate)? };
+        let snapshot = instance.save();
+        *handle = instance.snapshots.put(*handle, snapshot)?;
+        Ok(())
+    })
+}
+
+/// `fmi2SetFMUstate`: puts a saved state back, mode and time included.
+///
+/// # Safety
+/// `c` and `FMUstate` may be any value.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetFMUstate(c: Component, FMUstate: FmuState) -> Status {
+    boundary::call(c, &state::SET_FMU_STATE, |instance| instance.restore(FMUstate))
+}
+
+/// `fmi2FreeFMUstate`: frees a saved state and sets its handle to NULL. NULL is ignored.
+///
+/// # Safety
+/// `FMUstate` is null or points to a handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2FreeFMUstate(c: Component, FMUstate: *mut FmuState) -> Status {
+    boundary::call(c, &state::FREE_FMU_STATE, |instance| {
+        if FMUstate.is_null() {
+            return Ok(());
+        }
+        // SAFETY: this function's contract; misaligned pointers are refused. The handle itself may be any value.
+        let handle = unsafe { place("FMUstate", FMUstate)? };
+        if !handle.is_null() {
+            instance.snapshots.free(*handle)?;
+            *handle = ptr::null_mut();
+        }
+        Ok(())
+    })
+}
+
+/// `fmi2SerializedFMUstateSize`: number of bytes of a saved state.
+///
+/// # Safety
+/// `size` is null or points to a number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SerializedFMUstateSize(c: Component, FMUstate: FmuState, size: *mut usize) -> Status {
+    boundary::call(c, &state::SERIALIZED_FMU_STATE_SIZE, |instance| {
+        let length = blob::encode(instance.snapshots.get(FMUstate)?, &instance.model.guid).len();
+        // SAFETY: this function's contract; null and misaligned pointers are refused.
+        unsafe { store("size", size, length) }
+    })
+}
+
+/// `fmi2SerializeFMUstate`: a saved state as bytes; `size` must be the one that `fmi2SerializedFMUstateSize` gives.
+///
+/// # Safety
+/// `serializedState` is null or points to `size` bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SerializeFMUstate(
+    c: Component,
+    FMUstate: FmuState,
+    serializedState: *mut Byte,
+    size: usize,
+) -> Status {
+    boundary::call(c, &state::SERIALIZE_FMU_STATE, |instance| {
+        let bytes = blob::encode(instance.snapshots.get(FMUstate)?, &instance.model.guid);
+        if size != bytes.len() {
+            return Err(Failure::Size { given: size, needed: bytes.len() });
+        }
+        // SAFETY: this function's contract; null is refused. A byte is valid whatever its bits.
+        let target = unsafe { array_mut("serializedState", serializedState.cast::<u8>(), size)? };
+        target.copy_from_slice(&bytes);
+        Ok(())
+    })
+}
+
+/// `fmi2DeSerializeFMUstate`: a saved state from bytes; over an earlier one if `*FMUstate` is not NULL.
+///
+/// # Safety
+/// `serializedState` is null or points to `size` bytes; `FMUstate` is null or points to a handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
+    c: Component,
+    serializedState: *const Byte,
+    size: usize,
+    FMUstate: *mut FmuState,
+) -> Status {
+    boundary::call(c, &state::DESERIALIZE_FMU_STATE, |instance| {
+        // SAFETY: this function's contract; null and misaligned pointers are refused. The handle itself may be any value.
+        let handle = unsafe { place("FMUstate", FMUstate)? };
+        // SAFETY: as above.
+        let bytes = unsafe { array("serializedState", serializedState.cast::<u8>(), size)? };
+        let snapshot = blob::decode(bytes, &instance.model.guid)?;
+        *handle = instance.snapshots.put(*handle, snapshot)?;
+        Ok(())
+    })
+}

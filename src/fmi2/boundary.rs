@@ -1,0 +1,72 @@
+//! The one border between the host and the model: every function that takes an instance passes through [`call`].
+//!
+//! No panic crosses it. After a panic the instance alone is in error; it can be reset, or a saved state restored, since both
+//! set the simulation up anew. Whoever returns `fmi2Error` leaves the instance in error, as the standard wants it.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use super::failure::Failure;
+use super::handles;
+use super::instance::Instance;
+use super::state::{Function, Mode};
+use super::types::{Component, Status};
+
+/// Runs a function's body on the instance behind a handle, if the instance's mode allows the function.
+#[inline]
+pub(super) fn call<B>(component: Component, function: &'static Function, body: B) -> Status
+where
+    B: FnOnce(&mut Instance) -> Result<(), Failure>,
+{
+    // There is no instance, so there is no logger: the status has to say it all.
+    let Ok(mut instance) = handles::borrow(component) else { return Status::Error };
+    if !function.allowed.contains(instance.mode) {
+        let failure = Failure::OutOfMode { mode: instance.mode, allowed: function.allowed };
+        return fail(&mut instance, function, failure);
+    }
+    match catch_unwind(AssertUnwindSafe(|| body(&mut instance))) {
+        Ok(Ok(())) => Status::Ok,
+        Ok(Err(failure)) => fail(&mut instance, function, failure),
+        Err(payload) => {
+            instance.damaged = true;
+            fail(&mut instance, function, Failure::Panic(words(payload)))
+        }
+    }
+}
+
+/// Logs a failure, and puts the instance into error if the failure is one.
+#[cold]
+#[inline(never)]
+fn fail(instance: &mut Instance, function: &'static Function, failure: Failure) -> Status {
+    let status = failure.status();
+    if status >= Status::Error {
+        instance.mode = Mode::Error;
+    }
+    let logger = &instance.logger;
+    // Formatting is code too: if it panics, the line is lost and the status stands.
+    let logged = catch_unwind(AssertUnwindSafe(|| {
+        logger.line(status, || format!("{}: {failure}.{}", function.name, failure.advice()));
+    }));
+    drop(logged.map_err(words));
+    status
+}
+
+/// Runs code that has no instance yet. `None` if it panics.
+pub(super) fn guard<T>(body: impl FnOnce() -> T) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(body)).map_err(words)
+}
+
+/// What a panic says.
+fn words(payload: Box<dyn Any + Send>) -> String {
+    let words = if let Some(text) = payload.downcast_ref::<&str>() {
+        (*text).to_owned()
+    } else if let Some(text) = payload.downcast_ref::<String>() {
+        text.clone()
+    } else {
+        // Dropping what we do not know could panic once more.
+        std::mem::forget(payload);
+        return "panic of an unknown kind".to_owned();
+    };
+    drop(payload);
+    words
+}

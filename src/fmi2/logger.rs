@@ -1,0 +1,176 @@
+//! The host's logger and the categories of messages.
+//!
+//! A message is passed as the argument of the format `"%s"`, so a per cent sign in it is harmless. Nothing is formatted
+//! while logging is off.
+
+use std::ffi::{CStr, CString};
+
+use super::types::{CallbackFunctions, ComponentEnvironment, LoggerCallback, Status};
+
+/// Category of a message, as named in the model description.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Category {
+    /// Changes of mode.
+    Events = 1,
+    /// Lines that go with `fmi2Warning`.
+    StatusWarning = 2,
+    /// Lines that go with `fmi2Discard`.
+    StatusDiscard = 4,
+    /// Lines that go with `fmi2Error`.
+    StatusError = 8,
+    /// Lines that go with `fmi2Fatal`; there are none.
+    StatusFatal = 16,
+    /// Everything.
+    All = 31,
+}
+
+impl Category {
+    /// All categories, in the order of the model description.
+    pub const LIST: [Category; 6] = [
+        Category::Events,
+        Category::StatusWarning,
+        Category::StatusDiscard,
+        Category::StatusError,
+        Category::StatusFatal,
+        Category::All,
+    ];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        // None of the names holds a byte that is not ASCII.
+        self.c_name().to_str().unwrap_or_default()
+    }
+
+    fn c_name(self) -> &'static CStr {
+        match self {
+            Category::Events => c"logEvents",
+            Category::StatusWarning => c"logStatusWarning",
+            Category::StatusDiscard => c"logStatusDiscard",
+            Category::StatusError => c"logStatusError",
+            Category::StatusFatal => c"logStatusFatal",
+            Category::All => c"logAll",
+        }
+    }
+
+    /// One line for the reader.
+    pub fn description(self) -> &'static str {
+        match self {
+            Category::Events => "Changes of mode",
+            Category::StatusWarning => "Reasons for fmi2Warning",
+            Category::StatusDiscard => "Reasons for fmi2Discard",
+            Category::StatusError => "Reasons for fmi2Error",
+            Category::StatusFatal => "Reasons for fmi2Fatal (none is ever returned)",
+            Category::All => "All messages",
+        }
+    }
+
+    /// The category of lines that go with a status.
+    pub(super) fn of(status: Status) -> Category {
+        match status {
+            Status::Ok | Status::Pending => Category::Events,
+            Status::Warning => Category::StatusWarning,
+            Status::Discard => Category::StatusDiscard,
+            Status::Error => Category::StatusError,
+            Status::Fatal => Category::StatusFatal,
+        }
+    }
+}
+
+/// An instance's way to the host's logger. Copies what it needs of the callbacks and of the instance's name.
+#[derive(Debug)]
+pub(super) struct Logger {
+    callback: LoggerCallback,
+    environment: ComponentEnvironment,
+    instance_name: CString,
+    /// Categories that are switched on, as a sum of [`Category`] values.
+    switched_on: u8,
+}
+
+impl Logger {
+    /// A logger with all categories on or off; `None` when the host gave no callback.
+    pub(super) fn new(callbacks: &CallbackFunctions, instance_name: CString, on: bool) -> Option<Self> {
+        Some(Self {
+            callback: callbacks.logger?,
+            environment: callbacks.component_environment,
+            instance_name,
+            switched_on: if on { Category::All as u8 } else { 0 },
+        })
+    }
+
+    /// Switches all categories off, or on as listed; an empty list means all. Gives the first unknown name.
+    pub(super) fn switch<'a>(&mut self, on: bool, names: &[&'a str]) -> Result<(), &'a str> {
+        self.switched_on = if on && names.is_empty() { Category::All as u8 } else { 0 };
+        let mut result = Ok(());
+        for name in names {
+            match Category::LIST.into_iter().find(|category| category.name() == *name) {
+                Some(category) if on => self.switched_on |= category as u8,
+                Some(_) => {}
+                None => result = result.and(Err(name)),
+            }
+        }
+        result
+    }
+
+    /// Sends a line if its category is on. `text` is called only then.
+    pub(super) fn line(&self, status: Status, text: impl FnOnce() -> String) {
+        let category = Category::of(status);
+        if self.switched_on & category as u8 != 0 {
+            self.send(status, category, text());
+        }
+    }
+
+    /// Sends a line whatever is switched on: for `fmi2Instantiate`, which leaves no instance to switch logging on for.
+    pub(super) fn insist(&self, status: Status, text: String) {
+        self.send(status, Category::of(status), text);
+    }
+
+    /// Panics if the instance's name asks for it: lets a test see what a bug would do to its host.
+    #[cfg(any(test, feature = "panic-on-demand"))]
+    pub(super) fn panic_on_demand(&self) {
+        assert!(self.instance_name.as_c_str() != c"panic on demand", "panic on demand");
+    }
+
+    fn send(&self, status: Status, category: Category, text: String) {
+        let text = c_string(text);
+        // SAFETY: the host promises a callable logger for as long as the instance lives (FMI 2.0, fmi2Instantiate).
+        // All strings end in NUL and outlive the call; the format takes exactly one string.
+        unsafe {
+            (self.callback)(
+                self.environment,
+                self.instance_name.as_ptr(),
+                status,
+                category.c_name().as_ptr(),
+                c"%s".as_ptr(),
+                text.as_ptr(),
+            );
+        }
+    }
+}
+
+/// Text as a C string. A NUL inside, which C could not show, becomes the replacement character.
+pub(super) fn c_string(text: String) -> CString {
+    CString::new(text).unwrap_or_else(|error| {
+        let text = String::from_utf8_lossy(&error.into_vec()).replace('\0', "\u{fffd}");
+        CString::new(text).unwrap_or_default()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_nul_inside_a_message_is_shown_not_cut_off() {
+        assert_eq!(c_string("a\0b".to_owned()).to_str(), Ok("a\u{fffd}b"));
+    }
+
+    #[test]
+    fn every_category_has_its_own_name_and_all_covers_them() {
+        let names: std::collections::BTreeSet<_> = Category::LIST.iter().map(|category| category.name()).collect();
+        assert_eq!(names.len(), Category::LIST.len());
+        for category in Category::LIST {
+            assert_eq!(category as u8 & Category::All as u8, category as u8);
+        }
+    }
+}
