@@ -7,14 +7,11 @@ The host does what a fixed grid cannot: it takes long communication steps while 
 while an element is on the defect.
 """
 
-import shutil
 import sys
 from pathlib import Path
 
-import fmpy
-from fmpy.fmi2 import FMU2Slave
-
 import plotting
+from host import Host
 from plotting import BLUE, GREEN, ORANGE, SKY, VERMILION, np, plt
 
 LONG_STEP, SHORT_STEP = 1e-5, 1e-6  # s; the sensor rings at 15 kHz, contacts at up to 50 kHz
@@ -25,39 +22,6 @@ OVERVIEW = 60e-3  # s
 
 def wrapped(angle):
     return (angle + np.pi) % (2 * np.pi) - np.pi
-
-
-class Host:
-    """One instance of the FMU, and the names of its variables."""
-
-    def __init__(self, fmu):
-        self.description = fmpy.read_model_description(fmu)
-        self.folder = fmpy.extract(fmu)
-        self.reference = {v.name: v.valueReference for v in self.description.modelVariables}
-        self.start = {v.name: float(v.start) for v in self.description.modelVariables if v.start and v.type == "Real"}
-        self.slave = FMU2Slave(
-            guid=self.description.guid,
-            unzipDirectory=self.folder,
-            modelIdentifier=self.description.coSimulation.modelIdentifier,
-            instanceName="demo",
-        )
-        self.slave.instantiate()
-        self.slave.setupExperiment(startTime=0.0)
-        self.slave.enterInitializationMode()
-        self.slave.exitInitializationMode()
-        self.time = 0.0
-
-    def step(self, length):
-        self.slave.doStep(currentCommunicationPoint=self.time, communicationStepSize=length)
-        self.time += length
-
-    def read(self, names):
-        return self.slave.getReal([self.reference[name] for name in names])
-
-    def close(self):
-        self.slave.terminate()
-        self.slave.freeInstance()
-        shutil.rmtree(self.folder, ignore_errors=True)
 
 
 class Raceway:

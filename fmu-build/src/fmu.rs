@@ -28,7 +28,7 @@ pub fn pack(model: &Model, library: &Library) -> Result<Vec<u8>> {
         let file = format!(
             "binaries/{}/{}.{}",
             binary.platform,
-            model.identifier(),
+            model.scene.model_identifier(),
             binary.extension
         );
         archive.add(file, binary.bytes.as_slice())?;

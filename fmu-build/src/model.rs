@@ -34,7 +34,7 @@ impl Model {
     pub fn read(path: &Path) -> Result<Self> {
         let about = || path.display().to_string();
         let scene_text = fs::read_to_string(path).with_context(about)?;
-        let scene = read_scene(&scene_text).with_context(about)?;
+        let scene = Scene::from_toml(&scene_text).with_context(about)?;
         let profile = match scene.defect.as_ref().map(|defect| &defect.shape) {
             Some(DefectShape::Profile(name)) => {
                 let file = path.parent().unwrap_or(Path::new("")).join(name);
@@ -56,16 +56,6 @@ impl Model {
         })
     }
 
-    /// The C-style name of the model in the standard's sense: `Brinell_er16k_tb1` for the scene `er16k-tb1`.
-    pub fn identifier(&self) -> String {
-        let name = self
-            .scene
-            .name
-            .chars()
-            .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
-        "Brinell_".chars().chain(name).collect()
-    }
-
     /// The identity that library and description agree on; it changes with every byte of scene or profile.
     pub fn guid(&self) -> String {
         guid(
@@ -73,10 +63,6 @@ impl Model {
             self.profile.as_ref().map(|profile| profile.text.as_str()),
         )
     }
-}
-
-fn read_scene(_text: &str) -> Result<Scene> {
-    anyhow::bail!("not built yet")
 }
 
 fn guid(_scene: &str, _profile: Option<&str>) -> String {

@@ -84,7 +84,7 @@ pub fn write(model: &Model, capabilities: &Capabilities) -> io::Result<String> {
     xml.element("fmiModelDescription", root, |xml| {
         xml.empty(
             "CoSimulation",
-            co_simulation(&model.identifier(), capabilities),
+            co_simulation(&scene.model_identifier(), capabilities),
         )?;
         unit_definitions(xml, table)?;
         type_definitions(xml, table)?;

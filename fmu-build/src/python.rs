@@ -15,8 +15,9 @@ use anyhow::{Context, Result, bail};
 use crate::project::Project;
 
 const REQUIREMENTS: &str = include_str!("../python/requirements.txt");
-const SCRIPTS: [(&str, &str); 4] = [
+const SCRIPTS: [(&str, &str); 5] = [
     ("demo.py", include_str!("../python/demo.py")),
+    ("host.py", include_str!("../python/host.py")),
     ("plotting.py", include_str!("../python/plotting.py")),
     ("run_figure.py", include_str!("../python/run_figure.py")),
     ("validate.py", include_str!("../python/validate.py")),
