@@ -30,11 +30,7 @@ pub struct Archive {
 
 impl Archive {
     /// Adds a file, or puts it in place of an earlier one of that name.
-    pub fn add(
-        &mut self,
-        name: impl Into<String>,
-        contents: impl Into<Vec<u8>>,
-    ) -> Result<(), ArchiveError> {
+    pub fn add(&mut self, name: impl Into<String>, contents: impl Into<Vec<u8>>) -> Result<(), ArchiveError> {
         let name = name.into();
         let plain = |part: &str| !part.is_empty() && part != "." && part != "..";
         if name.contains(['\\', ':']) || !name.split('/').all(plain) {
@@ -48,11 +44,7 @@ impl Archive {
     pub fn to_bytes(&self) -> Result<Vec<u8>, ArchiveError> {
         let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
         for (name, contents) in &self.files {
-            let mode = if name.starts_with("binaries/") {
-                0o755
-            } else {
-                0o644
-            };
+            let mode = if name.starts_with("binaries/") { 0o755 } else { 0o644 };
             let options = SimpleFileOptions::default()
                 .compression_method(CompressionMethod::Deflated)
                 .compression_level(Some(9))

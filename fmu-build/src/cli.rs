@@ -9,12 +9,7 @@ use crate::{check, demo, fmu, library::Library, model::Model, project::Project, 
 
 /// Rolling bearings with a real surface defect as FMI 2.0 co-simulation units.
 #[derive(Debug, Parser)]
-#[command(
-    name = "cargo fmu",
-    bin_name = "cargo fmu",
-    version,
-    max_term_width = 100
-)]
+#[command(name = "cargo fmu", bin_name = "cargo fmu", version, max_term_width = 100)]
 pub struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -92,11 +87,7 @@ impl Arguments {
         match self.command {
             Command::Build(build) => {
                 // Scenes first: a typing error should not wait for a compiler.
-                let models = build
-                    .scenes
-                    .iter()
-                    .map(|path| Model::read(path))
-                    .collect::<Result<Vec<_>>>()?;
+                let models = build.scenes.iter().map(|path| Model::read(path)).collect::<Result<Vec<_>>>()?;
                 let library = Library::obtain(&project, build.library.library.as_deref())?;
                 let folder = build.output.unwrap_or_else(|| project.target().join("fmu"));
                 for model in &models {
@@ -108,16 +99,12 @@ impl Arguments {
             Command::Run(options) => {
                 let model = Model::read(&options.scene)?;
                 let grid = run::Grid::new(&model.scene.experiment, options.stop, options.step)?;
-                let folder = options
-                    .output
-                    .unwrap_or_else(|| project.target().join("run"));
+                let folder = options.output.unwrap_or_else(|| project.target().join("run"));
                 run::command(&project, model, grid, &folder, !options.no_figure)
             }
             Command::Check(options) => check::command(&project, &options.fmu),
             Command::Demo(options) => {
-                let folder = options
-                    .output
-                    .unwrap_or_else(|| project.target().join("demo"));
+                let folder = options.output.unwrap_or_else(|| project.target().join("demo"));
                 demo::command(&project, options.library.library.as_deref(), &folder)
             }
         }

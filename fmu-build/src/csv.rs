@@ -3,10 +3,7 @@
 use std::io::{self, Write};
 
 /// Writes the header line.
-pub fn header<'a>(
-    out: &mut impl Write,
-    columns: impl Iterator<Item = (&'a str, &'a str)>,
-) -> io::Result<()> {
+pub fn header<'a>(out: &mut impl Write, columns: impl Iterator<Item = (&'a str, &'a str)>) -> io::Result<()> {
     for (index, (name, unit)) in columns.enumerate() {
         let comma = if index == 0 { "" } else { "," };
         write!(out, "{comma}{name} [{unit}]")?;

@@ -75,20 +75,9 @@ fn facts(page: &mut String, scene: &Scene) {
         Damping::HuntCrossley(chi) => format!("Hunt and Crossley, χ = {chi} s/m"),
         Damping::Proportional(tau) => format!("proportional to stiffness, τ = {tau} s"),
     };
-    let defect = match scene
-        .defect
-        .as_ref()
-        .map(|defect| (defect.angle, &defect.shape))
-    {
+    let defect = match scene.defect.as_ref().map(|defect| (defect.angle, &defect.shape)) {
         None => "none".to_owned(),
-        Some((
-            angle,
-            DefectShape::Spall {
-                length,
-                depth,
-                edge_slope,
-            },
-        )) => format!(
+        Some((angle, DefectShape::Spall { length, depth, edge_slope })) => format!(
             "spall at {}, {} mm long, {} µm deep, edges of {}",
             degrees(angle),
             digits(length * 1e3),
@@ -96,11 +85,7 @@ fn facts(page: &mut String, scene: &Scene) {
             degrees(*edge_slope)
         ),
         Some((angle, DefectShape::Profile(file))) => {
-            format!(
-                "measured profile <code>resources/{}</code> at {}",
-                escape(file),
-                degrees(angle)
-            )
+            format!("measured profile <code>resources/{}</code> at {}", escape(file), degrees(angle))
         }
     };
     let mm = |length: f64| format!("{} mm", digits(length * 1e3));
@@ -110,46 +95,21 @@ fn facts(page: &mut String, scene: &Scene) {
         ("Pitch diameter", mm(bearing.pitch_diameter)),
         (
             "Groove conformity, inner and outer",
-            format!(
-                "{}, {}",
-                digits(bearing.conformity_inner),
-                digits(bearing.conformity_outer)
-            ),
+            format!("{}, {}", digits(bearing.conformity_inner), digits(bearing.conformity_outer)),
         ),
-        (
-            "Radial clearance",
-            format!("{} µm", digits(bearing.radial_clearance * 1e6)),
-        ),
+        ("Radial clearance", format!("{} µm", digits(bearing.radial_clearance * 1e6))),
         ("Contact law near the defect", law.to_owned()),
         ("Contact damping", damping),
         ("Defect of the outer raceway", defect),
         ("Shaft (inner ring)", ring(&scene.shaft)),
-        (
-            "Shaft speed at the start",
-            format!("{} Hz", digits(scene.shaft_speed / std::f64::consts::TAU)),
-        ),
+        ("Shaft speed at the start", format!("{} Hz", digits(scene.shaft_speed / std::f64::consts::TAU))),
         ("Housing (outer ring)", ring(&scene.housing)),
-        (
-            "Accelerometer",
-            scene
-                .sensor
-                .map_or("none", |_| "on the housing, along y")
-                .to_owned(),
-        ),
-        (
-            "Default run",
-            format!(
-                "{} s in steps of {} s",
-                scene.experiment.stop, scene.experiment.step
-            ),
-        ),
+        ("Accelerometer", scene.sensor.map_or("none", |_| "on the housing, along y").to_owned()),
+        ("Default run", format!("{} s in steps of {} s", scene.experiment.stop, scene.experiment.step)),
     ];
     page.push_str("<table>\n");
     for (what, value) in rows {
-        line(
-            page,
-            format_args!("<tr><th>{what}</th><td>{value}</td></tr>"),
-        );
+        line(page, format_args!("<tr><th>{what}</th><td>{value}</td></tr>"));
     }
     page.push_str("</table>\n");
 }
@@ -181,10 +141,7 @@ fn coupling(page: &mut String, scene: &Scene) {
 }
 
 fn variables(page: &mut String, table: &[Variable], kind: Causality) {
-    let mut rows = table
-        .iter()
-        .filter(|variable| variable.causality == kind)
-        .peekable();
+    let mut rows = table.iter().filter(|variable| variable.causality == kind).peekable();
     if rows.peek().is_none() {
         return;
     }
@@ -193,11 +150,7 @@ fn variables(page: &mut String, table: &[Variable], kind: Causality) {
         Causality::Parameter => "Parameters, fixed after initialization",
         Causality::Output => "Outputs",
     };
-    let start = if kind == Causality::Output {
-        ""
-    } else {
-        "<th>Start</th>"
-    };
+    let start = if kind == Causality::Output { "" } else { "<th>Start</th>" };
     line(
         page,
         format_args!(
@@ -207,9 +160,7 @@ fn variables(page: &mut String, table: &[Variable], kind: Causality) {
     );
     for variable in rows {
         let (unit, start) = match &variable.kind {
-            Kind::Real { unit, start, .. } => {
-                (units::name(*unit), start.map(|value| format!("{value:?}")))
-            }
+            Kind::Real { unit, start, .. } => (units::name(*unit), start.map(|value| format!("{value:?}"))),
             Kind::Integer => ("", None),
             Kind::Enumeration { items, start, .. } => {
                 let index = usize::try_from(*start - 1).unwrap_or(usize::MAX);

@@ -19,18 +19,10 @@ const LICENSE: &str = "Brinell is licensed under either of\n\n\
 /// Packs a scene and the compiled library.
 pub fn pack(model: &Model, library: &Library) -> Result<Vec<u8>> {
     let mut archive = Archive::default();
-    archive.add(
-        "modelDescription.xml",
-        model_description::write(model, &CAPABILITIES)?,
-    )?;
+    archive.add("modelDescription.xml", model_description::write(model, &CAPABILITIES)?)?;
     archive.add("model.png", ICON)?;
     for binary in library.binaries() {
-        let file = format!(
-            "binaries/{}/{}.{}",
-            binary.platform,
-            model.scene.model_identifier(),
-            binary.extension
-        );
+        let file = format!("binaries/{}/{}.{}", binary.platform, model.scene.model_identifier(), binary.extension);
         archive.add(file, binary.bytes.as_slice())?;
     }
     archive.add("resources/scene.toml", model.scene_text.as_str())?;
@@ -39,14 +31,8 @@ pub fn pack(model: &Model, library: &Library) -> Result<Vec<u8>> {
     }
     archive.add("documentation/index.html", documentation::write(model))?;
     archive.add("documentation/licenses/license.txt", LICENSE)?;
-    archive.add(
-        "documentation/licenses/LICENSE-MIT",
-        include_str!("../../LICENSE-MIT"),
-    )?;
-    archive.add(
-        "documentation/licenses/LICENSE-APACHE",
-        include_str!("../../LICENSE-APACHE"),
-    )?;
+    archive.add("documentation/licenses/LICENSE-MIT", include_str!("../../LICENSE-MIT"))?;
+    archive.add("documentation/licenses/LICENSE-APACHE", include_str!("../../LICENSE-APACHE"))?;
     Ok(archive.to_bytes()?)
 }
 

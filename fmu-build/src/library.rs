@@ -38,13 +38,7 @@ impl Library {
             (None, None) => beside_this_program()?,
         };
         let bytes = fs::read(&path).with_context(|| path.display().to_string())?;
-        Ok(Self {
-            binaries: vec![Binary {
-                platform: platform()?,
-                extension: env::consts::DLL_EXTENSION,
-                bytes,
-            }],
-        })
+        Ok(Self { binaries: vec![Binary { platform: platform()?, extension: env::consts::DLL_EXTENSION, bytes }] })
     }
 
     /// One binary for each platform.
@@ -71,34 +65,17 @@ fn build(source: &Path) -> Result<PathBuf> {
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let output = Command::new(&cargo)
         .current_dir(source)
-        .args([
-            "build",
-            "--lib",
-            "--package",
-            "brinell",
-            "--profile",
-            "fmu-library",
-        ])
+        .args(["build", "--lib", "--package", "brinell", "--profile", "fmu-library"])
         .args(["--locked", "--message-format", "json-render-diagnostics"])
         .stderr(Stdio::inherit())
         .output()
-        .with_context(|| {
-            format!(
-                "cannot start {} to compile the model library",
-                cargo.display()
-            )
-        })?;
+        .with_context(|| format!("cannot start {} to compile the model library", cargo.display()))?;
     if !output.status.success() {
-        bail!(
-            "the model library was not compiled ({}); cargo's messages are above",
-            output.status
-        );
+        bail!("the model library was not compiled ({}); cargo's messages are above", output.status);
     }
     let built = String::from_utf8_lossy(&output.stdout);
-    let found = built
-        .lines()
-        .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
-        .find_map(artifact);
+    let found =
+        built.lines().filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok()).find_map(artifact);
     found.context("cargo built no dynamic library of the package brinell")
 }
 
@@ -107,29 +84,16 @@ fn artifact(message: serde_json::Value) -> Option<PathBuf> {
     if message["reason"] != "compiler-artifact" || message["target"]["name"] != "brinell" {
         return None;
     }
-    let files = message["filenames"]
-        .as_array()?
-        .iter()
-        .filter_map(|file| file.as_str());
-    files.map(PathBuf::from).find(|file| {
-        file.extension()
-            .is_some_and(|e| e == env::consts::DLL_EXTENSION)
-    })
+    let files = message["filenames"].as_array()?.iter().filter_map(|file| file.as_str());
+    files.map(PathBuf::from).find(|file| file.extension().is_some_and(|e| e == env::consts::DLL_EXTENSION))
 }
 
 fn beside_this_program() -> Result<PathBuf> {
     let program = env::current_exe()?;
-    let name = format!(
-        "{}brinell{}",
-        env::consts::DLL_PREFIX,
-        env::consts::DLL_SUFFIX
-    );
+    let name = format!("{}brinell{}", env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX);
     let path = program.with_file_name(name);
     if !path.is_file() {
-        bail!(
-            "no model library: neither Brinell's source nor {} is there; name one with --library",
-            path.display()
-        );
+        bail!("no model library: neither Brinell's source nor {} is there; name one with --library", path.display());
     }
     Ok(path)
 }

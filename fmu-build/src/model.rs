@@ -39,29 +39,18 @@ impl Model {
             Some(DefectShape::Profile(name)) => {
                 let file = path.parent().unwrap_or(Path::new("")).join(name);
                 let text = fs::read_to_string(&file).with_context(|| file.display().to_string())?;
-                Some(Profile {
-                    name: name.clone(),
-                    text,
-                })
+                Some(Profile { name: name.clone(), text })
             }
             _ => None,
         };
         let text = profile.as_ref().map(|profile| profile.text.as_str());
         let simulation = Simulation::new(scene.clone(), text).with_context(about)?;
-        Ok(Self {
-            scene,
-            scene_text,
-            profile,
-            simulation,
-        })
+        Ok(Self { scene, scene_text, profile, simulation })
     }
 
     /// The identity that library and description agree on; it changes with every byte of scene or profile.
     pub fn guid(&self) -> String {
-        guid(
-            &self.scene_text,
-            self.profile.as_ref().map(|profile| profile.text.as_str()),
-        )
+        guid(&self.scene_text, self.profile.as_ref().map(|profile| profile.text.as_str()))
     }
 }
 

@@ -51,10 +51,7 @@ pub const LOG_CATEGORIES: [(&str, &str); 6] = [
     ("logStatusWarning", "What works but may surprise"),
     ("logStatusDiscard", "Calls that were discarded"),
     ("logStatusError", "Calls that failed, each with what to do"),
-    (
-        "logStatusFatal",
-        "Failures after which the instance must not be used",
-    ),
+    ("logStatusFatal", "Failures after which the instance must not be used"),
     ("logAll", "Everything"),
 ];
 
@@ -72,31 +69,19 @@ pub fn write(model: &Model, capabilities: &Capabilities) -> io::Result<String> {
         ("version", env!("CARGO_PKG_VERSION").into()),
         ("copyright", "The Brinell developers".into()),
         ("license", env!("CARGO_PKG_LICENSE").into()),
-        (
-            "generationTool",
-            concat!("Brinell ", env!("CARGO_PKG_VERSION")).into(),
-        ),
+        ("generationTool", concat!("Brinell ", env!("CARGO_PKG_VERSION")).into()),
         ("variableNamingConvention", "structured".into()),
         ("numberOfEventIndicators", "0".into()),
     ];
     let table = model.simulation.table();
     let mut xml = Xml::new()?;
     xml.element("fmiModelDescription", root, |xml| {
-        xml.empty(
-            "CoSimulation",
-            co_simulation(&scene.model_identifier(), capabilities),
-        )?;
+        xml.empty("CoSimulation", co_simulation(&scene.model_identifier(), capabilities))?;
         unit_definitions(xml, table)?;
         type_definitions(xml, table)?;
         xml.element("LogCategories", vec![], |xml| {
             LOG_CATEGORIES.iter().try_for_each(|(name, description)| {
-                xml.empty(
-                    "Category",
-                    vec![
-                        ("name", name.to_string()),
-                        ("description", description.to_string()),
-                    ],
-                )
+                xml.empty("Category", vec![("name", name.to_string()), ("description", description.to_string())])
             })
         })?;
         xml.empty(
@@ -109,9 +94,7 @@ pub fn write(model: &Model, capabilities: &Capabilities) -> io::Result<String> {
             ],
         )?;
         xml.element("ModelVariables", vec![], |xml| {
-            table
-                .iter()
-                .try_for_each(|variable| scalar_variable(xml, variable))
+            table.iter().try_for_each(|variable| scalar_variable(xml, variable))
         })?;
         model_structure(xml, table)
     })?;
@@ -122,41 +105,20 @@ fn co_simulation(identifier: &str, capabilities: &Capabilities) -> Attributes {
     vec![
         ("modelIdentifier", identifier.into()),
         ("needsExecutionTool", false.to_string()),
-        (
-            "canHandleVariableCommunicationStepSize",
-            capabilities.variable_step.to_string(),
-        ),
-        (
-            "canInterpolateInputs",
-            capabilities.interpolates_inputs.to_string(),
-        ),
-        (
-            "maxOutputDerivativeOrder",
-            capabilities.output_derivative_order.to_string(),
-        ),
+        ("canHandleVariableCommunicationStepSize", capabilities.variable_step.to_string()),
+        ("canInterpolateInputs", capabilities.interpolates_inputs.to_string()),
+        ("maxOutputDerivativeOrder", capabilities.output_derivative_order.to_string()),
         ("canRunAsynchronuously", false.to_string()),
         ("canBeInstantiatedOnlyOncePerProcess", false.to_string()),
-        (
-            "canNotUseMemoryManagementFunctions",
-            capabilities.own_memory.to_string(),
-        ),
+        ("canNotUseMemoryManagementFunctions", capabilities.own_memory.to_string()),
         ("canGetAndSetFMUstate", capabilities.state.to_string()),
-        (
-            "canSerializeFMUstate",
-            capabilities.serialized_state.to_string(),
-        ),
-        (
-            "providesDirectionalDerivative",
-            capabilities.directional_derivatives.to_string(),
-        ),
+        ("canSerializeFMUstate", capabilities.serialized_state.to_string()),
+        ("providesDirectionalDerivative", capabilities.directional_derivatives.to_string()),
     ]
 }
 
 fn unit_definitions(xml: &mut Xml, table: &[Variable]) -> io::Result<()> {
-    let used: BTreeSet<Unit> = table
-        .iter()
-        .filter_map(|variable| unit(&variable.kind))
-        .collect();
+    let used: BTreeSet<Unit> = table.iter().filter_map(|variable| unit(&variable.kind)).collect();
     if used.is_empty() {
         return Ok(());
     }
@@ -164,25 +126,13 @@ fn unit_definitions(xml: &mut Xml, table: &[Variable]) -> io::Result<()> {
         used.iter().try_for_each(|&unit| {
             xml.element("Unit", vec![("name", units::name(unit).into())], |xml| {
                 let base = units::base_unit(unit);
-                let exponents = [
-                    ("kg", base.kg),
-                    ("m", base.m),
-                    ("s", base.s),
-                    ("rad", base.rad),
-                ];
-                let written = exponents
-                    .iter()
-                    .filter(|(_, e)| *e != 0)
-                    .map(|(name, e)| (*name, e.to_string()));
+                let exponents = [("kg", base.kg), ("m", base.m), ("s", base.s), ("rad", base.rad)];
+                let written = exponents.iter().filter(|(_, e)| *e != 0).map(|(name, e)| (*name, e.to_string()));
                 xml.empty("BaseUnit", written.collect())?;
                 match units::display_unit(unit) {
-                    Some(shown) => xml.empty(
-                        "DisplayUnit",
-                        vec![
-                            ("name", shown.name.into()),
-                            ("factor", number(shown.factor)),
-                        ],
-                    ),
+                    Some(shown) => {
+                        xml.empty("DisplayUnit", vec![("name", shown.name.into()), ("factor", number(shown.factor))])
+                    }
                     None => Ok(()),
                 }
             })
@@ -194,9 +144,7 @@ fn type_definitions(xml: &mut Xml, table: &[Variable]) -> io::Result<()> {
     let used: BTreeMap<_, _> = table
         .iter()
         .filter_map(|variable| match variable.kind {
-            Kind::Enumeration {
-                type_name, items, ..
-            } => Some((type_name, items)),
+            Kind::Enumeration { type_name, items, .. } => Some((type_name, items)),
             _ => None,
         })
         .collect();
@@ -207,18 +155,16 @@ fn type_definitions(xml: &mut Xml, table: &[Variable]) -> io::Result<()> {
         used.iter().try_for_each(|(type_name, items)| {
             xml.element("SimpleType", vec![("name", type_name.to_string())], |xml| {
                 xml.element("Enumeration", vec![], |xml| {
-                    (1..).zip(items.iter()).try_for_each(
-                        |(value, (name, description)): (usize, _)| {
-                            xml.empty(
-                                "Item",
-                                vec![
-                                    ("name", name.to_string()),
-                                    ("value", value.to_string()),
-                                    ("description", description.to_string()),
-                                ],
-                            )
-                        },
-                    )
+                    (1..).zip(items.iter()).try_for_each(|(value, (name, description)): (usize, _)| {
+                        xml.empty(
+                            "Item",
+                            vec![
+                                ("name", name.to_string()),
+                                ("value", value.to_string()),
+                                ("description", description.to_string()),
+                            ],
+                        )
+                    })
                 })
             })
         })
@@ -245,16 +191,9 @@ fn scalar_variable(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
 
 fn typed(kind: &Kind) -> (&'static str, Attributes) {
     match kind {
-        Kind::Real {
-            unit,
-            start,
-            min,
-            max,
-            nominal,
-        } => {
+        Kind::Real { unit, start, min, max, nominal } => {
             let mut values: Attributes = vec![("unit", units::name(*unit).into())];
-            values
-                .extend(units::display_unit(*unit).map(|shown| ("displayUnit", shown.name.into())));
+            values.extend(units::display_unit(*unit).map(|shown| ("displayUnit", shown.name.into())));
             values.extend(min.map(|min| ("min", number(min))));
             values.extend(max.map(|max| ("max", number(max))));
             values.push(("nominal", number(*nominal)));
@@ -262,11 +201,7 @@ fn typed(kind: &Kind) -> (&'static str, Attributes) {
             ("Real", values)
         }
         Kind::Integer => ("Integer", vec![]),
-        Kind::Enumeration {
-            type_name,
-            items,
-            start,
-        } => (
+        Kind::Enumeration { type_name, items, start } => (
             "Enumeration",
             vec![
                 ("declaredType", type_name.to_string()),
@@ -280,18 +215,13 @@ fn typed(kind: &Kind) -> (&'static str, Attributes) {
 }
 
 fn model_structure(xml: &mut Xml, table: &[Variable]) -> io::Result<()> {
-    let outputs = || {
-        table
-            .iter()
-            .filter(|variable| variable.causality == Causality::Output)
-    };
+    let outputs = || table.iter().filter(|variable| variable.causality == Causality::Output);
     xml.element("ModelStructure", vec![], |xml| {
         xml.element("Outputs", vec![], |xml| {
             outputs().try_for_each(|output| unknown(xml, output, &output.depends_on))
         })?;
         xml.element("InitialUnknowns", vec![], |xml| {
-            outputs()
-                .try_for_each(|output| unknown(xml, output, &initial_dependencies(table, output)))
+            outputs().try_for_each(|output| unknown(xml, output, &initial_dependencies(table, output)))
         })
     })
 }
@@ -301,9 +231,7 @@ fn model_structure(xml: &mut Xml, table: &[Variable]) -> io::Result<()> {
 fn initial_dependencies(table: &[Variable], output: &Variable) -> Vec<u32> {
     match output.kind {
         Kind::Real { .. } => {
-            let known = table
-                .iter()
-                .filter(|variable| variable.causality != Causality::Output);
+            let known = table.iter().filter(|variable| variable.causality != Causality::Output);
             known.map(|variable| variable.reference).collect()
         }
         _ => Vec::new(),
@@ -312,19 +240,13 @@ fn initial_dependencies(table: &[Variable], output: &Variable) -> Vec<u32> {
 
 fn unknown(xml: &mut Xml, output: &Variable, depends_on: &[u32]) -> io::Result<()> {
     // The structure counts variables from 1, the table from 0.
-    let indices: Vec<String> = depends_on
-        .iter()
-        .map(|reference| (reference + 1).to_string())
-        .collect();
+    let indices: Vec<String> = depends_on.iter().map(|reference| (reference + 1).to_string()).collect();
     xml.empty(
         "Unknown",
         vec![
             ("index", (output.reference + 1).to_string()),
             ("dependencies", indices.join(" ")),
-            (
-                "dependenciesKind",
-                vec!["dependent"; indices.len()].join(" "),
-            ),
+            ("dependenciesKind", vec!["dependent"; indices.len()].join(" ")),
         ],
     )
 }

@@ -14,17 +14,12 @@ impl Project {
     /// Looks for the workspace that this program was built from; without it, `target` is made in the current folder.
     pub fn find() -> Self {
         let built_from = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
-        let source = built_from
-            .filter(|root| root.join("src/lib.rs").is_file())
-            .map(Path::to_path_buf);
+        let source = built_from.filter(|root| root.join("src/lib.rs").is_file()).map(Path::to_path_buf);
         let target = match env::var_os("CARGO_TARGET_DIR") {
             Some(folder) => PathBuf::from(folder),
             None => source.as_deref().unwrap_or(Path::new(".")).join("target"),
         };
-        Self {
-            source,
-            target: std::path::absolute(&target).unwrap_or(target),
-        }
+        Self { source, target: std::path::absolute(&target).unwrap_or(target) }
     }
 
     /// Root of the workspace's source, if it is there.

@@ -40,30 +40,19 @@ impl Python {
         lock.lock().context("lock of the Python environment")?;
 
         let environment = folder.join("env");
-        let bin = if cfg!(windows) {
-            "Scripts/python.exe"
-        } else {
-            "bin/python"
-        };
-        let python = Self {
-            interpreter: environment.join(bin),
-            scripts: folder.join("scripts"),
-        };
+        let bin = if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" };
+        let python = Self { interpreter: environment.join(bin), scripts: folder.join("scripts") };
         let stamp = folder.join("stamp");
         let whole = fs::read_to_string(&stamp).is_ok_and(|made_from| made_from == REQUIREMENTS);
         if !(whole && python.interpreter.is_file()) {
             let system = find_interpreter()?;
-            eprintln!(
-                "making the Python environment {} (once)",
-                environment.display()
-            );
+            eprintln!("making the Python environment {} (once)", environment.display());
             remove(&stamp, |path| fs::remove_file(path))?;
             remove(&environment, |path| fs::remove_dir_all(path))?;
             make(&system, &environment, &python.interpreter, &folder)?;
             fs::write(&stamp, REQUIREMENTS).with_context(|| stamp.display().to_string())?;
         }
-        fs::create_dir_all(&python.scripts)
-            .with_context(|| python.scripts.display().to_string())?;
+        fs::create_dir_all(&python.scripts).with_context(|| python.scripts.display().to_string())?;
         for (name, text) in SCRIPTS {
             write_if_new(&python.scripts.join(name), text)?;
         }
@@ -71,20 +60,12 @@ impl Python {
     }
 
     /// Runs one of this program's scripts and gives its standard output.
-    pub fn run<A: AsRef<OsStr>>(
-        &self,
-        script: &str,
-        arguments: impl IntoIterator<Item = A>,
-    ) -> Result<String> {
+    pub fn run<A: AsRef<OsStr>>(&self, script: &str, arguments: impl IntoIterator<Item = A>) -> Result<String> {
         self.run_file(&self.scripts.join(script), arguments)
     }
 
     /// Runs a script file, which can import this program's scripts, and gives its standard output.
-    pub fn run_file<A: AsRef<OsStr>>(
-        &self,
-        script: &Path,
-        arguments: impl IntoIterator<Item = A>,
-    ) -> Result<String> {
+    pub fn run_file<A: AsRef<OsStr>>(&self, script: &Path, arguments: impl IntoIterator<Item = A>) -> Result<String> {
         let output = Command::new(&self.interpreter)
             .env("PYTHONPATH", &self.scripts)
             .env("PYTHONDONTWRITEBYTECODE", "1")
@@ -104,20 +85,12 @@ impl Python {
 fn find_interpreter() -> Result<PathBuf> {
     let (major, minor) = OLDEST;
     let chosen = env::var_os("BRINELL_PYTHON").map(PathBuf::from);
-    let candidates = chosen.map_or_else(
-        || vec!["python3".into(), "python".into()],
-        |path| vec![path],
-    );
+    let candidates = chosen.map_or_else(|| vec!["python3".into(), "python".into()], |path| vec![path]);
     let mut refused = Vec::new();
     for candidate in candidates {
         match version(&candidate) {
             Some(found) if found >= OLDEST => return Ok(candidate),
-            Some(found) => refused.push(format!(
-                "{} is {}.{}",
-                candidate.display(),
-                found.0,
-                found.1
-            )),
+            Some(found) => refused.push(format!("{} is {}.{}", candidate.display(), found.0, found.1)),
             None => refused.push(format!("{} is not there", candidate.display())),
         }
     }
@@ -129,20 +102,14 @@ fn find_interpreter() -> Result<PathBuf> {
 
 fn version(interpreter: &Path) -> Option<(u32, u32)> {
     let script = "import sys; print(sys.version_info[0], sys.version_info[1])";
-    let output = Command::new(interpreter)
-        .args(["-c", script])
-        .output()
-        .ok()?;
+    let output = Command::new(interpreter).args(["-c", script]).output().ok()?;
     let text = String::from_utf8(output.stdout).ok()?;
     let (major, minor) = text.trim().split_once(' ')?;
     Some((major.parse().ok()?, minor.parse().ok()?))
 }
 
 fn make(system: &Path, environment: &Path, interpreter: &Path, folder: &Path) -> Result<()> {
-    let output = Command::new(system)
-        .args(["-m", "venv"])
-        .arg(environment)
-        .output()?;
+    let output = Command::new(system).args(["-m", "venv"]).arg(environment).output()?;
     if !output.status.success() {
         bail!(
             "{} cannot make a virtual environment; on Debian or Ubuntu: apt-get install python3-venv. It said: {}",
@@ -153,49 +120,25 @@ fn make(system: &Path, environment: &Path, interpreter: &Path, folder: &Path) ->
     let list = folder.join("requirements.txt");
     fs::write(&list, REQUIREMENTS).with_context(|| list.display().to_string())?;
     let output = Command::new(interpreter)
-        .args([
-            "-m",
-            "pip",
-            "install",
-            "--quiet",
-            "--disable-pip-version-check",
-            "--only-binary",
-            ":all:",
-            "-r",
-        ])
+        .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--only-binary", ":all:", "-r"])
         .arg(&list)
         .output()?;
     if !output.status.success() {
-        bail!(
-            "pip could not install the Python packages; is the package index reachable? It said: {}",
-            said(&output)
-        );
+        bail!("pip could not install the Python packages; is the package index reachable? It said: {}", said(&output));
     }
     Ok(())
 }
 
 /// The end of what a program said: its error, on one line.
 fn said(output: &Output) -> String {
-    let text = if output.stderr.is_empty() {
-        &output.stdout
-    } else {
-        &output.stderr
-    };
+    let text = if output.stderr.is_empty() { &output.stdout } else { &output.stderr };
     let text = String::from_utf8_lossy(text);
-    let lines: Vec<&str> = text
-        .lines()
-        .map(str::trim)
-        .filter(|line| !line.is_empty())
-        .collect();
+    let lines: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
     lines[lines.len().saturating_sub(6)..].join(" | ")
 }
 
 fn remove(path: &Path, how: impl FnOnce(&Path) -> std::io::Result<()>) -> Result<()> {
-    if path.exists() {
-        how(path).with_context(|| path.display().to_string())
-    } else {
-        Ok(())
-    }
+    if path.exists() { how(path).with_context(|| path.display().to_string()) } else { Ok(()) }
 }
 
 fn write_if_new(path: &Path, text: &str) -> Result<()> {
@@ -204,7 +147,5 @@ fn write_if_new(path: &Path, text: &str) -> Result<()> {
     }
     // Another process may be reading the old text: replace the file, do not rewrite it.
     let fresh = path.with_extension("new");
-    fs::write(&fresh, text)
-        .and_then(|()| fs::rename(&fresh, path))
-        .with_context(|| path.display().to_string())
+    fs::write(&fresh, text).and_then(|()| fs::rename(&fresh, path)).with_context(|| path.display().to_string())
 }

@@ -37,14 +37,9 @@ impl Grid {
         // A stop time that is a multiple of the step up to rounding counts as one.
         let count = (stop / step * (1.0 + 1e-9)).floor();
         if !(1.0..=1e9).contains(&count) {
-            bail!(
-                "{count} communication steps of {step} s until {stop} s: between 1 and 1e9 are possible"
-            );
+            bail!("{count} communication steps of {step} s until {stop} s: between 1 and 1e9 are possible");
         }
-        Ok(Self {
-            step,
-            count: count as u64,
-        })
+        Ok(Self { step, count: count as u64 })
     }
 }
 
@@ -59,21 +54,12 @@ pub struct Columns {
 impl Columns {
     /// Inputs and outputs of the table, reals first.
     pub fn new(table: &[Variable]) -> Self {
-        let mut columns = Self {
-            names: Vec::new(),
-            reals: Vec::new(),
-            integers: Vec::new(),
-        };
+        let mut columns = Self { names: Vec::new(), reals: Vec::new(), integers: Vec::new() };
         let mut counters = Vec::new();
-        for variable in table
-            .iter()
-            .filter(|variable| variable.causality != Causality::Parameter)
-        {
+        for variable in table.iter().filter(|variable| variable.causality != Causality::Parameter) {
             match variable.kind {
                 Kind::Real { unit, .. } => {
-                    columns
-                        .names
-                        .push((variable.name.clone(), units::name(unit)));
+                    columns.names.push((variable.name.clone(), units::name(unit)));
                     columns.reals.push(variable.reference);
                 }
                 Kind::Integer => {
@@ -89,34 +75,19 @@ impl Columns {
 }
 
 /// Runs an initialized simulation over the grid and writes one row at the start and one after each step.
-pub fn write(
-    simulation: &mut Simulation,
-    columns: &Columns,
-    grid: Grid,
-    out: &mut impl Write,
-) -> Result<()> {
-    let names = columns
-        .names
-        .iter()
-        .map(|(name, unit)| (name.as_str(), *unit));
+pub fn write(simulation: &mut Simulation, columns: &Columns, grid: Grid, out: &mut impl Write) -> Result<()> {
+    let names = columns.names.iter().map(|(name, unit)| (name.as_str(), *unit));
     csv::header(out, std::iter::once(("time", "s")).chain(names))?;
     let mut reals = vec![0.0; columns.reals.len()];
     let mut integers = vec![0; columns.integers.len()];
     for index in 0..=grid.count {
         if index > 0 {
             let at = simulation.time();
-            simulation
-                .step(grid.step)
-                .with_context(|| format!("at {at} s"))?;
+            simulation.step(grid.step).with_context(|| format!("at {at} s"))?;
         }
         read(simulation, columns, &mut reals, &mut integers)?;
         let counts = integers.iter().map(|&count| f64::from(count));
-        csv::row(
-            out,
-            std::iter::once(simulation.time())
-                .chain(reals.iter().copied())
-                .chain(counts),
-        )?;
+        csv::row(out, std::iter::once(simulation.time()).chain(reals.iter().copied()).chain(counts))?;
     }
     Ok(())
 }
@@ -132,13 +103,7 @@ fn read(
 }
 
 /// The command: `<folder>/<scene>.csv` and, if wanted, `.svg` and `.png`.
-pub fn command(
-    project: &Project,
-    model: Model,
-    grid: Grid,
-    folder: &Path,
-    figure: bool,
-) -> Result<()> {
+pub fn command(project: &Project, model: Model, grid: Grid, folder: &Path, figure: bool) -> Result<()> {
     let mut simulation = model.simulation;
     let columns = Columns::new(simulation.table());
     simulation.initialize(0.0).context("initial equilibrium")?;

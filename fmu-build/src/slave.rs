@@ -80,14 +80,7 @@ type Log = Mutex<Vec<String>>;
 
 #[repr(C)]
 struct Callbacks {
-    logger: unsafe extern "C" fn(
-        *mut c_void,
-        *const c_char,
-        c_int,
-        *const c_char,
-        *const c_char,
-        *const c_char,
-    ),
+    logger: unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char, *const c_char),
     allocate: Option<unsafe extern "C" fn(usize, usize) -> *mut c_void>,
     free: Option<unsafe extern "C" fn(*mut c_void)>,
     step_finished: Option<unsafe extern "C" fn(*mut c_void, c_int)>,
@@ -129,12 +122,7 @@ macro_rules! call {
 
 impl Slave {
     /// Loads the library and makes an instance. `resources` is the unpacked folder of that name.
-    pub fn new(
-        path: &Path,
-        instance: &str,
-        guid: &str,
-        resources: &Path,
-    ) -> Result<Self, SlaveError> {
+    pub fn new(path: &Path, instance: &str, guid: &str, resources: &Path) -> Result<Self, SlaveError> {
         // SAFETY: the user asked for this library to be run; its initialisers are his trust.
         let library = unsafe { Library::new(path)? };
         for function in FUNCTIONS {
@@ -149,17 +137,8 @@ impl Slave {
             step_finished: None,
             environment: ptr::from_ref(&*log).cast_mut().cast(),
         });
-        let mut slave = Self {
-            component: ptr::null_mut(),
-            library,
-            callbacks,
-            log,
-        };
-        let (instance, guid, uri) = (
-            CString::new(instance)?,
-            CString::new(guid)?,
-            CString::new(file_uri(resources))?,
-        );
+        let mut slave = Self { component: ptr::null_mut(), library, callbacks, log };
+        let (instance, guid, uri) = (CString::new(instance)?, CString::new(guid)?, CString::new(file_uri(resources))?);
         type Instantiate = unsafe extern "C" fn(
             *const c_char,
             c_int,
@@ -172,15 +151,7 @@ impl Slave {
         // SAFETY: standard's signature; the strings live through the call, the callbacks as long as the slave.
         slave.component = unsafe {
             let instantiate: Symbol<'_, Instantiate> = slave.library.get("fmi2Instantiate")?;
-            instantiate(
-                instance.as_ptr(),
-                1,
-                guid.as_ptr(),
-                uri.as_ptr(),
-                &*slave.callbacks,
-                0,
-                1,
-            )
+            instantiate(instance.as_ptr(), 1, guid.as_ptr(), uri.as_ptr(), &*slave.callbacks, 0, 1)
         };
         if slave.component.is_null() {
             return Err(SlaveError::NoInstance(slave.last_line()));
@@ -210,88 +181,49 @@ impl Slave {
             self,
             "fmi2GetReal",
             (Component, *const u32, usize, *mut f64),
-            (
-                self.component,
-                references.as_ptr(),
-                references.len(),
-                values.as_mut_ptr()
-            )
+            (self.component, references.as_ptr(), references.len(), values.as_mut_ptr())
         )?;
         Ok(values)
     }
 
     /// `fmi2SetReal`.
     pub fn set_reals(&mut self, references: &[u32], values: &[f64]) -> Result<(), SlaveError> {
-        assert_eq!(
-            references.len(),
-            values.len(),
-            "one value for each reference"
-        );
+        assert_eq!(references.len(), values.len(), "one value for each reference");
         call!(
             self,
             "fmi2SetReal",
             (Component, *const u32, usize, *const f64),
-            (
-                self.component,
-                references.as_ptr(),
-                references.len(),
-                values.as_ptr()
-            )
+            (self.component, references.as_ptr(), references.len(), values.as_ptr())
         )
     }
 
     /// `fmi2DoStep`.
     pub fn step(&mut self, from: f64, step: f64) -> Result<(), SlaveError> {
-        call!(
-            self,
-            "fmi2DoStep",
-            (Component, f64, f64, c_int),
-            (self.component, from, step, 0)
-        )
+        call!(self, "fmi2DoStep", (Component, f64, f64, c_int), (self.component, from, step, 0))
     }
 
     /// `fmi2GetFMUstate`.
     pub fn save(&mut self) -> Result<SavedState, SlaveError> {
         let mut state: State = ptr::null_mut();
-        call!(
-            self,
-            "fmi2GetFMUstate",
-            (Component, *mut State),
-            (self.component, &mut state)
-        )?;
+        call!(self, "fmi2GetFMUstate", (Component, *mut State), (self.component, &mut state))?;
         Ok(SavedState(state))
     }
 
     /// `fmi2SetFMUstate`.
     pub fn restore(&mut self, state: &SavedState) -> Result<(), SlaveError> {
-        call!(
-            self,
-            "fmi2SetFMUstate",
-            (Component, State),
-            (self.component, state.0)
-        )
+        call!(self, "fmi2SetFMUstate", (Component, State), (self.component, state.0))
     }
 
     /// `fmi2FreeFMUstate`.
     pub fn free(&mut self, mut state: SavedState) -> Result<(), SlaveError> {
-        call!(
-            self,
-            "fmi2FreeFMUstate",
-            (Component, *mut State),
-            (self.component, &mut state.0)
-        )
+        call!(self, "fmi2FreeFMUstate", (Component, *mut State), (self.component, &mut state.0))
     }
 
     /// `fmi2SerializeFMUstate`.
     pub fn to_bytes(&mut self, state: &SavedState) -> Result<Vec<u8>, SlaveError> {
         let mut size = 0;
         let c = self.component;
-        call!(
-            self,
-            "fmi2SerializedFMUstateSize",
-            (Component, State, *mut usize),
-            (c, state.0, &mut size)
-        )?;
+        call!(self, "fmi2SerializedFMUstateSize", (Component, State, *mut usize), (c, state.0, &mut size))?;
         let mut bytes = vec![0; size];
         call!(
             self,
@@ -337,11 +269,7 @@ impl Slave {
             5 => "fmi2Pending",
             _ => "no status of the standard",
         };
-        Err(SlaveError::Status {
-            function,
-            status,
-            log: self.last_line(),
-        })
+        Err(SlaveError::Status { function, status, log: self.last_line() })
     }
 }
 
@@ -352,10 +280,7 @@ impl Drop for Slave {
         }
         // SAFETY: standard's signature; the instance lives and is not used after this.
         unsafe {
-            if let Ok(free) = self
-                .library
-                .get::<unsafe extern "C" fn(Component)>("fmi2FreeInstance")
-            {
+            if let Ok(free) = self.library.get::<unsafe extern "C" fn(Component)>("fmi2FreeInstance") {
                 free(self.component);
             }
         }
@@ -378,9 +303,7 @@ unsafe extern "C" fn note(
             return String::from("NULL");
         }
         // SAFETY: not null, and the standard passes zero-terminated strings.
-        unsafe { CStr::from_ptr(pointer) }
-            .to_string_lossy()
-            .into_owned()
+        unsafe { CStr::from_ptr(pointer) }.to_string_lossy().into_owned()
     };
     let mut line = text(message);
     if line == "%s" && variadic_like_named {
@@ -396,16 +319,10 @@ unsafe extern "C" fn note(
 /// The folder as a URI: percent-encoded, so that spaces and other alphabets survive.
 fn file_uri(folder: &Path) -> String {
     let path = folder.to_string_lossy().replace('\\', "/");
-    let mut uri = String::from(if path.starts_with('/') {
-        "file://"
-    } else {
-        "file:///"
-    });
+    let mut uri = String::from(if path.starts_with('/') { "file://" } else { "file:///" });
     for byte in path.bytes() {
         match byte {
-            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'/' | b'-' | b'.' | b'_' | b'~' | b':' => {
-                uri.push(byte as char)
-            }
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'/' | b'-' | b'.' | b'_' | b'~' | b':' => uri.push(byte as char),
             _ => {
                 // Writing to a String cannot fail.
                 let _ = write!(uri, "%{byte:02X}");
@@ -421,9 +338,6 @@ mod tests {
 
     #[test]
     fn a_folder_with_spaces_and_umlauts_becomes_a_plain_uri() {
-        assert_eq!(
-            file_uri(Path::new("/a b/Wälz+lager")),
-            "file:///a%20b/W%C3%A4lz%2Blager"
-        );
+        assert_eq!(file_uri(Path::new("/a b/Wälz+lager")), "file:///a%20b/W%C3%A4lz%2Blager");
     }
 }

@@ -56,58 +56,21 @@ pub fn base_unit(unit: Unit) -> BaseUnit {
         Unit::Metre => BaseUnit { m: 1, ..none },
         Unit::Second => BaseUnit { s: 1, ..none },
         Unit::Radian => BaseUnit { rad: 1, ..none },
-        Unit::MetrePerSecond => BaseUnit {
-            m: 1,
-            s: -1,
-            ..none
-        },
-        Unit::MetrePerSecondSquared => BaseUnit {
-            m: 1,
-            s: -2,
-            ..none
-        },
-        Unit::RadianPerSecond => BaseUnit {
-            rad: 1,
-            s: -1,
-            ..none
-        },
-        Unit::Newton => BaseUnit {
-            kg: 1,
-            m: 1,
-            s: -2,
-            ..none
-        },
-        Unit::NewtonMetre => BaseUnit {
-            kg: 1,
-            m: 2,
-            s: -2,
-            ..none
-        },
-        Unit::NewtonPerMetre => BaseUnit {
-            kg: 1,
-            s: -2,
-            ..none
-        },
-        Unit::NewtonSecondPerMetre => BaseUnit {
-            kg: 1,
-            s: -1,
-            ..none
-        },
-        Unit::SecondPerMetre => BaseUnit {
-            m: -1,
-            s: 1,
-            ..none
-        },
+        Unit::MetrePerSecond => BaseUnit { m: 1, s: -1, ..none },
+        Unit::MetrePerSecondSquared => BaseUnit { m: 1, s: -2, ..none },
+        Unit::RadianPerSecond => BaseUnit { rad: 1, s: -1, ..none },
+        Unit::Newton => BaseUnit { kg: 1, m: 1, s: -2, ..none },
+        Unit::NewtonMetre => BaseUnit { kg: 1, m: 2, s: -2, ..none },
+        Unit::NewtonPerMetre => BaseUnit { kg: 1, s: -2, ..none },
+        Unit::NewtonSecondPerMetre => BaseUnit { kg: 1, s: -1, ..none },
+        Unit::SecondPerMetre => BaseUnit { m: -1, s: 1, ..none },
     }
 }
 
 /// The unit that a host shows instead, if there is one.
 pub fn display_unit(unit: Unit) -> Option<DisplayUnit> {
     match unit {
-        Unit::RadianPerSecond => Some(DisplayUnit {
-            name: "rev/min",
-            factor: 30.0 / PI,
-        }),
+        Unit::RadianPerSecond => Some(DisplayUnit { name: "rev/min", factor: 30.0 / PI }),
         _ => None,
     }
 }
