@@ -31,14 +31,18 @@ def panels():
                 f"{ring}\nposition (µm)",
                 lambda axis, names=names: curves(axis, names, [ORANGE, BLUE], 1e6, ["x", "y"]),
             )
-    yield "force on\nshaft (N)", lambda axis: curves(axis, ["shaft.force.x", "shaft.force.y"], [ORANGE, BLUE], 1.0, ["x", "y"])
+    yield (
+        "bearing force\non shaft (N)",
+        lambda axis: curves(axis, ["shaft.force.x", "shaft.force.y"], [ORANGE, BLUE], 1.0, ["x", "y"]),
+    )
 
     def outer(axis):
         count = sum(name.startswith("element[") and name.endswith("].force.outer") for name in data)
         for j in range(1, count + 1):
-            axis.plot(time, data[f"element[{j}].force.outer"], color=plt.cm.viridis((j - 1) / max(count, 2)), linewidth=0.9)
+            colour = plt.cm.viridis((j - 1) / max(count, 2))
+            axis.plot(time, data[f"element[{j}].force.outer"], color=colour, linewidth=0.9, label=str(j))
 
-    yield "outer contact\nforces (N)", outer
+    yield "outer force on\nelements (N)", outer
 
 
 drawn = list(panels())
@@ -47,7 +51,7 @@ for axis, (label, draw) in zip(axes[:, 0], drawn):
     draw(axis)
     axis.set_ylabel(label)
     if len(axis.get_legend_handles_labels()[1]) > 1:
-        axis.legend(loc="upper right", ncols=2)
+        axis.legend(loc="lower right", bbox_to_anchor=(1, 0.93), ncols=24, handlelength=1, columnspacing=1)
 axes[0, 0].set_title(path.stem)
 axes[-1, 0].set_xlabel("time (ms)")
 axes[-1, 0].set_xlim(time[0], time[-1])
