@@ -6,6 +6,7 @@ use std::path::Path;
 use anyhow::{Context, Result};
 use brinell::scene::{DefectShape, Scene};
 use brinell::simulation::Simulation;
+use brinell::simulation::guid::guid;
 
 /// A scene that was read, with its files' texts and a simulation of it.
 #[derive(Debug, Clone)]
@@ -52,8 +53,4 @@ impl Model {
     pub fn guid(&self) -> String {
         guid(&self.scene_text, self.profile.as_ref().map(|profile| profile.text.as_str()))
     }
-}
-
-fn guid(_scene: &str, _profile: Option<&str>) -> String {
-    "{00000000-0000-0000-0000-000000000000}".to_owned()
 }

@@ -8,6 +8,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 
+use brinell::fmi2::Category;
 use brinell::simulation::variables::{Causality, Kind, Unit, Variability, Variable};
 use quick_xml::events::{BytesDecl, Event};
 use quick_xml::writer::Writer;
@@ -45,16 +46,6 @@ pub const CAPABILITIES: Capabilities = Capabilities {
     own_memory: true,
 };
 
-/// The log categories of the C interface.
-pub const LOG_CATEGORIES: [(&str, &str); 6] = [
-    ("logEvents", "Initialization, reset and termination"),
-    ("logStatusWarning", "What works but may surprise"),
-    ("logStatusDiscard", "Calls that were discarded"),
-    ("logStatusError", "Calls that failed, each with what to do"),
-    ("logStatusFatal", "Failures after which the instance must not be used"),
-    ("logAll", "Everything"),
-];
-
 /// Attributes of one element, in the order written.
 type Attributes = Vec<(&'static str, String)>;
 
@@ -80,8 +71,9 @@ pub fn write(model: &Model, capabilities: &Capabilities) -> io::Result<String> {
         unit_definitions(xml, table)?;
         type_definitions(xml, table)?;
         xml.element("LogCategories", vec![], |xml| {
-            LOG_CATEGORIES.iter().try_for_each(|(name, description)| {
-                xml.empty("Category", vec![("name", name.to_string()), ("description", description.to_string())])
+            Category::LIST.iter().try_for_each(|category| {
+                let (name, description) = (category.name().into(), category.description().into());
+                xml.empty("Category", vec![("name", name), ("description", description)])
             })
         })?;
         xml.empty(
