@@ -1,2 +1,15 @@
-//! Packs Brinell scenes into FMUs and runs them.
-fn main() {}
+//! The command `cargo fmu`: see [`fmu_build::cli`].
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+fn main() -> ExitCode {
+    match fmu_build::cli::Arguments::parse().execute() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}

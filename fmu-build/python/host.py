@@ -1,0 +1,44 @@
+"""A host that steps one FMU through the C interface, with variables by name."""
+
+import shutil
+
+import fmpy
+from fmpy.fmi2 import FMU2Slave
+
+
+class Host:
+    """One instance of the FMU, and the names of its variables."""
+
+    def __init__(self, fmu, start=None, folder=None):
+        self.description = fmpy.read_model_description(fmu)
+        self.folder = fmpy.extract(fmu, folder)
+        self.reference = {v.name: v.valueReference for v in self.description.modelVariables}
+        self.start = {v.name: float(v.start) for v in self.description.modelVariables if v.start and v.type == "Real"}
+        self.slave = FMU2Slave(
+            guid=self.description.guid,
+            unzipDirectory=self.folder,
+            modelIdentifier=self.description.coSimulation.modelIdentifier,
+            instanceName="demo",
+        )
+        self.slave.instantiate()
+        for name, value in (start or {}).items():
+            self.write([name], [value])
+        self.slave.setupExperiment(startTime=0.0)
+        self.slave.enterInitializationMode()
+        self.slave.exitInitializationMode()
+        self.time = 0.0
+
+    def step(self, length):
+        self.slave.doStep(currentCommunicationPoint=self.time, communicationStepSize=length)
+        self.time += length
+
+    def read(self, names):
+        return self.slave.getReal([self.reference[name] for name in names])
+
+    def write(self, names, values):
+        self.slave.setReal([self.reference[name] for name in names], values)
+
+    def close(self):
+        self.slave.terminate()
+        self.slave.freeInstance()
+        shutil.rmtree(self.folder, ignore_errors=True)

@@ -1,0 +1,112 @@
+//! The commands: what a user types, and the order of work behind each.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use clap::{Args, Parser, Subcommand};
+
+use crate::{check, demo, fmu, library::Library, model::Model, project::Project, run};
+
+/// Rolling bearings with a real surface defect as FMI 2.0 co-simulation units.
+#[derive(Debug, Parser)]
+#[command(name = "cargo fmu", bin_name = "cargo fmu", version, max_term_width = 100)]
+pub struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Builds the FMU of each scene
+    Build(Build),
+    /// Simulates a scene without a host and writes CSV and figure
+    Run(Run),
+    /// Unzips, validates, loads and steps an FMU
+    Check(Check),
+    /// Builds the FMU of a spalled 6205 bearing, drives it with fmpy and draws what happens
+    Demo(Demo),
+}
+
+#[derive(Debug, Args)]
+struct Build {
+    /// Scene files (TOML)
+    #[arg(required = true, value_name = "SCENE")]
+    scenes: Vec<PathBuf>,
+    /// Folder for the FMUs [default: target/fmu]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    library: LibraryChoice,
+}
+
+#[derive(Debug, Args)]
+struct Run {
+    /// Scene file (TOML)
+    scene: PathBuf,
+    /// Stop time in seconds [default: the scene's]
+    #[arg(long, value_name = "S")]
+    stop: Option<f64>,
+    /// Communication step in seconds [default: the scene's]
+    #[arg(long, value_name = "H")]
+    step: Option<f64>,
+    /// Folder for CSV and figure [default: target/run]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Leave the figure out; no Python is needed then
+    #[arg(long)]
+    no_figure: bool,
+}
+
+#[derive(Debug, Args)]
+struct Check {
+    /// The FMU
+    #[arg(value_name = "FILE.fmu")]
+    fmu: PathBuf,
+}
+
+#[derive(Debug, Args)]
+struct Demo {
+    /// Folder for CSV and figure [default: target/demo]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    library: LibraryChoice,
+}
+
+#[derive(Debug, Args)]
+struct LibraryChoice {
+    /// Compiled model library to pack, instead of building it from source
+    #[arg(long, value_name = "PATH")]
+    library: Option<PathBuf>,
+}
+
+impl Arguments {
+    /// Does what was asked. An error is one line for the user.
+    pub fn execute(self) -> Result<()> {
+        let project = Project::find();
+        match self.command {
+            Command::Build(build) => {
+                // Scenes first: a typing error should not wait for a compiler.
+                let models = build.scenes.iter().map(|path| Model::read(path)).collect::<Result<Vec<_>>>()?;
+                let library = Library::obtain(&project, build.library.library.as_deref())?;
+                let folder = build.output.unwrap_or_else(|| project.target().join("fmu"));
+                for model in &models {
+                    let path = fmu::write(model, &library, &folder)?;
+                    println!("{}", path.display());
+                }
+                Ok(())
+            }
+            Command::Run(options) => {
+                let model = Model::read(&options.scene)?;
+                let grid = run::Grid::new(&model.scene.experiment, options.stop, options.step)?;
+                let folder = options.output.unwrap_or_else(|| project.target().join("run"));
+                run::command(&project, model, grid, &folder, !options.no_figure)
+            }
+            Command::Check(options) => check::command(&project, &options.fmu),
+            Command::Demo(options) => {
+                let folder = options.output.unwrap_or_else(|| project.target().join("demo"));
+                demo::command(&project, options.library.library.as_deref(), &folder)
+            }
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! The demonstration: a ball rolls over an etched spall, computed by an FMU that fmpy steps through the C interface.
+
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use brinell::contact::rigid_path::RigidPath;
+use brinell::surface::Surface;
+
+use crate::csv;
+use crate::fmu;
+use crate::library::Library;
+use crate::model::Model;
+use crate::project::Project;
+use crate::python::Python;
+
+const SCENE: &str = "scenes/6205-epps.toml";
+/// Spacing of the profile that is drawn, and how far it goes beyond the defect [m].
+const SPACING: f64 = 1e-6;
+const MARGIN: f64 = 0.5e-3;
+
+/// The command: builds the FMU into the folder, drives it, writes CSV files and a figure beside it.
+pub fn command(project: &Project, library: Option<&Path>, folder: &Path) -> Result<()> {
+    // Without the source the scene is looked for where the user stands.
+    let scene = project.source().unwrap_or(Path::new("")).join(SCENE);
+    let model = Model::read(&scene)?;
+    let library = Library::obtain(project, library)?;
+    let python = Python::prepare(project)?;
+    fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
+    let path = fmu::write(&model, &library, folder)?;
+    println!("{}", path.display());
+    let raceway = folder.join("raceway.csv");
+    fs::write(&raceway, raceway_csv(&model)?).with_context(|| raceway.display().to_string())?;
+    let radius = model.scene.bearing.outer_raceway_radius().to_string();
+    print!("{}", python.run("demo.py", [path.as_os_str(), raceway.as_os_str(), radius.as_ref()])?);
+    Ok(())
+}
+
+/// Profile and rigid path around the defect: `arc`, `depth`, `path`, each in metres, every micrometre.
+fn raceway_csv(model: &Model) -> Result<Vec<u8>> {
+    let bearing = &model.scene.bearing;
+    let defect = model.scene.defect.as_ref().context("the scene has no defect to demonstrate")?;
+    let text = model.profile.as_ref().map(|profile| profile.text.as_str());
+    let profile = match Surface::load(&defect.shape, text, bearing)? {
+        Surface::Profile(profile) => profile,
+        Surface::Topography(topography) => topography.profile_at(0.0),
+    };
+    let radius = bearing.outer_raceway_radius();
+    let path = RigidPath::new(profile.points(), bearing.element_diameter / 2.0, radius);
+    let rigid = |arc: f64| {
+        let after = path.knots().partition_point(|&knot| knot <= arc / radius);
+        if after == 0 || after == path.knots().len() { 0.0 } else { path.at(after - 1, arc / radius).path }
+    };
+    let (first, last) = profile.extent();
+    let from = ((first - MARGIN) / SPACING).floor() as i64;
+    let to = ((last + MARGIN) / SPACING).ceil() as i64;
+    let mut out = Vec::new();
+    csv::header(&mut out, [("arc", "m"), ("depth", "m"), ("path", "m")].into_iter())?;
+    for index in from..=to {
+        let arc = index as f64 * SPACING;
+        csv::row(&mut out, [arc, profile.depth_at(arc), rigid(arc)].into_iter())?;
+    }
+    Ok(out)
+}

@@ -1,0 +1,203 @@
+//! `documentation/index.html`: what a user of the FMU reads. Generated from the scene and the variable table.
+
+use std::fmt::Write;
+
+use brinell::scene::{ContactLaw, Damping, DefectShape, Motion, Ring, Scene};
+use brinell::simulation::variables::{Causality, Kind, Variable};
+use quick_xml::escape::escape;
+
+use crate::model::Model;
+use crate::model_description::causality;
+use crate::units;
+
+/// What the model leaves out, in one place for every reader.
+pub const LIMITS: [&str; 6] = [
+    "Love's half-space at a vertical edge ignores the corner's own compliance: a quarter-space correction would lower \
+     the force there by up to a third, and the pressure at the edge diverges.",
+    "The earlier law <code>hertz</code> overstates the force at an edge: Love gives 0.84 to 0.86 of it there, and 0.53 \
+     to 0.6 near unloading.",
+    "Rings are rigid; they move in the plane, without tilting.",
+    "Material stays elastic: no plasticity.",
+    "No lubricant film.",
+    "The cage is kinematic: it keeps the elements apart and has no dynamics; elements do not slip tangentially.",
+];
+
+const STYLE: &str = "body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#1a1a1a}\
+    table{border-collapse:collapse;width:100%;margin:1rem 0}th,td{text-align:left;padding:.25rem .6rem;\
+    border-bottom:1px solid #ccc;vertical-align:top}th{border-bottom:2px solid #666}td.n{white-space:nowrap}\
+    pre{background:#f4f4f4;padding:1rem;overflow:auto}code{font-size:.95em}";
+
+/// Writes the page.
+pub fn write(model: &Model) -> String {
+    let scene = &model.scene;
+    let (name, description) = (escape(&scene.name), escape(&scene.description));
+    let mut page = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{name}</title>\n\
+         <style>{STYLE}</style>\n</head>\n<body>\n<h1>{name}</h1>\n<p>{description}</p>\n<p>Made by Brinell {}. \
+         A rolling bearing as an FMI 2.0 co-simulation unit: x to the right, y up, angles counter-clockwise from +x, \
+         SI units throughout.</p>\n",
+        env!("CARGO_PKG_VERSION")
+    );
+    page.push_str("<h2>The bearing</h2>\n");
+    facts(&mut page, scene);
+    page.push_str("<h2>Coupling</h2>\n");
+    coupling(&mut page, scene);
+    page.push_str("<h2>Variables</h2>\n");
+    for kind in [Causality::Input, Causality::Parameter, Causality::Output] {
+        variables(&mut page, model.simulation.table(), kind);
+    }
+    page.push_str("<h2>What is not modelled</h2>\n<ul>\n");
+    for limit in LIMITS {
+        line(&mut page, format_args!("<li>{limit}</li>"));
+    }
+    line(
+        &mut page,
+        format_args!(
+            "</ul>\n<h2>The scene file</h2>\n<p><code>resources/scene.toml</code></p>\n<pre>{}</pre>",
+            escape(&model.scene_text)
+        ),
+    );
+    page.push_str(
+        "<h2>Licence</h2>\n<p>MIT or Apache-2.0, at your option: <a href=\"licenses/license.txt\">licenses</a>.</p>\n\
+         </body>\n</html>\n",
+    );
+    page
+}
+
+fn facts(page: &mut String, scene: &Scene) {
+    let bearing = &scene.bearing;
+    let law = match scene.contact.law {
+        ContactLaw::Hertz => "Hertz on the rigid path of the element's centre",
+        ContactLaw::Map => "Love's half-space, from a map computed beforehand",
+        ContactLaw::Love => "Love's half-space, solved in the step",
+    };
+    let damping = match scene.contact.damping {
+        Damping::HuntCrossley(chi) => format!("Hunt and Crossley, χ = {chi} s/m"),
+        Damping::Proportional(tau) => format!("proportional to stiffness, τ = {tau} s"),
+    };
+    let defect = match scene.defect.as_ref().map(|defect| (defect.angle, &defect.shape)) {
+        None => "none".to_owned(),
+        Some((angle, DefectShape::Spall { length, depth, edge_slope })) => format!(
+            "spall at {}, {} mm long, {} µm deep, edges of {}",
+            degrees(angle),
+            digits(length * 1e3),
+            digits(depth * 1e6),
+            degrees(*edge_slope)
+        ),
+        Some((angle, DefectShape::Profile(file))) => {
+            format!("measured profile <code>resources/{}</code> at {}", escape(file), degrees(angle))
+        }
+    };
+    let mm = |length: f64| format!("{} mm", digits(length * 1e3));
+    let rows = [
+        ("Rolling elements", bearing.element_count.to_string()),
+        ("Element diameter", mm(bearing.element_diameter)),
+        ("Pitch diameter", mm(bearing.pitch_diameter)),
+        (
+            "Groove conformity, inner and outer",
+            format!("{}, {}", digits(bearing.conformity_inner), digits(bearing.conformity_outer)),
+        ),
+        ("Radial clearance", format!("{} µm", digits(bearing.radial_clearance * 1e6))),
+        ("Contact law near the defect", law.to_owned()),
+        ("Contact damping", damping),
+        ("Defect of the outer raceway", defect),
+        ("Shaft (inner ring)", ring(&scene.shaft)),
+        ("Shaft speed at the start", format!("{} Hz", digits(scene.shaft_speed / std::f64::consts::TAU))),
+        ("Housing (outer ring)", ring(&scene.housing)),
+        ("Accelerometer", scene.sensor.map_or("none", |_| "on the housing, along y").to_owned()),
+        ("Default run", format!("{} s in steps of {} s", scene.experiment.stop, scene.experiment.step)),
+    ];
+    page.push_str("<table>\n");
+    for (what, value) in rows {
+        line(page, format_args!("<tr><th>{what}</th><td>{value}</td></tr>"));
+    }
+    page.push_str("</table>\n");
+}
+
+fn ring(ring: &Ring) -> String {
+    match ring.motion {
+        Motion::Host => "moved by the host".to_owned(),
+        Motion::Fixed => "stands".to_owned(),
+        Motion::Internal => format!(
+            "moves freely: {} kg, {} N s/m, {} N/m to ground, loaded by ({}, {}) N",
+            ring.mass, ring.damping, ring.stiffness, ring.load[0], ring.load[1]
+        ),
+    }
+}
+
+fn coupling(page: &mut String, scene: &Scene) {
+    page.push_str(
+        "<p>The start is the static equilibrium of the start values. Communication steps may have any positive \
+         length and may differ; the solver's own steps are shorter and end on each communication point.</p>\n",
+    );
+    if scene.shaft.motion == Motion::Host || scene.housing.motion == Motion::Host {
+        page.push_str(
+            "<p>This host moves a ring. Give position, velocity and, if it is known, acceleration: inputs are \
+             continued by them inside the step. Step the FMU first, then apply <code>mean_force</code> to the ring's \
+             body over the same step: holding inputs and forces instead is unstable beyond about 1e-5 s against a body of \
+             a few kilograms.</p>\n",
+        );
+    }
+}
+
+fn variables(page: &mut String, table: &[Variable], kind: Causality) {
+    let mut rows = table.iter().filter(|variable| variable.causality == kind).peekable();
+    if rows.peek().is_none() {
+        return;
+    }
+    let word = match kind {
+        Causality::Input => "Inputs",
+        Causality::Parameter => "Parameters, fixed after initialization",
+        Causality::Output => "Outputs",
+    };
+    let start = if kind == Causality::Output { "" } else { "<th>Start</th>" };
+    line(
+        page,
+        format_args!(
+            "<h3 id=\"{}\">{word}</h3>\n<table>\n<tr><th>Name</th><th>Unit</th>{start}<th>Meaning</th></tr>",
+            causality(kind)
+        ),
+    );
+    for variable in rows {
+        let (unit, start) = match &variable.kind {
+            Kind::Real { unit, start, .. } => (units::name(*unit), start.map(|value| format!("{value:?}"))),
+            Kind::Integer => ("", None),
+            Kind::Enumeration { items, start, .. } => {
+                let index = usize::try_from(*start - 1).unwrap_or(usize::MAX);
+                ("", items.get(index).map(|(name, _)| (*name).to_owned()))
+            }
+            Kind::Text { start } => ("", Some(start.clone())),
+        };
+        let start = match kind {
+            Causality::Output => String::new(),
+            _ => format!("<td class=\"n\">{}</td>", escape(start.unwrap_or_default())),
+        };
+        line(
+            page,
+            format_args!(
+                "<tr><td class=\"n\"><code>{}</code></td><td class=\"n\">{unit}</td>{start}<td>{}</td></tr>",
+                escape(&variable.name),
+                escape(&variable.description)
+            ),
+        );
+    }
+    page.push_str("</table>\n");
+}
+
+fn line(page: &mut String, text: std::fmt::Arguments<'_>) {
+    // Writing to a String cannot fail.
+    let _ = writeln!(page, "{text}");
+}
+
+fn degrees(angle: f64) -> String {
+    format!("{}°", digits(angle.to_degrees()))
+}
+
+/// Six significant digits, without the trailing noughts that a change of units leaves.
+fn digits(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    let shown = format!("{value:.5e}").parse::<f64>().unwrap_or(value);
+    shown.to_string()
+}

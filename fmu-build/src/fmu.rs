@@ -1,0 +1,46 @@
+//! What an FMU of a scene holds, and where in it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+
+use crate::archive::Archive;
+use crate::documentation;
+use crate::library::Library;
+use crate::model::Model;
+use crate::model_description::{self, CAPABILITIES};
+
+const ICON: &[u8] = include_bytes!("../assets/model.png");
+const LICENSE: &str = "Brinell is licensed under either of\n\n\
+    - the Apache License, Version 2.0 (LICENSE-APACHE), or\n\
+    - the MIT license (LICENSE-MIT)\n\nat your option.\n";
+
+/// Packs a scene and the compiled library.
+pub fn pack(model: &Model, library: &Library) -> Result<Vec<u8>> {
+    let mut archive = Archive::default();
+    archive.add("modelDescription.xml", model_description::write(model, &CAPABILITIES)?)?;
+    archive.add("model.png", ICON)?;
+    for binary in library.binaries() {
+        let file = format!("binaries/{}/{}.{}", binary.platform, model.scene.model_identifier(), binary.extension);
+        archive.add(file, binary.bytes.as_slice())?;
+    }
+    archive.add("resources/scene.toml", model.scene_text.as_str())?;
+    if let Some(profile) = &model.profile {
+        archive.add(format!("resources/{}", profile.name), profile.text.as_str())?;
+    }
+    archive.add("documentation/index.html", documentation::write(model))?;
+    archive.add("documentation/licenses/license.txt", LICENSE)?;
+    archive.add("documentation/licenses/LICENSE-MIT", include_str!("../../LICENSE-MIT"))?;
+    archive.add("documentation/licenses/LICENSE-APACHE", include_str!("../../LICENSE-APACHE"))?;
+    Ok(archive.to_bytes()?)
+}
+
+/// Packs a scene and writes `<scene name>.fmu` into the folder, making it if need be. Gives the file's path.
+pub fn write(model: &Model, library: &Library, folder: &Path) -> Result<PathBuf> {
+    let path = folder.join(format!("{}.fmu", model.scene.name));
+    let bytes = pack(model, library).with_context(|| path.display().to_string())?;
+    fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
+    fs::write(&path, bytes).with_context(|| path.display().to_string())?;
+    Ok(path)
+}

@@ -1,0 +1,21 @@
+//! Packs Brinell scenes into FMUs, checks them and runs them.
+//!
+//! A scene becomes an FMU in three steps: [`model`] reads it and asks the simulation for its variable table,
+//! [`model_description`] and [`documentation`] write that table down, [`archive`] zips them together with the
+//! one compiled [`library`] that serves every scene. No compiler is needed for a new bearing.
+
+pub mod archive;
+pub mod check;
+pub mod cli;
+pub mod csv;
+pub mod demo;
+pub mod documentation;
+pub mod fmu;
+pub mod library;
+pub mod model;
+pub mod model_description;
+pub mod project;
+pub mod python;
+pub mod run;
+pub mod slave;
+pub mod units;

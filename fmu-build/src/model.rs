@@ -1,0 +1,56 @@
+//! A scene file, read and set up: all that an FMU of it is made of, except the compiled library.
+
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use brinell::scene::{DefectShape, Scene};
+use brinell::simulation::Simulation;
+use brinell::simulation::guid::guid;
+
+/// A scene that was read, with its files' texts and a simulation of it.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// The scene.
+    pub scene: Scene,
+    /// The scene file's text, as it goes into the FMU.
+    pub scene_text: String,
+    /// Name and text of the defect's profile file, when the scene names one.
+    pub profile: Option<Profile>,
+    /// A simulation of the scene, not initialized.
+    pub simulation: Simulation,
+}
+
+/// A defect's profile file.
+#[derive(Debug, Clone)]
+pub struct Profile {
+    /// Its name, relative to the scene file.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+}
+
+impl Model {
+    /// Reads a scene file and the profile beside it. An error names the file.
+    pub fn read(path: &Path) -> Result<Self> {
+        let about = || path.display().to_string();
+        let scene_text = fs::read_to_string(path).with_context(about)?;
+        let scene = Scene::from_toml(&scene_text).with_context(about)?;
+        let profile = match scene.defect.as_ref().map(|defect| &defect.shape) {
+            Some(DefectShape::Profile(name)) => {
+                let file = path.parent().unwrap_or(Path::new("")).join(name);
+                let text = fs::read_to_string(&file).with_context(|| file.display().to_string())?;
+                Some(Profile { name: name.clone(), text })
+            }
+            _ => None,
+        };
+        let text = profile.as_ref().map(|profile| profile.text.as_str());
+        let simulation = Simulation::new(scene.clone(), text).with_context(about)?;
+        Ok(Self { scene, scene_text, profile, simulation })
+    }
+
+    /// The identity that library and description agree on; it changes with every byte of scene or profile.
+    pub fn guid(&self) -> String {
+        guid(&self.scene_text, self.profile.as_ref().map(|profile| profile.text.as_str()))
+    }
+}

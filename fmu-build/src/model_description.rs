@@ -1,0 +1,312 @@
+//! `modelDescription.xml` of FMI 2.0 co-simulation, written from the variable table and nothing else.
+//!
+//! Rules beyond the schema that this file keeps: every unit that is used is defined by its base units; every
+//! variable that is not real says its variability; `Outputs` and `InitialUnknowns` ascend, and carry their
+//! dependencies, because a missing list means "depends on everything" and makes an importer see algebraic loops.
+//! The file holds no date: equal scenes give equal bytes.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io;
+
+use brinell::fmi2::Category;
+use brinell::simulation::variables::{Causality, Kind, Unit, Variability, Variable};
+use quick_xml::events::{BytesDecl, Event};
+use quick_xml::writer::Writer;
+
+use crate::model::Model;
+use crate::units;
+
+/// What the compiled library declares that it can do beyond the least of co-simulation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Capabilities {
+    /// Communication steps may differ.
+    pub variable_step: bool,
+    /// Input derivatives are used within the step.
+    pub interpolates_inputs: bool,
+    /// Highest order of output derivatives.
+    pub output_derivative_order: u32,
+    /// The state can be taken and put back.
+    pub state: bool,
+    /// The state can be turned into bytes.
+    pub serialized_state: bool,
+    /// Directional derivatives are computed.
+    pub directional_derivatives: bool,
+    /// The host's memory functions are never called.
+    pub own_memory: bool,
+}
+
+/// What the library can do now. The C interface answers `fmi2Error` to what is absent here.
+pub const CAPABILITIES: Capabilities = Capabilities {
+    variable_step: true,
+    interpolates_inputs: true,
+    output_derivative_order: 0,
+    state: false,
+    serialized_state: false,
+    directional_derivatives: false,
+    own_memory: true,
+};
+
+/// Attributes of one element, in the order written.
+type Attributes = Vec<(&'static str, String)>;
+
+/// Writes the model description of a scene.
+pub fn write(model: &Model, capabilities: &Capabilities) -> io::Result<String> {
+    let scene = &model.scene;
+    let root: Attributes = vec![
+        ("fmiVersion", "2.0".into()),
+        ("modelName", scene.name.clone()),
+        ("guid", model.guid()),
+        ("description", scene.description.clone()),
+        ("version", env!("CARGO_PKG_VERSION").into()),
+        ("copyright", "The Brinell developers".into()),
+        ("license", env!("CARGO_PKG_LICENSE").into()),
+        ("generationTool", concat!("Brinell ", env!("CARGO_PKG_VERSION")).into()),
+        ("variableNamingConvention", "structured".into()),
+        ("numberOfEventIndicators", "0".into()),
+    ];
+    let table = model.simulation.table();
+    let mut xml = Xml::new()?;
+    xml.element("fmiModelDescription", root, |xml| {
+        xml.empty("CoSimulation", co_simulation(&scene.model_identifier(), capabilities))?;
+        unit_definitions(xml, table)?;
+        type_definitions(xml, table)?;
+        xml.element("LogCategories", vec![], |xml| {
+            Category::LIST.iter().try_for_each(|category| {
+                let (name, description) = (category.name().into(), category.description().into());
+                xml.empty("Category", vec![("name", name), ("description", description)])
+            })
+        })?;
+        xml.empty(
+            "DefaultExperiment",
+            vec![
+                ("startTime", number(0.0)),
+                ("stopTime", number(scene.experiment.stop)),
+                ("tolerance", number(scene.tolerance)),
+                ("stepSize", number(scene.experiment.step)),
+            ],
+        )?;
+        xml.element("ModelVariables", vec![], |xml| {
+            table.iter().try_for_each(|variable| scalar_variable(xml, variable))
+        })?;
+        model_structure(xml, table)
+    })?;
+    xml.finish()
+}
+
+fn co_simulation(identifier: &str, capabilities: &Capabilities) -> Attributes {
+    vec![
+        ("modelIdentifier", identifier.into()),
+        ("needsExecutionTool", false.to_string()),
+        ("canHandleVariableCommunicationStepSize", capabilities.variable_step.to_string()),
+        ("canInterpolateInputs", capabilities.interpolates_inputs.to_string()),
+        ("maxOutputDerivativeOrder", capabilities.output_derivative_order.to_string()),
+        ("canRunAsynchronuously", false.to_string()),
+        ("canBeInstantiatedOnlyOncePerProcess", false.to_string()),
+        ("canNotUseMemoryManagementFunctions", capabilities.own_memory.to_string()),
+        ("canGetAndSetFMUstate", capabilities.state.to_string()),
+        ("canSerializeFMUstate", capabilities.serialized_state.to_string()),
+        ("providesDirectionalDerivative", capabilities.directional_derivatives.to_string()),
+    ]
+}
+
+fn unit_definitions(xml: &mut Xml, table: &[Variable]) -> io::Result<()> {
+    let used: BTreeSet<Unit> = table.iter().filter_map(|variable| unit(&variable.kind)).collect();
+    if used.is_empty() {
+        return Ok(());
+    }
+    xml.element("UnitDefinitions", vec![], |xml| {
+        used.iter().try_for_each(|&unit| {
+            xml.element("Unit", vec![("name", units::name(unit).into())], |xml| {
+                let base = units::base_unit(unit);
+                let exponents = [("kg", base.kg), ("m", base.m), ("s", base.s), ("rad", base.rad)];
+                let written = exponents.iter().filter(|(_, e)| *e != 0).map(|(name, e)| (*name, e.to_string()));
+                xml.empty("BaseUnit", written.collect())?;
+                match units::display_unit(unit) {
+                    Some(shown) => {
+                        xml.empty("DisplayUnit", vec![("name", shown.name.into()), ("factor", number(shown.factor))])
+                    }
+                    None => Ok(()),
+                }
+            })
+        })
+    })
+}
+
+fn type_definitions(xml: &mut Xml, table: &[Variable]) -> io::Result<()> {
+    let used: BTreeMap<_, _> = table
+        .iter()
+        .filter_map(|variable| match variable.kind {
+            Kind::Enumeration { type_name, items, .. } => Some((type_name, items)),
+            _ => None,
+        })
+        .collect();
+    if used.is_empty() {
+        return Ok(());
+    }
+    xml.element("TypeDefinitions", vec![], |xml| {
+        used.iter().try_for_each(|(type_name, items)| {
+            xml.element("SimpleType", vec![("name", type_name.to_string())], |xml| {
+                xml.element("Enumeration", vec![], |xml| {
+                    (1..).zip(items.iter()).try_for_each(|(value, (name, description)): (usize, _)| {
+                        xml.empty(
+                            "Item",
+                            vec![
+                                ("name", name.to_string()),
+                                ("value", value.to_string()),
+                                ("description", description.to_string()),
+                            ],
+                        )
+                    })
+                })
+            })
+        })
+    })
+}
+
+fn scalar_variable(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
+    let mut attributes: Attributes = vec![
+        ("name", variable.name.clone()),
+        ("valueReference", variable.reference.to_string()),
+        ("description", variable.description.clone()),
+        ("causality", causality(variable.causality).into()),
+        ("variability", variability(variable.variability).into()),
+    ];
+    // The standard forbids `initial` for inputs: theirs is exact.
+    match variable.causality {
+        Causality::Parameter => attributes.push(("initial", "exact".into())),
+        Causality::Output => attributes.push(("initial", "calculated".into())),
+        Causality::Input => {}
+    }
+    let (kind, values) = typed(&variable.kind);
+    xml.element("ScalarVariable", attributes, |xml| xml.empty(kind, values))
+}
+
+fn typed(kind: &Kind) -> (&'static str, Attributes) {
+    match kind {
+        Kind::Real { unit, start, min, max, nominal } => {
+            let mut values: Attributes = vec![("unit", units::name(*unit).into())];
+            values.extend(units::display_unit(*unit).map(|shown| ("displayUnit", shown.name.into())));
+            values.extend(min.map(|min| ("min", number(min))));
+            values.extend(max.map(|max| ("max", number(max))));
+            values.push(("nominal", number(*nominal)));
+            values.extend(start.map(|start| ("start", number(start))));
+            ("Real", values)
+        }
+        Kind::Integer => ("Integer", vec![]),
+        Kind::Enumeration { type_name, items, start } => (
+            "Enumeration",
+            vec![
+                ("declaredType", type_name.to_string()),
+                ("min", "1".into()),
+                ("max", items.len().to_string()),
+                ("start", start.to_string()),
+            ],
+        ),
+        Kind::Text { start } => ("String", vec![("start", start.clone())]),
+    }
+}
+
+fn model_structure(xml: &mut Xml, table: &[Variable]) -> io::Result<()> {
+    let outputs = || table.iter().filter(|variable| variable.causality == Causality::Output);
+    xml.element("ModelStructure", vec![], |xml| {
+        xml.element("Outputs", vec![], |xml| {
+            outputs().try_for_each(|output| unknown(xml, output, &output.depends_on))
+        })?;
+        xml.element("InitialUnknowns", vec![], |xml| {
+            outputs().try_for_each(|output| unknown(xml, output, &initial_dependencies(table, output)))
+        })
+    })
+}
+
+/// What an output depends on at the start. The static equilibrium ties every real output to every input and
+/// parameter, so the list is as long as the standard allows; integers count solver work, which starts at nought.
+fn initial_dependencies(table: &[Variable], output: &Variable) -> Vec<u32> {
+    match output.kind {
+        Kind::Real { .. } => {
+            let known = table.iter().filter(|variable| variable.causality != Causality::Output);
+            known.map(|variable| variable.reference).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+fn unknown(xml: &mut Xml, output: &Variable, depends_on: &[u32]) -> io::Result<()> {
+    // The structure counts variables from 1, the table from 0.
+    let indices: Vec<String> = depends_on.iter().map(|reference| (reference + 1).to_string()).collect();
+    xml.empty(
+        "Unknown",
+        vec![
+            ("index", (output.reference + 1).to_string()),
+            ("dependencies", indices.join(" ")),
+            ("dependenciesKind", vec!["dependent"; indices.len()].join(" ")),
+        ],
+    )
+}
+
+fn unit(kind: &Kind) -> Option<Unit> {
+    match kind {
+        Kind::Real { unit, .. } => Some(*unit),
+        _ => None,
+    }
+}
+
+/// The standard's word.
+pub fn causality(causality: Causality) -> &'static str {
+    match causality {
+        Causality::Parameter => "parameter",
+        Causality::Input => "input",
+        Causality::Output => "output",
+    }
+}
+
+fn variability(variability: Variability) -> &'static str {
+    match variability {
+        Variability::Fixed => "fixed",
+        Variability::Discrete => "discrete",
+        Variability::Continuous => "continuous",
+    }
+}
+
+/// The shortest text that reads back to the same number; `xs:double` takes Rust's form.
+fn number(value: f64) -> String {
+    format!("{value:?}")
+}
+
+/// A thin layer over the XML writer: elements with owned attributes, indented by two spaces.
+struct Xml(Writer<Vec<u8>>);
+
+impl Xml {
+    fn new() -> io::Result<Self> {
+        let mut writer = Writer::new_with_indent(Vec::new(), b' ', 2);
+        writer.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
+        Ok(Self(writer))
+    }
+
+    fn element(
+        &mut self,
+        name: &str,
+        attributes: Attributes,
+        content: impl FnOnce(&mut Self) -> io::Result<()>,
+    ) -> io::Result<()> {
+        let start = start(name, &attributes);
+        self.0.write_event(Event::Start(start.borrow()))?;
+        content(self)?;
+        self.0.write_event(Event::End(start.to_end()))
+    }
+
+    fn empty(&mut self, name: &str, attributes: Attributes) -> io::Result<()> {
+        self.0.write_event(Event::Empty(start(name, &attributes)))
+    }
+
+    fn finish(self) -> io::Result<String> {
+        let mut bytes = self.0.into_inner();
+        bytes.push(b'\n');
+        String::from_utf8(bytes).map_err(io::Error::other)
+    }
+}
+
+fn start<'a>(name: &'a str, attributes: &'a Attributes) -> quick_xml::events::BytesStart<'a> {
+    let mut start = quick_xml::events::BytesStart::new(name);
+    start.extend_attributes(attributes.iter().map(|(key, value)| (*key, value.as_str())));
+    start
+}

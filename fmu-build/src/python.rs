@@ -1,0 +1,151 @@
+//! The Python environment for figures, validation and tests: made once, from a pinned list, under `target/python`.
+//!
+//! The scripts are part of this program and are laid beside the environment, so they can import one another.
+//! A file lock keeps several processes from making it at once; the stamp that is written last tells whether it
+//! is whole and of this program's list.
+
+use std::env;
+use std::ffi::OsStr;
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use anyhow::{Context, Result, bail};
+
+use crate::project::Project;
+
+const REQUIREMENTS: &str = include_str!("../python/requirements.txt");
+const SCRIPTS: [(&str, &str); 5] = [
+    ("demo.py", include_str!("../python/demo.py")),
+    ("host.py", include_str!("../python/host.py")),
+    ("plotting.py", include_str!("../python/plotting.py")),
+    ("run_figure.py", include_str!("../python/run_figure.py")),
+    ("validate.py", include_str!("../python/validate.py")),
+];
+const OLDEST: (u32, u32) = (3, 9);
+
+/// A Python environment that is ready.
+#[derive(Debug, Clone)]
+pub struct Python {
+    interpreter: PathBuf,
+    scripts: PathBuf,
+}
+
+impl Python {
+    /// Makes the environment, unless it is there.
+    pub fn prepare(project: &Project) -> Result<Self> {
+        let folder = project.target().join("python");
+        fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
+        let lock = File::create(folder.join("lock")).context("lock of the Python environment")?;
+        lock.lock().context("lock of the Python environment")?;
+
+        let environment = folder.join("env");
+        let bin = if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" };
+        let python = Self { interpreter: environment.join(bin), scripts: folder.join("scripts") };
+        let stamp = folder.join("stamp");
+        let whole = fs::read_to_string(&stamp).is_ok_and(|made_from| made_from == REQUIREMENTS);
+        if !(whole && python.interpreter.is_file()) {
+            let system = find_interpreter()?;
+            eprintln!("making the Python environment {} (once)", environment.display());
+            remove(&stamp, |path| fs::remove_file(path))?;
+            remove(&environment, |path| fs::remove_dir_all(path))?;
+            make(&system, &environment, &python.interpreter, &folder)?;
+            fs::write(&stamp, REQUIREMENTS).with_context(|| stamp.display().to_string())?;
+        }
+        fs::create_dir_all(&python.scripts).with_context(|| python.scripts.display().to_string())?;
+        for (name, text) in SCRIPTS {
+            write_if_new(&python.scripts.join(name), text)?;
+        }
+        Ok(python)
+    }
+
+    /// Runs one of this program's scripts and gives its standard output.
+    pub fn run<A: AsRef<OsStr>>(&self, script: &str, arguments: impl IntoIterator<Item = A>) -> Result<String> {
+        self.run_file(&self.scripts.join(script), arguments)
+    }
+
+    /// Runs a script file, which can import this program's scripts, and gives its standard output.
+    pub fn run_file<A: AsRef<OsStr>>(&self, script: &Path, arguments: impl IntoIterator<Item = A>) -> Result<String> {
+        let output = Command::new(&self.interpreter)
+            .env("PYTHONPATH", &self.scripts)
+            .env("PYTHONDONTWRITEBYTECODE", "1")
+            .env("MPLBACKEND", "Agg")
+            .arg(script)
+            .args(arguments)
+            .output()
+            .with_context(|| self.interpreter.display().to_string())?;
+        if !output.status.success() {
+            bail!("{}: {}", script.display(), said(&output));
+        }
+        Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+    }
+}
+
+/// The first interpreter that is new enough.
+fn find_interpreter() -> Result<PathBuf> {
+    let (major, minor) = OLDEST;
+    let chosen = env::var_os("BRINELL_PYTHON").map(PathBuf::from);
+    let candidates = chosen.map_or_else(|| vec!["python3".into(), "python".into()], |path| vec![path]);
+    let mut refused = Vec::new();
+    for candidate in candidates {
+        match version(&candidate) {
+            Some(found) if found >= OLDEST => return Ok(candidate),
+            Some(found) => refused.push(format!("{} is {}.{}", candidate.display(), found.0, found.1)),
+            None => refused.push(format!("{} is not there", candidate.display())),
+        }
+    }
+    bail!(
+        "Python {major}.{minor} or newer is needed ({}). Install it, or name one in BRINELL_PYTHON",
+        refused.join(", ")
+    );
+}
+
+fn version(interpreter: &Path) -> Option<(u32, u32)> {
+    let script = "import sys; print(sys.version_info[0], sys.version_info[1])";
+    let output = Command::new(interpreter).args(["-c", script]).output().ok()?;
+    let text = String::from_utf8(output.stdout).ok()?;
+    let (major, minor) = text.trim().split_once(' ')?;
+    Some((major.parse().ok()?, minor.parse().ok()?))
+}
+
+fn make(system: &Path, environment: &Path, interpreter: &Path, folder: &Path) -> Result<()> {
+    let output = Command::new(system).args(["-m", "venv"]).arg(environment).output()?;
+    if !output.status.success() {
+        bail!(
+            "{} cannot make a virtual environment; on Debian or Ubuntu: apt-get install python3-venv. It said: {}",
+            system.display(),
+            said(&output)
+        );
+    }
+    let list = folder.join("requirements.txt");
+    fs::write(&list, REQUIREMENTS).with_context(|| list.display().to_string())?;
+    let output = Command::new(interpreter)
+        .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--only-binary", ":all:", "-r"])
+        .arg(&list)
+        .output()?;
+    if !output.status.success() {
+        bail!("pip could not install the Python packages; is the package index reachable? It said: {}", said(&output));
+    }
+    Ok(())
+}
+
+/// The end of what a program said: its error, on one line.
+fn said(output: &Output) -> String {
+    let text = if output.stderr.is_empty() { &output.stdout } else { &output.stderr };
+    let text = String::from_utf8_lossy(text);
+    let lines: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+    lines[lines.len().saturating_sub(6)..].join(" | ")
+}
+
+fn remove(path: &Path, how: impl FnOnce(&Path) -> std::io::Result<()>) -> Result<()> {
+    if path.exists() { how(path).with_context(|| path.display().to_string()) } else { Ok(()) }
+}
+
+fn write_if_new(path: &Path, text: &str) -> Result<()> {
+    if fs::read_to_string(path).is_ok_and(|there| there == text) {
+        return Ok(());
+    }
+    // Another process may be reading the old text: replace the file, do not rewrite it.
+    let fresh = path.with_extension("new");
+    fs::write(&fresh, text).and_then(|()| fs::rename(&fresh, path)).with_context(|| path.display().to_string())
+}
