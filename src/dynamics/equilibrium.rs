@@ -1,15 +1,17 @@
 //! Static equilibrium: the load distribution from which a run starts.
 //!
-//! All velocities are zero, but the elements feel gravity and the centrifugal force of the cage speed. Each element's
-//! radial balance is solved inside (its force falls monotonically with u), then the internal rings' by Newton's method on
+//! Rings are at rest or move as prescribed, elements keep their distance from the outer ring (u' = 0) and go round with
+//! the cage: they feel gravity, the centrifugal force and the contacts' damping at those rates, so that no acceleration
+//! is left at the start. Each element's radial balance is solved inside (its force falls monotonically with u), then the internal rings' by Newton's method on
 //! the condensed tangent with a shift that keeps a loose ring's step bounded, and a search along the step for the point
 //! at which the residual no longer pushes forward: in a convex potential that is the minimum along the line.
 //!
 //! An element that nothing pushes rests against the outer raceway without force.
 
-use super::drive::Drive;
+use super::drive::{Drive, Quadratic};
 use super::forces::dot;
 use super::model::Model;
+use crate::contact::near_defect::OuterApproach;
 use crate::scene::Motion;
 
 /// Why no equilibrium was found.
@@ -30,6 +32,8 @@ pub enum EquilibriumError {
 
 /// Share of the largest force in play that may remain as residual: a few roundings of a sum of Z forces.
 const RESIDUAL: f64 = 1e-12;
+/// Residual that counts as none [N], for bearings without load: rounding of positions times contact stiffness.
+const SMALLEST_RESIDUAL: f64 = 1e-12;
 /// Longest step of a ring between two iterations [m].
 const LONGEST_STEP: f64 = 50e-6;
 const ITERATIONS: usize = 500;
@@ -63,11 +67,11 @@ impl Model {
         let cage_angle = drive.cage_angle(0.0);
         let omega = drive.cage.rate_at(0.0);
         let force = |u: f64| {
-            let element = self.elastic_element(j, cell, u, offset, cage_angle);
-            let (contact, slope) = element.radial();
+            let (contact, e_r) = self.damped_element(j, cell, u, offset, drive);
+            let (_, slope) = self.elastic_element(j, cell, u, offset, cage_angle).radial();
             let rho = self.outer_centre_radius + u;
-            let body = self.element_mass * (dot(self.gravity, element.e_r) + rho * omega * omega);
-            (contact + body, slope)
+            let body = self.element_mass * (dot(self.gravity, e_r) + rho * omega * omega);
+            (dot(contact.inner, e_r) - contact.outer[0] + body, slope)
         };
         // Where it touches the outer raceway without force: the path over the defect is where the approach vanishes.
         let rho = self.outer_centre_radius;
@@ -101,7 +105,7 @@ impl Model {
             }
             let newton = u - f / slope;
             let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            if next == u || f == 0.0 || high <= low || (next - u).abs() < 1e-18 {
+            if next == u || f == 0.0 || high <= low || (next - u).abs() < 1e-22 {
                 return next;
             }
             u = next;
@@ -109,15 +113,41 @@ impl Model {
         u
     }
 
+    /// Contact forces on element `j` at the start's rates: u' = 0, rings at rest or as prescribed.
+    fn damped_element(&self, j: usize, cell: u32, u: f64, offset: [f64; 2], drive: &Drive) -> (OnElement, [f64; 2]) {
+        let cage_angle = drive.cage_angle(0.0);
+        let omega = drive.cage.rate_at(0.0);
+        let e_r = self.direction(j, super::forces::cos_sin(cage_angle));
+        let e_t = [-e_r[1], e_r[0]];
+        let velocity = |motion: Motion, place: &[Quadratic; 2]| {
+            if motion == Motion::Host { place.map(|q| q.rate_at(0.0)) } else { [0.0; 2] }
+        };
+        let shaft = velocity(self.shaft.motion, &drive.shaft);
+        let housing = velocity(self.housing.motion, &drive.housing);
+        let drift = [0, 1].map(|a| housing[a] - shaft[a]);
+        let rho = self.outer_centre_radius + u;
+        let inner = self.inner_gap(u, offset, e_r);
+        let rate = -(inner.n[0] * dot(drift, e_r) + inner.n[1] * (dot(drift, e_t) + rho * omega));
+        let force = self.inner.force(inner.approach, rate);
+        let near = self.near_defect(j, cell, u, cage_angle, rho).unwrap_or_else(|| OuterApproach::smooth(u));
+        let outer = self.outer.force(near.value, near.by_angle * omega);
+        let on_element = OnElement {
+            inner: [0, 1].map(|a| force * (inner.n[0] * e_r[a] + inner.n[1] * e_t[a])),
+            outer: [outer * near.radial, outer * near.tangential],
+        };
+        (on_element, e_r)
+    }
+
     /// Balances all elements for given rings and sums the forces on the rings.
     fn balance(&self, drive: &Drive, cells: &[u32], rings: &Rings, u: &mut [f64]) -> Balance {
         let offset = rings.offset();
         let mut force = [0.0; 4];
-        let mut largest: f64 = 0.0;
+        let (mut largest, mut contact_sum) = (0.0f64, 0.0);
         for j in 0..self.element_count {
             u[j] = self.balanced_path(j, cells[j], offset, drive);
-            let element = self.elastic_element(j, cells[j], u[j], offset, drive.cage_angle(0.0));
-            let on_housing = element.on_housing();
+            let (element, e_r) = self.damped_element(j, cells[j], u[j], offset, drive);
+            contact_sum += dot(element.inner, element.inner).sqrt();
+            let on_housing = [0, 1].map(|a| element.outer[0] * e_r[a] - element.outer[1] * [-e_r[1], e_r[0]][a]);
             for a in 0..2 {
                 force[a] -= element.inner[a];
                 force[2 + a] += on_housing[a];
@@ -137,30 +167,26 @@ impl Model {
                 *f = 0.0;
             }
         }
-        Balance { force, limit: RESIDUAL * largest }
+        Balance { force, contact_sum, limit: RESIDUAL * largest + SMALLEST_RESIDUAL }
     }
 
     /// A step of the free rings from the condensed tangent: (−J + μ) step = force.
     fn newton_step(&self, drive: &Drive, cells: &[u32], rings: &Rings, u: &[f64], balance: &Balance) -> [f64; 4] {
         let mut matrix = self.ring_jacobian(u, cells, rings.offset(), drive.cage_angle(0.0));
-        let mut largest: f64 = 0.0;
+        // The turning of contact forces makes a lightly held ring's tangent indefinite; its bound ΣQ/|q| takes that out.
+        // The second term lets a loose ring move by the longest step, and vanishes with the residual.
+        let shift = balance.contact_sum / self.outer_centre_radius + balance.residual() / LONGEST_STEP;
         for (i, row) in matrix.iter_mut().enumerate() {
-            for value in row.iter_mut() {
-                *value = -*value;
-            }
-            row[i] += if i < 2 { self.shaft.stiffness } else { self.housing.stiffness };
-            largest = largest.max(row[i].abs());
-        }
-        for i in 0..4 {
-            if rings.free[i] {
-                // Keeps a ring that is loose in one direction from making the matrix singular.
-                matrix[i][i] += 1e-12 * largest;
-            } else {
-                for k in 0..4 {
-                    matrix[i][k] = 0.0;
-                    matrix[k][i] = 0.0;
-                }
-                matrix[i][i] = 1.0;
+            let support = if i < 2 { self.shaft.stiffness } else { self.housing.stiffness };
+            for (k, value) in row.iter_mut().enumerate() {
+                let on_diagonal = if i == k { support + shift } else { 0.0 };
+                *value = if rings.free[i] && rings.free[k] {
+                    on_diagonal - *value
+                } else if i == k {
+                    1.0
+                } else {
+                    0.0
+                };
             }
         }
         let mut step = solve(matrix, balance.force);
@@ -223,6 +249,12 @@ impl Model {
     }
 }
 
+/// Contact forces on one element [N]: the inner in x and y, the outer inwards and counter-clockwise.
+struct OnElement {
+    inner: [f64; 2],
+    outer: [f64; 2],
+}
+
 /// Positions of both rings during the search.
 #[derive(Debug, Clone, Copy)]
 struct Rings {
@@ -252,8 +284,8 @@ impl Rings {
 
     fn moved(&self, step: [f64; 4], share: f64) -> Self {
         let mut moved = *self;
-        for i in 0..4 {
-            moved.position[i] += share * step[i];
+        for (position, step) in moved.position.iter_mut().zip(step) {
+            *position += share * step;
         }
         moved
     }
@@ -262,6 +294,8 @@ impl Rings {
 /// Net force on the free rings.
 struct Balance {
     force: [f64; 4],
+    /// Σ|Q_i| [N]
+    contact_sum: f64,
     limit: f64,
 }
 
@@ -283,8 +317,9 @@ fn solve(mut a: [[f64; 4]; 4], mut b: [f64; 4]) -> [f64; 4] {
         b.swap(i, pivot);
         for k in i + 1..4 {
             let factor = a[k][i] / a[i][i];
-            for l in i..4 {
-                a[k][l] -= factor * a[i][l];
+            let pivot_row = a[i];
+            for (value, above) in a[k].iter_mut().zip(pivot_row).skip(i) {
+                *value -= factor * above;
             }
             b[k] -= factor * b[i];
         }

@@ -13,7 +13,7 @@
 //! F_r = Q(u, u') and F_t = 0. As w is the element's *absolute* radial velocity, no ring acceleration enters.
 //! The cage is kinematic: it takes up every tangential force on the elements. What it takes is the cage torque.
 
-use super::drive::Drive;
+use super::drive::{Drive, Quadratic};
 use super::model::Model;
 use crate::contact::near_defect::OuterApproach;
 use crate::numerics::{sin_cos, wrap};
@@ -76,6 +76,17 @@ impl Forces {
     pub fn largest_approach(&self) -> f64 {
         self.inner_approach.iter().chain(&self.outer_approach).copied().fold(0.0, f64::max)
     }
+}
+
+/// An element seen from the inner ring's centre.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct InnerGap {
+    /// δ_i [m]
+    pub(super) approach: f64,
+    /// n = q/|q|, radial and tangential.
+    pub(super) n: [f64; 2],
+    /// |q| [m]
+    pub(super) distance: f64,
 }
 
 /// Position and velocity of a ring.
@@ -198,12 +209,7 @@ impl Model {
             let path_rate = w - dot(housing.velocity, e_r);
             forces.path_rate[j] = path_rate;
 
-            // |q| = √((ρ+p)² + t²), written so that δ_i loses no digits to the radii's 20 mm.
-            let (p, t) = (dot(offset, e_r), dot(offset, e_t));
-            let q_r = rho + p;
-            let q = (q_r * q_r + t * t).sqrt();
-            let delta = -self.radial_clearance - u - p - t * t / (q + q_r);
-            let n = [q_r / q, t / q];
+            let InnerGap { approach: delta, n, .. } = self.inner_gap(u, offset, e_r);
             let rate = -(n[0] * (dot(drift, e_r) + path_rate) + n[1] * (dot(drift, e_t) + rho * omega));
             let inner = self.inner.force(delta, rate);
             forces.inner_approach[j] = delta;
@@ -231,6 +237,18 @@ impl Model {
                 forces.housing[axis] += f_r * e_r[axis] - f_t * e_t[axis];
             }
         }
+    }
+
+    /// Where an element at path `u` in direction `e_r` is seen from the inner ring, whose centre is `offset` before the
+    /// outer ring's.
+    #[inline]
+    pub(super) fn inner_gap(&self, u: f64, offset: [f64; 2], e_r: [f64; 2]) -> InnerGap {
+        // |q| = √((ρ+p)² + t²), written so that δ_i loses no digits to the radii's 20 mm.
+        let (p, t) = (dot(offset, e_r), e_r[0] * offset[1] - e_r[1] * offset[0]);
+        let q_r = self.outer_centre_radius + u + p;
+        let distance = (q_r * q_r + t * t).sqrt();
+        let approach = -self.radial_clearance - u - p - t * t / (distance + q_r);
+        InnerGap { approach, n: [q_r / distance, t / distance], distance }
     }
 
     /// Approach of element `j` to the outer raceway in a cell of the defect; `None` on the smooth raceway.
@@ -296,5 +314,3 @@ pub(super) fn cos_sin(angle: f64) -> (f64, f64) {
 pub(super) fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
-
-use super::drive::Quadratic;

@@ -35,11 +35,6 @@ impl ElasticElement {
         let g_e = times(self.inner_by_q, self.e_r);
         (dot(self.inner, self.e_r) - self.outer[0], dot(self.e_r, g_e) - self.outer_by_path[0])
     }
-
-    /// Force on the outer ring [N].
-    pub(super) fn on_housing(&self) -> [f64; 2] {
-        [0, 1].map(|a| self.outer[0] * self.e_r[a] - self.outer[1] * self.e_t[a])
-    }
 }
 
 impl Model {
@@ -55,11 +50,9 @@ impl Model {
         let e_r = self.direction(j, cos_sin(cage_angle));
         let e_t = [-e_r[1], e_r[0]];
         let rho = self.outer_centre_radius + u;
-        let (p, t) = (dot(offset, e_r), dot(offset, e_t));
-        let q_r = rho + p;
-        let q = (q_r * q_r + t * t).sqrt();
-        let delta = -self.radial_clearance - u - p - t * t / (q + q_r);
-        let n = [0, 1].map(|a| (q_r * e_r[a] + t * e_t[a]) / q);
+        let gap = self.inner_gap(u, offset, e_r);
+        let n = [0, 1].map(|a| gap.n[0] * e_r[a] + gap.n[1] * e_t[a]);
+        let (delta, q) = (gap.approach, gap.distance);
         let (force, k) = (self.inner.elastic(delta), self.inner.elastic_stiffness(delta));
         let across = force / q;
         let mut inner_by_q = [[0.0; 2]; 2];

@@ -65,8 +65,7 @@ pub enum Status {
 }
 
 /// `fmi2CallbackLogger`: environment, instance name, status, category, format, arguments of the format.
-pub type LoggerCallback =
-    unsafe extern "C" fn(ComponentEnvironment, FmiString, Status, FmiString, FmiString, ...);
+pub type LoggerCallback = unsafe extern "C" fn(ComponentEnvironment, FmiString, Status, FmiString, FmiString, ...);
 /// `fmi2CallbackAllocateMemory`; never called.
 pub type AllocateMemoryCallback = unsafe extern "C" fn(usize, usize) -> *mut c_void;
 /// `fmi2CallbackFreeMemory`; never called.
