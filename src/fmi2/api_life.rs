@@ -15,6 +15,7 @@ use super::resources::{Model, ResourceError};
 use super::state::{self, Mode};
 use super::types::{Boolean, CO_SIMULATION, CallbackFunctions, Component, FALSE, FmiString, FmuType, Real, Status};
 use super::arguments;
+use crate::simulation::variables::Kind;
 
 /// Name by which the tolerance of the time integration is found in the variable table.
 const TOLERANCE: &str = "solver.tolerance";
@@ -153,7 +154,9 @@ fn checked_model(
 /// `c` may be any value. The standard forbids a call while another one on the same instance runs; it is then ignored.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeInstance(c: Component) {
-    if let Ok(instance) = handles::borrow(c) {
+    if let Ok(instance) = handles::borrow(c)
+        && state::FREE_INSTANCE.allowed.contains(instance.mode)
+    {
         drop(boundary::guard(|| drop(handles::remove(instance))));
     }
 }
@@ -218,7 +221,7 @@ fn tighten(instance: &mut Instance, tolerance: f64) -> Result<(), Failure> {
     };
     let reference = variable.reference;
     let least = match variable.kind {
-        crate::simulation::variables::Kind::Real { min: Some(min), .. } => min,
+        Kind::Real { min: Some(min), .. } => min,
         _ => 0.0,
     };
     let mut present = [0.0];

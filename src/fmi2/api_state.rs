@@ -20,8 +20,7 @@ pub unsafe extern "C" fn fmi2GetFMUstate(c: Component, FMUstate: *mut FmuState) 
     boundary::call(c, &state::GET_FMU_STATE, |instance| {
         // SAFETY: this function's contract; null and misaligned pointers are refused. The handle itself may be any value.
         let handle = unsafe { place("FMUstate", FMUstate)? };
-        let snapshot = instance.save();
-        *handle = instance.snapshots.put(*handle, snapshot)?;
+        *handle = instance.save(*handle)?;
         Ok(())
     })
 }
@@ -62,7 +61,7 @@ pub unsafe extern "C" fn fmi2FreeFMUstate(c: Component, FMUstate: *mut FmuState)
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SerializedFMUstateSize(c: Component, FMUstate: FmuState, size: *mut usize) -> Status {
     boundary::call(c, &state::SERIALIZED_FMU_STATE_SIZE, |instance| {
-        let length = blob::encode(instance.snapshots.get(FMUstate)?, &instance.model.guid).len();
+        let length = blob::length(instance.snapshots.get(FMUstate)?);
         // SAFETY: this function's contract; null and misaligned pointers are refused.
         unsafe { store("size", size, length) }
     })
@@ -107,8 +106,8 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
         let handle = unsafe { place("FMUstate", FMUstate)? };
         // SAFETY: as above.
         let bytes = unsafe { array("serializedState", serializedState.cast::<u8>(), size)? };
-        let snapshot = blob::decode(bytes, &instance.model.guid)?;
-        *handle = instance.snapshots.put(*handle, snapshot)?;
+        let snapshot = blob::decode(bytes, &instance.model.guid, &instance.simulation)?;
+        *handle = instance.snapshots.put(*handle, |_| Some(snapshot))?;
         Ok(())
     })
 }

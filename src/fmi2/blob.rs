@@ -12,7 +12,7 @@ use super::clock::Clock;
 use super::snapshots::Snapshot;
 use super::state::Mode;
 use super::types::Status;
-use crate::simulation::State;
+use crate::simulation::Simulation;
 
 const MAGIC: &[u8; 8] = b"Brinell\0";
 /// Raised whenever the layout, here or in the simulation's state, changes.
@@ -56,6 +56,11 @@ pub(super) enum BlobError {
     Contents,
 }
 
+/// Number of bytes of [`encode`].
+pub(super) fn length(snapshot: &Snapshot) -> usize {
+    encoded_length(snapshot.simulation.byte_count())
+}
+
 /// The bytes of a state.
 pub(super) fn encode(snapshot: &Snapshot, guid: &str) -> Vec<u8> {
     let simulation = snapshot.simulation.to_bytes();
@@ -82,8 +87,8 @@ pub(super) fn encode(snapshot: &Snapshot, guid: &str) -> Vec<u8> {
     bytes
 }
 
-/// The state in bytes that this model has written.
-pub(super) fn decode(bytes: &[u8], guid: &str) -> Result<Snapshot, BlobError> {
+/// The state in bytes that an instance of this simulation's model has written.
+pub(super) fn decode(bytes: &[u8], guid: &str, simulation: &Simulation) -> Result<Snapshot, BlobError> {
     let mut rest = bytes;
     if take::<8>(&mut rest).ok_or(BlobError::Foreign)? != *MAGIC {
         return Err(BlobError::Foreign);
@@ -106,10 +111,10 @@ pub(super) fn decode(bytes: &[u8], guid: &str) -> Result<Snapshot, BlobError> {
     if found != guid_field(guid) {
         return Err(BlobError::OtherModel { found: String::from_utf8_lossy(&found).into_owned(), own: guid.to_owned() });
     }
-    contents(rest).ok_or(BlobError::Contents)
+    contents(rest, simulation).ok_or(BlobError::Contents)
 }
 
-fn contents(mut rest: &[u8]) -> Option<Snapshot> {
+fn contents(mut rest: &[u8], simulation: &Simulation) -> Option<Snapshot> {
     let [mode, last_step, clock] = take(&mut rest)?;
     let mut value = || Some(f64::from_le_bytes(take(&mut rest)?));
     let (start, stop, time) = (value()?, value()?, value()?);
@@ -124,7 +129,7 @@ fn contents(mut rest: &[u8]) -> Option<Snapshot> {
             2 if start.is_finite() && time.is_finite() && stop > start => Some(Clock { start, stop: Some(stop), time }),
             _ => return None,
         },
-        simulation: State::from_bytes(rest)?,
+        simulation: simulation.state_from_bytes(rest)?,
     })
 }
 

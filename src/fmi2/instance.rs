@@ -72,14 +72,17 @@ impl Instance {
         Ok(())
     }
 
-    /// Everything that the instance's future depends on.
-    pub(super) fn save(&self) -> Snapshot {
-        Snapshot {
-            mode: self.mode,
-            clock: self.clock,
-            last_step: self.last_step,
-            simulation: self.simulation.save(),
-        }
+    /// Saves everything that the instance's future depends on: over the state behind `handle`, or anew if it is null.
+    pub(super) fn save(&mut self, handle: FmuState) -> Result<FmuState, Failure> {
+        let Self { mode, clock, last_step, ref simulation, .. } = *self;
+        self.snapshots.put(handle, |old| match old {
+            Some(old) => {
+                simulation.save_into(&mut old.simulation);
+                (old.mode, old.clock, old.last_step) = (mode, clock, last_step);
+                None
+            }
+            None => Some(Snapshot { mode, clock, last_step, simulation: simulation.save() }),
+        })
     }
 
     /// Puts a saved state back. A simulation that a panic has damaged is set up anew first.
@@ -88,7 +91,7 @@ impl Instance {
             self.rebuild()?;
         }
         let snapshot = self.snapshots.get(handle)?;
-        self.simulation.restore(&snapshot.simulation);
+        self.simulation.restore(&snapshot.simulation)?;
         self.mode = snapshot.mode;
         self.clock = snapshot.clock;
         self.last_step = snapshot.last_step;

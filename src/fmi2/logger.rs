@@ -106,7 +106,7 @@ impl Logger {
             match Category::LIST.into_iter().find(|category| category.name() == *name) {
                 Some(category) if on => self.switched_on |= category as u8,
                 Some(_) => {}
-                None => result = result.and(Err(name)),
+                None => result = result.and(Err(*name)),
             }
         }
         result

@@ -41,6 +41,14 @@ struct Entry {
     snapshot: Snapshot,
 }
 
+impl Entry {
+    fn rewrite(&mut self, write: impl FnOnce(Option<&mut Snapshot>) -> Option<Snapshot>) {
+        if let Some(snapshot) = write(Some(&mut self.snapshot)) {
+            self.snapshot = snapshot;
+        }
+    }
+}
+
 /// The saved states of one instance.
 #[derive(Debug, Default)]
 pub(super) struct Snapshots {
@@ -64,10 +72,16 @@ impl Snapshots {
     }
 
     /// Stores a state: over the one behind `handle`, or as a new one if `handle` is null. Gives its handle.
-    pub(super) fn put(&mut self, handle: FmuState, snapshot: Snapshot) -> Result<FmuState, Failure> {
+    ///
+    /// `write` gets the memory of an old state, if there is one, to write the new one there; if not, it makes one.
+    pub(super) fn put(
+        &mut self,
+        handle: FmuState,
+        write: impl FnOnce(Option<&mut Snapshot>) -> Option<Snapshot>,
+    ) -> Result<FmuState, Failure> {
         if !handle.is_null() {
             let index = self.index(handle)?;
-            self.entries[index].snapshot = snapshot;
+            self.entries[index].rewrite(write);
             return Ok(handle);
         }
         let index = match self.free.pop() {
@@ -80,10 +94,12 @@ impl Snapshots {
         };
         let serial = SERIAL.fetch_add(1, Ordering::Relaxed);
         let handle = serial << (INDEX_BITS + 4) | (index as u64) << 4 | TAG;
-        let entry = Entry { handle, snapshot };
         match self.entries.get_mut(index) {
-            Some(old) => *old = entry,
-            None => self.entries.push(entry),
+            Some(old) => {
+                old.rewrite(write);
+                old.handle = handle;
+            }
+            None => self.entries.extend(write(None).map(|snapshot| Entry { handle, snapshot })),
         }
         Ok(ptr::without_provenance_mut(handle as usize))
     }

@@ -29,6 +29,9 @@ pub enum SimulationError {
     /// A communication step that cannot be taken. Nothing was changed.
     #[error("communication step {0} s: it must be finite and above 0")]
     CommunicationStep(f64),
+    /// Something that this model does not offer.
+    #[error("{0} are not provided by this model")]
+    NotProvided(&'static str),
     /// A step was asked for before initialization.
     #[error("a step was asked for before initialization was finished")]
     NotInitialized,

@@ -2,12 +2,16 @@
 //!
 //! This is the whole of what `fmi2` and `fmu-build` see of the model.
 
+pub mod derivatives;
 pub mod dormand_prince;
 pub mod error;
+pub mod guid;
 pub mod outputs;
 pub mod setup;
+pub mod state_bytes;
 pub mod stepper;
 pub mod table;
+pub mod texts;
 pub mod variables;
 
 pub use error::{SimulationError, VariableError};
@@ -63,6 +67,14 @@ pub struct State {
     values: Vec<f64>,
     integers: Vec<i32>,
     input_rates: Vec<[f64; 2]>,
+}
+
+impl State {
+    /// Copies all but the variables of another state of the same model.
+    fn copy_progress(&mut self, other: &State) {
+        (self.time, self.started, self.cage) = (other.time, other.started, other.cage);
+        self.progress.copy_from(&other.progress);
+    }
 }
 
 impl Simulation {
@@ -139,13 +151,15 @@ impl Simulation {
 
     /// Reads reals. Outputs are computed if something has changed since they were last.
     pub fn reals(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), SimulationError> {
+        let mut outputs = false;
         for &reference in references {
             let variable = self.variable(reference)?;
             if !matches!(variable.kind, Kind::Real { .. }) {
                 return Err(wrong_type(variable, "Real").into());
             }
+            outputs |= variable.causality == Causality::Output;
         }
-        if self.outputs_are_stale {
+        if outputs && self.outputs_are_stale {
             self.refresh()?;
         }
         for (value, &reference) in values.iter_mut().zip(references) {
@@ -190,13 +204,15 @@ impl Simulation {
 
     /// Reads integers and enumerations.
     pub fn integers(&mut self, references: &[u32], values: &mut [i32]) -> Result<(), SimulationError> {
+        let mut outputs = false;
         for &reference in references {
             let variable = self.variable(reference)?;
             if !matches!(variable.kind, Kind::Integer | Kind::Enumeration { .. }) {
                 return Err(wrong_type(variable, "Integer").into());
             }
+            outputs |= variable.causality == Causality::Output;
         }
-        if self.outputs_are_stale {
+        if outputs && self.outputs_are_stale {
             self.refresh()?;
         }
         for (value, &reference) in values.iter_mut().zip(references) {
@@ -264,14 +280,20 @@ impl Simulation {
     /// Takes the state.
     pub fn save(&self) -> State {
         let mut state = self.state.clone();
-        state.values.copy_from_slice(&self.values);
-        state.integers.copy_from_slice(&self.integers);
-        state.input_rates.copy_from_slice(&self.input_rates);
+        self.save_into(&mut state);
         state
     }
 
-    /// Puts a state of this same model back.
-    pub fn restore(&mut self, state: &State) {
+    /// Takes the state over one taken earlier of this same model; allocates nothing.
+    pub fn save_into(&self, state: &mut State) {
+        state.copy_progress(&self.state);
+        state.values.copy_from_slice(&self.values);
+        state.integers.copy_from_slice(&self.integers);
+        state.input_rates.copy_from_slice(&self.input_rates);
+    }
+
+    /// Puts a state of this same model back. An error leaves the simulation in need of another state or of a rebuild.
+    pub fn restore(&mut self, state: &State) -> Result<(), SimulationError> {
         let parameters_differ = self.table.iter().enumerate().any(|(i, variable)| {
             variable.causality == Causality::Parameter
                 && (self.values[i].to_bits() != state.values[i].to_bits() || self.integers[i] != state.integers[i])
@@ -280,10 +302,12 @@ impl Simulation {
         self.values.copy_from_slice(&state.values);
         self.integers.copy_from_slice(&state.integers);
         self.input_rates.copy_from_slice(&state.input_rates);
-        self.state.clone_from(state);
+        self.state.copy_progress(state);
         self.equilibrium_is_stale = true;
         self.outputs_are_stale = true;
         self.stiffness_is_stale = true;
+        // Before the start, the equilibrium rebuilds the model when it is asked for.
+        if self.state.started { self.rebuild() } else { Ok(()) }
     }
 
     /// Where every external influence is during the next step.

@@ -102,6 +102,19 @@ impl Progress {
     }
 }
 
+impl Progress {
+    /// Copies the progress of another state of the same model; allocates nothing.
+    pub fn copy_from(&mut self, other: &Progress) {
+        let Self { state, cells, pushing, .. } = self;
+        state.copy_from_slice(&other.state);
+        cells.copy_from_slice(&other.cells);
+        pushing.copy_from_slice(&other.pushing);
+        (self.next_step, self.last_error, self.mean_force) = (other.next_step, other.last_error, other.mean_force);
+        (self.steps, self.rejected_steps, self.defect_lookups) =
+            (other.steps, other.rejected_steps, other.defect_lookups);
+    }
+}
+
 /// Step tried first [s]: far below the period of an element on its contacts, and grown at once if that was too timid.
 const FIRST_STEP: f64 = 1e-6;
 /// Smallest step [s]; the fastest real mode of a steel bearing's element lasts 1e-8 s.

@@ -1,0 +1,105 @@
+//! A [`State`] as bytes, little-endian, in one fixed order; and back, if the bytes have the shape of this model's state.
+//!
+//! Numbers are written bit by bit, so a state that went through bytes continues with the same bits, also in another process. The
+//! bytes carry no version and no checksum: whoever stores them adds both.
+
+use super::{Simulation, State};
+
+impl State {
+    /// The state as bytes.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = Vec::with_capacity(self.byte_count());
+        let mut copy = self.clone();
+        // The visitor wants to be able to change what it sees; writing changes only the copy, with its own values.
+        let written: Option<()> = copy.visit(&mut |field| {
+            bytes.extend_from_slice(field);
+            Some(())
+        });
+        debug_assert!(written.is_some());
+        bytes
+    }
+
+    /// Number of bytes of [`to_bytes`](Self::to_bytes).
+    pub fn byte_count(&self) -> usize {
+        let progress = &self.progress;
+        let fixed = 8 + 1 + 8 + 8 + 2 * 8 + 4 * 8 + 3 * 8;
+        let real = progress.state.len() + self.values.len() + 2 * self.input_rates.len();
+        fixed + 8 * real + 4 * (progress.cells.len() + self.integers.len()) + progress.pushing.len()
+    }
+
+    /// Shows every field as bytes to `field`, and takes what `field` has made of them. `None` as soon as `field` gives `None` or a
+    /// field cannot have that value.
+    fn visit(&mut self, field: &mut impl FnMut(&mut [u8]) -> Option<()>) -> Option<()> {
+        let progress = &mut self.progress;
+        real(&mut self.time, field)?;
+        flag(&mut self.started, field)?;
+        let mut turns = self.cage.turns.to_le_bytes();
+        field(&mut turns)?;
+        self.cage.turns = i64::from_le_bytes(turns);
+        real(&mut self.cage.rest, field)?;
+        for value in [&mut progress.next_step, &mut progress.last_error] {
+            real(value, field)?;
+        }
+        let lists = [&mut progress.mean_force[..], &mut progress.state, &mut self.values];
+        for value in lists.into_iter().flatten().chain(self.input_rates.as_flattened_mut()) {
+            real(value, field)?;
+        }
+        for cell in &mut progress.cells {
+            let mut bytes = cell.to_le_bytes();
+            field(&mut bytes)?;
+            *cell = u32::from_le_bytes(bytes);
+        }
+        for integer in &mut self.integers {
+            let mut bytes = integer.to_le_bytes();
+            field(&mut bytes)?;
+            *integer = i32::from_le_bytes(bytes);
+        }
+        for pushing in &mut progress.pushing {
+            flag(pushing, field)?;
+        }
+        for count in [&mut progress.steps, &mut progress.rejected_steps, &mut progress.defect_lookups] {
+            let mut bytes = count.to_le_bytes();
+            field(&mut bytes)?;
+            *count = u64::from_le_bytes(bytes);
+        }
+        Some(())
+    }
+}
+
+impl Simulation {
+    /// The state in bytes that [`State::to_bytes`] made of a state of this same model; `None` if they cannot be one.
+    pub fn state_from_bytes(&self, bytes: &[u8]) -> Option<State> {
+        let mut state = self.save();
+        let mut rest = bytes;
+        state.visit(&mut |field| {
+            let (head, tail) = rest.split_at_checked(field.len())?;
+            field.copy_from_slice(head);
+            rest = tail;
+            Some(())
+        })?;
+        let progress = &state.progress;
+        let sound = rest.is_empty()
+            && [state.time, state.cage.rest, progress.last_error].iter().all(|value| value.is_finite())
+            && progress.state.iter().all(|value| value.is_finite())
+            && progress.next_step > 0.0;
+        sound.then_some(state)
+    }
+}
+
+fn real(value: &mut f64, field: &mut impl FnMut(&mut [u8]) -> Option<()>) -> Option<()> {
+    let mut bytes = value.to_le_bytes();
+    field(&mut bytes)?;
+    *value = f64::from_le_bytes(bytes);
+    Some(())
+}
+
+fn flag(value: &mut bool, field: &mut impl FnMut(&mut [u8]) -> Option<()>) -> Option<()> {
+    let mut byte = [u8::from(*value)];
+    field(&mut byte)?;
+    *value = match byte {
+        [0] => false,
+        [1] => true,
+        _ => return None,
+    };
+    Some(())
+}
