@@ -1,0 +1,14 @@
+//! The FMI 2.0 rules, each shown by a test that calls the exported C functions as a host would.
+//!
+//! `unsafe` is what a C interface is called with; each test passes only what its sentence says.
+#![allow(unsafe_code)]
+
+mod host;
+mod hostile;
+mod instantiate;
+mod logging;
+mod modes;
+mod panics;
+mod saved_states;
+mod steps;
+mod variables;
