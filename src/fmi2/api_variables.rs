@@ -15,12 +15,7 @@ use super::types::{Boolean, Component, FmiString, Integer, Real, Status, ValueRe
 /// # Safety
 /// `vr` and `value` are null, or point to `nvr` elements each.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetReal(
-    c: Component,
-    vr: *const ValueReference,
-    nvr: usize,
-    value: *mut Real,
-) -> Status {
+pub unsafe extern "C" fn fmi2GetReal(c: Component, vr: *const ValueReference, nvr: usize, value: *mut Real) -> Status {
     boundary::call(c, &state::GET_REAL, |instance| {
         disjoint(vr, nvr, value, nvr)?;
         // SAFETY: this function's contract; null, misaligned and overlapping arrays are refused.

@@ -1,8 +1,8 @@
 //! A host: unpacked resources, a logger that remembers, and the exported functions as methods.
 //!
-//! The standard's logger takes variable arguments, which stable Rust cannot define. The logger here takes the six arguments that Brinell
-//! passes. On the platforms that the tests run on (System V x86-64, AArch64 Linux, Windows x64) variable arguments arrive
-//! where fixed ones do, so this is harmless; on Apple's AArch64 it is not.
+//! The standard's logger takes variable arguments, which stable Rust cannot define. The logger here takes the six
+//! arguments that Brinell passes. On the platforms that the tests run on (System V x86-64, AArch64 Linux, Windows
+//! x64) variable arguments arrive where fixed ones do, so this is harmless; on Apple's AArch64 it is not.
 
 use brinell::fmi2::*;
 use brinell::simulation::guid::guid;
@@ -40,7 +40,8 @@ unsafe extern "C" fn remember(
     format: FmiString,
     message: FmiString,
 ) {
-    // SAFETY: the environment is the `Log` of a living `Host`; Brinell passes strings that end in NUL, or this test fails.
+    // SAFETY: the environment is the `Log` of a living `Host`; Brinell passes strings that end in NUL, or this test
+    // fails.
     let (log, texts) = unsafe {
         let text = |pointer| CStr::from_ptr(pointer).to_str().unwrap().to_owned();
         (&*environment.cast::<Log>(), [instance, category, format, message].map(text))
@@ -82,7 +83,8 @@ impl Resources {
     pub(crate) fn named(scene: &str, name: &str) -> Self {
         let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
         let text = fs::read_to_string(scenes.join(format!("{scene}.toml"))).unwrap();
-        let profile = text.lines().find_map(|line| Some(line.strip_prefix("profile = \"")?.split('"').next()?.to_owned()));
+        let profile =
+            text.lines().find_map(|line| Some(line.strip_prefix("profile = \"")?.split('"').next()?.to_owned()));
         let profile = profile.map(|file| (fs::read_to_string(scenes.join(&file)).unwrap(), file));
         Self::new(&text, profile.as_ref().map(|(text, file)| (file.as_str(), text.as_str())), name)
     }
@@ -137,7 +139,8 @@ impl Call<'_> {
             component_environment: ptr::from_ref(&*log).cast_mut().cast::<c_void>(),
         };
         let texts = [self.name, self.guid, self.location].map(|text| text.map(|text| CString::new(text).unwrap()));
-        let [name, guid, location] = texts.each_ref().map(|text| text.as_ref().map_or(ptr::null(), |text| text.as_ptr()));
+        let [name, guid, location] =
+            texts.each_ref().map(|text| text.as_ref().map_or(ptr::null(), |text| text.as_ptr()));
         // SAFETY: strings end in NUL; the callbacks live through the call, the log as long as the instance.
         let component = unsafe {
             fmi2Instantiate(name, self.fmu_type, guid, location, &raw const callbacks, FALSE, self.logging.into())

@@ -105,7 +105,7 @@ fn whim() -> impl Strategy<Value = Whim> {
         3 => Just(Whim::Exit),
         1 => Just(Whim::Terminate),
         2 => Just(Whim::Reset),
-        1 => (number(), number().prop_filter("steps of minutes take minutes", |step| !(*step > 1e-2)))
+        1 => (number(), number().prop_filter("steps of minutes take minutes", |step| *step <= 1e-2 || step.is_nan()))
             .prop_map(|(point, step)| Whim::Step(point, step)),
         6 => (1e-7..1e-4).prop_map(Whim::StepOn),
         6 => reference().prop_map(Whim::Get),

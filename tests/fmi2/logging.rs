@@ -82,7 +82,7 @@ fn every_error_says_what_failed_and_what_to_do() {
     let lines = host.lines();
     assert_eq!(lines.len(), 1);
     let message = &lines[0].message;
-    for word in ["fmi2DoStep", "-1 s", "above 0", "fmi2Reset", "fmi2SetFMUstate", "fmi2FreeInstance"] {
+    for word in ["fmi2DoStep", "-1.0 s", "above 0", "fmi2Reset", "fmi2SetFMUstate", "fmi2FreeInstance"] {
         assert!(message.contains(word), "{word}: {message}");
     }
 }
