@@ -49,7 +49,10 @@ fn a_shaft_moved_by_the_host_feels_what_a_shaft_moving_itself_feels() {
 #[test]
 fn two_instances_of_two_scenes_do_not_disturb_each_other() {
     let folder = common::folder("two");
-    common::run_script("two_instances.py", [common::fmu_of("6205-epps", &folder), common::fmu_of("er16k-tb2", &folder)]);
+    common::run_script(
+        "two_instances.py",
+        [common::fmu_of("6205-epps", &folder), common::fmu_of("er16k-tb2", &folder)],
+    );
 }
 
 #[test]

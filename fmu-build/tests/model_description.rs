@@ -55,7 +55,10 @@ fn the_table_keeps_the_rules_that_the_writer_relies_on() {
                 assert_eq!(start.is_some(), variable.causality != Causality::Output, "{name}: start");
                 let start = start.unwrap_or(nominal);
                 let (min, max) = (min.unwrap_or(f64::NEG_INFINITY), max.unwrap_or(f64::INFINITY));
-                assert!(variable.causality == Causality::Output || (min..=max).contains(&start), "{name}: start {start}");
+                assert!(
+                    variable.causality == Causality::Output || (min..=max).contains(&start),
+                    "{name}: start {start}"
+                );
             }
             assert!(variable.depends_on.is_sorted(), "{name}: dependencies ascend");
             for &input in &variable.depends_on {
