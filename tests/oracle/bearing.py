@@ -1,0 +1,238 @@
+"""Equations of motion of a rolling bearing with one rectangular spall, contact law `hertz`: the other side of a cross-check.
+
+Written from the equations, without looking at the Rust code. SI units, y up, angles counter-clockwise from +x.
+
+Assumed: rigid rings that translate and do not tilt; a kinematic cage (every element has the cage's angle); outer ring not
+turning; no friction, lubricant or axial motion. Invalid beside a spall's edge, where Hertz's paraboloids are not what touches.
+
+States: shaft x y vx vy | housing x y vx vy (each only if that ring is `internal`) | resonator y vy (if any) | u[Z] | w[Z].
+u is how far an element's centre lies outside its path on the smooth outer raceway, w its absolute radial velocity.
+"""
+
+import tomllib
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy.optimize import brentq
+from scipy.special import ellipe, ellipk, ellipkm1
+
+MICRO = 1e-6
+
+
+def hertz_constant(curvature_rolling, curvature_axial, e_star):
+    """K of Q = K δ^1.5 of an elliptical contact, exact; Johnson (1985) eqs. 4.25-4.28 with 1 - e² = (b/a)²."""
+    small, large = sorted((curvature_rolling / 2, curvature_axial / 2))  # A and B of z = A x² + B y²
+
+    def ratio_error(log_k):
+        m1 = np.exp(2 * log_k)
+        k_int, e_int = ellipkm1(m1), ellipe(1 - m1)
+        return np.log((e_int / m1 - k_int) / (k_int - e_int)) - np.log(large / small)
+
+    m1 = np.exp(2 * brentq(ratio_error, np.log(1e-6), np.log(0.9999), xtol=1e-15, rtol=1e-15))
+    e2, k_int, e_int = 1 - m1, ellipkm1(m1), ellipe(1 - m1)
+    return 2 * np.pi * e_star / (3 * k_int) * np.sqrt((k_int - e_int) / (small * e2 * k_int))
+
+
+@dataclass
+class Ring:
+    """One ring: moved by its forces, held, or following a given motion x0 + A sin(2πft)."""
+
+    motion: str = "internal"
+    mass: float = 1.0
+    damping: float = 0.0
+    stiffness: float = 0.0
+    load: np.ndarray = field(default_factory=lambda: np.zeros(2))
+    centre: np.ndarray = field(default_factory=lambda: np.zeros(2))
+    amplitude: np.ndarray = field(default_factory=lambda: np.zeros(2))
+    frequency: float = 0.0
+
+    @classmethod
+    def from_scene(cls, table):
+        return cls(table.get("motion", "internal"), table.get("mass_kg", 1.0), table.get("damping_n_s_m", 0.0),
+                   table.get("stiffness_n_m", 0.0), np.array(table.get("load_n", [0.0, 0.0]), float))
+
+    def given_motion(self, t):
+        """Position and velocity of a ring that is not moved by its forces."""
+        angular = 2 * np.pi * self.frequency
+        return self.centre + self.amplitude * np.sin(angular * t), self.amplitude * angular * np.cos(angular * t)
+
+
+class Bearing:
+    """Parameters of one scene and its right-hand side."""
+
+    def __init__(self, scene):
+        b, contact, cage = scene["bearing"], scene.get("contact", {}), scene.get("cage", {})
+        d_w, d_pw = b["element_diameter_mm"] * 1e-3, b["pitch_diameter_mm"] * 1e-3
+        self.z = b["element_count"]
+        self.clearance = b["radial_clearance_um"] * MICRO
+        self.r, self.r_o, self.r_i = d_w / 2, (d_pw + d_w + self.clearance) / 2, (d_pw - d_w - self.clearance) / 2
+        self.rho0 = self.r_o - self.r  # radius of an element's centre at u = 0
+
+        groove = b.get("groove_diameter_mm", 0.0) * 1e-3 / (2 * d_w)
+        e_star = b["youngs_modulus_gpa"] * 1e9 / (2 * (1 - b["poissons_ratio"] ** 2))
+        axial_i = 1 / self.r - 1 / (b.get("conformity_inner", groove) * d_w)
+        axial_o = 1 / self.r - 1 / (b.get("conformity_outer", groove) * d_w)
+        self.k_i = b.get("hertz_inner_n_m1_5") or hertz_constant(1 / self.r + 1 / self.r_i, axial_i, e_star)
+        self.k_o = b.get("hertz_outer_n_m1_5") or hertz_constant(1 / self.r - 1 / self.r_o, axial_o, e_star)
+        volume = np.pi * d_w**3 / 6
+        self.mass = b["element_mass_g"] * 1e-3 if "element_mass_g" in b else volume * b["density_kg_m3"]
+        self.gravity = np.array(scene.get("gravity_m_s2", [0.0, -9.81]), float)
+        self.law = contact.get("damping", "hunt-crossley")
+        self.chi, self.tau = contact.get("damping_chi_s_m", 0.5), contact.get("damping_tau_s", 0.0)
+
+        omega_i = 2 * np.pi * scene["shaft"].get("speed_hz", 0.0)
+        self.omega_c = 0.5 * omega_i * (1 - d_w / d_pw) * (1 - cage.get("slip", 0.0))
+        self.theta0 = np.radians(cage.get("initial_angle_deg", 0.0))
+
+        defect = scene.get("defect")
+        self.half_length = 0.0
+        if defect:
+            assert defect.get("edge_slope_deg", 90.0) == 90.0 and "profile" not in defect, "only rectangular spalls"
+            self.defect_angle = np.radians(defect.get("angle_deg", -90.0))
+            self.depth = defect["depth_um"] * MICRO
+            length = np.radians(defect["length_deg"]) if "length_deg" in defect else defect["length_mm"] * 1e-3 / self.r_o
+            self.half_length = length / 2
+            # Past an edge by this angle the element has come down to the floor: |centre - edge| = r at ρ = ρ0 + depth.
+            rho = self.rho0 + self.depth
+            self.roll_in = np.arccos((rho**2 + self.r_o**2 - self.r**2) / (2 * rho * self.r_o))
+
+        self.shaft, self.housing = Ring.from_scene(scene["shaft"]), Ring.from_scene(scene.get("housing", {"motion": "fixed"}))
+        sensor = scene.get("sensor")
+        self.sensor = (sensor["mass_kg"], sensor["stiffness_n_m"], sensor["damping_n_s_m"]) if sensor else None
+        self.n_rings = 4 * (self.shaft.motion == "internal") + 4 * (self.housing.motion == "internal")
+        self.n_front = self.n_rings + 2 * bool(self.sensor)
+        self.removed = []  # elements taken out, for what-if measurements
+
+    @classmethod
+    def load(cls, path):
+        with open(path, "rb") as f:
+            return cls(tomllib.load(f))
+
+    # --- kinematics ---------------------------------------------------------------------------------------------
+    def angles(self, t):
+        return self.theta0 + self.omega_c * t + 2 * np.pi * np.arange(self.z) / self.z
+
+    def spall_angle(self, theta):
+        """Angle from the middle of the spall, in (-π, π]."""
+        return -np.remainder(self.defect_angle - theta + np.pi, 2 * np.pi) + np.pi
+
+    def path(self, theta):
+        """Rigid path P(θ) of the elements' centres over the spall, and P' = dP/dθ."""
+        p, slope = np.zeros_like(theta), np.zeros_like(theta)
+        if not self.half_length:
+            return p, slope
+        psi = self.spall_angle(theta)
+        d = self.half_length - np.abs(psi)  # angle past the nearer edge
+        p[d > 0], rolling = self.depth, (d > 0) & (d < self.roll_in)
+        c, s = np.cos(d[rolling]), np.sin(d[rolling])
+        root = np.sqrt(self.r**2 - (self.r_o * s) ** 2)
+        # R_o c - root - (R_o - r), with both differences of nearly equal numbers written out.
+        p[rolling] = -2 * self.r_o * np.sin(d[rolling] / 2) ** 2 + (self.r_o * s) ** 2 / (self.r + root)
+        slope[rolling] = -np.sign(psi[rolling]) * (-self.r_o * s + self.r_o**2 * s * c / root)
+        return p, slope
+
+    def knots(self, start, stop):
+        """Times at which some element passes a corner of the path."""
+        if not self.half_length or not self.omega_c:
+            return []
+        inner = max(self.half_length - self.roll_in, 0.0)
+        times = []
+        for corner in {-self.half_length, -inner, inner, self.half_length}:
+            phase = self.spall_angle(self.angles(0.0)) - corner
+            for turn in range(int(-2 - abs(self.omega_c) * stop), int(3 + abs(self.omega_c) * stop)):
+                times.extend((2 * np.pi * turn - phase) / self.omega_c)
+        return sorted(t for t in times if start < t < stop)
+
+    # --- forces -------------------------------------------------------------------------------------------------
+    def contact_force(self, k, approach, rate):
+        """Q ≥ 0, and a number that is positive exactly where Q is (for locating contact changes)."""
+        d = np.maximum(approach, 0.0)
+        if self.law == "proportional":
+            damped = approach + 1.5 * self.tau * rate
+            return k * np.sqrt(d) * np.maximum(damped * (d > 0), 0.0), np.minimum(approach, damped) / MICRO
+        factor = 1 + self.chi * rate
+        return k * d**1.5 * np.maximum(factor, 0.0), np.minimum(approach / MICRO, factor)
+
+    def contacts(self, t, u, u_dot, x_i, v_i, x_o, v_o):
+        """All contact forces and directions at one moment."""
+        theta = self.angles(t)
+        e_r, e_t = np.array([np.cos(theta), np.sin(theta)]), np.array([-np.sin(theta), np.cos(theta)])
+        rho = self.rho0 + u
+        s = (x_o - x_i)[:, None] + u * e_r  # q = ρ0 e_r + s
+        q = self.rho0 * e_r + s
+        q_length = np.sqrt((q * q).sum(0))
+        n = q / q_length
+        # R_i + r - |q| without cancellation: R_i + r = ρ0 - G_r, and ρ0 - |q| = (ρ0² - |q|²)/(ρ0 + |q|).
+        inner = -self.clearance - (2 * self.rho0 * (e_r * s).sum(0) + (s * s).sum(0)) / (self.rho0 + q_length)
+        inner_rate = -((n * ((v_o - v_i)[:, None] + u_dot * e_r)).sum(0) + rho * self.omega_c * (s * e_t).sum(0) / q_length)
+        p, slope = self.path(theta)
+        outer, outer_rate = u - p, u_dot - slope * self.omega_c
+        q_i, switch_i = self.contact_force(self.k_i, inner, inner_rate)
+        q_o, switch_o = self.contact_force(self.k_o, outer, outer_rate)
+        for j in self.removed:
+            q_i[j] = q_o[j] = 0.0
+        tan = slope / rho
+        cos = 1 / np.sqrt(1 + tan * tan)
+        return Contacts(e_r, e_t, n, q_i, q_o, q_o * cos, q_o * cos * tan, inner, outer, switch_i, switch_o)
+
+    def split(self, t, y):
+        """x_i, v_i, x_o, v_o, u, w of a state."""
+        parts, at = [], 0
+        for ring in (self.shaft, self.housing):
+            if ring.motion == "internal":
+                parts += [y[at:at + 2], y[at + 2:at + 4]]
+                at += 4
+            else:
+                parts += ring.given_motion(t)
+        return *parts, y[self.n_front:self.n_front + self.z], y[self.n_front + self.z:]
+
+    def contacts_at(self, t, y):
+        x_i, v_i, x_o, v_o, u, w = self.split(t, y)
+        theta = self.angles(t)
+        return self.contacts(t, u, w - np.cos(theta) * v_o[0] - np.sin(theta) * v_o[1], x_i, v_i, x_o, v_o)
+
+    def rhs(self, t, y):
+        x_i, v_i, x_o, v_o, u, w = self.split(t, y)
+        dy, c = np.empty_like(y), self.contacts_at(t, y)
+        at = 0
+        if self.shaft.motion == "internal":
+            dy[0:2] = v_i
+            dy[2:4] = (c.on_shaft() + self.shaft.load - self.shaft.damping * v_i - self.shaft.stiffness * x_i) / self.shaft.mass
+            at = 4
+        resonator = np.zeros(2)
+        if self.sensor:
+            m, k, d = self.sensor
+            y_r, v_r = y[self.n_rings:self.n_front]
+            resonator[1] = k * (y_r - x_o[1]) + d * (v_r - v_o[1])
+            dy[self.n_rings:self.n_front] = v_r, -resonator[1] / m
+        if self.housing.motion == "internal":
+            own = self.housing.load - self.housing.damping * v_o - self.housing.stiffness * x_o
+            dy[at:at + 2] = v_o
+            dy[at + 2:at + 4] = (c.on_housing() + own + resonator) / self.housing.mass
+        radial = (c.q_i * (c.n * c.e_r).sum(0) - c.q_o_radial) / self.mass + self.gravity @ c.e_r
+        dy[self.n_front:self.n_front + self.z] = w - v_o @ c.e_r
+        dy[self.n_front + self.z:] = radial + self.omega_c * (v_o @ c.e_t + (self.rho0 + u) * self.omega_c)
+        return dy
+
+
+@dataclass
+class Contacts:
+    """Contact forces of all elements; arrays over elements, directions as 2 × Z."""
+
+    e_r: np.ndarray
+    e_t: np.ndarray
+    n: np.ndarray
+    q_i: np.ndarray
+    q_o: np.ndarray
+    q_o_radial: np.ndarray
+    q_o_tangential: np.ndarray
+    inner: np.ndarray
+    outer: np.ndarray
+    switch_i: np.ndarray
+    switch_o: np.ndarray
+
+    def on_shaft(self):
+        return -(self.n * self.q_i).sum(1)
+
+    def on_housing(self):
+        return (self.e_r * self.q_o_radial - self.e_t * self.q_o_tangential).sum(1)
