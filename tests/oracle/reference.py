@@ -2,7 +2,7 @@
 
     python tests/oracle/reference.py SCENE.toml --stop 0.02 --step 1e-5 -o out.csv
         [--shaft-motion=X0,Y0,AX,AY,HZ] [--housing-motion=X0,Y0,AX,AY,HZ]   x0 + A sin(2πft), for rings of motion `host`
-        [--rtol 1e-12] [--method DOP853|Radau]
+        [--rtol 1e-12] [--method DOP853|Radau] [--check]
 
 DOP853 with steps that end on output times, on corners of the path, and on every gain or loss of a contact, because the
 right-hand side is smooth only in between.
@@ -128,6 +128,7 @@ def main():
         parser.add_argument(f"--{name}-motion", metavar="X0,Y0,AX,AY,HZ", help="m, Hz; write it with =, minus signs confuse argparse")
     parser.add_argument("--rtol", type=float, default=1e-12)
     parser.add_argument("--method", choices=METHODS, default="DOP853")
+    parser.add_argument("--check", action="store_true", help="once more at ten times the tolerance; print the greatest differences")
     args = parser.parse_args()
 
     bearing = Bearing.load(args.scene)
@@ -141,6 +142,10 @@ def main():
         writer.writeheader()
         writer.writerows({k: repr(float(v)) for k, v in r.items()} for r in rows)
     print(f"{run.steps} steps, {len(run.changes)} contact changes", file=sys.stderr)
+    if args.check:
+        looser, _ = simulate(bearing, args.stop, args.step, rtol=10 * args.rtol, method=args.method)
+        for name in rows[0]:
+            print(f"{name:28} {max(abs(a[name] - b[name]) for a, b in zip(rows, looser)):.1e}")
 
 
 if __name__ == "__main__":
