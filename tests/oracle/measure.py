@@ -108,7 +108,7 @@ def stiffness_over_cage_angle(bearing, points):
 
 
 def critical_loads(bearing, t):
-    """For each element on the spall's floor at time t: (angle from the spall's middle, load that squeezes it against the floor)."""
+    """(angle from the spall's middle, load that squeezes it against the floor) of each element on the floor at time t."""
     way = bearing.shaft.load / np.linalg.norm(bearing.shaft.load)
     psi = bearing.spall_angle(bearing.angles(t))
     found = []
