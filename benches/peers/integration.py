@@ -167,7 +167,8 @@ class Problem:
         return solve_ivp(self.rhs, span, self.y0, method, self.times, rtol=rtol, atol=rtol * self.scale, **extra).y.T
 
     def lsoda(self, rtol):
-        return odeint(self.rhs, self.y0, self.times, Dfun=self.jacobian, tfirst=True, rtol=rtol, atol=rtol * self.scale, mxstep=10**7)
+        return odeint(self.rhs, self.y0, self.times, Dfun=self.jacobian, tfirst=True,
+                      rtol=rtol, atol=rtol * self.scale, mxstep=10**7)
 
     def cvode(self, rtol):
         solver = CVODE(lambda t, y, dy: self.fill(t, y, dy), jacfn=lambda t, y, dy, j: self.fill_jacobian(t, y, j),
@@ -197,7 +198,7 @@ def main():
     table = []
     for path in args.scenes:
         problem = Problem(path, args.stop, args.step)
-        print(f"{problem.name}, {args.stop} s: reference's own error {problem.own_error[0]:.1e}, path {problem.own_error[1]:.1e} m")
+        print("{}, {} s: reference's own error {:.1e}, path {:.1e} m".format(problem.name, args.stop, *problem.own_error))
         for peer in args.peers:
             PEERS[peer](problem, TOLERANCES[0])  # the compiler's time, once per kind of array
             for rtol in TOLERANCES:
@@ -210,8 +211,8 @@ def main():
                 acceleration, path_error = problem.errors(rows) if finished else (math.nan, math.nan)
                 table.append({"scene": problem.name, "peer": peer, "rtol": rtol, "cpu_s_per_s": best / args.stop,
                               "acceleration_error": acceleration, "path_error_m": path_error})
-                print(f"  {peer:10} rtol {rtol:.0e}: {best / args.stop:8.2f} s/s, error {acceleration:.1e}, path {path_error:.1e} m",
-                      flush=True)
+                print(f"  {peer:10} rtol {rtol:.0e}: {best / args.stop:8.2f} s/s, "
+                      f"error {acceleration:.1e}, path {path_error:.1e} m", flush=True)
     if args.csv:
         with open(args.csv, "w", newline="") as f:
             writer = csv.DictWriter(f, table[0], lineterminator="\n")

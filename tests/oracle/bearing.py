@@ -9,12 +9,16 @@ States: shaft x y vx vy | housing x y vx vy (each only if that ring is `internal
 u is how far an element's centre lies outside its path on the smooth outer raceway, w its absolute radial velocity.
 """
 
-import tomllib
 from dataclasses import dataclass, field
 
 import numpy as np
 from scipy.optimize import brentq
-from scipy.special import ellipe, ellipk, ellipkm1
+from scipy.special import ellipe, ellipkm1
+
+try:
+    import tomllib
+except ImportError:  # before Python 3.11
+    import tomli as tomllib
 
 MICRO = 1e-6
 

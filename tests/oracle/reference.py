@@ -125,10 +125,12 @@ def main():
     parser.add_argument("--step", type=float, required=True)
     parser.add_argument("-o", "--output", required=True)
     for name in ("shaft", "housing"):
-        parser.add_argument(f"--{name}-motion", metavar="X0,Y0,AX,AY,HZ", help="m, Hz; write it with =, minus signs confuse argparse")
+        parser.add_argument(f"--{name}-motion", metavar="X0,Y0,AX,AY,HZ",
+                            help="m, Hz; write it with =, minus signs confuse argparse")
     parser.add_argument("--rtol", type=float, default=1e-12)
     parser.add_argument("--method", choices=METHODS, default="DOP853")
-    parser.add_argument("--check", action="store_true", help="once more at ten times the tolerance; print the greatest differences")
+    parser.add_argument("--check", action="store_true",
+                        help="once more at ten times the tolerance; print the greatest differences")
     args = parser.parse_args()
 
     bearing = Bearing.load(args.scene)
