@@ -26,8 +26,8 @@ from scipy.integrate import odeint, solve_ivp
 from sksundae.cvode import CVODE
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tests" / "oracle"))
-from bearing import MICRO, Bearing  # noqa: E402
-from reference import Reference  # noqa: E402
+from bearing import Bearing
+from reference import Reference
 
 TOLERANCES = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8]
 

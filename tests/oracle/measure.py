@@ -13,11 +13,10 @@ position held (`held`) or free (`free`). Modes are eigenvalues of the undamped-c
 import argparse
 
 import numpy as np
-from scipy.optimize import brentq, least_squares
-
-from bearing import MICRO, Bearing
+from bearing import Bearing
 from equilibrium import Equilibrium
 from reference import simulate
+from scipy.optimize import brentq, least_squares
 
 
 def fit_ringing(t, signal):

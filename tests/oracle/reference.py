@@ -13,11 +13,10 @@ import csv
 import sys
 
 import numpy as np
-from scipy.integrate import DOP853, Radau
-from scipy.optimize import brentq
-
 from bearing import MICRO, Bearing
 from equilibrium import Equilibrium
+from scipy.integrate import DOP853, Radau
+from scipy.optimize import brentq
 
 METHODS = {"DOP853": DOP853, "Radau": Radau}
 SAME_EVENT = 1e-12  # s; a contact change nearer than this to the last one is that one
