@@ -104,9 +104,13 @@ impl Model {
                 high = u
             }
             let newton = u - f / slope;
+            // A millionth of a millionth of a nanometre: the rounding of micrometre paths.
+            if f == 0.0 || (newton - u).abs() < 1e-21 {
+                return u;
+            }
             let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            if next == u || f == 0.0 || high <= low || (next - u).abs() < 1e-22 {
-                return next;
+            if next <= low || next >= high {
+                return u;
             }
             u = next;
         }

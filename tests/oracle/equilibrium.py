@@ -1,7 +1,7 @@
 """Static equilibrium of elements and rings at one cage angle, and the condensed stiffness around it.
 
-Rings at rest; elements carried round by the cage (centrifugal force counts), not moving radially, so no contact damping.
-An element without a net outward push rests at u = 0. Given the rings, each element's balance falls monotonically with u, so
+Rings at rest or moving as given; elements carried round by the cage (centrifugal force counts), u' = 0. The contacts' damping at
+these rates belongs to the balance, so that nothing accelerates at the start. An element without a net outward push rests at u = 0. Given the rings, each element's balance falls monotonically with u, so
 bisection finds it to rounding; Newton moves the rings.
 """
 
@@ -11,13 +11,9 @@ ZERO = np.zeros(2)
 
 
 def static_contacts(bearing, t, u, x_i, x_o):
-    """Contacts with nothing moving: ω_c enters only through the centrifugal force, added by the caller."""
-    omega, bearing.omega_c, theta0 = bearing.omega_c, 0.0, bearing.theta0
-    bearing.theta0 = theta0 + omega * t
-    try:
-        return bearing.contacts(0.0, u, 0 * u, x_i, ZERO, x_o, ZERO)
-    finally:
-        bearing.omega_c, bearing.theta0 = omega, theta0
+    """Contacts with u' = 0, free rings at rest and given rings at their velocity."""
+    v_i, v_o = (ZERO if ring.motion == "internal" else ring.given_motion(t)[1] for ring in (bearing.shaft, bearing.housing))
+    return bearing.contacts(t, u, 0 * u, x_i, v_i, x_o, v_o)
 
 
 def element_positions(bearing, t, x_i, x_o, upper=5e-3):

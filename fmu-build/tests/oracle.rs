@@ -1,0 +1,171 @@
+//! The model against an independent one: `tests/oracle` holds the same equations in Python, written separately, and
+//! integrates them with SciPy's DOP853 at a relative tolerance of 1e-12.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::f64::consts::TAU;
+use std::fs;
+use std::path::Path;
+
+use brinell::scene::Scene;
+use brinell::simulation::Simulation;
+
+/// One element between rings that the host moves.
+const ONE_ELEMENT: &str = r#"
+name = "one-element"
+description = "One element between prescribed rings"
+[bearing]
+element_count = 1
+element_diameter_mm = 7.94
+pitch_diameter_mm = 39.32
+groove_diameter_mm = 8.19
+radial_clearance_um = 5.0
+youngs_modulus_gpa = 207.0
+poissons_ratio = 0.3
+density_kg_m3 = 7800.0
+[cage]
+initial_angle_deg = -95.0
+[shaft]
+motion = "host"
+speed_hz = 10.0
+[housing]
+motion = "host"
+[solver]
+tolerance = 1e-10
+"#;
+
+/// Nine elements, the shaft free under 500 N, the housing fixed.
+const NINE_ELEMENTS: &str = r#"
+name = "nine-elements"
+description = "ER16K with a free shaft"
+[bearing]
+element_count = 9
+element_diameter_mm = 7.94
+pitch_diameter_mm = 39.32
+groove_diameter_mm = 8.19
+radial_clearance_um = 5.0
+youngs_modulus_gpa = 207.0
+poissons_ratio = 0.3
+density_kg_m3 = 7800.0
+[cage]
+initial_angle_deg = -90.0
+[shaft]
+motion = "internal"
+speed_hz = 10.0
+load_n = [0.0, -500.0]
+mass_kg = 3.2638
+damping_n_s_m = 1376.8
+stiffness_n_m = 0.0
+[housing]
+motion = "fixed"
+[solver]
+tolerance = 1e-10
+"#;
+
+/// What the oracle found: names of the columns and its rows.
+struct Reference {
+    names: Vec<String>,
+    rows: Vec<Vec<f64>>,
+}
+
+impl Reference {
+    fn run(scene: &str, folder: &Path, arguments: &[&str]) -> Self {
+        let (input, output) = (folder.join("scene.toml"), folder.join("reference.csv"));
+        fs::write(&input, scene).unwrap();
+        let script = common::root().join("tests/oracle/reference.py");
+        let mut all = vec![input.to_str().unwrap().to_owned(), "-o".to_owned(), output.to_str().unwrap().to_owned()];
+        all.extend(arguments.iter().map(|&a| a.to_owned()));
+        common::python().run_file(&script, all).unwrap_or_else(|error| panic!("{error:#}"));
+        let text = fs::read_to_string(output).unwrap();
+        let mut lines = text.lines();
+        let names = lines.next().unwrap().split(',').map(|name| name.trim().to_owned()).collect();
+        let rows = lines.map(|line| line.split(',').map(|v| v.trim().parse().unwrap()).collect()).collect();
+        Self { names, rows }
+    }
+
+    fn value(&self, row: usize, name: &str) -> f64 {
+        let column = self.names.iter().position(|n| n == name).unwrap_or_else(|| panic!("no {name}"));
+        self.rows[row][column]
+    }
+}
+
+fn reference_of(simulation: &Simulation, name: &str) -> u32 {
+    simulation.table().iter().position(|v| v.name == name).unwrap_or_else(|| panic!("no {name}")) as u32
+}
+
+fn get(simulation: &mut Simulation, name: &str) -> f64 {
+    let mut value = [0.0];
+    let reference = reference_of(simulation, name);
+    simulation.reals(&[reference], &mut value).unwrap();
+    value[0]
+}
+
+/// Largest differences from the oracle over a run: element path, ring position [m].
+fn compare(
+    simulation: &mut Simulation,
+    reference: &Reference,
+    (paths, rings): (&[&str], &[&str]),
+    mut advance: impl FnMut(&mut Simulation, f64, f64),
+) -> [f64; 2] {
+    let mut worst = [0.0f64; 2];
+    for row in 0..reference.rows.len() {
+        if row > 0 {
+            let (from, to) = (reference.value(row - 1, "time"), reference.value(row, "time"));
+            advance(simulation, from, to - from);
+        }
+        for (names, worst) in [paths, rings].into_iter().zip(&mut worst) {
+            for name in names {
+                *worst = worst.max((get(simulation, name) - reference.value(row, name)).abs());
+            }
+        }
+    }
+    worst
+}
+
+#[test]
+fn one_element_between_prescribed_rings_moves_as_the_oracle_says() {
+    let folder = common::folder("oracle-one");
+    let (x0, y0, ax, ay, hz) = (0.0, -20e-6, 3e-6, 5e-6, 300.0);
+    let motion = format!("--shaft-motion={x0},{y0},{ax},{ay},{hz}");
+    let reference =
+        Reference::run(ONE_ELEMENT, &folder, &["--stop", "0.005", "--step", "5e-5", "--rtol", "1e-12", &motion]);
+    let mut simulation = Simulation::new(Scene::from_toml(ONE_ELEMENT).unwrap(), None).unwrap();
+    let place = ["shaft.x", "shaft.y", "shaft.vx", "shaft.vy", "shaft.ax", "shaft.ay"]
+        .map(|name| reference_of(&simulation, name));
+    let set = |simulation: &mut Simulation, time: f64| {
+        let (w, phase) = (TAU * hz, TAU * hz * time);
+        let (sin, cos) = phase.sin_cos();
+        let values = [x0 + ax * sin, y0 + ay * sin, ax * w * cos, ay * w * cos, -ax * w * w * sin, -ay * w * w * sin];
+        simulation.set_reals(&place, &values).unwrap();
+    };
+    set(&mut simulation, 0.0);
+    simulation.initialize(0.0).unwrap();
+    let [path, _] = compare(&mut simulation, &reference, (&["element[1].path"], &[]), |simulation, from, step| {
+        // Within 1 µs the motion is wrong by 1/6 of its third derivative: 6e-15 m.
+        let count = 50;
+        for i in 0..count {
+            set(simulation, from + step * i as f64 / count as f64);
+            simulation.step(step / count as f64).unwrap();
+        }
+    });
+    assert!(path < 1e-10, "path differs by {path:e} m");
+    println!("one element: path within {path:.1e} m");
+}
+
+#[test]
+fn nine_elements_and_a_free_shaft_move_as_the_oracle_says() {
+    let folder = common::folder("oracle-nine");
+    let reference = Reference::run(NINE_ELEMENTS, &folder, &["--stop", "0.02", "--step", "1e-4", "--rtol", "1e-12"]);
+    let mut simulation = Simulation::new(Scene::from_toml(NINE_ELEMENTS).unwrap(), None).unwrap();
+    simulation.initialize(0.0).unwrap();
+    let paths: Vec<String> = (1..=9).map(|j| format!("element[{j}].path")).collect();
+    let paths: Vec<&str> = paths.iter().map(String::as_str).collect();
+    let [path, ring] =
+        compare(&mut simulation, &reference, (&paths, &["shaft.x", "shaft.y"]), |simulation, _, step| {
+            simulation.step(step).unwrap();
+        });
+    assert!(path < 1e-10, "path differs by {path:e} m");
+    assert!(ring < 1e-12, "ring differs by {ring:e} m");
+    println!("nine elements: path within {path:.1e} m, ring within {ring:.1e} m");
+}
