@@ -15,6 +15,7 @@ use super::logger::Logger;
 use super::resources::{Model, ResourceError};
 use super::state::{self, Mode};
 use super::types::{Boolean, CO_SIMULATION, CallbackFunctions, Component, FALSE, FmiString, FmuType, Real, Status};
+use crate::simulation::Simulation;
 use crate::simulation::variables::Kind;
 
 /// Name by which the tolerance of the time integration is found in the variable table.
@@ -56,7 +57,8 @@ enum Refusal {
     Panic(String),
 }
 
-/// `fmi2Instantiate`: a new instance, or NULL after a line to the logger. `visible` is ignored: there is nothing to see.
+/// `fmi2Instantiate`: a new instance, or NULL after a line to the logger. `visible` is ignored: there is nothing to
+/// see.
 ///
 /// # Safety
 /// Pointers are null or as FMI 2.0 describes them: strings end in NUL, `functions` points to the callbacks.
@@ -84,13 +86,19 @@ pub unsafe extern "C" fn fmi2Instantiate(
         // The logger needs a name even to say that there is none.
         let shown: CString = name.unwrap_or(c"(unnamed)").to_owned();
         let logger = Logger::new(&callbacks, shown, loggingOn != FALSE)?;
-        match instantiate(name.is_some(), fmuType, guid, location, logger) {
-            Ok(component) => Some(component),
-            Err((refusal, logger)) => {
-                logger.insist(Status::Error, format!("fmi2Instantiate: {refusal}."));
-                None
+        let refused = match prepare(name.is_some(), fmuType, guid, location) {
+            Ok((model, simulation)) => {
+                logger.line(Status::Ok, || "fmi2Instantiate: instantiated.".to_owned());
+                match handles::insert(Box::new(Instance::new(model, simulation, logger))) {
+                    Ok(component) => return Some(component),
+                    Err(instance) => (Refusal::TooMany, instance.logger),
+                }
             }
-        }
+            Err(refusal) => (refusal, logger),
+        };
+        let (refusal, logger) = refused;
+        logger.insist(Status::Error, format!("fmi2Instantiate: {refusal}."));
+        None
     });
     match outcome {
         Ok(component) => component.unwrap_or(ptr::null_mut()),
@@ -112,28 +120,13 @@ unsafe fn text<'a>(pointer: *const c_char) -> Option<&'a CStr> {
     (!pointer.is_null()).then(|| unsafe { CStr::from_ptr(pointer) })
 }
 
-fn instantiate(
+/// What an instance is made of, if everything about it is in order.
+fn prepare(
     named: bool,
     fmu_type: FmuType,
     guid: Option<&CStr>,
     location: Option<&CStr>,
-    logger: Logger,
-) -> Result<Component, (Refusal, Logger)> {
-    let model = match checked_model(named, fmu_type, guid, location) {
-        Ok(model) => model,
-        Err(refusal) => return Err((refusal, logger)),
-    };
-    let instance = Instance::new(model, logger).map_err(|(error, logger)| (Refusal::Resources(error), logger))?;
-    instance.logger.line(Status::Ok, || "fmi2Instantiate: instantiated.".to_owned());
-    handles::insert(Box::new(instance)).map_err(|instance| (Refusal::TooMany, instance.logger))
-}
-
-fn checked_model(
-    named: bool,
-    fmu_type: FmuType,
-    guid: Option<&CStr>,
-    location: Option<&CStr>,
-) -> Result<Model, Refusal> {
+) -> Result<(Model, Simulation), Refusal> {
     if !named {
         return Err(Refusal::Name);
     }
@@ -145,7 +138,8 @@ fn checked_model(
     if guid.to_bytes() != model.guid.as_bytes() {
         return Err(Refusal::Guid { given: guid.to_string_lossy().into_owned(), own: model.guid });
     }
-    Ok(model)
+    let simulation = model.build().map_err(ResourceError::Simulation)?;
+    Ok((model, simulation))
 }
 
 /// `fmi2FreeInstance`: ends an instance and frees its saved states. NULL and dead handles are ignored.
@@ -161,8 +155,8 @@ pub unsafe extern "C" fn fmi2FreeInstance(c: Component) {
     }
 }
 
-/// `fmi2SetDebugLogging`: logging off, or on for the categories listed, an empty list meaning all. An unknown category is a
-/// warning; the others are set.
+/// `fmi2SetDebugLogging`: logging off, or on for the categories listed, an empty list meaning all. An unknown
+/// category is a warning; the others are set.
 ///
 /// # Safety
 /// `categories` is null or points to `nCategories` strings, each null or ended by NUL.
@@ -188,8 +182,8 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
 
 /// `fmi2SetupExperiment`: start, stop and tolerance.
 ///
-/// A tolerance that the host defines can only tighten the one in force (`solver.tolerance`): hosts hand in their own default without
-/// asking, and a scene's tolerance is chosen for its impacts. To loosen it, set `solver.tolerance`.
+/// A tolerance that the host defines can only tighten the one in force (`solver.tolerance`): hosts hand in their own
+/// default without asking, and a scene's tolerance is chosen for its impacts. To loosen it, set `solver.tolerance`.
 ///
 /// # Safety
 /// `c` may be any value.
@@ -289,7 +283,7 @@ pub unsafe extern "C" fn fmi2Reset(c: Component) -> Status {
 fn enter(instance: &mut Instance, mode: Mode, function: &str) {
     instance.mode = mode;
     let line = || match instance.clock {
-        Some(clock) => format!("{function}: {mode} at {} s.", clock.time),
+        Some(clock) => format!("{function}: {mode} at {:?} s.", clock.time),
         None => format!("{function}: {mode}."),
     };
     instance.logger.line(Status::Ok, line);

@@ -18,7 +18,8 @@ use super::types::{Byte, Component, FmuState, Status};
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetFMUstate(c: Component, FMUstate: *mut FmuState) -> Status {
     boundary::call(c, &state::GET_FMU_STATE, |instance| {
-        // SAFETY: this function's contract; null and misaligned pointers are refused. The handle itself may be any value.
+        // SAFETY: this function's contract; null and misaligned pointers are refused. The handle itself may be any
+        // value.
         let handle = unsafe { place("FMUstate", FMUstate)? };
         *handle = instance.save(*handle)?;
         Ok(())
@@ -102,7 +103,8 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     FMUstate: *mut FmuState,
 ) -> Status {
     boundary::call(c, &state::DESERIALIZE_FMU_STATE, |instance| {
-        // SAFETY: this function's contract; null and misaligned pointers are refused. The handle itself may be any value.
+        // SAFETY: this function's contract; null and misaligned pointers are refused. The handle itself may be any
+        // value.
         let handle = unsafe { place("FMUstate", FMUstate)? };
         // SAFETY: as above.
         let bytes = unsafe { array("serializedState", serializedState.cast::<u8>(), size)? };

@@ -1,6 +1,7 @@
 //! The exported functions that step through time and tell how a step went.
 //!
-//! Steps are done when `fmi2DoStep` returns: none is ever pending or discarded, so the status functions have only plain answers.
+//! Steps are done when `fmi2DoStep` returns: none is ever pending or discarded, so the status functions have only
+//! plain answers.
 
 #![allow(non_snake_case)]
 

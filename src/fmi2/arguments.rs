@@ -72,7 +72,8 @@ pub(super) unsafe fn place<'a, T>(name: &'static str, pointer: *mut T) -> Result
 /// Puts one value where the host wants it, without reading what is there.
 ///
 /// # Safety
-/// If `pointer` is neither null nor misaligned, it points to memory for one value that nobody else touches during the call.
+/// If `pointer` is neither null nor misaligned, it points to memory for one value that nobody else touches during the
+/// call.
 #[inline]
 pub(super) unsafe fn store<T>(name: &'static str, pointer: *mut T, value: T) -> Result<(), Failure> {
     check(name, pointer, 1)?;

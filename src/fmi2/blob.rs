@@ -1,9 +1,9 @@
-//! A saved state as bytes that can be put into another instance, in another process, on another machine of the same byte
-//! order or not: everything is little-endian.
+//! A saved state as bytes that can be put into another instance, in another process, on another machine of the same
+//! byte order or not: everything is little-endian.
 //!
 //! ```text
-//! "Brinell\0" | format u32 | checksum u64 | length u64 | GUID 38 | mode u8 | last step u8 | clock u8 + 3 f64 | simulation
-//!              \__________/               \___________________________ covered by the checksum ________________________/
+//! "Brinell\0" | format u32 | checksum u64 | length u64 | GUID 38 | mode u8 | last step u8 | clock u8 + 3 f64 | ...
+//!                                         \_____________ covered by the checksum, with the simulation's state after it
 //! ```
 //! `length` is that of the whole blob. The checksum is 64-bit FNV-1a: each of its steps is a bijection of the running value, so a blob
 //! that differs in a single byte never passes.

@@ -1,7 +1,8 @@
 //! The one border between the host and the model: every function that takes an instance passes through [`call`].
 //!
-//! No panic crosses it. After a panic the instance alone is in error; it can be reset, or a saved state restored, since both
-//! set the simulation up anew. Whoever returns `fmi2Error` leaves the instance in error, as the standard wants it.
+//! No panic crosses it. After a panic the instance alone is in error; it can be reset, or a saved state restored,
+//! since both set the simulation up anew. Whoever returns `fmi2Error` leaves the instance in error, as the standard
+//! wants it.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};

@@ -1,8 +1,8 @@
 //! Communication points: where the host says it is, against where the instance is.
 //!
-//! A host may add up its steps or multiply them, so its communication points carry rounding: `n` additions at time `t` are
-//! off by at most `n·ε·t/2`, 1e-10 relative after a million steps. [`ROUNDING`] allows ten times that. The instance
-//! adopts the host's point, so rounding never accumulates between the two.
+//! A host may add up its steps or multiply them, so its communication points carry rounding: `n` additions at time
+//! `t` are off by at most `n·ε·t/2`, 1e-10 relative after a million steps. [`ROUNDING`] allows ten times that. The
+//! instance adopts the host's point, so rounding never accumulates between the two.
 
 /// Largest relative difference that passes for the host's rounding.
 pub(super) const ROUNDING: f64 = 1e-9;
@@ -22,10 +22,10 @@ pub(super) struct Clock {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub(super) enum ClockError {
     /// Not a number, or infinite.
-    #[error("start time {0} s: it must be finite")]
+    #[error("start time {0:?} s: it must be finite")]
     Start(f64),
     /// Not a number, infinite, or not after the start.
-    #[error("stop time {stop} s: it must be finite and after the start time {start} s")]
+    #[error("stop time {stop:?} s: it must be finite and after the start time {start:?} s")]
     Stop {
         /// Stop time given.
         stop: f64,
@@ -33,7 +33,7 @@ pub(super) enum ClockError {
         start: f64,
     },
     /// Not where the instance is.
-    #[error("communication point {point} s: the instance is at {time} s (allowed difference {allowed:e} s)")]
+    #[error("communication point {point:?} s: the instance is at {time:?} s (allowed difference {allowed:e} s)")]
     Point {
         /// Point given.
         point: f64,
@@ -43,10 +43,10 @@ pub(super) enum ClockError {
         allowed: f64,
     },
     /// Zero, negative, not a number or infinite.
-    #[error("communication step size {0} s: it must be finite and above 0")]
+    #[error("communication step size {0:?} s: it must be finite and above 0")]
     Step(f64),
     /// Past the stop time.
-    #[error("communication step from {point} s by {step} s: it ends past the stop time {stop} s")]
+    #[error("communication step from {point:?} s by {step:?} s: it ends past the stop time {stop:?} s")]
     PastStop {
         /// Point given.
         point: f64,

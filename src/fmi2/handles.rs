@@ -1,8 +1,8 @@
 //! Handles: which instances are alive, told without dereferencing anything that a host hands in.
 //!
-//! A handle is not an address but a number made of a slot and of the slot's generation. Looking it up in a static table
-//! tells a live handle from a null, stale or invented one, and the same atomic operation marks the instance as in use: a
-//! logger that calls back into its own instance, or a second thread in the same instance, is turned away
+//! A handle is not an address but a number made of a slot and of the slot's generation. Looking it up in a static
+//! table tells a live handle from a null, stale or invented one, and the same atomic operation marks the instance as
+//! in use: a logger that calls back into its own instance, or a second thread in the same instance, is turned away
 //! instead of aliasing it. The standard allows neither, so turning away is all that is owed.
 //!
 //! ```text

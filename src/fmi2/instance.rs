@@ -5,7 +5,7 @@ use std::ffi::{CString, c_char};
 use super::clock::Clock;
 use super::failure::Failure;
 use super::logger::{Logger, c_string};
-use super::resources::{Model, ResourceError};
+use super::resources::Model;
 use super::snapshots::{Snapshot, Snapshots};
 use super::state::Mode;
 use super::types::{FmuState, Status, ValueReference};
@@ -35,21 +35,18 @@ pub(super) struct Instance {
 }
 
 impl Instance {
-    /// A fresh instance of a model.
-    pub(super) fn new(model: Model, logger: Logger) -> Result<Self, (ResourceError, Logger)> {
-        match model.build() {
-            Ok(simulation) => Ok(Self {
-                mode: Mode::Instantiated,
-                clock: None,
-                last_step: Status::Ok,
-                damaged: false,
-                simulation,
-                logger,
-                model,
-                snapshots: Snapshots::default(),
-                texts: Vec::new(),
-            }),
-            Err(error) => Err((error, logger)),
+    /// A fresh instance of a model and the simulation that was set up for it.
+    pub(super) fn new(model: Model, simulation: Simulation, logger: Logger) -> Self {
+        Self {
+            mode: Mode::Instantiated,
+            clock: None,
+            last_step: Status::Ok,
+            damaged: false,
+            simulation,
+            logger,
+            model,
+            snapshots: Snapshots::default(),
+            texts: Vec::new(),
         }
     }
 
@@ -63,11 +60,7 @@ impl Instance {
     }
 
     fn rebuild(&mut self) -> Result<(), Failure> {
-        self.simulation = self.model.build().map_err(|error| match error {
-            ResourceError::Simulation(error) => Failure::Simulation(error),
-            // Not reached: the files were read when the instance was made.
-            other => Failure::Panic(other.to_string()),
-        })?;
+        self.simulation = self.model.build()?;
         self.damaged = false;
         Ok(())
     }
@@ -110,8 +103,8 @@ impl Instance {
     /// Refuses results that are not finite.
     #[inline]
     pub(super) fn finite(&self, references: &[ValueReference], values: &[f64]) -> Result<(), Failure> {
-        // A sum of x − x is 0 when all are finite and NaN otherwise: no branch in the loop.
-        if values.iter().map(|value| value - value).sum::<f64>() == 0.0 {
+        // 0·x is 0 for what is finite and NaN otherwise, and so is the sum: no branch in the loop.
+        if values.iter().map(|value| 0.0 * value).sum::<f64>() == 0.0 {
             return Ok(());
         }
         let index = values.iter().position(|value| !value.is_finite()).unwrap_or_default();

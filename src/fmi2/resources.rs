@@ -66,8 +66,8 @@ impl Model {
     }
 
     /// Sets up a simulation of the model with all variables at their start values.
-    pub(super) fn build(&self) -> Result<Simulation, ResourceError> {
-        Ok(Simulation::new(self.scene.clone(), self.profile.as_deref())?)
+    pub(super) fn build(&self) -> Result<Simulation, SimulationError> {
+        Simulation::new(self.scene.clone(), self.profile.as_deref())
     }
 }
 

@@ -1,8 +1,8 @@
 //! Saved states (`fmi2FMUstate`): the instance owns them, the host holds handles.
 //!
-//! As with instances, a handle is a number and not an address, so a stale, foreign or uninitialised one is refused without being
-//! dereferenced. Numbers are never used twice in a process. A state that its host forgets to free goes with its
-//! instance; the memory of a freed one serves the next.
+//! As with instances, a handle is a number and not an address, so a stale, foreign or uninitialised one is refused
+//! without being dereferenced. Numbers are never used twice in a process. A state that its host forgets to free goes
+//! with its instance; the memory of a freed one serves the next.
 
 use std::ptr;
 use std::sync::atomic::{AtomicU64, Ordering};

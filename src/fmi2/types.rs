@@ -1,4 +1,5 @@
-//! The C types of the standard's headers `fmi2TypesPlatform.h` and `fmi2FunctionTypes.h` (FMI 2.0.x, platform "default").
+//! The C types of the standard's headers `fmi2TypesPlatform.h` and `fmi2FunctionTypes.h` (FMI 2.0.x, platform
+//! "default").
 //!
 //! What a host hands in as an enumeration or a Boolean is a plain C integer here: an out-of-range value must be a
 //! number that can be refused, not undefined behaviour.

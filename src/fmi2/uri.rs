@@ -2,8 +2,9 @@
 //!
 //! The standard asks for a URI after RFC 3986 with the scheme `file`. Importers send `file:/dir`, `file:///dir`,
 //! `file://localhost/dir`, on Windows also `file:///C:/dir` and the ill-formed `file://C:/dir`; some leave characters
-//! unescaped. All these name a path without doubt and are accepted; so is a plain absolute path. A `+` is a plus sign: it means a space
-//! only in web forms. Escapes that are none stay as they are. Other schemes and, except on Windows, other hosts are refused.
+//! unescaped. All these name a path without doubt and are accepted; so is a plain absolute path. A `+` is a plus
+//! sign: it means a space only in web forms. Escapes that are none stay as they are. Other schemes and, except on
+//! Windows, other hosts are refused.
 
 use std::path::PathBuf;
 

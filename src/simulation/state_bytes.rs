@@ -1,7 +1,8 @@
-//! A [`State`] as bytes, little-endian, in one fixed order; and back, if the bytes have the shape of this model's state.
+//! A [`State`] as bytes, little-endian, in one fixed order; and back, if the bytes have the shape of this model's
+//! state.
 //!
-//! Numbers are written bit by bit, so a state that went through bytes continues with the same bits, also in another process. The
-//! bytes carry no version and no checksum: whoever stores them adds both.
+//! Numbers are written bit by bit, so a state that went through bytes continues with the same bits, also in another
+//! process. The bytes carry no version and no checksum: whoever stores them adds both.
 
 use super::{Simulation, State};
 
@@ -27,8 +28,8 @@ impl State {
         fixed + 8 * real + 4 * (progress.cells.len() + self.integers.len()) + progress.pushing.len()
     }
 
-    /// Shows every field as bytes to `field`, and takes what `field` has made of them. `None` as soon as `field` gives `None` or a
-    /// field cannot have that value.
+    /// Shows every field as bytes to `field`, and takes what `field` has made of them. `None` as soon as `field`
+    /// gives `None` or a field cannot have that value.
     fn visit(&mut self, field: &mut impl FnMut(&mut [u8]) -> Option<()>) -> Option<()> {
         let progress = &mut self.progress;
         real(&mut self.time, field)?;

@@ -1,0 +1,100 @@
+//! The host's logger.
+
+use crate::host::{Host, Resources};
+use brinell::fmi2::*;
+use std::ffi::CString;
+use std::ptr;
+
+fn switch(host: &Host, on: bool, categories: &[&str]) -> Status {
+    let texts: Vec<_> = categories.iter().map(|text| CString::new(*text).unwrap()).collect();
+    let pointers: Vec<_> = texts.iter().map(|text| text.as_ptr()).collect();
+    // SAFETY: as many strings as said, each ended by NUL.
+    unsafe { fmi2SetDebugLogging(host.c, on.into(), pointers.len(), pointers.as_ptr()) }
+}
+
+/// Provokes a line of each category that there is, and gives the categories seen.
+fn provoke(host: &Host) -> Vec<String> {
+    host.lines();
+    host.reset();
+    host.set(&[host.reference("shaft.speed")], &[f64::NAN]);
+    host.step(0.0, 1.0);
+    host.lines().into_iter().map(|line| line.category).collect()
+}
+
+#[test]
+fn logging_is_silent_when_off_and_complete_when_on() {
+    let host = Host::with(Resources::of("er16k-tb1"), "quiet", false);
+    assert!(host.lines().is_empty());
+    assert!(provoke(&host).is_empty());
+    assert_eq!(switch(&host, true, &[]), Status::Ok);
+    assert_eq!(provoke(&host), ["logEvents", "logStatusDiscard", "logStatusError"]);
+    assert_eq!(switch(&host, false, &[]), Status::Ok);
+    assert!(provoke(&host).is_empty());
+}
+
+#[test]
+fn only_the_categories_asked_for_are_logged() {
+    let host = Host::of("er16k-tb1");
+    for (categories, seen) in [
+        (vec!["logEvents"], vec!["logEvents"]),
+        (vec!["logStatusError", "logStatusDiscard"], vec!["logStatusDiscard", "logStatusError"]),
+        (vec!["logStatusFatal", "logStatusWarning"], vec![]),
+        (vec!["logAll"], vec!["logEvents", "logStatusDiscard", "logStatusError"]),
+    ] {
+        assert_eq!(switch(&host, true, &categories), Status::Ok);
+        assert_eq!(provoke(&host), seen);
+    }
+    assert_eq!(switch(&host, false, &["logAll"]), Status::Ok);
+    assert!(provoke(&host).is_empty());
+}
+
+#[test]
+fn an_unknown_category_is_a_warning_and_the_known_ones_are_set() {
+    let host = Host::of("er16k-tb1");
+    assert_eq!(switch(&host, true, &["logStatusWarning", "log%nEverything", "logEvents"]), Status::Warning);
+    let line = host.lines().pop().unwrap();
+    assert_eq!((line.status, line.category.as_str()), (Status::Warning, "logStatusWarning"));
+    assert!(line.message.contains("log%nEverything"));
+    assert_eq!(provoke(&host), ["logEvents"]);
+}
+
+#[test]
+fn null_categories_are_errors() {
+    for categories in [ptr::null(), &raw const *&ptr::null()] {
+        let host = Host::of("er16k-tb1");
+        // SAFETY: NULL, or one NULL string, is what is tested.
+        assert_eq!(unsafe { fmi2SetDebugLogging(host.c, TRUE, 1, categories) }, Status::Error);
+    }
+}
+
+#[test]
+fn a_message_is_an_argument_of_the_format_and_never_the_format() {
+    let host = Host::named("er16k-tb1", "100 %s %n");
+    let line = host.lines().remove(0);
+    assert_eq!((line.format.as_str(), line.instance.as_str()), ("%s", "100 %s %n"));
+}
+
+#[test]
+fn every_error_says_what_failed_and_what_to_do() {
+    let host = Host::started("er16k-tb1");
+    host.lines();
+    assert_eq!(host.step(0.0, -1.0), Status::Error);
+    let lines = host.lines();
+    assert_eq!(lines.len(), 1);
+    let message = &lines[0].message;
+    for word in ["fmi2DoStep", "-1.0 s", "above 0", "fmi2Reset", "fmi2SetFMUstate", "fmi2FreeInstance"] {
+        assert!(message.contains(word), "{word}: {message}");
+    }
+}
+
+#[test]
+fn steps_and_values_in_order_log_nothing() {
+    let host = Host::started("er16k-tb1");
+    host.lines();
+    for n in 0..10 {
+        assert_eq!(host.set(&[host.reference("shaft.speed")], &[62.0]), Status::Ok);
+        assert_eq!(host.step(f64::from(n) * 1e-4, 1e-4), Status::Ok);
+        assert!(host.get(&host.reals()).is_ok());
+    }
+    assert!(host.lines().is_empty());
+}

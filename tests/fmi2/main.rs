@@ -1,0 +1,16 @@
+//! The FMI 2.0 rules, each shown by a test that calls the exported C functions as a host would.
+//!
+//! `unsafe` is what a C interface is called with; each test passes only what its sentence says.
+#![allow(unsafe_code)]
+// What helpers unwrap is the test's own set-up.
+#![allow(clippy::unwrap_used)]
+
+mod host;
+mod hostile;
+mod instantiate;
+mod logging;
+mod modes;
+mod panics;
+mod saved_states;
+mod steps;
+mod variables;

@@ -1,0 +1,178 @@
+//! Saving, restoring and serializing the state of an instance.
+
+use crate::host::{Host, bits};
+use brinell::fmi2::*;
+use std::ptr;
+
+const SCENES: [&str; 3] = ["er16k-tb1", "6205-hosted", "6205-epps"];
+const STEP: f64 = 1e-4;
+
+/// Steps `count` times from step number `first`, with a speed that changes, and gives all reals after each.
+fn run(host: &Host, first: u32, count: u32) -> Vec<Vec<u64>> {
+    let (speed, all) = (host.reference("shaft.speed"), host.reals());
+    (first..first + count)
+        .map(|n| {
+            assert_eq!(host.set(&[speed], &[60.0 + 0.1 * f64::from(n)]), Status::Ok);
+            assert_eq!(host.step(f64::from(n) * STEP, STEP), Status::Ok, "{:?}", host.lines());
+            bits(&host.get(&all).unwrap())
+        })
+        .collect()
+}
+
+#[test]
+fn a_rewound_instance_repeats_every_bit() {
+    for scene in SCENES {
+        let host = Host::started(scene);
+        run(&host, 0, 55);
+        // An element of the ER16K has just met the spall's edge.
+        let state = host.save();
+        let before = bits(&host.get(&host.reals()).unwrap());
+        let first = run(&host, 55, 20);
+        for _ in 0..2 {
+            assert_eq!(host.restore(state), Status::Ok);
+            assert_eq!(bits(&host.get(&host.reals()).unwrap()), before, "{scene}");
+            assert_eq!(run(&host, 55, 20), first, "{scene}");
+        }
+        assert_eq!(host.free(state), Status::Ok);
+    }
+}
+
+#[test]
+fn a_state_in_bytes_continues_in_another_instance_bit_by_bit() {
+    for scene in SCENES {
+        let host = Host::of(scene);
+        // Parameters travel with the state.
+        assert_eq!(host.set(&[host.reference("contact.damping")], &[0.3]), Status::Ok);
+        host.start();
+        run(&host, 0, 55);
+        let bytes = host.serialize(host.save());
+        let expected = run(&host, 55, 20);
+
+        let other = Host::of(scene);
+        let state = other.deserialize(&bytes).unwrap();
+        assert_eq!(other.restore(state), Status::Ok);
+        assert_eq!(run(&other, 55, 20), expected, "{scene}");
+        assert_eq!(other.serialize(state), bytes, "{scene}");
+    }
+}
+
+#[test]
+fn a_state_saved_over_an_earlier_one_takes_its_place() {
+    let host = Host::started("er16k-tb1");
+    let mut state = host.save();
+    let handle = state;
+    run(&host, 0, 5);
+    // SAFETY: a handle of this instance.
+    assert_eq!(unsafe { fmi2GetFMUstate(host.c, &raw mut state) }, Status::Ok);
+    assert_eq!(state, handle);
+    let expected = run(&host, 5, 5);
+    assert_eq!(host.restore(state), Status::Ok);
+    assert_eq!(run(&host, 5, 5), expected);
+}
+
+#[test]
+fn a_freed_state_is_null_and_cannot_be_used_again() {
+    let host = Host::started("er16k-tb1");
+    let (keep, mut state) = (host.save(), host.save());
+    let copy = state;
+    // SAFETY: a handle of this instance, then NULL.
+    unsafe {
+        assert_eq!(fmi2FreeFMUstate(host.c, &raw mut state), Status::Ok);
+        assert!(state.is_null());
+        assert_eq!(fmi2FreeFMUstate(host.c, &raw mut state), Status::Ok);
+        assert_eq!(fmi2FreeFMUstate(host.c, ptr::null_mut()), Status::Ok);
+    }
+    // The memory is used again, the handle is not.
+    let next = host.save();
+    assert_ne!(next, copy);
+    assert_eq!(host.restore(copy), Status::Error);
+    assert!(host.lines().last().unwrap().message.contains("FMU state"));
+    assert_eq!(host.free(copy), Status::Error);
+    assert_eq!(host.restore(keep), Status::Ok);
+    assert_eq!(host.restore(next), Status::Ok);
+}
+
+#[test]
+fn null_invented_and_foreign_states_are_errors() {
+    let (host, other) = (Host::started("er16k-tb1"), Host::started("er16k-tb1"));
+    let (own, foreign) = (host.save(), other.save());
+    let mut list: Vec<FmuState> = vec![ptr::null_mut(), foreign, host.c];
+    list.extend([1, 8, 24, usize::MAX, own.addr() ^ 16, own.addr() | 1].map(ptr::without_provenance_mut));
+    for state in list {
+        assert_eq!(host.restore(state), Status::Error);
+        let mut size = 0;
+        let mut handle = state;
+        // SAFETY: any handle may be passed; places for one value.
+        unsafe {
+            assert_eq!(fmi2SerializedFMUstateSize(host.c, state, &raw mut size), Status::Error);
+            assert_eq!(fmi2SerializeFMUstate(host.c, state, ptr::null_mut(), 0), Status::Error);
+            if !state.is_null() {
+                assert_eq!(fmi2GetFMUstate(host.c, &raw mut handle), Status::Error);
+                assert_eq!(fmi2FreeFMUstate(host.c, &raw mut handle), Status::Error);
+            }
+        }
+        assert_eq!(handle, state);
+    }
+    assert_eq!(host.restore(own), Status::Ok);
+    assert_eq!(other.restore(foreign), Status::Ok);
+}
+
+#[test]
+fn states_survive_a_reset() {
+    let host = Host::started("er16k-tb1");
+    run(&host, 0, 3);
+    let state = host.save();
+    let expected = run(&host, 3, 3);
+    assert_eq!(host.reset(), Status::Ok);
+    assert_eq!(host.restore(state), Status::Ok);
+    assert_eq!(run(&host, 3, 3), expected);
+}
+
+#[test]
+fn a_buffer_of_another_size_is_refused() {
+    let host = Host::started("er16k-tb1");
+    let state = host.save();
+    let size = host.serialize(state).len();
+    let mut bytes = vec![0u8; size + 1];
+    for wrong in [0, 1, size - 1, size + 1] {
+        // SAFETY: the buffer is at least as long as said.
+        let status = unsafe { fmi2SerializeFMUstate(host.c, state, bytes.as_mut_ptr().cast(), wrong) };
+        assert_eq!(status, Status::Error);
+        assert!(host.lines().last().unwrap().message.contains(&size.to_string()));
+    }
+    assert!(bytes.iter().all(|byte| *byte == 0));
+}
+
+#[test]
+fn damaged_short_long_and_foreign_bytes_are_refused() {
+    let host = Host::started("6205-epps");
+    let good = host.serialize(host.save());
+    let refused = |bytes: &[u8], word: &str| {
+        assert_eq!(host.deserialize(bytes), Err(Status::Error));
+        let message = host.lines().pop().unwrap().message;
+        assert!(message.contains(word), "{word}: {message}");
+    };
+    for length in 0..good.len() {
+        refused(&good[..length], if length < 8 { "not a serialized state" } else { "serialized state" });
+    }
+    refused(&[&good[..], &[0]].concat(), "bytes");
+    refused(b"something else entirely, and long enough to be read", "not a serialized state");
+    for place in 0..good.len() {
+        for bit in 0..8 {
+            let mut bytes = good.clone();
+            bytes[place] ^= 1 << bit;
+            assert_eq!(host.deserialize(&bytes), Err(Status::Error), "byte {place}, bit {bit}");
+        }
+    }
+    host.lines();
+    let other = Host::started("er16k-tb1");
+    refused(&other.serialize(other.save()), "GUID");
+    // SAFETY: NULL is what is tested.
+    unsafe {
+        let mut state = ptr::null_mut();
+        assert_eq!(fmi2DeSerializeFMUstate(host.c, ptr::null(), 10, &raw mut state), Status::Error);
+        assert_eq!(fmi2DeSerializeFMUstate(host.c, good.as_ptr().cast(), good.len(), ptr::null_mut()), Status::Error);
+        assert_eq!(fmi2GetFMUstate(host.c, ptr::null_mut()), Status::Error);
+    }
+    assert!(host.deserialize(&good).is_ok());
+}

@@ -1,0 +1,158 @@
+//! Time: experiments, communication points, steps, and what is told about them.
+
+use crate::host::Host;
+use brinell::fmi2::*;
+use std::ffi::CStr;
+use std::ptr;
+
+#[test]
+fn an_experiment_needs_a_finite_start_and_a_later_finite_stop() {
+    for (start, stop) in [
+        (f64::NAN, None),
+        (f64::INFINITY, None),
+        (0.0, Some(f64::NAN)),
+        (0.0, Some(0.0)),
+        (0.0, Some(-1.0)),
+        (0.0, Some(f64::INFINITY)),
+    ] {
+        let host = Host::of("6205-healthy");
+        assert_eq!(host.setup(None, start, stop), Status::Error, "{start} {stop:?}");
+    }
+    let host = Host::of("6205-healthy");
+    assert_eq!(host.setup(Some(1e-4), -5.0, Some(-4.0)), Status::Ok);
+    // A second call takes the place of the first.
+    assert_eq!(host.setup(None, 100.0, None), Status::Ok);
+    assert_eq!((host.enter(), host.exit()), (Status::Ok, Status::Ok));
+    assert_eq!(host.step(100.0, 1e-4), Status::Ok);
+}
+
+#[test]
+fn a_tolerance_of_the_host_tightens_the_scenes_and_never_loosens_it() {
+    let tolerance_after = |given: f64| {
+        let host = Host::of("er16k-tb1");
+        assert_eq!(host.setup(Some(given), 0.0, None), Status::Ok);
+        assert_eq!(host.enter(), Status::Ok);
+        host.get(&[host.reference("solver.tolerance")]).unwrap()[0]
+    };
+    // The scene says 1e-5; 1e-12 is the smallest that may be set.
+    assert_eq!([1e-3, 1e-5, 1e-7, 1e-30].map(tolerance_after), [1e-5, 1e-5, 1e-7, 1e-12]);
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert_eq!(Host::of("er16k-tb1").setup(Some(bad), 0.0, None), Status::Error);
+    }
+}
+
+#[test]
+fn a_step_that_is_not_above_zero_and_finite_is_an_error() {
+    for size in [0.0, -1e-4, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let host = Host::started("6205-healthy");
+        assert_eq!(host.step(0.0, size), Status::Error, "{size}");
+        assert!(host.lines().last().unwrap().message.contains("communication step size"));
+    }
+}
+
+#[test]
+fn the_shortest_positive_step_is_taken() {
+    for size in [5e-324, f64::MIN_POSITIVE, 1e-300, 1e-18] {
+        let host = Host::started("6205-healthy");
+        assert_eq!(host.step(0.0, size), Status::Ok, "{size} {:?}", host.lines());
+        assert!(host.get(&host.reals()).is_ok(), "{size} {:?}", host.lines());
+    }
+}
+
+#[test]
+fn a_wrong_communication_point_is_an_error_and_a_rounded_one_is_not() {
+    for point in [1e-4, -1e-4, 1.0, f64::NAN, f64::INFINITY] {
+        let host = Host::started("6205-healthy");
+        assert_eq!(host.step(point, 1e-4), Status::Error, "{point}");
+        assert!(host.lines().last().unwrap().message.contains("communication point"));
+    }
+    let host = Host::started("6205-healthy");
+    assert_eq!(host.step(0.0, 1e-3), Status::Ok);
+    assert_eq!(host.step(1e-3 * (1.0 + 5e-10), 1e-3), Status::Ok);
+    assert_eq!(host.step(2e-3 * (1.0 - 5e-10), 1e-3), Status::Ok);
+}
+
+#[test]
+fn a_step_ends_exactly_where_the_host_computes_it() {
+    let host = Host::started("6205-healthy");
+    let mut time = 0.0;
+    for step in [1e-3, 3e-4, 7e-5, 1e-3 / 3.0] {
+        assert_eq!(host.step(time, step), Status::Ok);
+        time += step;
+        let mut last = f64::NAN;
+        // SAFETY: a place for one value.
+        let status = unsafe { fmi2GetRealStatus(host.c, LAST_SUCCESSFUL_TIME, &raw mut last) };
+        assert_eq!((status, last.to_bits()), (Status::Ok, time.to_bits()));
+    }
+}
+
+#[test]
+fn a_step_past_the_stop_time_is_an_error_and_one_that_ends_there_is_not() {
+    let host = Host::of("6205-healthy");
+    host.setup(None, 0.0, Some(1e-3));
+    assert_eq!((host.enter(), host.exit()), (Status::Ok, Status::Ok));
+    // Ten added tenths of a millisecond are more than a millisecond by rounding.
+    let mut time = 0.0;
+    for _ in 0..10 {
+        assert_eq!(host.step(time, 1e-4), Status::Ok, "{:?}", host.lines());
+        time += 1e-4;
+    }
+    assert_eq!(host.step(time, 1e-4), Status::Error);
+    assert!(host.lines().last().unwrap().message.contains("stop time"));
+}
+
+#[test]
+fn without_a_stop_time_there_is_no_end() {
+    let host = Host::of("6205-healthy");
+    // NaN goes with "not defined" and must not be looked at.
+    host.start();
+    assert_eq!(host.step(0.0, 0.02), Status::Ok);
+}
+
+#[test]
+fn the_result_does_not_depend_on_how_the_time_is_split() {
+    let run = |count: u32| {
+        let host = Host::of("er16k-tb1");
+        assert_eq!(host.set(&[host.reference("solver.tolerance")], &[1e-9]), Status::Ok);
+        host.start();
+        let step = 2e-3 / f64::from(count);
+        for n in 0..count {
+            assert_eq!(host.step(f64::from(n) * step, step), Status::Ok);
+        }
+        host.get(&[host.reference("shaft.y"), host.reference("housing.y")]).unwrap()
+    };
+    let (one, many) = (run(1), run(100));
+    for (one, many) in one.iter().zip(many) {
+        // 1e-12 m: tolerance 1e-9 of an approach of 10 µm, over some hundred integration steps.
+        assert!((one - many).abs() < 1e-12, "{one} {many}");
+    }
+}
+
+#[test]
+fn status_queries_answer_and_unknown_kinds_are_discarded() {
+    let host = Host::started("6205-healthy");
+    assert_eq!(host.step(0.0, 1e-4), Status::Ok);
+    let (mut status, mut time, mut integer, mut flag) = (Status::Fatal, f64::NAN, 77, 77);
+    let mut text: FmiString = ptr::null();
+    // SAFETY: places for one value each.
+    unsafe {
+        assert_eq!(fmi2GetStatus(host.c, DO_STEP_STATUS, &raw mut status), Status::Ok);
+        assert_eq!(fmi2GetRealStatus(host.c, LAST_SUCCESSFUL_TIME, &raw mut time), Status::Ok);
+        assert_eq!(fmi2GetBooleanStatus(host.c, TERMINATED, &raw mut flag), Status::Ok);
+        assert_eq!(fmi2GetStringStatus(host.c, PENDING_STATUS, &raw mut text), Status::Ok);
+        assert_eq!(CStr::from_ptr(text), c"no step is pending");
+        for kind in [-1, 4, i32::MAX] {
+            assert_eq!(fmi2GetStatus(host.c, kind, &raw mut status), Status::Discard);
+            assert_eq!(fmi2GetRealStatus(host.c, kind, &raw mut time), Status::Discard);
+            assert_eq!(fmi2GetIntegerStatus(host.c, kind, &raw mut integer), Status::Discard);
+            assert_eq!(fmi2GetBooleanStatus(host.c, kind, &raw mut flag), Status::Discard);
+            assert_eq!(fmi2GetStringStatus(host.c, kind, &raw mut text), Status::Discard);
+        }
+        assert_eq!(fmi2GetIntegerStatus(host.c, DO_STEP_STATUS, &raw mut integer), Status::Discard);
+    }
+    assert_eq!((status, time, integer, flag), (Status::Ok, 1e-4, 77, FALSE));
+    // Discarded queries do not end the run.
+    assert_eq!(host.step(1e-4, 1e-4), Status::Ok);
+    // SAFETY: NULL is what is tested.
+    assert_eq!(unsafe { fmi2GetRealStatus(host.c, LAST_SUCCESSFUL_TIME, ptr::null_mut()) }, Status::Error);
+}
