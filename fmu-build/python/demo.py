@@ -12,11 +12,11 @@ from pathlib import Path
 
 import plotting
 from host import Host
-from plotting import BLUE, GREEN, ORANGE, SKY, VERMILION, np, plt
+from plotting import BLUE, GREEN, SKY, VERMILION, np, plt
 
 LONG_STEP, SHORT_STEP = 1e-5, 1e-6  # s; the sensor rings at 15 kHz, contacts at up to 50 kHz
 SETTLE = 15e-3  # s; the first passage after this is looked at closely
-BEFORE, AFTER = 0.6e-3, 3.0e-3  # s around the passage
+BEFORE, AFTER = 0.5e-3, 2.2e-3  # s around the passage
 OVERVIEW = 60e-3  # s
 
 
@@ -100,11 +100,11 @@ def find_events(signals, entry, leave):
     return normal, events
 
 
-LABELS = {
-    "entry": "1 entry:\nelement over the\nleading edge",
-    "unloading": "2 unloading:\nhalf the load is gone,\nrings ring low",
-    "reload": "3 re-load at the\ntrailing edge:\nhalf is back",
-    "exit": "4 exit:\nelement over the\ntrailing edge",
+EXPLAINED = {
+    "entry": "entry: its centre passes the leading edge",
+    "unloading": "unloading: half of the outer force is gone",
+    "reload": "re-load at the trailing edge: half is back",
+    "exit": "exit: its centre passes the trailing edge",
 }
 
 
@@ -129,42 +129,42 @@ def draw(stem, table, signals, raceway, normal, events, element, radius):
     sensor.plot(ms, signals["sensor.acceleration"], color=BLUE)
     sensor.set_ylabel("sensor, y\n(m/s²)")
 
-    force.plot(ms, signals["force.inner"], color=ORANGE, label="inner contact")
-    force.plot(ms, signals["force.outer"], color=BLUE, label="outer contact")
+    force.plot(ms, signals["force.outer"], color=SKY, linewidth=3, label="outer contact")
+    force.plot(ms, signals["force.inner"], color=VERMILION, linewidth=1, label="inner contact")
     for what, (when, value) in events.items():
         if what in ("least", "peak"):
             force.plot((when - start) * 1e3, value, "o", color="black", markersize=4)
             force.annotate(
                 f"{value:.0f} N", ((when - start) * 1e3, value), xytext=(6, 0), textcoords="offset points", va="center"
             )
-    force.axhline(normal, color="black", linewidth=0.6, linestyle=":")
+    force.axhline(normal, color="black", linewidth=0.8, linestyle=":", label="before the entry")
     force.set_ylabel(f"force on\nelement {element} (N)")
     force.set_ylim(bottom=min(0.0, force.get_ylim()[0]))
-    force.legend(loc="upper right")
+    force.legend(loc="lower right", bbox_to_anchor=(1, 0.96), ncols=3)
 
-    when = np.interp(raceway.arc, signals["arc"], ms)
-    path.fill_between(when, raceway.depth * 1e6, 1e3, color="#bbbbbb", linewidth=0, label="outer ring", step=None)
-    path.plot(when, raceway.path * 1e6, color="black", linestyle="--", linewidth=1, label="path of a rigid element")
+    profile, rigid = (np.interp(signals["arc"], raceway.arc, of) * 1e6 for of in (raceway.depth, raceway.path))
+    path.fill_between(ms, profile, 1e3, color="#c8c8c8", linewidth=0, label="outer ring")
+    path.plot(ms, rigid, color="black", linestyle="--", linewidth=1, label="path of a rigid element")
     path.plot(ms, signals["path"] * 1e6, color=GREEN, linewidth=1.6, label=f"path of element {element}")
     path.set_ylabel("depth below the\nraceway (µm)")
     lowest = 1.15 * max(raceway.depth.max(), signals["path"].max()) * 1e6
-    path.set_ylim(lowest, min(-0.1 * lowest, 1.1 * signals["path"].min() * 1e6))
-    path.legend(loc="lower right")
+    path.set_ylim(lowest, -0.25 * lowest)
+    path.legend(loc="upper right", ncols=3)
     path.set_xlabel("time after the element's centre passes the leading edge (ms)")
 
-    marked = [what for what in LABELS if what in events]
+    marked = {what: (events[what][0] - start) * 1e3 for what in EXPLAINED if what in events}
     for axis in (housing, sensor, force, path):
-        axis.sharex(path) if axis is not path else None
-        for what in marked:
-            axis.axvline((events[what][0] - start) * 1e3, color="black", linewidth=0.8)
-    path.set_xlim(ms[0], ms[-1])
-    for axis in (housing, sensor, force):
-        axis.tick_params(labelbottom=False)
-    for number, what in enumerate(marked):
+        axis.set_xlim(ms[0], ms[-1])
+        axis.tick_params(labelbottom=axis is path)
+        for when in marked.values():
+            axis.axvline(when, color="black", linewidth=0.8)
+    for number, (what, when) in enumerate(marked.items(), 1):
         housing.annotate(
-            LABELS[what].split(" ")[0], ((events[what][0] - start) * 1e3, 1.0), xycoords=("data", "axes fraction"),
-            xytext=(0, 2), textcoords="offset points", ha="center", va="bottom", fontweight="bold",
+            str(number), (when, 1.0), xycoords=("data", "axes fraction"), xytext=(0, 2), textcoords="offset points",
+            ha="center", va="bottom", fontweight="bold",
         )
+    lines = [f"{number}  {when:5.2f} ms  {EXPLAINED[what]}" for number, (what, when) in enumerate(marked.items(), 1)]
+    path.text(0.48, 0.06, "\n".join(lines), transform=path.transAxes, va="bottom", linespacing=1.5)
     figure.align_ylabels()
     plotting.save(figure, stem)
 

@@ -21,6 +21,8 @@ class Host:
             instanceName="demo",
         )
         self.slave.instantiate()
+        # Without a word from the FMU a failed call would say no more than its status.
+        self.slave.setDebugLogging(True, ["logStatusWarning", "logStatusDiscard", "logStatusError", "logStatusFatal"])
         for name, value in (start or {}).items():
             self.write([name], [value])
         self.slave.setupExperiment(startTime=0.0)

@@ -40,8 +40,8 @@ pub const CAPABILITIES: Capabilities = Capabilities {
     variable_step: true,
     interpolates_inputs: true,
     output_derivative_order: 0,
-    state: false,
-    serialized_state: false,
+    state: true,
+    serialized_state: true,
     directional_derivatives: false,
     own_memory: true,
 };

@@ -129,12 +129,14 @@ fn make(system: &Path, environment: &Path, interpreter: &Path, folder: &Path) ->
     Ok(())
 }
 
-/// The end of what a program said: its error, on one line.
+/// The end of what a program said, on one line: an FMU logs to the one stream, Python raises on the other.
 fn said(output: &Output) -> String {
-    let text = if output.stderr.is_empty() { &output.stdout } else { &output.stderr };
-    let text = String::from_utf8_lossy(text);
-    let lines: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
-    lines[lines.len().saturating_sub(6)..].join(" | ")
+    let last = |stream: &[u8], count: usize| {
+        let text = String::from_utf8_lossy(stream);
+        let lines: Vec<_> = text.lines().map(str::trim).filter(|line| !line.is_empty()).map(str::to_owned).collect();
+        lines[lines.len().saturating_sub(count)..].to_vec()
+    };
+    [last(&output.stdout, 2), last(&output.stderr, 5)].concat().join(" | ")
 }
 
 fn remove(path: &Path, how: impl FnOnce(&Path) -> std::io::Result<()>) -> Result<()> {

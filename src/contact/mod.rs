@@ -1,5 +1,14 @@
 //! Contact of one rolling element with a raceway. Knows no time, no cage and no ring: place and approach in, force out.
 
+pub mod active_set;
+pub mod cholesky;
+pub mod equivalent;
+pub mod error;
+pub mod fft_product;
 pub mod force_law;
+pub mod grid;
+pub mod half_space;
+pub mod love;
 pub mod near_defect;
+pub mod raceway_grid;
 pub mod rigid_path;

@@ -63,7 +63,7 @@ pub fn point_contact(curvature_1: f64, curvature_2: f64, effective_modulus: f64)
 }
 
 /// e² of the contact ellipse whose curvature ratio B/A ≥ 1 is given, by bisection on ln(b/a): the ratio is monotonic.
-fn squared_eccentricity(ratio: f64) -> f64 {
+pub(crate) fn squared_eccentricity(ratio: f64) -> f64 {
     let ratio_at = |flatness: f64| {
         // flatness = (b/a)²
         let m = 1.0 - flatness;

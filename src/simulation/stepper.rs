@@ -243,7 +243,7 @@ impl Stepper {
                 wanted
             });
             self.try_step(model, drive, from, h, progress);
-            let (error, worst) = self.error(model, tolerance, h, progress);
+            let (error, worst) = self.error(model, tolerance, h);
             if !(error <= 1.0) {
                 progress.rejected_steps += 1;
                 let factor = if error.is_finite() { step_factor(error, 1.0).clamp(0.1, 0.9) } else { 0.1 };
@@ -316,13 +316,13 @@ impl Stepper {
     }
 
     /// Largest error of the step tried last, per tolerance, and the state that has it.
-    fn error(&self, model: &Model, tolerance: f64, h: f64, progress: &Progress) -> (f64, usize) {
+    fn error(&self, model: &Model, tolerance: f64, h: f64) -> (f64, usize) {
         let layout = &model.layout;
         let length = self.forces.largest_approach() + SMALLEST_APPROACH;
         let speed = VELOCITY_PER_APPROACH * length;
         let mut worst = (0.0, 0);
-        for (i, &value) in progress.state.iter().enumerate() {
-            let scale = if layout.is_position(i) { length } else { speed + value.abs() };
+        for i in 0..layout.len {
+            let scale = if layout.is_position(i) { length } else { speed };
             let error = (self.method.error(i, h) / scale).abs();
             if !(error <= worst.0) {
                 worst = (error, i);

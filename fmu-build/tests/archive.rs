@@ -1,0 +1,111 @@
+//! The zip file: reproducible to the byte, and plain enough for every importer.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use fmu_build::archive::{Archive, ArchiveError};
+use fmu_build::fmu;
+
+#[test]
+fn packing_a_scene_twice_gives_equal_bytes() {
+    for name in ["6205-epps", "er16k-tb1"] {
+        let first = fmu::pack(&common::model(name), common::library()).unwrap();
+        // Zip counts time in steps of two seconds: a clock that got in would show after three.
+        std::thread::sleep(std::time::Duration::from_secs(3));
+        let second = fmu::pack(&common::model(name), common::library()).unwrap();
+        assert!(first == second, "{name}: {} and {} bytes differ", first.len(), second.len());
+    }
+}
+
+#[test]
+fn an_fmu_holds_what_the_standard_names_and_nothing_else() {
+    let bytes = fmu::pack(&common::model("6205-epps"), common::library()).unwrap();
+    let names: Vec<_> = headers(&bytes).into_iter().map(|header| header.name).collect();
+    let library = format!(
+        "binaries/{}/Brinell_6205_epps.{}",
+        fmu_build::library::platform().unwrap(),
+        std::env::consts::DLL_EXTENSION
+    );
+    let expected = [
+        library.as_str(),
+        "documentation/index.html",
+        "documentation/licenses/LICENSE-APACHE",
+        "documentation/licenses/LICENSE-MIT",
+        "documentation/licenses/license.txt",
+        "model.png",
+        "modelDescription.xml",
+        "resources/6205-epps-trace.csv",
+        "resources/scene.toml",
+    ];
+    assert_eq!(names, expected);
+}
+
+#[test]
+fn every_entry_is_plain_zip_2_0_without_extra_fields() {
+    let bytes = fmu::pack(&common::model("6205-epps"), common::library()).unwrap();
+    for header in headers(&bytes) {
+        let name = &header.name;
+        assert!(header.version_needed <= 20, "{name}: needs version {}", header.version_needed);
+        assert!([0, 8].contains(&header.method), "{name}: method {} is neither store nor deflate", header.method);
+        assert_eq!(header.flags, 0, "{name}: flags");
+        assert_eq!((header.time, header.date), (0, 0x21), "{name}: 1980-01-01, the oldest date of zip");
+        assert_eq!((header.extra, header.comment), (0, 0), "{name}: extra field and comment");
+        assert_eq!((header.local_flags, header.local_extra), (0, 0), "{name}: local header");
+        assert_eq!(header.kind, 0o100_000, "{name}: a plain file, no link");
+    }
+}
+
+#[test]
+fn names_that_unpack_differently_elsewhere_are_refused() {
+    for name in ["", "/a", "a//b", "a\\b", "../a", "a/..", "C:a", "a/"] {
+        let refused = Archive::default().add(name, "");
+        assert!(matches!(refused, Err(ArchiveError::Name(_))), "{name:?} was taken");
+    }
+}
+
+struct Header {
+    name: String,
+    version_needed: u16,
+    flags: u16,
+    method: u16,
+    time: u16,
+    date: u16,
+    extra: u16,
+    comment: u16,
+    kind: u32,
+    local_flags: u16,
+    local_extra: u16,
+}
+
+/// The central directory, read by hand after the format's description (APPNOTE 4.3.12), so that the writer does not
+/// check itself.
+fn headers(zip: &[u8]) -> Vec<Header> {
+    let u16_at = |at: usize| u16::from_le_bytes(zip[at..at + 2].try_into().unwrap());
+    let u32_at = |at: usize| u32::from_le_bytes(zip[at..at + 4].try_into().unwrap());
+    let end = zip.len() - 22;
+    assert_eq!(u32_at(end), 0x0605_4b50, "the file ends with the end record, without comment");
+    let count = u16_at(end + 10);
+    let mut at = u32_at(end + 16) as usize;
+    let mut headers = Vec::new();
+    for _ in 0..count {
+        assert_eq!(u32_at(at), 0x0201_4b50, "central header");
+        let local = u32_at(at + 42) as usize;
+        assert_eq!(u32_at(local), 0x0403_4b50, "local header");
+        let length = u16_at(at + 28) as usize;
+        headers.push(Header {
+            name: String::from_utf8(zip[at + 46..at + 46 + length].to_vec()).unwrap(),
+            version_needed: u16_at(at + 6).max(u16_at(local + 4)),
+            flags: u16_at(at + 8),
+            method: u16_at(at + 10),
+            time: u16_at(at + 12),
+            date: u16_at(at + 14),
+            extra: u16_at(at + 30),
+            comment: u16_at(at + 32),
+            kind: (u32_at(at + 38) >> 16) & 0o170_000,
+            local_flags: u16_at(local + 6),
+            local_extra: u16_at(local + 28),
+        });
+        at += 46 + length + usize::from(u16_at(at + 30)) + usize::from(u16_at(at + 32));
+    }
+    headers
+}

@@ -1,0 +1,97 @@
+//! The model descriptions of all shipped scenes stand in `modelDescription/`, so that a change of the public interface
+//! is a diff to review. After an intended change: `BLESS=1 cargo test -p fmu-build --test model_description`.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::collections::BTreeSet;
+use std::{env, fs};
+
+use brinell::simulation::variables::{Causality, Kind, Variability};
+use fmu_build::model::Model;
+use fmu_build::model_description::{self, CAPABILITIES};
+use fmu_build::units;
+
+#[test]
+fn the_committed_model_descriptions_are_those_of_the_shipped_scenes() {
+    let folder = common::root().join("modelDescription");
+    let bless = env::var_os("BLESS").is_some_and(|value| value == "1");
+    let mut expected = BTreeSet::new();
+    for scene in common::scenes() {
+        let model = Model::read(&scene).unwrap();
+        let file = folder.join(&model.scene.name).with_extension("xml");
+        let written = model_description::write(&model, &CAPABILITIES).unwrap();
+        if bless {
+            fs::write(&file, &written).unwrap();
+        }
+        let committed = fs::read_to_string(&file).unwrap_or_default();
+        if let Some((line, (new, old))) = (1..).zip(written.lines().zip(committed.lines())).find(|(_, (a, b))| a != b) {
+            panic!("{} line {line}:\n  committed {old}\n  now       {new}\nbless it if it is meant", file.display());
+        }
+        assert_eq!(written.len(), committed.len(), "{} is shorter or longer; bless it if it is meant", file.display());
+        expected.insert(file);
+    }
+    let there: BTreeSet<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    assert_eq!(there, expected, "modelDescription/ holds one file for each scene and nothing else");
+}
+
+#[test]
+fn the_table_keeps_the_rules_that_the_writer_relies_on() {
+    for scene in common::scenes() {
+        let model = Model::read(&scene).unwrap();
+        let table = model.simulation.table();
+        for (index, variable) in table.iter().enumerate() {
+            let name = &variable.name;
+            assert_eq!(variable.reference as usize, index, "{name}: the reference is the index");
+            assert!(!variable.description.is_empty(), "{name}: a description");
+            let is_real = matches!(variable.kind, Kind::Real { .. });
+            assert!(is_real || variable.variability != Variability::Continuous, "{name}: only reals are continuous");
+            match variable.causality {
+                Causality::Parameter => assert_eq!(variable.variability, Variability::Fixed, "{name}"),
+                _ => assert_ne!(variable.variability, Variability::Fixed, "{name}"),
+            }
+            if let Kind::Real { start, min, max, nominal, .. } = variable.kind {
+                assert!(nominal > 0.0 && nominal.is_finite(), "{name}: nominal {nominal}");
+                assert_eq!(start.is_some(), variable.causality != Causality::Output, "{name}: start");
+                let start = start.unwrap_or(nominal);
+                let (min, max) = (min.unwrap_or(f64::NEG_INFINITY), max.unwrap_or(f64::INFINITY));
+                assert!(
+                    variable.causality == Causality::Output || (min..=max).contains(&start),
+                    "{name}: start {start}"
+                );
+            }
+            assert!(variable.depends_on.is_sorted(), "{name}: dependencies ascend");
+            for &input in &variable.depends_on {
+                assert_eq!(table[input as usize].causality, Causality::Input, "{name} depends on an input");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_display_unit_is_the_unit_times_its_factor() {
+    use brinell::simulation::variables::Unit;
+    let shown = units::display_unit(Unit::RadianPerSecond).unwrap();
+    // 10 Hz are 600 rev/min; 2 ulp for the two roundings.
+    let speed = 10.0 * std::f64::consts::TAU;
+    assert!((shown.factor * speed - 600.0).abs() < 4.0 * f64::EPSILON * 600.0);
+}
+
+#[test]
+fn special_characters_of_a_scene_survive_in_the_xml() {
+    let mut model = common::model("6205-healthy");
+    model.scene.description = "Ø 7.94 < \"8\" & more".to_owned();
+    let written = model_description::write(&model, &CAPABILITIES).unwrap();
+    let mut reader = quick_xml::reader::Reader::from_str(&written);
+    let description = loop {
+        match reader.read_event().unwrap() {
+            quick_xml::events::Event::Start(element) if element.name().as_ref() == "fmiModelDescription" => {
+                let attribute = element.try_get_attribute("description").unwrap().unwrap();
+                break attribute.normalized_value(quick_xml::XmlVersion::Implicit1_0).unwrap().into_owned();
+            }
+            quick_xml::events::Event::Eof => panic!("no root element"),
+            _ => {}
+        }
+    };
+    assert_eq!(description, model.scene.description);
+}

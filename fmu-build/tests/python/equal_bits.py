@@ -1,0 +1,26 @@
+"""The FMU, stepped over the grid of a run without a host, gives the same bits at every point.
+
+Arguments: FMU, the run's CSV, communication step [s].
+"""
+
+import sys
+
+from host import Host
+
+fmu, path, step = sys.argv[1], sys.argv[2], float(sys.argv[3])
+with open(path, encoding="utf-8") as file:
+    names = [cell.rsplit(" [", 1)[0] for cell in file.readline().strip().split(",")]
+    rows = [list(map(float, line.split(","))) for line in file]
+
+host = Host(fmu)
+types = {v.name: v.type for v in host.description.modelVariables}
+reals = [name for name in names[1:] if types[name] == "Real"]
+integers = [name for name in names[1:] if types[name] == "Integer"]
+assert ["time", *reals, *integers] == names
+for count, row in enumerate(rows):
+    if count > 0:
+        host.step(step)
+    counts = host.slave.getInteger([host.reference[name] for name in integers]) if integers else []
+    for name, expected, got in zip(names, row, [host.time, *host.read(reals), *counts]):
+        assert got == expected, f"point {count}: {name} is {got!r} in the FMU and {expected!r} without a host"
+host.close()

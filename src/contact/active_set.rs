@@ -1,0 +1,446 @@
+//! Direct solution of one frictionless contact on a grid of loaded rectangles.
+//!
+//! Find p ≥ 0 with K p ≥ g, complementary, where g = δ − h is the interference of the undeformed bodies and K Love's kernel. A
+//! primal–dual active set (Hintermüller, Ito and Kunisch 2002): solve K p = g on the set, drop cells that pull, add cells that
+//! interpenetrate, until nothing changes; Cholesky in between. Since K⁻¹ has no positive off-diagonal terms, starting from *all*
+//! interfering cells and only dropping also ends at the solution; that slower path is the fallback. Dropping without adding from any
+//! other start is wrong: `tests/contact.rs` shows how much force it loses.
+//!
+//! The next contact starts from the last set, and the last factor is kept while the set stays the same, so a warm contact
+//! costs two triangular solutions and one product. Cells are addressed by their column on the raceway; only their differences enter K.
+
+use pulp::{Arch, NullaryFnOnce};
+
+use super::{cholesky::Cholesky, error::ContactError, half_space::KernelTable};
+
+/// Columns treated together in a product.
+const BLOCK: usize = 32;
+/// Interpenetration below this part of the largest interference counts as touching; rounding of K p is far below.
+const TOUCHING: f64 = 1e-13;
+
+/// Which halves of the contact mirror each other, so that only one of them is unknown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Mirror {
+    /// Left and right: column 0 is right of the middle.
+    pub x: bool,
+    /// Front and back: row 0 is behind the middle.
+    pub y: bool,
+}
+
+impl Mirror {
+    /// How many cells of the whole contact one unknown stands for.
+    pub fn images(self) -> f64 {
+        f64::from((1 + u8::from(self.x)) * (1 + u8::from(self.y)))
+    }
+}
+
+/// Influence of rows of cells on each other, the mirrored half added.
+#[derive(Debug, Clone)]
+struct RowPairs {
+    reach: usize,
+    rows: usize,
+    mirrored: bool,
+    width: usize,
+    values: Vec<f64>,
+}
+
+impl RowPairs {
+    fn new(kernel: &KernelTable, rows: usize, mirrored: bool) -> Self {
+        let reach = kernel.columns();
+        let width = 2 * reach - 1 + BLOCK;
+        let pairs = if mirrored { rows * rows } else { rows };
+        let mut values = vec![0.0; pairs * width];
+        for (index, out) in values.chunks_exact_mut(width).enumerate() {
+            if mirrored {
+                let (j, k) = (index / rows, index % rows);
+                for ((out, direct), image) in out.iter_mut().zip(kernel.row(j.abs_diff(k))).zip(kernel.row(j + k + 1)) {
+                    *out = direct + image;
+                }
+            } else {
+                out[..2 * reach - 1].copy_from_slice(kernel.row(index));
+            }
+        }
+        Self { reach, rows, mirrored, width, values }
+    }
+
+    #[inline(always)]
+    fn pair(&self, j: usize, k: usize) -> &[f64] {
+        let index = if self.mirrored { j * self.rows + k } else { j.abs_diff(k) };
+        &self.values[index * self.width..(index + 1) * self.width]
+    }
+}
+
+/// Consecutive active cells of one row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Run {
+    /// Row.
+    pub row: usize,
+    /// Column of the first cell.
+    pub first: i32,
+    /// Number of cells.
+    pub length: usize,
+    /// Index of the first cell's unknown.
+    pub at: usize,
+}
+
+/// Interference g = δ − h of the undeformed bodies [m] in a window of the grid.
+#[derive(Debug, Clone, Copy)]
+pub struct Window<'a> {
+    /// Column of the window's first cell.
+    pub first: i32,
+    /// Columns.
+    pub columns: usize,
+    /// `interference[row × columns + column]`.
+    pub interference: &'a [f64],
+}
+
+/// Effort spent on one contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Effort {
+    /// Sets tried.
+    pub iterations: usize,
+    /// Factorisations among them.
+    pub factorisations: usize,
+}
+
+/// What the iteration thinks of a cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum State {
+    Open,
+    Active,
+    /// Left the set just now. Its pull is still in K p, so that it is not judged before the next solution.
+    Dropped,
+}
+
+/// The solver with its workspace and the last set.
+#[derive(Debug, Clone)]
+pub struct ActiveSet {
+    pairs: RowPairs,
+    mirror: Mirror,
+    factor: Cholesky,
+    factored: Vec<Run>,
+    runs: Vec<Run>,
+    state: Vec<State>,
+    pressure: Vec<f64>,
+    deflection: Vec<f64>,
+}
+
+impl ActiveSet {
+    /// Solver for `rows` rows of unknowns. The table must hold the largest offset that can occur: all columns of a window (twice as many
+    /// with left and right mirrored) and all `rows` (twice as many with front and back mirrored).
+    pub fn new(kernel: &KernelTable, rows: usize, mirror: Mirror) -> Result<Self, ContactError> {
+        let needed = if mirror.y { 2 * rows } else { rows };
+        if kernel.rows() < needed {
+            return Err(ContactError::WrongLength {
+                quantity: "kernel table, rows",
+                length: kernel.rows(),
+                expected: needed,
+            });
+        }
+        Ok(Self {
+            pairs: RowPairs::new(kernel, rows, mirror.y),
+            mirror,
+            factor: Cholesky::default(),
+            factored: Vec::new(),
+            runs: Vec::new(),
+            state: Vec::new(),
+            pressure: Vec::new(),
+            deflection: Vec::new(),
+        })
+    }
+
+    /// Forgets the last contact.
+    pub fn forget(&mut self) {
+        self.runs.clear();
+    }
+
+    /// Active cells of the last contact.
+    pub fn runs(&self) -> &[Run] {
+        &self.runs
+    }
+
+    /// Pressures over π E* of the last contact, in the order of the runs.
+    pub fn pressure(&self) -> &[f64] {
+        let count = self.runs.last().map_or(0, |run| run.at + run.length);
+        &self.pressure[..count]
+    }
+
+    /// Active cells of the last contact: run, place in the run, pressure over π E*.
+    pub fn cells(&self) -> impl Iterator<Item = (Run, usize, f64)> + '_ {
+        self.runs.iter().flat_map(|run| (0..run.length).map(|k| (*run, k, self.pressure[run.at + k])))
+    }
+
+    /// Largest |gap| where pressed and penetration where not, over the window just solved [m].
+    pub fn residual(&mut self, window: Window<'_>) -> f64 {
+        let mut worst = 0.0_f64;
+        let mut deflection = vec![0.0; window.columns.next_multiple_of(BLOCK)];
+        for row in 0..self.pairs.rows {
+            self.deflect(row, window.first, &mut deflection);
+            let cells = row * window.columns..(row + 1) * window.columns;
+            for ((&g, &state), &u) in window.interference[cells.clone()].iter().zip(&self.state[cells]).zip(&deflection)
+            {
+                let open = g - u;
+                worst = worst.max(if state == State::Active { open.abs() } else { open });
+            }
+        }
+        worst
+    }
+
+    /// Replaces `b` by K⁻¹ b on the last set; `b` must have been sized with [`ActiveSet::right_hand_side`].
+    pub fn apply_inverse(&self, b: &mut [f64]) {
+        self.factor.solve(b);
+    }
+
+    /// Makes `b` a right-hand side for [`ActiveSet::apply_inverse`], all zero.
+    pub fn right_hand_side(&self, b: &mut Vec<f64>) {
+        b.clear();
+        b.resize(self.factor.solve_length(), 0.0);
+    }
+
+    /// Solves the contact; starts from the last set unless it was forgotten.
+    ///
+    /// # Errors
+    /// [`ContactError::WrongLength`] for a window wider than the kernel's table, [`ContactError::NotConverged`] when the set does not settle.
+    pub fn solve(&mut self, window: Window<'_>) -> Result<Effort, ContactError> {
+        let Window { first, columns, interference } = window;
+        let widest = if self.mirror.x { self.pairs.reach / 2 } else { self.pairs.reach };
+        if columns > widest || interference.len() != columns * self.pairs.rows {
+            return Err(ContactError::WrongLength {
+                quantity: "contact window, columns",
+                length: columns,
+                expected: widest,
+            });
+        }
+        let largest = interference.iter().fold(0.0_f64, |m, &g| m.max(g));
+        self.start(first, columns, interference, largest);
+        let mut effort = Effort::default();
+        let mut only_drop = false;
+        loop {
+            self.collect_runs(first, columns);
+            if self.runs.is_empty() && largest <= 0.0 {
+                return Ok(effort);
+            }
+            effort.iterations += 1;
+            effort.factorisations += usize::from(self.refactor()?);
+            self.gather(first, columns, interference);
+            let dropped = self.drop_pulling(first, columns);
+            let added = !(only_drop && dropped) && self.add_penetrating(window, TOUCHING * largest);
+            if !(dropped || added) {
+                return Ok(effort);
+            }
+            if effort.iterations == 20 {
+                // From all interfering cells the set only shrinks: slow, and sure.
+                for (state, &g) in self.state.iter_mut().zip(interference) {
+                    *state = if g > 0.0 { State::Active } else { State::Open };
+                }
+                only_drop = true;
+            }
+            if effort.iterations == 100 {
+                return Err(ContactError::NotConverged { iterations: 100, residual: f64::NAN, limit: TOUCHING });
+            }
+        }
+    }
+
+    fn deflect(&self, row: usize, first: i32, out: &mut [f64]) {
+        let (pairs, runs, pressure) = (&self.pairs, &self.runs[..], &self.pressure[..]);
+        Arch::new().dispatch(Deflect { pairs, mirror_x: self.mirror.x, runs, pressure, row, first, out });
+    }
+
+    fn start(&mut self, first: i32, columns: usize, interference: &[f64], largest: f64) {
+        self.state.clear();
+        self.state.resize(interference.len(), State::Open);
+        let mut any = false;
+        for run in &self.runs {
+            for k in 0..run.length {
+                let column = run.first + k as i32 - first;
+                if column >= 0 && (column as usize) < columns {
+                    let at = run.row * columns + column as usize;
+                    if interference[at] > 0.0 {
+                        self.state[at] = State::Active;
+                        any = true;
+                    }
+                }
+            }
+        }
+        if !any {
+            // On paraboloids the contact is where the interference exceeds about half its largest value.
+            for (state, &g) in self.state.iter_mut().zip(interference) {
+                if g > 0.5 * largest {
+                    *state = State::Active;
+                }
+            }
+        }
+    }
+
+    fn collect_runs(&mut self, first: i32, columns: usize) {
+        self.runs.clear();
+        let mut at = 0;
+        for (row, states) in self.state.chunks_exact_mut(columns.max(1)).enumerate() {
+            let mut column = 0;
+            while column < columns {
+                if states[column] == State::Active {
+                    let start = column;
+                    while column < columns && states[column] == State::Active {
+                        column += 1;
+                    }
+                    let length = column - start;
+                    self.runs.push(Run { row, first: first + start as i32, length, at });
+                    at += length;
+                } else {
+                    states[column] = State::Open;
+                    column += 1;
+                }
+            }
+        }
+    }
+
+    /// The factor of another place serves as well: only differences of columns matter, unless there is a left and a right.
+    fn same_set(&self) -> bool {
+        let shift = match (self.runs.first(), self.factored.first()) {
+            (Some(a), Some(b)) => a.first - b.first,
+            _ => return false,
+        };
+        (shift == 0 || !self.mirror.x)
+            && self.runs.len() == self.factored.len()
+            && self
+                .runs
+                .iter()
+                .zip(&self.factored)
+                .all(|(a, b)| a.row == b.row && a.length == b.length && a.first == b.first + shift)
+    }
+
+    fn refactor(&mut self) -> Result<bool, ContactError> {
+        if self.same_set() {
+            return Ok(false);
+        }
+        self.factored.clear();
+        let count = self.runs.last().map_or(0, |run| run.at + run.length);
+        self.factor.resize(count);
+        let middle = self.pairs.reach as i32 - 1;
+        for (n, source) in self.runs.iter().enumerate() {
+            for k in 0..source.length {
+                let c = source.at + k;
+                let from = source.first + k as i32;
+                let column = self.factor.column_mut(c);
+                for target in &self.runs[n..] {
+                    let skip = c.saturating_sub(target.at);
+                    let to = target.first + skip as i32;
+                    let pair = self.pairs.pair(target.row, source.row);
+                    let start = (middle + to - from) as usize;
+                    let length = target.length - skip;
+                    let out = &mut column[target.at + skip - c..target.at + target.length - c];
+                    out.copy_from_slice(&pair[start..start + length]);
+                    if self.mirror.x {
+                        let start = (middle + to + from + 1) as usize;
+                        for (out, image) in out.iter_mut().zip(&pair[start..start + length]) {
+                            *out += image;
+                        }
+                    }
+                }
+            }
+        }
+        self.factor.factor().map_err(|_| ContactError::NotConverged {
+            iterations: 0,
+            residual: f64::NAN,
+            limit: TOUCHING,
+        })?;
+        self.factored.clone_from(&self.runs);
+        Ok(true)
+    }
+
+    fn gather(&mut self, first: i32, columns: usize, interference: &[f64]) {
+        let mut pressure = std::mem::take(&mut self.pressure);
+        self.right_hand_side(&mut pressure);
+        for run in &self.runs {
+            let start = run.row * columns + (run.first - first) as usize;
+            pressure[run.at..run.at + run.length].copy_from_slice(&interference[start..start + run.length]);
+        }
+        self.factor.solve(&mut pressure);
+        self.pressure = pressure;
+    }
+
+    fn drop_pulling(&mut self, first: i32, columns: usize) -> bool {
+        let mut changed = false;
+        for run in &self.runs {
+            let start = run.row * columns + (run.first - first) as usize;
+            for k in 0..run.length {
+                if self.pressure[run.at + k] < 0.0 {
+                    self.state[start + k] = State::Dropped;
+                    changed = true;
+                }
+            }
+        }
+        changed
+    }
+
+    fn add_penetrating(&mut self, window: Window<'_>, touching: f64) -> bool {
+        self.deflection.clear();
+        self.deflection.resize(window.columns.next_multiple_of(BLOCK), 0.0);
+        let mut changed = false;
+        for row in 0..self.pairs.rows {
+            let g = &window.interference[row * window.columns..(row + 1) * window.columns];
+            let state = &mut self.state[row * window.columns..(row + 1) * window.columns];
+            let open = |c: &usize| g[*c] > touching && state[*c] == State::Open;
+            let (Some(from), Some(to)) = ((0..g.len()).find(open), (0..g.len()).rev().find(open)) else {
+                continue;
+            };
+            let out = &mut self.deflection[..(to + 1 - from).next_multiple_of(BLOCK)];
+            let (pairs, runs, pressure) = (&self.pairs, &self.runs[..], &self.pressure[..]);
+            let first = window.first + from as i32;
+            Arch::new().dispatch(Deflect { pairs, mirror_x: self.mirror.x, runs, pressure, row, first, out });
+            for c in from..=to {
+                if state[c] == State::Open && g[c] - self.deflection[c - from] > touching {
+                    state[c] = State::Active;
+                    changed = true;
+                }
+            }
+        }
+        changed
+    }
+}
+
+/// K p on consecutive cells of one row.
+struct Deflect<'a> {
+    pairs: &'a RowPairs,
+    mirror_x: bool,
+    runs: &'a [Run],
+    pressure: &'a [f64],
+    row: usize,
+    first: i32,
+    out: &'a mut [f64],
+}
+
+impl NullaryFnOnce for Deflect<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let middle = self.pairs.reach as i32 - 1;
+        for (b, out) in self.out.chunks_exact_mut(BLOCK).enumerate() {
+            let mut sum = [0.0_f64; BLOCK];
+            let first = self.first + (b * BLOCK) as i32;
+            for run in self.runs {
+                let pair = self.pairs.pair(self.row, run.row);
+                let pressure = &self.pressure[run.at..run.at + run.length];
+                for (k, &p) in pressure.iter().enumerate() {
+                    let from = run.first + k as i32;
+                    accumulate(&mut sum, pair, middle + first - from, p);
+                    if self.mirror_x {
+                        accumulate(&mut sum, pair, middle + first + from + 1, p);
+                    }
+                }
+            }
+            out.copy_from_slice(&sum);
+        }
+    }
+}
+
+#[inline(always)]
+fn accumulate(sum: &mut [f64; BLOCK], pair: &[f64], start: i32, p: f64) {
+    // Cells of the last block beyond the table are nobody's: they stay as they are.
+    if let Some(k) = pair.get(start as usize..start as usize + BLOCK) {
+        for l in 0..BLOCK {
+            sum[l] = k[l].mul_add(p, sum[l]);
+        }
+    }
+}

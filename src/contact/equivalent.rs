@@ -1,0 +1,48 @@
+//! The outer contact near a defect as one potential.
+//!
+//! W(u, s) = (2/5) K Δ(u, s)^{5/2} is the elastic energy of an element whose centre stands at radial path u and arc s on the outer
+//! raceway; K is Hertz's constant of the smooth contact. Δ is the *equivalent approach*: the approach on the smooth raceway that stores the
+//! same energy. Both forces derive from it, so that a closed path costs no work:
+//!
+//! ```text
+//! F_n = ∂W/∂u = K Δ^{3/2} ∂Δ/∂u     radial, pushes the element inwards
+//! F_t = −∂W/∂s = −K Δ^{3/2} ∂Δ/∂s   on the element along +s, per metre of raceway arc
+//! ```
+
+/// Δ with its first and second derivatives by u and s [m, –, 1/m]. Below zero there is no contact; the value then only tells how far off
+/// the contact is.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct EquivalentApproach {
+    /// Δ [m].
+    pub value: f64,
+    /// ∂Δ/∂u.
+    pub du: f64,
+    /// ∂Δ/∂s.
+    pub ds: f64,
+    /// ∂²Δ/∂u² [1/m].
+    pub duu: f64,
+    /// ∂²Δ/∂u∂s [1/m].
+    pub dus: f64,
+    /// ∂²Δ/∂s² [1/m].
+    pub dss: f64,
+}
+
+impl EquivalentApproach {
+    /// Smooth raceway lowered by a constant `depth` [m]: Δ = u − depth.
+    pub fn flat(u: f64, depth: f64) -> Self {
+        Self { value: u - depth, du: 1.0, ..Self::default() }
+    }
+
+    /// Energy W [J] for Hertz's constant `k` [N/m^1.5].
+    pub fn energy(&self, k: f64) -> f64 {
+        let approach = self.value.max(0.0);
+        0.4 * k * approach * approach * approach.sqrt()
+    }
+
+    /// F_n and F_t [N] for Hertz's constant `k` [N/m^1.5].
+    pub fn forces(&self, k: f64) -> [f64; 2] {
+        let approach = self.value.max(0.0);
+        let smooth = k * approach * approach.sqrt();
+        [smooth * self.du, -smooth * self.ds]
+    }
+}

@@ -1,0 +1,78 @@
+//! What can go wrong in a contact.
+
+/// Why a contact could not be solved or a map not be used.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ContactError {
+    /// An input is not a finite number, or out of its range.
+    #[error("{quantity} is {value:e} {unit}, it must be {limit}")]
+    BadInput {
+        /// What.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// SI unit.
+        unit: &'static str,
+        /// What is allowed.
+        limit: String,
+    },
+    /// An array has the wrong length.
+    #[error("{quantity} has {length} values, {expected} are needed")]
+    WrongLength {
+        /// Which array.
+        quantity: &'static str,
+        /// Its length.
+        length: usize,
+        /// The length it must have.
+        expected: usize,
+    },
+    /// The contact touches the border of its window, so part of it may lie outside.
+    #[error(
+        "the contact reaches the window's edge at column {column}, row {row}: the window is too small for approach {approach:e} m"
+    )]
+    ReachesEdge {
+        /// Column of the offending cell.
+        column: usize,
+        /// Row of the offending cell.
+        row: usize,
+        /// Approach [m].
+        approach: f64,
+    },
+    /// The iteration did not come to an end.
+    #[error("contact not solved after {iterations} iterations: residual {residual:e}, limit {limit:e}")]
+    NotConverged {
+        /// Iterations made.
+        iterations: usize,
+        /// Residual reached, relative to the approach.
+        residual: f64,
+        /// Residual asked for.
+        limit: f64,
+    },
+    /// Outside the range the law was prepared for.
+    #[error("{quantity} {value:e} m is outside the range prepared, {lower:e} to {upper:e} m")]
+    OutOfRange {
+        /// What.
+        quantity: &'static str,
+        /// Its value [m].
+        value: f64,
+        /// Smallest value covered [m].
+        lower: f64,
+        /// Largest value covered [m].
+        upper: f64,
+    },
+    /// Stored map that cannot be trusted.
+    #[error("contact map refused: {reason}")]
+    MapRefused {
+        /// Why.
+        reason: String,
+    },
+    /// The map did not reach the accuracy asked for.
+    #[error("contact map: error {achieved:e} of full scale with {nodes} nodes, {requested:e} was asked for")]
+    MapNotAccurate {
+        /// Largest error found between nodes, relative to full scale.
+        achieved: f64,
+        /// Error asked for.
+        requested: f64,
+        /// Nodes spent.
+        nodes: usize,
+    },
+}

@@ -1,0 +1,315 @@
+//! A grid of cells fixed to the outer raceway, and the gap between it and an element above it.
+//!
+//! Gap for zero approach with the element at arc s, circles and not paraboloids (Larizza et al. 2018, eq. 4, corrected: the groove's
+//! curvature is added and a depression *opens* the gap):
+//!
+//! ```text
+//! h(x, y; s) = c(r, x−s) − c(R_o, x−s) + c(r, y) − c(r_g, y) + d(x, y),   c(R, t) = R − √(R² − t²)
+//! ```
+//!
+//! d is the exact mean depth of a cell, so a sharp edge counts where it is; cell borders lie on the first and the last sharp
+//! edge, because an edge 0.17 cell off costs fifty times the error. The grid does not move with the element: one that does turns its own
+//! resolution into a tangential force.
+
+use crate::geometry::hertz_constant::squared_eccentricity;
+use crate::numerics::elliptic;
+use crate::surface::Surface;
+
+use super::error::ContactError;
+
+/// Radii of an element and of the outer raceway it runs on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ElementOnRaceway {
+    /// Radius of the element r [m].
+    pub element_radius: f64,
+    /// Radius of the raceway at the groove's bottom R_o [m].
+    pub raceway_radius: f64,
+    /// Radius of the groove r_g [m].
+    pub groove_radius: f64,
+}
+
+impl ElementOnRaceway {
+    /// Checks the radii.
+    ///
+    /// # Errors
+    /// When a raceway is not wider than the element or a number is not finite.
+    pub fn checked(self) -> Result<Self, ContactError> {
+        let r = self.element_radius;
+        let checks = [
+            ("element radius", r, 0.0, "positive"),
+            ("raceway radius", self.raceway_radius, r, "larger than the element's radius"),
+            ("groove radius", self.groove_radius, r, "larger than the element's radius"),
+        ];
+        for (quantity, value, above, limit) in checks {
+            if !(value > above && value.is_finite()) {
+                return Err(ContactError::BadInput { quantity, value, unit: "m", limit: limit.to_owned() });
+            }
+        }
+        Ok(self)
+    }
+
+    /// Curvatures of the gap along and across the raceway [1/m].
+    pub fn curvatures(&self) -> [f64; 2] {
+        let r = 1.0 / self.element_radius;
+        [r - 1.0 / self.raceway_radius, r - 1.0 / self.groove_radius]
+    }
+
+    /// Half-axes of Hertz's contact ellipse along and across the raceway [m] at the approach δ [m]: with A ≤ B half the
+    /// curvatures, a² = δ (K − E)/(A e² K) and b = a √(1 − e²).
+    pub fn contact_half_axes(&self, approach: f64) -> [f64; 2] {
+        let [along, across] = self.curvatures();
+        let (low, high) = (along.min(across), along.max(across));
+        let m = squared_eccentricity(high / low);
+        let (k, e) = elliptic::complete(m);
+        let quotient = if m < 1e-8 { 0.5 } else { (k - e) / (m * k) };
+        let major = (approach * quotient / (0.5 * low)).sqrt();
+        let minor = major * (1.0 - m).sqrt();
+        if along < across { [major, minor] } else { [minor, major] }
+    }
+
+    /// Part of the gap along the raceway with its first two derivatives, at distance t [m] from the element.
+    #[inline]
+    fn along(&self, t: f64) -> [f64; 3] {
+        let (inner, outer) = (circle(self.element_radius, t), circle(self.raceway_radius, t));
+        [inner[0] - outer[0], inner[1] - outer[1], inner[2] - outer[2]]
+    }
+
+    fn across(&self, t: f64) -> f64 {
+        circle(self.element_radius, t)[0] - circle(self.groove_radius, t)[0]
+    }
+}
+
+/// R − √(R² − t²) without cancellation, and two derivatives.
+#[inline]
+fn circle(radius: f64, t: f64) -> [f64; 3] {
+    let root = (radius * radius - t * t).sqrt();
+    let slope = t / root;
+    [t * t / (radius + root), slope, (1.0 + slope * slope) / root]
+}
+
+/// Number of cells across Hertz's ellipse at the largest approach.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Resolution {
+    /// Along the raceway.
+    pub columns: usize,
+    /// Across the raceway.
+    pub rows: usize,
+}
+
+/// Cells fixed to the raceway.
+#[derive(Debug, Clone)]
+pub struct RacewayGrid {
+    element: ElementOnRaceway,
+    cell: [f64; 2],
+    origin: f64,
+    rows: usize,
+    mirrored: bool,
+    across: Vec<f64>,
+    first_column: i32,
+    /// Depth of each cell from `first_column`; one row for a profile.
+    depth: Vec<f64>,
+    depth_columns: usize,
+    raised: f64,
+    deepest: f64,
+    surface: Option<Surface>,
+}
+
+impl RacewayGrid {
+    /// Grid for approaches up to `largest_approach` [m] on `surface`; `None` is the smooth raceway.
+    pub fn new(
+        element: ElementOnRaceway,
+        surface: Option<&Surface>,
+        largest_approach: f64,
+        resolution: Resolution,
+    ) -> Result<Self, ContactError> {
+        let element = element.checked()?;
+        if !(largest_approach > 0.0 && largest_approach < 0.1 * element.element_radius) {
+            return Err(ContactError::BadInput {
+                quantity: "largest approach",
+                value: largest_approach,
+                unit: "m",
+                limit: format!("between 0 and a tenth of the element's radius, {:e} m", 0.1 * element.element_radius),
+            });
+        }
+        let [a, b] = element.contact_half_axes(largest_approach);
+        let mut cell = [2.0 * a / resolution.columns.max(2) as f64, 2.0 * b / resolution.rows.max(2) as f64];
+        let mirrored = !matches!(surface, Some(Surface::Topography(_)));
+        let mut origin = 0.0;
+        if let Some(surface) = surface {
+            let edges = surface.edges();
+            let (first, last) = match (edges.first(), edges.last()) {
+                (Some(&first), Some(&last)) if last > first => (first, last),
+                (Some(&first), _) => (first, first),
+                _ => surface.extent(),
+            };
+            origin = first;
+            if last > first {
+                let whole = ((last - first) / cell[0]).ceil().max(1.0);
+                cell[0] = (last - first) / whole;
+            }
+        }
+        let mut grid = Self {
+            element,
+            cell,
+            origin,
+            rows: 0,
+            mirrored,
+            across: Vec::new(),
+            first_column: 0,
+            depth: Vec::new(),
+            depth_columns: 0,
+            raised: 0.0,
+            deepest: 0.0,
+            surface: surface.cloned(),
+        };
+        // Contact must end inside: a fifth more than the ellipse, and two rows to see it.
+        grid.set_rows((0.6 * resolution.rows as f64).ceil() as usize + 2);
+        Ok(grid)
+    }
+
+    /// Changes the number of rows on one side of the groove's bottom.
+    pub fn set_rows(&mut self, half_rows: usize) {
+        self.rows = if self.mirrored { half_rows } else { 2 * half_rows };
+        let first_row = if self.mirrored { 0.0 } else { -(half_rows as f64) };
+        let width = self.cell[1];
+        self.across = (0..self.rows).map(|j| self.element.across((first_row + j as f64 + 0.5) * width)).collect();
+        let Some(surface) = &self.surface else { return };
+        let (from, to) = surface.extent();
+        self.first_column = ((from - self.origin) / self.cell[0]).floor() as i32;
+        let last = ((to - self.origin) / self.cell[0]).ceil() as i32;
+        self.depth_columns = (last - self.first_column).max(0) as usize;
+        let depth_rows = if self.mirrored { 1 } else { self.rows };
+        self.depth.clear();
+        for j in 0..depth_rows {
+            let y = (first_row + j as f64) * width;
+            for c in 0..self.depth_columns {
+                let x = self.origin + f64::from(self.first_column + c as i32) * self.cell[0];
+                self.depth.push(surface.mean_depth([x, x + self.cell[0]], [y, y + width]));
+            }
+        }
+        self.raised = self.depth.iter().fold(0.0_f64, |m, &d| m.max(-d));
+        self.deepest = self.depth.iter().fold(0.0_f64, |m, &d| m.max(d));
+    }
+
+    /// The same cells on the raceway without its defect.
+    pub fn without_defect(&self) -> Self {
+        let mut grid =
+            Self { depth: Vec::new(), depth_columns: 0, raised: 0.0, deepest: 0.0, surface: None, ..self.clone() };
+        grid.set_rows(if self.mirrored { self.rows } else { self.rows / 2 });
+        grid
+    }
+
+    /// Full sides of a cell [m].
+    pub fn cell(&self) -> [f64; 2] {
+        self.cell
+    }
+
+    /// Rows of unknowns.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Whether front and back are the same.
+    pub fn mirrored(&self) -> bool {
+        self.mirrored
+    }
+
+    /// Deepest cell [m].
+    pub fn deepest(&self) -> f64 {
+        self.deepest
+    }
+
+    /// Arc [m] of the centre of a column.
+    pub fn centre(&self, column: i32) -> f64 {
+        self.origin + (f64::from(column) + 0.5) * self.cell[0]
+    }
+
+    /// The column whose centre is nearest to arc `s` [m].
+    pub fn column_at(&self, s: f64) -> i32 {
+        ((s - self.origin) / self.cell[0]).floor() as i32
+    }
+
+    /// Columns that can touch at radial path `u` [m]: a superset, since circles bend away faster than paraboloids.
+    pub fn window(&self, u: f64, s: f64) -> (i32, usize) {
+        let reach = (2.0 * (u + self.raised).max(0.0) / self.element.curvatures()[0]).sqrt();
+        let (from, to) = (self.column_at(s - reach), self.column_at(s + reach));
+        (from, (to - from + 1) as usize)
+    }
+
+    /// Widest window for paths up to `u` [m].
+    pub fn widest(&self, u: f64) -> usize {
+        let reach = (2.0 * (u + self.raised).max(0.0) / self.element.curvatures()[0]).sqrt();
+        (2.0 * reach / self.cell[0]).ceil() as usize + 2
+    }
+
+    fn depth_row(&self, row: usize) -> &[f64] {
+        let row = if self.mirrored { 0 } else { row };
+        &self.depth[row * self.depth_columns..(row + 1) * self.depth_columns]
+    }
+
+    /// Smallest gap for zero path [m]: the path at which the element at `s` begins to touch.
+    pub fn first_touch(&self, s: f64) -> f64 {
+        let middle = self.column_at(s);
+        let mut least = f64::INFINITY;
+        for step in 0.. {
+            let mut nearest = f64::INFINITY;
+            for column in [middle - step, middle + step] {
+                let along = self.element.along(self.centre(column) - s)[0];
+                nearest = nearest.min(along);
+                least = least.min(along + self.shallowest(column));
+            }
+            if !(nearest - self.raised < least) {
+                break;
+            }
+        }
+        least
+    }
+
+    /// Smallest depth over the rows of a column, the groove's own gap included.
+    fn shallowest(&self, column: i32) -> f64 {
+        let at = column - self.first_column;
+        let inside = at >= 0 && (at as usize) < self.depth_columns;
+        let rows = if self.mirrored { 1 } else { self.rows };
+        (0..rows).fold(f64::INFINITY, |m, j| {
+            m.min(self.across[j] + if inside { self.depth_row(j)[at as usize] } else { 0.0 })
+        })
+    }
+
+    /// Interference u − h of a window, and the gap's first two derivatives by t = x − s for each column.
+    pub fn interference(
+        &self,
+        u: f64,
+        s: f64,
+        (first, columns): (i32, usize),
+        out: &mut Vec<f64>,
+        slopes: &mut Vec<[f64; 2]>,
+    ) {
+        out.clear();
+        slopes.clear();
+        out.resize(self.rows * columns, 0.0);
+        let Some((bottom, others)) = out.split_at_mut_checked(columns) else { return };
+        for (k, value) in bottom.iter_mut().enumerate() {
+            let [along, slope, curvature] = self.element.along(self.centre(first + k as i32) - s);
+            *value = u - along;
+            slopes.push([slope, curvature]);
+        }
+        for (j, row) in others.chunks_exact_mut(columns).enumerate() {
+            for (value, &b) in row.iter_mut().zip(bottom.iter()) {
+                *value = b - self.across[j + 1];
+            }
+        }
+        for value in bottom.iter_mut() {
+            *value -= self.across[0];
+        }
+        let skip = (self.first_column - first).max(0) as usize;
+        let from = (first - self.first_column).max(0) as usize;
+        if skip >= columns || from >= self.depth_columns {
+            return;
+        }
+        for (j, row) in out.chunks_exact_mut(columns).enumerate() {
+            for (value, d) in row[skip..].iter_mut().zip(&self.depth_row(j)[from..]) {
+                *value -= d;
+            }
+        }
+    }
+}
