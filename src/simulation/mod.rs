@@ -2,6 +2,7 @@
 //!
 //! This is the whole of what `fmi2` and `fmu-build` see of the model.
 
+mod access;
 pub mod derivatives;
 pub mod dormand_prince;
 pub mod error;
@@ -21,6 +22,7 @@ use crate::dynamics::forces::Forces;
 use crate::dynamics::model::Model;
 use crate::scene::Scene;
 use crate::surface::Surface;
+use access::Access;
 use setup::Inputs;
 use stepper::{Progress, Stepper};
 use table::Quantity;
@@ -36,6 +38,7 @@ pub struct Simulation {
     surface: Option<Surface>,
     table: Vec<Variable>,
     quantities: Vec<Quantity>,
+    access: Vec<Access>,
     inputs: Inputs,
     /// Values of the table, by index; integers live in `integers`.
     values: Vec<f64>,
@@ -46,7 +49,6 @@ pub struct Simulation {
     stepper: Stepper,
     forces: Forces,
     derivative: Vec<f64>,
-    stiffness: [[f64; 2]; 2],
     state: State,
     /// Parameters have been set since the model was built.
     model_is_stale: bool,
@@ -84,6 +86,7 @@ impl Simulation {
         let surface =
             scene.defect.as_ref().map(|defect| Surface::load(&defect.shape, profile, &scene.bearing)).transpose()?;
         let (table, quantities): (Vec<_>, Vec<_>) = table::rows(&scene).into_iter().unzip();
+        let access = table.iter().zip(&quantities).map(|(row, &quantity)| Access::new(row, quantity)).collect();
         let (values, integers) = setup::start_values(&table);
         let model = setup::build_model(&scene, surface.as_ref())?;
         let progress = Progress::new(model.layout.len, model.element_count);
@@ -93,7 +96,6 @@ impl Simulation {
             stepper: Stepper::new(&model),
             forces: Forces::new(model.element_count),
             derivative: vec![0.0; model.layout.len],
-            stiffness: [[0.0; 2]; 2],
             state: State {
                 time: 0.0,
                 started: false,
@@ -106,6 +108,7 @@ impl Simulation {
             scene,
             surface,
             table,
+            access,
             quantities,
             values,
             integers,
@@ -140,39 +143,34 @@ impl Simulation {
 
     /// Sets reals; all or none. Inputs at any time, parameters before `initialize`.
     pub fn set_reals(&mut self, references: &[u32], values: &[f64]) -> Result<(), VariableError> {
+        let writable = if self.state.started { access::INPUT } else { access::INPUT | access::PARAMETER };
+        let Some(classes) = access::can_set(&self.access, writable, references, values) else {
+            return references
+                .iter()
+                .zip(values)
+                .try_for_each(|(&reference, &value)| self.check_real(reference, value));
+        };
         for (&reference, &value) in references.iter().zip(values) {
-            self.check_real(reference, value)?;
+            self.values[reference as usize] = value;
         }
-        for (&reference, &value) in references.iter().zip(values) {
-            let index = reference as usize;
-            self.values[index] = value;
-            if self.table[index].causality == Causality::Parameter {
-                self.model_is_stale = true;
-            }
-        }
+        self.model_is_stale |= classes & access::PARAMETER != 0;
         self.mark_set();
         Ok(())
     }
 
     /// Reads reals. Outputs are computed if something has changed since they were last.
     pub fn reals(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), SimulationError> {
-        let mut outputs = false;
-        for &reference in references {
-            let variable = self.variable(reference)?;
-            if !matches!(variable.kind, Kind::Real { .. }) {
-                return Err(wrong_type(variable, "Real").into());
-            }
-            outputs |= variable.causality == Causality::Output;
-        }
-        if outputs && self.outputs_are_stale {
+        let Some(classes) = access::classes(&self.access, references) else {
+            return Err(self.not_real(references).into());
+        };
+        if classes & access::OUTPUT != 0 && self.outputs_are_stale {
             self.refresh()?;
         }
+        if classes & access::STIFFNESS != 0 {
+            self.refresh_stiffness();
+        }
         for (value, &reference) in values.iter_mut().zip(references) {
-            let index = reference as usize;
-            *value = match self.quantities[index] {
-                Quantity::Stiffness(row, column) => self.stiffness(row, column),
-                _ => self.values[index],
-            };
+            *value = self.values[reference as usize];
         }
         Ok(())
     }
@@ -407,6 +405,17 @@ impl Simulation {
         self.model = setup::build_model(&scene, self.surface.as_ref())?;
         self.model_is_stale = false;
         Ok(())
+    }
+
+    /// The error for the first reference that is unknown or not real.
+    fn not_real(&self, references: &[u32]) -> VariableError {
+        let error = |&reference: &u32| match self.variable(reference) {
+            Ok(variable) if matches!(variable.kind, Kind::Real { .. }) => None,
+            Ok(variable) => Some(wrong_type(variable, "Real")),
+            Err(error) => Some(error),
+        };
+        let last = self.table.len() as u32 - 1;
+        references.iter().find_map(error).unwrap_or(VariableError::UnknownReference(u32::MAX, last))
     }
 
     fn check_real(&self, reference: u32, value: f64) -> Result<(), VariableError> {

@@ -67,8 +67,8 @@ impl Simulation {
         place.map_or(prescribed, |i| [self.derivative[i + 2], self.derivative[i + 3]])
     }
 
-    /// An entry of the tangent stiffness of the inner ring, −∂F/∂x with the elements in static balance [N/m].
-    pub(super) fn stiffness(&mut self, row: usize, column: usize) -> f64 {
+    /// Computes the tangent stiffness of the inner ring, −∂F/∂x with the elements in static balance [N/m].
+    pub(super) fn refresh_stiffness(&mut self) {
         if self.stiffness_is_stale {
             let drive = self.drive(false);
             let progress = &self.state.progress;
@@ -76,9 +76,12 @@ impl Simulation {
             let housing = self.model.housing_state(&drive, 0.0, &progress.state);
             let offset = [0, 1].map(|a| housing.position[a] - shaft.position[a]);
             let jacobian = self.model.ring_jacobian(&progress.state, &progress.cells, offset, drive.cage_angle(0.0));
-            self.stiffness = [0, 1].map(|a| [0, 1].map(|b| -jacobian[a][b]));
+            for (value, quantity) in self.values.iter_mut().zip(&self.quantities) {
+                if let Quantity::Stiffness(row, column) = *quantity {
+                    *value = -jacobian[row][column];
+                }
+            }
             self.stiffness_is_stale = false;
         }
-        self.stiffness[row][column]
     }
 }
