@@ -1,1 +1,3 @@
 //! What an engineer reads out of a scene or a recording. A leaf: nothing imports it.
+
+pub mod stiffness;
