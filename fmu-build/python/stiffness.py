@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import plotting
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from plotting import BLUE, GREEN, ORANGE, VERMILION, plt
 
 GREY = "#777777"
@@ -13,7 +14,6 @@ data = plotting.read_csv(stem.with_name(stem.name + "-stiffness.csv"))
 critical_file = stem.with_name(stem.name + "-critical-load.csv")
 variations = plotting.read_csv(critical_file) if critical_file.exists() and np.isfinite(data["critical_load"]).any() else None
 
-cage = np.degrees(data["cage.angle"] - data["cage.angle"].mean())
 middle = 0.5 * (data["cage.angle"][0] + data["cage.angle"][-1])
 cage = np.degrees(data["cage.angle"] - middle)
 load = np.hypot(data["load.x"][0], data["load.y"][0])
@@ -25,12 +25,22 @@ def unturned(angle):
     return np.remainder(angle + 180.0, 360.0) - 180.0
 
 
+def logarithmic(axis, values):
+    """Newtons on a logarithmic axis, from a little below the least to a little above the greatest, marked 1 2 5."""
+    values = values[np.isfinite(values) & (values > 0)]
+    axis.set_yscale("log")
+    axis.set_ylim(0.7 * min(values.min(), load), 1.4 * max(values.max(), load))
+    axis.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}" if value >= 1 else f"{value:g}"))
+    axis.yaxis.set_minor_formatter(NullFormatter())
+
+
 def stiffness(axis):
     axis.plot(cage, data["stiffness.healthy"] * 1e-6, color=GREY, label="without defect", linewidth=0.9)
     if np.abs(data["stiffness.held"] / data["stiffness.free"] - 1).max() > 1e-3:
         axis.plot(cage, data["stiffness.held"] * 1e-6, color=ORANGE, label="transverse position held", linestyle="--")
     axis.plot(cage, data["stiffness.free"] * 1e-6, color=BLUE, label="no transverse force")
-    axis.set_ylim(bottom=0)
+    axis.set_ylim(0, 1.1e-6 * max(data[f"stiffness.{name}"].max() for name in ("healthy", "held")))
     axis.set_xlim(cage[0], cage[-1])
     axis.set_title(f"stiffness along the load, {load:g} N")
     axis.set_ylabel("stiffness (N/µm)")
@@ -39,9 +49,11 @@ def stiffness(axis):
 
 
 def critical_over_angle(axis):
-    axis.plot(cage, data["critical_load"], color=VERMILION, label="an element at the bottom carries")
+    axis.plot(cage, data["critical_load"], color=VERMILION, label="the deepest element carries")
     axis.axhline(load, color="black", linewidth=0.9, linestyle=":", label="the load")
-    axis.set_yscale("log")
+    # On its way in and out an element carries at once: only the upper two decades tell anything.
+    values = data["critical_load"]
+    logarithmic(axis, values[values > 0.01 * np.nanmax(values)])
     axis.set_xlim(cage[0], cage[-1])
     axis.set_title("critical load")
     axis.set_ylabel("load (N)")
@@ -58,14 +70,16 @@ def distribution(axis):
     if inside.any():
         # Around the turn the defect may reach over ±180 degrees: shade what is inside, piece by piece.
         lower, upper = angles.ravel()[order], inside.ravel()[order]
-        axis.fill_between(lower, 0, 1, where=upper, transform=axis.get_xaxis_transform(), color="#eeeeee", zorder=0, label="defect")
+        axis.fill_between(
+            lower, 0, 1, where=upper, transform=axis.get_xaxis_transform(), color="#eeeeee", zorder=0, label="defect"
+        )
     axis.plot(angles.ravel()[order], forces.ravel()[order], color=GREY, linewidth=0.9, label="one element on its way")
     for place, colour, marker in ((0.5, BLUE, "o"), (0.75, GREEN, "s"), (1.0, VERMILION, "^")):
         k = int(np.argmin(np.abs(cage - (cage[0] + place * (cage[-1] - cage[0])))))
-        axis.plot(angles[:, k], forces[:, k], marker, color=colour, markersize=6, label=f"cage angle {cage[k]:.0f}°")
+        axis.plot(angles[:, k], forces[:, k], marker, color=colour, markersize=6, clip_on=False, zorder=3, label=f"cage angle {cage[k]:.0f}°")
     axis.set_xlim(-180, 180)
     axis.set_xticks(range(-180, 181, 45))
-    axis.set_ylim(bottom=0)
+    axis.set_ylim(0, 1.05 * forces.max())
     axis.set_title(f"load distribution, {load:g} N")
     axis.set_ylabel("element force (N)")
     axis.set_xlabel("angle of the element from the load (degrees)")
@@ -78,7 +92,7 @@ def variation(axis, number, name, scale, label):
     # The other two blocks hold this quantity at the scene's value.
     axis.axvline(variations[name][~rows][0] * scale, color=GREY, linewidth=0.9, label="the scene")
     axis.axhline(load, color="black", linewidth=0.9, linestyle=":", label="the load")
-    axis.set_yscale("log")
+    logarithmic(axis, variations["critical_load"])
     axis.set_xlabel(label)
 
 
@@ -95,7 +109,7 @@ else:
     panels = (
         (0, "path", 1e6, "depth of the path (µm)"),
         (1, "clearance", 1e6, "radial clearance (µm)"),
-        (2, "compliance", 1e9, "compliance of an\nouter contact's seat (nm/N)"),
+        (2, "compliance", 1e9, "outer compliance (nm/N)"),
     )
     first = None
     for column, (number, name, scale, label) in enumerate(panels):

@@ -73,9 +73,10 @@ struct Stiffness {
     /// Load in newtons along the scene's load [default: the scene's]
     #[arg(long, value_name = "N")]
     load: Option<f64>,
-    /// Cage angles within one element spacing; those at which elements begin to carry are added
-    #[arg(long, value_name = "COUNT", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=100_000))]
-    points: u32,
+    /// Cage angles within one element spacing [default: 200, more for a short defect]; those at which elements begin to
+    /// carry are added
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    points: Option<u32>,
     /// Folder for CSV and figure [default: target/stiffness]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -128,7 +129,7 @@ impl Arguments {
                 let folder = options.output.unwrap_or_else(|| project.target().join("stiffness"));
                 let wanted = stiffness::Options {
                     load: options.load,
-                    points: options.points as usize,
+                    points: options.points.map(|count| count as usize),
                     figure: !options.no_figure,
                 };
                 stiffness::command(&project, &model, wanted, &folder)

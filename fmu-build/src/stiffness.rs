@@ -20,8 +20,8 @@ use crate::python::Python;
 pub struct Options {
     /// Amount of the load [N], along the scene's; `None` for the scene's own.
     pub load: Option<f64>,
-    /// Evenly spaced cage angles within one element spacing.
-    pub points: usize,
+    /// Evenly spaced cage angles within one element spacing; `None` for as many as the defect needs to be seen.
+    pub points: Option<usize>,
     /// Whether to draw.
     pub figure: bool,
 }
@@ -44,13 +44,13 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
     // In the middle of the sweep element 1 is in the middle of the defect, at its ends two elements are about it.
     let middle = bottom.map_or(libm::atan2(y, x), |bottom| bottom.middle);
     let first = middle - 0.5 * bearing.spacing();
-    let balances = sweep(&bearing, first, options.points)?;
+    let balances = sweep(&bearing, first, options.points.unwrap_or_else(|| enough_points(&bearing)))?;
 
     fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
     let stem = folder.join(&model.scene.name);
     let path = beside(&stem, "-stiffness.csv");
     let mut out = create(&path)?;
-    write_sweep(&mut out, &bearing, &healthy, &balances, bottom.as_ref())?;
+    write_sweep(&mut out, &bearing, &healthy, &balances)?;
     out.flush()?;
     println!("{}", path.display());
     let mut paths = vec![path];
@@ -92,6 +92,12 @@ fn loaded(bearing: StaticBearing, amount: Option<f64>) -> Result<StaticBearing> 
     Ok(bearing.with_load([amount * x, amount * y]))
 }
 
+/// An even number, so that the middle is one of them: 0.2 degrees for nine elements, or a fortieth of a short defect.
+fn enough_points(bearing: &StaticBearing) -> usize {
+    let of_defect = bearing.defect_length().map_or(0.0, |length| 20.0 * bearing.spacing() / length);
+    2 * (of_defect.ceil() as usize).clamp(100, 2000)
+}
+
 /// The bottom of the defect; `None` for a healthy bearing or a defect that only rises.
 fn bottom_of(bearing: &StaticBearing) -> Result<Option<Bottom>> {
     match bearing.bottom() {
@@ -106,7 +112,6 @@ fn write_sweep(
     bearing: &StaticBearing,
     healthy: &StaticBearing,
     balances: &[Balance],
-    bottom: Option<&Bottom>,
 ) -> Result<()> {
     let mut names: Vec<(String, &str)> = [
         ("cage.angle", "rad"),
@@ -137,10 +142,7 @@ fn write_sweep(
     csv::header(out, names.iter().map(|(name, unit)| (name.as_str(), *unit)))?;
     for balance in balances {
         let without = healthy.balance(balance.cage_angle, balance.load)?;
-        let critical = match bottom {
-            Some(bottom) => bearing.critical_load_at(balance.cage_angle, bottom)?.map_or(f64::NAN, |found| found.load),
-            None => f64::NAN,
-        };
+        let critical = bearing.critical_load_at(balance.cage_angle)?.map_or(f64::NAN, |found| found.load);
         let [[xx, xy], [yx, yy]] = balance.stiffness;
         let ([x, y], [load_x, load_y]) = (balance.displacement, balance.load);
         let mut row =

@@ -7,7 +7,8 @@
 //!
 //! The load depends on where the elements stand. *The* critical load belongs to elements placed symmetrically about the
 //! middle of the bottom, one in it or two about it, whichever needs less: there all of them begin at once, and there the
-//! stiffness is least. Any other cage angle has its own ([`StaticBearing::critical_load_at`]).
+//! stiffness is least. Any other cage angle has its own ([`StaticBearing::critical_load_at`]), that of the elements which
+//! are deepest then; on its way in or out an element is squeezed by any load at all.
 //!
 //! It stands on rigid rings that keep their shape: with 100 µm depth a real ring bends before. A compliance in series with
 //! the contacts is the crudest allowance for that.
@@ -21,7 +22,7 @@ pub struct CriticalLoad {
     pub load: f64,
     /// Cage angle [rad].
     pub cage_angle: f64,
-    /// Number of elements at the bottom.
+    /// Number of elements at the greatest depth.
     pub elements: usize,
 }
 
@@ -67,8 +68,14 @@ impl StaticBearing {
             return Err(StaticError::NoDepth { depth_um: path * 1e6 });
         }
         let deep = |&i: &usize| paths[i] >= BOTTOM * path;
-        let (first, last) = ((0..=LOOKS).find(deep), (0..=LOOKS).rev().find(deep));
-        Ok(Bottom { path, middle: 0.5 * (angle(first.unwrap_or(0)) + angle(last.unwrap_or(LOOKS))) })
+        let [first, last] = [(0..=LOOKS).find(deep), (0..=LOOKS).rev().find(deep)].map(|i| i.unwrap_or(0));
+        let middle = 0.5 * (angle(first) + angle(last));
+        if self.model.resting_path(0, middle) >= BOTTOM * path {
+            return Ok(Bottom { path, middle });
+        }
+        // Several deep places: the deepest.
+        let deepest = (0..=LOOKS).find(|&i| paths[i] == path).unwrap_or(0);
+        Ok(Bottom { path, middle: angle(deepest) })
     }
 
     /// The critical load, with elements symmetrically about the middle of the bottom; `None` where no load brings them
@@ -80,7 +87,10 @@ impl StaticBearing {
         let bottom = self.bottom()?;
         let mut least: Option<CriticalLoad> = None;
         for cage_angle in [bottom.middle, bottom.middle - 0.5 * self.spacing()] {
-            let found = self.critical_load_at(cage_angle, &bottom)?;
+            if !(0..self.element_count()).any(|j| self.model.resting_path(j, cage_angle) >= BOTTOM * bottom.path) {
+                continue;
+            }
+            let found = self.critical_load_at(cage_angle)?;
             if found.is_some_and(|new| least.is_none_or(|old| new.load < old.load)) {
                 least = found;
             }
@@ -88,20 +98,18 @@ impl StaticBearing {
         Ok(least)
     }
 
-    /// The load at which the first element at the bottom carries, with element 1 at `cage_angle` [rad]; `None` where no
-    /// element is there, or no load brings it to carry.
+    /// The load at which the first of the deepest elements in the defect carries, with element 1 at `cage_angle` [rad];
+    /// `None` where no element has gone down, or no load brings it to carry.
     ///
     /// # Errors
     /// A bearing without direction of load; a balance that is not found.
-    pub fn critical_load_at(&self, cage_angle: f64, bottom: &Bottom) -> Result<Option<CriticalLoad>, StaticError> {
-        let deep = |&j: &usize| {
-            self.angle_in_defect(j, cage_angle).is_some()
-                && self.model.resting_path(j, cage_angle) >= BOTTOM * bottom.path
-        };
-        let inside: Vec<usize> = (0..self.element_count()).filter(deep).collect();
-        if inside.is_empty() {
+    pub fn critical_load_at(&self, cage_angle: f64) -> Result<Option<CriticalLoad>, StaticError> {
+        let paths: Vec<f64> = (0..self.element_count()).map(|j| self.model.resting_path(j, cage_angle)).collect();
+        let deepest = paths.iter().copied().fold(0.0, f64::max);
+        if deepest <= 0.0 {
             return Ok(None);
         }
+        let inside: Vec<usize> = (0..paths.len()).filter(|&j| paths[j] >= BOTTOM * deepest).collect();
         let [x, y] = self.load();
         let length = (x * x + y * y).sqrt();
         let squeeze = |load: f64| -> Result<f64, StaticError> {
@@ -109,7 +117,7 @@ impl StaticBearing {
             Ok(inside.iter().map(|&j| balance.elements[j].inner_approach).fold(f64::NEG_INFINITY, f64::max))
         };
         // That of one contact squeezed by the depth: the scale of loads here.
-        let scale = self.model.outer.stiffness * bottom.path * bottom.path.sqrt();
+        let scale = self.model.outer.stiffness * deepest * deepest.sqrt();
         let load = crossing(squeeze, scale)?;
         Ok(load.map(|load| CriticalLoad { load, cage_angle, elements: inside.len() }))
     }
@@ -120,7 +128,7 @@ impl StaticBearing {
     /// Those of [`critical_load`](Self::critical_load).
     pub fn sensitivity(&self, critical: &CriticalLoad) -> Result<Option<Sensitivity>, StaticError> {
         let load = |bearing: &Self| -> Result<f64, StaticError> {
-            let found = bearing.critical_load_at(critical.cage_angle, &bearing.bottom()?)?;
+            let found = bearing.critical_load_at(critical.cage_angle)?;
             Ok(found.map_or(f64::NAN, |found| found.load))
         };
         let path = self.bottom()?.path;

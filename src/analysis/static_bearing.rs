@@ -222,20 +222,21 @@ impl StaticBearing {
         Ok(other.with_clearance(self.model.radial_clearance).with_outer_compliance(self.model.outer.compliance))
     }
 
-    /// Angle of element `j` from the defect's centre [rad]; `None` without a defect.
-    pub(super) fn angle_in_defect(&self, j: usize, cage_angle: f64) -> Option<f64> {
-        let (_, centre) = self.model.defect.as_ref()?;
-        Some(self.model.angle_from_defect(j, cage_angle, *centre))
-    }
-
     /// First and last angle of the defect [rad] from its centre, and the angle of its centre.
     pub(super) fn extent(&self) -> Option<([f64; 2], f64)> {
         self.extent.zip(self.model.defect.as_ref().map(|(_, centre)| *centre))
     }
 
+    /// Length of the defect along the raceway [rad]; `None` without one.
+    pub fn defect_length(&self) -> Option<f64> {
+        self.extent.map(|[first, last]| last - first)
+    }
+
     fn is_in_defect(&self, j: usize, cage_angle: f64) -> bool {
-        let within = |([first, last], angle): ([f64; 2], f64)| angle >= first && angle <= last;
-        self.extent.zip(self.angle_in_defect(j, cage_angle)).is_some_and(within)
+        self.extent().is_some_and(|([first, last], centre)| {
+            let angle = self.model.angle_from_defect(j, cage_angle, centre);
+            angle >= first && angle <= last
+        })
     }
 }
 
