@@ -25,11 +25,11 @@ def unturned(angle):
     return np.remainder(angle + 180.0, 360.0) - 180.0
 
 
-def logarithmic(axis, values):
+def logarithmic(axis, values, headroom=1.4):
     """Newtons on a logarithmic axis, from a little below the least to a little above the greatest, marked 1 2 5."""
     values = values[np.isfinite(values) & (values > 0)]
     axis.set_yscale("log")
-    axis.set_ylim(0.7 * min(values.min(), load), 1.4 * max(values.max(), load))
+    axis.set_ylim(0.7 * min(values.min(), load), headroom * max(values.max(), load))
     axis.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}" if value >= 1 else f"{value:g}"))
     axis.yaxis.set_minor_formatter(NullFormatter())
@@ -53,12 +53,12 @@ def critical_over_angle(axis):
     axis.axhline(load, color="black", linewidth=0.9, linestyle=":", label="the load")
     # On its way in and out an element carries at once: only the upper two decades tell anything.
     values = data["critical_load"]
-    logarithmic(axis, values[values > 0.01 * np.nanmax(values)])
+    logarithmic(axis, values[values > 0.01 * np.nanmax(values)], headroom=3)
     axis.set_xlim(cage[0], cage[-1])
     axis.set_title("critical load")
     axis.set_ylabel("load (N)")
     axis.set_xlabel("cage angle from the defect (degrees)")
-    axis.legend(loc="best")
+    axis.legend(loc="upper center", ncols=2)
 
 
 def distribution(axis):

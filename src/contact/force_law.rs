@@ -190,6 +190,19 @@ mod tests {
     }
 
     #[test]
+    fn without_compliance_no_bit_is_other_than_the_contacts() {
+        let law = ForceLaw { stiffness: 2.929e10, damping: Damping::HuntCrossley(0.5), compliance: 0.0 };
+        for (delta, rate) in [(3.7e-6, 0.013), (1.1e-5, -0.4), (-2e-6, 1.0), (0.0, 0.0)] {
+            let squeezed = f64::max(delta, 0.0);
+            let root = 2.929e10 * squeezed.sqrt();
+            let factor: f64 = 1.0 + 0.5 * rate;
+            assert_eq!(law.force(delta, rate).to_bits(), (root * squeezed * factor.max(0.0)).to_bits());
+            assert_eq!(law.elastic(delta).to_bits(), (2.929e10 * squeezed * squeezed.sqrt()).to_bits());
+            assert_eq!(law.elastic_stiffness(delta).to_bits(), (1.5 * 2.929e10 * squeezed.sqrt()).to_bits());
+        }
+    }
+
+    #[test]
     fn a_compliance_takes_its_linear_part_of_the_approach() {
         let law = ForceLaw { stiffness: 2e10, damping: Damping::HuntCrossley(0.0), compliance: 1e-8 };
         // 632.4555… N over 10 µm in the contact and 6.324555… µm in the compliance; printed digits.
