@@ -18,4 +18,5 @@ pub mod project;
 pub mod python;
 pub mod run;
 pub mod slave;
+pub mod stiffness;
 pub mod units;

@@ -12,3 +12,4 @@ pub mod love;
 pub mod near_defect;
 pub mod raceway_grid;
 pub mod rigid_path;
+pub mod series;

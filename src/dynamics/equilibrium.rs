@@ -62,6 +62,17 @@ impl Model {
         Ok(())
     }
 
+    /// The path [m] of element `j` (from 0) where it rests against the outer raceway without force.
+    pub fn resting_path(&self, j: usize, cage_angle: f64) -> f64 {
+        self.touching_path(j, self.cell_at(j, cage_angle), cage_angle)
+    }
+
+    /// Over the defect the path of an element without force is where the approach vanishes.
+    fn touching_path(&self, j: usize, cell: u32, cage_angle: f64) -> f64 {
+        let rho = self.outer_centre_radius;
+        self.near_defect(j, cell, 0.0, cage_angle, rho).map_or(0.0, |near| -near.value / near.by_path)
+    }
+
     /// The path at which element `j` is in radial balance.
     fn balanced_path(&self, j: usize, cell: u32, offset: [f64; 2], drive: &Drive) -> f64 {
         let cage_angle = drive.cage_angle(0.0);
@@ -73,9 +84,7 @@ impl Model {
             let body = self.element_mass * (dot(self.gravity, e_r) + rho * omega * omega);
             (dot(contact.inner, e_r) - contact.outer[0] + body, slope)
         };
-        // Where it touches the outer raceway without force: the path over the defect is where the approach vanishes.
-        let rho = self.outer_centre_radius;
-        let touch = self.near_defect(j, cell, 0.0, cage_angle, rho).map_or(0.0, |near| -near.value / near.by_path);
+        let touch = self.touching_path(j, cell, cage_angle);
         let at_touch = force(touch).0;
         if at_touch == 0.0 {
             return touch;

@@ -110,7 +110,7 @@ impl Model {
     pub fn new(scene: &Scene, near_defect: Option<NearDefect>) -> Self {
         let bearing = &scene.bearing;
         let hertz = HertzConstants::of(bearing);
-        let law = |stiffness| ForceLaw { stiffness, damping: scene.contact.damping };
+        let law = |stiffness, compliance| ForceLaw { stiffness, damping: scene.contact.damping, compliance };
         let element_radius = 0.5 * bearing.element_diameter;
         Self {
             element_count: bearing.element_count,
@@ -118,8 +118,8 @@ impl Model {
             element_radius,
             outer_centre_radius: bearing.outer_raceway_radius() - element_radius,
             radial_clearance: bearing.radial_clearance,
-            inner: law(hertz.inner),
-            outer: law(hertz.outer),
+            inner: law(hertz.inner, 0.0),
+            outer: law(hertz.outer, bearing.outer_compliance),
             gravity: scene.gravity,
             shaft: scene.shaft,
             housing: scene.housing,

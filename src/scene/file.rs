@@ -9,6 +9,7 @@
 //! | `description` | empty |
 //! | `gravity_m_s2` | `[0, -9.81]` |
 //! | `bearing.radial_clearance_um` | 5 |
+//! | `bearing.outer_compliance_m_n` | 0: rings and seats are rigid |
 //! | `bearing.density_kg_m3` | from `element_mass_g`, which is then needed |
 //! | `bearing.element_mass_g`, `hertz_inner_n_m1_5`, `hertz_outer_n_m1_5` | computed |
 //! | `contact.law` | `"map"` with a defect, else `"hertz"` |
@@ -118,6 +119,8 @@ struct BearingTable {
     element_mass_g: Option<f64>,
     hertz_inner_n_m1_5: Option<f64>,
     hertz_outer_n_m1_5: Option<f64>,
+    #[serde(default)]
+    outer_compliance_m_n: f64,
 }
 
 fn default_clearance() -> f64 {
@@ -141,6 +144,7 @@ impl BearingTable {
             element_mass: self.element_mass_g.map(|mass| mass / 1e3),
             hertz_inner: self.hertz_inner_n_m1_5,
             hertz_outer: self.hertz_outer_n_m1_5,
+            outer_compliance: self.outer_compliance_m_n,
         })
     }
 

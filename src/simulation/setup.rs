@@ -126,7 +126,7 @@ fn ring_of(scene: &mut Scene, ring: RingName) -> &mut Ring {
 }
 
 /// The equations' parameters, with what the contact law needs near the defect.
-pub(super) fn build_model(scene: &Scene, surface: Option<&Surface>) -> Result<Model, SimulationError> {
+pub(crate) fn build_model(scene: &Scene, surface: Option<&Surface>) -> Result<Model, SimulationError> {
     let near = surface
         .map(|surface| match (scene.contact.law, surface) {
             (ContactLaw::Hertz, Surface::Profile(profile)) => Ok(NearDefect::Hertz(RigidPath::new(

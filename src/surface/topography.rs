@@ -74,6 +74,11 @@ impl Topography {
         })
     }
 
+    /// With every depth multiplied by `factor`.
+    pub(super) fn scaled(&self, factor: f64) -> Self {
+        Self { depths: self.depths.iter().map(|depth| factor * depth).collect(), ..self.clone() }
+    }
+
     /// First and last arc [m].
     pub fn extent(&self) -> (f64, f64) {
         (self.arcs[0], self.arcs[self.arcs.len() - 1])
