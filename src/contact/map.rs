@@ -36,7 +36,7 @@ impl Accuracy {
     }
 }
 
-/// Nodes at one arc: reference path and its slope over a step of arc [m], place of the first node in the patch's nodes, number.
+/// Nodes at one arc: reference path and its slope times the strip's arc step [m], place of the first node, number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Column {
     pub(super) reference: [f64; 2],
@@ -44,15 +44,26 @@ pub(super) struct Column {
     pub(super) count: usize,
 }
 
-/// A stretch of raceway with nodes at a constant distance.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Patch {
-    /// First arc [m] and distance of columns [m].
-    pub(super) start: f64,
+/// One interval of a patch, with nodes as dense as the accuracy needs them there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Strip {
+    /// Index of the first of its `parts` + 1 columns.
+    pub(super) first: usize,
+    pub(super) parts: usize,
+    /// Distance of nodes along the raceway and along the path [m].
     pub(super) arc_step: f64,
     pub(super) path_step: f64,
-    /// Index of the lowest node of each column; node 0 stands on the reference path.
+    /// Index of the lowest node; node 0 stands on the reference path.
     pub(super) lowest: i32,
+}
+
+/// A stretch of raceway with nodes, cut into strips of one width.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Patch {
+    /// First arc and width of a strip [m].
+    pub(super) start: f64,
+    pub(super) width: f64,
+    pub(super) strips: Vec<Strip>,
     pub(super) columns: Vec<Column>,
     pub(super) nodes: Vec<Node>,
 }
@@ -133,17 +144,23 @@ impl ContactMap {
 impl Patch {
     #[inline]
     fn lookup(&self, u: f64, s: f64) -> Option<EquivalentApproach> {
-        let along = (s - self.start) / self.arc_step;
-        let k = (along as usize).min(self.columns.len() - 2);
-        let q = along - k as f64;
-        let (left, right) = (self.columns.get(k)?, self.columns.get(k + 1)?);
+        let along = (s - self.start) / self.width;
+        let k = (along as usize).min(self.strips.len() - 1);
+        let strip = self.strips.get(k)?;
+        let along = (along - k as f64) * strip.parts as f64;
+        let part = (along as usize).min(strip.parts - 1);
+        let q = along - part as f64;
+        let columns = self.columns.get(strip.first + part..strip.first + part + 2)?;
+        let (left, right) = (&columns[0], &columns[1]);
+        let (du, ds) = (1.0 / strip.path_step, 1.0 / strip.arc_step);
+        let lowest = f64::from(strip.lowest);
         let by_arc = hermite(q);
         let reference = |b: &[f64; 4]| combine(&[left.reference[0], left.reference[1], right.reference[0], right.reference[1]], b);
-        let height = (u - reference(&by_arc[0])) / self.path_step;
+        let height = (u - reference(&by_arc[0])) * du - lowest;
         // Below the nodes the lowest edge is continued by its slope.
-        let below = height < f64::from(self.lowest);
-        let cell = if below { 0 } else { (height - f64::from(self.lowest)) as usize };
-        let t = if below { 0.0 } else { height - f64::from(self.lowest) - cell as f64 };
+        let below = height < 0.0;
+        let cell = height.max(0.0) as usize;
+        let t = if below { 0.0 } else { height - cell as f64 };
         let pair = |column: &Column| -> Option<[Node; 2]> {
             if cell + 1 >= column.count {
                 return None;
@@ -159,7 +176,6 @@ impl Patch {
             [mix(&l, 0), mix(&l, 2), mix(&r, 0), mix(&r, 2)]
         };
         let (v, v_t, v_tt) = (across(&by_path[0]), across(&by_path[1]), across(&by_path[2]));
-        let (du, ds) = (1.0 / self.path_step, 1.0 / self.arc_step);
         let mut f = EquivalentApproach {
             value: combine(&v, &by_arc[0]),
             du: combine(&v_t, &by_arc[0]) * du,
@@ -169,7 +185,7 @@ impl Patch {
             dss: combine(&v, &by_arc[2]) * ds * ds,
         };
         if below {
-            let gap = (height - f64::from(self.lowest)) * self.path_step;
+            let gap = height * strip.path_step;
             f.value += f.du * gap;
             f.ds += f.dus * gap;
             f.dss += combine(&v_t, &by_arc[2]) * du * ds * ds * gap;
@@ -190,7 +206,7 @@ impl Patch {
 
 /// Cubic Hermite weights of value and slope at 0 and at 1, with two derivatives.
 #[inline(always)]
-fn hermite(t: f64) -> [[f64; 4]; 3] {
+pub(super) fn hermite(t: f64) -> [[f64; 4]; 3] {
     let w = 1.0 - t;
     [
         [w * w * (1.0 + 2.0 * t), t * w * w, t * t * (3.0 - 2.0 * t), -t * t * w],
@@ -200,6 +216,6 @@ fn hermite(t: f64) -> [[f64; 4]; 3] {
 }
 
 #[inline(always)]
-fn combine(a: &[f64; 4], b: &[f64; 4]) -> f64 {
+pub(super) fn combine(a: &[f64; 4], b: &[f64; 4]) -> f64 {
     (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
 }

@@ -4,7 +4,7 @@ use std::hash::Hasher;
 
 use super::{
     error::ContactError,
-    map::{Accuracy, Column, ContactMap, Patch, Stretch},
+    map::{Accuracy, Column, ContactMap, Patch, Stretch, Strip},
 };
 
 const MAGIC: &[u8; 8] = b"BRNL-MAP";
@@ -61,14 +61,19 @@ impl ContactMap {
                     number(*depth);
                 }
                 Stretch::Patch(patch) => {
-                    number(patch.columns.len() as f64);
-                    for value in [patch.start, patch.arc_step, patch.path_step, f64::from(patch.lowest)] {
-                        number(value);
-                    }
-                    for column in &patch.columns {
-                        number(column.reference[0]);
-                        number(column.reference[1]);
-                        number(column.count as f64);
+                    number(patch.strips.len() as f64);
+                    number(patch.start);
+                    number(patch.width);
+                    for strip in &patch.strips {
+                        number(strip.parts as f64);
+                        number(strip.arc_step);
+                        number(strip.path_step);
+                        number(f64::from(strip.lowest));
+                        for column in &patch.columns[strip.first..=strip.first + strip.parts] {
+                            number(column.reference[0]);
+                            number(column.reference[1]);
+                            number(column.count as f64);
+                        }
                     }
                     for &value in patch.nodes.iter().flatten() {
                         number(value);
@@ -146,28 +151,35 @@ fn read_stretch(numbers: &mut Numbers<'_>) -> Option<Stretch> {
     if count == 0 {
         return Some(Stretch::Flat(numbers.number()?));
     }
-    let (start, arc_step, path_step) = (numbers.number()?, numbers.number()?, numbers.number()?);
-    let lowest = numbers.number()? as i32;
-    let mut columns = Vec::with_capacity(count);
+    let (start, width) = (numbers.number()?, numbers.number()?);
+    let (mut strips, mut columns) = (Vec::new(), Vec::new());
     let mut at = 0;
     for _ in 0..count {
-        let reference = [numbers.number()?, numbers.number()?];
-        let count = numbers.count()?;
-        columns.push(Column { reference, at, count });
-        at += count;
+        let parts = numbers.count()?;
+        let (arc_step, path_step) = (numbers.number()?, numbers.number()?);
+        let lowest = numbers.number()? as i32;
+        strips.push(Strip { first: columns.len(), parts, arc_step, path_step, lowest });
+        for _ in 0..=parts {
+            let reference = [numbers.number()?, numbers.number()?];
+            let count = numbers.count()?;
+            columns.push(Column { reference, at, count });
+            at += count;
+        }
     }
     let mut nodes = Vec::new();
     for _ in 0..at {
         nodes.push([numbers.number()?, numbers.number()?, numbers.number()?, numbers.number()?]);
     }
-    Some(Stretch::Patch(Patch { start, arc_step, path_step, lowest, columns, nodes }))
+    Some(Stretch::Patch(Patch { start, width, strips, columns, nodes }))
 }
 
 /// What a lookup relies on.
 fn consistent(map: &ContactMap) -> bool {
     let patch = |stretch: &Stretch| match stretch {
         Stretch::Flat(_) => true,
-        Stretch::Patch(p) => p.columns.len() >= 2 && p.arc_step > 0.0 && p.path_step > 0.0,
+        Stretch::Patch(p) => {
+            p.width > 0.0 && p.strips.iter().all(|s| s.parts > 0 && s.arc_step > 0.0 && s.path_step > 0.0)
+        }
     };
     map.knots.is_sorted() && map.stretches.iter().all(patch)
 }
