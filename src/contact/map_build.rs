@@ -355,8 +355,24 @@ impl MapPlan {
         contact.forget();
         let mut nodes = Vec::new();
         let mut onset: Option<(f64, EquivalentApproach)> = None;
+        // On and below the reference path the column is the line through two places a little above. The first cells that touch say nothing of
+        // the contact's slope: the grid's own derivative is noisy there, by a tenth and more.
+        let height = 0.5 * path_step;
+        let [near, next] = match self.flat(place) {
+            Some(depth) => [1.0, 2.0].map(|n| EquivalentApproach::flat(depth + n * height, depth)),
+            None => [
+                contact.solve_or_continue(touch + height, s, &mut onset)?,
+                contact.solve_or_continue(touch + 2.0 * height, s, &mut onset)?,
+            ],
+        };
+        let rise = (next.value - near.value) / height;
         for i in LOWEST << place.2.. {
-            let u = touch + f64::from(i) * path_step;
+            let above = f64::from(i) * path_step;
+            if i <= 0 {
+                nodes.push([near.value + rise * (above - height), rise, near.ds + near.du * slope, 0.0]);
+                continue;
+            }
+            let u = touch + above;
             let a = match self.flat(place) {
                 Some(depth) => EquivalentApproach::flat(u, depth),
                 None => contact.solve_or_continue(u, s, &mut onset)?,
