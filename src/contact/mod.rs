@@ -2,6 +2,7 @@
 
 pub mod active_set;
 pub mod cholesky;
+pub mod conjugate_gradients;
 pub mod equivalent;
 pub mod error;
 pub mod fft_product;
