@@ -70,7 +70,7 @@ fn the_four_events_of_the_line_spall_come_at_their_times() {
     let reloaded = ms(Passage::first(&passage.inner, 9e-3, true));
     assert!((reloaded - 10.1).abs() < 0.1, "both contacts strike again after {reloaded} ms");
     // 15.8° at the cage's speed; after it the element stays loaded.
-    let edge = 15.8 / 360.0 / (10.0 * 0.5 * (1.0 - 7.94 / 39.32)) * 1e3;
+    let edge: f64 = 15.8 / 360.0 / (10.0 * 0.5 * (1.0 - 7.94 / 39.32)) * 1e3;
     assert!((edge - 11.0).abs() < 0.1, "the trailing edge is passed after {edge} ms");
     let after = ((ENTRY + 11.0e-3) / STEP) as usize;
     assert!(passage.outer[after..].iter().all(|&force| force > 0.0), "unloaded again beyond the edge");
