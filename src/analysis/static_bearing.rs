@@ -131,7 +131,7 @@ impl StaticBearing {
 
     fn with_surface(scene: Scene, surface: Option<Surface>) -> Result<Self, StaticError> {
         let radius = scene.bearing.outer_raceway_radius();
-        let model = build_model(&scene, surface.as_ref())?;
+        let model = build_model(&scene, surface.as_ref(), None)?;
         let extent = surface.as_ref().map(Surface::extent).map(|(first, last)| [first / radius, last / radius]);
         Ok(Self { model, extent, surface, scene, load: [0.0; 2] })
     }

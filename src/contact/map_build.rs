@@ -249,6 +249,21 @@ impl MapPlan {
             .collect()
     }
 
+    /// The grid solver without nodes, the arcs [m] between which it is needed, and the depth of the flat stretches
+    /// between them: what law `love` solves inside the step.
+    pub fn into_love(self) -> (LoveContact, Vec<f64>, Vec<Option<f64>>) {
+        let (mut knots, mut flats) = (Vec::new(), Vec::new());
+        for (index, patch) in self.patches.iter().enumerate() {
+            if index > 0 {
+                flats.push(Some(patch.before));
+            }
+            knots.push(patch.start);
+            knots.push(patch.start + patch.width * patch.levels.len() as f64);
+            flats.push(None);
+        }
+        (self.contact, knots, flats)
+    }
+
     /// Computes nodes and the errors between them, and halves strips until the accuracy is met or nodes are at their densest.
     ///
     /// # Errors

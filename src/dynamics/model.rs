@@ -136,6 +136,13 @@ impl Model {
         }
     }
 
+    /// Makes contacts near the defect independent of what was computed before, rounding included.
+    pub fn forget_contacts(&self) {
+        if let Some((near, _)) = &self.defect {
+            near.forget();
+        }
+    }
+
     /// Angle of element `j` (from 0) ahead of element 1 [rad].
     pub fn element_offset(&self, j: usize) -> f64 {
         j as f64 * TAU / self.element_count as f64

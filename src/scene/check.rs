@@ -146,7 +146,8 @@ impl Contact {
         match self.damping {
             Damping::HuntCrossley(chi) => DAMPING_CHI.check(chi),
             Damping::Proportional(tau) => DAMPING_TAU.check(tau),
-        }
+        }?;
+        self.largest_force.map_or(Ok(()), |force| LARGEST_FORCE.check(force))
     }
 }
 

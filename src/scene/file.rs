@@ -13,6 +13,7 @@
 //! | `bearing.density_kg_m3` | from `element_mass_g`, which is then needed |
 //! | `bearing.element_mass_g`, `hertz_inner_n_m1_5`, `hertz_outer_n_m1_5` | computed |
 //! | `contact.law` | `"map"` with a defect, else `"hertz"` |
+//! | `contact.largest_force_n` | four times the static force on the most loaded element, at least 1000 N |
 //! | `contact.damping` | `"hunt-crossley"`; its `damping_chi_s_m` 0.5 |
 //! | `cage.slip`, `cage.initial_angle_deg` | 0, −90 |
 //! | `defect` | none; its `edge_slope_deg` 90 |
@@ -191,6 +192,7 @@ struct ContactTable {
     #[serde(default)]
     damping: DampingModel,
     damping_chi_s_m: Option<f64>,
+    largest_force_n: Option<f64>,
     damping_tau_s: Option<f64>,
 }
 
@@ -221,7 +223,7 @@ impl ContactTable {
             }
         };
         let default = if defect { ContactLaw::Map } else { ContactLaw::Hertz };
-        Ok(Contact { law: self.law.unwrap_or(default), damping })
+        Ok(Contact { law: self.law.unwrap_or(default), damping, largest_force: self.largest_force_n })
     }
 }
 

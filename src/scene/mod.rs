@@ -108,6 +108,9 @@ pub struct Contact {
     pub law: ContactLaw,
     /// Contact damping.
     pub damping: Damping,
+    /// Largest force on an element near the defect that laws `map` and `love` are prepared for [N]; `None` to take it
+    /// from the loads.
+    pub largest_force: Option<f64>,
 }
 
 /// Law of the outer contact near the defect. On the smooth raceway all three are Hertz's.

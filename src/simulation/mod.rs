@@ -20,7 +20,9 @@ pub use error::{SimulationError, VariableError};
 use crate::dynamics::drive::{CageAngle, Drive, Quadratic};
 use crate::dynamics::forces::Forces;
 use crate::dynamics::model::Model;
-use crate::scene::Scene;
+use crate::contact::map::ContactMap;
+use crate::scene::{ContactLaw, Scene};
+use std::sync::Arc;
 use crate::surface::Surface;
 use access::Access;
 use setup::Inputs;
@@ -36,6 +38,8 @@ use variables::{Causality, Kind, Variable};
 pub struct Simulation {
     scene: Scene,
     surface: Option<Surface>,
+    /// The contact map stored with the scene.
+    map: Option<Arc<ContactMap>>,
     table: Vec<Variable>,
     quantities: Vec<Quantity>,
     access: Vec<Access>,
@@ -81,14 +85,36 @@ impl State {
 
 impl Simulation {
     /// Sets up the scene. `profile` is the text of the defect's profile file, when the scene names one.
+    ///
+    /// # Errors
+    /// An impossible scene or profile.
     pub fn new(scene: Scene, profile: Option<&str>) -> Result<Self, SimulationError> {
+        Self::with_map(scene, profile, None)
+    }
+
+    /// As [`new`](Self::new), with the bytes of the contact map that was stored for the scene. Without it, law `map`
+    /// computes the map on initialization, which takes seconds.
+    ///
+    /// # Errors
+    /// An impossible scene or profile; a map that is damaged or belongs to something else.
+    pub fn with_map(scene: Scene, profile: Option<&str>, map: Option<&[u8]>) -> Result<Self, SimulationError> {
         scene.check()?;
         let surface =
             scene.defect.as_ref().map(|defect| Surface::load(&defect.shape, profile, &scene.bearing)).transpose()?;
         let (table, quantities): (Vec<_>, Vec<_>) = table::rows(&scene).into_iter().unzip();
         let access = table.iter().zip(&quantities).map(|(row, &quantity)| Access::new(row, quantity)).collect();
         let (values, integers) = setup::start_values(&table);
-        let model = setup::build_model(&scene, surface.as_ref())?;
+        let map = match (&surface, map) {
+            (Some(surface), Some(bytes)) => Some(Arc::new(setup::stored_map(&scene, surface, bytes)?)),
+            _ => None,
+        };
+        // What takes long is left to the initialization: the host may change parameters before it.
+        let model_is_stale = match scene.contact.law {
+            ContactLaw::Hertz => false,
+            ContactLaw::Map => map.is_none(),
+            ContactLaw::Love => true,
+        } && surface.is_some();
+        let model = setup::build_model(&scene, surface.as_ref().filter(|_| !model_is_stale), map.as_ref())?;
         let progress = Progress::new(model.layout.len, model.element_count);
         let input_rates = vec![[0.0; 2]; table.len()];
         Ok(Self {
@@ -107,6 +133,7 @@ impl Simulation {
             },
             scene,
             surface,
+            map,
             table,
             access,
             quantities,
@@ -114,7 +141,7 @@ impl Simulation {
             integers,
             input_rates,
             model,
-            model_is_stale: false,
+            model_is_stale,
             equilibrium_is_stale: true,
             outputs_are_stale: true,
             stiffness_is_stale: true,
@@ -271,9 +298,13 @@ impl Simulation {
         let tolerance = self.inputs.tolerance.map_or(self.scene.tolerance, |i| self.values[i]);
         self.outputs_are_stale = true;
         self.stiffness_is_stale = true;
+        self.model.forget_contacts();
         self.stepper
             .advance(&self.model, &drive, tolerance, step, &mut self.state.progress)
-            .map_err(|cause| SimulationError::Step { time: self.state.time, cause })?;
+            .map_err(|cause| match self.stepper.unsolved_contact() {
+                Some(error) => SimulationError::Contact(error),
+                None => SimulationError::Step { time: self.state.time, cause },
+            })?;
         self.state.cage = self.state.cage.advanced(drive.cage.at(step));
         self.state.time += step;
         self.follow_prescribed_motion(&drive, step);
@@ -402,7 +433,7 @@ impl Simulation {
             return Ok(());
         }
         let scene = setup::with_parameters(&self.scene, &self.quantities, &self.values, &self.integers)?;
-        self.model = setup::build_model(&scene, self.surface.as_ref())?;
+        self.model = setup::build_model(&scene, self.surface.as_ref(), self.map.as_ref())?;
         self.model_is_stale = false;
         Ok(())
     }

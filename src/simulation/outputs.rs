@@ -29,6 +29,7 @@ impl Simulation {
                 RingName::Housing => (&housing, 1),
             }
         };
+        let solves_grids = self.model.defect.as_ref().is_some_and(|(near, _)| near.solves_grids());
         let ring_force = [forces.shaft, forces.housing];
         let first = self.inputs.count;
         for (i, quantity) in self.quantities.iter().enumerate().skip(first) {
@@ -53,8 +54,9 @@ impl Simulation {
             let count = match *quantity {
                 Quantity::Steps => progress.steps,
                 Quantity::RejectedSteps => progress.rejected_steps,
-                Quantity::MapLookups => progress.defect_lookups,
-                Quantity::ContactSolves => 0,
+                Quantity::MapLookups if !solves_grids => progress.defect_lookups,
+                Quantity::ContactSolves if solves_grids => progress.defect_lookups,
+                Quantity::MapLookups | Quantity::ContactSolves => 0,
                 _ => continue,
             };
             self.integers[i] = i32::try_from(count).unwrap_or(i32::MAX);

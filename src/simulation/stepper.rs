@@ -11,6 +11,7 @@
 //! from: 1e-5 of a path of 1 mm would be more than a loaded contact's whole approach.
 
 use super::dormand_prince::DormandPrince;
+use crate::contact::error::ContactError;
 use crate::dynamics::drive::Drive;
 use crate::dynamics::forces::{Forces, SMOOTH};
 use crate::dynamics::model::Model;
@@ -211,6 +212,11 @@ impl Stepper {
         progress.mean_force = impulse.map(|i| i / step);
         progress.defect_lookups += std::mem::take(&mut self.forces.defect_lookups);
         Ok(())
+    }
+
+    /// Why a contact near the defect could not be computed, if that is what made a step fail.
+    pub fn unsolved_contact(&mut self) -> Option<ContactError> {
+        self.forces.unsolved.take()
     }
 
     /// Derivative at the start of the next step.
