@@ -7,6 +7,7 @@
 pub mod archive;
 pub mod check;
 pub mod cli;
+pub mod contact_map;
 pub mod csv;
 pub mod demo;
 pub mod documentation;

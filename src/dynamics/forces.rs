@@ -262,7 +262,14 @@ impl Model {
 
     /// Approach of element `j` to the outer raceway in a cell of the defect; `None` on the smooth raceway.
     #[inline]
-    pub(super) fn near_defect(&self, j: usize, cell: u32, u: f64, cage_angle: f64, rho: f64) -> Option<Result<OuterApproach, ContactError>> {
+    pub(super) fn near_defect(
+        &self,
+        j: usize,
+        cell: u32,
+        u: f64,
+        cage_angle: f64,
+        rho: f64,
+    ) -> Option<Result<OuterApproach, ContactError>> {
         if cell == SMOOTH {
             return None;
         }

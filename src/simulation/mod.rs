@@ -17,15 +17,15 @@ pub mod variables;
 
 pub use error::{SimulationError, VariableError};
 
+use crate::contact::map::ContactMap;
 use crate::dynamics::drive::{CageAngle, Drive, Quadratic};
 use crate::dynamics::forces::Forces;
 use crate::dynamics::model::Model;
-use crate::contact::map::ContactMap;
 use crate::scene::{ContactLaw, Scene};
-use std::sync::Arc;
 use crate::surface::Surface;
 use access::Access;
 use setup::Inputs;
+use std::sync::Arc;
 use stepper::{Progress, Stepper};
 use table::Quantity;
 use variables::{Causality, Kind, Variable};
@@ -299,12 +299,12 @@ impl Simulation {
         self.outputs_are_stale = true;
         self.stiffness_is_stale = true;
         self.model.forget_contacts();
-        self.stepper
-            .advance(&self.model, &drive, tolerance, step, &mut self.state.progress)
-            .map_err(|cause| match self.stepper.unsolved_contact() {
+        self.stepper.advance(&self.model, &drive, tolerance, step, &mut self.state.progress).map_err(
+            |cause| match self.stepper.unsolved_contact() {
                 Some(error) => SimulationError::Contact(error),
                 None => SimulationError::Step { time: self.state.time, cause },
-            })?;
+            },
+        )?;
         self.state.cage = self.state.cage.advanced(drive.cage.at(step));
         self.state.time += step;
         self.follow_prescribed_motion(&drive, step);

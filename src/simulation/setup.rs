@@ -165,18 +165,21 @@ pub fn build_map(
     Ok(Some(ContactMap::build(surface, element_on_raceway(scene), map_specification(scene), runner)?))
 }
 
+/// Fingerprint of all that the contact map of a scene depends on.
+pub fn map_fingerprint(scene: &Scene, surface: &Surface) -> u64 {
+    ContactMap::fingerprint_of(surface, element_on_raceway(scene), map_specification(scene))
+}
+
 /// A map that was stored with the scene; refused when it is damaged or belongs to something else.
 pub(super) fn stored_map(scene: &Scene, surface: &Surface, bytes: &[u8]) -> Result<ContactMap, SimulationError> {
-    let fingerprint = ContactMap::fingerprint_of(surface, element_on_raceway(scene), map_specification(scene));
-    Ok(ContactMap::from_bytes(bytes, fingerprint)?)
+    Ok(ContactMap::from_bytes(bytes, map_fingerprint(scene, surface))?)
 }
 
 /// The raceway near the defect under law `map`: the stored map if it is that of this scene, or else one made now.
 fn near_map(scene: &Scene, surface: &Surface, stored: Option<&Arc<ContactMap>>) -> Result<NearDefect, SimulationError> {
     let (element, specification) = (element_on_raceway(scene), map_specification(scene));
-    let fingerprint = ContactMap::fingerprint_of(surface, element, specification);
     let map = match stored {
-        Some(map) if map.fingerprint() == fingerprint => Arc::clone(map),
+        Some(map) if map.fingerprint() == map_fingerprint(scene, surface) => Arc::clone(map),
         _ => Arc::new(ContactMap::build(surface, element, specification, &mut Sequential(|_, _| {}))?),
     };
     Ok(NearDefect::Map(NearMap::new(map, element.raceway_radius)))
@@ -201,7 +204,9 @@ pub(crate) fn build_model(
                 0.5 * scene.bearing.element_diameter,
                 scene.bearing.outer_raceway_radius(),
             ))),
-            (ContactLaw::Hertz, Surface::Topography(_)) => Err(SimulationError::LawNotAvailable { law: scene.contact.law }),
+            (ContactLaw::Hertz, Surface::Topography(_)) => {
+                Err(SimulationError::LawNotAvailable { law: scene.contact.law })
+            }
             (ContactLaw::Map, _) => near_map(scene, surface, map),
             (ContactLaw::Love, _) => near_love(scene, surface),
         })
