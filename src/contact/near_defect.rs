@@ -74,7 +74,7 @@ pub enum NearDefect {
     /// Love's half-space, looked up.
     Map(NearMap),
     /// Love's half-space, solved.
-    Love(NearLove),
+    Love(Box<NearLove>),
 }
 
 /// A contact map on its raceway.

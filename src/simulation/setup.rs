@@ -188,7 +188,7 @@ fn near_map(scene: &Scene, surface: &Surface, stored: Option<&Arc<ContactMap>>) 
 fn near_love(scene: &Scene, surface: &Surface) -> Result<NearDefect, SimulationError> {
     let element = element_on_raceway(scene);
     let (contact, knots, flats) = MapPlan::new(surface, element, map_specification(scene))?.into_love();
-    Ok(NearDefect::Love(NearLove::new(contact, &knots, flats, element.raceway_radius)))
+    Ok(NearDefect::Love(Box::new(NearLove::new(contact, &knots, flats, element.raceway_radius))))
 }
 
 /// The equations' parameters, with what the contact law needs near the defect.
