@@ -2,6 +2,7 @@
 
 pub mod active_set;
 pub mod cholesky;
+pub mod compliant;
 pub mod conjugate_gradients;
 pub mod equivalent;
 pub mod error;
@@ -16,4 +17,3 @@ mod map_format;
 pub mod near_defect;
 pub mod raceway_grid;
 pub mod rigid_path;
-pub mod series;

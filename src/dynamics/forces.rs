@@ -133,7 +133,12 @@ impl Model {
         let z = self.element_count;
         let shaft = self.shaft_state(drive, tau, state);
         let housing = self.housing_state(drive, tau, state);
-        self.contact_forces(drive, tau, cells, state, (&shaft, &housing), forces);
+        // Two copies of the loop, so that a rigid assembly does not even pay for the question.
+        if self.outer.compliance == 0.0 {
+            self.contact_forces::<false>(drive, tau, cells, state, (&shaft, &housing), forces);
+        } else {
+            self.contact_forces::<true>(drive, tau, cells, state, (&shaft, &housing), forces);
+        }
 
         let cage_angle = drive.cage_angle(tau);
         let omega = drive.cage.rate_at(tau);
@@ -185,8 +190,8 @@ impl Model {
         force
     }
 
-    /// Forces in all contacts.
-    fn contact_forces(
+    /// Forces in all contacts; `COMPLIANT` says whether the outer raceway yields.
+    fn contact_forces<const COMPLIANT: bool>(
         &self,
         drive: &Drive,
         tau: f64,
@@ -233,10 +238,12 @@ impl Model {
                 magnitude = (radial * radial + tangential * tangential).sqrt();
                 forces.defect_lookups += 1;
             }
-            let outer = self.outer.force(approach, outer_rate);
+            let (part, part_rate) =
+                if COMPLIANT { self.outer.of_contact(approach, outer_rate) } else { (approach, outer_rate) };
+            let outer = self.outer.contact.force(part, part_rate);
             let (f_r, f_t) = (outer * radial, outer * tangential);
             forces.outer_approach[j] = approach;
-            forces.outer_pushing[j] = self.outer.pushing(approach, outer_rate);
+            forces.outer_pushing[j] = self.outer.contact.pushing(part, part_rate);
             forces.outer[j] = outer * magnitude;
             forces.outer_radial[j] = f_r;
             forces.outer_tangential[j] = f_t;

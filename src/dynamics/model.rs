@@ -4,6 +4,7 @@
 //! an absent sensor take no place. u is the roller path (ρ − (R_o − r), ρ the distance of the element's centre from the
 //! *outer ring's* centre), w the radial component of the element's absolute velocity.
 
+use crate::contact::compliant::CompliantContact;
 use crate::contact::force_law::ForceLaw;
 use crate::contact::near_defect::NearDefect;
 use crate::geometry::hertz_constant::HertzConstants;
@@ -27,8 +28,8 @@ pub struct Model {
     pub radial_clearance: f64,
     /// Contact with the inner raceway.
     pub inner: ForceLaw,
-    /// Contact with the outer raceway.
-    pub outer: ForceLaw,
+    /// Contact with the outer raceway, which may yield.
+    pub outer: CompliantContact,
     /// Gravity on the elements [m/s²].
     pub gravity: [f64; 2],
     /// The inner ring.
@@ -110,7 +111,7 @@ impl Model {
     pub fn new(scene: &Scene, near_defect: Option<NearDefect>) -> Self {
         let bearing = &scene.bearing;
         let hertz = HertzConstants::of(bearing);
-        let law = |stiffness, compliance| ForceLaw { stiffness, damping: scene.contact.damping, compliance };
+        let law = |stiffness| ForceLaw { stiffness, damping: scene.contact.damping };
         let element_radius = 0.5 * bearing.element_diameter;
         Self {
             element_count: bearing.element_count,
@@ -118,8 +119,8 @@ impl Model {
             element_radius,
             outer_centre_radius: bearing.outer_raceway_radius() - element_radius,
             radial_clearance: bearing.radial_clearance,
-            inner: law(hertz.inner, 0.0),
-            outer: law(hertz.outer, bearing.outer_compliance),
+            inner: law(hertz.inner),
+            outer: CompliantContact { contact: law(hertz.outer), compliance: bearing.outer_compliance },
             gravity: scene.gravity,
             shaft: scene.shaft,
             housing: scene.housing,
