@@ -46,6 +46,19 @@ pub enum StepError {
         /// Time into the communication step [s].
         since: f64,
     },
+    /// The rings' centres are further apart than any bearing's can be.
+    #[error(
+        "offset of the rings' centres {offset:.3e} m (limit: an element's radius, {limit:.3e} m) {since:.6e} s into the \
+         communication step; check prescribed positions, velocities and accelerations, loads and support stiffness"
+    )]
+    RingsApart {
+        /// Distance of the rings' centres [m].
+        offset: f64,
+        /// Largest distance [m].
+        limit: f64,
+        /// Time into the communication step [s].
+        since: f64,
+    },
     /// More integration steps than allowed in one communication step.
     #[error(
         "{steps} integration steps (limit solver.max_steps = {limit}) did not finish the communication step: \

@@ -110,6 +110,7 @@ impl Stepper {
             Method::DormandPrince => progress.choice.implicit = false,
             Method::Rodas => progress.choice.implicit = true,
         }
+        check_rings(model, drive, tau, progress)?;
         let first_count = progress.steps + progress.rejected_steps;
         let mut knot = next_knot(model, drive, tau, step, &progress.cells);
         self.first_stage(model, drive, tau, progress);
@@ -257,7 +258,7 @@ impl Stepper {
                 return Err(StepError::ThrownOut { element: j + 1, path, limit, since });
             }
         }
-        Ok(())
+        check_rings(model, drive, from + h, progress)
     }
 
     /// Notes the step and perhaps chooses another method for the next. The Jacobian of an implicit step is still that of
@@ -419,6 +420,18 @@ impl Stepper {
         model.derivative(drive, tau, &progress.cells, &self.dense, &mut self.scratch, &mut self.forces);
         self.pushing_differs(progress)
     }
+}
+
+/// Beyond an element's radius the rings are beside each other, and a contact that is not a number would push nothing.
+fn check_rings(model: &Model, drive: &Drive, tau: f64, progress: &Progress) -> Result<(), StepError> {
+    let shaft = model.shaft_state(drive, tau, &progress.state).position;
+    let housing = model.housing_state(drive, tau, &progress.state).position;
+    let (x, y) = (housing[0] - shaft[0], housing[1] - shaft[1]);
+    let limit = model.element_radius;
+    if x * x + y * y <= limit * limit {
+        return Ok(());
+    }
+    Err(StepError::RingsApart { offset: (x * x + y * y).sqrt(), limit, since: tau })
 }
 
 fn ring_forces(forces: &Forces) -> [f64; 4] {
