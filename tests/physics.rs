@@ -3,6 +3,7 @@
 mod support;
 
 use brinell::scene::{Damping, Motion, Scene};
+use brinell::simulation::Method;
 use proptest::prelude::*;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -193,8 +194,10 @@ fn energy_of_equilibrium(scene: &Scene) -> f64 {
 
 #[test]
 fn a_step_allocates_nothing() {
-    for name in ["6205-healthy", "er16k-tb1", "6205-hosted"] {
+    let scenes = ["6205-healthy", "er16k-tb1", "6205-hosted"];
+    for (name, method) in scenes.into_iter().flat_map(|n| [Method::Automatic, Method::Rodas].map(|m| (n, m))) {
         let mut bearing = Named::started(shipped(name));
+        bearing.0.set_method(method);
         bearing.run(1e-4, 5);
         let before = ALLOCATIONS.load(Ordering::Relaxed);
         COUNTED.with(|c| c.set(true));

@@ -6,5 +6,6 @@
 pub mod drive;
 pub mod equilibrium;
 pub mod forces;
+pub mod jacobian;
 pub mod model;
 pub mod tangent;

@@ -4,6 +4,8 @@
 //! platform's own; those used here are compiled with the project.
 
 pub mod elliptic;
+#[cfg(test)]
+pub(crate) mod trees;
 
 /// Sine and cosine of `angle` [rad], with the same bits on every machine.
 #[inline]

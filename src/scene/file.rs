@@ -21,7 +21,7 @@
 //! | `housing.mass_kg`, `.damping_n_s_m`, `.stiffness_n_m` (internal only) | 6.638, 2210.7, 1.51056e7 |
 //! | `shaft.load_n`, `housing.load_n` (internal only) | `[0, 0]` |
 //! | `sensor` | none; its `mass_kg`, `stiffness_n_m`, `damping_n_s_m` 1, 8.8826e9, 9424.8 |
-//! | `solver.tolerance` | 1e-5 |
+//! | `solver.tolerance`, `.max_steps` | 1e-5, 10 000 000 |
 //! | `recorder` | none |
 //! | `experiment.stop_s`, `.step_s` | 0.5, 1e-4 |
 
@@ -93,6 +93,7 @@ impl SceneFile {
                 damping: table.damping_n_s_m,
             }),
             tolerance: self.solver.tolerance,
+            max_steps: self.solver.max_steps,
             recorder_rate: self.recorder.map(|table| table.rate_hz),
             experiment: Experiment { stop: self.experiment.stop_s, step: self.experiment.step_s },
         })
@@ -295,11 +296,12 @@ fn spall_length(degrees: Option<f64>, millimetres: Option<f64>, bearing: &Bearin
 #[serde(deny_unknown_fields, default)]
 struct SolverTable {
     tolerance: f64,
+    max_steps: u64,
 }
 
 impl Default for SolverTable {
     fn default() -> Self {
-        Self { tolerance: 1e-5 }
+        Self { tolerance: 1e-5, max_steps: 10_000_000 }
     }
 }
 

@@ -38,6 +38,8 @@ pub struct Scene {
     pub sensor: Option<Sensor>,
     /// Relative tolerance of the time integration.
     pub tolerance: f64,
+    /// Most integration steps in one communication step, after which it fails.
+    pub max_steps: u64,
     /// Sampling rate of the recorder inside the step [Hz]; `None` for none.
     pub recorder_rate: Option<f64>,
     /// Default run.

@@ -106,6 +106,7 @@ fn combine(out: &mut [f64], state: &[f64], stages: &[Vec<f64>], weights: &[f64; 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::trees;
 
     /// y' = −y² + sin τ and a linear oscillator beside it.
     fn right_hand_side(tau: f64, y: &[f64], out: &mut [f64]) {
@@ -127,46 +128,31 @@ mod tests {
         state
     }
 
+    /// The coefficients as a square matrix, and the weights of both orders.
+    fn coefficients() -> ([[f64; 7]; 7], [f64; 7], [f64; 7]) {
+        let entry = |row: usize, column: usize| if column < 6 { STAGES[row][column] } else { 0.0 };
+        let weights: [f64; 7] = std::array::from_fn(|j| entry(6, j));
+        let matrix = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
+        (matrix, weights, std::array::from_fn(|j| weights[j] - ERROR[j]))
+    }
+
     #[test]
-    fn order_conditions_hold_up_to_order_five() {
-        let b = STAGES[6];
-        let sum = |f: &dyn Fn(usize) -> f64| (0..6).map(|i| b[i] * f(i)).sum::<f64>();
-        let a = |i: usize, f: &dyn Fn(usize) -> f64| (0..6).map(|k| STAGES[i][k] * f(k)).sum::<f64>();
-        let c = |i: usize| NODES[i];
-        let conditions: [(f64, f64); 17] = [
-            (sum(&|_| 1.0), 1.0),
-            (sum(&c), 1.0 / 2.0),
-            (sum(&|i| c(i).powi(2)), 1.0 / 3.0),
-            (sum(&|i| a(i, &c)), 1.0 / 6.0),
-            (sum(&|i| c(i).powi(3)), 1.0 / 4.0),
-            (sum(&|i| c(i) * a(i, &c)), 1.0 / 8.0),
-            (sum(&|i| a(i, &|k| c(k).powi(2))), 1.0 / 12.0),
-            (sum(&|i| a(i, &|k| a(k, &c))), 1.0 / 24.0),
-            (sum(&|i| c(i).powi(4)), 1.0 / 5.0),
-            (sum(&|i| c(i).powi(2) * a(i, &c)), 1.0 / 10.0),
-            (sum(&|i| c(i) * a(i, &|k| c(k).powi(2))), 1.0 / 15.0),
-            (sum(&|i| c(i) * a(i, &|k| a(k, &c))), 1.0 / 30.0),
-            (sum(&|i| a(i, &c).powi(2)), 1.0 / 20.0),
-            (sum(&|i| a(i, &|k| c(k).powi(3))), 1.0 / 20.0),
-            (sum(&|i| a(i, &|k| c(k) * a(k, &c))), 1.0 / 40.0),
-            (sum(&|i| a(i, &|k| a(k, &|l| c(l).powi(2)))), 1.0 / 60.0),
-            (sum(&|i| a(i, &|k| a(k, &|l| a(l, &c)))), 1.0 / 120.0),
-        ];
-        for (index, (found, expected)) in conditions.iter().enumerate() {
-            // Rounding: coefficients up to 12, so a few 1e-15.
-            assert!((found - expected).abs() < 1e-14, "condition {index}: {found} against {expected}");
-        }
-        for i in 0..7 {
-            assert!((STAGES[i].iter().sum::<f64>() - NODES[i]).abs() < 1e-14, "row {i}");
+    fn the_coefficients_satisfy_all_seventeen_conditions_of_order_five_and_the_embedded_ones_the_eight_of_order_four() {
+        let (matrix, weights, embedded) = coefficients();
+        for tree in trees::up_to_order(5) {
+            let stages = trees::weights(&tree, &matrix, &matrix);
+            let miss =
+                |b: [f64; 7]| (stages.iter().zip(b).map(|(phi, b)| phi * b).sum::<f64>() - 1.0 / tree.density()).abs();
+            // Fractions of six digits, terms of magnitude 10: rounding only.
+            assert!(miss(weights) < 1e-14, "{tree:?}: {}", miss(weights));
+            assert!(tree.order() == 5 || miss(embedded) < 1e-14, "{tree:?}: {}", miss(embedded));
         }
     }
 
     #[test]
-    fn the_embedded_weights_have_order_four() {
-        let weights: Vec<f64> = (0..7).map(|i| if i < 6 { STAGES[6][i] } else { 0.0 } - ERROR[i]).collect();
-        for power in 0..4 {
-            let sum: f64 = (0..7).map(|i| weights[i] * NODES[i].powi(power)).sum();
-            assert!((sum - 1.0 / (power + 1) as f64).abs() < 1e-14, "power {power}");
+    fn nodes_are_the_row_sums() {
+        for (i, row) in STAGES.iter().enumerate() {
+            assert!((row.iter().sum::<f64>() - NODES[i]).abs() < 1e-14, "row {i}");
         }
     }
 

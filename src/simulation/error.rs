@@ -1,6 +1,6 @@
 //! What goes wrong in setting up or stepping a bearing.
 
-use super::stepper::StepError;
+use super::step_error::StepError;
 use crate::contact::error::ContactError;
 use crate::dynamics::equilibrium::EquilibriumError;
 use crate::scene::{ContactLaw, SceneError};

@@ -3,19 +3,26 @@
 //! This is the whole of what `fmi2` and `fmu-build` see of the model.
 
 mod access;
+pub mod arrow;
 pub mod derivatives;
 pub mod dormand_prince;
 pub mod error;
 pub mod guid;
+mod knots;
 pub mod outputs;
+pub mod progress;
+pub mod rodas;
 pub mod setup;
 pub mod state_bytes;
+pub mod step_error;
 pub mod stepper;
+pub mod switching;
 pub mod table;
 pub mod texts;
 pub mod variables;
 
 pub use error::{SimulationError, VariableError};
+pub use switching::Method;
 
 use crate::contact::map::ContactMap;
 use crate::dynamics::drive::{CageAngle, Drive, Quadratic};
@@ -24,9 +31,10 @@ use crate::dynamics::model::Model;
 use crate::scene::{ContactLaw, Scene};
 use crate::surface::Surface;
 use access::Access;
+use progress::Progress;
 use setup::Inputs;
 use std::sync::Arc;
-use stepper::{Progress, Stepper};
+use stepper::{Control, Stepper};
 use table::Quantity;
 use variables::{Causality, Kind, Variable};
 
@@ -51,6 +59,7 @@ pub struct Simulation {
     input_rates: Vec<[f64; 2]>,
     model: Model,
     stepper: Stepper,
+    method: Method,
     forces: Forces,
     derivative: Vec<f64>,
     state: State,
@@ -120,6 +129,7 @@ impl Simulation {
         Ok(Self {
             inputs: Inputs::new(&quantities, table.iter().take_while(|v| v.causality == Causality::Input).count()),
             stepper: Stepper::new(&model),
+            method: Method::Automatic,
             forces: Forces::new(model.element_count),
             derivative: vec![0.0; model.layout.len],
             state: State {
@@ -161,6 +171,16 @@ impl Simulation {
     /// Time [s].
     pub fn time(&self) -> f64 {
         self.state.time
+    }
+
+    /// Chooses the integration method, for studies; automatic unless this is called. No part of the state.
+    pub fn set_method(&mut self, method: Method) {
+        self.method = method;
+    }
+
+    /// Accepted integration steps so far, and how many of them the implicit method took.
+    pub fn step_counts(&self) -> (u64, u64) {
+        (self.state.progress.steps, self.state.progress.implicit_steps)
     }
 
     /// The state vector, laid out as [`crate::dynamics::model::Layout`] says.
@@ -295,11 +315,15 @@ impl Simulation {
             return Err(SimulationError::NotInitialized);
         }
         let drive = self.drive(true);
-        let tolerance = self.inputs.tolerance.map_or(self.scene.tolerance, |i| self.values[i]);
+        let control = Control {
+            tolerance: self.inputs.tolerance.map_or(self.scene.tolerance, |i| self.values[i]),
+            max_steps: self.scene.max_steps,
+            method: self.method,
+        };
         self.outputs_are_stale = true;
         self.stiffness_is_stale = true;
         self.model.forget_contacts();
-        self.stepper.advance(&self.model, &drive, tolerance, step, &mut self.state.progress).map_err(
+        self.stepper.advance(&self.model, &drive, control, step, &mut self.state.progress).map_err(
             |cause| match self.stepper.unsolved_contact() {
                 Some(error) => SimulationError::Contact(error),
                 None => SimulationError::Step { time: self.state.time, cause },

@@ -23,7 +23,7 @@ impl State {
     /// Number of bytes of [`to_bytes`](Self::to_bytes).
     pub fn byte_count(&self) -> usize {
         let progress = &self.progress;
-        let fixed = 8 + 1 + 8 + 8 + 2 * 8 + 4 * 8 + 3 * 8;
+        let fixed = 8 + 1 + 8 + 8 + 2 * 8 + (1 + 4 * 4 + 8) + 4 * 8 + 4 * 8;
         let real = progress.state.len() + self.values.len() + 2 * self.input_rates.len();
         fixed + 8 * real + 4 * (progress.cells.len() + self.integers.len()) + progress.pushing.len()
     }
@@ -41,14 +41,18 @@ impl State {
         for value in [&mut progress.next_step, &mut progress.last_error] {
             real(value, field)?;
         }
+        let choice = &mut progress.choice;
+        flag(&mut choice.implicit, field)?;
+        for count in [&mut choice.tried, &mut choice.limited, &mut choice.wait, &mut choice.patience] {
+            count32(count, field)?;
+        }
+        real(&mut choice.gained, field)?;
         let lists = [&mut progress.mean_force[..], &mut progress.state, &mut self.values];
         for value in lists.into_iter().flatten().chain(self.input_rates.as_flattened_mut()) {
             real(value, field)?;
         }
         for cell in &mut progress.cells {
-            let mut bytes = cell.to_le_bytes();
-            field(&mut bytes)?;
-            *cell = u32::from_le_bytes(bytes);
+            count32(cell, field)?;
         }
         for integer in &mut self.integers {
             let mut bytes = integer.to_le_bytes();
@@ -58,7 +62,13 @@ impl State {
         for pushing in &mut progress.pushing {
             flag(pushing, field)?;
         }
-        for count in [&mut progress.steps, &mut progress.rejected_steps, &mut progress.defect_lookups] {
+        let counts = [
+            &mut progress.steps,
+            &mut progress.implicit_steps,
+            &mut progress.rejected_steps,
+            &mut progress.defect_lookups,
+        ];
+        for count in counts {
             let mut bytes = count.to_le_bytes();
             field(&mut bytes)?;
             *count = u64::from_le_bytes(bytes);
@@ -80,7 +90,9 @@ impl Simulation {
         })?;
         let progress = &state.progress;
         let sound = rest.is_empty()
-            && [state.time, state.cage.rest, progress.last_error].iter().all(|value| value.is_finite())
+            && [state.time, state.cage.rest, progress.last_error, progress.choice.gained]
+                .iter()
+                .all(|value| value.is_finite())
             && progress.state.iter().all(|value| value.is_finite())
             && progress.next_step > 0.0;
         sound.then_some(state)
@@ -91,6 +103,13 @@ fn real(value: &mut f64, field: &mut impl FnMut(&mut [u8]) -> Option<()>) -> Opt
     let mut bytes = value.to_le_bytes();
     field(&mut bytes)?;
     *value = f64::from_le_bytes(bytes);
+    Some(())
+}
+
+fn count32(value: &mut u32, field: &mut impl FnMut(&mut [u8]) -> Option<()>) -> Option<()> {
+    let mut bytes = value.to_le_bytes();
+    field(&mut bytes)?;
+    *value = u32::from_le_bytes(bytes);
     Some(())
 }
 

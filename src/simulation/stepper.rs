@@ -7,117 +7,36 @@
 //! Knots are whole numbers (the cell of each element), never recognised by comparing times, so a restored state
 //! continues with the same bits. Contact changes are located by bisection on the dense output.
 //!
+//! Two methods step, one at a time ([`super::switching`]); error control and landing are the same for both.
+//!
 //! The error of a step is measured against the largest approach in any contact, because that is what forces follow
 //! from: 1e-5 of a path of 1 mm would be more than a loaded contact's whole approach.
 
-use super::dormand_prince::DormandPrince;
+use super::arrow::Arrow;
+use super::dormand_prince::{self, DormandPrince};
+use super::knots::next_knot;
+use super::progress::Progress;
+use super::rodas::{self, Rodas};
+use super::step_error::StepError;
+use super::switching::Method;
 use crate::contact::error::ContactError;
 use crate::dynamics::drive::Drive;
-use crate::dynamics::forces::{Forces, SMOOTH};
+use crate::dynamics::forces::Forces;
+use crate::dynamics::jacobian::Jacobian;
 use crate::dynamics::model::Model;
-use std::f64::consts::TAU;
+use crate::scene::Motion;
 
-/// Why a communication step could not be finished.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum StepError {
-    /// Error control asks for a step that no longer moves time.
-    #[error(
-        "the integration step fell to {step:.1e} s (limit {limit:.0e} s) {since:.6e} s into the communication step; \
-         the state that resists is {component}: raise solver.tolerance or look for an extreme load or damping"
-    )]
-    Underflow {
-        /// Step wanted [s].
-        step: f64,
-        /// Smallest step [s].
-        limit: f64,
-        /// Time into the communication step [s].
-        since: f64,
-        /// State with the largest error.
-        component: String,
-    },
-    /// An element left the space between the rings.
-    #[error(
-        "element {element} has left the bearing {since:.6e} s into the communication step: its path is {path:.3e} m, \
-         the limit is its radius, {limit:.3e} m; check ring positions and loads"
-    )]
-    ThrownOut {
-        /// Number of the element, from 1.
-        element: usize,
-        /// Its path u [m].
-        path: f64,
-        /// Largest path [m].
-        limit: f64,
-        /// Time into the communication step [s].
-        since: f64,
-    },
-    /// More integration steps than allowed in one communication step.
-    #[error(
-        "{steps} integration steps did not finish the communication step: {since:.6e} s are done; \
-         raise solver.tolerance or take shorter communication steps"
-    )]
-    TooManySteps {
-        /// Steps taken.
-        steps: u64,
-        /// Time into the communication step [s].
-        since: f64,
-    },
+/// How exactly, how long and by which method to step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Control {
+    /// Relative tolerance.
+    pub tolerance: f64,
+    /// Most integration steps in one communication step, rejected ones included.
+    pub max_steps: u64,
+    /// Methods that may step.
+    pub method: Method,
 }
 
-/// The part of the state that the integration owns.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Progress {
-    /// State vector, as [`crate::dynamics::model::Layout`] lays it out.
-    pub state: Vec<f64>,
-    /// Cell of the defect in which each element is.
-    pub cells: Vec<u32>,
-    /// Whether the inner contacts, then the outer contacts, push.
-    pub pushing: Vec<bool>,
-    /// Step that error control would like next [s].
-    pub next_step: f64,
-    /// Error of the last accepted step, per tolerance.
-    pub last_error: f64,
-    /// Mean forces on inner and outer ring over the last communication step [N].
-    pub mean_force: [f64; 4],
-    /// Accepted steps.
-    pub steps: u64,
-    /// Steps that were tried again with a shorter one, for error or to land.
-    pub rejected_steps: u64,
-    /// Approaches near the defect that were computed.
-    pub defect_lookups: u64,
-}
-
-impl Progress {
-    /// A state at rest in `len` places for `count` elements.
-    pub fn new(len: usize, count: usize) -> Self {
-        Self {
-            state: vec![0.0; len],
-            cells: vec![SMOOTH; count],
-            pushing: vec![false; 2 * count],
-            next_step: FIRST_STEP,
-            last_error: 1.0,
-            mean_force: [0.0; 4],
-            steps: 0,
-            rejected_steps: 0,
-            defect_lookups: 0,
-        }
-    }
-}
-
-impl Progress {
-    /// Copies the progress of another state of the same model; allocates nothing.
-    pub fn copy_from(&mut self, other: &Progress) {
-        let Self { state, cells, pushing, .. } = self;
-        state.copy_from_slice(&other.state);
-        cells.copy_from_slice(&other.cells);
-        pushing.copy_from_slice(&other.pushing);
-        (self.next_step, self.last_error, self.mean_force) = (other.next_step, other.last_error, other.mean_force);
-        (self.steps, self.rejected_steps, self.defect_lookups) =
-            (other.steps, other.rejected_steps, other.defect_lookups);
-    }
-}
-
-/// Step tried first [s]: far below the period of an element on its contacts, and grown at once if that was too timid.
-const FIRST_STEP: f64 = 1e-6;
 /// Smallest step [s]; the fastest real mode of a steel bearing's element lasts 1e-8 s.
 const SMALLEST_STEP: f64 = 1e-15;
 /// Approach below which errors are no longer measured relative to it [m]: a contact of about 0.2 N.
@@ -129,12 +48,21 @@ const VELOCITY_PER_APPROACH: f64 = 1e3;
 const CLOSEST_CHANGE: f64 = 1e-4;
 /// Bisections that locate a contact change: 1e-7 of a step. The force begins with the power 1.5 of what is left.
 const CHANGE_BISECTIONS: usize = 24;
-const MOST_STEPS: u64 = 50_000_000;
+/// Inner nodes of Lobatto's quadrature with four nodes, as shares of a step; exact for polynomials of degree 5.
+const LOBATTO: [f64; 2] = [0.276_393_202_250_021_03, 0.723_606_797_749_979];
 
 /// Workspaces of the integration; holds nothing that the future depends on.
 #[derive(Debug, Clone)]
 pub struct Stepper {
-    method: DormandPrince,
+    /// Also keeps the derivatives at start (first stage) and end (last stage) of a step, whichever method takes it.
+    explicit: DormandPrince,
+    implicit: Rodas,
+    jacobian: Jacobian,
+    /// ∂f/∂t at the start of the step.
+    by_time: Vec<f64>,
+    /// Jacobian and `by_time` belong to the start of the step.
+    linearized: bool,
+    arrow: Arrow,
     forces: Forces,
     dense: Vec<f64>,
     scratch: Vec<f64>,
@@ -142,14 +70,8 @@ pub struct Stepper {
     weighted_force: [f64; 4],
     first_force: [f64; 4],
     last_force: [f64; 4],
-}
-
-/// The next knot to land on.
-#[derive(Debug, Clone, Copy)]
-struct Knot {
-    tau: f64,
-    element: usize,
-    cell: u32,
+    /// State with the largest error in the step tried last.
+    worst: usize,
 }
 
 impl Stepper {
@@ -157,13 +79,19 @@ impl Stepper {
     pub fn new(model: &Model) -> Self {
         let len = model.layout.len;
         Self {
-            method: DormandPrince::new(len),
+            explicit: DormandPrince::new(len),
+            implicit: Rodas::new(len),
+            jacobian: Jacobian::new(model),
+            by_time: vec![0.0; len],
+            linearized: false,
+            arrow: Arrow::new(model.element_count),
             forces: Forces::new(model.element_count),
             dense: vec![0.0; len],
             scratch: vec![0.0; len],
             weighted_force: [0.0; 4],
             first_force: [0.0; 4],
             last_force: [0.0; 4],
+            worst: 0,
         }
     }
 
@@ -172,12 +100,18 @@ impl Stepper {
         &mut self,
         model: &Model,
         drive: &Drive,
-        tolerance: f64,
+        control: Control,
         step: f64,
         progress: &mut Progress,
     ) -> Result<(), StepError> {
         let mut tau = 0.0;
         let mut impulse = [0.0; 4];
+        match control.method {
+            Method::Automatic => {}
+            Method::DormandPrince => progress.choice.implicit = false,
+            Method::Rodas => progress.choice.implicit = true,
+        }
+        check_rings(model, drive, tau, progress)?;
         let first_count = progress.steps + progress.rejected_steps;
         let mut knot = next_knot(model, drive, tau, step, &progress.cells);
         self.first_stage(model, drive, tau, progress);
@@ -191,15 +125,20 @@ impl Stepper {
                 continue;
             }
             let target = knot.map_or(step, |k| k.tau.min(step));
-            let h = self.accepted_step(model, drive, tolerance, (tau, target), progress)?;
+            let h = self.accepted_step(model, drive, control, (tau, target), progress)?;
             for (sum, force) in impulse.iter_mut().zip(self.weighted_force) {
                 *sum += h * force;
             }
             tau = if h == target - tau { target } else { tau + h };
-            progress.steps += 1;
             let taken = progress.steps + progress.rejected_steps - first_count;
-            if taken > MOST_STEPS {
-                return Err(StepError::TooManySteps { steps: taken, since: tau });
+            if taken > control.max_steps && tau < step {
+                return Err(StepError::TooManySteps {
+                    steps: taken,
+                    limit: control.max_steps,
+                    since: tau,
+                    step: progress.next_step,
+                    component: model.layout.name(self.worst),
+                });
             }
         }
         // A knot right at the communication point is passed now, so that outputs there are those of the new cell.
@@ -221,8 +160,9 @@ impl Stepper {
 
     /// Derivative at the start of the next step.
     fn first_stage(&mut self, model: &Model, drive: &Drive, tau: f64, progress: &Progress) {
-        model.derivative(drive, tau, &progress.cells, &progress.state, &mut self.method.stages[0], &mut self.forces);
+        model.derivative(drive, tau, &progress.cells, &progress.state, &mut self.explicit.stages[0], &mut self.forces);
         self.first_force = ring_forces(&self.forces);
+        self.linearized = false;
     }
 
     /// Takes one step from `from` that goes no further than `to`, as long as error control and contact changes allow,
@@ -231,13 +171,14 @@ impl Stepper {
         &mut self,
         model: &Model,
         drive: &Drive,
-        tolerance: f64,
+        control: Control,
         (from, to): (f64, f64),
         progress: &mut Progress,
     ) -> Result<f64, StepError> {
         let remaining = to - from;
         // A landing on a contact change: the step that ends there.
         let mut landing = None;
+        let mut tried = 0;
         loop {
             let wanted = progress.next_step;
             let h = landing.unwrap_or(if wanted >= remaining * (1.0 - 1e-9) {
@@ -248,21 +189,15 @@ impl Stepper {
             } else {
                 wanted
             });
+            tried += 1;
             self.try_step(model, drive, from, h, progress);
-            let (error, worst) = self.error(model, tolerance, h);
+            let error = self.error(model, control.tolerance, h, progress);
             if !(error <= 1.0) {
                 progress.rejected_steps += 1;
                 let factor = if error.is_finite() { step_factor(error, 1.0).clamp(0.1, 0.9) } else { 0.1 };
                 progress.next_step = h * factor;
                 landing = None;
-                if progress.next_step < SMALLEST_STEP {
-                    return Err(StepError::Underflow {
-                        step: progress.next_step,
-                        limit: SMALLEST_STEP,
-                        since: from,
-                        component: model.layout.name(worst),
-                    });
-                }
+                self.check_step(model, from, error, progress.next_step)?;
                 continue;
             }
             let changed = self.pushing_differs(progress);
@@ -272,44 +207,110 @@ impl Stepper {
                     progress.rejected_steps += 1;
                     landing = Some(share * h);
                     // The contacts that change there, by the dense output: the shorter step may end a hair before.
-                    for (flag, value) in progress.pushing.iter_mut().zip(self.pushing_values()) {
-                        *flag = value > 0.0;
-                    }
+                    self.note_pushing(progress);
                     continue;
                 }
             }
             if landing.is_none() {
-                for (flag, value) in progress.pushing.iter_mut().zip(self.pushing_values()) {
-                    *flag = value > 0.0;
-                }
+                self.note_pushing(progress);
             }
             let proposal = h * step_factor(error, progress.last_error).clamp(0.2, 5.0);
             // A step cut short to land somewhere says nothing against the step wanted before it.
-            progress.next_step = if h < wanted { proposal.max(wanted) } else { proposal };
+            let cut = h < wanted;
+            progress.next_step = if cut { proposal.max(wanted) } else { proposal };
             progress.last_error = error.max(1e-4);
-            self.accept(model, from + h, progress)?;
+            self.accept(model, drive, (from, h), progress)?;
+            self.choose(model, drive, control.method, (from, h), (tried, cut), progress);
             return Ok(h);
         }
     }
 
-    fn accept(&mut self, model: &Model, since: f64, progress: &mut Progress) -> Result<(), StepError> {
-        progress.state.copy_from_slice(&self.method.end);
-        self.method.carry_over();
+    /// Whether a step shorter than the one that failed is still worth trying.
+    fn check_step(&self, model: &Model, since: f64, error: f64, step: f64) -> Result<(), StepError> {
+        // A step must move time: late in a long communication step its last digit is the limit.
+        let limit = SMALLEST_STEP.max(4.0 * f64::EPSILON * since);
+        if step >= limit {
+            return Ok(());
+        }
+        let component = model.layout.name(self.worst);
+        Err(if error.is_finite() {
+            StepError::Underflow { step, limit, since, component }
+        } else {
+            StepError::NotFinite { component, step, since }
+        })
+    }
+
+    fn accept(
+        &mut self,
+        model: &Model,
+        drive: &Drive,
+        (from, h): (f64, f64),
+        progress: &mut Progress,
+    ) -> Result<(), StepError> {
+        if progress.choice.implicit {
+            self.weigh_forces(model, drive, (from, h), progress);
+            progress.implicit_steps += 1;
+            progress.state.copy_from_slice(&self.implicit.end);
+        } else {
+            progress.state.copy_from_slice(&self.explicit.end);
+        }
+        progress.steps += 1;
+        self.explicit.carry_over();
         self.first_force = self.last_force;
+        self.linearized = false;
         for (j, &path) in progress.state[..model.element_count].iter().enumerate() {
             if !(path.abs() <= model.element_radius) {
-                return Err(StepError::ThrownOut { element: j + 1, path, limit: model.element_radius, since });
+                let (limit, since) = (model.element_radius, from + h);
+                return Err(StepError::ThrownOut { element: j + 1, path, limit, since });
             }
         }
-        Ok(())
+        check_rings(model, drive, from + h, progress)
+    }
+
+    /// Notes the step and perhaps chooses another method for the next. The Jacobian of an implicit step is still that of
+    /// its start.
+    fn choose(
+        &mut self,
+        model: &Model,
+        drive: &Drive,
+        method: Method,
+        (from, h): (f64, f64),
+        (tried, cut): (u32, bool),
+        progress: &mut Progress,
+    ) {
+        if method != Method::Automatic {
+            return;
+        }
+        if progress.choice.implicit {
+            progress.choice.implicit_step(h, tried, &self.jacobian);
+        } else if progress.choice.explicit_step(h, tried, cut) {
+            self.linearize(model, drive, from + h, progress);
+            progress.choice.look_explicit(&self.jacobian);
+        }
+    }
+
+    fn linearize(&mut self, model: &Model, drive: &Drive, tau: f64, progress: &Progress) {
+        if !self.linearized {
+            let (jacobian, by_time) = (&mut self.jacobian, &mut self.by_time);
+            model.linearize(drive, tau, &progress.cells, &progress.state, jacobian, by_time);
+            self.linearized = true;
+        }
     }
 
     fn try_step(&mut self, model: &Model, drive: &Drive, from: f64, h: f64, progress: &Progress) {
-        let weights = super::dormand_prince::STAGES[6];
+        if progress.choice.implicit {
+            self.try_implicit(model, drive, from, h, progress);
+        } else {
+            self.try_explicit(model, drive, from, h, progress);
+        }
+    }
+
+    fn try_explicit(&mut self, model: &Model, drive: &Drive, from: f64, h: f64, progress: &Progress) {
+        let weights = dormand_prince::STAGES[6];
         let mut sum = self.first_force.map(|f| weights[0] * f);
         let (forces, cells) = (&mut self.forces, &progress.cells);
         let mut last = [0.0; 4];
-        self.method.try_step(&progress.state, h, |c, state, out, stage| {
+        self.explicit.try_step(&progress.state, h, |c, state, out, stage| {
             model.derivative(drive, from + c, cells, state, out, forces);
             last = ring_forces(forces);
             if stage < 6 {
@@ -321,24 +322,75 @@ impl Stepper {
         (self.weighted_force, self.last_force) = (sum, last);
     }
 
-    /// Largest error of the step tried last, per tolerance, and the state that has it.
-    fn error(&self, model: &Model, tolerance: f64, h: f64) -> (f64, usize) {
+    fn try_implicit(&mut self, model: &Model, drive: &Drive, from: f64, h: f64, progress: &Progress) {
+        self.linearize(model, drive, from, progress);
+        let (jacobian, arrow, cells) = (&self.jacobian, &mut self.arrow, &progress.cells);
+        arrow.factor(jacobian, 1.0 / (rodas::GAMMA * h));
+        let forces = &mut self.forces;
+        let [first, .., last] = &mut self.explicit.stages;
+        self.implicit.try_step(
+            &progress.state,
+            first,
+            &self.by_time,
+            h,
+            |c, state, out| model.derivative(drive, from + c, cells, state, out, forces),
+            |b| arrow.solve(jacobian, b),
+        );
+        model.derivative(drive, from + h, cells, &self.implicit.end, last, &mut self.forces);
+        self.last_force = ring_forces(&self.forces);
+    }
+
+    /// Mean ring forces of an implicit step, by quadrature over its dense output. They are read only if a ring's motion
+    /// is prescribed.
+    fn weigh_forces(&mut self, model: &Model, drive: &Drive, (from, h): (f64, f64), progress: &Progress) {
+        self.weighted_force = [0.0; 4];
+        if model.shaft.motion != Motion::Host && model.housing.motion != Motion::Host {
+            return;
+        }
+        for i in 0..4 {
+            self.weighted_force[i] = (self.first_force[i] + self.last_force[i]) / 12.0;
+        }
+        for share in LOBATTO {
+            self.implicit.dense(&progress.state, share, &mut self.dense);
+            let tau = from + share * h;
+            model.derivative(drive, tau, &progress.cells, &self.dense, &mut self.scratch, &mut self.forces);
+            for (sum, force) in self.weighted_force.iter_mut().zip(ring_forces(&self.forces)) {
+                *sum += 5.0 / 12.0 * force;
+            }
+        }
+    }
+
+    /// Largest error of the step tried last, per tolerance. Not finite as soon as one state's is not.
+    fn error(&mut self, model: &Model, tolerance: f64, h: f64, progress: &Progress) -> f64 {
         let layout = &model.layout;
         let length = self.forces.largest_approach() + SMALLEST_APPROACH;
         let speed = VELOCITY_PER_APPROACH * length;
         let mut worst = (0.0, 0);
         for i in 0..layout.len {
             let scale = if layout.is_position(i) { length } else { speed };
-            let error = (self.method.error(i, h) / scale).abs();
-            if !(error <= worst.0) {
+            let error = if progress.choice.implicit { self.implicit.error(i) } else { self.explicit.error(i, h) };
+            let error = (error / scale).abs();
+            if !error.is_finite() {
+                self.worst = i;
+                return f64::INFINITY;
+            }
+            if error > worst.0 {
                 worst = (error, i);
             }
         }
-        (worst.0 / tolerance, worst.1)
+        self.worst = worst.1;
+        worst.0 / tolerance
     }
 
     fn pushing_values(&self) -> impl Iterator<Item = f64> {
         self.forces.inner_pushing.iter().chain(&self.forces.outer_pushing).copied()
+    }
+
+    /// Notes which contacts push where the forces were computed last.
+    fn note_pushing(&self, progress: &mut Progress) {
+        for (flag, value) in progress.pushing.iter_mut().zip(self.pushing_values()) {
+            *flag = value > 0.0;
+        }
     }
 
     /// Whether any contact pushes where it did not at the start of the step, or the other way round.
@@ -365,11 +417,27 @@ impl Stepper {
         share: f64,
         progress: &Progress,
     ) -> bool {
-        self.method.dense(&progress.state, h, share, &mut self.dense);
+        if progress.choice.implicit {
+            self.implicit.dense(&progress.state, share, &mut self.dense);
+        } else {
+            self.explicit.dense(&progress.state, h, share, &mut self.dense);
+        }
         let tau = from + share * h;
         model.derivative(drive, tau, &progress.cells, &self.dense, &mut self.scratch, &mut self.forces);
         self.pushing_differs(progress)
     }
+}
+
+/// Beyond an element's radius the rings are beside each other, and a contact that is not a number would push nothing.
+fn check_rings(model: &Model, drive: &Drive, tau: f64, progress: &Progress) -> Result<(), StepError> {
+    let shaft = model.shaft_state(drive, tau, &progress.state).position;
+    let housing = model.housing_state(drive, tau, &progress.state).position;
+    let (x, y) = (housing[0] - shaft[0], housing[1] - shaft[1]);
+    let limit = model.element_radius;
+    if x * x + y * y <= limit * limit {
+        return Ok(());
+    }
+    Err(StepError::RingsApart { offset: (x * x + y * y).sqrt(), limit, since: tau })
 }
 
 fn ring_forces(forces: &Forces) -> [f64; 4] {
@@ -380,61 +448,4 @@ fn ring_forces(forces: &Forces) -> [f64; 4] {
 /// Wanner, *Solving Ordinary Differential Equations II*, IV.2) with the exponents usual for order 5(4).
 fn step_factor(error: f64, last_error: f64) -> f64 {
     0.9 * libm::pow(error.max(1e-10), -0.17) * libm::pow(last_error, 0.04)
-}
-
-/// The earliest passage of an element into another cell between `tau` and `end`.
-fn next_knot(model: &Model, drive: &Drive, tau: f64, end: f64, cells: &[u32]) -> Option<Knot> {
-    let (near, centre) = model.defect.as_ref()?;
-    let knots = near.knots();
-    let last = knots.len() - 1;
-    let cage_angle = drive.cage_angle(tau);
-    let (speed, acceleration) = (drive.cage.rate_at(tau), drive.cage.0[2]);
-    let mut earliest: Option<Knot> = None;
-    for (element, &cell) in cells.iter().enumerate() {
-        let angle = model.angle_from_defect(element, cage_angle, *centre);
-        // Angle to the next knot on either side, and the cell beyond it.
-        let (up, cell_up, down, cell_down) = if cell == SMOOTH {
-            (around(knots[0] - angle), 0, around(angle - knots[last]), last as u32 - 1)
-        } else {
-            let i = cell as usize;
-            let beyond_up = if i + 1 == last { SMOOTH } else { cell + 1 };
-            let beyond_down = if i == 0 { SMOOTH } else { cell - 1 };
-            ((knots[i + 1] - angle).max(0.0), beyond_up, (angle - knots[i]).max(0.0), beyond_down)
-        };
-        let passages = [
-            (first_passage(speed, acceleration, up), cell_up),
-            (first_passage(-speed, -acceleration, down), cell_down),
-        ];
-        for (wait, cell) in passages {
-            let at = tau + wait;
-            if at <= end && earliest.is_none_or(|e| at < e.tau) {
-                earliest = Some(Knot { tau: at, element, cell });
-            }
-        }
-    }
-    earliest
-}
-
-/// An angle [rad] brought into [0, 2π); one that falls short of 0 by rounding is 0.
-fn around(angle: f64) -> f64 {
-    let within = angle.rem_euclid(TAU);
-    if within > TAU - 1e-9 { 0.0 } else { within }
-}
-
-/// Time until speed·t + ½ acceleration·t² first reaches `angle` ≥ 0 going forward; infinite if never.
-fn first_passage(speed: f64, acceleration: f64, angle: f64) -> f64 {
-    if angle == 0.0 {
-        // On the knot: passed at once when moving forward.
-        return if speed > 0.0 || (speed == 0.0 && acceleration > 0.0) { 0.0 } else { f64::INFINITY };
-    }
-    if acceleration == 0.0 {
-        return if speed > 0.0 { angle / speed } else { f64::INFINITY };
-    }
-    let square = speed * speed + 2.0 * acceleration * angle;
-    if square < 0.0 {
-        return f64::INFINITY;
-    }
-    // The smallest positive root, without cancellation: t = 2 angle/(speed + √…).
-    let divisor = speed + square.sqrt();
-    if divisor > 0.0 { 2.0 * angle / divisor } else { f64::INFINITY }
 }

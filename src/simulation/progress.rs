@@ -1,0 +1,65 @@
+//! The part of the state that the integration owns: plain numbers, all that its future depends on.
+
+use super::switching::Choice;
+use crate::dynamics::forces::SMOOTH;
+
+/// Step tried first [s]: far below the period of an element on its contacts, and grown at once if that was too timid.
+const FIRST_STEP: f64 = 1e-6;
+
+/// The part of the state that the integration owns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Progress {
+    /// State vector, as [`crate::dynamics::model::Layout`] lays it out.
+    pub state: Vec<f64>,
+    /// Cell of the defect in which each element is.
+    pub cells: Vec<u32>,
+    /// Whether the inner contacts, then the outer contacts, push.
+    pub pushing: Vec<bool>,
+    /// Step that error control would like next [s].
+    pub next_step: f64,
+    /// Error of the last accepted step, per tolerance.
+    pub last_error: f64,
+    /// Which method steps, and what it was chosen on.
+    pub choice: Choice,
+    /// Mean forces on inner and outer ring over the last communication step [N].
+    pub mean_force: [f64; 4],
+    /// Accepted steps.
+    pub steps: u64,
+    /// Accepted steps among them of the implicit method.
+    pub implicit_steps: u64,
+    /// Steps that were tried again with a shorter one, for error or to land.
+    pub rejected_steps: u64,
+    /// Approaches near the defect that were computed.
+    pub defect_lookups: u64,
+}
+
+impl Progress {
+    /// A state at rest in `len` places for `count` elements.
+    pub fn new(len: usize, count: usize) -> Self {
+        Self {
+            state: vec![0.0; len],
+            cells: vec![SMOOTH; count],
+            pushing: vec![false; 2 * count],
+            next_step: FIRST_STEP,
+            last_error: 1.0,
+            choice: Choice::default(),
+            mean_force: [0.0; 4],
+            steps: 0,
+            implicit_steps: 0,
+            rejected_steps: 0,
+            defect_lookups: 0,
+        }
+    }
+
+    /// Copies the progress of another state of the same model; allocates nothing.
+    pub fn copy_from(&mut self, other: &Progress) {
+        let Self { state, cells, pushing, .. } = self;
+        state.copy_from_slice(&other.state);
+        cells.copy_from_slice(&other.cells);
+        pushing.copy_from_slice(&other.pushing);
+        (self.next_step, self.last_error, self.choice) = (other.next_step, other.last_error, other.choice);
+        self.mean_force = other.mean_force;
+        (self.steps, self.implicit_steps) = (other.steps, other.implicit_steps);
+        (self.rejected_steps, self.defect_lookups) = (other.rejected_steps, other.defect_lookups);
+    }
+}

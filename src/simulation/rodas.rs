@@ -1,0 +1,338 @@
+//! One step of Rodas5P, a linearly implicit (Rosenbrock–Wanner) method of order 5(4) for stiff equations.
+//!
+//! Eight linear systems with one matrix W = 1/(hγ) − J and no iteration; stiffly accurate and L-stable, so what is stiff
+//! and has died away costs no step size. With k the stages:
+//! ```text
+//! W k_i = f(t + c_i h, y + Σ a_ij k_j) + Σ C_ij k_j/h + h d_i ∂f/∂t,   y₁ = y + Σ a_8j k_j + k_8,   error = k_8
+//! ```
+//! Coefficients: Steinebach, *Construction of Rosenbrock–Wanner method Rodas5P and numerical benchmarks within the Julia
+//! Differential Equations package*, BIT 63 (2023) 27, in the transformed form printed by OrdinaryDiffEq.jl. The last
+//! three stages share their argument's first five weights: each adds its predecessor. Dense output of order 4.
+//!
+//! J and ∂f/∂t must be exact for the order to hold. At the onset of a contact they jump; steps end there.
+
+/// γ
+pub const GAMMA: f64 = 0.21193756319429014;
+
+/// Nodes c.
+pub const NODES: [f64; 8] =
+    [0.0, 0.6358126895828704, 0.4095798393397535, 0.9769306725060716, 0.4288403609558664, 1.0, 1.0, 1.0];
+
+/// Weights d of the derivative by time.
+pub const TIME: [f64; 8] =
+    [GAMMA, -0.42387512638858027, -0.3384627126235924, 1.8046452872882734, 2.325825639765069, 0.0, 0.0, 0.0];
+
+/// a; the last row but for k₈ itself is also the weights of order 5, and without its last 1 those of order 4.
+pub const STAGES: [[f64; 7]; 8] = [
+    [0.0; 7],
+    [3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [2.849394379747939, 0.45842242204463923, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [-6.954028509809101, 2.489845061869568, -10.358996098473584, 0.0, 0.0, 0.0, 0.0],
+    [2.8029986275628964, 0.5072464736228206, -0.3988312541770524, -0.04721187230404641, 0.0, 0.0, 0.0],
+    LAST,
+    [LAST[0], LAST[1], LAST[2], LAST[3], LAST[4], 1.0, 0.0],
+    [LAST[0], LAST[1], LAST[2], LAST[3], LAST[4], 1.0, 1.0],
+];
+
+const LAST: [f64; 7] =
+    [-7.502846399306121, 2.561846144803919, -11.627539656261098, -0.18268767659942256, 0.030198172008377946, 0.0, 0.0];
+
+/// C
+pub const COUPLING: [[f64; 7]; 8] = [
+    [0.0; 7],
+    [-14.155112264123755, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [-17.97296035885952, -2.859693295451294, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [147.12150275711716, -1.41221402718213, 71.68940251302358, 0.0, 0.0, 0.0, 0.0],
+    [165.43517024871676, -0.4592823456491126, 42.90938336958603, -5.961986721573306, 0.0, 0.0, 0.0],
+    [24.854864614690072, -3.0009227002832186, 47.4931110020768, 5.5814197821558125, -0.6610691825249471, 0.0, 0.0],
+    [
+        30.91273214028599,
+        -3.1208243349937974,
+        77.79954646070892,
+        34.28646028294783,
+        -19.097331116725623,
+        -28.087943162872662,
+        0.0,
+    ],
+    [
+        37.80277123390563,
+        -3.2571969029072276,
+        112.26918849496327,
+        66.9347231244047,
+        -40.06618937091002,
+        -54.66780262877968,
+        -9.48861652309627,
+    ],
+];
+
+/// Dense output: three sums over the stages.
+pub const DENSE: [[f64; 8]; 3] = [
+    [
+        25.948786856663858,
+        -2.5579724845846235,
+        10.433815404888879,
+        -2.3679251022685204,
+        0.524948541321073,
+        1.1241088310450404,
+        0.4272876194431874,
+        -0.17202221070155493,
+    ],
+    [
+        -9.91568850695171,
+        -0.9689944594115154,
+        3.0438037242978453,
+        -24.495224566215796,
+        20.176138334709044,
+        15.98066361424651,
+        -6.789040303419874,
+        -6.710236069923372,
+    ],
+    [
+        11.419903575922262,
+        2.8879645146136994,
+        72.92137995996029,
+        80.12511834622643,
+        -52.072871366152654,
+        -59.78993625266729,
+        -0.15582684282751913,
+        4.883087185713722,
+    ],
+];
+
+/// Room for the stages of a step, made once.
+#[derive(Debug, Clone, Default)]
+pub struct Rodas {
+    stages: [Vec<f64>; 8],
+    /// State at the end of the step tried last.
+    pub end: Vec<f64>,
+    trial: Vec<f64>,
+}
+
+impl Rodas {
+    /// Room for `len` states.
+    pub fn new(len: usize) -> Self {
+        let zeros = || vec![0.0; len];
+        Self { stages: std::array::from_fn(|_| zeros()), end: zeros(), trial: zeros() }
+    }
+
+    /// Tries a step of length `h` from `state`, where the derivative is `first` and its derivative by time `by_time`.
+    ///
+    /// `derivative(c h, state, out)` is asked for seven stages, `solve(b)` puts (1/(hγ) − J)⁻¹ b into b.
+    pub fn try_step(
+        &mut self,
+        state: &[f64],
+        first: &[f64],
+        by_time: &[f64],
+        h: f64,
+        mut derivative: impl FnMut(f64, &[f64], &mut [f64]),
+        mut solve: impl FnMut(&mut [f64]),
+    ) {
+        let per_h = 1.0 / h;
+        for stage in 0..8 {
+            let (done, rest) = self.stages.split_at_mut(stage);
+            let k = &mut rest[0];
+            if stage == 0 {
+                k.copy_from_slice(first);
+            } else {
+                if stage < 6 {
+                    combine(&mut self.trial, state, done, &STAGES[stage]);
+                } else {
+                    add(&mut self.trial, &done[stage - 1]);
+                }
+                derivative(NODES[stage] * h, &self.trial, k);
+                for (j, earlier) in done.iter().enumerate() {
+                    let weight = COUPLING[stage][j] * per_h;
+                    for (value, earlier) in k.iter_mut().zip(earlier) {
+                        *value += weight * earlier;
+                    }
+                }
+            }
+            if TIME[stage] != 0.0 {
+                let weight = h * TIME[stage];
+                for (value, by_time) in k.iter_mut().zip(by_time) {
+                    *value += weight * by_time;
+                }
+            }
+            solve(k);
+        }
+        self.end.copy_from_slice(&self.trial);
+        add(&mut self.end, &self.stages[7]);
+    }
+
+    /// Error estimate of component `i` of the step tried last.
+    #[inline]
+    pub fn error(&self, i: usize) -> f64 {
+        self.stages[7][i]
+    }
+
+    /// State at share `share` of the step tried last, into `out`.
+    pub fn dense(&self, state: &[f64], share: f64, out: &mut [f64]) {
+        let rest = 1.0 - share;
+        let mut weights = [0.0; 8];
+        for (i, weight) in weights.iter_mut().enumerate() {
+            *weight = share * rest * (DENSE[0][i] + share * (DENSE[1][i] + share * DENSE[2][i]));
+        }
+        for (i, value) in out.iter_mut().enumerate() {
+            let mut bend = 0.0;
+            for (stage, weight) in self.stages.iter().zip(weights) {
+                bend += weight * stage[i];
+            }
+            *value = rest * state[i] + share * self.end[i] + bend;
+        }
+    }
+}
+
+#[inline]
+fn combine(out: &mut [f64], state: &[f64], stages: &[Vec<f64>], weights: &[f64; 7]) {
+    for (i, value) in out.iter_mut().enumerate() {
+        let mut sum = 0.0;
+        for (stage, weight) in stages.iter().zip(weights) {
+            sum += weight * stage[i];
+        }
+        *value = state[i] + sum;
+    }
+}
+
+#[inline]
+fn add(to: &mut [f64], what: &[f64]) {
+    for (value, what) in to.iter_mut().zip(what) {
+        *value += what;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numerics::trees;
+
+    /// (α, Γ, b) of the untransformed method: Γ⁻¹ = 1/γ − C, α = a Γ, b = m Γ.
+    fn untransformed() -> ([[f64; 8]; 8], [[f64; 8]; 8], [f64; 8]) {
+        // Forward substitution for the lower triangle Γ.
+        let mut gamma = [[0.0; 8]; 8];
+        for column in 0..8 {
+            for row in column..8 {
+                let unit = if row == column { 1.0 } else { 0.0 };
+                let sum: f64 = (column..row).map(|k| COUPLING[row][k] * gamma[k][column]).sum();
+                gamma[row][column] = GAMMA * (unit + sum);
+            }
+        }
+        let mut alpha = [[0.0; 8]; 8];
+        let mut b = [0.0; 8];
+        for j in 0..8 {
+            for i in 0..8 {
+                alpha[i][j] = (0..7).map(|k| STAGES[i][k] * gamma[k][j]).sum();
+            }
+            b[j] = (0..8).map(|k| if k < 7 { STAGES[7][k] } else { 1.0 } * gamma[k][j]).sum();
+        }
+        (alpha, gamma, b)
+    }
+
+    // Coefficients have 16 digits, and magnitudes of 100 cancel in them.
+    const CANCELLATION: f64 = 1e-12;
+
+    #[test]
+    fn the_coefficients_satisfy_all_seventeen_conditions_of_order_five() {
+        let (alpha, gamma, b) = untransformed();
+        let beta: [[f64; 8]; 8] = std::array::from_fn(|i| std::array::from_fn(|j| alpha[i][j] + gamma[i][j]));
+        for tree in trees::up_to_order(5) {
+            let sum: f64 = trees::weights(&tree, &alpha, &beta).iter().zip(b).map(|(phi, b)| phi * b).sum();
+            assert!((sum - 1.0 / tree.density()).abs() < CANCELLATION, "{tree:?}: {sum}");
+        }
+    }
+
+    #[test]
+    fn the_embedded_weights_satisfy_all_eight_conditions_of_order_four_but_not_those_of_five() {
+        let (alpha, gamma, b) = untransformed();
+        let beta: [[f64; 8]; 8] = std::array::from_fn(|i| std::array::from_fn(|j| alpha[i][j] + gamma[i][j]));
+        // Without k₈: take its row of Γ away.
+        let embedded: [f64; 8] = std::array::from_fn(|j| b[j] - gamma[7][j]);
+        let mut worst = 0.0f64;
+        for tree in trees::up_to_order(5) {
+            let sum: f64 = trees::weights(&tree, &alpha, &beta).iter().zip(embedded).map(|(phi, b)| phi * b).sum();
+            let error = (sum - 1.0 / tree.density()).abs();
+            if tree.order() < 5 {
+                assert!(error < CANCELLATION, "{tree:?}: {sum}");
+            } else {
+                worst = worst.max(error);
+            }
+        }
+        assert!(worst > 1e-4, "an estimate that is itself of order 5 sees no error: {worst}");
+    }
+
+    #[test]
+    fn nodes_and_time_weights_are_the_row_sums() {
+        let (alpha, gamma, _) = untransformed();
+        for i in 0..8 {
+            assert!((alpha[i].iter().sum::<f64>() - NODES[i]).abs() < CANCELLATION, "node {i}");
+            assert!((gamma[i].iter().sum::<f64>() - TIME[i]).abs() < CANCELLATION, "time weight {i}");
+        }
+    }
+
+    /// y' = −λ(y − cos τ) − sin τ and an anharmonic oscillator beside it.
+    const LAMBDA: f64 = 2.0;
+
+    fn right_hand_side(tau: f64, y: &[f64], out: &mut [f64]) {
+        (out[0], out[1], out[2]) = (LAMBDA * (tau.cos() - y[0]) - tau.sin(), y[2], -4.0 * y[1] - y[1] * y[1] * y[1]);
+    }
+
+    fn step(method: &mut Rodas, tau: f64, y: &[f64], h: f64) {
+        let mut first = [0.0; 3];
+        right_hand_side(tau, y, &mut first);
+        let by_time = [-LAMBDA * tau.sin() - tau.cos(), 0.0, 0.0];
+        let (s, k) = (1.0 / (h * GAMMA), -4.0 - 3.0 * y[1] * y[1]);
+        method.try_step(
+            y,
+            &first,
+            &by_time,
+            h,
+            |c, y, out| right_hand_side(tau + c, y, out),
+            |b| {
+                let determinant = s * s - k;
+                (b[0], b[1], b[2]) =
+                    (b[0] / (s + LAMBDA), (s * b[1] + b[2]) / determinant, (k * b[1] + s * b[2]) / determinant);
+            },
+        );
+    }
+
+    fn integrate(count: usize) -> Vec<f64> {
+        let mut method = Rodas::new(3);
+        let mut y = vec![0.5, 0.0, 1.0];
+        let h = 1.0 / count as f64;
+        for i in 0..count {
+            step(&mut method, i as f64 * h, &y.clone(), h);
+            y.copy_from_slice(&method.end);
+        }
+        y
+    }
+
+    #[test]
+    fn halving_the_step_divides_the_error_by_two_to_the_fifth() {
+        let reference = integrate(512);
+        let error = |count: usize| {
+            let y = integrate(count);
+            (0..3).map(|i| (y[i] - reference[i]).abs()).fold(0.0, f64::max)
+        };
+        let observed = (error(8) / error(16)).log2();
+        // The next term of the error changes the observed order by less than 0.5 at these steps.
+        assert!((observed - 5.0).abs() < 0.5, "observed order {observed}");
+    }
+
+    #[test]
+    fn dense_output_is_of_order_four() {
+        let error = |h: f64| {
+            let mut method = Rodas::new(3);
+            let (y, mut found) = (vec![1.0, 0.0, 1.0], vec![0.0; 3]);
+            step(&mut method, 0.0, &y, h);
+            (1..20)
+                .map(|i| {
+                    let share = i as f64 / 20.0;
+                    method.dense(&y, share, &mut found);
+                    (found[0] - (share * h).cos()).abs()
+                })
+                .fold(0.0, f64::max)
+        };
+        let observed = (error(0.4) / error(0.2)).log2();
+        // One step of order 4 is wrong by h⁵.
+        assert!((observed - 5.0).abs() < 0.5, "observed order {observed}");
+    }
+}
