@@ -434,7 +434,7 @@ pub(crate) mod tests {
         }
         for j in 0..z {
             let rho = model.outer_centre_radius;
-            let floor = model.near_defect(j, cells[j], 0.0, drive.cage_angle(0.0), rho).map_or(0.0, |near| -near.value);
+            let floor = -model.outer_approach(j, cells[j], 0.0, drive.cage_angle(0.0), rho).value;
             state[j] += floor + 6e-6;
         }
         (state, cells)
