@@ -253,6 +253,15 @@ fn hertz_constants_that_override_must_be_positive() {
 }
 
 #[test]
+fn an_outer_compliance_is_neither_negative_nor_that_of_a_rubber_mount() {
+    let with = |value: &str| format!("density_kg_m3 = 7800.0\nouter_compliance_m_n = {value}");
+    for (value, shown) in [("-0.001", "is -0.001:"), ("0.01", "is 0.01:")] {
+        refused("density_kg_m3 = 7800.0", &with(value), &["bearing.outer_compliance_m_n", shown, "0", "0.001"]);
+    }
+    accepted("density_kg_m3 = 7800.0", &with("6.5e-8"));
+}
+
+#[test]
 fn a_damping_constant_of_the_other_model_is_refused() {
     let parts = ["contact.damping_tau_s = 0.001", "\"hunt-crossley\"", "contact.damping_chi_s_m"];
     refused("damping_chi_s_m = 0.5", "damping_tau_s = 1e-3", &parts);

@@ -68,6 +68,7 @@ fn a_length_in_millimetres_equals_the_same_arc_in_degrees() {
 #[test]
 fn what_is_left_out_gets_the_documented_default() {
     let scene = Scene::from_toml(SHORT).unwrap();
+    assert_eq!(scene.bearing.outer_compliance, 0.0);
     assert_eq!(scene.description, "");
     assert_eq!(scene.gravity, [0.0, -9.81]);
     assert_eq!(scene.contact.law, ContactLaw::Hertz);

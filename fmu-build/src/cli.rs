@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 use clap::{Args, Parser, Subcommand};
 
-use crate::{check, demo, fmu, library::Library, model::Model, project::Project, run};
+use crate::{check, demo, fmu, library::Library, model::Model, project::Project, run, stiffness};
 
 /// Rolling bearings with a real surface defect as FMI 2.0 co-simulation units.
 #[derive(Debug, Parser)]
@@ -23,6 +23,8 @@ enum Command {
     Run(Run),
     /// Unzips, validates, loads and steps an FMU
     Check(Check),
+    /// Static stiffness, load distribution and critical load over the cage angle: CSV, figure and summary
+    Stiffness(Stiffness),
     /// Builds the FMU of a spalled 6205 bearing, drives it with fmpy and draws what happens
     Demo(Demo),
 }
@@ -65,6 +67,25 @@ struct Check {
 }
 
 #[derive(Debug, Args)]
+struct Stiffness {
+    /// Scene file (TOML)
+    scene: PathBuf,
+    /// Load in newtons along the scene's load [default: the scene's]
+    #[arg(long, value_name = "N")]
+    load: Option<f64>,
+    /// Cage angles within one element spacing [default: 200, more for a short defect]; those at which elements begin to
+    /// carry are added
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    points: Option<u32>,
+    /// Folder for CSV and figure [default: target/stiffness]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Leave the figure out; no Python is needed then
+    #[arg(long)]
+    no_figure: bool,
+}
+
+#[derive(Debug, Args)]
 struct Demo {
     /// Folder for CSV and figure [default: target/demo]
     #[arg(short, long, value_name = "DIR")]
@@ -103,6 +124,16 @@ impl Arguments {
                 run::command(&project, model, grid, &folder, !options.no_figure)
             }
             Command::Check(options) => check::command(&project, &options.fmu),
+            Command::Stiffness(options) => {
+                let model = Model::read(&options.scene)?;
+                let folder = options.output.unwrap_or_else(|| project.target().join("stiffness"));
+                let wanted = stiffness::Options {
+                    load: options.load,
+                    points: options.points.map(|count| count as usize),
+                    figure: !options.no_figure,
+                };
+                stiffness::command(&project, &model, wanted, &folder)
+            }
             Command::Demo(options) => {
                 let folder = options.output.unwrap_or_else(|| project.target().join("demo"));
                 demo::command(&project, options.library.library.as_deref(), &folder)

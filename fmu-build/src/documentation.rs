@@ -85,7 +85,7 @@ fn facts(page: &mut String, scene: &Scene) {
             degrees(*edge_slope)
         ),
         Some((angle, DefectShape::Profile(file))) => {
-            format!("measured profile <code>resources/{}</code> at {}", escape(file), degrees(angle))
+            format!("profile <code>resources/{}</code> at {}", escape(file), degrees(angle))
         }
     };
     let mm = |length: f64| format!("{} mm", digits(length * 1e3));

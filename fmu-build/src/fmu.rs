@@ -29,6 +29,9 @@ pub fn pack(model: &Model, library: &Library) -> Result<Vec<u8>> {
     if let Some(profile) = &model.profile {
         archive.add(format!("resources/{}", profile.name), profile.text.as_str())?;
     }
+    if let Some(map) = &model.map {
+        archive.add("resources/map.bin", map.as_slice())?;
+    }
     archive.add("documentation/index.html", documentation::write(model))?;
     archive.add("documentation/licenses/license.txt", LICENSE)?;
     archive.add("documentation/licenses/LICENSE-MIT", include_str!("../../LICENSE-MIT"))?;

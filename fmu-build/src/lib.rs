@@ -7,6 +7,7 @@
 pub mod archive;
 pub mod check;
 pub mod cli;
+pub mod contact_map;
 pub mod csv;
 pub mod demo;
 pub mod documentation;
@@ -18,4 +19,5 @@ pub mod project;
 pub mod python;
 pub mod run;
 pub mod slave;
+pub mod stiffness;
 pub mod units;

@@ -8,6 +8,9 @@ use brinell::scene::{DefectShape, Scene};
 use brinell::simulation::Simulation;
 use brinell::simulation::guid::guid;
 
+use crate::contact_map;
+use crate::project::Project;
+
 /// A scene that was read, with its files' texts and a simulation of it.
 #[derive(Debug, Clone)]
 pub struct Model {
@@ -17,6 +20,8 @@ pub struct Model {
     pub scene_text: String,
     /// Name and text of the defect's profile file, when the scene names one.
     pub profile: Option<Profile>,
+    /// The contact map, where the scene's law needs one.
+    pub map: Option<Vec<u8>>,
     /// A simulation of the scene, not initialized.
     pub simulation: Simulation,
 }
@@ -45,8 +50,9 @@ impl Model {
             _ => None,
         };
         let text = profile.as_ref().map(|profile| profile.text.as_str());
-        let simulation = Simulation::new(scene.clone(), text).with_context(about)?;
-        Ok(Self { scene, scene_text, profile, simulation })
+        let map = contact_map::of(&scene, text, &Project::find()).with_context(about)?;
+        let simulation = Simulation::with_map(scene.clone(), text, map.as_deref()).with_context(about)?;
+        Ok(Self { scene, scene_text, profile, map, simulation })
     }
 
     /// The identity that library and description agree on; it changes with every byte of scene or profile.

@@ -15,11 +15,12 @@ use anyhow::{Context, Result, bail};
 use crate::project::Project;
 
 const REQUIREMENTS: &str = include_str!("../python/requirements.txt");
-const SCRIPTS: [(&str, &str); 5] = [
+const SCRIPTS: [(&str, &str); 6] = [
     ("demo.py", include_str!("../python/demo.py")),
     ("host.py", include_str!("../python/host.py")),
     ("plotting.py", include_str!("../python/plotting.py")),
     ("run_figure.py", include_str!("../python/run_figure.py")),
+    ("stiffness.py", include_str!("../python/stiffness.py")),
     ("validate.py", include_str!("../python/validate.py")),
 ];
 const OLDEST: (u32, u32) = (3, 9);

@@ -22,6 +22,7 @@ fn the_committed_model_descriptions_are_those_of_the_shipped_scenes() {
         let file = folder.join(&model.scene.name).with_extension("xml");
         let written = model_description::write(&model, &CAPABILITIES).unwrap();
         if bless {
+            fs::create_dir_all(&folder).unwrap();
             fs::write(&file, &written).unwrap();
         }
         let committed = fs::read_to_string(&file).unwrap_or_default();

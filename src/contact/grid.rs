@@ -53,6 +53,15 @@ impl GridContact {
         self.pressure.iter().fold(0.0, |m, &p| m.max(p))
     }
 
+    /// Whether a cell at the border is under pressure, for a grid of this many columns.
+    pub fn reaches_border(&self, columns: usize) -> bool {
+        let rows = self.pressure.len() / columns.max(1);
+        self.pressure.iter().enumerate().any(|(c, &p)| {
+            let (i, j) = (c % columns, c / columns);
+            p > 0.0 && (i == 0 || i + 1 == columns || j == 0 || j + 1 == rows)
+        })
+    }
+
     /// Number of cells under pressure.
     pub fn contact_cells(&self) -> usize {
         self.pressure.iter().filter(|&&p| p > 0.0).count()
@@ -153,6 +162,11 @@ impl GridProblem {
     /// Rows, along y.
     pub fn rows(&self) -> usize {
         self.rows
+    }
+
+    /// Full sides of a cell [m].
+    pub fn cell(&self) -> [f64; 2] {
+        self.cell
     }
 
     /// Gap h [m], row by row.

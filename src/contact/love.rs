@@ -28,9 +28,10 @@ use super::{
 };
 
 /// Nodes of the smooth raceway's energy; quadratically dense towards zero.
-const SMOOTH_NODES: usize = 160;
-/// Node up to which the contact is only a few cells. Below it Δ is continued linearly; the force there is 1e-4 of full scale.
-const ONSET_NODE: usize = 6;
+const SMOOTH_NODES: usize = 64;
+/// The grid touches where the centre of its first cell touches, a little late. Below this many times that path the contact is a
+/// cell or two and Δ is continued linearly; the force there is 1e-3 of full scale, its error a small part of that.
+const ONSET_TOUCHES: f64 = 3.0;
 
 /// Energy of the grid and its derivatives, without the factor π E* × cell area.
 #[derive(Debug, Clone, Copy, Default)]
@@ -129,6 +130,28 @@ impl LoveContact {
             }
         }
         self.below_onset(u, s, touch)
+    }
+
+    /// As [`LoveContact::solve`], but always the first-order continuation below the onset, however far; `onset` keeps where it starts from
+    /// between calls with the same `s`.
+    pub(super) fn solve_or_continue(
+        &mut self,
+        u: f64,
+        s: f64,
+        onset: &mut Option<(f64, EquivalentApproach)>,
+    ) -> Result<EquivalentApproach, ContactError> {
+        if onset.is_none() {
+            let touch = self.grid.first_touch(s);
+            let at_touch = self.below_onset(touch, s, touch)?;
+            *onset = Some((touch, at_touch));
+        }
+        if let Some((at, start)) = *onset {
+            let value = start.value + start.du * (u - at);
+            if value <= self.smooth.onset() {
+                return Ok(EquivalentApproach { value, ..start });
+            }
+        }
+        self.equivalent(u, s)
     }
 
     /// First-order continuation from the path at which Δ has the onset's small value.
@@ -239,10 +262,12 @@ impl LoveContact {
         let smooth = self.grid.without_defect();
         let with_defect = std::mem::replace(&mut self.grid, smooth);
         let s = self.grid.centre(0);
-        let mut nodes = vec![[0.0, 0.0, 0.0]];
-        for k in 1..=SMOOTH_NODES {
-            let part = k as f64 / SMOOTH_NODES as f64;
-            let u = 1.02 * self.largest_approach * part * part;
+        let onset = (ONSET_TOUCHES * self.grid.first_touch(s)).max(1e-4 * self.largest_approach);
+        let (low, high) = (onset.sqrt(), (1.02 * self.largest_approach).sqrt());
+        let mut nodes = Vec::new();
+        for k in 0..=SMOOTH_NODES {
+            let root = low + (high - low) * k as f64 / SMOOTH_NODES as f64;
+            let u = root * root;
             let energy = self.energy(u, s)?;
             let v = two_fifths(energy.w);
             let slope = 0.4 * v / energy.w * energy.u;
@@ -272,7 +297,7 @@ struct SmoothScale {
 impl SmoothScale {
     /// Smallest Δ [m] that the grid resolves.
     fn onset(&self) -> f64 {
-        self.nodes.get(ONSET_NODE).map_or(0.0, |node| node[1])
+        self.nodes.first().map_or(0.0, |node| node[1])
     }
 
     fn equivalent(&self, e: Energy) -> EquivalentApproach {
@@ -301,15 +326,16 @@ impl SmoothScale {
     /// Δ, dΔ/dV, d²Δ/dV².
     fn at(&self, v: f64) -> [f64; 3] {
         let last = self.nodes.len().saturating_sub(1);
-        let (Some(start), Some(end)) = (self.nodes.get(1), self.nodes.last()) else {
+        let (Some(start), Some(end)) = (self.nodes.first(), self.nodes.last()) else {
             return [f64::NAN; 3];
         };
         if v <= start[0] {
             return [start[1] * v / start[0], start[1] / start[0], 0.0];
         }
-        let guess = (last as f64 * (v / end[0]).max(0.0).sqrt()) as usize;
-        let mut k = guess.clamp(1, last - 1);
-        while k > 1 && v < self.nodes[k][0] {
+        let (low, high) = (start[0].sqrt(), end[0].sqrt());
+        let guess = (last as f64 * (v.sqrt() - low) / (high - low)) as usize;
+        let mut k = guess.min(last - 1);
+        while k > 0 && v < self.nodes[k][0] {
             k -= 1;
         }
         while k < last - 1 && v >= self.nodes[k + 1][0] {

@@ -2,6 +2,8 @@
 
 pub mod active_set;
 pub mod cholesky;
+pub mod compliant;
+pub mod conjugate_gradients;
 pub mod equivalent;
 pub mod error;
 pub mod fft_product;
@@ -9,6 +11,9 @@ pub mod force_law;
 pub mod grid;
 pub mod half_space;
 pub mod love;
+pub mod map;
+pub mod map_build;
+mod map_format;
 pub mod near_defect;
 pub mod raceway_grid;
 pub mod rigid_path;

@@ -11,7 +11,6 @@
 use super::drive::{Drive, Quadratic};
 use super::forces::dot;
 use super::model::Model;
-use crate::contact::near_defect::OuterApproach;
 use crate::scene::Motion;
 
 /// Why no equilibrium was found.
@@ -62,6 +61,25 @@ impl Model {
         Ok(())
     }
 
+    /// The path [m] of element `j` (from 0) where it rests against the outer raceway without force.
+    pub fn resting_path(&self, j: usize, cage_angle: f64) -> f64 {
+        self.touching_path(j, self.cell_at(j, cage_angle), cage_angle)
+    }
+
+    /// Over the defect the path of an element without force is where the approach vanishes.
+    fn touching_path(&self, j: usize, cell: u32, cage_angle: f64) -> f64 {
+        let mut u = 0.0;
+        for _ in 0..20 {
+            let near = self.outer_approach(j, cell, u, cage_angle, self.outer_centre_radius + u);
+            let step = near.value / near.by_path;
+            u -= step;
+            if step.abs() < 1e-15 {
+                break;
+            }
+        }
+        u
+    }
+
     /// The path at which element `j` is in radial balance.
     fn balanced_path(&self, j: usize, cell: u32, offset: [f64; 2], drive: &Drive) -> f64 {
         let cage_angle = drive.cage_angle(0.0);
@@ -73,9 +91,7 @@ impl Model {
             let body = self.element_mass * (dot(self.gravity, e_r) + rho * omega * omega);
             (dot(contact.inner, e_r) - contact.outer[0] + body, slope)
         };
-        // Where it touches the outer raceway without force: the path over the defect is where the approach vanishes.
-        let rho = self.outer_centre_radius;
-        let touch = self.near_defect(j, cell, 0.0, cage_angle, rho).map_or(0.0, |near| -near.value / near.by_path);
+        let touch = self.touching_path(j, cell, cage_angle);
         let at_touch = force(touch).0;
         if at_touch == 0.0 {
             return touch;
@@ -133,7 +149,7 @@ impl Model {
         let inner = self.inner_gap(u, offset, e_r);
         let rate = -(inner.n[0] * dot(drift, e_r) + inner.n[1] * (dot(drift, e_t) + rho * omega));
         let force = self.inner.force(inner.approach, rate);
-        let near = self.near_defect(j, cell, u, cage_angle, rho).unwrap_or_else(|| OuterApproach::smooth(u));
+        let near = self.outer_approach(j, cell, u, cage_angle, rho);
         let outer = self.outer.force(near.value, near.by_angle * omega);
         let on_element = OnElement {
             inner: [0, 1].map(|a| force * (inner.n[0] * e_r[a] + inner.n[1] * e_t[a])),

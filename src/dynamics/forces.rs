@@ -15,6 +15,7 @@
 
 use super::drive::{Drive, Quadratic};
 use super::model::Model;
+use crate::contact::error::ContactError;
 use crate::contact::near_defect::OuterApproach;
 use crate::numerics::{sin_cos, wrap};
 use crate::scene::Motion;
@@ -51,6 +52,8 @@ pub struct Forces {
     pub housing: [f64; 2],
     /// Number of approaches near the defect that were asked for.
     pub defect_lookups: u64,
+    /// Why the last contact near the defect that could not be computed could not.
+    pub unsolved: Option<ContactError>,
 }
 
 impl Forces {
@@ -130,7 +133,12 @@ impl Model {
         let z = self.element_count;
         let shaft = self.shaft_state(drive, tau, state);
         let housing = self.housing_state(drive, tau, state);
-        self.contact_forces(drive, tau, cells, state, (&shaft, &housing), forces);
+        // Two copies of the loop, so that a rigid assembly does not even pay for the question.
+        if self.outer.compliance == 0.0 {
+            self.contact_forces::<false>(drive, tau, cells, state, (&shaft, &housing), forces);
+        } else {
+            self.contact_forces::<true>(drive, tau, cells, state, (&shaft, &housing), forces);
+        }
 
         let cage_angle = drive.cage_angle(tau);
         let omega = drive.cage.rate_at(tau);
@@ -182,8 +190,8 @@ impl Model {
         force
     }
 
-    /// Forces in all contacts.
-    fn contact_forces(
+    /// Forces in all contacts; `COMPLIANT` says whether the outer raceway yields.
+    fn contact_forces<const COMPLIANT: bool>(
         &self,
         drive: &Drive,
         tau: f64,
@@ -219,16 +227,24 @@ impl Model {
 
             let mut outer_rate = path_rate;
             let (mut approach, mut radial, mut tangential) = (u, 1.0, 0.0);
+            let mut magnitude = 1.0;
             if let Some(near) = self.near_defect(j, cells[j], u, cage_angle, rho) {
+                let near = near.unwrap_or_else(|error| {
+                    forces.unsolved = Some(error);
+                    OuterApproach::unsolved()
+                });
                 outer_rate = near.by_path * path_rate + near.by_angle * omega;
                 (approach, radial, tangential) = (near.value, near.radial, near.tangential);
+                magnitude = (radial * radial + tangential * tangential).sqrt();
                 forces.defect_lookups += 1;
             }
-            let outer = self.outer.force(approach, outer_rate);
+            let (part, part_rate) =
+                if COMPLIANT { self.outer.of_contact(approach, outer_rate) } else { (approach, outer_rate) };
+            let outer = self.outer.contact.force(part, part_rate);
             let (f_r, f_t) = (outer * radial, outer * tangential);
             forces.outer_approach[j] = approach;
-            forces.outer_pushing[j] = self.outer.pushing(approach, outer_rate);
-            forces.outer[j] = outer;
+            forces.outer_pushing[j] = self.outer.contact.pushing(part, part_rate);
+            forces.outer[j] = outer * magnitude;
             forces.outer_radial[j] = f_r;
             forces.outer_tangential[j] = f_t;
 
@@ -253,12 +269,27 @@ impl Model {
 
     /// Approach of element `j` to the outer raceway in a cell of the defect; `None` on the smooth raceway.
     #[inline]
-    pub(super) fn near_defect(&self, j: usize, cell: u32, u: f64, cage_angle: f64, rho: f64) -> Option<OuterApproach> {
+    pub(super) fn near_defect(
+        &self,
+        j: usize,
+        cell: u32,
+        u: f64,
+        cage_angle: f64,
+        rho: f64,
+    ) -> Option<Result<OuterApproach, ContactError>> {
         if cell == SMOOTH {
             return None;
         }
         let (near, centre) = self.defect.as_ref()?;
         Some(near.approach(cell as usize, u, self.angle_from_defect(j, cage_angle, *centre), rho))
+    }
+
+    /// As [`Self::near_defect`], the smooth raceway included.
+    pub(super) fn outer_approach(&self, j: usize, cell: u32, u: f64, cage_angle: f64, rho: f64) -> OuterApproach {
+        match self.near_defect(j, cell, u, cage_angle, rho) {
+            None => OuterApproach::smooth(u),
+            Some(near) => near.unwrap_or_else(|_| OuterApproach::unsolved()),
+        }
     }
 
     /// Cell of the defect in which element `j` is at a cage angle [rad].

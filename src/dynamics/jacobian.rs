@@ -21,7 +21,7 @@
 //! The derivatives are those of the branch that the state is in; at the onset of a contact there are two.
 
 use super::drive::Drive;
-use super::forces::{RingState, cos_sin, dot};
+use super::forces::{RingState, SMOOTH, cos_sin, dot};
 use super::model::{Layout, Model};
 use super::tangent::times;
 use crate::contact::near_defect::OuterApproach;
@@ -300,9 +300,8 @@ impl Model {
             }
         }
 
-        let near = self.near_defect(j, cell, u, at.cage_angle, rho);
-        let bend = near.map_or_else(Bend::default, |_| self.bend(j, cell, u, at.cage_angle));
-        let near = near.unwrap_or_else(|| OuterApproach::smooth(u));
+        let near = self.outer_approach(j, cell, u, at.cage_angle, rho);
+        let bend = if cell == SMOOTH { Bend::default() } else { self.bend(j, cell, u, at.cage_angle) };
         let outer = self.outer.with_derivatives(near.value, near.by_path * path_rate + near.by_angle * at.omega);
         let direction = [near.radial, near.tangential];
         let direction_by_path = [near.radial_by_path, near.tangential_by_path];
@@ -346,10 +345,7 @@ impl Model {
 
     /// Second derivatives of the approach of element `j`, which is near the defect.
     fn bend(&self, j: usize, cell: u32, u: f64, cage_angle: f64) -> Bend {
-        let look = |u: f64, angle: f64| {
-            self.near_defect(j, cell, u, angle, self.outer_centre_radius + u)
-                .unwrap_or_else(|| OuterApproach::smooth(u))
-        };
+        let look = |u: f64, angle: f64| self.outer_approach(j, cell, u, angle, self.outer_centre_radius + u);
         let angle = DIFFERENCE / self.outer_centre_radius;
         let (inside, outside) = (look(u - DIFFERENCE, cage_angle), look(u + DIFFERENCE, cage_angle));
         let (behind, ahead) = (look(u, cage_angle - angle), look(u, cage_angle + angle));
@@ -438,7 +434,7 @@ pub(crate) mod tests {
         }
         for j in 0..z {
             let rho = model.outer_centre_radius;
-            let floor = model.near_defect(j, cells[j], 0.0, drive.cage_angle(0.0), rho).map_or(0.0, |near| -near.value);
+            let floor = -model.outer_approach(j, cells[j], 0.0, drive.cage_angle(0.0), rho).value;
             state[j] += floor + 6e-6;
         }
         (state, cells)
@@ -499,7 +495,7 @@ pub(crate) mod tests {
             for angle in [-1.66, -1.58, -1.5, 0.3] {
                 let (model, drive) = lively(motions, damping, angle);
                 let (state, cells) = moving(&model, &drive, case as u64 + 1);
-                near_defect += cells.iter().filter(|&&c| c != crate::dynamics::forces::SMOOTH).count();
+                near_defect += cells.iter().filter(|&&c| c != SMOOTH).count();
                 let len = model.layout.len;
                 let (mut jacobian, mut by_time) = (Jacobian::new(&model), vec![0.0; len]);
                 let tau = 1e-5;

@@ -4,6 +4,7 @@
 //! an absent sensor take no place. u is the roller path (ρ − (R_o − r), ρ the distance of the element's centre from the
 //! *outer ring's* centre), w the radial component of the element's absolute velocity.
 
+use crate::contact::compliant::CompliantContact;
 use crate::contact::force_law::ForceLaw;
 use crate::contact::near_defect::NearDefect;
 use crate::geometry::hertz_constant::HertzConstants;
@@ -27,8 +28,8 @@ pub struct Model {
     pub radial_clearance: f64,
     /// Contact with the inner raceway.
     pub inner: ForceLaw,
-    /// Contact with the outer raceway.
-    pub outer: ForceLaw,
+    /// Contact with the outer raceway, which may yield.
+    pub outer: CompliantContact,
     /// Gravity on the elements [m/s²].
     pub gravity: [f64; 2],
     /// The inner ring.
@@ -119,7 +120,7 @@ impl Model {
             outer_centre_radius: bearing.outer_raceway_radius() - element_radius,
             radial_clearance: bearing.radial_clearance,
             inner: law(hertz.inner),
-            outer: law(hertz.outer),
+            outer: CompliantContact { contact: law(hertz.outer), compliance: bearing.outer_compliance },
             gravity: scene.gravity,
             shaft: scene.shaft,
             housing: scene.housing,
@@ -133,6 +134,13 @@ impl Model {
                     (cos, sin)
                 })
                 .collect(),
+        }
+    }
+
+    /// Makes contacts near the defect independent of what was computed before, rounding included.
+    pub fn forget_contacts(&self) {
+        if let Some((near, _)) = &self.defect {
+            near.forget();
         }
     }
 

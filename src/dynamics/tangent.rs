@@ -9,7 +9,6 @@
 
 use super::forces::{cos_sin, dot};
 use super::model::Model;
-use crate::contact::near_defect::OuterApproach;
 
 /// ∂(force on inner ring, force on outer ring)/∂(position of inner ring, position of outer ring) [N/m].
 pub type RingJacobian = [[f64; 4]; 4];
@@ -61,7 +60,7 @@ impl Model {
                 inner_by_q[a][b] = -(k + across) * n[a] * n[b] + if a == b { across } else { 0.0 };
             }
         }
-        let near = self.near_defect(j, cell, u, cage_angle, rho).unwrap_or_else(|| OuterApproach::smooth(u));
+        let near = self.outer_approach(j, cell, u, cage_angle, rho);
         let (outer, k_outer) =
             (self.outer.elastic(near.value), self.outer.elastic_stiffness(near.value) * near.by_path);
         ElasticElement {

@@ -126,7 +126,7 @@ impl Logger {
     }
 
     /// Panics if the instance's name asks for it: lets a test see what a bug would do to its host.
-    #[cfg(any(test, feature = "panic-on-demand"))]
+    #[cfg(feature = "panic-on-demand")]
     pub(super) fn panic_on_demand(&self) {
         assert!(self.instance_name.as_c_str() != c"panic on demand", "panic on demand");
     }

@@ -1,4 +1,4 @@
-//! The FMU's `resources/` directory: `scene.toml`, and the profile that the scene names.
+//! The FMU's `resources/` directory: `scene.toml`, the profile that the scene names, and the contact map `map.bin`.
 //!
 //! The one place in the FMU that reads files, and only in `fmi2Instantiate`.
 
@@ -46,6 +46,7 @@ pub(super) enum ResourceError {
 pub(super) struct Model {
     scene: Scene,
     profile: Option<String>,
+    map: Option<Vec<u8>>,
     /// The GUID that belongs to these resources.
     pub(super) guid: String,
 }
@@ -61,13 +62,19 @@ impl Model {
             Some(DefectShape::Profile(name)) => Some(read(&beside(&directory, name)?)?),
             _ => None,
         };
+        let map = match directory.join("map.bin") {
+            file if file.exists() => {
+                Some(fs::read(&file).map_err(|source| ResourceError::Unreadable { path: file, source })?)
+            }
+            _ => None,
+        };
         let guid = guid(&text, profile.as_deref());
-        Ok(Self { scene, profile, guid })
+        Ok(Self { scene, profile, map, guid })
     }
 
     /// Sets up a simulation of the model with all variables at their start values.
     pub(super) fn build(&self) -> Result<Simulation, SimulationError> {
-        Simulation::new(self.scene.clone(), self.profile.as_deref())
+        Simulation::with_map(self.scene.clone(), self.profile.as_deref(), self.map.as_deref())
     }
 }
 

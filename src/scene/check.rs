@@ -102,7 +102,8 @@ impl Bearing {
         ELEMENT_MASS.check_all(self.element_mass.as_slice())?;
         DENSITY.check(self.density)?;
         HERTZ_INNER.check_all(self.hertz_inner.as_slice())?;
-        HERTZ_OUTER.check_all(self.hertz_outer.as_slice())
+        HERTZ_OUTER.check_all(self.hertz_outer.as_slice())?;
+        OUTER_COMPLIANCE.check(self.outer_compliance)
     }
 
     fn check_overlap(&self) -> Result<(), SceneError> {
@@ -145,7 +146,8 @@ impl Contact {
         match self.damping {
             Damping::HuntCrossley(chi) => DAMPING_CHI.check(chi),
             Damping::Proportional(tau) => DAMPING_TAU.check(tau),
-        }
+        }?;
+        self.largest_force.map_or(Ok(()), |force| LARGEST_FORCE.check(force))
     }
 }
 

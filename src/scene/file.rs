@@ -9,9 +9,11 @@
 //! | `description` | empty |
 //! | `gravity_m_s2` | `[0, -9.81]` |
 //! | `bearing.radial_clearance_um` | 5 |
+//! | `bearing.outer_compliance_m_n` | 0: rings and seats are rigid |
 //! | `bearing.density_kg_m3` | from `element_mass_g`, which is then needed |
 //! | `bearing.element_mass_g`, `hertz_inner_n_m1_5`, `hertz_outer_n_m1_5` | computed |
 //! | `contact.law` | `"map"` with a defect, else `"hertz"` |
+//! | `contact.largest_force_n` | four times the static force on the most loaded element, at least 1000 N |
 //! | `contact.damping` | `"hunt-crossley"`; its `damping_chi_s_m` 0.5 |
 //! | `cage.slip`, `cage.initial_angle_deg` | 0, −90 |
 //! | `defect` | none; its `edge_slope_deg` 90 |
@@ -119,6 +121,8 @@ struct BearingTable {
     element_mass_g: Option<f64>,
     hertz_inner_n_m1_5: Option<f64>,
     hertz_outer_n_m1_5: Option<f64>,
+    #[serde(default)]
+    outer_compliance_m_n: f64,
 }
 
 fn default_clearance() -> f64 {
@@ -142,6 +146,7 @@ impl BearingTable {
             element_mass: self.element_mass_g.map(|mass| mass / 1e3),
             hertz_inner: self.hertz_inner_n_m1_5,
             hertz_outer: self.hertz_outer_n_m1_5,
+            outer_compliance: self.outer_compliance_m_n,
         })
     }
 
@@ -188,6 +193,7 @@ struct ContactTable {
     #[serde(default)]
     damping: DampingModel,
     damping_chi_s_m: Option<f64>,
+    largest_force_n: Option<f64>,
     damping_tau_s: Option<f64>,
 }
 
@@ -218,7 +224,7 @@ impl ContactTable {
             }
         };
         let default = if defect { ContactLaw::Map } else { ContactLaw::Hertz };
-        Ok(Contact { law: self.law.unwrap_or(default), damping })
+        Ok(Contact { law: self.law.unwrap_or(default), damping, largest_force: self.largest_force_n })
     }
 }
 

@@ -80,6 +80,9 @@ pub struct Bearing {
     pub hertz_inner: Option<f64>,
     /// Hertz constant of the outer contact [N/m^1.5], when it overrides the computed one.
     pub hertz_outer: Option<f64>,
+    /// Compliance in series with each outer contact [m/N]: how far the outer raceway yields under an element, by the
+    /// ring's and its seat's own deformation, for each newton that this element carries. 0 for a rigid assembly.
+    pub outer_compliance: f64,
 }
 
 impl Bearing {
@@ -107,6 +110,9 @@ pub struct Contact {
     pub law: ContactLaw,
     /// Contact damping.
     pub damping: Damping,
+    /// Largest force on an element near the defect that laws `map` and `love` are prepared for [N]; `None` to take it
+    /// from the loads.
+    pub largest_force: Option<f64>,
 }
 
 /// Law of the outer contact near the defect. On the smooth raceway all three are Hertz's.

@@ -87,10 +87,15 @@ pub(super) const HERTZ_INNER: Quantity =
     quantity("Hertz constant of the inner contact", "bearing.hertz_inner_n_m1_5", 1.0, Inclusive(1.0), Inclusive(1e15));
 pub(super) const HERTZ_OUTER: Quantity =
     quantity("Hertz constant of the outer contact", "bearing.hertz_outer_n_m1_5", 1.0, Inclusive(1.0), Inclusive(1e15));
+/// 1e-3 m/N are softer than a rubber mount: no ring seat is.
+pub(super) const OUTER_COMPLIANCE: Quantity =
+    quantity("outer compliance", "bearing.outer_compliance_m_n", 1.0, Inclusive(0.0), Inclusive(1e-3));
 pub(super) const DAMPING_CHI: Quantity =
     quantity("contact damping", "contact.damping_chi_s_m", 1.0, Inclusive(0.0), Inclusive(1e3));
 pub(super) const DAMPING_TAU: Quantity =
     quantity("contact damping", "contact.damping_tau_s", 1.0, Inclusive(0.0), Inclusive(1.0));
+pub(super) const LARGEST_FORCE: Quantity =
+    quantity("largest contact force", "contact.largest_force_n", 1.0, Inclusive(1e-3), Inclusive(1e9));
 pub(super) const CAGE_SLIP: Quantity = quantity("cage slip", "cage.slip", 1.0, Inclusive(0.0), Inclusive(1.0));
 pub(super) const INITIAL_ANGLE: Quantity =
     quantity("initial cage angle", "cage.initial_angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3));

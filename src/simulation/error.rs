@@ -1,6 +1,7 @@
 //! What goes wrong in setting up or stepping a bearing.
 
 use super::step_error::StepError;
+use crate::contact::error::ContactError;
 use crate::dynamics::equilibrium::EquilibriumError;
 use crate::scene::{ContactLaw, SceneError};
 use crate::surface::SurfaceError;
@@ -20,8 +21,11 @@ pub enum SimulationError {
     /// No load distribution to start from.
     #[error(transparent)]
     Equilibrium(#[from] EquilibriumError),
+    /// A contact near the defect cannot be computed, or the stored map not be used.
+    #[error("{0}; contact.largest_force_n says how large forces near the defect may be")]
+    Contact(#[from] ContactError),
     /// The contact law cannot be used with this surface.
-    #[error("contact.law = {law:?} is not available for this defect")]
+    #[error("contact.law = {law:?} takes a profile along the raceway only: use map or love for a topography")]
     LawNotAvailable {
         /// The law.
         law: ContactLaw,

@@ -2,6 +2,7 @@
 //!
 //! This is the whole of what `fmi2` and `fmu-build` see of the model.
 
+mod access;
 pub mod arrow;
 pub mod derivatives;
 pub mod dormand_prince;
@@ -23,13 +24,16 @@ pub mod variables;
 pub use error::{SimulationError, VariableError};
 pub use switching::Method;
 
+use crate::contact::map::ContactMap;
 use crate::dynamics::drive::{CageAngle, Drive, Quadratic};
 use crate::dynamics::forces::Forces;
 use crate::dynamics::model::Model;
-use crate::scene::Scene;
+use crate::scene::{ContactLaw, Scene};
 use crate::surface::Surface;
+use access::Access;
 use progress::Progress;
 use setup::Inputs;
+use std::sync::Arc;
 use stepper::{Control, Stepper};
 use table::Quantity;
 use variables::{Causality, Kind, Variable};
@@ -42,8 +46,11 @@ use variables::{Causality, Kind, Variable};
 pub struct Simulation {
     scene: Scene,
     surface: Option<Surface>,
+    /// The contact map stored with the scene.
+    map: Option<Arc<ContactMap>>,
     table: Vec<Variable>,
     quantities: Vec<Quantity>,
+    access: Vec<Access>,
     inputs: Inputs,
     /// Values of the table, by index; integers live in `integers`.
     values: Vec<f64>,
@@ -55,7 +62,6 @@ pub struct Simulation {
     method: Method,
     forces: Forces,
     derivative: Vec<f64>,
-    stiffness: [[f64; 2]; 2],
     state: State,
     /// Parameters have been set since the model was built.
     model_is_stale: bool,
@@ -88,13 +94,36 @@ impl State {
 
 impl Simulation {
     /// Sets up the scene. `profile` is the text of the defect's profile file, when the scene names one.
+    ///
+    /// # Errors
+    /// An impossible scene or profile.
     pub fn new(scene: Scene, profile: Option<&str>) -> Result<Self, SimulationError> {
+        Self::with_map(scene, profile, None)
+    }
+
+    /// As [`new`](Self::new), with the bytes of the contact map that was stored for the scene. Without it, law `map`
+    /// computes the map on initialization, which takes seconds.
+    ///
+    /// # Errors
+    /// An impossible scene or profile; a map that is damaged or belongs to something else.
+    pub fn with_map(scene: Scene, profile: Option<&str>, map: Option<&[u8]>) -> Result<Self, SimulationError> {
         scene.check()?;
         let surface =
             scene.defect.as_ref().map(|defect| Surface::load(&defect.shape, profile, &scene.bearing)).transpose()?;
         let (table, quantities): (Vec<_>, Vec<_>) = table::rows(&scene).into_iter().unzip();
+        let access = table.iter().zip(&quantities).map(|(row, &quantity)| Access::new(row, quantity)).collect();
         let (values, integers) = setup::start_values(&table);
-        let model = setup::build_model(&scene, surface.as_ref())?;
+        let map = match (&surface, map) {
+            (Some(surface), Some(bytes)) => Some(Arc::new(setup::stored_map(&scene, surface, bytes)?)),
+            _ => None,
+        };
+        // What takes long is left to the initialization: the host may change parameters before it.
+        let model_is_stale = match scene.contact.law {
+            ContactLaw::Hertz => false,
+            ContactLaw::Map => map.is_none(),
+            ContactLaw::Love => true,
+        } && surface.is_some();
+        let model = setup::build_model(&scene, surface.as_ref().filter(|_| !model_is_stale), map.as_ref())?;
         let progress = Progress::new(model.layout.len, model.element_count);
         let input_rates = vec![[0.0; 2]; table.len()];
         Ok(Self {
@@ -103,7 +132,6 @@ impl Simulation {
             method: Method::Automatic,
             forces: Forces::new(model.element_count),
             derivative: vec![0.0; model.layout.len],
-            stiffness: [[0.0; 2]; 2],
             state: State {
                 time: 0.0,
                 started: false,
@@ -115,13 +143,15 @@ impl Simulation {
             },
             scene,
             surface,
+            map,
             table,
+            access,
             quantities,
             values,
             integers,
             input_rates,
             model,
-            model_is_stale: false,
+            model_is_stale,
             equilibrium_is_stale: true,
             outputs_are_stale: true,
             stiffness_is_stale: true,
@@ -160,39 +190,34 @@ impl Simulation {
 
     /// Sets reals; all or none. Inputs at any time, parameters before `initialize`.
     pub fn set_reals(&mut self, references: &[u32], values: &[f64]) -> Result<(), VariableError> {
+        let writable = if self.state.started { access::INPUT } else { access::INPUT | access::PARAMETER };
+        let Some(classes) = access::can_set(&self.access, writable, references, values) else {
+            return references
+                .iter()
+                .zip(values)
+                .try_for_each(|(&reference, &value)| self.check_real(reference, value));
+        };
         for (&reference, &value) in references.iter().zip(values) {
-            self.check_real(reference, value)?;
+            self.values[reference as usize] = value;
         }
-        for (&reference, &value) in references.iter().zip(values) {
-            let index = reference as usize;
-            self.values[index] = value;
-            if self.table[index].causality == Causality::Parameter {
-                self.model_is_stale = true;
-            }
-        }
+        self.model_is_stale |= classes & access::PARAMETER != 0;
         self.mark_set();
         Ok(())
     }
 
     /// Reads reals. Outputs are computed if something has changed since they were last.
     pub fn reals(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), SimulationError> {
-        let mut outputs = false;
-        for &reference in references {
-            let variable = self.variable(reference)?;
-            if !matches!(variable.kind, Kind::Real { .. }) {
-                return Err(wrong_type(variable, "Real").into());
-            }
-            outputs |= variable.causality == Causality::Output;
-        }
-        if outputs && self.outputs_are_stale {
+        let Some(classes) = access::classes(&self.access, references) else {
+            return Err(self.not_real(references).into());
+        };
+        if classes & access::OUTPUT != 0 && self.outputs_are_stale {
             self.refresh()?;
         }
+        if classes & access::STIFFNESS != 0 {
+            self.refresh_stiffness();
+        }
         for (value, &reference) in values.iter_mut().zip(references) {
-            let index = reference as usize;
-            *value = match self.quantities[index] {
-                Quantity::Stiffness(row, column) => self.stiffness(row, column),
-                _ => self.values[index],
-            };
+            *value = self.values[reference as usize];
         }
         Ok(())
     }
@@ -297,9 +322,13 @@ impl Simulation {
         };
         self.outputs_are_stale = true;
         self.stiffness_is_stale = true;
-        self.stepper
-            .advance(&self.model, &drive, control, step, &mut self.state.progress)
-            .map_err(|cause| SimulationError::Step { time: self.state.time, cause })?;
+        self.model.forget_contacts();
+        self.stepper.advance(&self.model, &drive, control, step, &mut self.state.progress).map_err(
+            |cause| match self.stepper.unsolved_contact() {
+                Some(error) => SimulationError::Contact(error),
+                None => SimulationError::Step { time: self.state.time, cause },
+            },
+        )?;
         self.state.cage = self.state.cage.advanced(drive.cage.at(step));
         self.state.time += step;
         self.follow_prescribed_motion(&drive, step);
@@ -428,9 +457,20 @@ impl Simulation {
             return Ok(());
         }
         let scene = setup::with_parameters(&self.scene, &self.quantities, &self.values, &self.integers)?;
-        self.model = setup::build_model(&scene, self.surface.as_ref())?;
+        self.model = setup::build_model(&scene, self.surface.as_ref(), self.map.as_ref())?;
         self.model_is_stale = false;
         Ok(())
+    }
+
+    /// The error for the first reference that is unknown or not real.
+    fn not_real(&self, references: &[u32]) -> VariableError {
+        let error = |&reference: &u32| match self.variable(reference) {
+            Ok(variable) if matches!(variable.kind, Kind::Real { .. }) => None,
+            Ok(variable) => Some(wrong_type(variable, "Real")),
+            Err(error) => Some(error),
+        };
+        let last = self.table.len() as u32 - 1;
+        references.iter().find_map(error).unwrap_or(VariableError::UnknownReference(u32::MAX, last))
     }
 
     fn check_real(&self, reference: u32, value: f64) -> Result<(), VariableError> {

@@ -29,6 +29,7 @@ impl Simulation {
                 RingName::Housing => (&housing, 1),
             }
         };
+        let solves_grids = self.model.defect.as_ref().is_some_and(|(near, _)| near.solves_grids());
         let ring_force = [forces.shaft, forces.housing];
         let first = self.inputs.count;
         for (i, quantity) in self.quantities.iter().enumerate().skip(first) {
@@ -53,8 +54,9 @@ impl Simulation {
             let count = match *quantity {
                 Quantity::Steps => progress.steps,
                 Quantity::RejectedSteps => progress.rejected_steps,
-                Quantity::MapLookups => progress.defect_lookups,
-                Quantity::ContactSolves => 0,
+                Quantity::MapLookups if !solves_grids => progress.defect_lookups,
+                Quantity::ContactSolves if solves_grids => progress.defect_lookups,
+                Quantity::MapLookups | Quantity::ContactSolves => 0,
                 _ => continue,
             };
             self.integers[i] = i32::try_from(count).unwrap_or(i32::MAX);
@@ -67,8 +69,8 @@ impl Simulation {
         place.map_or(prescribed, |i| [self.derivative[i + 2], self.derivative[i + 3]])
     }
 
-    /// An entry of the tangent stiffness of the inner ring, −∂F/∂x with the elements in static balance [N/m].
-    pub(super) fn stiffness(&mut self, row: usize, column: usize) -> f64 {
+    /// Computes the tangent stiffness of the inner ring, −∂F/∂x with the elements in static balance [N/m].
+    pub(super) fn refresh_stiffness(&mut self) {
         if self.stiffness_is_stale {
             let drive = self.drive(false);
             let progress = &self.state.progress;
@@ -76,9 +78,12 @@ impl Simulation {
             let housing = self.model.housing_state(&drive, 0.0, &progress.state);
             let offset = [0, 1].map(|a| housing.position[a] - shaft.position[a]);
             let jacobian = self.model.ring_jacobian(&progress.state, &progress.cells, offset, drive.cage_angle(0.0));
-            self.stiffness = [0, 1].map(|a| [0, 1].map(|b| -jacobian[a][b]));
+            for (value, quantity) in self.values.iter_mut().zip(&self.quantities) {
+                if let Quantity::Stiffness(row, column) = *quantity {
+                    *value = -jacobian[row][column];
+                }
+            }
             self.stiffness_is_stale = false;
         }
-        self.stiffness[row][column]
     }
 }

@@ -1,11 +1,17 @@
 //! From a scene and the parameters that a host has set to the model that is stepped.
 
+use std::sync::Arc;
+
 use super::SimulationError;
 use super::table::{Quantity, RingName};
 use super::variables::{Kind, Variable};
-use crate::contact::near_defect::NearDefect;
+use crate::contact::map::ContactMap;
+use crate::contact::map_build::{MapPlan, MapSpecification, Runner, Sequential};
+use crate::contact::near_defect::{NearDefect, NearLove, NearMap};
+use crate::contact::raceway_grid::ElementOnRaceway;
 use crate::contact::rigid_path::RigidPath;
 use crate::dynamics::model::Model;
+use crate::geometry::hertz_constant::HertzConstants;
 use crate::scene::{ContactLaw, Damping, Ring, Scene};
 use crate::surface::Surface;
 
@@ -125,8 +131,72 @@ fn ring_of(scene: &mut Scene, ring: RingName) -> &mut Ring {
     }
 }
 
+/// Element and outer raceway of a bearing.
+fn element_on_raceway(scene: &Scene) -> ElementOnRaceway {
+    let bearing = &scene.bearing;
+    ElementOnRaceway {
+        element_radius: 0.5 * bearing.element_diameter,
+        raceway_radius: bearing.outer_raceway_radius(),
+        groove_radius: bearing.conformity_outer * bearing.element_diameter,
+    }
+}
+
+/// What the contact map of a scene covers: forces up to `contact.largest_force_n`, or else four times the static force on
+/// the most loaded element, 5 F/Z (Stribeck), and at least 1000 N.
+pub fn map_specification(scene: &Scene) -> MapSpecification {
+    let load = [scene.shaft.load, scene.housing.load].iter().map(|f| f[0].hypot(f[1])).fold(0.0, f64::max);
+    let assumed = (4.0 * 5.0 * load / scene.bearing.element_count as f64).max(1000.0);
+    let force = scene.contact.largest_force.unwrap_or(assumed);
+    MapSpecification::new(libm::pow(force / HertzConstants::of(&scene.bearing).outer, 2.0 / 3.0))
+}
+
+/// Computes the contact map of a scene, `None` where its law needs none. `runner` says on how many cores.
+///
+/// # Errors
+/// Where a contact cannot be solved or the accuracy is not reached.
+pub fn build_map(
+    scene: &Scene,
+    surface: &Surface,
+    runner: &mut impl Runner,
+) -> Result<Option<ContactMap>, SimulationError> {
+    if scene.contact.law != ContactLaw::Map {
+        return Ok(None);
+    }
+    Ok(Some(ContactMap::build(surface, element_on_raceway(scene), map_specification(scene), runner)?))
+}
+
+/// Fingerprint of all that the contact map of a scene depends on.
+pub fn map_fingerprint(scene: &Scene, surface: &Surface) -> u64 {
+    ContactMap::fingerprint_of(surface, element_on_raceway(scene), map_specification(scene))
+}
+
+/// A map that was stored with the scene; refused when it is damaged or belongs to something else.
+pub(super) fn stored_map(scene: &Scene, surface: &Surface, bytes: &[u8]) -> Result<ContactMap, SimulationError> {
+    Ok(ContactMap::from_bytes(bytes, map_fingerprint(scene, surface))?)
+}
+
+/// The raceway near the defect under law `map`: the stored map if it is that of this scene, or else one made now.
+fn near_map(scene: &Scene, surface: &Surface, stored: Option<&Arc<ContactMap>>) -> Result<NearDefect, SimulationError> {
+    let (element, specification) = (element_on_raceway(scene), map_specification(scene));
+    let map = match stored {
+        Some(map) if map.fingerprint() == map_fingerprint(scene, surface) => Arc::clone(map),
+        _ => Arc::new(ContactMap::build(surface, element, specification, &mut Sequential(|_, _| {}))?),
+    };
+    Ok(NearDefect::Map(NearMap::new(map, element.raceway_radius)))
+}
+
+fn near_love(scene: &Scene, surface: &Surface) -> Result<NearDefect, SimulationError> {
+    let element = element_on_raceway(scene);
+    let (contact, knots, flats) = MapPlan::new(surface, element, map_specification(scene))?.into_love();
+    Ok(NearDefect::Love(Box::new(NearLove::new(contact, &knots, flats, element.raceway_radius))))
+}
+
 /// The equations' parameters, with what the contact law needs near the defect.
-pub(super) fn build_model(scene: &Scene, surface: Option<&Surface>) -> Result<Model, SimulationError> {
+pub(crate) fn build_model(
+    scene: &Scene,
+    surface: Option<&Surface>,
+    map: Option<&Arc<ContactMap>>,
+) -> Result<Model, SimulationError> {
     let near = surface
         .map(|surface| match (scene.contact.law, surface) {
             (ContactLaw::Hertz, Surface::Profile(profile)) => Ok(NearDefect::Hertz(RigidPath::new(
@@ -134,7 +204,11 @@ pub(super) fn build_model(scene: &Scene, surface: Option<&Surface>) -> Result<Mo
                 0.5 * scene.bearing.element_diameter,
                 scene.bearing.outer_raceway_radius(),
             ))),
-            (law, _) => Err(SimulationError::LawNotAvailable { law }),
+            (ContactLaw::Hertz, Surface::Topography(_)) => {
+                Err(SimulationError::LawNotAvailable { law: scene.contact.law })
+            }
+            (ContactLaw::Map, _) => near_map(scene, surface, map),
+            (ContactLaw::Love, _) => near_love(scene, surface),
         })
         .transpose()?;
     Ok(Model::new(scene, near))

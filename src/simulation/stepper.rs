@@ -19,6 +19,7 @@ use super::progress::Progress;
 use super::rodas::{self, Rodas};
 use super::step_error::StepError;
 use super::switching::Method;
+use crate::contact::error::ContactError;
 use crate::dynamics::drive::Drive;
 use crate::dynamics::forces::Forces;
 use crate::dynamics::jacobian::Jacobian;
@@ -152,6 +153,11 @@ impl Stepper {
         Ok(())
     }
 
+    /// Why a contact near the defect could not be computed, if that is what made a step fail.
+    pub fn unsolved_contact(&mut self) -> Option<ContactError> {
+        self.forces.unsolved.take()
+    }
+
     /// Derivative at the start of the next step.
     fn first_stage(&mut self, model: &Model, drive: &Drive, tau: f64, progress: &Progress) {
         model.derivative(drive, tau, &progress.cells, &progress.state, &mut self.explicit.stages[0], &mut self.forces);
@@ -249,6 +255,8 @@ impl Stepper {
             progress.state.copy_from_slice(&self.explicit.end);
         }
         progress.steps += 1;
+        // Contacts that failed in trials which error control took back are of no account.
+        self.forces.unsolved = None;
         self.explicit.carry_over();
         self.first_force = self.last_force;
         self.linearized = false;

@@ -77,6 +77,14 @@ struct Builder<'a> {
 const RINGS: [RingName; 2] = [RingName::Shaft, RingName::Housing];
 const AXES: [&str; 2] = ["x", "y"];
 
+/// Inputs of a prescribed ring: prefix of the name, noun, quantity, unit, largest value and nominal.
+type Prescribed = (&'static str, &'static str, fn(RingName, usize) -> Quantity, Unit, (f64, f64));
+const PRESCRIBED: [Prescribed; 3] = [
+    ("", "Position", Q::Position, Unit::Metre, (0.01, 1e-5)),
+    ("v", "Velocity", Q::Velocity, Unit::MetrePerSecond, (1e3, 1e-2)),
+    ("a", "Acceleration", Q::Acceleration, Unit::MetrePerSecondSquared, (1e9, 10.0)),
+];
+
 impl Builder<'_> {
     fn motion(&self, ring: RingName) -> Motion {
         match ring {
@@ -114,12 +122,7 @@ impl Builder<'_> {
                     }
                 }
                 Motion::Host => {
-                    let rows: [(&str, &str, fn(RingName, usize) -> Q, Unit, (f64, f64)); 3] = [
-                        ("", "Position", Q::Position, Unit::Metre, (0.01, 1e-5)),
-                        ("v", "Velocity", Q::Velocity, Unit::MetrePerSecond, (1e3, 1e-2)),
-                        ("a", "Acceleration", Q::Acceleration, Unit::MetrePerSecondSquared, (1e9, 10.0)),
-                    ];
-                    for (prefix, noun, quantity, unit, range) in rows {
+                    for (prefix, noun, quantity, unit, range) in PRESCRIBED {
                         for (axis, letter) in AXES.iter().enumerate() {
                             let optional = if prefix == "a" { " (optional, extrapolates within the step)" } else { "" };
                             self.input(

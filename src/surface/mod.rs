@@ -50,6 +50,19 @@ impl Surface {
         Ok(surface)
     }
 
+    /// The same surface with every depth multiplied by `factor`.
+    ///
+    /// # Errors
+    /// A surface that becomes deeper than an element's radius.
+    pub fn scaled(&self, factor: f64, bearing: &Bearing) -> Result<Self, SurfaceError> {
+        let scaled = match self {
+            Self::Profile(profile) => Self::Profile(profile.scaled(factor)),
+            Self::Topography(topography) => Self::Topography(topography.scaled(factor)),
+        };
+        scaled.check_fits(TAU * bearing.outer_raceway_radius(), bearing.element_diameter / 2.0)?;
+        Ok(scaled)
+    }
+
     /// First and last arc [m] of the defect.
     pub fn extent(&self) -> (f64, f64) {
         match self {

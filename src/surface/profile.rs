@@ -60,6 +60,11 @@ impl Profile {
         Self { points }
     }
 
+    /// With every depth multiplied by `factor`.
+    pub(super) fn scaled(&self, factor: f64) -> Self {
+        Self { points: self.points.iter().map(|&(arc, depth)| (arc, factor * depth)).collect() }
+    }
+
     /// Arcs and depths [m]. Arcs do not descend; the first and last depth are 0; two equal arcs are a vertical edge.
     pub fn points(&self) -> &[(f64, f64)] {
         &self.points

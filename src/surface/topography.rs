@@ -74,6 +74,16 @@ impl Topography {
         })
     }
 
+    /// With every depth multiplied by `factor`.
+    pub(super) fn scaled(&self, factor: f64) -> Self {
+        Self { depths: self.depths.iter().map(|depth| factor * depth).collect(), ..self.clone() }
+    }
+
+    /// Arcs, axial coordinates, and depths with those of one arc side by side [m].
+    pub fn grid(&self) -> (&[f64], &[f64], &[f64]) {
+        (&self.arcs, &self.axials, &self.depths)
+    }
+
     /// First and last arc [m].
     pub fn extent(&self) -> (f64, f64) {
         (self.arcs[0], self.arcs[self.arcs.len() - 1])

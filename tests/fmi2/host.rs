@@ -65,6 +65,22 @@ pub(crate) fn logger() -> LoggerCallback {
     unsafe { std::mem::transmute::<FixedLogger, LoggerCallback>(remember) }
 }
 
+/// How often a callback was called that must not be.
+pub(crate) static FORBIDDEN_CALLS: AtomicU32 = AtomicU32::new(0);
+
+unsafe extern "C" fn allocate(_: usize, _: usize) -> *mut c_void {
+    FORBIDDEN_CALLS.fetch_add(1, Ordering::Relaxed);
+    ptr::null_mut()
+}
+
+unsafe extern "C" fn release(_: *mut c_void) {
+    FORBIDDEN_CALLS.fetch_add(1, Ordering::Relaxed);
+}
+
+unsafe extern "C" fn finished(_: ComponentEnvironment, _: Status) {
+    FORBIDDEN_CALLS.fetch_add(1, Ordering::Relaxed);
+}
+
 /// An unpacked `resources/` directory, deleted when dropped.
 pub(crate) struct Resources {
     pub(crate) directory: PathBuf,
@@ -133,9 +149,9 @@ impl Call<'_> {
         let log = Box::<Log>::default();
         let callbacks = CallbackFunctions {
             logger: self.logger,
-            allocate_memory: None,
-            free_memory: None,
-            step_finished: None,
+            allocate_memory: Some(allocate),
+            free_memory: Some(release),
+            step_finished: Some(finished),
             component_environment: ptr::from_ref(&*log).cast_mut().cast::<c_void>(),
         };
         let texts = [self.name, self.guid, self.location].map(|text| text.map(|text| CString::new(text).unwrap()));

@@ -183,7 +183,7 @@ fn indulge(host: &Host, whims: &[Whim]) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn any_sequence_of_calls_leaves_an_instance_that_can_be_reset(

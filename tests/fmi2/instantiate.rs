@@ -1,6 +1,6 @@
 //! Instances: what makes one, what is refused, and handles.
 
-use crate::host::{Call, Host, Line, Resources, logger};
+use crate::host::{Call, FORBIDDEN_CALLS, Host, Line, Resources, logger};
 use brinell::fmi2::*;
 use std::ffi::{CStr, c_void};
 use std::{fs, ptr};
@@ -194,6 +194,47 @@ fn instances_in_eight_threads_give_the_bits_of_one_alone() {
         threads.into_iter().map(|thread| thread.join().unwrap()).collect()
     });
     assert!(together.iter().all(|values| *values == alone));
+}
+
+#[test]
+fn memory_and_step_callbacks_are_never_called() {
+    let host = Host::started("6205-epps");
+    assert_eq!(host.step(0.0, 1e-4), Status::Ok);
+    let bytes = host.serialize(host.save());
+    let state = host.deserialize(&bytes).unwrap();
+    assert_eq!((host.restore(state), host.free(state)), (Status::Ok, Status::Ok));
+    assert_eq!((host.terminate(), host.reset()), (Status::Ok, Status::Ok));
+    drop(host);
+    // The other tests of this program pass the same callbacks.
+    assert_eq!(FORBIDDEN_CALLS.load(std::sync::atomic::Ordering::Relaxed), 0);
+}
+
+#[test]
+#[cfg(target_arch = "x86_64")]
+fn floating_point_control_state_is_left_alone_and_may_be_odd() {
+    use std::arch::asm;
+    let control = || {
+        let mut word = 0u32;
+        // SAFETY: stores the control word in `word`.
+        unsafe { asm!("stmxcsr [{}]", in(reg) &raw mut word) };
+        // The six lowest bits are flags that arithmetic leaves.
+        word & !0x3f
+    };
+    let set = |word: u32| {
+        // SAFETY: loads a valid control word; all exceptions stay masked.
+        unsafe { asm!("ldmxcsr [{}]", in(reg) &raw const word) };
+    };
+    let usual = control();
+    // Denormals to zero, rounding upwards: what some hosts run with.
+    let odd = usual | 0x8040 | 0x4000;
+    set(odd);
+    let host = Host::started("er16k-tb1");
+    let status = host.step(0.0, 1e-4);
+    let values = host.get(&host.reals());
+    let after = control();
+    set(usual);
+    assert_eq!((status, after), (Status::Ok, odd));
+    assert!(values.is_ok());
 }
 
 #[test]

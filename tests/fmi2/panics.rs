@@ -1,6 +1,4 @@
-//! A bug inside Brinell must not take the host down. Needs the feature `panic-on-demand`.
-
-#![cfg(feature = "panic-on-demand")]
+//! A bug inside Brinell must not take the host down. Tests are built with the feature `panic-on-demand`.
 
 use crate::host::Host;
 use brinell::fmi2::*;

@@ -12,12 +12,12 @@ use fmu_build::project::Project;
 use fmu_build::python::Python;
 
 /// Root of the workspace.
-pub fn root() -> &'static Path {
+pub(crate) fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()
 }
 
 /// All shipped scene files, sorted.
-pub fn scenes() -> Vec<PathBuf> {
+pub(crate) fn scenes() -> Vec<PathBuf> {
     let entries = fs::read_dir(root().join("scenes")).unwrap();
     let mut scenes: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
     scenes.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
@@ -27,24 +27,24 @@ pub fn scenes() -> Vec<PathBuf> {
 }
 
 /// A shipped scene by name.
-pub fn model(name: &str) -> Model {
+pub(crate) fn model(name: &str) -> Model {
     Model::read(&root().join("scenes").join(name).with_extension("toml")).unwrap()
 }
 
 /// The compiled library, built once for this test binary.
-pub fn library() -> &'static Library {
+pub(crate) fn library() -> &'static Library {
     static LIBRARY: OnceLock<Library> = OnceLock::new();
     LIBRARY.get_or_init(|| Library::obtain(&Project::find(), None).unwrap())
 }
 
 /// The Python environment.
-pub fn python() -> &'static Python {
+pub(crate) fn python() -> &'static Python {
     static PYTHON: OnceLock<Python> = OnceLock::new();
     PYTHON.get_or_init(|| Python::prepare(&Project::find()).unwrap())
 }
 
 /// A fresh folder of this name for what a test makes.
-pub fn folder(name: &str) -> PathBuf {
+pub(crate) fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).unwrap();
@@ -52,12 +52,12 @@ pub fn folder(name: &str) -> PathBuf {
 }
 
 /// The FMU of a shipped scene in a folder.
-pub fn fmu_of(name: &str, folder: &Path) -> PathBuf {
+pub(crate) fn fmu_of(name: &str, folder: &Path) -> PathBuf {
     fmu::write(&model(name), library(), folder).unwrap()
 }
 
 /// Runs a script of `tests/python`; what it says on failure becomes the test's message.
-pub fn run_script<A: AsRef<std::ffi::OsStr>>(script: &str, arguments: impl IntoIterator<Item = A>) -> String {
+pub(crate) fn run_script<A: AsRef<std::ffi::OsStr>>(script: &str, arguments: impl IntoIterator<Item = A>) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python").join(script);
     python().run_file(&path, arguments).unwrap_or_else(|error| panic!("{error:#}"))
 }

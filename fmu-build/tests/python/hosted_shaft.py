@@ -2,8 +2,9 @@
 
 The first FMU has both rings internal. The second is the same bearing with the shaft moved by the host, who sets
 position, velocity and acceleration before each step; inside the step the FMU goes on with them. What it goes on with
-is wrong by a'·h³/6 in position at most; with a' from the recorded acceleration's differences and the stiffness of the
-bearing that bounds the error of the force. A solver tolerance of 1e-9 keeps the solver out of the comparison.
+is wrong by a'·h³/6 at most, here some 7e-15 m, and the solver at tolerance 1e-9 is wrong by 1e-14 m of a path of 10 µm.
+At the bearing's 1e8 N/m either is about 1e-6 N; a hundred times that is left for what builds up in 24000 steps.
+Element 1 enters the defect at 5 ms and flies freely from 5.6 ms on; the run ends before it strikes the trailing edge.
 """
 
 import sys
@@ -36,8 +37,9 @@ for count in range(COUNT):
     seen.append(hosted.read(SEEN))
 hosted.close()
 
-difference = np.abs(np.array(seen) - np.array(expected))
-acceleration = np.array(motion)[:, 4:]
-jerk = np.abs(np.diff(acceleration, axis=0)).max() / STEP
-position = jerk * STEP**3 / 6
-print("largest differences", dict(zip(SEEN, difference.max(axis=0))), "position within a step", position)
+passed = abs(np.array(expected)[:, SEEN.index("element[1].force.outer")]).min()
+assert passed == 0.0, f"element 1 was never unloaded: least outer force {passed} N"
+difference = np.abs(np.array(seen) - np.array(expected)).max(axis=0)
+for name, found in zip(SEEN, difference):
+    limit = 1e-4 if "force" in name else 1e-12  # N; m, the force's limit over 1e8 N/m
+    assert found <= limit, f"{name}: {found} off, more than {limit}"

@@ -1,0 +1,126 @@
+"""Static stiffness over the cage angle, load distribution, and what the critical load depends on."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import plotting
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from plotting import BLUE, GREEN, ORANGE, VERMILION, plt
+
+GREY = "#777777"
+stem = Path(sys.argv[1])
+data = plotting.read_csv(stem.with_name(stem.name + "-stiffness.csv"))
+critical_file = stem.with_name(stem.name + "-critical-load.csv")
+variations = plotting.read_csv(critical_file) if critical_file.exists() and np.isfinite(data["critical_load"]).any() else None
+
+middle = 0.5 * (data["cage.angle"][0] + data["cage.angle"][-1])
+cage = np.degrees(data["cage.angle"] - middle)
+load = np.hypot(data["load.x"][0], data["load.y"][0])
+direction = np.arctan2(data["load.y"][0], data["load.x"][0])
+count = sum(name.endswith("].angle") for name in data)
+
+
+def unturned(angle):
+    return np.remainder(angle + 180.0, 360.0) - 180.0
+
+
+def logarithmic(axis, values, headroom=1.4):
+    """Newtons on a logarithmic axis, from a little below the least to a little above the greatest, marked 1 2 5."""
+    values = values[np.isfinite(values) & (values > 0)]
+    axis.set_yscale("log")
+    axis.set_ylim(0.7 * min(values.min(), load), headroom * max(values.max(), load))
+    axis.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}" if value >= 1 else f"{value:g}"))
+    axis.yaxis.set_minor_formatter(NullFormatter())
+
+
+def stiffness(axis):
+    axis.plot(cage, data["stiffness.healthy"] * 1e-6, color=GREY, label="without defect", linewidth=0.9)
+    if np.abs(data["stiffness.held"] / data["stiffness.free"] - 1).max() > 1e-3:
+        axis.plot(cage, data["stiffness.held"] * 1e-6, color=ORANGE, label="transverse position held", linestyle="--")
+    axis.plot(cage, data["stiffness.free"] * 1e-6, color=BLUE, label="no transverse force")
+    axis.set_ylim(0, 1.1e-6 * max(data[f"stiffness.{name}"].max() for name in ("healthy", "held")))
+    axis.set_xlim(cage[0], cage[-1])
+    axis.set_title(f"stiffness along the load, {load:g} N")
+    axis.set_ylabel("stiffness (N/µm)")
+    axis.set_xlabel(f"cage angle from the {'defect' if variations else 'load'} (degrees)")
+    axis.legend(loc="lower left" if data["stiffness.free"][0] > 0.5 * data["stiffness.healthy"][0] else "lower center")
+
+
+def critical_over_angle(axis):
+    axis.plot(cage, data["critical_load"], color=VERMILION, label="the deepest element carries")
+    axis.axhline(load, color="black", linewidth=0.9, linestyle=":", label="the load")
+    # On its way in and out an element carries at once: only the upper two decades tell anything.
+    values = data["critical_load"]
+    logarithmic(axis, values[values > 0.01 * np.nanmax(values)], headroom=3)
+    axis.set_xlim(cage[0], cage[-1])
+    axis.set_title("critical load")
+    axis.set_ylabel("load (N)")
+    axis.set_xlabel("cage angle from the defect (degrees)")
+    axis.legend(loc="upper center", ncols=2)
+
+
+def distribution(axis):
+    """Every element's force on its way, and all elements at three cage angles."""
+    angles = np.array([unturned(np.degrees(data[f"element[{j}].angle"] - direction)) for j in range(1, count + 1)])
+    forces = np.array([data[f"element[{j}].force.inner"] for j in range(1, count + 1)])
+    inside = np.array([data[f"element[{j}].in_defect"] for j in range(1, count + 1)]) > 0
+    order = np.argsort(angles, axis=None)
+    if inside.any():
+        # Around the turn the defect may reach over ±180 degrees: shade what is inside, piece by piece.
+        lower, upper = angles.ravel()[order], inside.ravel()[order]
+        axis.fill_between(
+            lower, 0, 1, where=upper, transform=axis.get_xaxis_transform(), color="#eeeeee", zorder=0, label="defect"
+        )
+    axis.plot(angles.ravel()[order], forces.ravel()[order], color=GREY, linewidth=0.9, label="one element on its way")
+    for place, colour, marker in ((0.5, BLUE, "o"), (0.75, GREEN, "s"), (1.0, VERMILION, "^")):
+        k = int(np.argmin(np.abs(cage - (cage[0] + place * (cage[-1] - cage[0])))))
+        axis.plot(angles[:, k], forces[:, k], marker, color=colour, markersize=6, clip_on=False, zorder=3, label=f"cage angle {cage[k]:.0f}°")
+    axis.set_xlim(-180, 180)
+    axis.set_xticks(range(-180, 181, 45))
+    axis.set_ylim(0, 1.05 * forces.max())
+    axis.set_title(f"load distribution, {load:g} N")
+    axis.set_ylabel("element force (N)")
+    axis.set_xlabel("angle of the element from the load (degrees)")
+    axis.legend(loc="upper left", ncols=1)
+
+
+def variation(axis, number, name, scale, label):
+    rows = variations["varied"] == number
+    axis.plot(variations[name][rows] * scale, variations["critical_load"][rows], ".-", color=VERMILION)
+    # The other two blocks hold this quantity at the scene's value.
+    axis.axvline(variations[name][~rows][0] * scale, color=GREY, linewidth=0.9, label="the scene")
+    axis.axhline(load, color="black", linewidth=0.9, linestyle=":", label="the load")
+    logarithmic(axis, variations["critical_load"])
+    axis.set_xlabel(label)
+
+
+if variations is None:
+    figure, axes = plt.subplots(2, 1, figsize=(plotting.WIDTH, 6.4))
+    stiffness(axes[0])
+    distribution(axes[1])
+else:
+    figure = plt.figure(figsize=(plotting.WIDTH, 9.2))
+    grid = figure.add_gridspec(3, 6)
+    stiffness(figure.add_subplot(grid[0, :3]))
+    critical_over_angle(figure.add_subplot(grid[0, 3:]))
+    distribution(figure.add_subplot(grid[1, :]))
+    panels = (
+        (0, "path", 1e6, "depth of the path (µm)"),
+        (1, "clearance", 1e6, "radial clearance (µm)"),
+        (2, "compliance", 1e9, "outer compliance (nm/N)"),
+    )
+    first = None
+    for column, (number, name, scale, label) in enumerate(panels):
+        axis = figure.add_subplot(grid[2, 2 * column : 2 * column + 2], sharey=first)
+        variation(axis, number, name, scale, label)
+        if first is None:
+            first = axis
+            axis.set_ylabel("critical load (N)")
+            axis.set_title("what the critical load depends on")
+            axis.legend(loc="lower right")
+        else:
+            axis.tick_params(labelleft=False)
+figure.suptitle(stem.name, x=0.01, ha="left")
+plotting.save(figure, stem.with_name(stem.name + "-stiffness"))

@@ -1,0 +1,88 @@
+//! Contact maps: computed on all cores with a progress bar, kept under `target/maps` by the fingerprint of their inputs.
+
+use std::fs;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
+
+use anyhow::{Context, Result};
+use brinell::contact::error::ContactError;
+use brinell::contact::map::ContactMap;
+use brinell::contact::map_build::Runner;
+use brinell::scene::{ContactLaw, Scene};
+use brinell::simulation::setup;
+use brinell::surface::Surface;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::project::Project;
+
+/// The bytes of a scene's contact map, `None` where its law or its healthy raceway needs none.
+pub fn of(scene: &Scene, profile: Option<&str>, project: &Project) -> Result<Option<Vec<u8>>> {
+    let Some(defect) = scene.defect.as_ref().filter(|_| scene.contact.law == ContactLaw::Map) else { return Ok(None) };
+    let surface = Surface::load(&defect.shape, profile, &scene.bearing)?;
+    let fingerprint = setup::map_fingerprint(scene, &surface);
+    let file = cache_file(project, fingerprint);
+    if let Ok(bytes) = fs::read(&file)
+        && ContactMap::from_bytes(&bytes, fingerprint).is_ok()
+    {
+        return Ok(Some(bytes));
+    }
+    let mut cores = AllCores { bar: bar(&scene.name) };
+    let map = setup::build_map(scene, &surface, &mut cores)?;
+    cores.bar.finish_and_clear();
+    let Some(map) = map else { return Ok(None) };
+    let bytes = map.to_bytes();
+    if let Some(folder) = file.parent() {
+        fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
+    }
+    // Under another name first: a reader beside us never sees half a map.
+    let partial = file.with_extension(format!("{}.part", std::process::id()));
+    fs::write(&partial, &bytes).with_context(|| partial.display().to_string())?;
+    fs::rename(&partial, &file).with_context(|| file.display().to_string())?;
+    Ok(Some(bytes))
+}
+
+fn cache_file(project: &Project, fingerprint: u64) -> PathBuf {
+    project.target().join("maps").join(format!("{fingerprint:016x}.bin"))
+}
+
+fn bar(name: &str) -> ProgressBar {
+    let style = ProgressStyle::with_template("contact map of {msg} [{bar:30}] {pos}/{len} columns, {elapsed}");
+    let bar = ProgressBar::new(0).with_message(name.to_owned());
+    if let Ok(style) = style { bar.with_style(style) } else { bar }
+}
+
+/// Runs jobs on all cores; results keep their order, so the map has the same bits however many there are.
+struct AllCores {
+    bar: ProgressBar,
+}
+
+impl Runner for AllCores {
+    fn run<T: Send>(
+        &mut self,
+        count: usize,
+        job: &(dyn Fn(usize) -> Result<T, ContactError> + Sync),
+    ) -> Result<Vec<T>, ContactError> {
+        self.bar.inc_length(count as u64);
+        let next = AtomicUsize::new(0);
+        let results: Mutex<Vec<Option<Result<T, ContactError>>>> = Mutex::new((0..count).map(|_| None).collect());
+        let workers = thread::available_parallelism().map_or(1, usize::from);
+        thread::scope(|scope| {
+            for _ in 0..workers {
+                scope.spawn(|| {
+                    loop {
+                        let index = next.fetch_add(1, Ordering::Relaxed);
+                        if index >= count {
+                            break;
+                        }
+                        let result = job(index);
+                        results.lock().unwrap_or_else(PoisonError::into_inner)[index] = Some(result);
+                        self.bar.inc(1);
+                    }
+                });
+            }
+        });
+        results.into_inner().unwrap_or_else(PoisonError::into_inner).into_iter().flatten().collect()
+    }
+}

@@ -1,0 +1,255 @@
+//! The command `stiffness`: static stiffness, load distribution and critical load of a scene, as CSV, figure and summary.
+
+use std::f64::consts::PI;
+use std::fs::{self, File};
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use brinell::analysis::critical_load::{Bottom, CriticalLoad};
+use brinell::analysis::static_bearing::{Balance, StaticBearing, StaticError};
+use brinell::analysis::stiffness::{min_mean_max, sweep};
+
+use crate::csv;
+use crate::model::Model;
+use crate::project::Project;
+use crate::python::Python;
+
+/// What the user says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options {
+    /// Amount of the load [N], along the scene's; `None` for the scene's own.
+    pub load: Option<f64>,
+    /// Evenly spaced cage angles within one element spacing; `None` for as many as the defect needs to be seen.
+    pub points: Option<usize>,
+    /// Whether to draw.
+    pub figure: bool,
+}
+
+/// Depths, as factors of the scene's, at which the critical load is computed.
+const DEPTHS: [f64; 9] = [0.1, 0.2, 0.3, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0];
+/// Number of clearances and compliances at which it is computed.
+const VARIATIONS: usize = 21;
+
+/// The command: `<folder>/<scene>-stiffness.csv`, with a defect `<scene>-critical-load.csv`, and, if wanted, a figure.
+pub fn command(project: &Project, model: &Model, options: Options, folder: &Path) -> Result<()> {
+    let profile = model.profile.as_ref().map(|profile| profile.text.as_str());
+    let bearing = loaded(StaticBearing::new(&model.scene, profile)?, options.load)?;
+    let healthy = loaded(
+        StaticBearing::new(&brinell::scene::Scene { defect: None, ..model.scene.clone() }, None)?,
+        options.load,
+    )?;
+    let [x, y] = bearing.load();
+    let bottom = bottom_of(&bearing)?;
+    // In the middle of the sweep element 1 is in the middle of the defect, at its ends two elements are about it.
+    let middle = bottom.map_or(libm::atan2(y, x), |bottom| bottom.middle);
+    let first = middle - 0.5 * bearing.spacing();
+    let balances = sweep(&bearing, first, options.points.unwrap_or_else(|| enough_points(&bearing)))?;
+
+    fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
+    let stem = folder.join(&model.scene.name);
+    let path = beside(&stem, "-stiffness.csv");
+    let mut out = create(&path)?;
+    write_sweep(&mut out, &bearing, &healthy, &balances)?;
+    out.flush()?;
+    println!("{}", path.display());
+    let mut paths = vec![path];
+
+    let critical = if bottom.is_some() { bearing.critical_load()? } else { None };
+    if let (Some(bottom), Some(critical)) = (&bottom, &critical) {
+        let path = beside(&stem, "-critical-load.csv");
+        let mut out = create(&path)?;
+        write_variations(
+            &mut out,
+            &bearing,
+            bottom,
+            critical,
+            model.scene.bearing.radial_clearance,
+            model.scene.bearing.outer_compliance,
+        )?;
+        out.flush()?;
+        println!("{}", path.display());
+        paths.push(path);
+    }
+    print!("{}", summary(&bearing, &balances, bottom.as_ref(), critical.as_ref())?);
+    if options.figure {
+        let python = Python::prepare(project)?;
+        print!("{}", python.run("stiffness.py", [stem])?);
+    }
+    Ok(())
+}
+
+/// The bearing under an amount of load along its own.
+fn loaded(bearing: StaticBearing, amount: Option<f64>) -> Result<StaticBearing> {
+    let Some(amount) = amount else { return Ok(bearing) };
+    if !(amount.is_finite() && amount > 0.0) {
+        bail!("load {amount} N: it must be finite and above 0");
+    }
+    let [x, y] = bearing.load();
+    let length = libm::hypot(x, y);
+    // A scene whose rings the host moves has no load: downwards then.
+    let [x, y] = if length > 0.0 { [x / length, y / length] } else { [0.0, -1.0] };
+    Ok(bearing.with_load([amount * x, amount * y]))
+}
+
+/// An even number, so that the middle is one of them: 0.2 degrees for nine elements, or a fortieth of a short defect.
+fn enough_points(bearing: &StaticBearing) -> usize {
+    let of_defect = bearing.defect_length().map_or(0.0, |length| 20.0 * bearing.spacing() / length);
+    2 * (of_defect.ceil() as usize).clamp(100, 2000)
+}
+
+/// The bottom of the defect; `None` for a healthy bearing or a defect that only rises.
+fn bottom_of(bearing: &StaticBearing) -> Result<Option<Bottom>> {
+    match bearing.bottom() {
+        Ok(bottom) => Ok(Some(bottom)),
+        Err(StaticError::NoDefect | StaticError::NoDepth { .. }) => Ok(None),
+        Err(error) => Err(error.into()),
+    }
+}
+
+fn write_sweep(
+    out: &mut impl Write,
+    bearing: &StaticBearing,
+    healthy: &StaticBearing,
+    balances: &[Balance],
+) -> Result<()> {
+    let mut names: Vec<(String, &str)> = [
+        ("cage.angle", "rad"),
+        ("stiffness.free", "N/m"),
+        ("stiffness.held", "N/m"),
+        ("stiffness.healthy", "N/m"),
+        ("stiffness.xx", "N/m"),
+        ("stiffness.xy", "N/m"),
+        ("stiffness.yx", "N/m"),
+        ("stiffness.yy", "N/m"),
+        ("shaft.x", "m"),
+        ("shaft.y", "m"),
+        ("load.x", "N"),
+        ("load.y", "N"),
+        ("load_zone", "rad"),
+        ("critical_load", "N"),
+    ]
+    .map(|(name, unit)| (name.to_owned(), unit))
+    .to_vec();
+    for j in 1..=bearing.element_count() {
+        names.extend([
+            (format!("element[{j}].angle"), "rad"),
+            (format!("element[{j}].force.inner"), "N"),
+            (format!("element[{j}].force.outer"), "N"),
+            (format!("element[{j}].in_defect"), "1"),
+        ]);
+    }
+    csv::header(out, names.iter().map(|(name, unit)| (name.as_str(), *unit)))?;
+    for balance in balances {
+        let without = healthy.balance(balance.cage_angle, balance.load)?;
+        let critical = bearing.critical_load_at(balance.cage_angle)?.map_or(f64::NAN, |found| found.load);
+        let [[xx, xy], [yx, yy]] = balance.stiffness;
+        let ([x, y], [load_x, load_y]) = (balance.displacement, balance.load);
+        let mut row =
+            vec![balance.cage_angle, balance.free_stiffness(), balance.held_stiffness(), without.free_stiffness()];
+        row.extend([xx, xy, yx, yy, x, y, load_x, load_y, balance.load_zone, critical]);
+        for element in &balance.elements {
+            row.extend([
+                element.angle,
+                element.inner_force,
+                element.outer_force,
+                f64::from(u8::from(element.in_defect)),
+            ]);
+        }
+        csv::row(out, row.into_iter())?;
+    }
+    Ok(())
+}
+
+/// Three blocks, in each of which one of path, clearance and compliance varies and the others are the scene's.
+fn write_variations(
+    out: &mut impl Write,
+    bearing: &StaticBearing,
+    bottom: &Bottom,
+    critical: &CriticalLoad,
+    clearance: f64,
+    compliance: f64,
+) -> Result<()> {
+    let names = [("varied", "1"), ("path", "m"), ("clearance", "m"), ("compliance", "m/N"), ("critical_load", "N")];
+    csv::header(out, names.into_iter())?;
+    let mut row = |varied: f64, path: f64, clearance: f64, compliance: f64, bearing: &StaticBearing| -> Result<()> {
+        let found = bearing.critical_load()?.map_or(f64::NAN, |found| found.load);
+        Ok(csv::row(out, [varied, path, clearance, compliance, found].into_iter())?)
+    };
+    for factor in DEPTHS {
+        match bearing.with_depth_times(factor) {
+            Ok(other) => row(0.0, other.bottom()?.path, clearance, compliance, &other)?,
+            // Deeper than an element's radius: the curve ends.
+            Err(StaticError::Surface(_)) => {}
+            Err(error) => return Err(error.into()),
+        }
+    }
+    let part = |i: usize| i as f64 / (VARIATIONS - 1) as f64;
+    let widest = (4.0 * clearance).max(0.5 * bottom.path);
+    for i in 0..VARIATIONS {
+        let clearance = widest * part(i);
+        row(1.0, bottom.path, clearance, compliance, &bearing.with_clearance(clearance))?;
+    }
+    let rigid = bearing.with_outer_compliance(0.0).critical_load()?.map_or(critical.load, |found| found.load);
+    let softest = (4.0 * bottom.path / rigid).max(2.0 * compliance);
+    for i in 0..VARIATIONS {
+        let compliance = softest * part(i);
+        row(2.0, bottom.path, clearance, compliance, &bearing.with_outer_compliance(compliance))?;
+    }
+    Ok(())
+}
+
+fn summary(
+    bearing: &StaticBearing,
+    balances: &[Balance],
+    bottom: Option<&Bottom>,
+    critical: Option<&CriticalLoad>,
+) -> Result<String> {
+    let [x, y] = bearing.load();
+    let per_um = |quantity: fn(&Balance) -> f64| min_mean_max(balances, quantity).map(|k| k * 1e-6);
+    let (free, held) = (per_um(Balance::free_stiffness), per_um(Balance::held_stiffness));
+    let zone = min_mean_max(balances, |balance| balance.load_zone.to_degrees());
+    let line = |name: &str, [least, mean, greatest]: [f64; 3], unit: &str| {
+        format!("{name}: least {least:.2}, mean {mean:.2}, greatest {greatest:.2} {unit}\n")
+    };
+    let mut text = format!("load {:.1} N\n", libm::hypot(x, y));
+    text += &line("stiffness along the load", free, "N/µm");
+    text += &line("  transverse position held", held, "N/µm");
+    text += &line("load zone, half-angle", zone, "degrees");
+    let Some(bottom) = bottom else { return Ok(text) };
+    let Some(critical) = critical else {
+        return Ok(text + "critical load: none; no load brings the elements at the bottom of the defect to carry\n");
+    };
+    let angles = [critical.cage_angle.to_degrees(), bottom.path * 1e6];
+    text += &format!(
+        "critical load: {:.1} N ({} at the bottom, path {:.1} µm, cage angle {:.1} degrees)\n",
+        critical.load,
+        if critical.elements == 1 { "1 element".to_owned() } else { format!("{} elements", critical.elements) },
+        angles[1],
+        angles[0]
+    );
+    if let Some(by) = bearing.sensitivity(critical)? {
+        text += &format!(
+            "  per µm of depth {:+.1} N, per µm of clearance {:+.1} N, per nm/N of compliance {:+.1} N\n",
+            by.by_depth * 1e-6,
+            by.by_clearance * 1e-6,
+            by.by_compliance * 1e-9
+        );
+    }
+    let [direction, about] = [libm::atan2(y, x), bottom.middle];
+    let aside = libm::remainder(direction - about, 2.0 * PI).to_degrees();
+    if aside.abs() > 1.0 {
+        text += &format!("  the middle of the defect is {:.1} degrees from the direction of the load\n", aside.abs());
+    }
+    Ok(text)
+}
+
+fn beside(stem: &Path, end: &str) -> PathBuf {
+    let mut name = stem.as_os_str().to_owned();
+    name.push(end);
+    name.into()
+}
+
+fn create(path: &Path) -> Result<BufWriter<File>> {
+    Ok(BufWriter::new(File::create(path).with_context(|| path.display().to_string())?))
+}

@@ -1,0 +1,71 @@
+//! The command `stiffness`: its files are there, whole, and agree with each other.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::fs;
+
+use fmu_build::model::Model;
+use fmu_build::project::Project;
+use fmu_build::stiffness::{self, Options};
+
+/// Header and rows of a CSV file.
+fn read(path: &std::path::Path) -> (Vec<String>, Vec<Vec<f64>>) {
+    let text = fs::read_to_string(path).unwrap();
+    let mut lines = text.lines();
+    let header = lines.next().unwrap().split(',').map(str::to_owned).collect();
+    (header, lines.map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect())
+}
+
+fn made(model: &Model, folder: &str, options: Options) -> std::path::PathBuf {
+    let folder = common::folder(folder);
+    stiffness::command(&Project::find(), model, options, &folder).unwrap();
+    folder
+}
+
+#[test]
+fn a_scene_with_a_defect_gives_two_tables_and_a_figure() {
+    let folder =
+        made(&common::model("er16k-tb2"), "stiffness-tb2", Options { load: None, points: Some(20), figure: true });
+    let (header, rows) = read(&folder.join("er16k-tb2-stiffness.csv"));
+    let column = |name: &str| header.iter().position(|cell| cell.starts_with(name)).unwrap();
+    assert!(rows.len() > 20 && rows.iter().all(|row| row.len() == header.len()));
+    let (free, healthy) = (column("stiffness.free"), column("stiffness.healthy"));
+    assert!(rows.iter().all(|row| row[free] > 0.0 && row[free] < row[healthy]), "a defect takes stiffness away");
+    let (_, variations) = read(&folder.join("er16k-tb2-critical-load.csv"));
+    for varied in [0.0, 1.0, 2.0] {
+        let loads: Vec<f64> = variations.iter().filter(|row| row[0] == varied).map(|row| row[4]).collect();
+        assert!(loads.len() >= 5);
+        // Up with depth, down with clearance and compliance.
+        assert!(loads.windows(2).all(|pair| (pair[1] > pair[0]) == (varied == 0.0)), "{varied}: {loads:?}");
+    }
+    for end in ["svg", "png"] {
+        assert!(folder.join(format!("er16k-tb2-stiffness.{end}")).metadata().unwrap().len() > 10_000);
+    }
+}
+
+#[test]
+fn a_healthy_bearing_has_no_critical_load_and_a_hosted_one_takes_a_load() {
+    let folder = made(
+        &common::model("6205-hosted"),
+        "stiffness-hosted",
+        Options { load: Some(800.0), points: Some(10), figure: false },
+    );
+    let (header, rows) = read(&folder.join("6205-hosted-stiffness.csv"));
+    let load = header.iter().position(|cell| cell.starts_with("load.y")).unwrap();
+    assert!(rows.iter().all(|row| row[load] == -800.0));
+    let critical = header.iter().position(|cell| cell.starts_with("critical_load")).unwrap();
+    assert!(rows.iter().all(|row| row[critical].is_nan()));
+    assert!(!folder.join("6205-hosted-critical-load.csv").exists());
+}
+
+#[test]
+fn a_load_that_is_no_load_is_refused() {
+    let model = common::model("er16k-tb1");
+    for load in [0.0, -5.0, f64::NAN] {
+        let options = Options { load: Some(load), points: Some(2), figure: false };
+        let error =
+            stiffness::command(&Project::find(), &model, options, &common::folder("stiffness-none")).unwrap_err();
+        assert!(error.to_string().contains("above 0"), "{error}");
+    }
+}
