@@ -300,8 +300,8 @@ impl Model {
             }
         }
 
-        let bend = if cell == SMOOTH { Bend::default() } else { self.bend(j, cell, u, at.cage_angle) };
         let near = self.outer_approach(j, cell, u, at.cage_angle, rho);
+        let bend = if cell == SMOOTH { Bend::default() } else { self.bend(j, cell, u, at.cage_angle) };
         let outer = self.outer.with_derivatives(near.value, near.by_path * path_rate + near.by_angle * at.omega);
         let direction = [near.radial, near.tangential];
         let direction_by_path = [near.radial_by_path, near.tangential_by_path];
@@ -495,7 +495,7 @@ pub(crate) mod tests {
             for angle in [-1.66, -1.58, -1.5, 0.3] {
                 let (model, drive) = lively(motions, damping, angle);
                 let (state, cells) = moving(&model, &drive, case as u64 + 1);
-                near_defect += cells.iter().filter(|&&c| c != crate::dynamics::forces::SMOOTH).count();
+                near_defect += cells.iter().filter(|&&c| c != SMOOTH).count();
                 let len = model.layout.len;
                 let (mut jacobian, mut by_time) = (Jacobian::new(&model), vec![0.0; len]);
                 let tau = 1e-5;

@@ -255,6 +255,8 @@ impl Stepper {
             progress.state.copy_from_slice(&self.explicit.end);
         }
         progress.steps += 1;
+        // Contacts that failed in trials which error control took back are of no account.
+        self.forces.unsolved = None;
         self.explicit.carry_over();
         self.first_force = self.last_force;
         self.linearized = false;
