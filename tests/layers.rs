@@ -1,4 +1,5 @@
 //! The layers import in one direction only: a module names, by `crate::…`, none that stands to its right.
+#![allow(clippy::unwrap_used)]
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -2,6 +2,7 @@
 //!
 //! Times count from the moment the element's centre passes the leading edge. Expected values are those of a separate
 //! prototype of the same equations; they agree with the four events that the paper describes.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod support;
 

@@ -48,7 +48,7 @@ impl<'a> ConjugateGradients<'a> {
     /// # Errors
     /// [`ContactError::BadInput`] for a tolerance that rounding does not allow.
     pub fn new(problem: &'a GridProblem, tolerance: f64) -> Result<Self, ContactError> {
-        if !(tolerance >= 1e-13 && tolerance < 1.0) {
+        if !(1e-13..1.0).contains(&tolerance) {
             return Err(ContactError::BadInput {
                 quantity: "residual asked for",
                 value: tolerance,
@@ -195,10 +195,10 @@ impl Level {
             }
             let alpha = next / curvature;
             for (p, &d) in self.pressure.iter_mut().zip(&self.direction) {
-                *p = *p + alpha * d;
+                *p += alpha * d;
             }
             for (u, &q) in self.deflection.iter_mut().zip(&self.product) {
-                *u = *u + alpha * q;
+                *u += alpha * q;
             }
         }
         Err(ContactError::NotConverged { iterations, residual, limit })

@@ -92,7 +92,7 @@ impl Filter {
         self.rows_forward(input, self.rows, self.columns);
         self.columns_forward(self.rows);
         for (value, &factor) in self.by_columns.iter_mut().zip(&self.spectrum) {
-            *value = *value * factor;
+            *value *= factor;
         }
         self.up.process_with_scratch(&mut self.by_columns, &mut self.scratch);
         transpose_back(&self.by_columns, padded, half, &mut self.by_rows, self.rows);

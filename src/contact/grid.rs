@@ -206,7 +206,7 @@ impl GridProblem {
     ) -> Result<GridContact, ContactError> {
         let (n, m) = (self.columns, self.rows);
         if self.border == Border::Window {
-            let on_border = |c: &usize| c % n == 0 || c % n == n - 1 || c / n == 0 || c / n == m - 1;
+            let on_border = |c: &usize| c.is_multiple_of(n) || c % n == n - 1 || c / n == 0 || c / n == m - 1;
             if let Some(c) = (0..n * m).find(|c| scaled[*c] > 0.0 && on_border(c)) {
                 return Err(ContactError::ReachesEdge { column: c % n, row: c / n, approach });
             }

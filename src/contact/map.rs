@@ -11,7 +11,8 @@
 
 use super::{equivalent::EquivalentApproach, error::ContactError};
 
-/// Δ and its scaled derivatives at a node: Δ, Δ_u du, Δ_s ds, Δ_us du ds [m].
+/// Δ and its scaled derivatives at a node: Δ, Δ_s ds, Δ_u du, Δ_us du ds [m]. Value and arc derivative lie side by side: they are
+/// interpolated alike.
 pub(super) type Node = [f64; 4];
 
 /// Error of a map between its nodes, relative to the smooth contact's force at the largest approach.
@@ -49,12 +50,21 @@ pub(super) struct Column {
 pub(super) struct Strip {
     /// Index of the first of its `parts` + 1 columns.
     pub(super) first: usize,
-    pub(super) parts: usize,
-    /// Distance of nodes along the raceway and along the path [m].
+    pub(super) parts: i32,
+    /// Distance of nodes along the raceway and along the path [m], and nodes per metre.
     pub(super) arc_step: f64,
     pub(super) path_step: f64,
+    pub(super) per_arc: f64,
+    pub(super) per_path: f64,
     /// Index of the lowest node; node 0 stands on the reference path.
     pub(super) lowest: i32,
+}
+
+impl Strip {
+    pub(super) fn new(first: usize, parts: i32, width: f64, path_step: f64, lowest: i32) -> Self {
+        let arc_step = width / f64::from(parts);
+        Self { first, parts, arc_step, path_step, per_arc: 1.0 / arc_step, per_path: 1.0 / path_step, lowest }
+    }
 }
 
 /// A stretch of raceway with nodes, cut into strips of one width.
@@ -63,6 +73,7 @@ pub(super) struct Patch {
     /// First arc and width of a strip [m].
     pub(super) start: f64,
     pub(super) width: f64,
+    pub(super) per_width: f64,
     pub(super) strips: Vec<Strip>,
     pub(super) columns: Vec<Column>,
     pub(super) nodes: Vec<Node>,
@@ -144,15 +155,16 @@ impl ContactMap {
 impl Patch {
     #[inline]
     fn lookup(&self, u: f64, s: f64) -> Option<EquivalentApproach> {
-        let along = (s - self.start) / self.width;
-        let k = (along as usize).min(self.strips.len() - 1);
-        let strip = self.strips.get(k)?;
-        let along = (along - k as f64) * strip.parts as f64;
-        let part = (along as usize).min(strip.parts - 1);
-        let q = along - part as f64;
-        let columns = self.columns.get(strip.first + part..strip.first + part + 2)?;
-        let (left, right) = (&columns[0], &columns[1]);
-        let (du, ds) = (1.0 / strip.path_step, 1.0 / strip.arc_step);
+        // Signed 32-bit conversions: one instruction, where unsigned ones are several.
+        let along = (s - self.start) * self.per_width;
+        let k = (along as i32).min(self.strips.len() as i32 - 1);
+        let strip = self.strips.get(k as usize)?;
+        let along = (along - f64::from(k)) * f64::from(strip.parts);
+        let part = (along as i32).min(strip.parts - 1);
+        let q = along - f64::from(part);
+        let first = strip.first + part as usize;
+        let [left, right] = self.columns.get(first..first + 2)? else { return None };
+        let (du, ds) = (strip.per_path, strip.per_arc);
         let lowest = f64::from(strip.lowest);
         let by_arc = hermite(q);
         let reference =
@@ -160,22 +172,28 @@ impl Patch {
         let height = (u - reference(&by_arc[0])) * du - lowest;
         // Below the nodes the lowest edge is continued by its slope.
         let below = height < 0.0;
-        let cell = height.max(0.0) as usize;
-        let t = if below { 0.0 } else { height - cell as f64 };
+        let cell = height.max(0.0) as i32;
+        let t = if below { 0.0 } else { height - f64::from(cell) };
+        let cell = cell as usize;
         let pair = |column: &Column| -> Option<[Node; 2]> {
             if cell + 1 >= column.count {
                 return None;
             }
-            let nodes = self.nodes.get(column.at + cell..column.at + cell + 2)?;
-            Some([nodes[0], nodes[1]])
+            match self.nodes.get(column.at + cell..column.at + cell + 2)? {
+                [low, high] => Some([*low, *high]),
+                _ => None,
+            }
         };
         let (l, r) = (pair(left)?, pair(right)?);
         let by_path = hermite(t);
         // Along the path first: value and arc derivative at both columns, each with its path derivatives.
         let across = |b: &[f64; 4]| {
-            let mix =
-                |n: &[Node; 2], v: usize| (n[0][v] * b[0] + n[0][v + 1] * b[1]) + (n[1][v] * b[2] + n[1][v + 1] * b[3]);
-            [mix(&l, 0), mix(&l, 2), mix(&r, 0), mix(&r, 2)]
+            let mut mixed = [0.0; 4];
+            for v in 0..2 {
+                mixed[v] = (l[0][v] * b[0] + l[0][v + 2] * b[1]) + (l[1][v] * b[2] + l[1][v + 2] * b[3]);
+                mixed[v + 2] = (r[0][v] * b[0] + r[0][v + 2] * b[1]) + (r[1][v] * b[2] + r[1][v + 2] * b[3]);
+            }
+            mixed
         };
         let (v, v_t, v_tt) = (across(&by_path[0]), across(&by_path[1]), across(&by_path[2]));
         let mut f = EquivalentApproach {

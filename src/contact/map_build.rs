@@ -413,17 +413,18 @@ impl MapPlan {
         let (mut knots, mut stretches) = (Vec::new(), Vec::new());
         for (p, plan) in self.patches.iter().enumerate() {
             let (start, width) = (plan.start, plan.width);
-            let mut patch = Patch { start, width, strips: Vec::new(), columns: Vec::new(), nodes: Vec::new() };
+            let mut patch = Patch {
+                start,
+                width,
+                per_width: 1.0 / width,
+                strips: Vec::new(),
+                columns: Vec::new(),
+                nodes: Vec::new(),
+            };
             for (k, &level) in plan.levels.iter().enumerate() {
-                let parts = 1_usize << level.arc;
+                let parts = 1_i32 << level.arc;
                 let path_step = self.path_step / f64::from(1_u32 << level.path);
-                let strip = Strip {
-                    first: patch.columns.len(),
-                    parts,
-                    arc_step: width / parts as f64,
-                    path_step,
-                    lowest: LOWEST << level.path,
-                };
+                let strip = Strip::new(patch.columns.len(), parts, width, path_step, LOWEST << level.path);
                 for place in self.places_of(p, k) {
                     let Some(column) = self.columns.get(&place) else { continue };
                     let nodes =
@@ -434,7 +435,7 @@ impl MapPlan {
                         count: nodes.len(),
                     });
                     let (du, ds) = (path_step, strip.arc_step);
-                    patch.nodes.extend(nodes.iter().map(|n| -> Node { [n[0], n[1] * du, n[2] * ds, n[3] * du * ds] }));
+                    patch.nodes.extend(nodes.iter().map(|n| -> Node { [n[0], n[2] * ds, n[1] * du, n[3] * du * ds] }));
                 }
                 patch.strips.push(strip);
             }

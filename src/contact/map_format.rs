@@ -65,11 +65,10 @@ impl ContactMap {
                     number(patch.start);
                     number(patch.width);
                     for strip in &patch.strips {
-                        number(strip.parts as f64);
-                        number(strip.arc_step);
+                        number(f64::from(strip.parts));
                         number(strip.path_step);
                         number(f64::from(strip.lowest));
-                        for column in &patch.columns[strip.first..=strip.first + strip.parts] {
+                        for column in &patch.columns[strip.first..=strip.first + strip.parts as usize] {
                             number(column.reference[0]);
                             number(column.reference[1]);
                             number(column.count as f64);
@@ -156,9 +155,9 @@ fn read_stretch(numbers: &mut Numbers<'_>) -> Option<Stretch> {
     let mut at = 0;
     for _ in 0..count {
         let parts = numbers.count()?;
-        let (arc_step, path_step) = (numbers.number()?, numbers.number()?);
+        let path_step = numbers.number()?;
         let lowest = numbers.number()? as i32;
-        strips.push(Strip { first: columns.len(), parts, arc_step, path_step, lowest });
+        strips.push(Strip::new(columns.len(), i32::try_from(parts).ok()?, width, path_step, lowest));
         for _ in 0..=parts {
             let reference = [numbers.number()?, numbers.number()?];
             let count = numbers.count()?;
@@ -170,7 +169,7 @@ fn read_stretch(numbers: &mut Numbers<'_>) -> Option<Stretch> {
     for _ in 0..at {
         nodes.push([numbers.number()?, numbers.number()?, numbers.number()?, numbers.number()?]);
     }
-    Some(Stretch::Patch(Patch { start, width, strips, columns, nodes }))
+    Some(Stretch::Patch(Patch { start, width, per_width: 1.0 / width, strips, columns, nodes }))
 }
 
 /// What a lookup relies on.

@@ -1,5 +1,5 @@
 //! What tests of the model share: scenes written in a few lines, and named access to variables.
-#![allow(dead_code, clippy::unwrap_used)] // each test program uses a part of this
+#![allow(dead_code, unreachable_pub, clippy::unwrap_used)] // each test program uses a part of this
 
 use brinell::scene::Scene;
 use brinell::simulation::Simulation;

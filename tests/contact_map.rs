@@ -1,0 +1,171 @@
+//! The contact of an element with a damaged raceway: grid, map, and their joint with the closed form.
+#![allow(clippy::unwrap_used)]
+
+use std::f64::consts::FRAC_PI_2;
+use std::sync::OnceLock;
+
+use brinell::contact::error::ContactError;
+use brinell::contact::love::LoveContact;
+use brinell::contact::map::ContactMap;
+use brinell::contact::map_build::{MapSpecification, Sequential};
+use brinell::contact::raceway_grid::{ElementOnRaceway, Resolution};
+use brinell::surface::{Profile, Surface};
+
+const ER16K: ElementOnRaceway =
+    ElementOnRaceway { element_radius: 3.97e-3, raceway_radius: 23.6325e-3, groove_radius: 4.095e-3 };
+const LENGTH: f64 = 6.517e-3;
+const LARGEST: f64 = 10e-6;
+
+fn line_spall() -> Surface {
+    Surface::Profile(Profile::spall(LENGTH, 100e-6, FRAC_PI_2))
+}
+
+fn specification(accuracy: f64) -> MapSpecification {
+    MapSpecification { accuracy, ..MapSpecification::new(LARGEST) }
+}
+
+fn love() -> LoveContact {
+    LoveContact::new(ER16K, &line_spall(), 1.5 * LARGEST, Resolution { columns: 64, rows: 16 }).unwrap()
+}
+
+/// One map for all tests that do not ask for accuracy.
+fn coarse_map() -> &'static ContactMap {
+    static MAP: OnceLock<ContactMap> = OnceLock::new();
+    MAP.get_or_init(|| build(1e-2))
+}
+
+fn build(accuracy: f64) -> ContactMap {
+    ContactMap::build(&line_spall(), ER16K, specification(accuracy), &mut Sequential(|_, _| ())).unwrap()
+}
+
+#[test]
+fn far_from_the_edges_the_grid_is_the_closed_form_without_a_jump() {
+    let mut contact = love();
+    for u in [2e-6, 6e-6, 10e-6] {
+        for i in 0..20 {
+            let s = -0.5 * LENGTH - 1e-3 + 1.3e-6 * f64::from(i);
+            let smooth = contact.solve(u, s).unwrap();
+            // The grid's ripple under a moving element; full scale is LARGEST^1.5.
+            let force = smooth.forces(1.0).map(|f| f / LARGEST.powf(1.5));
+            assert!((force[0] - (u / LARGEST).powf(1.5)).abs() < 1e-4, "{u} {s}: {force:?}");
+            assert!(force[1].abs() < 1e-5, "{u} {s}: {force:?}");
+            let floor = contact.solve(u + 100e-6, 1.3e-6 * f64::from(i)).unwrap().forces(1.0);
+            assert!((floor[0] / LARGEST.powf(1.5) - (u / LARGEST).powf(1.5)).abs() < 1e-4);
+        }
+    }
+}
+
+#[test]
+fn an_element_centred_on_an_edge_keeps_some_87_percent_of_its_force() {
+    let mut contact = love();
+    for u in [4e-6, 6e-6, 10e-6] {
+        let edge = contact.solve(u, -0.5 * LENGTH).unwrap();
+        let ratio = edge.forces(1.0)[0] / u.powf(1.5);
+        // Two digits: the reference says 0.87 of the smooth force.
+        assert!((ratio - 0.87).abs() < 0.01, "{u}: {ratio}");
+    }
+}
+
+#[test]
+fn derivatives_are_those_of_the_equivalent_approach() {
+    let mut contact = love();
+    let h = 1e-9;
+    for (u, s) in [(4e-6, -0.5 * LENGTH), (9e-6, -0.5 * LENGTH + 0.1e-3), (34e-6, -0.5 * LENGTH + 0.4e-3)] {
+        let a = contact.solve(u, s).unwrap();
+        let mut at = |u: f64, s: f64| contact.solve(u, s).unwrap();
+        let by_u = (at(u + h, s).value - at(u - h, s).value) / (2.0 * h);
+        let by_s = (at(u, s + h).value - at(u, s - h).value) / (2.0 * h);
+        // Differences over 2 nm of values exact to 1e-19 m, curvature 1e5 /m.
+        assert!((a.du - by_u).abs() < 1e-6, "{} {by_u}", a.du);
+        assert!((a.ds - by_s).abs() < 1e-6, "{} {by_s}", a.ds);
+    }
+}
+
+#[test]
+fn the_map_meets_its_accuracy_and_closed_paths_cost_no_work() {
+    let map = build(3e-3);
+    let accuracy = map.accuracy();
+    assert!(accuracy.max() <= 3e-3, "{accuracy:?}");
+    assert!(accuracy.rms_normal <= 6e-4 && accuracy.rms_tangential <= 3e-4, "{accuracy:?}");
+    // A closed ellipse across the flank; trapezoids on a smooth closed path converge quickly, steps of nodes limit them.
+    let (n, mut work, mut moved) = (200_000, 0.0, 0.0);
+    let at = |i: usize| {
+        let angle = std::f64::consts::TAU * (i % n) as f64 / n as f64;
+        let (s, c) = angle.sin_cos();
+        ([5e-6 + 3e-6 * s, -0.5 * LENGTH + 0.1e-3 * c], [3e-6 * c, -0.1e-3 * s])
+    };
+    for i in 0..n {
+        let ([u, s], [du, ds]) = at(i);
+        let [normal, tangential] = map.lookup(u, s).unwrap().forces(1.0);
+        let power = (normal * du - tangential * ds) * std::f64::consts::TAU / n as f64;
+        work += power;
+        moved += power.abs();
+    }
+    assert!(work.abs() < 1e-9 * moved, "{}", work / moved);
+}
+
+#[test]
+fn the_map_joins_the_closed_forms_in_value_and_slope() {
+    let map = coarse_map();
+    for (index, &knot) in map.knots().iter().enumerate() {
+        let depth = if index == 0 || index + 1 == map.knots().len() { 0.0 } else { 100e-6 };
+        for u in [1e-6, 5e-6, 9e-6] {
+            for s in [knot - 1e-12, knot + 1e-12] {
+                let a = map.lookup(u + depth, s).unwrap();
+                // Rounding of 3 mm and 1 pm beside the knot.
+                assert!(
+                    (a.value - u).abs() < 1e-15 && (a.du - 1.0).abs() < 1e-8 && a.ds.abs() < 1e-8,
+                    "{knot} {u}: {a:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn beyond_the_largest_approach_a_lookup_is_an_error() {
+    let map = coarse_map();
+    assert!(map.lookup(3.0 * LARGEST, -0.5 * LENGTH).is_err());
+    assert!(map.lookup(-1e-3, -0.5 * LENGTH).unwrap().value < 0.0);
+}
+
+#[test]
+fn damaged_and_foreign_maps_are_refused() {
+    let map = coarse_map();
+    let bytes = map.to_bytes();
+    let own = ContactMap::fingerprint_of(&line_spall(), ER16K, specification(1e-2));
+    assert_eq!(ContactMap::from_bytes(&bytes, own).unwrap(), *map);
+    let other = Surface::Profile(Profile::spall(LENGTH, 99e-6, FRAC_PI_2));
+    let foreign = ContactMap::fingerprint_of(&other, ER16K, specification(1e-2));
+    let refused = |bytes: &[u8], fingerprint: u64| match ContactMap::from_bytes(bytes, fingerprint) {
+        Err(ContactError::MapRefused { reason }) => reason,
+        other => panic!("{other:?}"),
+    };
+    assert!(refused(&bytes, foreign).contains("another defect"));
+    for place in [0, 9, 30, bytes.len() / 2, bytes.len() - 1] {
+        let mut damaged = bytes.clone();
+        damaged[place] ^= 1;
+        refused(&damaged, own);
+    }
+    for length in [0, 7, 40, bytes.len() - 8] {
+        refused(&bytes[..length], own);
+    }
+}
+
+#[test]
+fn impossible_elements_and_approaches_are_refused() {
+    let resolution = Resolution { columns: 16, rows: 8 };
+    for element in [
+        ElementOnRaceway { groove_radius: 3.9e-3, ..ER16K },
+        ElementOnRaceway { element_radius: f64::NAN, ..ER16K },
+        ElementOnRaceway { raceway_radius: 1e-3, ..ER16K },
+    ] {
+        assert!(matches!(
+            LoveContact::new(element, &line_spall(), 1e-5, resolution),
+            Err(ContactError::BadInput { .. })
+        ));
+    }
+    for approach in [0.0, -1e-6, f64::NAN, 1e-3] {
+        assert!(LoveContact::new(ER16K, &line_spall(), approach, resolution).is_err());
+    }
+}
