@@ -300,8 +300,8 @@ impl Model {
             }
         }
 
-        let near = self.outer_approach(j, cell, u, at.cage_angle, rho);
         let bend = if cell == SMOOTH { Bend::default() } else { self.bend(j, cell, u, at.cage_angle) };
+        let near = self.outer_approach(j, cell, u, at.cage_angle, rho);
         let outer = self.outer.with_derivatives(near.value, near.by_path * path_rate + near.by_angle * at.omega);
         let direction = [near.radial, near.tangential];
         let direction_by_path = [near.radial_by_path, near.tangential_by_path];

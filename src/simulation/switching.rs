@@ -40,8 +40,8 @@ pub struct Choice {
 
 /// Steps between two looks of the explicit method: one Jacobian in 200 right-hand sides.
 const LOOK: u32 = 32;
-/// Steps of a trial of the implicit method: growing fivefold each, they show within four what it can do.
-const TRIAL: u32 = 4;
+/// Steps of a trial of the implicit method: they grow two- to fivefold each, so six show what it can do.
+const TRIAL: u32 = 6;
 /// Steps between two looks of the implicit method.
 const IMPLICIT_LOOK: u32 = 16;
 /// Explicit steps that cost as much as one implicit step; measured.
@@ -130,11 +130,11 @@ mod tests {
                 assert!(amplification(share * reach(damping), damping) < 1.04, "{damping} {share}");
             }
         }
-        assert!(amplification(3.35, 1.0) > 1.0 && amplification(2.3, 0.0) > 1.1);
+        assert!(amplification(3.35, 1.0) > 1.0 && amplification(2.4, 0.0) > 1.1);
     }
 
     #[test]
-    fn a_trial_that_does_not_pay_ends_after_four_steps_and_the_next_waits_twice_as_long() {
+    fn a_trial_that_does_not_pay_ends_after_six_steps_and_the_next_waits_twice_as_long() {
         let slow = Jacobian::with_fastest(1.0);
         let mut choice = Choice { implicit: true, patience: 2, ..Choice::default() };
         for _ in 0..TRIAL {
