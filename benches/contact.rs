@@ -1,5 +1,7 @@
 //! Cost of one contact: cold grids, warm grid under a moving element, lookup in a map, a map. `cargo bench --bench contact`
 
+#![allow(clippy::expect_used)]
+
 use std::f64::consts::FRAC_PI_2;
 use std::hint::black_box;
 

@@ -4,6 +4,9 @@
 //! index and every dot product by eight fixed partial sums, so the bits do not depend on the vector width of the machine.
 //! Nothing is allocated once the storage has met its largest matrix.
 
+// Register tiles are addressed by lane and column: iterators would hide which.
+#![allow(clippy::needless_range_loop)]
+
 use pulp::{Arch, NullaryFnOnce};
 
 /// Columns eliminated together.

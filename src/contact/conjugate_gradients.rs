@@ -7,6 +7,9 @@
 //!
 //! For reference solutions and large stored problems; inside a simulation `active_set` is faster and has the same bits everywhere.
 
+// `!(a > b)` is true for NaN as well, and is meant to be.
+#![allow(clippy::neg_cmp_op_on_partial_ord)]
+
 use super::{
     error::ContactError,
     fft_product::FftProduct,

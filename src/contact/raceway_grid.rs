@@ -11,6 +11,9 @@
 //! edge, because an edge 0.17 cell off costs fifty times the error. The grid does not move with the element: one that does turns its own
 //! resolution into a tangential force.
 
+// `!(a > b)` is true for NaN as well, and is meant to be.
+#![allow(clippy::neg_cmp_op_on_partial_ord)]
+
 use crate::geometry::hertz_constant::squared_eccentricity;
 use crate::numerics::elliptic;
 use crate::surface::Surface;

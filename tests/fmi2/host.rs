@@ -99,6 +99,8 @@ impl Resources {
     pub(crate) fn named(scene: &str, name: &str) -> Self {
         let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
         let text = fs::read_to_string(scenes.join(format!("{scene}.toml"))).unwrap();
+        // The interface is tested with the law that needs no contact map; computing one takes seconds.
+        let text = text.replace("law = \"map\"", "law = \"hertz\"");
         let profile =
             text.lines().find_map(|line| Some(line.strip_prefix("profile = \"")?.split('"').next()?.to_owned()));
         let profile = profile.map(|file| (fs::read_to_string(scenes.join(&file)).unwrap(), file));
