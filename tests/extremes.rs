@@ -4,6 +4,8 @@
 //! Each case gives a row of `docs/stability.md`. To write that file anew:
 //! `cargo test --release --test extremes -- --ignored write`.
 
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
 mod support;
 
 use brinell::geometry::hertz_constant::HertzConstants;

@@ -7,22 +7,22 @@
 
 /// A rooted tree, by its branches.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Tree(Vec<Tree>);
+pub(crate) struct Tree(Vec<Tree>);
 
 impl Tree {
     /// Number of vertices.
-    pub fn order(&self) -> usize {
+    pub(crate) fn order(&self) -> usize {
         1 + self.0.iter().map(Tree::order).sum::<usize>()
     }
 
     /// Product of the orders of all subtrees.
-    pub fn density(&self) -> f64 {
+    pub(crate) fn density(&self) -> f64 {
         self.0.iter().map(Tree::density).product::<f64>() * self.order() as f64
     }
 }
 
 /// All trees of at most `order` vertices.
-pub fn up_to_order(order: usize) -> Vec<Tree> {
+pub(crate) fn up_to_order(order: usize) -> Vec<Tree> {
     let mut found = vec![Tree(Vec::new())];
     let mut newest = found.clone();
     for _ in 1..order {
@@ -57,7 +57,7 @@ fn grow(tree: &Tree, into: &mut Vec<Tree>) {
 }
 
 /// Φ of each stage.
-pub fn weights<const N: usize>(tree: &Tree, alpha: &[[f64; N]; N], beta: &[[f64; N]; N]) -> [f64; N] {
+pub(crate) fn weights<const N: usize>(tree: &Tree, alpha: &[[f64; N]; N], beta: &[[f64; N]; N]) -> [f64; N] {
     let matrix = if tree.0.len() == 1 { beta } else { alpha };
     let branches: Vec<_> = tree.0.iter().map(|branch| weights(branch, alpha, beta)).collect();
     std::array::from_fn(|i| {

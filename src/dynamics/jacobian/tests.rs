@@ -1,0 +1,170 @@
+//! The Jacobian against difference quotients, and what other tests need of it.
+
+use super::*;
+use crate::contact::near_defect::NearDefect;
+use crate::contact::rigid_path::RigidPath;
+use crate::dynamics::drive::Quadratic;
+use crate::dynamics::forces::Forces;
+use crate::scene::{Damping, Scene};
+
+/// A model with a defect, its rings moved as `motions` say, and something at work in everything that depends on time.
+pub(crate) fn lively(motions: [Motion; 2], damping: Damping, cage_angle: f64) -> (Model, Drive) {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/er16k-tb1.toml");
+    let mut scene = Scene::from_toml(&std::fs::read_to_string(path).unwrap()).unwrap();
+    scene.contact.damping = damping;
+    for (ring, motion) in [&mut scene.shaft, &mut scene.housing].into_iter().zip(motions) {
+        ring.motion = motion;
+    }
+    let profile = [(-2.7e-3, 0.0), (-2.6e-3, 1e-4), (2.0e-3, 1e-4), (2.7e-3, 0.0)];
+    let (radius, raceway) = (0.5 * scene.bearing.element_diameter, scene.bearing.outer_raceway_radius());
+    let model = Model::new(&scene, Some(NearDefect::Hertz(RigidPath::new(&profile, radius, raceway))));
+    let place = |start: f64| [Quadratic([start, 2e-3, -3.0]), Quadratic([-start, -1e-3, 5.0])];
+    let load = |start: f64| [Quadratic([start, 2e4, 1e6]), Quadratic([-900.0, -4e4, 2e6])];
+    let drive = Drive {
+        cage_start: cage_angle,
+        cage: Quadratic([0.0, 250.0, 3e4]),
+        shaft: place(-1e-6),
+        housing: place(12e-6),
+        shaft_load: load(100.0),
+        housing_load: load(-30.0),
+    };
+    (model, drive)
+}
+
+/// Numbers between −1 and 1, always the same.
+pub(crate) fn noise(seed: u64) -> impl FnMut() -> f64 {
+    let mut x = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    move || {
+        x ^= x << 13;
+        x ^= x >> 7;
+        x ^= x << 17;
+        (x >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+}
+
+/// A state in motion, the inner ring pushed 20 µm against the elements below.
+pub(crate) fn moving(model: &Model, drive: &Drive, seed: u64) -> (Vec<f64>, Vec<u32>) {
+    let mut noise = noise(seed);
+    let z = model.element_count;
+    let mut state: Vec<f64> =
+        (0..model.layout.len).map(|i| if model.layout.is_position(i) { 1e-6 } else { 2e-2 } * noise()).collect();
+    let cells: Vec<u32> = (0..z).map(|j| model.cell_at(j, drive.cage_angle(0.0))).collect();
+    if let Some(i) = model.layout.shaft {
+        state[i + 1] -= 20e-6;
+    }
+    for j in 0..z {
+        let rho = model.outer_centre_radius;
+        let floor = -model.outer_approach(j, cells[j], 0.0, drive.cage_angle(0.0), rho).value;
+        state[j] += floor + 6e-6;
+    }
+    (state, cells)
+}
+
+/// The whole matrix, rows by columns.
+pub(crate) fn whole(jacobian: &Jacobian, len: usize) -> Vec<Vec<f64>> {
+    let z = jacobian.elements.len();
+    let mut matrix = vec![vec![0.0; len]; len];
+    let places = jacobian.places;
+    for (j, block) in jacobian.elements.iter().enumerate() {
+        matrix[j][z + j] = 1.0;
+        (matrix[z + j][j], matrix[z + j][z + j]) = (block.by_path, block.by_velocity);
+        for a in 0..2 {
+            if let Some((x, v)) = places[a] {
+                (matrix[z + j][x], matrix[z + j][v]) = (-block.by_offset[a], block.by_shaft_velocity[a]);
+                (matrix[v][j], matrix[v][z + j]) = (block.rings_by_path[a], block.rings_by_velocity[a]);
+            }
+            if let Some((x, v)) = places[2 + a] {
+                (matrix[z + j][x], matrix[z + j][v]) = (block.by_offset[a], block.by_housing_velocity[a]);
+                (matrix[v][j], matrix[v][z + j]) = (block.rings_by_path[2 + a], block.rings_by_velocity[2 + a]);
+                matrix[j][v] = -block.e_r[a];
+            }
+        }
+    }
+    for i in 0..BODIES {
+        let Some((x, v)) = places[i] else { continue };
+        matrix[x][v] = 1.0;
+        for k in 0..BODIES {
+            let Some((x_k, v_k)) = places[k] else { continue };
+            (matrix[v][x_k], matrix[v][v_k]) = (jacobian.by_position[i][k], jacobian.by_velocity[i][k]);
+        }
+    }
+    matrix
+}
+
+pub(crate) const MOTIONS: [[Motion; 2]; 4] = [
+    [Motion::Internal, Motion::Internal],
+    [Motion::Host, Motion::Internal],
+    [Motion::Internal, Motion::Host],
+    [Motion::Host, Motion::Host],
+];
+
+pub(crate) const DAMPINGS: [Damping; 3] =
+    [Damping::HuntCrossley(0.0), Damping::HuntCrossley(5.0), Damping::Proportional(1e-5)];
+
+/// Which contacts push, which are derivatives' branches.
+fn branch(forces: &Forces) -> Vec<bool> {
+    forces.inner_pushing.iter().chain(&forces.outer_pushing).map(|&p| p > 0.0).collect()
+}
+
+#[test]
+fn jacobian_and_time_derivative_equal_difference_quotients() {
+    let (mut compared, mut left_out, mut near_defect) = (0, 0, 0);
+    for (case, (motions, damping)) in
+        MOTIONS.into_iter().flat_map(|m| DAMPINGS.into_iter().map(move |d| (m, d))).enumerate()
+    {
+        for angle in [-1.66, -1.58, -1.5, 0.3] {
+            let (model, drive) = lively(motions, damping, angle);
+            let (state, cells) = moving(&model, &drive, case as u64 + 1);
+            near_defect += cells.iter().filter(|&&c| c != SMOOTH).count();
+            let len = model.layout.len;
+            let (mut jacobian, mut by_time) = (Jacobian::new(&model), vec![0.0; len]);
+            let tau = 1e-5;
+            model.linearize(&drive, tau, &cells, &state, &mut jacobian, &mut by_time);
+            let matrix = whole(&jacobian, len);
+            let mut forces = Forces::new(model.element_count);
+            let mut at = |tau: f64, state: &[f64]| {
+                let mut out = vec![0.0; len];
+                model.derivative(&drive, tau, &cells, state, &mut out, &mut forces);
+                (out, branch(&forces))
+            };
+            let (here, pushing) = at(tau, &state);
+            let largest = here.iter().fold(0.0f64, |m, f| m.max(f.abs()));
+            for k in 0..=len {
+                let h = if k == len {
+                    1e-9
+                } else if model.layout.is_position(k) {
+                    3e-11
+                } else {
+                    1e-6
+                };
+                let moved = |sign: f64| {
+                    let mut moved = state.clone();
+                    if k < len {
+                        moved[k] += sign * h;
+                    }
+                    (tau + if k == len { sign * h } else { 0.0 }, moved)
+                };
+                let ((t_a, a), (t_b, b)) = (moved(-1.0), moved(1.0));
+                let ((before, branch_before), (after, branch_after)) = (at(t_a, &a), at(t_b, &b));
+                if branch_before != pushing || branch_after != pushing {
+                    left_out += 1;
+                    continue;
+                }
+                for i in 0..len {
+                    let quotient = (after[i] - before[i]) / (2.0 * h);
+                    let found = if k == len { by_time[i] } else { matrix[i][k] };
+                    // Rounding of the largest terms over the difference; truncation (h/δ)² and second derivatives 1e-6.
+                    let rounding = 1e-14 * largest / h;
+                    assert!(
+                        (found - quotient).abs() <= 2e-6 * quotient.abs() + rounding,
+                        "{motions:?} {damping:?} at {angle}: ∂({})/∂({}) = {found:e}, quotient {quotient:e}",
+                        model.layout.name(i),
+                        if k == len { "t".to_owned() } else { model.layout.name(k) },
+                    );
+                    compared += 1;
+                }
+            }
+        }
+    }
+    assert!(compared > 10_000 && left_out < 20 && near_defect > 30, "{compared} {left_out} {near_defect}");
+}
