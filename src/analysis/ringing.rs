@@ -1,0 +1,126 @@
+//! Line or extended: how the rings sound after an entry and after an exit, against the stiffness of the scene's bearing.
+//!
+//! The rings swing against each other on the bearing's stiffness k, softer while an element is free in the spall and softer
+//! still while two are (an extended spall, longer than the element spacing). With the rings' masses m_i, m_o (and the sensor's on
+//! the outer one) and their supports k_i, k_o, the upper frequency f of
+//! ```text
+//! | k + k_i − (2πf)² m_i        −k          |
+//! |        −k          k + k_o − (2πf)² m_o | = 0
+//! ```
+//! is expected; k is the tangent stiffness in static equilibrium with an element halfway between the edges after an entry, and
+//! halfway between exit and next entry after an exit. Invalid for elements that carry load inside the spall: above the
+//! critical load, at which the element in the middle touches both rings again, stiffness cannot tell the two kinds.
+
+use super::spectrum;
+use super::synthesis::{Rig, Trial, reference};
+use crate::scene::Scene;
+use crate::simulation::{Simulation, SimulationError};
+use std::f64::consts::TAU;
+
+/// Relative distance of a measured from an expected frequency up to which they agree.
+const AGREE: f64 = 0.1;
+/// Load up to which the critical load is sought [N]: beyond, elements of any size are crushed.
+const LARGEST_LOAD: f64 = 2e5;
+/// Frequencies among which ringing is sought [Hz].
+const RANGE: (f64, f64) = (150.0, 2500.0);
+
+/// Frequencies of the rings' mode [Hz].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ringing {
+    /// Between an entry and the next exit.
+    pub after_entry: f64,
+    /// Between an exit and the next entry.
+    pub after_exit: f64,
+}
+
+impl Ringing {
+    /// Largest relative distance from another.
+    pub fn distance(&self, other: &Self) -> f64 {
+        let apart = |a: f64, b: f64| libm::log(a / b).abs();
+        apart(self.after_entry, other.after_entry).max(apart(self.after_exit, other.after_exit))
+    }
+
+    /// Whether they agree within what a few periods of ringing allow.
+    pub fn agrees(&self, other: &Self) -> bool {
+        self.distance(other) < AGREE
+    }
+}
+
+/// What the scene's rings do with a trial spall of this length.
+///
+/// # Errors
+/// Those of the simulation.
+pub fn expected(rig: &Rig, trial: Trial, spacing: f64) -> Result<Ringing, SimulationError> {
+    let over = trial.length.rem_euclid(spacing);
+    Ok(Ringing {
+        after_entry: frequency(rig, trial, 0.5 * over)?,
+        after_exit: frequency(rig, trial, 0.5 * (over + spacing))?,
+    })
+}
+
+fn frequency(rig: &Rig, trial: Trial, past_edge: f64) -> Result<f64, SimulationError> {
+    let scene = at_rest(rig, trial, past_edge);
+    let mut simulation = Simulation::new(scene.clone(), None)?;
+    let mut stiffness = [0.0];
+    simulation.reals(&[reference(&simulation, "shaft.stiffness.yy")], &mut stiffness)?;
+    let sensor = scene.sensor.map_or(0.0, |s| s.mass);
+    let (m_i, m_o) = (scene.shaft.mass, scene.housing.mass + sensor);
+    let (a, b) = ((stiffness[0] + scene.shaft.stiffness) / m_i, (stiffness[0] + scene.housing.stiffness) / m_o);
+    let coupling = stiffness[0] * stiffness[0] / (m_i * m_o);
+    let square = 0.5 * (a + b) + (0.25 * (a - b) * (a - b) + coupling).sqrt();
+    Ok(square.sqrt() / TAU)
+}
+
+/// The scene with element 1 `past_edge` degrees past the leading edge.
+fn at_rest(rig: &Rig, trial: Trial, past_edge: f64) -> Scene {
+    let mut scene = rig.with_spall(trial);
+    let centre = scene.defect.as_ref().map_or(0.0, |d| d.angle);
+    scene.cage.initial_angle = centre + (past_edge - 0.5 * trial.length).to_radians();
+    scene
+}
+
+/// Smallest load [N] at which an element in the middle of the spall carries some of it; `None` up to 200 kN.
+///
+/// # Errors
+/// Those of the simulation.
+pub fn critical_load(rig: &Rig, trial: Trial, spacing: f64) -> Result<Option<f64>, SimulationError> {
+    let scene = at_rest(rig, trial, 0.5 * trial.length.rem_euclid(spacing));
+    let norm = scene.shaft.load[0].hypot(scene.shaft.load[1]);
+    let direction = if norm > 0.0 { scene.shaft.load.map(|f| f / norm) } else { [0.0, -1.0] };
+    let carries = |load: f64| -> Result<bool, SimulationError> {
+        let mut scene = scene.clone();
+        scene.shaft.load = direction.map(|d| d * load);
+        let mut simulation = Simulation::new(scene, None)?;
+        let mut force = [0.0];
+        simulation.reals(&[reference(&simulation, "element[1].force.inner")], &mut force)?;
+        // Far above rounding, far below any share of a load that matters.
+        Ok(force[0] > 1e-6 * load)
+    };
+    let (mut low, mut high): (f64, f64) = (1.0, 2.0);
+    while !carries(high)? {
+        (low, high) = (high, 2.0 * high);
+        if high > LARGEST_LOAD {
+            return Ok(None);
+        }
+    }
+    // From a factor of 2 to 1e-5 of the load.
+    for _ in 0..16 {
+        let middle = (low * high).sqrt();
+        if carries(middle)? { high = middle } else { low = middle }
+    }
+    Ok(Some(high))
+}
+
+/// Strongest frequency of a stretch of signal sampled at `rate` [Hz]; `None` when it is shorter than two of its periods.
+pub fn strongest(signal: &[f64], rate: f64) -> Option<f64> {
+    if signal.len() < 16 {
+        return None;
+    }
+    let mean = super::statistics::mean(signal);
+    let centred: Vec<f64> = signal.iter().map(|x| x - mean).collect();
+    let (power, bin) = spectrum::power(&centred, rate, 16 * signal.len());
+    let (from, to) = ((RANGE.0 / bin) as usize + 1, ((RANGE.1 / bin) as usize).min(power.len() - 1));
+    let peak = (from..to).max_by(|&a, &b| power[a].total_cmp(&power[b]))?;
+    let frequency = peak as f64 * bin;
+    (signal.len() as f64 / rate * frequency > 2.0 && peak > from && peak + 1 < to).then_some(frequency)
+}
