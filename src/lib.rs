@@ -10,7 +10,7 @@
 pub mod analysis;
 pub mod contact;
 pub mod dynamics;
-//pub mod fmi2;
+pub mod fmi2;
 pub mod geometry;
 pub mod numerics;
 pub mod scene;

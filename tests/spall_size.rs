@@ -1,6 +1,9 @@
 //! Sizing of spalls from signals that are made here, by the kinematics of an element of finite size, or by the library's own
 //! simulation. No recording of a machine is needed.
 
+// A helper of a test may end it like the test itself.
+#![allow(clippy::unwrap_used)]
+
 use brinell::analysis::error::SizingError;
 use brinell::analysis::recording::Recording;
 use brinell::analysis::report::{Kind, Method, Report, Verdict};
@@ -110,7 +113,11 @@ fn spalls_of_two_five_and_eight_degrees_are_sized_by_their_events_at_any_speed()
             let report = sized(signal(length, speed, 0.03), speed, &scene());
             let found = report.length_deg.unwrap_or(f64::NAN);
             // What is asked of recordings: a quarter at 2 degrees, where the events take up all of the length, else a tenth.
-            assert!((found / length - 1.0).abs() < allowed, "{length} degrees at {speed} Hz: {found}, {}", report.reason);
+            assert!(
+                (found / length - 1.0).abs() < allowed,
+                "{length} degrees at {speed} Hz: {found}, {}",
+                report.reason
+            );
             assert_eq!(report.method, Some(Method::Events));
             // 0.4 % of slip were put in; the passages' scatter moves the mean period by less than 0.02 %.
             assert!((report.slip - 0.004).abs() < 2e-4, "slip {}", report.slip);

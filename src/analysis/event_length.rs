@@ -61,19 +61,27 @@ pub struct EventLength {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Unresolved {
     /// Nothing repeats with the ball pass frequency.
-    #[error("nothing repeats with the ball pass frequency: its comb stands {0:.1} standard deviations above chance, limit {1:.1}")]
+    #[error(
+        "nothing repeats with the ball pass frequency: its comb stands {0:.1} standard deviations above chance, limit {1:.1}"
+    )]
     NoPattern(f64, f64),
     /// Blows and echoes cannot be told apart in what the rate leaves.
-    #[error("sampling rate {0:.0} Hz: below {1:.0} Hz the band above the rings' modes is too narrow to tell blows from echoes")]
+    #[error(
+        "sampling rate {0:.0} Hz: below {1:.0} Hz the band above the rings' modes is too narrow to tell blows from echoes"
+    )]
     LowRate(f64, f64),
     /// No blow stands out.
     #[error("no blow stands out of the averaged passages: largest jump of the envelope below {0:.1} dB")]
     NoBlow(f64),
     /// Onset and blows cannot be told apart.
-    #[error("one blow per passage and no clear entry before it (clearness {0:.1}, limit {1:.1}): entry and exit are not apart")]
+    #[error(
+        "one blow per passage and no clear entry before it (clearness {0:.1}, limit {1:.1}): entry and exit are not apart"
+    )]
     OneBlow(f64, f64),
     /// No entry.
-    #[error("{0:.2} degrees between first and last blow, but no clear entry before them (clearness {1:.1}, limit {2:.1})")]
+    #[error(
+        "{0:.2} degrees between first and last blow, but no clear entry before them (clearness {1:.1}, limit {2:.1})"
+    )]
     NoEntry(f64, f64, f64),
     /// Blows fill the spacing.
     #[error("blows over {0:.1} of {1:.1} degrees of spacing: first and last cannot be told")]

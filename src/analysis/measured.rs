@@ -53,7 +53,8 @@ impl Measured {
         }
         let mut spectrum = Spectrum::of(recording.samples(), rate);
         let comb = envelope::find_comb(&mut spectrum, rate, nominal, recording.speed());
-        let passages = Passages::find(recording.samples(), &spectrum.squared_envelope(comb.band), rate / comb.frequency);
+        let passages =
+            Passages::find(recording.samples(), &spectrum.squared_envelope(comb.band), rate / comb.frequency);
         let mut high = spectrum.squared_envelope(Band { low: blow_band(rate), high: 0.45 * rate });
         let passages = passages.refined(&high);
         high.iter_mut().for_each(|x| *x = x.max(0.0).sqrt());

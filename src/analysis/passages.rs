@@ -82,8 +82,7 @@ impl Passages {
             xx += x * x;
         }
         let period = if xx > 0.0 { xy / xx } else { period };
-        let rest: Vec<f64> =
-            starts.iter().enumerate().map(|(i, s)| s - mean - (i as f64 - middle) * period).collect();
+        let rest: Vec<f64> = starts.iter().enumerate().map(|(i, s)| s - mean - (i as f64 - middle) * period).collect();
         Self { jitter: statistics::deviation(&rest) / period, starts, period }
     }
 }
@@ -154,8 +153,7 @@ fn align_from(log: &[f64], even: &[f64], period: f64, beginning: Vec<f64>) -> Ve
 fn round(log: &[f64], starts: &[f64], period: f64, reach: isize) -> Vec<f64> {
     let step = period / GRID as f64;
     let template = template(log, starts, period);
-    let mut shifted: Vec<f64> =
-        starts.iter().map(|&s| s + step * best_shift(log, s, step, &template, reach)).collect();
+    let mut shifted: Vec<f64> = starts.iter().map(|&s| s + step * best_shift(log, s, step, &template, reach)).collect();
     recentre(&mut shifted, starts);
     shifted
 }
@@ -178,7 +176,8 @@ fn best_shift(log: &[f64], start: f64, step: f64, template: &[f64], reach: isize
     let width = template.len() + 2 * reach as usize;
     let from = start - reach as f64 * step;
     let row: Vec<f64> = (0..width).map(|i| value_at(log, from + step * i as f64)).collect();
-    let fits: Vec<f64> = row.windows(template.len()).map(|w| w.iter().zip(template).map(|(a, b)| a * b).sum()).collect();
+    let fits: Vec<f64> =
+        row.windows(template.len()).map(|w| w.iter().zip(template).map(|(a, b)| a * b).sum()).collect();
     let best = (0..fits.len()).max_by(|&a, &b| fits[a].total_cmp(&fits[b])).unwrap_or(reach as usize);
     if best == 0 || best + 1 == fits.len() {
         // No maximum inside: this passage is lost in noise, let it go with its neighbours.

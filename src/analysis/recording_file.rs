@@ -162,7 +162,9 @@ mod tests {
             &[1i16, -2, 3].map(i16::to_le_bytes).concat(),
         );
         assert_eq!(npy(&vector).unwrap().signal, [1.0, -2.0, 3.0]);
-        for (order, values) in [("False", [1.0f32, 10.0, 2.0, 20.0, 3.0, 30.0]), ("True", [1.0, 2.0, 3.0, 10.0, 20.0, 30.0])] {
+        for (order, values) in
+            [("False", [1.0f32, 10.0, 2.0, 20.0, 3.0, 30.0]), ("True", [1.0, 2.0, 3.0, 10.0, 20.0, 30.0])]
+        {
             let header = format!("{{'descr': '<f4', 'fortran_order': {order}, 'shape': (3, 2), }}\n");
             let columns = npy(&npy_bytes(&header, &values.map(f32::to_le_bytes).concat())).unwrap();
             assert_eq!(columns.signal, [1.0, 2.0, 3.0]);

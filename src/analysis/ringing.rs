@@ -7,20 +7,18 @@
 //! | k + k_i − (2πf)² m_i        −k          |
 //! |        −k          k + k_o − (2πf)² m_o | = 0
 //! ```
-//! is expected; k is the tangent stiffness in static equilibrium with an element halfway between the edges after an entry, and
+//! is expected; k is the tangent stiffness along the load in static balance with an element halfway between the edges after an entry, and
 //! halfway between exit and next entry after an exit. Invalid for elements that carry load inside the spall: above the
 //! critical load, at which the element in the middle touches both rings again, stiffness cannot tell the two kinds.
 
 use super::spectrum;
-use super::synthesis::{Rig, Trial, reference};
+use super::static_bearing::{StaticBearing, StaticError};
+use super::synthesis::{Rig, Trial};
 use crate::scene::Scene;
-use crate::simulation::{Simulation, SimulationError};
 use std::f64::consts::TAU;
 
 /// Relative distance of a measured from an expected frequency up to which they agree.
 const AGREE: f64 = 0.1;
-/// Load up to which the critical load is sought [N]: beyond, elements of any size are crushed.
-const LARGEST_LOAD: f64 = 2e5;
 /// Frequencies among which ringing is sought [Hz].
 const RANGE: (f64, f64) = (150.0, 2500.0);
 
@@ -49,66 +47,34 @@ impl Ringing {
 /// What the scene's rings do with a trial spall of this length.
 ///
 /// # Errors
-/// Those of the simulation.
-pub fn expected(rig: &Rig, trial: Trial, spacing: f64) -> Result<Ringing, SimulationError> {
+/// Those of the static balance.
+pub fn expected(rig: &Rig, trial: Trial, spacing: f64) -> Result<Ringing, StaticError> {
+    let scene = rig.with_spall(trial);
+    let bearing = StaticBearing::new(&scene, None)?;
+    let centre = scene.defect.as_ref().map_or(0.0, |d| d.angle);
     let over = trial.length.rem_euclid(spacing);
-    Ok(Ringing {
-        after_entry: frequency(rig, trial, 0.5 * over)?,
-        after_exit: frequency(rig, trial, 0.5 * (over + spacing))?,
-    })
+    // Element 1 that far past the leading edge [degrees].
+    let frequency = |past_edge: f64| -> Result<f64, StaticError> {
+        let cage_angle = centre + (past_edge - 0.5 * trial.length).to_radians();
+        Ok(upper_frequency(&scene, bearing.balance(cage_angle, bearing.load())?.held_stiffness()))
+    };
+    Ok(Ringing { after_entry: frequency(0.5 * over)?, after_exit: frequency(0.5 * (over + spacing))? })
 }
 
-fn frequency(rig: &Rig, trial: Trial, past_edge: f64) -> Result<f64, SimulationError> {
-    let scene = at_rest(rig, trial, past_edge);
-    let mut simulation = Simulation::new(scene.clone(), None)?;
-    let mut stiffness = [0.0];
-    simulation.reals(&[reference(&simulation, "shaft.stiffness.yy")], &mut stiffness)?;
+fn upper_frequency(scene: &Scene, stiffness: f64) -> f64 {
     let sensor = scene.sensor.map_or(0.0, |s| s.mass);
     let (m_i, m_o) = (scene.shaft.mass, scene.housing.mass + sensor);
-    let (a, b) = ((stiffness[0] + scene.shaft.stiffness) / m_i, (stiffness[0] + scene.housing.stiffness) / m_o);
-    let coupling = stiffness[0] * stiffness[0] / (m_i * m_o);
-    let square = 0.5 * (a + b) + (0.25 * (a - b) * (a - b) + coupling).sqrt();
-    Ok(square.sqrt() / TAU)
+    let (a, b) = ((stiffness + scene.shaft.stiffness) / m_i, (stiffness + scene.housing.stiffness) / m_o);
+    let coupling = stiffness * stiffness / (m_i * m_o);
+    (0.5 * (a + b) + (0.25 * (a - b) * (a - b) + coupling).sqrt()).sqrt() / TAU
 }
 
-/// The scene with element 1 `past_edge` degrees past the leading edge.
-fn at_rest(rig: &Rig, trial: Trial, past_edge: f64) -> Scene {
-    let mut scene = rig.with_spall(trial);
-    let centre = scene.defect.as_ref().map_or(0.0, |d| d.angle);
-    scene.cage.initial_angle = centre + (past_edge - 0.5 * trial.length).to_radians();
-    scene
-}
-
-/// Smallest load [N] at which an element in the middle of the spall carries some of it; `None` up to 200 kN.
+/// Smallest load [N] at which elements at the bottom of the spall carry some of it.
 ///
 /// # Errors
-/// Those of the simulation.
-pub fn critical_load(rig: &Rig, trial: Trial, spacing: f64) -> Result<Option<f64>, SimulationError> {
-    let scene = at_rest(rig, trial, 0.5 * trial.length.rem_euclid(spacing));
-    let norm = scene.shaft.load[0].hypot(scene.shaft.load[1]);
-    let direction = if norm > 0.0 { scene.shaft.load.map(|f| f / norm) } else { [0.0, -1.0] };
-    let carries = |load: f64| -> Result<bool, SimulationError> {
-        let mut scene = scene.clone();
-        scene.shaft.load = direction.map(|d| d * load);
-        let mut simulation = Simulation::new(scene, None)?;
-        let mut force = [0.0];
-        simulation.reals(&[reference(&simulation, "element[1].force.inner")], &mut force)?;
-        // Far above rounding, far below any share of a load that matters.
-        Ok(force[0] > 1e-6 * load)
-    };
-    let (mut low, mut high): (f64, f64) = (1.0, 2.0);
-    while !carries(high)? {
-        (low, high) = (high, 2.0 * high);
-        if high > LARGEST_LOAD {
-            return Ok(None);
-        }
-    }
-    // From a factor of 2 to 1e-5 of the load.
-    for _ in 0..16 {
-        let middle = (low * high).sqrt();
-        if carries(middle)? { high = middle } else { low = middle }
-    }
-    Ok(Some(high))
+/// Those of the static balance.
+pub fn critical_load(rig: &Rig, trial: Trial) -> Result<Option<f64>, StaticError> {
+    Ok(StaticBearing::new(&rig.with_spall(trial), None)?.critical_load()?.map(|critical| critical.load))
 }
 
 /// Strongest frequency of a stretch of signal sampled at `rate` [Hz]; `None` when it is shorter than two of its periods.

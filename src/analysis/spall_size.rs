@@ -58,7 +58,8 @@ pub fn size(recordings: &[Recording], scene: &Scene) -> Result<Report, SizingErr
     let lengths: Vec<&Length> = sized.iter().filter_map(|s| s.length.as_ref().ok()).collect();
     match combine(&lengths, sized.len()) {
         Err(why) => {
-            let each = sized.iter().filter_map(|s| s.length.as_ref().err().map(|e| format!("{}: {e}", s.measured.name)));
+            let each =
+                sized.iter().filter_map(|s| s.length.as_ref().err().map(|e| format!("{}: {e}", s.measured.name)));
             report.reason = std::iter::once(why).chain(each).collect::<Vec<_>>().join("; ");
         }
         Ok((length, uncertainty)) => {
@@ -100,8 +101,7 @@ struct Length {
 impl Sized {
     fn of(measured: Measured, scene: &Scene) -> Self {
         let events = event_length::estimate(&measured, scene);
-        let waveform =
-            if measured.comb.is_significant() { waveform_length::estimate(&measured, scene) } else { None };
+        let waveform = if measured.comb.is_significant() { waveform_length::estimate(&measured, scene) } else { None };
         let spacing = measured.spacing;
         // Where an entry begins [share of a period], and how far from it the next exit is [degrees].
         let entry = match (&waveform, &events) {
@@ -116,9 +116,10 @@ impl Sized {
             let of = |length: f64| ringing::expected(rig, trial(length, TRIAL_DEPTH), spacing).ok();
             Some([of(over)?, of(over + spacing)?])
         });
-        let critical_load = rig.as_ref().zip(waveform.as_ref()).and_then(|(rig, w)| {
-            ringing::critical_load(rig, trial(w.length, w.depth), spacing).ok().flatten()
-        });
+        let critical_load = rig
+            .as_ref()
+            .zip(waveform.as_ref())
+            .and_then(|(rig, w)| ringing::critical_load(rig, trial(w.length, w.depth)).ok().flatten());
         let by_ringing = kind_by_ringing(ringing, expected);
         let length = match (&waveform, &events) {
             (Some(w), _) => Ok(Length {
@@ -174,7 +175,8 @@ impl Sized {
             (None, Some(e)) => e.blows.clone(),
             _ => Vec::new(),
         };
-        let end = onset.zip(self.length.as_ref().ok()).map(|(onset, l)| onset + l.length.rem_euclid(self.measured.spacing));
+        let end =
+            onset.zip(self.length.as_ref().ok()).map(|(onset, l)| onset + l.length.rem_euclid(self.measured.spacing));
         Figure { name: self.measured.name.clone(), angle, signal, level, onset, blows, end }
     }
 }
@@ -193,10 +195,7 @@ fn measured_ringing(measured: &Measured, entry: f64, over: f64) -> Option<Ringin
     let smooth = Spectrum::of(&row, rate).filtered(Band { low: 0.0, high: CUT });
     let point = |degrees: f64| (degrees / measured.spacing * POINTS as f64) as usize;
     let between = |from: f64, to: f64| ringing::strongest(smooth.get(point(from)..point(to))?, rate);
-    Some(Ringing {
-        after_entry: between(1.0, over - 1.0)?,
-        after_exit: between(over + 0.5, measured.spacing - 0.5)?,
-    })
+    Some(Ringing { after_entry: between(1.0, over - 1.0)?, after_exit: between(over + 0.5, measured.spacing - 0.5)? })
 }
 
 fn kind_by_ringing(measured: Option<Ringing>, expected: Option<[Ringing; 2]>) -> Kind {
@@ -264,7 +263,7 @@ fn basis(report: &Report, sized: &[Sized], scene: &Scene) -> String {
     let load = scene.shaft.load[0].hypot(scene.shaft.load[1]);
     if let Some(critical) = report.critical_load_n.filter(|&critical| load >= critical) {
         text += &format!(
-            "; WARNING: the load of {load:.0} N is above the critical load of {critical:.0} N: elements inside the spall carry \
+            "; WARNING: the load of {load:.0} N is above the critical load of {critical:.0} N (at the depth that fits best): elements inside the spall carry \
              load, and stiffness does not tell an extended from a line spall"
         );
     }

@@ -141,7 +141,8 @@ pub fn gaussian(signal: &[f64], sigma: f64) -> Vec<f64> {
     let last = signal.len() as isize - 1;
     (0..signal.len() as isize)
         .map(|i| {
-            (-reach..=reach).zip(&weights).map(|(k, w)| w * signal[(i + k).clamp(0, last) as usize]).sum::<f64>() / total
+            (-reach..=reach).zip(&weights).map(|(k, w)| w * signal[(i + k).clamp(0, last) as usize]).sum::<f64>()
+                / total
         })
         .collect()
 }

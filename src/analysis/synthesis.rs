@@ -73,7 +73,8 @@ impl Rig {
         let count = if run == Run::Short { 1 } else { 2 };
         let passages = count..2 * count;
         let mut simulation = Simulation::new(self.with_spall(trial), None)?;
-        let sensor = reference(&simulation, "sensor.acceleration");
+        // A rig has a sensor, or it would not have been made.
+        let sensor = simulation.table().iter().position(|v| v.name == "sensor.acceleration").unwrap_or_default() as u32;
         simulation.initialize(0.0)?;
         let count = (passages.end as f64 * self.rate / self.bpfo) as usize + 4;
         let mut signal = Vec::with_capacity(count);
@@ -106,17 +107,11 @@ fn load_angle(scene: &Scene) -> f64 {
     if load == [0.0; 2] { -FRAC_PI_2 } else { libm::atan2(load[1], load[0]) }
 }
 
-/// Reference of a variable that the table is known to have for this scene.
-pub(super) fn reference(simulation: &Simulation, name: &str) -> u32 {
-    simulation.table().iter().position(|v| v.name == name).unwrap_or_default() as u32
-}
-
 /// A passage of [`POINTS`] points without what lies above the cut, mean 0, norm 1; `bpfo` in Hz.
 pub fn below_cut(passage: &[f64], bpfo: f64) -> Vec<f64> {
     let mean = super::statistics::mean(passage);
     let centred: Vec<f64> = passage.iter().map(|x| x - mean).collect();
-    let mut passage =
-        Spectrum::of(&centred, bpfo * passage.len() as f64).filtered(Band { low: 0.5 * bpfo, high: CUT });
+    let mut passage = Spectrum::of(&centred, bpfo * passage.len() as f64).filtered(Band { low: 0.5 * bpfo, high: CUT });
     let norm = passage.iter().map(|x| x * x).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
     passage.iter_mut().for_each(|x| *x /= norm);
     passage

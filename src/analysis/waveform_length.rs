@@ -2,7 +2,7 @@
 //!
 //! The search goes from coarse to fine: lengths in steps of a degree up to two element spacings (an extended spall looks like
 //! a line spall one spacing shorter, but for the frequency of its ringing), with the cheap contact law; the three best finer;
-//! the best with the scene's own law and several depths. A parabola through the best three lengths gives the last digits.
+//! the best with several depths and the scene's own law. A parabola through the best three lengths gives the last digits.
 //!
 //! [`synthesis`]: super::synthesis
 
@@ -52,10 +52,8 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Option<WaveformLength> {
     let search = Search { rig: &rig, target: &target };
     let spacing = measured.spacing;
     let simple = |length: f64| Trial { length, depth: DEPTH, law: ContactLaw::Hertz };
-    let coarse: Vec<Trial> = lengths(1.0, 1.95 * spacing, 1.0)
-        .filter(|l| (l / spacing - 1.0).abs() > 0.02)
-        .map(simple)
-        .collect();
+    let coarse: Vec<Trial> =
+        lengths(1.0, 1.95 * spacing, 1.0).filter(|l| (l / spacing - 1.0).abs() > 0.02).map(simple).collect();
     let mut found = search.fits(&coarse, Run::Short);
     if found.first()?.likeness < HOPELESS {
         return None;
@@ -66,32 +64,26 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Option<WaveformLength> {
             near.push(fit.trial.length);
         }
     }
-    let closer: Vec<Trial> =
-        near.iter().flat_map(|&l| lengths((l - 0.8).max(0.3), l + 0.8, 0.2)).map(simple).collect();
+    let closer: Vec<Trial> = near.iter().flat_map(|&l| lengths((l - 0.8).max(0.3), l + 0.8, 0.2)).map(simple).collect();
     let closer = search.fits(&closer, Run::Short);
-    let best_law = closer.first()?.trial.length;
+    let around = closer.first()?.trial.length;
     found.extend(closer);
-    // The scene's law shifts the edges by a contact's width at most.
-    let own = |length: f64, depth: f64| Trial { length, depth, law: scene.contact.law };
-    let start = lengths((best_law - 0.6).max(0.2), best_law + 0.6, 0.2).map(|l| own(l, DEPTH)).collect::<Vec<_>>();
-    let around = search.fits(&start, Run::Long).first()?.trial.length;
-    let mut peaks: Vec<Peak> = Vec::new();
-    for depth in std::iter::once(DEPTH).chain(OTHER_DEPTHS) {
-        let trials: Vec<Trial> =
-            lengths((around - 3.0 * FINE).max(FINE), around + 3.0 * FINE, FINE).map(|l| own(l, depth)).collect();
-        peaks.extend(Peak::of(search.fits(&trials, Run::Long), &target));
-    }
+    let mut peaks: Vec<Peak> = std::iter::once(DEPTH)
+        .chain(OTHER_DEPTHS)
+        .filter_map(|depth| search.peak(around, Trial { length: around, depth, law: ContactLaw::Hertz }))
+        .collect();
     let likest = peaks.iter().map(|p| p.likeness).fold(0.0, f64::max);
-    if likest < LIKE {
-        return None;
-    }
     // As good as the best: within half of what the best itself leaves unexplained.
     let limit = likest - 0.5 * (1.0 - likest).max(1e-3);
     peaks.retain(|p| p.likeness >= limit);
+    let range = peaks.iter().fold((f64::MAX, f64::MIN), |(l, h), p| (l.min(p.length), h.max(p.length)));
     // The first is the usual depth, if it is as good: a depth that elements do not reach leaves no trace.
-    let best = peaks.first()?;
-    let as_good: Vec<f64> = peaks.iter().map(|p| p.length).collect();
-    let range = as_good.iter().fold((best.length, best.length), |(l, h), &x| (l.min(x), h.max(x)));
+    let cheap = peaks.into_iter().next()?;
+    let own = search.with_law(&cheap, scene.contact.law);
+    let best = own.as_ref().filter(|own| own.likeness > cheap.likeness).unwrap_or(&cheap);
+    if best.likeness < LIKE {
+        return None;
+    }
     let of_kind = |extended: bool| {
         let all = found.iter().filter(|f| (f.trial.length > spacing) == extended);
         all.map(|f| f.likeness).fold(if (best.length > spacing) == extended { best.likeness } else { 0.0 }, f64::max)
@@ -121,6 +113,28 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
+    /// The top of likeness around a length.
+    fn peak(&self, around: f64, trial: Trial) -> Option<Peak> {
+        let from = (around - 3.0 * FINE).max(FINE);
+        let trials: Vec<Trial> =
+            lengths(from, around + 3.0 * FINE, FINE).map(|length| Trial { length, ..trial }).collect();
+        Peak::of(self.fits(&trials, Run::Long), self.target)
+    }
+
+    /// The same with a law that minds the contact's width: it shifts the edges by that at most.
+    fn with_law(&self, peak: &Peak, law: ContactLaw) -> Option<Peak> {
+        // The map is the grid's law, computed beforehand.
+        let law = if law == ContactLaw::Love { ContactLaw::Map } else { law };
+        if law == ContactLaw::Hertz {
+            return None;
+        }
+        let trial = |length: f64| Trial { length, depth: peak.depth, law };
+        let wide: Vec<Trial> =
+            lengths((peak.length - 0.6).max(FINE), peak.length + 0.6, 2.0 * FINE).map(trial).collect();
+        let around = self.fits(&wide, Run::Long).first()?.trial.length;
+        self.peak(around, trial(around))
+    }
+
     /// The trials in the order of their likeness; those that cannot be simulated are left out.
     fn fits(&self, trials: &[Trial], run: Run) -> Vec<Fit> {
         let threads = std::thread::available_parallelism().map_or(1, |n| n.get().min(8));
