@@ -24,6 +24,8 @@ const OTHER_DEPTHS: [f64; 4] = [25e-6, 50e-6, 200e-6, 400e-6];
 const RESAMPLINGS: usize = 60;
 /// Step of the last search [degrees].
 const FINE: f64 = 0.1;
+/// Half the range in which the contact's width can shift a length [degrees].
+const WIDE: f64 = 0.8;
 
 /// Length by likeness. Angles in degrees of the outer raceway.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,7 +82,11 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Option<WaveformLength> {
     // The first is the usual depth, if it is as good: a depth that elements do not reach leaves no trace.
     let cheap = peaks.into_iter().next()?;
     let own = search.with_law(&cheap, scene.contact.law);
-    let best = own.as_ref().filter(|own| own.likeness > cheap.likeness).unwrap_or(&cheap);
+    let best = own.unwrap_or_else(|| OwnLaw {
+        length: cheap.length,
+        likeness: cheap.likeness,
+        passage: cheap.fits[cheap.top].passage.clone(),
+    });
     if best.likeness < LIKE {
         return None;
     }
@@ -90,12 +96,12 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Option<WaveformLength> {
     };
     Some(WaveformLength {
         length: best.length,
-        depth: best.depth,
-        statistical: bootstrap(&rows, measured.bpfo, best),
+        depth: cheap.depth,
+        statistical: bootstrap(&rows, measured.bpfo, &cheap),
         systematic: 0.5 * (range.1 - range.0) / 3f64.sqrt(),
         likeness: best.likeness,
         by_kind: [of_kind(false), of_kind(true)],
-        entry: (best_shift(&target, &best.fits[best.top].passage).0 - 0.5 * best.length / spacing).rem_euclid(1.0),
+        entry: (best_shift(&target, &best.passage).0 - 0.5 * best.length / spacing).rem_euclid(1.0),
     })
 }
 
@@ -121,18 +127,29 @@ impl Search<'_> {
         Peak::of(self.fits(&trials, Run::Long), self.target)
     }
 
-    /// The same with a law that minds the contact's width: it shifts the edges by that at most.
-    fn with_law(&self, peak: &Peak, law: ContactLaw) -> Option<Peak> {
+    /// The same by a law that minds the contact's width and so shifts the edges, with two runs of it: a map is dear.
+    ///
+    /// How long a run by that law seems to be when measured with the cheap law's runs says how much that law errs.
+    fn with_law(&self, peak: &Peak, law: ContactLaw) -> Option<OwnLaw> {
         // The map is the grid's law, computed beforehand.
         let law = if law == ContactLaw::Love { ContactLaw::Map } else { law };
         if law == ContactLaw::Hertz {
             return None;
         }
-        let trial = |length: f64| Trial { length, depth: peak.depth, law };
-        let wide: Vec<Trial> =
-            lengths((peak.length - 0.6).max(FINE), peak.length + 0.6, 2.0 * FINE).map(trial).collect();
-        let around = self.fits(&wide, Run::Long).first()?.trial.length;
-        self.peak(around, trial(around))
+        let trial = |length: f64, law: ContactLaw| Trial { length, depth: peak.depth, law };
+        let ruler: Vec<Trial> = lengths((peak.length - WIDE).max(FINE), peak.length + WIDE, FINE)
+            .map(|length| trial(length, ContactLaw::Hertz))
+            .collect();
+        let mut ruler = self.fits(&ruler, Run::Long);
+        ruler.sort_by(|a, b| a.trial.length.total_cmp(&b.trial.length));
+        let seems = top(&ruler, self.target)?.0;
+        let mut length = seems;
+        let mut passage = Vec::new();
+        for _ in 0..2 {
+            passage = self.rig.passage(trial(length, law), Run::Long).ok()?;
+            length = (length - (top(&ruler, &passage)?.0 - seems)).max(FINE);
+        }
+        Some(OwnLaw { length, likeness: likeness(self.target, &passage), passage })
     }
 
     /// The trials in the order of their likeness; those that cannot be simulated are left out.
@@ -153,6 +170,13 @@ impl Search<'_> {
         fits.sort_by(|a, b| b.likeness.total_cmp(&a.likeness));
         fits
     }
+}
+
+/// The answer by the scene's own law.
+struct OwnLaw {
+    length: f64,
+    likeness: f64,
+    passage: Vec<f64>,
 }
 
 /// The top of likeness over length at one depth.
