@@ -8,7 +8,7 @@
 //! these explain widens the interval. What all share (what the events mean, the contact's law) is not averaged away.
 
 use super::error::SizingError;
-use super::event_length::{self, EventLength};
+use super::event_length::{self, EventLength, Unresolved};
 use super::measured::Measured;
 use super::passages;
 use super::recording::Recording;
@@ -80,7 +80,7 @@ pub fn size(recordings: &[Recording], scene: &Scene) -> Result<Report, SizingErr
 /// A recording with what was found in it.
 struct Sized {
     measured: Measured,
-    length: Result<Length, event_length::Unresolved>,
+    length: Result<Length, Unresolved>,
     events: Option<EventLength>,
     waveform: Option<WaveformLength>,
     ringing: Option<Ringing>,
@@ -122,6 +122,9 @@ impl Sized {
             .and_then(|(rig, w)| ringing::critical_load(rig, trial(w.length, w.depth)).ok().flatten());
         let by_ringing = kind_by_ringing(ringing, expected);
         let length = match (&waveform, &events) {
+            (Some(w), _) if too_uncertain(w) => {
+                Err(Unresolved::TooUncertain(w.length, COVERAGE * w.statistical.hypot(w.systematic)))
+            }
             (Some(w), _) => Ok(Length {
                 length: w.length,
                 statistical: w.statistical,
@@ -179,6 +182,11 @@ impl Sized {
             onset.zip(self.length.as_ref().ok()).map(|(onset, l)| onset + l.length.rem_euclid(self.measured.spacing));
         Figure { name: self.measured.name.clone(), angle, signal, level, onset, blows, end }
     }
+}
+
+/// Whether the interval is wider than the length: short spalls all sound alike but for their loudness.
+fn too_uncertain(waveform: &WaveformLength) -> bool {
+    2.0 * COVERAGE * waveform.statistical.hypot(waveform.systematic) > waveform.length
 }
 
 /// Depth at which ringing is expected [m]: deep enough for free elements, which is what the two kinds differ in.
