@@ -1,5 +1,20 @@
 //! What an engineer reads out of a scene or a recording. A leaf: nothing imports it.
 
 pub mod critical_load;
+pub mod envelope;
+pub mod error;
+pub mod event_length;
+pub mod events;
+pub mod measured;
+pub mod passages;
+pub mod recording;
+mod recording_file;
+pub mod report;
+pub mod ringing;
+pub mod spall_size;
+pub mod spectrum;
 pub mod static_bearing;
+pub mod statistics;
 pub mod stiffness;
+pub mod synthesis;
+pub mod waveform_length;

@@ -1,0 +1,22 @@
+//! Sizes the spall in recordings of one bearing and prints the report as JSON:
+//! `cargo run --release --example size -- SCENE RATE_HZ FILE@SPEED_HZ…`
+
+use brinell::analysis::recording::{Recording, Speed};
+use brinell::analysis::spall_size::size;
+use brinell::scene::Scene;
+use std::error::Error;
+use std::path::Path;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<String> = std::env::args().collect();
+    let [_, scene, rate, files @ ..] = &arguments[..] else { return Err("SCENE RATE_HZ FILE@SPEED_HZ…".into()) };
+    let scene = Scene::from_toml(&std::fs::read_to_string(scene)?)?;
+    let rate: f64 = rate.parse()?;
+    let mut recordings = Vec::new();
+    for file in files {
+        let (path, speed) = file.rsplit_once('@').ok_or("FILE@SPEED_HZ")?;
+        recordings.push(Recording::read(Path::new(path), Some(rate), Speed::Constant(speed.parse()?))?);
+    }
+    println!("{}", serde_json::to_string_pretty(&size(&recordings, &scene)?)?);
+    Ok(())
+}

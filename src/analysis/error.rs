@@ -1,0 +1,125 @@
+//! What a recording can be refused for. Each message names the quantity, its value and the limit.
+
+use std::path::PathBuf;
+
+/// A recording that cannot be read or cannot be sized, whatever the bearing's state.
+#[derive(Debug, thiserror::Error)]
+pub enum SizingError {
+    /// The file could not be read.
+    #[error("{path}: {source}")]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// The file is not what its ending says, or of a kind that is not read.
+    #[error("{path}: {why}")]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, and what would be right.
+        why: String,
+    },
+    /// No recordings were given.
+    #[error("0 recordings: at least 1 is needed")]
+    NoRecordings,
+    /// A quantity that must be positive and finite is not.
+    #[error("{name}: {quantity} {value} {unit}: it must be finite and above 0")]
+    NotPositive {
+        /// The recording.
+        name: String,
+        /// The quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
+    /// A sample is not a number.
+    #[error("{name}: sample {index} is {value}: samples must be finite")]
+    NotFinite {
+        /// The recording.
+        name: String,
+        /// Index of the sample, from 0.
+        index: usize,
+        /// The sample.
+        value: f64,
+    },
+    /// All samples are equal.
+    #[error("{name}: all {count} samples are {value}: a constant carries no vibration")]
+    Constant {
+        /// The recording.
+        name: String,
+        /// Number of samples.
+        count: usize,
+        /// Their value.
+        value: f64,
+    },
+    /// The signal sits at its limits.
+    #[error("{name}: {percent:.2} % of the samples sit in runs at the extreme value {value}: clipped; limit {limit} %")]
+    Clipped {
+        /// The recording.
+        name: String,
+        /// Share of samples in runs at the extremes [%].
+        percent: f64,
+        /// The extreme.
+        value: f64,
+        /// Largest share allowed [%].
+        limit: f64,
+    },
+    /// Too few elements pass the defect during the recording.
+    #[error(
+        "{name}: {duration:.3} s hold {passages:.1} passages at a ball pass frequency of {bpfo:.3} Hz: at least {limit} are needed"
+    )]
+    TooShort {
+        /// The recording.
+        name: String,
+        /// Duration [s].
+        duration: f64,
+        /// Passages in it.
+        passages: f64,
+        /// Ball pass frequency [Hz].
+        bpfo: f64,
+        /// Fewest passages.
+        limit: usize,
+    },
+    /// The ball pass frequency is too high for the sampling rate: rate or speed are wrong.
+    #[error(
+        "{name}: {samples:.1} samples per passage ({rate} Hz at a ball pass frequency of {bpfo:.3} Hz): at least {limit} are needed; is the rate or the speed of {speed} Hz wrong?"
+    )]
+    TooCoarse {
+        /// The recording.
+        name: String,
+        /// Samples between one element and the next.
+        samples: f64,
+        /// Sampling rate [Hz].
+        rate: f64,
+        /// Ball pass frequency [Hz].
+        bpfo: f64,
+        /// Shaft speed [Hz].
+        speed: f64,
+        /// Fewest samples per passage.
+        limit: usize,
+    },
+    /// The tachometer column gives no speed.
+    #[error("{name}: {pulses} tachometer pulses: at least {limit} are needed")]
+    Tachometer {
+        /// The recording.
+        name: String,
+        /// Rising edges found.
+        pulses: usize,
+        /// Fewest pulses.
+        limit: usize,
+    },
+    /// The tachometer's column is not as long as the signal's.
+    #[error("{name}: {tachometer} tachometer samples beside {samples} of the signal: they must be equally many")]
+    TachometerLength {
+        /// The recording.
+        name: String,
+        /// Length of the tachometer column.
+        tachometer: usize,
+        /// Length of the signal.
+        samples: usize,
+    },
+}

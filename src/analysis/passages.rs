@@ -1,0 +1,196 @@
+//! The passages of elements over the defect, found one by one and laid over each other.
+//!
+//! The cage is not a clock: slip and the elements' play in their pockets move a passage by tenths of a degree, which would
+//! blur an average taken at the mean period. Each passage is therefore shifted until the rises of its envelope agree best
+//! with the mean of all (cross-correlation, repeated), near the shift of its neighbours. If that does not make the averaged
+//! signal stronger, the shifts were noise and the even period is kept.
+//!
+//! Angles are degrees of element travel: one ball pass period is one element spacing.
+
+use super::recording::value_at;
+use super::spectrum;
+use super::statistics;
+
+/// Points per element spacing at which shifts are sought; parabolas refine them.
+const GRID: usize = 400;
+/// Largest distance of a passage from its neighbours' [grid points].
+const NEAR: isize = 20;
+/// Largest shift when they are known already [grid points].
+const CLOSE: isize = 8;
+/// Largest shift at first [grid points].
+const FAR: isize = 50;
+/// Single passages from which the alignment begins, besides the mean of all.
+const BEGINNINGS: usize = 6;
+/// Passages used at most: more do not sharpen the average and cost time.
+const MOST: usize = 1200;
+
+/// When elements pass the defect.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Passages {
+    /// Start of each passage's period [samples].
+    pub starts: Vec<f64>,
+    /// Samples per passage, mean over the recording.
+    pub period: f64,
+    /// Standard deviation of the shifts from even passages [share of a period].
+    pub jitter: f64,
+}
+
+impl Passages {
+    /// Finds them. `squared_envelope` is that of a band which shows the passages, `signal` the raw signal, and `period`
+    /// the ball pass period [samples] as the envelope's spectrum gives it.
+    pub fn find(signal: &[f64], squared_envelope: &[f64], period: f64) -> Self {
+        let log = rises(squared_envelope, period);
+        // One period at each end is lost to the filters' ends and to shifts.
+        let count = ((signal.len() as f64 / period) as usize).saturating_sub(2).min(MOST);
+        let even: Vec<f64> = (0..count).map(|i| (0.5 + i as f64) * period).collect();
+        let aligned = align(&log, &even, period);
+        let power = |starts: &[f64]| {
+            let average = average(&cut(signal, starts, period, GRID));
+            average.iter().map(|x| x * x).sum::<f64>()
+        };
+        let starts = if power(&aligned) > power(&even) { aligned } else { even };
+        Self::from_starts(starts, period)
+    }
+
+    /// The same passages, aligned anew by the envelope of the blows' band, if that makes the averaged envelope steeper.
+    pub fn refined(self, squared_envelope: &[f64]) -> Self {
+        let log = rises(squared_envelope, self.period);
+        let mut shifted = self.starts.clone();
+        for _ in 0..3 {
+            shifted = round(&log, &shifted, self.period, CLOSE);
+        }
+        let contrast = |starts: &[f64]| statistics::deviation(&average(&cut(&log, starts, self.period, GRID)));
+        // Shifts that follow noise raise the contrast a little; true ones raise it clearly.
+        if contrast(&shifted) > 1.02 * contrast(&self.starts) { Self::from_starts(shifted, self.period) } else { self }
+    }
+
+    /// The same passages with their periods beginning `share` of a period later.
+    pub fn later(&self, share: f64) -> Self {
+        let starts = self.starts.iter().map(|s| s + share * self.period).collect();
+        Self { starts, ..self.clone() }
+    }
+
+    fn from_starts(starts: Vec<f64>, period: f64) -> Self {
+        // The mean period is the slope of a straight line through the passages.
+        let n = starts.len() as f64;
+        let middle = 0.5 * (n - 1.0);
+        let mean = statistics::mean(&starts);
+        let (mut xy, mut xx) = (0.0, 0.0);
+        for (i, s) in starts.iter().enumerate() {
+            let x = i as f64 - middle;
+            xy += x * (s - mean);
+            xx += x * x;
+        }
+        let period = if xx > 0.0 { xy / xx } else { period };
+        let rest: Vec<f64> = starts.iter().enumerate().map(|(i, s)| s - mean - (i as f64 - middle) * period).collect();
+        Self { jitter: statistics::deviation(&rest) / period, starts, period }
+    }
+}
+
+/// One row of `points` values per passage, spread evenly over its period.
+pub fn cut(signal: &[f64], starts: &[f64], period: f64, points: usize) -> Vec<Vec<f64>> {
+    let step = period / points as f64;
+    starts.iter().map(|start| (0..points).map(|i| value_at(signal, start + step * i as f64)).collect()).collect()
+}
+
+/// Mean of the rows, point by point.
+pub fn average(rows: &[Vec<f64>]) -> Vec<f64> {
+    let mut sum = vec![0.0; rows.first().map_or(0, Vec::len)];
+    for row in rows {
+        for (s, x) in sum.iter_mut().zip(row) {
+            *s += x;
+        }
+    }
+    sum.iter_mut().for_each(|s| *s /= rows.len() as f64);
+    sum
+}
+
+/// What passages are aligned by: how fast the envelope's logarithm rises, over a quarter of a degree at 40° spacing; where it falls, 0.
+/// Blows rise steeply; the decay after them, with its beats, is long and would align their echoes as gladly.
+fn rises(squared: &[f64], period: f64) -> Vec<f64> {
+    let smooth = spectrum::running_mean(squared, (period / 640.0) as usize);
+    let floor = statistics::quantile(&smooth, 0.05).unwrap_or(0.0) + f64::MIN_POSITIVE;
+    let log: Vec<f64> = smooth.iter().map(|&x| libm::log(x.max(floor))).collect();
+    let width = ((period / 160.0) as usize).max(1);
+    let half = width / 2;
+    let level = spectrum::running_mean(&log, half);
+    let reach = half + 1;
+    (0..level.len())
+        .map(|i| {
+            let (before, after) = (i.saturating_sub(reach), (i + reach).min(level.len() - 1));
+            (level[after] - level[before]).max(0.0)
+        })
+        .collect()
+}
+
+/// Aligns from several beginnings and keeps the result with the most contrast: from the blurred mean alone, the passages can
+/// settle in two groups, a blow's echo of one lying on the blow of the other.
+fn align(log: &[f64], even: &[f64], period: f64) -> Vec<f64> {
+    let whole = template(log, even, period);
+    let single = (1..=BEGINNINGS).map(|k| template(log, &[even[k * even.len() / (BEGINNINGS + 1)]], period));
+    let aligned = std::iter::once(whole).chain(single).map(|beginning| align_from(log, even, period, beginning));
+    let contrast = |starts: &[f64]| statistics::deviation(&template(log, starts, period));
+    aligned.max_by(|a, b| contrast(a).total_cmp(&contrast(b))).unwrap_or_else(|| even.to_vec())
+}
+
+fn align_from(log: &[f64], even: &[f64], period: f64, beginning: Vec<f64>) -> Vec<f64> {
+    let step = period / GRID as f64;
+    let mut shifted = even.to_vec();
+    let mut template_now = beginning;
+    for pass in 0..5 {
+        // What the neighbours need is the better guess for each, until each is found by itself.
+        let shifts: Vec<f64> = shifted.iter().zip(even).map(|(s, e)| (s - e) / step).collect();
+        let expected: Vec<f64> = running_median(&shifts, 4).iter().zip(even).map(|(d, e)| e + d * step).collect();
+        let reach = if pass == 0 { FAR } else { NEAR };
+        shifted = expected.iter().map(|&s| s + step * best_shift(log, s, step, &template_now, reach)).collect();
+        recentre(&mut shifted, even);
+        template_now = template(log, &shifted, period);
+    }
+    shifted
+}
+
+/// One round of shifting each passage by at most `reach` to the mean of all.
+fn round(log: &[f64], starts: &[f64], period: f64, reach: isize) -> Vec<f64> {
+    let step = period / GRID as f64;
+    let template = template(log, starts, period);
+    let mut shifted: Vec<f64> = starts.iter().map(|&s| s + step * best_shift(log, s, step, &template, reach)).collect();
+    recentre(&mut shifted, starts);
+    shifted
+}
+
+fn template(log: &[f64], starts: &[f64], period: f64) -> Vec<f64> {
+    let mut template = average(&cut(log, starts, period, GRID));
+    let mean = statistics::mean(&template);
+    template.iter_mut().for_each(|x| *x -= mean);
+    template
+}
+
+/// Takes out the mean shift, which has no meaning and would drift.
+fn recentre(shifted: &mut [f64], from: &[f64]) {
+    let mean = statistics::mean(shifted) - statistics::mean(from);
+    shifted.iter_mut().for_each(|s| *s -= mean);
+}
+
+/// Shift [grid points] at which the log envelope from `start` on agrees best with the template.
+fn best_shift(log: &[f64], start: f64, step: f64, template: &[f64], reach: isize) -> f64 {
+    let width = template.len() + 2 * reach as usize;
+    let from = start - reach as f64 * step;
+    let row: Vec<f64> = (0..width).map(|i| value_at(log, from + step * i as f64)).collect();
+    let fits: Vec<f64> =
+        row.windows(template.len()).map(|w| w.iter().zip(template).map(|(a, b)| a * b).sum()).collect();
+    let best = (0..fits.len()).max_by(|&a, &b| fits[a].total_cmp(&fits[b])).unwrap_or(reach as usize);
+    if best == 0 || best + 1 == fits.len() {
+        // No maximum inside: this passage is lost in noise, let it go with its neighbours.
+        return 0.0;
+    }
+    let (a, b, c) = (fits[best - 1], fits[best], fits[best + 1]);
+    let bend = a - 2.0 * b + c;
+    let fine = if bend < 0.0 { 0.5 * (a - c) / bend } else { 0.0 };
+    best as f64 - reach as f64 + fine
+}
+
+fn running_median(values: &[f64], half: usize) -> Vec<f64> {
+    (0..values.len())
+        .map(|i| statistics::median(&values[i.saturating_sub(half)..(i + half + 1).min(values.len())]))
+        .collect()
+}

@@ -1,0 +1,117 @@
+//! What sizing reports: the answer first, then what it rests on.
+
+use serde::Serialize;
+
+/// Whether there is a length.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// There is.
+    Resolved,
+    /// The recording does not say, and `reason` says why.
+    Unresolved,
+}
+
+/// What kind of spall it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// Shorter than the element spacing.
+    Line,
+    /// Longer than the element spacing.
+    Extended,
+    /// Either: an extended spall sounds like a line spall one spacing shorter, unless the rig's stiffness tells them apart.
+    Undecided,
+}
+
+/// How the length was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Method {
+    /// From the entry's onset to the last blow.
+    Events,
+    /// By likeness to the scene's own rig.
+    Waveform,
+}
+
+/// The answer for all recordings together.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Report {
+    /// Whether there is a length.
+    pub verdict: Verdict,
+    /// Arc on the outer raceway [mm].
+    pub length_mm: Option<f64>,
+    /// The same [degrees].
+    pub length_deg: Option<f64>,
+    /// Half-width of the interval that holds the length with 95 % confidence [mm].
+    pub uncertainty_mm: Option<f64>,
+    /// Kind of spall.
+    pub kind: Kind,
+    /// Ball pass frequency of the outer ring in the first recording [Hz].
+    pub bpfo_hz: f64,
+    /// Lag of the cage behind pure rolling at the stated speed, mean over the recordings.
+    pub slip: f64,
+    /// Passages used, of all recordings.
+    pub passages: usize,
+    /// What the answer rests on, and its warnings; or why there is none.
+    pub reason: String,
+    /// How the length was found.
+    pub method: Option<Method>,
+    /// Smallest load at which elements inside the spall carry load again [N], where the scene's rig could be used.
+    pub critical_load_n: Option<f64>,
+    /// Each recording by itself.
+    pub recordings: Vec<RecordingReport>,
+    /// What a figure shows, one for each recording.
+    #[serde(skip)]
+    pub figures: Vec<Figure>,
+}
+
+/// The answer of one recording.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RecordingReport {
+    /// Name of the recording.
+    pub name: String,
+    /// Whether it gives a length.
+    pub verdict: Verdict,
+    /// Length [degrees].
+    pub length_deg: Option<f64>,
+    /// Half-width of its 95 % interval [degrees].
+    pub uncertainty_deg: Option<f64>,
+    /// How it was found.
+    pub method: Option<Method>,
+    /// Ball pass frequency [Hz].
+    pub bpfo_hz: f64,
+    /// How far its comb stands above chance [standard deviations].
+    pub significance: f64,
+    /// Onset of the entry before the first blow [degrees], where there is one.
+    pub onset_deg: Option<f64>,
+    /// Blows, from the first on [degrees].
+    pub blows_deg: Vec<f64>,
+    /// Likeness to the scene's rig, 0 to 1, where it could be used.
+    pub likeness: Option<f64>,
+    /// Frequencies of ringing after entry and after exit [Hz], where they could be measured.
+    pub ringing_hz: Option<[f64; 2]>,
+    /// Those expected of a line spall, and of an extended one, of the scene's rig [Hz].
+    pub expected_ringing_hz: Option<[[f64; 2]; 2]>,
+    /// Why there is no length.
+    pub reason: Option<String>,
+}
+
+/// The averaged passage of one recording, for a figure. Angles in degrees of element travel from the first blow.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figure {
+    /// Name of the recording.
+    pub name: String,
+    /// Angle [degrees].
+    pub angle: Vec<f64>,
+    /// Averaged signal, in the recording's unit.
+    pub signal: Vec<f64>,
+    /// Averaged level of the high-frequency envelope [dB].
+    pub level: Vec<f64>,
+    /// Onset of the entry [degrees].
+    pub onset: Option<f64>,
+    /// Blows [degrees].
+    pub blows: Vec<f64>,
+    /// End of the spall as the length has it, from the onset [degrees].
+    pub end: Option<f64>,
+}

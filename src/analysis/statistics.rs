@@ -1,0 +1,72 @@
+//! Robust statistics, and a generator of random numbers that gives the same ones everywhere.
+
+/// The value below which `share` of the values lie, by sorting; `None` of nothing.
+pub fn quantile(values: &[f64], share: f64) -> Option<f64> {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let at = share.clamp(0.0, 1.0) * (sorted.len().checked_sub(1)?) as f64;
+    let (i, t) = (at as usize, at.fract());
+    Some(sorted[i] + t * (sorted[(i + 1).min(sorted.len() - 1)] - sorted[i]))
+}
+
+/// Median; 0 of nothing.
+pub fn median(values: &[f64]) -> f64 {
+    quantile(values, 0.5).unwrap_or(0.0)
+}
+
+/// Mean; 0 of nothing.
+pub fn mean(values: &[f64]) -> f64 {
+    if values.is_empty() { 0.0 } else { values.iter().sum::<f64>() / values.len() as f64 }
+}
+
+/// Standard deviation about the mean, with n − 1; 0 of fewer than two.
+pub fn deviation(values: &[f64]) -> f64 {
+    if values.len() < 2 {
+        return 0.0;
+    }
+    let m = mean(values);
+    (values.iter().map(|x| (x - m) * (x - m)).sum::<f64>() / (values.len() - 1) as f64).sqrt()
+}
+
+/// Half the span between the 16 % and the 84 % quantile: the standard deviation, were the values normal.
+pub fn spread(values: &[f64]) -> f64 {
+    match (quantile(values, 0.1587), quantile(values, 0.8413)) {
+        (Some(low), Some(high)) => 0.5 * (high - low),
+        _ => 0.0,
+    }
+}
+
+/// SplitMix64 (Steele, Lea and Flood 2014): the bootstrap must give equal results for equal recordings.
+#[derive(Debug, Clone)]
+pub struct Random(u64);
+
+impl Random {
+    /// A sequence of its own for each seed.
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// The next 64 random bits.
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// Uniform below `count`, which must be above 0; the bias of the remainder is below count/2⁶⁴.
+    pub fn below(&mut self, count: usize) -> usize {
+        (self.bits() % count as u64) as usize
+    }
+
+    /// Uniform in 0 … 1.
+    pub fn uniform(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Standard normal, by Box and Muller.
+    pub fn normal(&mut self) -> f64 {
+        let (u, v) = (1.0 - self.uniform(), self.uniform());
+        (-2.0 * libm::log(u)).sqrt() * libm::cos(2.0 * std::f64::consts::PI * v)
+    }
+}
