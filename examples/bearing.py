@@ -4,8 +4,11 @@ Nothing here is needed to use an FMU; it only keeps the C interface and scene fi
 SI units; y up; angles counter-clockwise from +x; `force` is the bearing's force on the ring it is named after.
 """
 
+import atexit
+import functools
 import os
 import shlex
+import shutil
 import subprocess
 import tomllib
 from ctypes import POINTER, byref, c_double, c_int, c_uint
@@ -68,10 +71,18 @@ def build(scenes, folder):
     return [Path(folder) / f"{Path(scene).stem}.fmu" for scene in scenes]
 
 
+@functools.cache
+def unzipped(fmu):
+    """The FMU's files, unpacked once for this process and removed at its end."""
+    folder = fmpy.extract(fmu)
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder
+
+
 class Instance:
     """One instance of an FMU, its variables by name. An error carries what the FMU said about it."""
 
-    def __init__(self, fmu, name="bearing", unzipped=None):
+    def __init__(self, fmu, name="bearing"):
         self.description = fmpy.read_model_description(fmu)
         self.reference = {v.name: v.valueReference for v in self.description.modelVariables}
         self.messages = []
@@ -83,7 +94,7 @@ class Instance:
         addLoggerProxy(byref(callbacks))
         self.slave = FMU2Slave(
             guid=self.description.guid,
-            unzipDirectory=unzipped or fmpy.extract(fmu),
+            unzipDirectory=unzipped(fmu),
             modelIdentifier=self.description.coSimulation.modelIdentifier,
             instanceName=name,
         )
@@ -137,8 +148,8 @@ class Numbers:
 class Bearing(Instance):
     """A bearing whose shaft the host moves. Vectors are pairs (x, y) in arrays."""
 
-    def __init__(self, fmu, name="bearing", start=None, unzipped=None):
-        super().__init__(fmu, name, unzipped)
+    def __init__(self, fmu, name="bearing", start=None):
+        super().__init__(fmu, name)
         self.motion = Numbers(self, [f"shaft.{q}" for q in ("x", "y", "vx", "vy", "ax", "ay")])
         self.tangent = Numbers(self, [f"shaft.stiffness.{a}{b}" for a in "xy" for b in "xy"])
         self.forces = Numbers(self, [f"shaft.{q}" for q in ("mean_force.x", "mean_force.y", "force.x", "force.y")])

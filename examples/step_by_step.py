@@ -134,7 +134,7 @@ def draw(rows, seen, step, passes, stem):
         axis.grid(color="#dddddd", linewidth=0.6)
         axis.spines[["top", "right"]].set_visible(False)
     for axis in axes[1:3]:
-        axis.legend(frameon=False, loc="upper right", ncols=2)
+        axis.legend(frameon=False, loc="lower right", bbox_to_anchor=(1, 0.97), borderaxespad=0, ncols=2)
     for suffix in ("svg", "png"):
         figure.savefig(f"{stem}.{suffix}", dpi=150, metadata={"Date": None} if suffix == "svg" else {"Software": None})
     plt.close(figure)
