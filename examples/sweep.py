@@ -39,6 +39,8 @@ TOLD = {
     "cage.initial_angle_deg": ("cage.initial_angle", np.pi / 180),
 }
 HARMONICS = 5
+FEATURES = ["bpfo_hz", "rms_m_s2", "kurtosis", *(f"envelope_{k}_bpfo_m_s2" for k in range(1, HARMONICS + 1))]
+FEATURES += ["unloaded_s", "loaded_again_s", "unloaded_deg"]
 
 
 def design(count, grid, random, seed):
@@ -179,25 +181,27 @@ def done_already(folder):
     return done
 
 
-def write_part(rows, folder):
+def columns(runs, options):
+    """Every part has the same columns, whatever its runs."""
+    known = {"run": pyarrow.int64(), "fmu": pyarrow.string(), "error": pyarrow.string()}
+    known["signal"] = pyarrow.list_(pyarrow.float32())
+    keys = dict.fromkeys(itertools.chain.from_iterable(runs))
+    names = ["run", "fmu", *keys, *FEATURES, *(["signal"] if options["signals"] else []), "error", "cpu_s"]
+    return pyarrow.schema([(name, known.get(name, pyarrow.float64())) for name in names])
+
+
+def write_part(rows, schema, folder):
     """A file is whole or not there: it gets its name when it is written."""
     part = folder / f"part-{rows[0]['run']:07d}-{time.time_ns()}.parquet"
-    columns = dict.fromkeys(itertools.chain.from_iterable(rows))
     fresh = part.with_suffix(".new")
-    parquet.write_table(pyarrow.table({c: [row.get(c) for row in rows] for c in columns}, schema=schema(columns)), fresh)
+    parquet.write_table(pyarrow.Table.from_pylist(rows, schema=schema), fresh)
     fresh.rename(part)
-
-
-def schema(columns):
-    kinds = {"run": pyarrow.int64(), "fmu": pyarrow.string(), "error": pyarrow.string()}
-    kinds["signal"] = pyarrow.list_(pyarrow.float32())
-    return pyarrow.schema([(column, kinds.get(column, pyarrow.float64())) for column in columns])
 
 
 def collect(client, runs, names, options, folder, every=50, at_result=lambda count: None):
     """Gives the missing runs to the workers, a few ahead of what they can do, and writes what comes back."""
     missing = [index for index in range(len(runs)) if index not in done_already(folder)]
-    waiting = iter(missing)
+    waiting, schema = iter(missing), columns(runs, options)
     rows, count, failed, begin, written = [], 0, 0, time.perf_counter(), time.perf_counter()
 
     def give(how_many):
@@ -222,13 +226,13 @@ def collect(client, runs, names, options, folder, every=50, at_result=lambda cou
             count += 1
             failed += row["error"] is not None
             if len(rows) >= every or time.perf_counter() - written > 10.0:
-                write_part(rows, folder)
+                write_part(rows, schema, folder)
                 rows, written = [], time.perf_counter()
             bar(count, len(missing), failed, time.perf_counter() - begin)
             at_result(count)
     finally:
         if rows:
-            write_part(rows, folder)
+            write_part(rows, schema, folder)
     return count, failed, time.perf_counter() - begin
 
 
