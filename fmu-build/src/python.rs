@@ -1,11 +1,12 @@
-//! The Python environment for figures, validation and tests: made once, from a pinned list, under `target/python`.
+//! Python environments, made once from a pinned list: this program's own for figures, validation and tests under
+//! `target/python`, and others for what needs more.
 //!
 //! The scripts are part of this program and are laid beside the environment, so they can import one another.
 //! A file lock keeps several processes from making it at once; the stamp that is written last tells whether it
 //! is whole and of this program's list.
 
 use std::env;
-use std::ffi::OsStr;
+use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -30,34 +31,47 @@ const OLDEST: (u32, u32) = (3, 9);
 pub struct Python {
     interpreter: PathBuf,
     scripts: PathBuf,
+    variables: Vec<(&'static str, OsString)>,
 }
 
 impl Python {
-    /// Makes the environment, unless it is there.
+    /// Makes this program's environment, unless it is there.
     pub fn prepare(project: &Project) -> Result<Self> {
-        let folder = project.target().join("python");
+        Self::prepare_from(project, "python", REQUIREMENTS)
+    }
+
+    /// Makes an environment of the packages in `requirements` under `target/<name>`, unless it is there.
+    pub fn prepare_from(project: &Project, name: &str, requirements: &str) -> Result<Self> {
+        let folder = project.target().join(name);
         fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
         let lock = File::create(folder.join("lock")).context("lock of the Python environment")?;
         lock.lock().context("lock of the Python environment")?;
 
         let environment = folder.join("env");
         let bin = if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" };
-        let python = Self { interpreter: environment.join(bin), scripts: folder.join("scripts") };
+        let python =
+            Self { interpreter: environment.join(bin), scripts: folder.join("scripts"), variables: Vec::new() };
         let stamp = folder.join("stamp");
-        let whole = fs::read_to_string(&stamp).is_ok_and(|made_from| made_from == REQUIREMENTS);
+        let whole = fs::read_to_string(&stamp).is_ok_and(|made_from| made_from == requirements);
         if !(whole && python.interpreter.is_file()) {
             let system = find_interpreter()?;
             eprintln!("making the Python environment {} (once)", environment.display());
             remove(&stamp, |path| fs::remove_file(path))?;
             remove(&environment, |path| fs::remove_dir_all(path))?;
-            make(&system, &environment, &python.interpreter, &folder)?;
-            fs::write(&stamp, REQUIREMENTS).with_context(|| stamp.display().to_string())?;
+            make(&system, &environment, &python.interpreter, &folder, requirements)?;
+            fs::write(&stamp, requirements).with_context(|| stamp.display().to_string())?;
         }
         fs::create_dir_all(&python.scripts).with_context(|| python.scripts.display().to_string())?;
         for (name, text) in SCRIPTS {
             write_if_new(&python.scripts.join(name), text)?;
         }
         Ok(python)
+    }
+
+    /// Sets an environment variable for all scripts that run from now on.
+    pub fn with_variable(mut self, name: &'static str, value: impl Into<OsString>) -> Self {
+        self.variables.push((name, value.into()));
+        self
     }
 
     /// Runs one of this program's scripts and gives its standard output.
@@ -71,6 +85,7 @@ impl Python {
             .env("PYTHONPATH", &self.scripts)
             .env("PYTHONDONTWRITEBYTECODE", "1")
             .env("MPLBACKEND", "Agg")
+            .envs(self.variables.iter().map(|(name, value)| (name, value)))
             .arg(script)
             .args(arguments)
             .output()
@@ -109,7 +124,7 @@ fn version(interpreter: &Path) -> Option<(u32, u32)> {
     Some((major.parse().ok()?, minor.parse().ok()?))
 }
 
-fn make(system: &Path, environment: &Path, interpreter: &Path, folder: &Path) -> Result<()> {
+fn make(system: &Path, environment: &Path, interpreter: &Path, folder: &Path, requirements: &str) -> Result<()> {
     let output = Command::new(system).args(["-m", "venv"]).arg(environment).output()?;
     if !output.status.success() {
         bail!(
@@ -119,7 +134,7 @@ fn make(system: &Path, environment: &Path, interpreter: &Path, folder: &Path) ->
         );
     }
     let list = folder.join("requirements.txt");
-    fs::write(&list, REQUIREMENTS).with_context(|| list.display().to_string())?;
+    fs::write(&list, requirements).with_context(|| list.display().to_string())?;
     let output = Command::new(interpreter)
         .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--only-binary", ":all:", "-r"])
         .arg(&list)

@@ -1,0 +1,302 @@
+#!/usr/bin/env python3
+"""Thousands of runs over length, depth, load and speed of a defect, on all cores or a cluster, into Parquet.
+
+    python examples/sweep.py --runs 500 --seed 1 [--workers 2] [-o target/sweep]
+        --grid defect.length_deg=2,5,10,15.8 --grid defect.depth_um=20,50,100
+        --random shaft.load_n=300:1500 --random shaft.speed_hz=8:40
+    python examples/sweep.py --scheduler tcp://127.0.0.1:8786 …     on a dask cluster that runs already
+
+Run i takes the grid's point i modulo its size and random values that depend on seed and i alone: the same design to the
+bit on any machine, and a longer one begins with the shorter. What an FMU can be told costs nothing (load, speed,
+clearance, slip, first angle); other keys of the scene make one FMU per grid point, so let them be on the grid.
+
+FMUs are built once and shipped to each worker once, also to one that starts later; a worker keeps one instance per FMU
+and resets it between runs. Results go to part-*.parquet in the output folder as they come; started again, the
+sweep does what is missing. A run that fails has its error in the column `error`, and the others go on.
+"""
+
+import argparse
+import itertools
+import json
+import os
+import shutil
+import sys
+import time
+from pathlib import Path
+
+import bearing
+import numpy as np
+import pyarrow
+import pyarrow.parquet as parquet
+from dask.distributed import Client, LocalCluster, WorkerPlugin, as_completed, get_worker
+
+# What an instance is told: scene key → variable, factor.
+TOLD = {
+    "shaft.load_n": ("shaft.load.y", -1.0),  # downwards
+    "shaft.speed_hz": ("shaft.speed", 2 * np.pi),
+    "bearing.radial_clearance_um": ("bearing.radial_clearance", 1e-6),
+    "cage.slip": ("cage.slip", 1.0),
+    "cage.initial_angle_deg": ("cage.initial_angle", np.pi / 180),
+}
+HARMONICS = 5
+FEATURES = ["bpfo_hz", "rms_m_s2", "kurtosis", *(f"envelope_{k}_bpfo_m_s2" for k in range(1, HARMONICS + 1))]
+FEATURES += ["unloaded_s", "loaded_again_s", "unloaded_deg"]
+
+
+def design(count, grid, random, seed):
+    """The runs: a list of {key: value}."""
+    points = [dict(zip(grid, values)) for values in itertools.product(*grid.values())]
+    runs = []
+    for index in range(count):
+        # One draw per key, from a stream of this run's own.
+        draws = np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, index]))).random(len(random))
+        values = {key: low + (high - low) * float(draw) for (key, (low, high)), draw in zip(random.items(), draws)}
+        runs.append({**points[index % len(points)], **values})
+    return runs
+
+
+def prepare(base, runs, folder):
+    """Builds one FMU for each set of values that an instance cannot be told. Gives {name: path}, name of each run."""
+    names, scenes = [], {}
+    for run in runs:
+        built_in = {key: value for key, value in run.items() if key not in TOLD}
+        name = "-".join([Path(base).stem, *(f"{value:g}".replace(".", "p") for value in built_in.values())])
+        if name not in scenes:
+            scenes[name] = bearing.changed_scene(base, name, built_in, folder)
+        names.append(name)
+    paths = bearing.build(scenes.values(), folder)
+    return dict(zip(scenes, paths)), names
+
+
+class Bearings(WorkerPlugin):
+    """Lives on a worker: the FMUs' files, and one instance of each."""
+
+    name = "bearings"
+
+    def __init__(self, paths):
+        self.files = {name: Path(path).read_bytes() for name, path in paths.items()}
+
+    def setup(self, worker):
+        self.folder = Path(worker.local_directory) / "bearings"
+        self.instances = {}
+
+    def teardown(self, worker):
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def instance(self, name):
+        if name not in self.instances:
+            self.folder.mkdir(parents=True, exist_ok=True)
+            path = self.folder / f"{name}.fmu"
+            path.write_bytes(self.files[name])
+            self.instances[name] = bearing.Instance(str(path))
+        instance = self.instances[name]
+        instance.slave.reset()
+        instance.messages.clear()
+        return instance
+
+
+def simulate(index, name, values, options):
+    """One run on a worker: its row."""
+    row = {"run": index, "fmu": name, **values, "error": None}
+    begin = time.process_time()
+    try:
+        instance = get_worker().plugins[Bearings.name].instance(name)
+        row.update(run_one(instance, values, options))
+    except Exception as error:  # whatever it is, the other runs go on
+        row["error"] = f"{type(error).__name__}: {error}"
+    row["cpu_s"] = time.process_time() - begin
+    return row
+
+
+def run_one(instance, values, options):
+    """Steps an instance that is reset, and gives the features of what the sensor shows."""
+    told = {TOLD[key][0]: TOLD[key][1] * value for key, value in values.items() if key in TOLD}
+    instance.enter(told)
+    instance.run()
+    count = sum(name.endswith(".path") for name in instance.reference)
+    elements = [f"element[{j}].{what}" for what in ("angle", "force.outer") for j in range(1, count + 1)]
+    seen = bearing.Numbers(instance, ["sensor.acceleration", "cage.speed", *elements])
+    slave, h = instance.slave, 1.0 / options["rate"]
+    table = np.empty((round(options["stop"] * options["rate"]), len(seen.array)))
+    for index in range(len(table)):
+        instance.step(h)
+        slave.fmi2GetReal(*seen.arguments)
+        table[index] = seen.array
+    t = h * np.arange(1, len(table) + 1)
+    late = t > options["settle"]
+    signal = table[late, 0]
+    row = features(signal, options["rate"], count * table[-1, 1] / (2 * np.pi))
+    defect = instance.read(["defect.angle"])[0] if "defect.angle" in instance.reference else None
+    if defect is not None:
+        row.update(passage(t, table[:, 2 : 2 + count], table[:, 2 + count :], defect, options["settle"]))
+    if options["signals"]:
+        row["signal"] = signal.astype(np.float32)
+    return row
+
+
+def features(signal, rate, bpfo):
+    """RMS [m/s²], kurtosis, and the envelope's amplitudes at multiples of the passage frequency [m/s²]."""
+    signal = signal - signal.mean()
+    rms = float(np.sqrt(np.mean(signal**2)))
+    spectrum = np.fft.fft(signal)
+    spectrum[1 : (len(signal) + 1) // 2] *= 2
+    spectrum[len(signal) // 2 + 1 :] = 0
+    envelope = np.abs(np.fft.ifft(spectrum))
+    window = np.hanning(len(signal))
+    t = np.arange(len(signal)) / rate
+    row = {"bpfo_hz": bpfo, "rms_m_s2": rms, "kurtosis": float(np.mean(signal**4) / rms**4)}
+    weighed = window * (envelope - envelope.mean()) * 2 / window.sum()
+    for k in range(1, HARMONICS + 1):
+        row[f"envelope_{k}_bpfo_m_s2"] = float(np.abs(weighed @ np.exp(-2j * np.pi * k * bpfo * t)))
+    return row
+
+
+def passage(t, angles, forces, defect, settle):
+    """The first passage after settling: when an element loses and regains half its force over the defect [s].
+
+    `unloaded_deg` is how far it goes in between: a lower bound of a line spall's length.
+    """
+    for j in range(angles.shape[1]):
+        normal = np.median(forces[:, j][forces[:, j] > 0]) if np.any(forces[:, j] > 0) else 0.0
+        away = (angles[:, j] - defect + np.pi) % (2 * np.pi) - np.pi
+        near = np.abs(away) < 0.75 * np.pi / angles.shape[1] + 0.3
+        light = near & (forces[:, j] < 0.5 * normal) & (t > settle)
+        begins = np.flatnonzero(light[1:] & ~light[:-1] & near[:-1]) + 1
+        for first in begins:
+            again = first + np.flatnonzero(~light[first:])
+            if again.size and near[again[0]] and t[first] - settle < 0.5 * (t[-1] - settle):
+                turned = angles[again[0], j] - angles[first, j]
+                return {
+                    "unloaded_s": float(t[first]), "loaded_again_s": float(t[again[0]]),
+                    "unloaded_deg": float(np.degrees(turned)),
+                }
+    return {"unloaded_s": None, "loaded_again_s": None, "unloaded_deg": None}
+
+
+def done_already(folder):
+    """Numbers of the runs that the folder has."""
+    done = set()
+    for part in sorted(folder.glob("part-*.parquet")):
+        done.update(parquet.read_table(part, columns=["run"])["run"].to_pylist())
+    return done
+
+
+def columns(runs, options):
+    """Every part has the same columns, whatever its runs."""
+    known = {"run": pyarrow.int64(), "fmu": pyarrow.string(), "error": pyarrow.string()}
+    known["signal"] = pyarrow.list_(pyarrow.float32())
+    keys = dict.fromkeys(itertools.chain.from_iterable(runs))
+    names = ["run", "fmu", *keys, *FEATURES, *(["signal"] if options["signals"] else []), "error", "cpu_s"]
+    return pyarrow.schema([(name, known.get(name, pyarrow.float64())) for name in names])
+
+
+def write_part(rows, schema, folder):
+    """A file is whole or not there: it gets its name when it is written."""
+    part = folder / f"part-{rows[0]['run']:07d}-{time.time_ns()}.parquet"
+    fresh = part.with_suffix(".new")
+    parquet.write_table(pyarrow.Table.from_pylist(rows, schema=schema), fresh)
+    fresh.rename(part)
+
+
+def collect(client, runs, names, options, folder, every=50, at_result=lambda count: None):
+    """Gives the missing runs to the workers, a few ahead of what they can do, and writes what comes back."""
+    missing = [index for index in range(len(runs)) if index not in done_already(folder)]
+    waiting, schema = iter(missing), columns(runs, options)
+    rows, count, failed, begin, written = [], 0, 0, time.perf_counter(), time.perf_counter()
+
+    def give(how_many):
+        # The key names the run: a result that a lost worker took with it is computed again under the same key.
+        return [
+            client.submit(simulate, i, names[i], runs[i], options, key=f"run-{i}", pure=False)
+            for i in itertools.islice(waiting, how_many)
+        ]
+
+    flowing = as_completed(give(4 * max(2, sum(client.nthreads().values()))))
+    try:
+        for future in flowing:
+            index = int(future.key.removeprefix("run-"))
+            if future.status == "finished":
+                row = future.result()
+            else:  # the run ended its worker more often than dask allows
+                row = {"run": index, "fmu": names[index], **runs[index], "error": repr(future.exception())}
+            rows.append(row)
+            future.release()
+            for fresh in give(1):
+                flowing.add(fresh)
+            count += 1
+            failed += row["error"] is not None
+            if len(rows) >= every or time.perf_counter() - written > 10.0:
+                write_part(rows, schema, folder)
+                rows, written = [], time.perf_counter()
+            bar(count, len(missing), failed, time.perf_counter() - begin)
+            at_result(count)
+    finally:
+        if rows:
+            write_part(rows, schema, folder)
+    return count, failed, time.perf_counter() - begin
+
+
+def bar(count, total, failed, seconds):
+    full = 30 * count // total
+    end = "\n" if count == total else ""
+    text = f"\r[{'#' * full}{' ' * (30 - full)}] {count}/{total} runs, {failed} failed, {count / seconds:.1f} runs/s"
+    print(text, end=end, file=sys.stderr, flush=True)
+
+
+def same_design(folder, runs, options, base):
+    """Refuses to mix two designs in one folder."""
+    text = json.dumps({"base": str(Path(base).name), "options": options, "runs": runs})
+    path = folder / "design.json"
+    if path.exists():
+        old = json.loads(path.read_text())
+        new = json.loads(text)
+        shared = min(len(old["runs"]), len(runs))
+        if (old["base"], old["options"], old["runs"][:shared]) != (new["base"], new["options"], new["runs"][:shared]):
+            sys.exit(f"{folder} holds another design: choose another folder, or take this one away")
+    path.write_text(text)
+
+
+def pair(text):
+    key, _, value = text.partition("=")
+    return key, value
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--base", type=Path, default=bearing.SCENES / "er16k-tb1.toml", help="scene that the runs change")
+    parser.add_argument("--grid", action="append", default=[], metavar="KEY=V,V,…", help="values of a scene key")
+    parser.add_argument("--random", action="append", default=[], metavar="KEY=LOW:HIGH", help="range of a scene key")
+    parser.add_argument("--runs", type=int, default=20)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--stop", type=float, default=0.3, help="end of each run [s]")
+    parser.add_argument("--settle", type=float, default=0.05, help="left out of the features [s]")
+    parser.add_argument("--rate", type=float, default=51200.0, help="samples per second")
+    parser.add_argument("--signals", action="store_true", help="keep the sensor's signal of each run")
+    parser.add_argument("--workers", type=int, default=os.cpu_count())
+    parser.add_argument("--scheduler", help="address of a dask scheduler; default: workers of our own")
+    parser.add_argument("-o", "--output", type=Path, default=Path("target/sweep"))
+    chosen = parser.parse_args(arguments)
+    grid = {key: [float(v) for v in values.split(",")] for key, values in map(pair, chosen.grid)}
+    random = {key: tuple(float(v) for v in values.split(":")) for key, values in map(pair, chosen.random)}
+    if not grid and not random:
+        grid = {"defect.length_deg": [2.0, 5.0, 10.0, 15.8], "defect.depth_um": [20.0, 50.0, 100.0]}
+        random = {"shaft.load_n": (300.0, 1500.0), "shaft.speed_hz": (8.0, 40.0)}
+    runs = design(chosen.runs, grid, random, chosen.seed)
+    options = {name: getattr(chosen, name) for name in ("stop", "settle", "rate", "signals")}
+    chosen.output.mkdir(parents=True, exist_ok=True)
+    same_design(chosen.output, runs, options, chosen.base)
+    paths, names = prepare(chosen.base, runs, chosen.output / "fmu")
+    cluster = chosen.scheduler or LocalCluster(
+        n_workers=chosen.workers, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
+    )
+    with Client(cluster) as client:
+        client.upload_file(str(Path(__file__).with_name("bearing.py")))
+        client.register_plugin(Bearings(paths))
+        count, failed, seconds = collect(client, runs, names, options, chosen.output)
+    if not chosen.scheduler:
+        cluster.close()
+    print(json.dumps({"runs": count, "failed": failed, "seconds": round(seconds, 2), "folder": str(chosen.output)}))
+
+
+if __name__ == "__main__":
+    main()
