@@ -1,6 +1,5 @@
 //! Grid solvers against closed forms and against each other.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
-#![allow(clippy::unwrap_used)]
 
 use std::f64::consts::PI;
 

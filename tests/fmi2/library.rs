@@ -95,7 +95,7 @@ impl Scene {
         let text = include_str!("../../scenes/er16k-tb1.toml").replace("law = \"map\"", "law = \"hertz\"");
         fs::write(directory.join("scene.toml"), &text).unwrap();
         let location = CString::new(format!("file://{}", directory.to_str().unwrap())).unwrap();
-        Self { directory, guid: CString::new(guid(text, None)).unwrap(), location }
+        Self { directory, guid: CString::new(guid(&text, None)).unwrap(), location }
     }
 }
 
