@@ -49,7 +49,8 @@ fn has_figure(stem: PathBuf) {
 /// Blocks of the guide in this language.
 fn blocks(language: &str) -> Vec<String> {
     let guide = fs::read_to_string(common::root().join("docs/guide.md")).unwrap();
-    let parts = guide.split(&format!("```{language}\n")).skip(1);
+    let fence = format!("```{language}\n");
+    let parts = guide.split(&fence).skip(1);
     parts.map(|part| part.split("```").next().unwrap().to_owned()).collect()
 }
 
