@@ -1,7 +1,6 @@
 //! Static stiffness, load distribution and critical load.
 #![allow(clippy::unwrap_used)]
 
-#[allow(unreachable_pub)]
 mod support;
 
 use brinell::analysis::critical_load::CriticalLoad;
