@@ -1,6 +1,5 @@
 //! The contact of an element with a damaged raceway: grid, map, and their joint with the closed form.
 #![allow(clippy::unwrap_used)]
-#![allow(clippy::unwrap_used)]
 
 use std::f64::consts::FRAC_PI_2;
 use std::sync::OnceLock;
