@@ -35,6 +35,7 @@ fn an_fmu_holds_what_the_standard_names_and_nothing_else() {
         "model.png",
         "modelDescription.xml",
         "resources/6205-epps-trace.csv",
+        "resources/map.bin",
         "resources/scene.toml",
     ];
     assert_eq!(names, expected);
