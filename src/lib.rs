@@ -1,7 +1,7 @@
 //! Brinell turns a rolling bearing with a real surface defect into an FMI 2.0 co-simulation unit.
 //!
 //! Data flows one way through the modules, and a module imports only from those above it:
-//! `numerics → scene → geometry → surface → contact → dynamics → simulation → fmi2`.
+//! `numerics → scene → geometry → surface → contact → dynamics → simulation → recording → fmi2`.
 //! `analysis` is a leaf: it may import everything but `fmi2`, and nothing imports it.
 
 // Units in brackets, as in `[m]`, are no links.
@@ -13,6 +13,7 @@ pub mod dynamics;
 pub mod fmi2;
 pub mod geometry;
 pub mod numerics;
+pub mod recording;
 pub mod scene;
 pub mod simulation;
 pub mod surface;

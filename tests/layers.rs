@@ -5,7 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The order of the layers; each may import those before it.
-const ORDER: [&str; 8] = ["numerics", "scene", "geometry", "surface", "contact", "dynamics", "simulation", "fmi2"];
+const ORDER: [&str; 9] =
+    ["numerics", "scene", "geometry", "surface", "contact", "dynamics", "simulation", "recording", "fmi2"];
 /// Outside the order: imports all but `fmi2`, and nothing imports it.
 const LEAF: &str = "analysis";
 

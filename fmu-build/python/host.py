@@ -24,7 +24,10 @@ class Host:
         # Without a word from the FMU a failed call would say no more than its status.
         self.slave.setDebugLogging(True, ["logStatusWarning", "logStatusDiscard", "logStatusError", "logStatusFatal"])
         for name, value in (start or {}).items():
-            self.write([name], [value])
+            if isinstance(value, str):
+                self.slave.setString([self.reference[name]], [value])
+            else:
+                self.write([name], [value])
         self.slave.setupExperiment(startTime=0.0)
         self.slave.enterInitializationMode()
         self.slave.exitInitializationMode()

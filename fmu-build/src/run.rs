@@ -5,6 +5,7 @@ use std::io::{BufWriter, Write};
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
+use brinell::recording::Recording;
 use brinell::scene::Experiment;
 use brinell::simulation::variables::{Causality, Kind, Variable};
 use brinell::simulation::{Simulation, SimulationError};
@@ -75,7 +76,13 @@ impl Columns {
 }
 
 /// Runs an initialized simulation over the grid and writes one row at the start and one after each step.
-pub fn write(simulation: &mut Simulation, columns: &Columns, grid: Grid, out: &mut impl Write) -> Result<()> {
+pub fn write(
+    simulation: &mut Simulation,
+    columns: &Columns,
+    grid: Grid,
+    out: &mut impl Write,
+    mut recording: Option<&mut Recording>,
+) -> Result<()> {
     let names = columns.names.iter().map(|(name, unit)| (name.as_str(), *unit));
     csv::header(out, std::iter::once(("time", "s")).chain(names))?;
     let mut reals = vec![0.0; columns.reals.len()];
@@ -84,6 +91,9 @@ pub fn write(simulation: &mut Simulation, columns: &Columns, grid: Grid, out: &m
         if index > 0 {
             let at = simulation.time();
             simulation.step(grid.step).with_context(|| format!("at {at} s"))?;
+            if let Some(recording) = &mut recording {
+                recording.keep_up(simulation)?;
+            }
         }
         read(simulation, columns, &mut reals, &mut integers)?;
         let counts = integers.iter().map(|&count| f64::from(count));
@@ -102,18 +112,24 @@ fn read(
     simulation.integers(&columns.integers, integers)
 }
 
-/// The command: `<folder>/<scene>.csv` and, if wanted, `.svg` and `.png`.
+/// The command: `<folder>/<scene>.csv`, `.npy` where the scene has a recorder, and, if wanted, `.svg` and `.png`.
 pub fn command(project: &Project, model: Model, grid: Grid, folder: &Path, figure: bool) -> Result<()> {
     let mut simulation = model.simulation;
     let columns = Columns::new(simulation.table());
-    simulation.initialize(0.0).context("initial equilibrium")?;
     fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
+    simulation.record_into(&folder.to_string_lossy());
+    simulation.initialize(0.0).context("initial equilibrium")?;
+    let mut recording = Recording::begin(&simulation, &model.scene.name)?;
     let path = folder.join(format!("{}.csv", model.scene.name));
     let file = File::create(&path).with_context(|| path.display().to_string())?;
     let mut out = BufWriter::new(file);
-    write(&mut simulation, &columns, grid, &mut out)?;
+    write(&mut simulation, &columns, grid, &mut out, recording.as_mut())?;
     out.flush().with_context(|| path.display().to_string())?;
     println!("{}", path.display());
+    if let Some(recording) = &mut recording {
+        recording.store(&mut simulation)?;
+        println!("{}", recording.path().display());
+    }
     if figure {
         let python = Python::prepare(project)?;
         print!("{}", python.run("run_figure.py", [&path])?);

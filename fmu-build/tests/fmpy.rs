@@ -8,6 +8,7 @@ use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
 use brinell::scene::Experiment;
+use fmu_build::model::Model;
 use fmu_build::run::{self, Columns, Grid};
 use fmu_build::{check, project::Project};
 
@@ -47,6 +48,16 @@ fn a_shaft_moved_by_the_host_feels_what_a_shaft_moving_itself_feels() {
 }
 
 #[test]
+fn a_host_that_steps_by_milliseconds_records_at_51200_hz() {
+    let folder = common::folder("recorder");
+    let scene = folder.join("recorded.toml");
+    let text = fs::read_to_string(common::root().join("scenes/6205-healthy.toml")).unwrap();
+    fs::write(&scene, format!("{text}\n[recorder]\nrate_hz = 51200.0\n")).unwrap();
+    let fmu = fmu_build::fmu::write(&Model::read(&scene).unwrap(), common::library(), &folder).unwrap();
+    common::run_script("recorder.py", [fmu]);
+}
+
+#[test]
 fn two_instances_of_two_scenes_do_not_disturb_each_other() {
     let folder = common::folder("two");
     common::run_script(
@@ -66,7 +77,7 @@ fn an_fmu_and_a_run_without_a_host_give_equal_bits() {
         let csv = folder.join(name).with_extension("csv");
         let step = 1e-5;
         let grid = Grid::new(&Experiment { stop: 0.02, step }, None, None).unwrap();
-        run::write(&mut simulation, &columns, grid, &mut File::create(&csv).unwrap()).unwrap();
+        run::write(&mut simulation, &columns, grid, &mut File::create(&csv).unwrap(), None).unwrap();
         assert_eq!(fs::read_to_string(&csv).unwrap().lines().count(), 2002, "a header and 2001 points");
         let fmu = common::fmu_of(name, &folder);
         common::run_script("equal_bits.py", [fmu.as_os_str(), csv.as_os_str(), OsStr::new(&step.to_string())]);

@@ -151,7 +151,12 @@ pub unsafe extern "C" fn fmi2FreeInstance(c: Component) {
     if let Ok(instance) = handles::borrow(c)
         && state::FREE_INSTANCE.allowed.contains(instance.mode)
     {
-        drop(boundary::guard(|| drop(handles::remove(instance))));
+        drop(boundary::guard(|| {
+            let mut instance = handles::remove(instance);
+            if let Err(failure) = instance.finish_recording() {
+                instance.logger.insist(Status::Error, format!("fmi2FreeInstance: {failure}."));
+            }
+        }));
     }
 }
 
@@ -249,7 +254,7 @@ pub unsafe extern "C" fn fmi2EnterInitializationMode(c: Component) -> Status {
 pub unsafe extern "C" fn fmi2ExitInitializationMode(c: Component) -> Status {
     boundary::call(c, &state::EXIT_INITIALIZATION_MODE, |instance| {
         let clock = instance.clock.ok_or(Failure::NotSetUp)?;
-        instance.simulation.initialize(clock.start)?;
+        instance.initialize(clock.start)?;
         enter(instance, Mode::StepComplete, "fmi2ExitInitializationMode");
         Ok(())
     })
@@ -262,6 +267,7 @@ pub unsafe extern "C" fn fmi2ExitInitializationMode(c: Component) -> Status {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Terminate(c: Component) -> Status {
     boundary::call(c, &state::TERMINATE, |instance| {
+        instance.finish_recording()?;
         enter(instance, Mode::Terminated, "fmi2Terminate");
         Ok(())
     })

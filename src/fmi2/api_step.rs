@@ -28,14 +28,15 @@ pub unsafe extern "C" fn fmi2DoStep(
     _noSetFMUStatePriorToCurrentPoint: Boolean,
 ) -> Status {
     boundary::call(c, &state::DO_STEP, |instance| {
-        let clock = instance.clock.as_mut().ok_or(Failure::NotSetUp)?;
+        let mut clock = instance.clock.ok_or(Failure::NotSetUp)?;
         // Stands if the step fails or panics.
         instance.last_step = Status::Error;
         let end = clock.end_of_step(currentCommunicationPoint, communicationStepSize)?;
         #[cfg(feature = "panic-on-demand")]
         instance.logger.panic_on_demand();
-        instance.simulation.step(communicationStepSize)?;
+        instance.step(communicationStepSize)?;
         clock.time = end;
+        instance.clock = Some(clock);
         instance.last_step = Status::Ok;
         Ok(())
     })

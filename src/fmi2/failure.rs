@@ -7,6 +7,7 @@ use super::blob::BlobError;
 use super::clock::ClockError;
 use super::state::{Mode, Modes};
 use super::types::{Status, StatusKind};
+use crate::recording::RecordingError;
 use crate::simulation::{SimulationError, VariableError};
 
 /// What went wrong in a call.
@@ -57,6 +58,9 @@ pub(super) enum Failure {
     /// The model could not do what was asked.
     #[error(transparent)]
     Simulation(#[from] SimulationError),
+    /// A recording that cannot be written.
+    #[error(transparent)]
+    Recording(#[from] RecordingError),
     /// A result that is not a number, or infinite.
     #[error("variable {name} is {value}; it is not handed out. Check the inputs and the step size")]
     NotFinite {

@@ -9,6 +9,7 @@ use super::resources::Model;
 use super::snapshots::{Snapshot, Snapshots};
 use super::state::Mode;
 use super::types::{FmuState, Status, ValueReference};
+use crate::recording::Recording;
 use crate::simulation::{Simulation, VariableError};
 
 /// One instance of the FMU.
@@ -30,6 +31,8 @@ pub(super) struct Instance {
     pub(super) model: Model,
     /// States that the host has saved.
     pub(super) snapshots: Snapshots,
+    /// The file that the recorder's samples go to.
+    recording: Option<Recording>,
     /// Strings handed out last, which stay valid until the next call of `fmi2GetString`.
     texts: Vec<CString>,
 }
@@ -46,17 +49,44 @@ impl Instance {
             logger,
             model,
             snapshots: Snapshots::default(),
+            recording: None,
             texts: Vec::new(),
         }
     }
 
     /// Back to where [`new`](Self::new) left it. Saved states and logging stay.
     pub(super) fn reset(&mut self) -> Result<(), Failure> {
+        self.finish_recording()?;
+        self.recording = None;
         self.rebuild()?;
         self.mode = Mode::Instantiated;
         self.clock = None;
         self.last_step = Status::Ok;
         Ok(())
+    }
+
+    /// Finds the static equilibrium and begins the recording, if there is to be one.
+    pub(super) fn initialize(&mut self, start: f64) -> Result<(), Failure> {
+        self.simulation.initialize(start)?;
+        self.recording = Recording::begin(&self.simulation, self.logger.instance_name())?;
+        Ok(())
+    }
+
+    /// Takes a step of the model.
+    pub(super) fn step(&mut self, step: f64) -> Result<(), Failure> {
+        self.simulation.step(step)?;
+        if let Some(recording) = &mut self.recording {
+            recording.keep_up(&mut self.simulation)?;
+        }
+        Ok(())
+    }
+
+    /// Stores what the recorder still holds.
+    pub(super) fn finish_recording(&mut self) -> Result<(), Failure> {
+        match &mut self.recording {
+            Some(recording) => Ok(recording.store(&mut self.simulation)?),
+            None => Ok(()),
+        }
     }
 
     fn rebuild(&mut self) -> Result<(), Failure> {
@@ -81,7 +111,9 @@ impl Instance {
     /// Puts a saved state back. A simulation that a panic has damaged is set up anew first.
     pub(super) fn restore(&mut self, handle: FmuState) -> Result<(), Failure> {
         if self.damaged {
+            let folder = self.simulation.recorder().map(|recorder| recorder.folder().to_owned());
             self.rebuild()?;
+            self.simulation.record_into(folder.as_deref().unwrap_or_default());
         }
         let snapshot = self.snapshots.get(handle)?;
         self.simulation.restore(&snapshot.simulation)?;

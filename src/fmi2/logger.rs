@@ -88,6 +88,12 @@ pub(super) struct Logger {
 }
 
 impl Logger {
+    /// The instance's name.
+    pub(super) fn instance_name(&self) -> &str {
+        // Hosts must pass UTF-8; what is not is only replaced in the name of a file.
+        self.instance_name.to_str().unwrap_or("instance")
+    }
+
     /// A logger with all categories on or off; `None` when the host gave no callback.
     pub(super) fn new(callbacks: &CallbackFunctions, instance_name: CString, on: bool) -> Option<Self> {
         Some(Self {

@@ -11,6 +11,7 @@ pub mod guid;
 mod knots;
 pub mod outputs;
 pub mod progress;
+pub mod recorder;
 pub mod rodas;
 pub mod setup;
 pub mod state_bytes;
@@ -32,6 +33,7 @@ use crate::scene::{ContactLaw, Scene};
 use crate::surface::Surface;
 use access::Access;
 use progress::Progress;
+use recorder::Recorder;
 use setup::Inputs;
 use std::sync::Arc;
 use stepper::{Control, Stepper};
@@ -59,6 +61,8 @@ pub struct Simulation {
     input_rates: Vec<[f64; 2]>,
     model: Model,
     stepper: Stepper,
+    /// `None` where the scene has no recorder.
+    recorder: Option<Recorder>,
     method: Method,
     forces: Forces,
     derivative: Vec<f64>,
@@ -129,6 +133,7 @@ impl Simulation {
         Ok(Self {
             inputs: Inputs::new(&quantities, table.iter().take_while(|v| v.causality == Causality::Input).count()),
             stepper: Stepper::new(&model),
+            recorder: scene.recorder_rate.map(|rate| Recorder::new(rate, &table, &quantities)),
             method: Method::Automatic,
             forces: Forces::new(model.element_count),
             derivative: vec![0.0; model.layout.len],
@@ -181,6 +186,25 @@ impl Simulation {
     /// Accepted integration steps so far, and how many of them the implicit method took.
     pub fn step_counts(&self) -> (u64, u64) {
         (self.state.progress.steps, self.state.progress.implicit_steps)
+    }
+
+    /// The recorder, if the scene has one and the host has given it a folder.
+    pub fn recorder(&self) -> Option<&Recorder> {
+        self.recorder.as_ref().filter(|recorder| recorder.is_on())
+    }
+
+    /// Gives the recorder a folder; an empty one switches it off. Does nothing where the scene has no recorder.
+    pub fn record_into(&mut self, folder: &str) {
+        if let Some(recorder) = &mut self.recorder {
+            folder.clone_into(&mut recorder.folder);
+        }
+    }
+
+    /// Drops the samples kept in the recorder, once they have been stored.
+    pub fn forget_samples(&mut self) {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.forget(self.state.progress.due.count);
+        }
     }
 
     /// The state vector, laid out as [`crate::dynamics::model::Layout`] says.
@@ -301,6 +325,7 @@ impl Simulation {
         self.find_equilibrium()?;
         self.state.time = start;
         self.state.started = true;
+        self.forget_samples();
         self.outputs_are_stale = true;
         self.stiffness_is_stale = true;
         Ok(())
@@ -323,7 +348,11 @@ impl Simulation {
         self.outputs_are_stale = true;
         self.stiffness_is_stale = true;
         self.model.forget_contacts();
-        self.stepper.advance(&self.model, &drive, control, step, &mut self.state.progress).map_err(
+        let mut recorder = self.recorder.as_mut().filter(|recorder| recorder.is_on());
+        if let Some(recorder) = &mut recorder {
+            recorder.begin(self.state.time, self.state.cage.total());
+        }
+        self.stepper.advance(&self.model, &drive, control, step, &mut self.state.progress, recorder).map_err(
             |cause| match self.stepper.unsolved_contact() {
                 Some(error) => SimulationError::Contact(error),
                 None => SimulationError::Step { time: self.state.time, cause },
@@ -361,6 +390,9 @@ impl Simulation {
         self.integers.copy_from_slice(&state.integers);
         self.input_rates.copy_from_slice(&state.input_rates);
         self.state.copy_progress(state);
+        if let Some(recorder) = &mut self.recorder {
+            recorder.rewind(self.state.progress.due.count);
+        }
         self.equilibrium_is_stale = true;
         self.outputs_are_stale = true;
         self.stiffness_is_stale = true;

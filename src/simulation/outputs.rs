@@ -2,7 +2,80 @@
 
 use super::table::{Quantity, RingName};
 use super::{Simulation, SimulationError};
-use crate::dynamics::forces::RingState;
+use crate::dynamics::drive::Drive;
+use crate::dynamics::forces::{Forces, RingState};
+use crate::dynamics::model::Model;
+
+/// All that the outputs of one instant are computed from.
+#[derive(Debug)]
+pub struct Instant<'a> {
+    state: &'a [f64],
+    forces: &'a Forces,
+    ring: [RingState; 2],
+    acceleration: [[f64; 2]; 2],
+    sensor: f64,
+    cage_angle: f64,
+    cage_speed: f64,
+    cage_torque: f64,
+    model: &'a Model,
+}
+
+impl<'a> Instant<'a> {
+    /// The instant `tau` [s] after the communication point. `derivative` and `forces` are the model's for `state`;
+    /// `cage_start` is the cage angle at the communication point [rad], all turns counted.
+    pub fn new(
+        model: &'a Model,
+        (drive, tau): (&Drive, f64),
+        (state, derivative): (&'a [f64], &[f64]),
+        forces: &'a Forces,
+        cage_start: f64,
+    ) -> Self {
+        let acceleration = |place: Option<usize>, prescribed: [f64; 2]| {
+            place.map_or(prescribed, |i| [derivative[i + 2], derivative[i + 3]])
+        };
+        let acceleration = [
+            acceleration(model.layout.shaft, drive.shaft.map(|q| q.0[2])),
+            acceleration(model.layout.housing, drive.housing.map(|q| q.0[2])),
+        ];
+        Self {
+            state,
+            forces,
+            ring: [model.shaft_state(drive, tau, state), model.housing_state(drive, tau, state)],
+            acceleration,
+            sensor: model.layout.sensor.map_or(0.0, |i| derivative[i + 1]),
+            cage_angle: cage_start + drive.cage.at(tau),
+            cage_speed: drive.cage.rate_at(tau),
+            cage_torque: model.cage_torque(drive, tau, state, acceleration[1], forces),
+            model,
+        }
+    }
+
+    /// Value of an output; `None` for what does not belong to an instant.
+    pub fn value(&self, quantity: Quantity) -> Option<f64> {
+        Some(match quantity {
+            Quantity::Position(ring, axis) => self.ring[place(ring)].position[axis],
+            Quantity::Velocity(ring, axis) => self.ring[place(ring)].velocity[axis],
+            Quantity::Acceleration(ring, axis) => self.acceleration[place(ring)][axis],
+            Quantity::Force(ring, axis) => [self.forces.shaft, self.forces.housing][place(ring)][axis],
+            Quantity::SensorAcceleration => self.sensor,
+            Quantity::CageAngle => self.cage_angle,
+            Quantity::CageSpeed => self.cage_speed,
+            Quantity::CageTorque => self.cage_torque,
+            Quantity::ElementAngle(j) => self.cage_angle + self.model.element_offset(j),
+            Quantity::ElementPath(j) => self.state[j],
+            Quantity::ElementInnerForce(j) => self.forces.inner[j],
+            Quantity::ElementOuterForce(j) => self.forces.outer[j],
+            _ => return None,
+        })
+    }
+}
+
+fn place(ring: RingName) -> usize {
+    match ring {
+        RingName::Shaft => 0,
+        RingName::Housing => 1,
+    }
+}
 
 impl Simulation {
     /// Computes all outputs but the stiffness.
@@ -13,43 +86,24 @@ impl Simulation {
         let drive = self.drive(false);
         let progress = &self.state.progress;
         self.model.derivative(&drive, 0.0, &progress.cells, &progress.state, &mut self.derivative, &mut self.forces);
-        let shaft = self.model.shaft_state(&drive, 0.0, &progress.state);
-        let housing = self.model.housing_state(&drive, 0.0, &progress.state);
-        let acceleration = [
-            self.acceleration(self.model.layout.shaft, drive.shaft.map(|q| q.0[2])),
-            self.acceleration(self.model.layout.housing, drive.housing.map(|q| q.0[2])),
-        ];
-        let torque = self.model.cage_torque(&drive, 0.0, &progress.state, acceleration[1], &self.forces);
-        let sensor = self.model.layout.sensor.map_or(0.0, |i| self.derivative[i + 1]);
-        let cage_angle = self.state.cage.total();
-        let forces = &self.forces;
-        let ring = |name: RingName| -> (&RingState, usize) {
-            match name {
-                RingName::Shaft => (&shaft, 0),
-                RingName::Housing => (&housing, 1),
-            }
-        };
-        let solves_grids = self.model.defect.as_ref().is_some_and(|(near, _)| near.solves_grids());
-        let ring_force = [forces.shaft, forces.housing];
+        let instant = Instant::new(
+            &self.model,
+            (&drive, 0.0),
+            (&progress.state, &self.derivative),
+            &self.forces,
+            self.state.cage.total(),
+        );
         let first = self.inputs.count;
         for (i, quantity) in self.quantities.iter().enumerate().skip(first) {
-            self.values[i] = match *quantity {
-                Quantity::Position(name, axis) => ring(name).0.position[axis],
-                Quantity::Velocity(name, axis) => ring(name).0.velocity[axis],
-                Quantity::Acceleration(name, axis) => acceleration[ring(name).1][axis],
-                Quantity::Force(name, axis) => ring_force[ring(name).1][axis],
-                Quantity::MeanForce(name, axis) => progress.mean_force[2 * ring(name).1 + axis],
-                Quantity::SensorAcceleration => sensor,
-                Quantity::CageAngle => cage_angle,
-                Quantity::CageSpeed => drive.cage.0[1],
-                Quantity::CageTorque => torque,
-                Quantity::ElementAngle(j) => cage_angle + self.model.element_offset(j),
-                Quantity::ElementPath(j) => progress.state[j],
-                Quantity::ElementInnerForce(j) => forces.inner[j],
-                Quantity::ElementOuterForce(j) => forces.outer[j],
-                _ => continue,
+            let value = match *quantity {
+                Quantity::MeanForce(ring, axis) => Some(progress.mean_force[2 * place(ring) + axis]),
+                other => instant.value(other),
             };
+            if let Some(value) = value {
+                self.values[i] = value;
+            }
         }
+        let solves_grids = self.model.defect.as_ref().is_some_and(|(near, _)| near.solves_grids());
         for (i, quantity) in self.quantities.iter().enumerate().skip(first) {
             let count = match *quantity {
                 Quantity::Steps => progress.steps,
@@ -63,10 +117,6 @@ impl Simulation {
         }
         self.outputs_are_stale = false;
         Ok(())
-    }
-
-    fn acceleration(&self, place: Option<usize>, prescribed: [f64; 2]) -> [f64; 2] {
-        place.map_or(prescribed, |i| [self.derivative[i + 2], self.derivative[i + 3]])
     }
 
     /// Computes the tangent stiffness of the inner ring, −∂F/∂x with the elements in static balance [N/m].

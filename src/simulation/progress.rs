@@ -1,5 +1,6 @@
 //! The part of the state that the integration owns: plain numbers, all that its future depends on.
 
+use super::recorder::Due;
 use super::switching::Choice;
 use crate::dynamics::forces::SMOOTH;
 
@@ -21,6 +22,8 @@ pub struct Progress {
     pub last_error: f64,
     /// Which method steps, and what it was chosen on.
     pub choice: Choice,
+    /// When the recorder takes its next sample.
+    pub due: Due,
     /// Mean forces on inner and outer ring over the last communication step [N].
     pub mean_force: [f64; 4],
     /// Accepted steps.
@@ -43,6 +46,7 @@ impl Progress {
             next_step: FIRST_STEP,
             last_error: 1.0,
             choice: Choice::default(),
+            due: Due::default(),
             mean_force: [0.0; 4],
             steps: 0,
             implicit_steps: 0,
@@ -58,7 +62,7 @@ impl Progress {
         cells.copy_from_slice(&other.cells);
         pushing.copy_from_slice(&other.pushing);
         (self.next_step, self.last_error, self.choice) = (other.next_step, other.last_error, other.choice);
-        self.mean_force = other.mean_force;
+        (self.due, self.mean_force) = (other.due, other.mean_force);
         (self.steps, self.implicit_steps) = (other.steps, other.implicit_steps);
         (self.rejected_steps, self.defect_lookups) = (other.rejected_steps, other.defect_lookups);
     }

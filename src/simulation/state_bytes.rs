@@ -23,7 +23,7 @@ impl State {
     /// Number of bytes of [`to_bytes`](Self::to_bytes).
     pub fn byte_count(&self) -> usize {
         let progress = &self.progress;
-        let fixed = 8 + 1 + 8 + 8 + 2 * 8 + (1 + 4 * 4 + 8) + 4 * 8 + 4 * 8;
+        let fixed = 8 + 1 + 8 + 8 + 2 * 8 + (1 + 4 * 4 + 8) + 4 * 8 + 4 * 8 + 2 * 8;
         let real = progress.state.len() + self.values.len() + 2 * self.input_rates.len();
         fixed + 8 * real + 4 * (progress.cells.len() + self.integers.len()) + progress.pushing.len()
     }
@@ -38,7 +38,7 @@ impl State {
         field(&mut turns)?;
         self.cage.turns = i64::from_le_bytes(turns);
         real(&mut self.cage.rest, field)?;
-        for value in [&mut progress.next_step, &mut progress.last_error] {
+        for value in [&mut progress.next_step, &mut progress.last_error, &mut progress.due.delay] {
             real(value, field)?;
         }
         let choice = &mut progress.choice;
@@ -67,6 +67,7 @@ impl State {
             &mut progress.implicit_steps,
             &mut progress.rejected_steps,
             &mut progress.defect_lookups,
+            &mut progress.due.count,
         ];
         for count in counts {
             let mut bytes = count.to_le_bytes();
@@ -90,7 +91,7 @@ impl Simulation {
         })?;
         let progress = &state.progress;
         let sound = rest.is_empty()
-            && [state.time, state.cage.rest, progress.last_error, progress.choice.gained]
+            && [state.time, state.cage.rest, progress.last_error, progress.choice.gained, progress.due.delay]
                 .iter()
                 .all(|value| value.is_finite())
             && progress.state.iter().all(|value| value.is_finite())

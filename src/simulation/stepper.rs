@@ -15,7 +15,9 @@
 use super::arrow::Arrow;
 use super::dormand_prince::{self, DormandPrince};
 use super::knots::next_knot;
+use super::outputs::Instant;
 use super::progress::Progress;
+use super::recorder::Recorder;
 use super::rodas::{self, Rodas};
 use super::step_error::StepError;
 use super::switching::Method;
@@ -95,7 +97,7 @@ impl Stepper {
         }
     }
 
-    /// Advances `progress` by `step` [s] under `drive`.
+    /// Advances `progress` by `step` [s] under `drive`. A recorder takes its samples on the way.
     pub fn advance(
         &mut self,
         model: &Model,
@@ -103,6 +105,7 @@ impl Stepper {
         control: Control,
         step: f64,
         progress: &mut Progress,
+        mut recorder: Option<&mut Recorder>,
     ) -> Result<(), StepError> {
         let mut tau = 0.0;
         let mut impulse = [0.0; 4];
@@ -125,7 +128,7 @@ impl Stepper {
                 continue;
             }
             let target = knot.map_or(step, |k| k.tau.min(step));
-            let h = self.accepted_step(model, drive, control, (tau, target), progress)?;
+            let h = self.accepted_step(model, drive, control, (tau, target), progress, recorder.as_deref_mut())?;
             for (sum, force) in impulse.iter_mut().zip(self.weighted_force) {
                 *sum += h * force;
             }
@@ -147,6 +150,9 @@ impl Stepper {
         {
             progress.cells[at.element] = at.cell;
             knot = next_knot(model, drive, tau, step, &progress.cells);
+        }
+        if let Some(recorder) = recorder {
+            recorder.end(&mut progress.due, step);
         }
         progress.mean_force = impulse.map(|i| i / step);
         progress.defect_lookups += std::mem::take(&mut self.forces.defect_lookups);
@@ -174,6 +180,7 @@ impl Stepper {
         control: Control,
         (from, to): (f64, f64),
         progress: &mut Progress,
+        recorder: Option<&mut Recorder>,
     ) -> Result<f64, StepError> {
         let remaining = to - from;
         // A landing on a contact change: the step that ends there.
@@ -219,9 +226,42 @@ impl Stepper {
             let cut = h < wanted;
             progress.next_step = if cut { proposal.max(wanted) } else { proposal };
             progress.last_error = error.max(1e-4);
+            if let Some(recorder) = recorder {
+                self.record(model, drive, (from, h), progress, recorder);
+            }
             self.accept(model, drive, (from, h), progress)?;
             self.choose(model, drive, control.method, (from, h), (tried, cut), progress);
             return Ok(h);
+        }
+    }
+
+    /// Takes the samples that are due within the step tried last.
+    fn record(
+        &mut self,
+        model: &Model,
+        drive: &Drive,
+        (from, h): (f64, f64),
+        progress: &mut Progress,
+        recorder: &mut Recorder,
+    ) {
+        let lookups = self.forces.defect_lookups;
+        while let Some(tau) = recorder.due_before(&progress.due, from + h) {
+            self.dense_state(h, (tau - from).max(0.0) / h, progress);
+            let Self { dense, scratch, forces, .. } = self;
+            model.derivative(drive, tau, &progress.cells, dense, scratch, forces);
+            let instant = Instant::new(model, (drive, tau), (dense, scratch), forces, recorder.cage_angle());
+            recorder.take(&mut progress.due, &instant);
+        }
+        // What the recorder looks up is not the solver's work.
+        self.forces.defect_lookups = lookups;
+    }
+
+    /// The state at a share of the step tried last, in `dense`.
+    fn dense_state(&mut self, h: f64, share: f64, progress: &Progress) {
+        if progress.choice.implicit {
+            self.implicit.dense(&progress.state, share, &mut self.dense);
+        } else {
+            self.explicit.dense(&progress.state, h, share, &mut self.dense);
         }
     }
 
@@ -419,11 +459,7 @@ impl Stepper {
         share: f64,
         progress: &Progress,
     ) -> bool {
-        if progress.choice.implicit {
-            self.implicit.dense(&progress.state, share, &mut self.dense);
-        } else {
-            self.explicit.dense(&progress.state, h, share, &mut self.dense);
-        }
+        self.dense_state(h, share, progress);
         let tau = from + share * h;
         model.derivative(drive, tau, &progress.cells, &self.dense, &mut self.scratch, &mut self.forces);
         self.pushing_differs(progress)

@@ -48,6 +48,7 @@ pub enum Quantity {
     RingDamping(RingName),
     RingStiffness(RingName),
     Tolerance,
+    RecorderFolder,
 }
 
 use Quantity as Q;
@@ -349,6 +350,15 @@ impl Builder<'_> {
             Unit::One,
             p(scene.tolerance, 1e-12, 0.1, 1e-5),
         );
+        if scene.recorder_rate.is_some() {
+            self.push(
+                "recorder.folder",
+                "Folder for the recording, <instance name>.npy; empty for none",
+                Kind::Text { start: String::new() },
+                (Causality::Parameter, Variability::Fixed),
+                Q::RecorderFolder,
+            );
+        }
     }
 
     fn input(&mut self, name: &str, text: &str, quantity: Quantity, unit: Unit, start: f64, range: (f64, f64)) {

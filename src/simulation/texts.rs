@@ -1,23 +1,35 @@
-//! String variables. No scene has one yet, so only empty requests succeed.
+//! String variables. There is one: the folder of the recorder.
 
-use super::{Simulation, VariableError, wrong_type};
+use super::variables::Kind;
+use super::{Simulation, VariableError, not_settable, wrong_type};
 
 impl Simulation {
     /// Reads strings.
     pub fn strings(&self, references: &[u32]) -> Result<Vec<String>, VariableError> {
-        self.no_text(references)?;
-        Ok(Vec::new())
+        references.iter().map(|&reference| Ok(self.folder(reference)?.to_owned())).collect()
     }
 
-    /// Sets strings; all or none; before `initialize`.
-    pub fn set_strings(&mut self, references: &[u32], _values: &[&str]) -> Result<(), VariableError> {
-        self.no_text(references)
+    /// Sets strings; all or none; before `initialize`. Strings are no part of the state: a state that is restored
+    /// elsewhere does not write into this host's folder.
+    pub fn set_strings(&mut self, references: &[u32], values: &[&str]) -> Result<(), VariableError> {
+        for &reference in references {
+            self.folder(reference)?;
+            if self.state.started {
+                return Err(not_settable(self.variable(reference)?, "parameters are fixed after initialization"));
+            }
+        }
+        // The folder is the only string, so the last value holds.
+        if let Some(value) = values.last() {
+            self.record_into(value);
+        }
+        Ok(())
     }
 
-    fn no_text(&self, references: &[u32]) -> Result<(), VariableError> {
-        match references.first() {
-            Some(&reference) => Err(wrong_type(self.variable(reference)?, "String")),
-            None => Ok(()),
+    fn folder(&self, reference: u32) -> Result<&str, VariableError> {
+        let variable = self.variable(reference)?;
+        match (&variable.kind, &self.recorder) {
+            (Kind::Text { .. }, Some(recorder)) => Ok(&recorder.folder),
+            _ => Err(wrong_type(variable, "String")),
         }
     }
 }
