@@ -1,11 +1,11 @@
 //! The commands: what a user types, and the order of work behind each.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use clap::{Args, Parser, Subcommand};
 
-use crate::{check, demo, fmu, library::Library, model::Model, project::Project, run, stiffness};
+use crate::{check, demo, fmu, library::Library, model::Model, project::Project, report, run, stiffness};
 
 /// Rolling bearings with a real surface defect as FMI 2.0 co-simulation units.
 #[derive(Debug, Parser)]
@@ -25,6 +25,8 @@ enum Command {
     Check(Check),
     /// Static stiffness, load distribution and critical load over the cage angle: CSV, figure and summary
     Stiffness(Stiffness),
+    /// Error against run time, measured on this machine: Markdown, CSV and figures
+    Report(Report),
     /// Builds the FMU of a spalled 6205 bearing, drives it with fmpy and draws what happens
     Demo(Demo),
 }
@@ -86,6 +88,16 @@ struct Stiffness {
 }
 
 #[derive(Debug, Args)]
+struct Report {
+    /// Two scenes and few tolerances only
+    #[arg(long)]
+    short: bool,
+    /// Folder for the page, its figures and its data [default: docs; target/report with --short]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
 struct Demo {
     /// Folder for CSV and figure [default: target/demo]
     #[arg(short, long, value_name = "DIR")]
@@ -133,6 +145,14 @@ impl Arguments {
                     figure: !options.no_figure,
                 };
                 stiffness::command(&project, &model, wanted, &folder)
+            }
+            Command::Report(options) => {
+                let (extent, folder) = if options.short {
+                    (report::Extent::Short, project.target().join("report"))
+                } else {
+                    (report::Extent::Full, project.source().unwrap_or(Path::new(".")).join("docs"))
+                };
+                report::command(&project, extent, &options.output.unwrap_or(folder))
             }
             Command::Demo(options) => {
                 let folder = options.output.unwrap_or_else(|| project.target().join("demo"));

@@ -17,6 +17,7 @@ pub mod model;
 pub mod model_description;
 pub mod project;
 pub mod python;
+pub mod report;
 pub mod run;
 pub mod slave;
 pub mod stiffness;

@@ -207,6 +207,11 @@ impl Simulation {
         }
     }
 
+    /// The equations of motion and what acts from outside from now on, for studies that integrate them themselves.
+    pub fn equations(&self) -> (&Model, Drive) {
+        (&self.model, self.drive(true))
+    }
+
     /// The state vector, laid out as [`crate::dynamics::model::Layout`] says.
     pub fn state_vector(&self) -> &[f64] {
         &self.state.progress.state

@@ -1,0 +1,119 @@
+//! The page: what was measured, in tables.
+
+use std::fmt::Write;
+
+use super::integration::{Check, Integration, Row};
+use super::leaving_out::Part;
+
+/// Errors of the acceleration at which costs are compared.
+const LEVELS: [f64; 3] = [1e-2, 1e-3, 1e-5];
+const METHODS: [&str; 5] = ["automatic", "DP5 only", "Rodas5P only", "RK4", "Verlet"];
+
+/// The whole page.
+pub(super) fn page(machine: &str, integration: &Integration, parts: &[Part]) -> String {
+    let mut text = format!(
+        "# Error against run time\n\n\
+         Written by `cargo fmu report`; the numbers behind it are in [`data/`](data). Measured on: {machine}. Times are CPU \
+         times of one thread, the fastest of several runs.\n\n\
+         How wrong the contact itself is, by grid and map, is in [contact.md](contact.md); what stiff and extreme cases do is \
+         in [stability.md](stability.md).\n\n"
+    );
+    text += &integration_part(integration);
+    text += &leaving_out_part(parts);
+    text
+}
+
+fn integration_part(found: &Integration) -> String {
+    let mut text = format!(
+        "## Time integration\n\n\
+         Every shipped scene for {:.0} ms from rest, communication step 0.1 ms, compared every 10 µs. *Acceleration* is the outer \
+         ring's along y (`housing.ay`), its error the root mean square over that of the acceleration itself; where the host moves \
+         the outer ring it is `shaft.force.y`. *Path* is the largest error of any element's path. Fixed steps do not land on \
+         edges and contact changes; they are what a program without error control does.\n\n\
+         ![Error against CPU time](figures/error-vs-run-time.svg)\n\n\
+         CPU seconds per simulated second of the cheapest run whose acceleration error is at most\n\n",
+        1e3 * found.stop
+    );
+    let head: Vec<String> = LEVELS.iter().flat_map(|l| METHODS.map(|m| format!("{m}, {l:.0e}"))).collect();
+    let _ = writeln!(text, "| scene | {} |\n|---|{}", head.join(" | "), "---:|".repeat(head.len()));
+    for check in &found.checks {
+        let cells = LEVELS.iter().flat_map(|&level| METHODS.map(|method| (level, method)));
+        let cells: Vec<String> =
+            cells.map(|(level, method)| cheapest(&found.rows, &check.scene, method, level)).collect();
+        let _ = writeln!(text, "| {} | {} |", check.scene, cells.join(" | "));
+    }
+    text += "\n– : no run of this method is as exact as that.\n\n\
+             ### What a tolerance means\n\n\
+             Automatic method: error of the acceleration (rms; largest over largest) and of the paths (rms; largest) by \
+             `solver.tolerance`.\n\n\
+             | scene | tolerance | CPU s/s | steps/s | implicit | acceleration rms | largest | path rms, m | largest, m |\n\
+             |---|---:|---:|---:|---:|---:|---:|---:|---:|\n";
+    for row in found.rows.iter().filter(|row| row.method == "automatic") {
+        let d = row.deviation;
+        let _ = writeln!(
+            text,
+            "| {} | {:.0e} | {} | {:.0} | {:.0} % | {:.1e} | {:.1e} | {:.1e} | {:.1e} |",
+            row.scene,
+            row.setting,
+            cost(row.cost),
+            row.steps,
+            100.0 * row.implicit,
+            d.acceleration_rms,
+            d.acceleration_max,
+            d.path_rms,
+            d.path_max
+        );
+    }
+    text += "\n### How far the reference can be trusted\n\n\
+             The reference is the automatic method at tolerance 1e-12. Beside it: Rodas5P alone at 1e-11, and, over the first 20 ms \
+             and with law `hertz`, SciPy's DOP853 at 1e-12 on equations written separately (`tests/oracle`), with both stopping at \
+             each contact change.\n\n\
+             | scene | compared | Rodas5P: acceleration rms | path, m | DOP853: acceleration rms | path, m |\n\
+             |---|---|---:|---:|---:|---:|\n";
+    for Check { scene, signal, pair, oracle } in &found.checks {
+        let oracle =
+            oracle.map_or("– | –".to_owned(), |d| format!("{:.1e} | {:.1e}", d.acceleration_rms, d.path_max));
+        let _ = writeln!(
+            text,
+            "| {scene} | `{signal}` | {:.1e} | {:.1e} | {oracle} |",
+            pair.acceleration_rms, pair.path_max
+        );
+    }
+    text + "\n"
+}
+
+fn cheapest(rows: &[Row], scene: &str, method: &str, level: f64) -> String {
+    let good = rows.iter().filter(|row| row.scene == scene && row.method == method);
+    good.filter(|row| row.deviation.acceleration_rms <= level)
+        .map(|row| row.cost)
+        .min_by(f64::total_cmp)
+        .map_or("–".to_owned(), cost)
+}
+
+/// Three digits.
+fn cost(seconds: f64) -> String {
+    let digits = (2 - seconds.log10().floor() as i32).max(0) as usize;
+    format!("{seconds:.digits$}")
+}
+
+fn leaving_out_part(parts: &[Part]) -> String {
+    let mut text = "## What leaving out saves\n\n\
+         SKF 6205 at 25 Hz, tolerance 1e-5, communication step 0.1 ms; one part more in each line. What a scene does not name is \
+         neither computed nor stored nor among the variables.\n\n\
+         | scene | states | variables | CPU s per simulated s | steps per s | contacts near the defect per s |\n\
+         |---|---:|---:|---:|---:|---:|\n"
+        .to_owned();
+    for part in parts {
+        let _ = writeln!(
+            text,
+            "| {} | {} | {} | {} | {:.0} | {:.0} |",
+            part.what,
+            part.states,
+            part.variables,
+            cost(part.cost),
+            part.steps,
+            part.lookups
+        );
+    }
+    text
+}
