@@ -428,8 +428,9 @@ def response(fmus, folder, turns, h, stop):
         top = axis.get_xaxis_transform()
         for multiple in (1, 2, 3, 4):
             axis.plot(multiple * passage, 1.02, "v", color="black", transform=top, clip_on=False, markersize=5)
-            for side in (-1, 1):
-                axis.plot(multiple * passage + side, 1.02, "v", color="#999999", transform=top, clip_on=False, markersize=4)
+            for side in (-1, 1) if multiple < 4 else (-1,):
+                at = multiple * passage + side
+                axis.plot(at, 1.02, "v", color="#999999", transform=top, clip_on=False, markersize=4)
         axis.set_xlim(0, 15)
     axes[2].set_ylim(1e-5, None)
     axes[3].set_ylim(1e-4, None)

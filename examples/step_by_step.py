@@ -51,7 +51,7 @@ def outer_load(t):
     rise = np.clip((t - LATER) / 0.02, 0.0, 1.0)
     down = LOAD + MORE * rise * rise * (3 - 2 * rise) + MASS * GRAVITY
     turning = UNBALANCE * SPEED**2 * np.array([np.cos(SPEED * t), np.sin(SPEED * t)])
-    return np.kron(AT_CENTRE, turning + [0.0, -down])
+    return np.outer(AT_CENTRE, turning + [0.0, -down]).ravel()
 
 
 def simulate(fmus, step, passes, stop, seen=(), tolerance=1e-5):
