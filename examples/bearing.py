@@ -100,8 +100,18 @@ class Instance:
         )
         self.kept = logger, callbacks
         self.slave.instantiate(callbacks=callbacks)
+        self.listen()
+
+    def listen(self):
+        """Has the FMU say what went wrong; a reset makes it silent again."""
         self.slave.setDebugLogging(True, ["logStatusWarning", "logStatusDiscard", "logStatusError", "logStatusFatal"])
+        self.messages.clear()
         self.time = 0.0
+
+    def reset(self):
+        """As if just made, whatever happened before."""
+        self.slave.reset()
+        self.listen()
 
     def enter(self, start=None):
         """Sets parameters and start values and goes into initialization mode."""

@@ -89,10 +89,8 @@ class Bearings(WorkerPlugin):
             path = self.folder / f"{name}.fmu"
             path.write_bytes(self.files[name])
             self.instances[name] = bearing.Instance(str(path))
-        instance = self.instances[name]
-        instance.slave.reset()
-        instance.messages.clear()
-        return instance
+        self.instances[name].reset()
+        return self.instances[name]
 
 
 def simulate(index, name, values, options):
