@@ -213,10 +213,11 @@ def collect(client, runs, names, options, folder, every=50, at_result=lambda cou
     try:
         for future in flowing:
             index = int(future.key.removeprefix("run-"))
-            if future.status == "finished":
+            try:
+                # Waits when the worker was lost after it had said that it was done: the run is made again elsewhere.
                 row = future.result()
-            else:  # the run ended its worker more often than dask allows
-                row = {"run": index, "fmu": names[index], **runs[index], "error": repr(future.exception())}
+            except Exception as error:  # the run ended its worker more often than dask allows
+                row = {"run": index, "fmu": names[index], **runs[index], "error": repr(error)}
             rows.append(row)
             future.release()
             for fresh in give(1):
