@@ -11,7 +11,6 @@ import os
 import shlex
 import shutil
 import subprocess
-import tomllib
 from ctypes import POINTER, byref, c_double, c_int, c_uint
 from pathlib import Path
 
@@ -20,6 +19,11 @@ import numpy as np
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE, fmi2FMUstate
 from fmpy.logging import addLoggerProxy
+
+try:
+    import tomllib
+except ModuleNotFoundError:  # Python 3.9 and 3.10
+    import tomli as tomllib
 
 ROOT = Path(__file__).resolve().parent.parent
 SCENES = ROOT / "scenes"
