@@ -5,12 +5,12 @@ SI units; y up; angles counter-clockwise from +x; `force` is the bearing's force
 """
 
 import atexit
+import collections
 import functools
 import os
 import shlex
 import shutil
 import subprocess
-import tomllib
 from ctypes import POINTER, byref, c_double, c_int, c_uint
 from pathlib import Path
 
@@ -19,6 +19,11 @@ import numpy as np
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE, fmi2FMUstate
 from fmpy.logging import addLoggerProxy
+
+try:
+    import tomllib
+except ModuleNotFoundError:  # Python 3.9 and 3.10
+    import tomli as tomllib
 
 ROOT = Path(__file__).resolve().parent.parent
 SCENES = ROOT / "scenes"
@@ -79,16 +84,25 @@ def unzipped(fmu):
     return folder
 
 
+# The last things that the FMUs said. One list for all instances: fmpy has one logger for the whole process.
+SAID = collections.deque(maxlen=2)
+HEAR = fmi2CallbackLoggerTYPE(lambda _, __, ___, ____, message: SAID.append(message.decode()))
+
+
+def what_was_said(error):
+    said = "; ".join(SAID) or str(error)
+    SAID.clear()
+    return said
+
+
 class Instance:
     """One instance of an FMU, its variables by name. An error carries what the FMU said about it."""
 
     def __init__(self, fmu, name="bearing"):
         self.description = fmpy.read_model_description(fmu)
         self.reference = {v.name: v.valueReference for v in self.description.modelVariables}
-        self.messages = []
-        logger = fmi2CallbackLoggerTYPE(lambda _, __, ___, ____, message: self.messages.append(message.decode()))
         callbacks = fmi2CallbackFunctions()
-        callbacks.logger = logger
+        callbacks.logger = HEAR
         callbacks.allocateMemory, callbacks.freeMemory = defaultCallbacks.allocateMemory, defaultCallbacks.freeMemory
         # Fills in the variable arguments of the FMU's messages, which Python cannot.
         addLoggerProxy(byref(callbacks))
@@ -98,10 +112,20 @@ class Instance:
             modelIdentifier=self.description.coSimulation.modelIdentifier,
             instanceName=name,
         )
-        self.kept = logger, callbacks
+        self.kept = callbacks
         self.slave.instantiate(callbacks=callbacks)
+        self.listen()
+
+    def listen(self):
+        """Has the FMU say what went wrong; a reset makes it silent again."""
         self.slave.setDebugLogging(True, ["logStatusWarning", "logStatusDiscard", "logStatusError", "logStatusFatal"])
+        SAID.clear()
         self.time = 0.0
+
+    def reset(self):
+        """As if just made, whatever happened before."""
+        self.slave.reset()
+        self.listen()
 
     def enter(self, start=None):
         """Sets parameters and start values and goes into initialization mode."""
@@ -119,8 +143,7 @@ class Instance:
         try:
             return function(*arguments, **named)
         except FMICallException as error:
-            said = "; ".join(self.messages[-2:])
-            raise RuntimeError(f"{function.__name__} at {self.time:.9g} s: {said or error}") from None
+            raise RuntimeError(f"{function.__name__} at {self.time:.9g} s: {what_was_said(error)}") from None
 
     def read(self, names):
         return np.array(self.call(self.slave.getReal, [self.reference[name] for name in names]))
@@ -206,7 +229,7 @@ class Bearing(Instance):
             slave.fmi2DoStep(slave.component, self.time, length, 1)
             slave.fmi2GetReal(*self.forces.arguments)
         except FMICallException as error:
-            raise RuntimeError(f"step at {self.time:.9g} s: {'; '.join(self.messages[-2:]) or error}") from None
+            raise RuntimeError(f"step at {self.time:.9g} s: {what_was_said(error)}") from None
         self.time += length
         return self.forces.array[:2].copy(), self.forces.array[2:].copy()
 

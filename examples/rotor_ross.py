@@ -1,41 +1,42 @@
 #!/usr/bin/env python3
-"""A ROSS rotor with one bearing computed by an FMU, healthy and spalled.
+"""A ROSS rotor with one bearing computed by an FMU, healthy and spalled: motion and order spectra.
 
-    python examples/rotor_ross.py [--stop 0.5] [-o target/examples]      response and order spectra
-    python examples/rotor_ross.py linear                                 against ROSS with a linear bearing
-    python examples/rotor_ross.py table                                  error over communication step
-    python examples/rotor_ross.py share                                  where the run time goes
+    python examples/rotor_ross.py [--host exact|ross] [--passes 1] [--step 5e-5] [--stop 4] [-o target/examples]
 
-The rotor: a steel shaft of 25 mm, 0.6 m long, a disk of 4.4 kg near the middle with unbalance, a light damper beside
+The rotor: a steel shaft of 25 mm, 0.6 m long, a disk of 4.4 kg in the middle with unbalance, a light damper beside
 it, a linear bearing on the left, and the ER16K under study on the right, pressed down with 300 N. The FMU moves the
-bearing's elements and its housing; ROSS moves the shaft.
+bearing's elements and its housing; ROSS, or we with ROSS's matrices, move the shaft.
 
 Everything is counted from static rest: z = y − y₀. A linear bearing with the FMU's stiffness K and damping C at rest
-stands in for it in ROSS's matrices, and what the FMU says beyond it goes to the right-hand side:
+stands in for it in the rotor's matrices, and what the FMU says beyond it goes to the right-hand side:
     d = F − F₀ + K z + C ż        at the motion that the FMU was told
 so that a difference between the motion told and the motion found is answered by the stand-in, at once. Without it a
 shaft node of 0.1 kg against 9e7 N/m is stable with tiny steps only.
 
 Two hosts:
-  `newmark`  ROSS's own integrate_system(add_to_RHS=…). It asks once per step, with the last accepted state, and starts
-             from zeros; the force at the end of the step belongs to its equation.
-  `exact`    ours: ROSS's matrices propagated exactly over a step for forces that change linearly with time; the FMU is
-             told the motion the rotor would make without news from it, and gives its mean force. A second pass goes
-             back and tells it the motion found.
+  `ross`   ROSS's own integrate_system(add_to_RHS=…). It asks once per step, with the last accepted state, and starts
+           from zeros; the force at the end of the step belongs to its equation.
+  `exact`  ours: ROSS's matrices propagated exactly over a step. The FMU is told the motion that the rotor makes if d goes
+           on changing as it did, and gives its mean force and that at the end. With --passes 2 it goes back then and is
+           told the motion found.
 """
 
 import argparse
 import contextlib
 import io
 import json
+import sys
 import time
 from pathlib import Path
 
 import numpy as np
-import ross
 from bearing import SCENES, Bearing, build, changed_scene
 from scipy.linalg import expm
-from scipy.optimize import least_squares
+
+if sys.version_info < (3, 10):
+    sys.exit("ROSS 2.3 needs Python 3.10 or newer")
+with contextlib.redirect_stdout(sys.stderr):  # it greets on standard output
+    import ross
 
 NODES, LEFT, DAMPER, DISK, RIGHT = 13, 0, 5, 6, 12  # 12 elements of 50 mm
 GRAVITY = 9.81
@@ -128,7 +129,7 @@ class Coupled:
         return mean, end
 
 
-def newmark(fmu, speed, h, stop, stand_in=True, seen=(), tolerance=1e-5):
+def with_ross(fmu, speed, h, stop, seen=(), tolerance=1e-5, stand_in=True):
     """ROSS integrates; gives time, motion of all nodes, and the FMU's outputs named in `seen`."""
     coupled = Coupled(fmu, speed, tolerance)
     if not stand_in:
@@ -139,11 +140,12 @@ def newmark(fmu, speed, h, stop, stand_in=True, seen=(), tolerance=1e-5):
     first = rotor.number_dof * DISK
     force[:, first : first + 2] = unbalance(t, speed).T
     node = slice(rotor.number_dof * RIGHT, rotor.number_dof * RIGHT + 2)
-    rows = [coupled.fmu.read(seen)]
+    rows, given = [coupled.fmu.read(seen)], []
 
     def beyond(step, time_step, disp_resp, velc_resp, accl_resp):
         if step != len(rows):
             raise RuntimeError(f"ROSS asked for step {step} after {len(rows) - 1}: not once per step")
+        given.append(disp_resp[node].copy())
         out = np.zeros(rotor.ndof)
         # ROSS's acceleration of a light node rings from step to step: straight on is safer.
         out[node] = coupled.tell(disp_resp[node], velc_resp[node], np.zeros(2), time_step)[1]
@@ -155,8 +157,9 @@ def newmark(fmu, speed, h, stop, stand_in=True, seen=(), tolerance=1e-5):
     with contextlib.redirect_stdout(io.StringIO()):
         _, motion = rotor.integrate_system(speed, force, t, add_to_RHS=beyond)
     coupled.fmu.close()
-    keep = Lateral(rotor, speed).rows
-    return t, motion[:, keep], np.array(rows)
+    if len(given) != len(t) - 1 or not np.array_equal(given, motion[:-1, node]):
+        raise RuntimeError("ROSS asked with another state than the last accepted one")
+    return t, motion[:, Lateral(rotor, speed).rows], np.array(rows)
 
 
 class Propagator:
@@ -189,27 +192,28 @@ def exact(fmu, speed, h, stop, passes=1, seen=(), tolerance=1e-5, at_disk=unbala
     coupled = Coupled(fmu, speed, tolerance)
     system = Lateral(rotor_with((coupled.stiffness, coupled.damping)), speed)
     node, disk, n = system.node(RIGHT), system.node(DISK), system.size
-    columns = [node.start, node.start + 1, disk.start, disk.start + 1]
-    over = Propagator(system, h, columns)
+    over = Propagator(system, h, [node.start, node.start + 1, disk.start, disk.start + 1])
     speeds = slice(n + node.start, n + node.stop)
     count = round(stop / h)
     z = np.zeros(2 * n)
     motion, rows = np.zeros((count + 1, n)), [coupled.fmu.read(seen)]
     drive = at_disk(0.5 * h * np.arange(2 * count + 1), speed).T
-    beyond = np.zeros(2)
+    beyond, change = np.zeros(2), np.zeros(2)
     for step in range(count):
-        carried = over.free @ z + over.by_start @ np.concatenate([beyond, drive[2 * step]])
-        carried += over.by_mean[:, 2:] @ (SIMPSON @ drive[2 * step : 2 * step + 3])
-        carried += over.by_end[:, 2:] @ drive[2 * step + 2]
-        told = carried + (over.by_mean[:, :2] + over.by_end[:, :2]) @ beyond
+        start, _, later = drive[2 * step : 2 * step + 3]
+        carried = over.free @ z + over.by_start @ np.concatenate([beyond, start])
+        carried += over.by_mean[:, 2:] @ (SIMPSON @ drive[2 * step : 2 * step + 3]) + over.by_end[:, 2:] @ later
+        # What the FMU will say is guessed from how that changed over the last step.
+        mean, end = beyond + 0.5 * change, beyond + change
         for repeat in range(passes):
             if passes > 1:
                 coupled.fmu.restore() if repeat else coupled.fmu.save()
+            told = carried + over.by_mean[:, :2] @ mean + over.by_end[:, :2] @ end
             # The parabola that starts as the shaft does and ends where it is told to.
             a = 2 * (told[node] - z[node] - h * z[speeds]) / h**2
             mean, end = coupled.tell(z[node], z[speeds], a, h)
-            told = carried + over.by_mean[:, :2] @ mean + over.by_end[:, :2] @ end
-        z, beyond = told, end
+        z = carried + over.by_mean[:, :2] @ mean + over.by_end[:, :2] @ end
+        change, beyond = end - beyond, end
         motion[step + 1] = z[:n]
         if not abs(z[node]).max() < 1e-2:
             raise RuntimeError(f"unstable at {step * h:.4g} s")
@@ -218,276 +222,93 @@ def exact(fmu, speed, h, stop, passes=1, seen=(), tolerance=1e-5, at_disk=unbala
     return h * np.arange(count + 1), motion, np.array(rows)
 
 
-def alone(system, speed, h, stop, at_disk):
-    """A linear rotor without FMU, the same way."""
-    disk = system.node(DISK)
-    over = Propagator(system, h, [disk.start, disk.start + 1])
-    t = h * np.arange(round(stop / h) + 1)
-    drive = at_disk(0.5 * h * np.arange(2 * len(t) - 1), speed).T
-    states = np.zeros((len(t), 2 * system.size))
-    for step in range(len(t) - 1):
-        start, _, end = drive[2 * step : 2 * step + 3]
-        mean = SIMPSON @ drive[2 * step : 2 * step + 3]
-        states[step + 1] = over.free @ states[step] + over.by_start @ start + over.by_mean @ mean + over.by_end @ end
-    return t, states[:, : system.size]
-
-
 def fmus_in(folder):
+    """The FMUs: healthy, spalled."""
     base = SCENES / "er16k-tb1-hosted-shaft.toml"
     healthy = changed_scene(base, "er16k-hosted-shaft", {"defect": None, "contact": None}, folder)
     spalled = changed_scene(base, "er16k-tb1-hosted-shaft", {}, folder)
     return build([healthy, spalled], folder)
 
 
-def mean_coefficients(fmu, speed):
-    """Stiffness and damping at rest, mean over the cage's places within one element spacing."""
-    found = []
-    for angle in -np.pi / 2 + 2 * np.pi / 9 * np.arange(16) / 16:
-        coupled = Coupled(fmu, speed, initial_angle=angle)
-        found.append((coupled.stiffness, coupled.damping))
-        coupled.fmu.close()
-    return [np.mean([pair[i] for pair in found], axis=0) for i in (0, 1)]
+def spectrum(signal, h, turns):
+    """Orders of shaft speed, and amplitudes."""
+    window = np.hanning(len(signal))
+    amplitudes = np.abs(np.fft.rfft((signal - signal.mean()) * window)) * 2 / window.sum()
+    return np.fft.rfftfreq(len(signal), h) / turns, amplitudes
 
 
-def check_linear(fmu, folder, speeds, settle, h):
-    """Small motion: ROSS with the FMU against ROSS with a linear bearing on a housing on springs."""
-    eccentric = 1e-6  # kg m: a few newtons at the bearing in resonance, 1 % of its load
-
-    def drive(t, speed):
-        return unbalance(t, speed, eccentric)
-
-    def strike(t, speed):
-        return np.array([np.zeros_like(t), 20.0 * np.sin(np.pi * np.clip(t / 5e-3, 0.0, 1.0)) ** 2])
-
-    coefficients = mean_coefficients(fmu, 2 * np.pi * 60.0)
-    rows = []
-    for turns in speeds:
-        speed = 2 * np.pi * turns
-        linear = rotor_with(coefficients, housing=True)
-        response = linear.run_unbalance_response(DISK, eccentric, 0.0, [speed]).forced_resp[:, 0]
-        t, motion, _ = exact(fmu, speed, h, settle + 0.5, 2, at_disk=drive)
-        late = t >= settle
-        window = np.hanning(late.sum())
-        turning = window * np.exp(-1j * speed * t[late]) * 2 / window.sum()
-        found = turning @ motion[late]
-        for node in (DISK, RIGHT):
-            for axis in (0, 1):
-                expected = response[linear.number_dof * node + axis]
-                rows.append([turns, node, axis, abs(found[4 * node + axis]), abs(expected)])
-    rows = np.array(rows)
-    # A strike on the disk at 10 Hz; the difference to a run without it leaves what the passing elements excite.
-    speed = 2 * np.pi * 10.0
-    linear = rotor_with(coefficients, housing=True)
-    t, expected = alone(Lateral(linear, speed), speed, h, 0.5, strike)
-    _, struck, _ = exact(fmu, speed, h, 0.5, 2, at_disk=strike)
-    _, calm, _ = exact(fmu, speed, h, 0.5, 2, at_disk=lambda t, speed: np.zeros((2, len(t))))
-    found = (struck - calm)[:, 4 * DISK + 1]
-    free = [decay(t[t > 0.01], signal[t > 0.01]) for signal in (found, expected[:, 4 * DISK + 1])]
-    worst = [np.abs(rows[rows[:, 1] == node][:, 3] / rows[rows[:, 1] == node][:, 4] - 1).max() for node in (DISK, RIGHT)]
-    figure, (above, below) = plots(2, 7)
-    at_disk = rows[(rows[:, 1] == DISK) & (rows[:, 2] == 1)]
-    above.plot(at_disk[:, 0], at_disk[:, 4] * 1e6, color="black", label="ROSS with a linear bearing")
-    above.plot(at_disk[:, 0], at_disk[:, 3] * 1e6, "o", color="#D55E00", label="ROSS with the FMU")
-    above.set(xlabel="shaft speed (Hz)", ylabel="disk, y, at shaft\nspeed (µm)", yscale="log")
-    above.set_title("Small motion about rest, healthy bearing", loc="left")
-    below.plot(t * 1e3, expected[:, 4 * DISK + 1] * 1e6, color="black", label="ROSS with a linear bearing")
-    below.plot(t * 1e3, found * 1e6, "--", color="#D55E00", label="ROSS with the FMU")
-    below.set(xlabel="time after a strike on the disk (ms)", ylabel="disk, y (µm)")
-    for axis in (above, below):
-        legend(axis)
-    save(figure, folder / "rotor_ross_linear")
-    return {
-        "largest_error_disk": worst[0], "largest_error_bearing": worst[1],
-        "decay_hz": free[0][0], "decay_hz_linear": free[1][0], "decay_hz_error": free[0][0] / free[1][0] - 1,
-        "decay_rate_1_s": free[0][1], "decay_rate_linear_1_s": free[1][1],
-        "response_m": [dict(zip(("hz", "node", "axis", "fmu", "linear"), row)) for row in rows.tolist()],
-    }
+def summary(runs, passage, h, turns, settle):
+    """Amplitudes of the shaft's place in the bearing [µm] at shaft speed, at multiples of BPFO, and their sidebands."""
+    found = {"bpfo_order": passage}
+    for name, (t, motion, _) in runs.items():
+        order, amplitude = spectrum(motion[t >= settle, 4 * RIGHT + 1] * 1e6, h, turns)
+        lines = [1.0, *(k * passage + side for k in (1, 2) for side in (-1, 0, 1))]
+        found[f"place_um_{name}"] = {f"{x:.3f}": float(amplitude[np.abs(order - x) < 0.06].max()) for x in lines}
+        # What lies between the lines n BPFO + m shaft speed.
+        apart = [np.abs((order - n * passage + 0.5) % 1 - 0.5) > 0.1 for n in (0, 1, 2)]
+        found[f"floor_um_{name}"] = float(np.median(amplitude[np.all(apart, axis=0) & (order < 2 * passage)]))
+    return found
 
 
-def decay(t, signal):
-    """Frequency [Hz] and decay rate [1/s] of the strongest damped sine."""
-    spectrum = np.abs(np.fft.rfft(signal * np.hanning(len(t)), 16 * len(t)))
-    guess = np.fft.rfftfreq(16 * len(t), t[1] - t[0])[spectrum.argmax()]
+def draw(runs, passage, h, turns, settle, stem):
+    from figures import BLACK, BLUE, ORANGE, legend, plots, save
 
-    def rest(what):
-        wave = np.exp((2j * np.pi * what[0] - what[1]) * (t - t[0]))
-        basis = np.column_stack([wave.real, wave.imag])
-        return basis @ np.linalg.lstsq(basis, signal, rcond=None)[0] - signal
-
-    signal = signal / np.abs(signal).max()
-    return least_squares(rest, [guess, 5.0], x_scale=[0.1, 1.0]).x
-
-
-def table(fmus, stop, steps, fine=2.5e-6):
-    """Error over communication step: Markdown."""
-    speed = 2 * np.pi * 30.0
-    hosts = {
-        "ROSS, no stand-in": lambda fmu, h: newmark(fmu, speed, h, stop, stand_in=False, tolerance=1e-8),
-        "ROSS": lambda fmu, h: newmark(fmu, speed, h, stop, tolerance=1e-8),
-        "exact, 1 pass": lambda fmu, h: exact(fmu, speed, h, stop, 1, tolerance=1e-8),
-        "exact, 2 passes": lambda fmu, h: exact(fmu, speed, h, stop, 2, tolerance=1e-8),
-    }
-    print("| bearing | host | " + " | ".join(f"{h:g} s" for h in steps) + " |")
-    print("|---|---|" + "---|" * len(steps))
-    for name, fmu in zip(("healthy", "spalled"), fmus):
-        _, reference, _ = exact(fmu, speed, fine, stop, 2, tolerance=1e-8)
-        for host, run in hosts.items():
-            cells = []
-            for h in steps:
-                try:
-                    _, motion, _ = run(fmu, h)
-                except (RuntimeError, FloatingPointError, Warning):
-                    cells.append("unstable")
-                    continue
-                expected = reference[:: round(h / fine)][: len(motion), 4 * RIGHT + 1]
-                error = motion[: len(expected), 4 * RIGHT + 1] - expected
-                cells.append(f"{np.sqrt(np.mean(error**2)) / expected.std():.1e}")
-            print(f"| {name} | {host} | " + " | ".join(cells) + " |", flush=True)
-
-
-def share(fmu, h=1e-4, stop=0.2):
-    """Processor time of one communication step [µs]: the FMU, fmpy and ctypes around it, the rest of Python."""
-    inside, original = {}, Bearing.__init__
-
-    def watched(self, *arguments, **named):
-        original(self, *arguments, **named)
-        for name in ("fmi2SetReal", "fmi2DoStep", "fmi2GetReal"):
-            function = self.slave._functions[name]
-
-            def timed(*arguments, function=function, name=name):
-                begin = time.thread_time_ns()
-                status = function(*arguments)
-                inside[name] = inside.get(name, 0) + time.thread_time_ns() - begin
-                return status
-
-            timed.restype, timed.argtypes, timed.argnames = function.restype, function.argtypes, function.argnames
-            self.slave._functions[name] = timed
-
-    def timed_calls(function, *arguments):
-        begin = time.thread_time_ns()
-        for _ in range(20000):
-            function(*arguments)
-        return (time.thread_time_ns() - begin) / 20000 / 1e3
-
-    idle = Bearing(fmu)
-    # Calls that do nothing: what ctypes, fmpy and the clock cost.
-    ctypes_call = timed_calls(idle.slave._functions["fmi2GetReal"], idle.slave.component, None, 0, None)
-    fmpy_call = timed_calls(idle.slave.fmi2GetReal, idle.slave.component, None, 0, None)
-    clock = timed_calls(time.thread_time_ns)
-    idle.close()
-    speed, count = 2 * np.pi * 30.0, round(stop / h)
-    result = {"step_s": h, "steps": count}
-    Bearing.__init__ = watched
-    for name, run in (("exact", exact), ("newmark", newmark)):
-        took = []
-        for steps in (10, 10, count + 10):  # the first makes and compiles what is made once
-            inside.clear()
-            begin = time.thread_time()
-            run(fmu, speed, h, steps * h)
-            took.append((time.thread_time() - begin) * 1e6)
-        whole = (took[2] - took[1]) / count - 6 * clock
-        in_fmu = sum(inside.values()) / 1e3 / count - 3 * (ctypes_call + clock)
-        result[name] = {
-            "whole_us": whole, "fmu_us": in_fmu, "fmpy_and_ctypes_us": 3 * fmpy_call,
-            "python_us": whole - in_fmu - 3 * fmpy_call,
-        }
-    Bearing.__init__ = original
-    return result
-
-
-def response(fmus, folder, turns, h, stop):
-    """Rotor and housing over time, and order spectra, healthy and spalled."""
-    speed = 2 * np.pi * turns
-    seen = ["housing.ay", "shaft.force.y", "cage.speed"]
-    runs, took = {}, {}
-    for name, fmu in zip(("healthy", "spalled"), fmus):
-        begin = time.perf_counter()
-        runs[name] = exact(fmu, speed, h, stop, 1, seen)
-        took[name] = time.perf_counter() - begin
-    passage = 9 * runs["spalled"][2][0, 2] / speed  # of an element over a place on the outer ring, per shaft turn
     figure, axes = plots(4, 11)
-    colours = {"healthy": "#0072B2", "spalled": "#D55E00"}
-    summary = {"bpfo_order": passage, "seconds": took}
-    for name in ("spalled", "healthy"):
+    for name, colour in (("spalled", ORANGE), ("healthy", BLUE)):
         t, motion, outputs = runs[name]
-        late = t >= min(0.3, 0.4 * stop)
-        part = (t >= t[-1] - 4 / turns) & late
-        axes[0].plot((t[part] - t[-1]) * turns, motion[part, 4 * RIGHT + 1] * 1e6, color=colours[name], label=name)
-        axes[1].plot((t[part] - t[-1]) * turns, motion[part, 4 * DISK + 1] * 1e6, color=colours[name], label=name)
-        for axis, signal, scale in ((axes[2], motion[late, 4 * RIGHT + 1], 1e6), (axes[3], outputs[late, 0], 1.0)):
-            window = np.hanning(late.sum())
-            spectrum = np.abs(np.fft.rfft((signal - signal.mean()) * window)) * 2 / window.sum() * scale
-            order = np.fft.rfftfreq(late.sum(), h) / turns
-            axis.semilogy(order[order < 15], spectrum[order < 15], color=colours[name], linewidth=0.9, label=name)
-            if axis is axes[2]:
-                near = {}
-                for line in (1.0, passage - 1, passage, passage + 1, 2 * passage - 1, 2 * passage, 2 * passage + 1):
-                    near[f"{line:.3f}"] = float(spectrum[np.abs(order - line) < 0.06].max())
-                summary[f"place_um_{name}"] = near
+        part = t >= max(t[-1] - 4 / turns, settle)
+        axes[0].plot((t[part] - t[-1]) * turns, motion[part, 4 * RIGHT + 1] * 1e6, color=colour, label=name)
+        axes[1].plot((t[part] - t[-1]) * turns, motion[part, 4 * DISK + 1] * 1e6, color=colour)
+        late = t >= settle
+        for axis, signal in ((axes[2], motion[late, 4 * RIGHT + 1] * 1e6), (axes[3], outputs[late, 0])):
+            order, amplitude = spectrum(signal, h, turns)
+            axis.semilogy(order[order < 15], amplitude[order < 15], color=colour, linewidth=0.9)
     for axis in axes[2:]:
         top = axis.get_xaxis_transform()
         for multiple in (1, 2, 3, 4):
-            axis.plot(multiple * passage, 1.02, "v", color="black", transform=top, clip_on=False, markersize=5)
-            for side in (-1, 1):
-                axis.plot(multiple * passage + side, 1.02, "v", color="#999999", transform=top, clip_on=False, markersize=4)
+            axis.plot(multiple * passage, 1.03, "v", color=BLACK, transform=top, clip_on=False, markersize=6)
+            axis.text(multiple * passage, 1.07, f"{multiple} BPFO", transform=top, ha="center", fontsize=8)
+            for side in (-1, 1) if multiple < 4 else (-1,):
+                at = multiple * passage + side
+                axis.plot(at, 1.03, "v", color="#999999", transform=top, clip_on=False, markersize=4)
         axis.set_xlim(0, 15)
     axes[2].set_ylim(1e-5, None)
     axes[3].set_ylim(1e-4, None)
     axes[0].set(ylabel="shaft in the bearing,\ny from rest (µm)", xlabel="turns of the shaft")
     axes[1].set(ylabel="disk, y from rest\n(µm)", xlabel="turns of the shaft")
-    axes[2].set(ylabel="shaft in the bearing,\ny (µm)", xlabel="order of shaft speed; marks: multiples of BPFO, grey: ±1")
-    axes[3].set(ylabel="housing, y (m/s²)", xlabel="order of shaft speed; the same marks")
-    axes[0].set_title(f"ROSS rotor at {turns:g} Hz, ER16K with a spall of 15.8 degrees", loc="left")
+    axes[2].set(ylabel="shaft in the bearing,\ny (µm)", xlabel="order of shaft speed; grey marks: sidebands, BPFO ± shaft speed")
+    axes[3].set(ylabel="housing, y (m/s²)", xlabel="order of shaft speed")
+    axes[0].set_title(f"ROSS rotor at {turns:g} Hz, ER16K with a spall of 15.8°", loc="left")
     legend(axes[0])
-    save(figure, folder / "rotor_ross")
-    return summary
-
-
-def plots(count, height):
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    figure, axes = plt.subplots(count, 1, figsize=(9, height), constrained_layout=True)
-    for axis in axes:
-        axis.grid(color="#dddddd", linewidth=0.6)
-        axis.spines[["top", "right"]].set_visible(False)
-    return figure, axes
-
-
-def legend(axis):
-    axis.legend(frameon=False, ncols=2, loc="lower right", bbox_to_anchor=(1, 0.97), borderaxespad=0)
-
-
-def save(figure, stem):
-    for suffix in ("svg", "png"):
-        metadata = {"Date": None} if suffix == "svg" else {"Software": None}
-        figure.savefig(f"{stem}.{suffix}", dpi=150, metadata=metadata)
+    save(figure, stem)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("what", nargs="?", default="response", choices=("response", "linear", "table", "share"))
-    parser.add_argument("--speed", type=float, default=40.0, help="shaft speed of the response [Hz]")
-    parser.add_argument("--step", type=float, default=5e-5, help="communication step of the response [s]")
-    parser.add_argument("--stop", type=float, help="end [s]")
-    parser.add_argument("--short", action="store_true", help="fewer speeds, steps and seconds")
+    parser.add_argument("--host", choices=("exact", "ross"), default="exact")
+    parser.add_argument("--passes", type=int, default=1, help="of the host `exact`")
+    parser.add_argument("--speed", type=float, default=40.0, help="shaft speed [Hz]")
+    parser.add_argument("--step", type=float, help="communication step [s]; default 5e-5, or 1e-5 with --host ross")
+    parser.add_argument("--stop", type=float, default=4.0, help="end [s]")
     parser.add_argument("-o", "--output", type=Path, default=Path("target/examples"))
     options = parser.parse_args()
-    fmus = fmus_in(options.output)
-    if options.what == "linear":
-        speeds = (64.0,) if options.short else (45.0, 55.0, 60.0, 62.0, 63.0, 63.5, 64.0, 64.5, 65.0, 67.0, 72.0, 80.0)
-        result = check_linear(fmus[0], options.output, speeds, *((1.0, 2e-4) if options.short else (1.5, 1e-4)))
-    elif options.what == "table":
-        steps = (2e-5, 1e-4) if options.short else (1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3)
-        fine = 5e-6 if options.short else 2.5e-6
-        return table(fmus, options.stop or (0.01 if options.short else 0.05), steps, fine)
-    elif options.what == "share":
-        result = share(fmus[1])
-    else:
-        result = response(fmus, options.output, options.speed, options.step, options.stop or (0.5 if options.short else 4.0))
-    print(json.dumps(result))
+    healthy, spalled = fmus_in(options.output)
+    speed, settle = 2 * np.pi * options.speed, min(0.3, 0.4 * options.stop)
+    h = options.step or {"exact": 5e-5, "ross": 1e-5}[options.host]
+    seen = ["housing.ay", "cage.speed"]
+    runs, took = {}, {}
+    for name, fmu in (("healthy", healthy), ("spalled", spalled)):
+        begin = time.perf_counter()
+        if options.host == "ross":
+            runs[name] = with_ross(fmu, speed, h, options.stop, seen)
+        else:
+            runs[name] = exact(fmu, speed, h, options.stop, options.passes, seen)
+        took[name] = round(time.perf_counter() - begin, 2)
+    passage = 9 * runs["spalled"][2][0, 1] / speed  # of an element over a place on the outer ring, per shaft turn
+    stem = options.output / f"rotor_{options.host}"
+    draw(runs, passage, h, options.speed, settle, stem)
+    found = summary(runs, passage, h, options.speed, settle)
+    print(json.dumps({**found, "seconds": took, "files": f"{stem}.svg .png"}))
 
 
 if __name__ == "__main__":

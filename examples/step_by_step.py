@@ -51,7 +51,31 @@ def outer_load(t):
     rise = np.clip((t - LATER) / 0.02, 0.0, 1.0)
     down = LOAD + MORE * rise * rise * (3 - 2 * rise) + MASS * GRAVITY
     turning = UNBALANCE * SPEED**2 * np.array([np.cos(SPEED * t), np.sin(SPEED * t)])
-    return np.kron(AT_CENTRE, turning + [0.0, -down])
+    return np.outer(AT_CENTRE, turning + [0.0, -down]).ravel()
+
+
+def one_step(bearings, masses, resist, loads, state, h, passes):
+    """The steps 1 to 3 above. `loads` are those at the start, the middle and the end; `state` is (q, v, force)."""
+    q, v, force = state
+    begin, middle, later = loads
+    start_a = told = np.linalg.solve(masses, force + begin - resist @ v)
+    others = (begin + 4 * middle + later) / 6 - resist @ (v + 0.5 * h * start_a)
+    stiffness = np.zeros_like(masses)
+    for repeat in range(passes):
+        if passes > 1:
+            for bearing in bearings:
+                bearing.restore() if repeat else bearing.save()
+        mean, end = np.empty_like(q), np.empty_like(q)
+        for i, bearing in enumerate(bearings):
+            part = slice(2 * i, 2 * i + 2)
+            mean[part], end[part] = bearing.advance(q[part], v[part], told[part], h)
+            stiffness[part, part] = bearing.stiffness()
+        aside = h * h * ((start_a - told) / 6 - start_a / 12)
+        a = np.linalg.solve(masses + h * h / 12 * stiffness, mean + others - stiffness @ aside)
+        force = end - stiffness @ (h * h * ((start_a - told) / 2 + (a - start_a) / 3))
+        end_a = np.linalg.solve(masses, force + later - resist @ (v + h * a))
+        told = a + (start_a - end_a) / 6
+    return q + h * v + 0.5 * h * h * told, v + h * a, force
 
 
 def simulate(fmus, step, passes, stop, seen=(), tolerance=1e-5):
@@ -61,41 +85,18 @@ def simulate(fmus, step, passes, stop, seen=(), tolerance=1e-5):
     load = outer_load(0.0)
     # The unbalance starts with the rotor at rest: a jolt of less than a newton against 1000 N.
     q = np.concatenate([bearing.rest([0.0, load[2 * i + 1]]) for i, bearing in enumerate(bearings)])
-    v = np.zeros(4)
     force = np.concatenate([bearing.force_at(q[2 * i : 2 * i + 2]) for i, bearing in enumerate(bearings)])
+    state = q, np.zeros(4), force
     rows = [[0.0, *q, *force, *bearings[1].read(seen)]]
     for bearing in bearings:
         bearing.run()
-
-    def both(acceleration):
-        """One step of both FMUs: mean forces, end forces, tangent stiffness."""
-        parts = slice(0, 2), slice(2, 4)
-        out = [b.advance(q[part], v[part], acceleration[part], step) for b, part in zip(bearings, parts)]
-        stiffness = np.zeros((4, 4))
-        for bearing, part in zip(bearings, parts):
-            stiffness[part, part] = bearing.stiffness()
-        return *(np.concatenate([pair[i] for pair in out]) for i in (0, 1)), stiffness
-
-    h = step
     for count in range(round(stop / step)):
         t = count * step
-        load, middle, later = outer_load(t), outer_load(t + 0.5 * step), outer_load(t + step)
-        start_a = told = np.linalg.solve(MASSES, force + load - RESIST @ v)
-        others = (load + 4 * middle + later) / 6 - RESIST @ (v + 0.5 * h * start_a)
-        for repeat in range(passes):
-            if passes > 1:
-                for bearing in bearings:
-                    bearing.restore() if repeat else bearing.save()
-            mean, end, stiffness = both(told)
-            aside = h * h * ((start_a - told) / 6 - start_a / 12)
-            a = np.linalg.solve(MASSES + h * h / 12 * stiffness, mean + others - stiffness @ aside)
-            force = end - stiffness @ (h * h * ((start_a - told) / 2 + (a - start_a) / 3))
-            end_a = np.linalg.solve(MASSES, force + later - RESIST @ (v + h * a))
-            told = a + (start_a - end_a) / 6
-        q, v = q + h * v + 0.5 * h * h * told, v + h * a
-        if not np.all(np.abs(q) < 1e-2):
-            raise RuntimeError(f"the shaft is {np.abs(q).max():.2g} m off at {t:.4g} s: take a shorter step")
-        rows.append([t + step, *q, *force, *(bearings[1].read(seen) if seen else ())])
+        loads = outer_load(t), outer_load(t + 0.5 * step), outer_load(t + step)
+        state = one_step(bearings, MASSES, RESIST, loads, state, step, passes)
+        if not np.all(np.abs(state[0]) < 1e-2):
+            raise RuntimeError(f"the shaft is {np.abs(state[0]).max():.2g} m off at {t:.4g} s: take a shorter step")
+        rows.append([t + step, *state[0], *state[2], *(bearings[1].read(seen) if seen else ())])
     for bearing in bearings:
         bearing.close()
     return np.array(rows)
@@ -109,56 +110,26 @@ def fmus_in(folder):
 
 
 def draw(rows, seen, step, passes, stem):
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
+    from figures import BLACK, BLUE, GREEN, ORANGE, legend, plots, save
 
     t, places, forces = rows[:, 0], rows[:, 1:5], rows[:, 5:9]
     spalled = dict(zip(seen, rows[:, 9:].T))
-    figure, axes = plt.subplots(4, 1, figsize=(9, 9), sharex=True, constrained_layout=True)
-    down = np.array([-outer_load(when)[1::2].sum() for when in t])
-    axes[0].plot(t, down, color="black")
+    figure, axes = plots(4, 9, sharex=True)
+    axes[0].plot(t, [-outer_load(when)[1::2].sum() for when in t], color=BLACK)
     axes[0].set_ylabel("load on the\nrotor, down (N)")
-    axes[0].set_title(f"Rigid rotor on two bearings, {passes} pass{'es' * (passes > 1)}, step {step:g} s", loc="left")
-    axes[1].plot(t, forces[:, 1], color="#0072B2", label="left, healthy")
-    axes[1].plot(t, forces[:, 3], color="#D55E00", label="right, spalled", linewidth=0.8)
+    axes[0].set_title(f"Rigid rotor on two bearings, {passes} pass{'es' * (passes > 1)}, step {step * 1e6:g} µs", loc="left")
+    axes[1].plot(t, forces[:, 1], color=BLUE, label="left, healthy")
+    axes[1].plot(t, forces[:, 3], color=ORANGE, label="right, spalled", linewidth=0.8)
     axes[1].set_ylabel("bearing's force on\nthe shaft, y (N)")
-    axes[2].plot(t, places[:, 1] * 1e6, color="#0072B2", label="left, healthy")
-    axes[2].plot(t, places[:, 3] * 1e6, color="#D55E00", label="right, spalled")
+    axes[2].plot(t, places[:, 1] * 1e6, color=BLUE, label="left, healthy")
+    axes[2].plot(t, places[:, 3] * 1e6, color=ORANGE, label="right, spalled")
     axes[2].set_ylabel("place of the\nshaft, y (µm)")
-    axes[3].plot(t, spalled["sensor.acceleration"], color="#009E73", linewidth=0.7)
+    axes[3].plot(t, spalled["sensor.acceleration"], color=GREEN, linewidth=0.7)
     axes[3].set_ylabel("sensor on the\nright, y (m/s²)")
     axes[3].set_xlabel("time (s)")
-    for axis in axes:
-        axis.grid(color="#dddddd", linewidth=0.6)
-        axis.spines[["top", "right"]].set_visible(False)
     for axis in axes[1:3]:
-        axis.legend(frameon=False, loc="lower right", bbox_to_anchor=(1, 0.97), borderaxespad=0, ncols=2)
-    for suffix in ("svg", "png"):
-        figure.savefig(f"{stem}.{suffix}", dpi=150, metadata={"Date": None} if suffix == "svg" else {"Software": None})
-    plt.close(figure)
-
-
-def compare_steps(fmus, stop):
-    """Error of place and force at the spalled bearing against a fine run, for steps and passes: a Markdown table."""
-    fine = 2.5e-6
-    # The spalled bearing magnifies small differences: a tight tolerance shows the error of the coupling alone.
-    exact = simulate(fmus, fine, 1, stop, tolerance=1e-8)
-    print("| step (s) | passes | place: rms error / rms motion | force: rms error / rms change | run time / time |")
-    print("|---|---|---|---|---|")
-    for step in (1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 2.5e-4, 5e-4):
-        for passes in (1, 2):
-            begin = time.perf_counter()
-            try:
-                rows = simulate(fmus, step, passes, stop, tolerance=1e-8)
-            except RuntimeError as error:
-                print(f"| {step:g} | {passes} | {error} | | |", flush=True)
-                continue
-            took = (time.perf_counter() - begin) / stop
-            same = exact[:: round(step / fine)][: len(rows)]
-            errors = [np.sqrt(np.mean((rows[: len(same), c] - same[:, c]) ** 2)) / np.std(same[:, c]) for c in (4, 8)]
-            print(f"| {step:g} | {passes} | {errors[0]:.2g} | {errors[1]:.2g} | {took:.2f} |", flush=True)
+        legend(axis)
+    save(figure, stem)
 
 
 def main():
@@ -166,12 +137,9 @@ def main():
     parser.add_argument("--step", type=float, default=5e-5, help="communication step [s]")
     parser.add_argument("--passes", type=int, default=1, choices=(1, 2, 3))
     parser.add_argument("--stop", type=float, default=0.4, help="end [s]")
-    parser.add_argument("--compare", action="store_true", help="error over step and passes instead of one run")
     parser.add_argument("-o", "--output", type=Path, default=Path("target/examples"))
     options = parser.parse_args()
     fmus = fmus_in(options.output)
-    if options.compare:
-        return compare_steps(fmus, options.stop)
     seen = ["sensor.acceleration", "housing.ay"]
     begin = time.perf_counter()
     rows = simulate(fmus, options.step, options.passes, options.stop, seen)

@@ -89,10 +89,8 @@ class Bearings(WorkerPlugin):
             path = self.folder / f"{name}.fmu"
             path.write_bytes(self.files[name])
             self.instances[name] = bearing.Instance(str(path))
-        instance = self.instances[name]
-        instance.slave.reset()
-        instance.messages.clear()
-        return instance
+        self.instances[name].reset()
+        return self.instances[name]
 
 
 def simulate(index, name, values, options):
@@ -215,10 +213,11 @@ def collect(client, runs, names, options, folder, every=50, at_result=lambda cou
     try:
         for future in flowing:
             index = int(future.key.removeprefix("run-"))
-            if future.status == "finished":
+            try:
+                # Waits when the worker was lost after it had said that it was done: the run is made again elsewhere.
                 row = future.result()
-            else:  # the run ended its worker more often than dask allows
-                row = {"run": index, "fmu": names[index], **runs[index], "error": repr(future.exception())}
+            except Exception as error:  # the run ended its worker more often than dask allows
+                row = {"run": index, "fmu": names[index], **runs[index], "error": repr(error)}
             rows.append(row)
             future.release()
             for fresh in give(1):
