@@ -18,6 +18,7 @@ pub mod model_description;
 pub mod project;
 pub mod python;
 pub mod run;
+pub mod size;
 pub mod slave;
 pub mod stiffness;
 pub mod units;

@@ -16,11 +16,12 @@ use anyhow::{Context, Result, bail};
 use crate::project::Project;
 
 const REQUIREMENTS: &str = include_str!("../python/requirements.txt");
-const SCRIPTS: [(&str, &str); 6] = [
+const SCRIPTS: [(&str, &str); 7] = [
     ("demo.py", include_str!("../python/demo.py")),
     ("host.py", include_str!("../python/host.py")),
     ("plotting.py", include_str!("../python/plotting.py")),
     ("run_figure.py", include_str!("../python/run_figure.py")),
+    ("size.py", include_str!("../python/size.py")),
     ("stiffness.py", include_str!("../python/stiffness.py")),
     ("validate.py", include_str!("../python/validate.py")),
 ];

@@ -43,18 +43,22 @@ pub struct Trial {
     pub law: ContactLaw,
 }
 
+/// Where contact maps come from: the bytes of a scene's map, or `None` to have it computed here.
+pub type Maps<'a> = &'a (dyn Fn(&Scene) -> Option<Vec<u8>> + Sync);
+
 /// The scene's rig at the recording's speed.
-#[derive(Debug, Clone)]
-pub struct Rig {
+#[derive(Clone)]
+pub struct Rig<'a> {
     scene: Scene,
     bpfo: f64,
     rate: f64,
+    maps: Maps<'a>,
 }
 
-impl Rig {
+impl<'a> Rig<'a> {
     /// The scene at the speed at which elements pass `bpfo` times a second [Hz]; `None` when the scene leaves motion or sensor
     /// to others and cannot be simulated by itself.
-    pub fn new(scene: &Scene, bpfo: f64) -> Option<Self> {
+    pub fn new(scene: &Scene, bpfo: f64, maps: Maps<'a>) -> Option<Self> {
         let whole = scene.shaft.motion == Motion::Internal && scene.housing.motion != Motion::Host;
         if !whole || scene.sensor.is_none() || scene.housing.motion != Motion::Internal {
             return None;
@@ -65,7 +69,7 @@ impl Rig {
         scene.shaft_speed = TAU * bpfo / kinematics::frequencies(&scene.bearing, 0.0, 1.0).bpfo;
         scene.recorder_rate = None;
         // Elements ring at 40 to 50 kHz on their contacts: sampled much slower, that would fold below the cut.
-        Some(Self { scene, bpfo, rate: 20.0 * CUT })
+        Some(Self { scene, bpfo, rate: 20.0 * CUT, maps })
     }
 
     /// One passage with a trial spall as the sensor would record it, below the cut, mean 0, norm 1.
@@ -77,7 +81,9 @@ impl Rig {
         let decays = if run == Run::Short { 1.0 } else { 2.0 };
         let settling = ((decays * DECAY * self.bpfo).ceil() as usize).max(1);
         let passages = settling..settling + count;
-        let mut simulation = Simulation::new(self.with_spall(trial), None)?;
+        let scene = self.with_spall(trial);
+        let map = if trial.law == ContactLaw::Map { (self.maps)(&scene) } else { None };
+        let mut simulation = Simulation::with_map(scene, None, map.as_deref())?;
         // A rig has a sensor, or it would not have been made.
         let sensor = simulation.table().iter().position(|v| v.name == "sensor.acceleration").unwrap_or_default() as u32;
         simulation.initialize(0.0)?;
