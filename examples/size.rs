@@ -1,7 +1,7 @@
 //! Sizes the spall in recordings of one bearing and prints the report as JSON:
 //! `cargo run --release --example size -- SCENE RATE_HZ FILE@SPEED_HZ…`
 
-use brinell::analysis::recording::{Recording, Speed};
+use brinell::analysis::recording::{Recording, Source, Speed};
 use brinell::analysis::spall_size::size;
 use brinell::scene::Scene;
 use std::error::Error;
@@ -15,7 +15,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut recordings = Vec::new();
     for file in files {
         let (path, speed) = file.rsplit_once('@').ok_or("FILE@SPEED_HZ")?;
-        recordings.push(Recording::read(Path::new(path), Some(rate), Speed::Constant(speed.parse()?))?);
+        let source = Source { rate: Some(rate), speed: Speed::Constant(speed.parse()?), signal: None };
+        recordings.push(Recording::read(Path::new(path), &source)?);
     }
     println!("{}", serde_json::to_string_pretty(&size(&recordings, &scene)?)?);
     Ok(())

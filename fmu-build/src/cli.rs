@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
+use brinell::analysis::recording::Speed;
 use clap::{Args, Parser, Subcommand};
 
-use crate::{check, demo, fmu, library::Library, model::Model, project::Project, report, run, stiffness};
+use crate::{check, demo, fmu, library::Library, model::Model, project::Project, report, run, size, stiffness};
 
 /// Rolling bearings with a real surface defect as FMI 2.0 co-simulation units.
 #[derive(Debug, Parser)]
@@ -27,6 +28,8 @@ enum Command {
     Stiffness(Stiffness),
     /// Error against run time, measured on this machine: Markdown, CSV and figures
     Report(Report),
+    /// Length of a spall from recordings of one bearing, or why there is none: JSON on standard output, figures
+    Size(Size),
     /// Builds the FMU of a spalled 6205 bearing, drives it with fmpy and draws what happens
     Demo(Demo),
 }
@@ -98,6 +101,53 @@ struct Report {
 }
 
 #[derive(Debug, Args)]
+#[command(group = clap::ArgGroup::new("shaft").required(true))]
+struct Size {
+    /// Recordings of one bearing: .csv, .txt, .npy or .wav
+    #[arg(required = true, value_name = "RECORDING")]
+    recordings: Vec<PathBuf>,
+    /// Scene file (TOML) of the bearing, its load and, if known, its rig; its defect is not looked at
+    #[arg(long)]
+    scene: PathBuf,
+    /// Sampling rate in hertz [default: the file's own]
+    #[arg(long, value_name = "HZ")]
+    rate: Option<f64>,
+    /// Shaft speed in hertz: one for all recordings, or one for each, separated by commas
+    #[arg(long, value_name = "HZ", value_delimiter = ',', group = "shaft")]
+    speed: Vec<f64>,
+    /// Column of a tachometer, by name or by number from 1
+    #[arg(long, value_name = "COLUMN", group = "shaft")]
+    tacho: Option<String>,
+    /// Pulses of the tachometer per shaft turn
+    #[arg(long, value_name = "COUNT", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pulses: u32,
+    /// Column of the shaft's speed at every sample, in hertz unless its heading says rpm or rad/s
+    #[arg(long, value_name = "COLUMN", group = "shaft")]
+    speed_column: Option<String>,
+    /// Column of the signal, by name or by number from 1 [default: the acceleration]
+    #[arg(long, value_name = "COLUMN")]
+    column: Option<String>,
+    /// Folder for averaged passages and figures [default: target/size]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Leave the figures out; no Python is needed then
+    #[arg(long)]
+    no_figure: bool,
+}
+
+impl Size {
+    fn speeds(&self) -> Vec<Speed> {
+        if let Some(column) = &self.tacho {
+            vec![Speed::Tachometer(column.clone(), self.pulses)]
+        } else if let Some(column) = &self.speed_column {
+            vec![Speed::Column(column.clone())]
+        } else {
+            self.speed.iter().map(|&speed| Speed::Constant(speed)).collect()
+        }
+    }
+}
+
+#[derive(Debug, Args)]
 struct Demo {
     /// Folder for CSV and figure [default: target/demo]
     #[arg(short, long, value_name = "DIR")]
@@ -153,6 +203,16 @@ impl Arguments {
                     (report::Extent::Full, project.source().unwrap_or(Path::new(".")).join("docs"))
                 };
                 report::command(&project, extent, &options.output.unwrap_or(folder))
+            }
+            Command::Size(options) => {
+                let wanted = size::Options {
+                    rate: options.rate,
+                    speeds: options.speeds(),
+                    column: options.column.clone(),
+                    figure: !options.no_figure,
+                };
+                let folder = options.output.unwrap_or_else(|| project.target().join("size"));
+                size::command(&project, &options.scene, &options.recordings, &wanted, &folder)
             }
             Command::Demo(options) => {
                 let folder = options.output.unwrap_or_else(|| project.target().join("demo"));

@@ -19,6 +19,7 @@ pub mod project;
 pub mod python;
 pub mod report;
 pub mod run;
+pub mod size;
 pub mod slave;
 pub mod stiffness;
 pub mod units;

@@ -16,12 +16,13 @@ use anyhow::{Context, Result, bail};
 use crate::project::Project;
 
 const REQUIREMENTS: &str = include_str!("../python/requirements.txt");
-const SCRIPTS: [(&str, &str); 7] = [
+const SCRIPTS: &[(&str, &str)] = &[
     ("demo.py", include_str!("../python/demo.py")),
     ("host.py", include_str!("../python/host.py")),
     ("plotting.py", include_str!("../python/plotting.py")),
     ("report.py", include_str!("../python/report.py")),
     ("run_figure.py", include_str!("../python/run_figure.py")),
+    ("size.py", include_str!("../python/size.py")),
     ("stiffness.py", include_str!("../python/stiffness.py")),
     ("validate.py", include_str!("../python/validate.py")),
 ];
@@ -63,7 +64,7 @@ impl Python {
             fs::write(&stamp, requirements).with_context(|| stamp.display().to_string())?;
         }
         fs::create_dir_all(&python.scripts).with_context(|| python.scripts.display().to_string())?;
-        for (name, text) in SCRIPTS {
+        for &(name, text) in SCRIPTS {
             write_if_new(&python.scripts.join(name), text)?;
         }
         Ok(python)

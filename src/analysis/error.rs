@@ -112,14 +112,38 @@ pub enum SizingError {
         /// Fewest pulses.
         limit: usize,
     },
-    /// The tachometer's column is not as long as the signal's.
-    #[error("{name}: {tachometer} tachometer samples beside {samples} of the signal: they must be equally many")]
-    TachometerLength {
+    /// The column beside the signal is not as long.
+    #[error("{name}: {other} samples of tachometer or speed beside {samples} of the signal: they must be equally many")]
+    OtherLength {
         /// The recording.
         name: String,
-        /// Length of the tachometer column.
-        tachometer: usize,
+        /// Length of the column.
+        other: usize,
         /// Length of the signal.
         samples: usize,
+    },
+    /// The speed varies too much.
+    #[error("{name}: shaft speed from {low:.3} to {high:.3} Hz: the fastest may be at most {limit} times the slowest")]
+    SpeedRange {
+        /// The recording.
+        name: String,
+        /// Lowest speed [Hz].
+        low: f64,
+        /// Highest speed [Hz].
+        high: f64,
+        /// Largest ratio.
+        limit: f64,
+    },
+    /// The rate contradicts the file.
+    #[error("{name}: sampling rate {given} Hz, but the file states {stated} Hz: they may differ by {limit} %")]
+    OtherRate {
+        /// The recording.
+        name: String,
+        /// The rate that was given [Hz].
+        given: f64,
+        /// The file's own [Hz].
+        stated: f64,
+        /// Largest difference [%].
+        limit: f64,
     },
 }

@@ -287,7 +287,7 @@ fn sunk_after(bearing: &Bearing, depth: f64) -> f64 {
 }
 
 /// How far [m] an element has sunk `degrees` past an edge.
-fn depth_at(bearing: &Bearing, degrees: f64) -> f64 {
+pub fn depth_at(bearing: &Bearing, degrees: f64) -> f64 {
     let s = degrees.to_radians() * bearing.outer_raceway_radius();
     0.5 * s * s * relative_curvature(bearing)
 }

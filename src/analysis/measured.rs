@@ -56,7 +56,7 @@ impl Measured {
         let passages =
             Passages::find(recording.samples(), &spectrum.squared_envelope(comb.band), rate / comb.frequency);
         let mut high = spectrum.squared_envelope(Band { low: blow_band(rate), high: 0.45 * rate });
-        let passages = passages.refined(&high);
+        let passages = passages.refined(recording.samples(), &high);
         high.iter_mut().for_each(|x| *x = x.max(0.0).sqrt());
         let bpfo = rate / passages.period;
         Ok(Self {

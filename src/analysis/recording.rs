@@ -1,12 +1,12 @@
 //! A vibration recording at constant shaft speed, checked.
 //!
-//! A recording with a tachometer is brought to constant speed first: between two pulses (one per shaft turn, rising edge)
-//! the shaft is taken to turn uniformly, and the signal is sampled anew at equal shaft angles. Its rate and speed are then
+//! A recording with a tachometer is brought to constant speed first: between two pulses (rising edges) the shaft is taken to turn
+//! uniformly, and the signal is sampled anew at equal shaft angles; likewise with the speed given at every sample. Its rate and speed are then
 //! those of the mean speed. Invalid where the speed changes much within one turn: resonances keep their frequency in time, not
 //! in angle, so that a run-up is smeared.
 
 use super::error::SizingError;
-use super::recording_file;
+use super::recording_file::Table;
 use std::path::Path;
 
 /// Share of samples in runs at an extreme from which a signal counts as clipped [%].
@@ -14,13 +14,26 @@ const CLIPPED_PERCENT: f64 = 0.1;
 /// Equal samples in a row at the extreme that count as a run: two can be chance in a coarse signal.
 const CLIPPED_RUN: usize = 3;
 
-/// Where the shaft's speed comes from.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Where the shaft's speed comes from. Columns are chosen by name, or by number from 1.
+#[derive(Debug, Clone, PartialEq)]
 pub enum Speed {
     /// Constant [Hz].
     Constant(f64),
-    /// The file's tachometer column, one pulse per shaft turn.
-    Tachometer,
+    /// A tachometer column and its pulses per shaft turn.
+    Tachometer(String, u32),
+    /// A column of the speed at every sample, in Hz unless its heading says rpm, rev/min, 1/min or rad/s.
+    Column(String),
+}
+
+/// Which part of a file is the recording.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Source {
+    /// Sampling rate [Hz]; may be left out where the file states it.
+    pub rate: Option<f64>,
+    /// Shaft speed.
+    pub speed: Speed,
+    /// Column of the signal, by name or number; without it, the one that its name gives away.
+    pub signal: Option<String>,
 }
 
 /// A recording of acceleration, in any unit, at constant shaft speed.
@@ -44,71 +57,105 @@ impl Recording {
                 return Err(SizingError::NotPositive { name, quantity, value, unit: "Hz" });
             }
         }
-        if samples.is_empty() {
-            return Err(SizingError::NotPositive { name, quantity: "number of samples", value: 0.0, unit: "" });
-        }
-        if let Some(index) = samples.iter().position(|x| !x.is_finite()) {
-            return Err(SizingError::NotFinite { name, index, value: samples[index] });
-        }
-        let (low, high) = samples.iter().fold((f64::MAX, f64::MIN), |(l, h), &x| (l.min(x), h.max(x)));
-        if low == high {
-            return Err(SizingError::Constant { name, count: samples.len(), value: low });
-        }
-        for value in [low, high] {
-            let percent = 100.0 * in_runs_at(&samples, value) as f64 / samples.len() as f64;
-            if percent > CLIPPED_PERCENT {
-                return Err(SizingError::Clipped { name, percent, value, limit: CLIPPED_PERCENT });
-            }
-        }
+        check_samples(&name, &samples)?;
         let mean = samples.iter().sum::<f64>() / samples.len() as f64;
         let samples = samples.into_iter().map(|x| x - mean).collect();
         Ok(Self { name, samples, rate, speed })
     }
 
-    /// The same with a tachometer column sampled beside the signal.
+    /// The same with a tachometer sampled beside the signal, of so many pulses per shaft turn.
     ///
     /// # Errors
     /// As [`new`](Self::new), and a tachometer that has not the signal's length or fewer than four pulses.
-    pub fn with_tachometer(name: &str, samples: &[f64], tachometer: &[f64], rate: f64) -> Result<Self, SizingError> {
-        if tachometer.len() != samples.len() {
-            let (tachometer, samples) = (tachometer.len(), samples.len());
-            return Err(SizingError::TachometerLength { name: name.to_owned(), tachometer, samples });
-        }
+    pub fn with_tachometer(
+        name: &str,
+        samples: &[f64],
+        tachometer: &[f64],
+        pulses_per_turn: u32,
+        rate: f64,
+    ) -> Result<Self, SizingError> {
+        check_beside(name, samples, tachometer)?;
         let pulses = rising_edges(tachometer);
         if pulses.len() < MIN_PULSES {
             let (pulses, limit) = (pulses.len(), MIN_PULSES);
             return Err(SizingError::Tachometer { name: name.to_owned(), pulses, limit });
         }
-        let turns = (pulses.len() - 1) as f64;
-        let samples_per_turn = (pulses[pulses.len() - 1] - pulses[0]) / turns;
-        let count = (turns * samples_per_turn) as usize;
-        let uniform = (0..count).map(|i| {
-            let angle = i as f64 / samples_per_turn;
-            let turn = (angle as usize).min(pulses.len() - 2);
-            let at = pulses[turn] + (angle - turn as f64) * (pulses[turn + 1] - pulses[turn]);
-            value_at(samples, at)
+        let pulses_per_turn = f64::from(pulses_per_turn.max(1));
+        let turns: Vec<f64> = (0..pulses.len()).map(|k| k as f64 / pulses_per_turn).collect();
+        Self::at_equal_angles(name, samples, &pulses, &turns, rate)
+    }
+
+    /// The same with the shaft's speed [Hz] at every sample.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new), and speeds that are not above 0 or vary too much.
+    pub fn with_speeds(name: &str, samples: &[f64], speeds: &[f64], rate: f64) -> Result<Self, SizingError> {
+        check_beside(name, samples, speeds)?;
+        if let Some(value) = speeds.iter().copied().find(|&s| !(s.is_finite() && s > 0.0)) {
+            return Err(SizingError::NotPositive { name: name.to_owned(), quantity: "shaft speed", value, unit: "Hz" });
+        }
+        let at: Vec<f64> = (0..samples.len()).map(|i| i as f64).collect();
+        let mut turns = Vec::with_capacity(samples.len());
+        let mut turn = 0.0;
+        for (i, speed) in speeds.iter().enumerate() {
+            turn += if i == 0 { 0.0 } else { 0.5 * (speed + speeds[i - 1]) / rate };
+            turns.push(turn);
+        }
+        Self::at_equal_angles(name, samples, &at, &turns, rate)
+    }
+
+    /// The signal at equal shaft angles, `turns` of which were reached at the samples `at`.
+    fn at_equal_angles(name: &str, samples: &[f64], at: &[f64], turns: &[f64], rate: f64) -> Result<Self, SizingError> {
+        check_samples(name, samples)?;
+        let all = turns[turns.len() - 1];
+        let speeds = (1..at.len()).map(|k| (turns[k] - turns[k - 1]) * rate / (at[k] - at[k - 1]));
+        let (low, high) = speeds.fold((f64::MAX, 0.0f64), |(l, h), s| (l.min(s), h.max(s)));
+        if high > WIDEST_SPEED_RANGE * low {
+            let (name, limit) = (name.to_owned(), WIDEST_SPEED_RANGE);
+            return Err(SizingError::SpeedRange { name, low, high, limit });
+        }
+        let samples_per_turn = (at[at.len() - 1] - at[0]) / all;
+        let mut k = 0;
+        let uniform = (0..(all * samples_per_turn) as usize).map(|i| {
+            let turn = i as f64 / samples_per_turn;
+            while k + 2 < turns.len() && turns[k + 1] <= turn {
+                k += 1;
+            }
+            let share = (turn - turns[k]) / (turns[k + 1] - turns[k]);
+            value_at(samples, at[k] + share * (at[k + 1] - at[k]))
         });
         Self::new(name, uniform.collect(), rate, rate / samples_per_turn)
     }
 
-    /// Reads a `.csv`, `.npy` or `.wav` file; `rate` [Hz] may be left out where the file states it.
-    ///
-    /// CSV: numbers separated by commas, with or without a header; with one, the signal is the column `sensor.acceleration`
-    /// or the first whose name begins with `acceleration`, the tachometer the one that begins with `tach`, and a column that
-    /// begins with `time` gives the rate. Without one, as in the other formats, the first column (channel) is the signal
-    /// and the second the tachometer.
+    /// Reads a `.csv`, `.txt`, `.npy` or `.wav` file.
     ///
     /// # Errors
-    /// A file that cannot be read or understood, and those of [`new`](Self::new) and [`with_tachometer`](Self::with_tachometer).
-    pub fn read(path: &Path, rate: Option<f64>, speed: Speed) -> Result<Self, SizingError> {
-        let columns = recording_file::read(path)?;
+    /// A file that cannot be read or understood, a rate that contradicts the file's own, and those of [`new`](Self::new),
+    /// [`with_tachometer`](Self::with_tachometer) and [`with_speeds`](Self::with_speeds).
+    pub fn read(path: &Path, source: &Source) -> Result<Self, SizingError> {
+        let table = Table::read(path)?;
         let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
-        let missing = |why: &str| SizingError::Format { path: path.to_owned(), why: why.to_owned() };
-        let rate = rate.or(columns.rate).ok_or_else(|| missing("the file states no sampling rate: give one"))?;
-        match (speed, &columns.tachometer) {
-            (Speed::Constant(speed), _) => Self::new(&name, columns.signal, rate, speed),
-            (Speed::Tachometer, Some(tachometer)) => Self::with_tachometer(&name, &columns.signal, tachometer, rate),
-            (Speed::Tachometer, None) => Err(missing("no tachometer column: give the shaft's speed")),
+        let refuse = |why: String| SizingError::Format { path: path.to_owned(), why };
+        let rate = match (source.rate, table.rate) {
+            (Some(given), Some(stated)) if !((given / stated - 1.0).abs() <= SAME_RATE) => {
+                return Err(SizingError::OtherRate { name, given, stated, limit: 100.0 * SAME_RATE });
+            }
+            (given, stated) => given.or(stated),
+        };
+        let rate = rate.ok_or_else(|| refuse("the file states no sampling rate: give one".to_owned()))?;
+        let signal = table.signal(source.signal.as_deref()).map_err(refuse)?;
+        match &source.speed {
+            Speed::Constant(speed) => Self::new(&name, signal, rate, *speed),
+            Speed::Tachometer(column, pulses) => {
+                let (_, tachometer) = table.column(column).map_err(refuse)?;
+                Self::with_tachometer(&name, &signal, tachometer, *pulses, rate)
+            }
+            Speed::Column(column) => {
+                let (heading, speeds) = table.column(column).map_err(refuse)?;
+                let unit = speed_unit(heading);
+                let hertz: Vec<f64> = speeds.iter().map(|speed| speed * unit).collect();
+                Self::with_speeds(&name, &signal, &hertz, rate)
+            }
         }
     }
 
@@ -138,8 +185,52 @@ impl Recording {
     }
 }
 
+/// Largest relative difference between a rate that is given and the file's own.
+const SAME_RATE: f64 = 0.01;
+/// Fastest over slowest speed beyond which a recording is a run-up: resonances and events would smear.
+const WIDEST_SPEED_RANGE: f64 = 1.5;
 /// Fewest pulses that give a mean speed worth the name.
 const MIN_PULSES: usize = 4;
+
+/// Hz per unit of a column's heading.
+fn speed_unit(heading: &str) -> f64 {
+    let heading = heading.to_lowercase();
+    if ["rpm", "rev/min", "1/min"].iter().any(|unit| heading.contains(unit)) {
+        1.0 / 60.0
+    } else if heading.contains("rad/s") {
+        1.0 / std::f64::consts::TAU
+    } else {
+        1.0
+    }
+}
+
+fn check_beside(name: &str, samples: &[f64], other: &[f64]) -> Result<(), SizingError> {
+    if other.len() == samples.len() {
+        return Ok(());
+    }
+    Err(SizingError::OtherLength { name: name.to_owned(), other: other.len(), samples: samples.len() })
+}
+
+fn check_samples(name: &str, samples: &[f64]) -> Result<(), SizingError> {
+    let name = name.to_owned();
+    if samples.is_empty() {
+        return Err(SizingError::NotPositive { name, quantity: "number of samples", value: 0.0, unit: "" });
+    }
+    if let Some(index) = samples.iter().position(|x| !x.is_finite()) {
+        return Err(SizingError::NotFinite { name, index, value: samples[index] });
+    }
+    let (low, high) = samples.iter().fold((f64::MAX, f64::MIN), |(l, h), &x| (l.min(x), h.max(x)));
+    if low == high {
+        return Err(SizingError::Constant { name, count: samples.len(), value: low });
+    }
+    for value in [low, high] {
+        let percent = 100.0 * in_runs_at(samples, value) as f64 / samples.len() as f64;
+        if percent > CLIPPED_PERCENT {
+            return Err(SizingError::Clipped { name, percent, value, limit: CLIPPED_PERCENT });
+        }
+    }
+    Ok(())
+}
 
 /// Samples that belong to runs at `value`.
 fn in_runs_at(samples: &[f64], value: f64) -> usize {
@@ -177,6 +268,7 @@ pub(super) fn value_at(samples: &[f64], at: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::TAU;
 
     #[test]
     fn a_tachometer_makes_a_speed_that_wanders_constant() {
@@ -186,7 +278,7 @@ mod tests {
         let at = |i: u32| turns(f64::from(i) / rate);
         let signal: Vec<f64> = (0..80_000).map(|i| (std::f64::consts::TAU * 20.0 * at(i)).sin()).collect();
         let pulses: Vec<f64> = (0..80_000).map(|i| f64::from(u8::from(at(i).fract() < 0.1))).collect();
-        let recording = Recording::with_tachometer("made", &signal, &pulses, rate).unwrap();
+        let recording = Recording::with_tachometer("made", &signal, &pulses, 1, rate).unwrap();
         // Ends at the last pulse: the mean speed differs from 10 Hz by what of the wander is left over.
         assert!((recording.speed() - 10.0).abs() < 0.05, "{}", recording.speed());
         // Every turn has 20 periods now: the signal is the same one turn later but for the speed's change within a turn.
@@ -198,12 +290,33 @@ mod tests {
     }
 
     #[test]
+    fn speeds_beside_the_signal_do_the_same_and_a_run_up_is_refused() {
+        let rate = 20_000.0;
+        let speed = |t: f64| 10.0 + 0.3 * (std::f64::consts::TAU * 0.5 * t).cos();
+        let turns = |t: f64| 10.0 * t + 0.3 / std::f64::consts::PI * (std::f64::consts::TAU * 0.5 * t).sin();
+        let time = |i: u32| f64::from(i) / rate;
+        let signal: Vec<f64> = (0..80_000).map(|i| (std::f64::consts::TAU * 20.0 * turns(time(i))).sin()).collect();
+        let speeds: Vec<f64> = (0..80_000).map(|i| speed(time(i))).collect();
+        let recording = Recording::with_speeds("made", &signal, &speeds, rate).unwrap();
+        let period = recording.rate() / recording.speed() / 20.0;
+        let x = recording.samples();
+        for i in 0..x.len() - period as usize - 2 {
+            // One period of 1/20 turn later: the trapezoid and the cubic leave 1e-6 each at 100 samples per period.
+            assert!((value_at(x, i as f64 + period) - x[i]).abs() < 1e-4, "sample {i}");
+        }
+        let run_up: Vec<f64> = (0..80_000).map(|i| 5.0 + time(i)).collect();
+        let refused = Recording::with_speeds("made", &signal, &run_up, rate);
+        assert!(matches!(refused, Err(SizingError::SpeedRange { .. })));
+        assert_eq!([speed_unit("shaft.speed [rad/s]") * TAU, speed_unit("n [rpm]") * 60.0, speed_unit("n")], [1.0; 3]);
+    }
+
+    #[test]
     fn a_dead_tachometer_is_refused() {
         let signal: Vec<f64> = (0..100).map(f64::from).collect();
-        let dead = Recording::with_tachometer("made", &signal, &[0.0; 100], 1000.0);
+        let dead = Recording::with_tachometer("made", &signal, &[0.0; 100], 1, 1000.0);
         assert!(matches!(dead, Err(SizingError::Tachometer { pulses: 0, .. })));
-        let short = Recording::with_tachometer("made", &signal, &[0.0; 99], 1000.0);
-        assert!(matches!(short, Err(SizingError::TachometerLength { tachometer: 99, samples: 100, .. })));
+        let short = Recording::with_tachometer("made", &signal, &[0.0; 99], 1, 1000.0);
+        assert!(matches!(short, Err(SizingError::OtherLength { other: 99, samples: 100, .. })));
     }
 
     #[test]

@@ -81,12 +81,16 @@ pub struct RecordingReport {
     pub method: Option<Method>,
     /// Ball pass frequency [Hz].
     pub bpfo_hz: f64,
+    /// Passages used.
+    pub passages: usize,
     /// How far its comb stands above chance [standard deviations].
     pub significance: f64,
     /// Onset of the entry before the first blow [degrees], where there is one.
     pub onset_deg: Option<f64>,
     /// Blows, from the first on [degrees].
     pub blows_deg: Vec<f64>,
+    /// Both edges as the length has them, from the first blow, or by likeness from the entry [degrees].
+    pub edges_deg: Option<[f64; 2]>,
     /// Likeness to the scene's rig, 0 to 1, where it could be used.
     pub likeness: Option<f64>,
     /// Frequencies of ringing after entry and after exit [Hz], where they could be measured.
@@ -97,7 +101,8 @@ pub struct RecordingReport {
     pub reason: Option<String>,
 }
 
-/// The averaged passage of one recording, for a figure. Angles in degrees of element travel from the first blow.
+/// The averaged passage of one recording, for a figure. Angles in degrees of element travel from the first blow, or by likeness
+/// from the entry.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
     /// Name of the recording.
@@ -108,10 +113,10 @@ pub struct Figure {
     pub signal: Vec<f64>,
     /// Averaged level of the high-frequency envelope [dB].
     pub level: Vec<f64>,
-    /// Onset of the entry [degrees].
-    pub onset: Option<f64>,
-    /// Blows [degrees].
-    pub blows: Vec<f64>,
-    /// End of the spall as the length has it, from the onset [degrees].
-    pub end: Option<f64>,
+    /// The signal below the band of blows, in which entries show and likeness is measured.
+    pub low: Vec<f64>,
+    /// The most alike simulated passage, scaled to `low`, where likeness gave the length.
+    pub model: Option<Vec<f64>>,
+    /// Rigid path of an element's centre over a spall of the answer's length, deep enough that its floor is not reached [m].
+    pub path: Option<Vec<f64>>,
 }

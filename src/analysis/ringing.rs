@@ -48,7 +48,7 @@ impl Ringing {
 ///
 /// # Errors
 /// Those of the static balance.
-pub fn expected(rig: &Rig, trial: Trial, spacing: f64) -> Result<Ringing, StaticError> {
+pub fn expected(rig: &Rig<'_>, trial: Trial, spacing: f64) -> Result<Ringing, StaticError> {
     let scene = rig.with_spall(trial);
     let bearing = StaticBearing::new(&scene, None)?;
     let centre = scene.defect.as_ref().map_or(0.0, |d| d.angle);
@@ -73,7 +73,7 @@ fn upper_frequency(scene: &Scene, stiffness: f64) -> f64 {
 ///
 /// # Errors
 /// Those of the static balance.
-pub fn critical_load(rig: &Rig, trial: Trial) -> Result<Option<f64>, StaticError> {
+pub fn critical_load(rig: &Rig<'_>, trial: Trial) -> Result<Option<f64>, StaticError> {
     Ok(StaticBearing::new(&rig.with_spall(trial), None)?.critical_load()?.map(|critical| critical.load))
 }
 

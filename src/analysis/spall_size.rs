@@ -16,9 +16,9 @@ use super::report::{Figure, Kind, Method, RecordingReport, Report, Verdict};
 use super::ringing::{self, Ringing};
 use super::spectrum::{Band, Spectrum};
 use super::statistics;
-use super::synthesis::{CUT, POINTS, Rig, Trial};
+use super::synthesis::{CUT, Maps, POINTS, Rig, Trial};
 use super::waveform_length::{self, WaveformLength};
-use crate::scene::{ContactLaw, Scene};
+use crate::scene::{Bearing, ContactLaw, Scene};
 
 /// Coverage factor of the stated interval: 95 % of a normal distribution.
 const COVERAGE: f64 = 2.0;
@@ -34,10 +34,29 @@ const FLOOR: f64 = 0.02;
 /// # Errors
 /// Recordings that cannot be sized whatever the bearing's state: too short, or too coarse for their speed.
 pub fn size(recordings: &[Recording], scene: &Scene) -> Result<Report, SizingError> {
-    let sized = recordings
-        .iter()
-        .map(|recording| Measured::new(recording, &scene.bearing).map(|measured| Sized::of(measured, scene)))
-        .collect::<Result<Vec<_>, _>>()?;
+    size_with(recordings, scene, &|_| None, &mut |_| ())
+}
+
+/// The same with contact maps from elsewhere, saying after each recording what it gave.
+///
+/// # Errors
+/// As [`size`].
+pub fn size_with(
+    recordings: &[Recording],
+    scene: &Scene,
+    maps: Maps<'_>,
+    done: &mut dyn FnMut(&RecordingReport),
+) -> Result<Report, SizingError> {
+    let measured: Vec<Measured> =
+        recordings.iter().map(|recording| Measured::new(recording, &scene.bearing)).collect::<Result<_, _>>()?;
+    let sized: Vec<Sized> = measured
+        .into_iter()
+        .map(|measured| {
+            let sized = Sized::of(measured, scene, maps);
+            done(&sized.report());
+            sized
+        })
+        .collect();
     let first = sized.first().ok_or(SizingError::NoRecordings)?;
     let slips: Vec<f64> = sized.iter().map(|s| s.measured.slip).collect();
     let mut report = Report {
@@ -53,7 +72,7 @@ pub fn size(recordings: &[Recording], scene: &Scene) -> Result<Report, SizingErr
         method: None,
         critical_load_n: None,
         recordings: sized.iter().map(Sized::report).collect(),
-        figures: sized.iter().map(Sized::figure).collect(),
+        figures: sized.iter().map(|s| s.figure(&scene.bearing)).collect(),
     };
     let lengths: Vec<&Length> = sized.iter().filter_map(|s| s.length.as_ref().ok()).collect();
     match combine(&lengths, sized.len()) {
@@ -99,9 +118,11 @@ struct Length {
 }
 
 impl Sized {
-    fn of(measured: Measured, scene: &Scene) -> Self {
+    fn of(measured: Measured, scene: &Scene, maps: Maps<'_>) -> Self {
         let events = event_length::estimate(&measured, scene);
-        let waveform = if measured.comb.is_significant() { waveform_length::estimate(&measured, scene) } else { None };
+        let rig = Rig::new(scene, measured.bpfo, maps);
+        let heard = rig.as_ref().filter(|_| measured.comb.is_significant());
+        let waveform = heard.and_then(|rig| waveform_length::estimate(&measured, scene, rig));
         let spacing = measured.spacing;
         // Where an entry begins [share of a period], and how far from it the next exit is [degrees].
         let entry = match (&waveform, &events) {
@@ -110,7 +131,6 @@ impl Sized {
             _ => None,
         };
         let ringing = entry.and_then(|(at, over)| measured_ringing(&measured, at, over));
-        let rig = Rig::new(scene, measured.bpfo);
         let trial = |length: f64, depth: f64| Trial { length, depth, law: ContactLaw::Hertz };
         let expected = rig.as_ref().zip(entry).and_then(|(rig, (_, over))| {
             let of = |length: f64| ringing::expected(rig, trial(length, TRIAL_DEPTH), spacing).ok();
@@ -159,6 +179,8 @@ impl Sized {
             significance: self.measured.comb.significance,
             onset_deg: self.events.as_ref().map(|e| e.onset),
             blows_deg: self.events.as_ref().map_or_else(Vec::new, |e| e.blows.clone()),
+            edges_deg: self.edges(),
+            passages: self.measured.passages.starts.len(),
             likeness: self.waveform.as_ref().map(|w| w.likeness),
             ringing_hz: self.ringing.map(pair),
             expected_ringing_hz: self.expected.map(|e| e.map(pair)),
@@ -166,21 +188,35 @@ impl Sized {
         }
     }
 
-    fn figure(&self) -> Figure {
+    /// Both edges [degrees], from where angles count.
+    fn edges(&self) -> Option<[f64; 2]> {
+        let length = self.length.as_ref().ok()?.length;
+        let onset = if self.waveform.is_some() { 0.0 } else { self.events.as_ref()?.onset };
+        Some([onset, onset + length])
+    }
+
+    fn figure(&self, bearing: &Bearing) -> Figure {
+        let measured = &self.measured;
         let from = match (&self.waveform, &self.events) {
-            (Some(w), _) => w.entry * self.measured.spacing,
+            (Some(w), _) => w.entry * measured.spacing,
             (None, Some(e)) => e.first,
             _ => 0.0,
         };
-        let [angle, signal, level] = event_length::averaged_passage(&self.measured, from);
-        let onset = if self.waveform.is_some() { Some(0.0) } else { self.events.as_ref().map(|e| e.onset) };
-        let blows = match (&self.waveform, &self.events) {
-            (None, Some(e)) => e.blows.clone(),
-            _ => Vec::new(),
-        };
-        let end =
-            onset.zip(self.length.as_ref().ok()).map(|(onset, l)| onset + l.length.rem_euclid(self.measured.spacing));
-        Figure { name: self.measured.name.clone(), angle, signal, level, onset, blows, end }
+        let [angle, signal, level] = event_length::averaged_passage(measured, from);
+        let rate = measured.bpfo * signal.len() as f64;
+        let low = Spectrum::of(&signal, rate).filtered(Band { low: 0.5 * measured.bpfo, high: CUT });
+        let norm = |signal: &[f64]| (signal.iter().map(|x| x * x).sum::<f64>() / signal.len() as f64).sqrt();
+        let model = self.waveform.as_ref().map(|w| {
+            let scale = norm(&low) / norm(&w.model);
+            let share = |degrees: f64| ((degrees + from) / measured.spacing).rem_euclid(1.0);
+            let point = |degrees: f64| (share(degrees) * w.model.len() as f64) as usize % w.model.len();
+            angle.iter().map(|&degrees| scale * w.model[point(degrees)]).collect()
+        });
+        let path = self.edges().map(|[entry, exit]| {
+            let sunk = |degrees: f64| event_length::depth_at(bearing, (degrees - entry).min(exit - degrees).max(0.0));
+            angle.iter().map(|&degrees| sunk(degrees)).collect()
+        });
+        Figure { name: measured.name.clone(), angle, signal, level, low, model, path }
     }
 }
 

@@ -20,12 +20,15 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 pub const POINTS: usize = 1024;
 /// Upper edge of the compared band [Hz]: above the rings' modes (0.2–1 kHz), below the chatter of unloaded elements.
 pub const CUT: f64 = 2500.0;
+/// Time in which the rings' modes decay to a hundredth, with usual supports [s]; a long run grants twice that.
+const DECAY: f64 = 0.025;
+
 /// How long a trial runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Run {
-    /// One passage after one: enough to find the way.
+    /// One passage after the first have rung out: enough to find the way.
     Short,
-    /// The mean of two passages after two: the rings' modes have decayed, and chatter differs from passage to passage.
+    /// The mean of four passages, after twice the time: chatter differs from passage to passage.
     Long,
 }
 
@@ -40,18 +43,22 @@ pub struct Trial {
     pub law: ContactLaw,
 }
 
+/// Where contact maps come from: the bytes of a scene's map, or `None` to have it computed here.
+pub type Maps<'a> = &'a (dyn Fn(&Scene) -> Option<Vec<u8>> + Sync);
+
 /// The scene's rig at the recording's speed.
-#[derive(Debug, Clone)]
-pub struct Rig {
+#[derive(Clone)]
+pub struct Rig<'a> {
     scene: Scene,
     bpfo: f64,
     rate: f64,
+    maps: Maps<'a>,
 }
 
-impl Rig {
+impl<'a> Rig<'a> {
     /// The scene at the speed at which elements pass `bpfo` times a second [Hz]; `None` when the scene leaves motion or sensor
     /// to others and cannot be simulated by itself.
-    pub fn new(scene: &Scene, bpfo: f64) -> Option<Self> {
+    pub fn new(scene: &Scene, bpfo: f64, maps: Maps<'a>) -> Option<Self> {
         let whole = scene.shaft.motion == Motion::Internal && scene.housing.motion != Motion::Host;
         if !whole || scene.sensor.is_none() || scene.housing.motion != Motion::Internal {
             return None;
@@ -61,8 +68,8 @@ impl Rig {
         scene.cage = Cage { slip: 0.0, initial_angle: load_angle(&scene) };
         scene.shaft_speed = TAU * bpfo / kinematics::frequencies(&scene.bearing, 0.0, 1.0).bpfo;
         scene.recorder_rate = None;
-        // Ten times the cut: the sensor's resonance, if aliased, stays far above it.
-        Some(Self { scene, bpfo, rate: 10.0 * CUT })
+        // Elements ring at 40 to 50 kHz on their contacts: sampled much slower, that would fold below the cut.
+        Some(Self { scene, bpfo, rate: 20.0 * CUT, maps })
     }
 
     /// One passage with a trial spall as the sensor would record it, below the cut, mean 0, norm 1.
@@ -70,9 +77,13 @@ impl Rig {
     /// # Errors
     /// Those of the simulation.
     pub fn passage(&self, trial: Trial, run: Run) -> Result<Vec<f64>, SimulationError> {
-        let count = if run == Run::Short { 1 } else { 2 };
-        let passages = count..2 * count;
-        let mut simulation = Simulation::new(self.with_spall(trial), None)?;
+        let count = if run == Run::Short { 1 } else { 4 };
+        let decays = if run == Run::Short { 1.0 } else { 2.0 };
+        let settling = ((decays * DECAY * self.bpfo).ceil() as usize).max(1);
+        let passages = settling..settling + count;
+        let scene = self.with_spall(trial);
+        let map = if trial.law == ContactLaw::Map { (self.maps)(&scene) } else { None };
+        let mut simulation = Simulation::with_map(scene, None, map.as_deref())?;
         // A rig has a sensor, or it would not have been made.
         let sensor = simulation.table().iter().position(|v| v.name == "sensor.acceleration").unwrap_or_default() as u32;
         simulation.initialize(0.0)?;
@@ -123,8 +134,17 @@ pub fn likeness(measured: &[f64], simulated: &[f64]) -> f64 {
 }
 
 /// Share of a period by which the simulated passage must be moved to lie over the measured one, and their likeness then.
+///
+/// Between grid points by a parabola: half a point off would cost more likeness than a tenth of the length.
 pub fn best_shift(measured: &[f64], simulated: &[f64]) -> (f64, f64) {
     let correlation = super::spectrum::circular_correlation(measured, simulated);
-    let best = correlation.iter().map(|c| c.abs()).enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
-    best.map_or((0.0, 0.0), |(shift, likeness)| (shift as f64 / correlation.len() as f64, likeness))
+    let n = correlation.len();
+    let Some(best) = (0..n).max_by(|&i, &j| correlation[i].abs().total_cmp(&correlation[j].abs())) else {
+        return (0.0, 0.0);
+    };
+    let at = |i: usize| correlation[i % n].abs();
+    let (a, b, c) = (at(best + n - 1), at(best), at(best + 1));
+    let bend = a - 2.0 * b + c;
+    let shift = if bend < 0.0 { 0.5 * (a - c) / bend } else { 0.0 };
+    ((best as f64 + shift) / n as f64, b - 0.25 * (a - c) * shift)
 }

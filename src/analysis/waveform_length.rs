@@ -44,14 +44,15 @@ pub struct WaveformLength {
     pub by_kind: [f64; 2],
     /// Where in a period an entry begins [share of it].
     pub entry: f64,
+    /// The most alike passage, moved over the measured one and turned its way: [`POINTS`] points from the period's start, norm 1.
+    pub model: Vec<f64>,
 }
 
 /// Sizes the recording by the scene's rig; `None` when the scene cannot be simulated or sounds different.
-pub fn estimate(measured: &Measured, scene: &Scene) -> Option<WaveformLength> {
-    let rig = Rig::new(scene, measured.bpfo)?;
+pub fn estimate(measured: &Measured, scene: &Scene, rig: &Rig<'_>) -> Option<WaveformLength> {
     let rows = measured.signal_rows(0.0, POINTS);
     let target = below_cut(&passages::average(&rows), measured.bpfo);
-    let search = Search { rig: &rig, target: &target };
+    let search = Search { rig, target: &target };
     let spacing = measured.spacing;
     let simple = |length: f64| Trial { length, depth: DEPTH, law: ContactLaw::Hertz };
     let coarse: Vec<Trial> =
@@ -94,6 +95,7 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Option<WaveformLength> {
         let all = found.iter().filter(|f| (f.trial.length > spacing) == extended);
         all.map(|f| f.likeness).fold(if (best.length > spacing) == extended { best.likeness } else { 0.0 }, f64::max)
     };
+    let (shift, _) = best_shift(&target, &best.passage);
     Some(WaveformLength {
         length: best.length,
         depth: cheap.depth,
@@ -101,7 +103,8 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Option<WaveformLength> {
         systematic: 0.5 * (range.1 - range.0) / 3f64.sqrt(),
         likeness: best.likeness,
         by_kind: [of_kind(false), of_kind(true)],
-        entry: (best_shift(&target, &best.passage).0 - 0.5 * best.length / spacing).rem_euclid(1.0),
+        entry: (shift - 0.5 * best.length / spacing).rem_euclid(1.0),
+        model: moved_over(&target, &best.passage, shift),
     })
 }
 
@@ -114,7 +117,7 @@ struct Fit {
 }
 
 struct Search<'a> {
-    rig: &'a Rig,
+    rig: &'a Rig<'a>,
     target: &'a [f64],
 }
 
@@ -211,6 +214,16 @@ fn top(fits: &[Fit], target: &[f64]) -> Option<(f64, f64, usize)> {
     let bend = a - 2.0 * b + c;
     let shift = if bend < 0.0 { 0.5 * (a - c) / bend } else { 0.0 };
     Some((length + shift * FINE, b, i))
+}
+
+/// The passage moved by `shift` periods, its sign that of the target.
+fn moved_over(target: &[f64], passage: &[f64], shift: f64) -> Vec<f64> {
+    let n = passage.len();
+    let by = (shift * n as f64).round() as usize;
+    let mut moved: Vec<f64> = (0..n).map(|i| passage[(i + 2 * n - by) % n]).collect();
+    let product: f64 = moved.iter().zip(target).map(|(a, b)| a * b).sum();
+    moved.iter_mut().for_each(|x| *x *= product.signum());
+    moved
 }
 
 fn bootstrap(rows: &[Vec<f64>], bpfo: f64, best: &Peak) -> f64 {

@@ -1,0 +1,132 @@
+//! The command `size`: the length of a spall from recordings, as JSON on standard output and a figure for each recording.
+//!
+//! Standard output carries the JSON and nothing else; what happens meanwhile goes to standard error.
+
+use std::fs::{self, File};
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use brinell::analysis::recording::{Recording, Source, Speed};
+use brinell::analysis::report::{Figure, RecordingReport, Report};
+use brinell::analysis::spall_size;
+use brinell::scene::Scene;
+
+use crate::contact_map;
+use crate::csv;
+use crate::project::Project;
+use crate::python::Python;
+
+/// What the user says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// Sampling rate [Hz]; `None` where the files state it.
+    pub rate: Option<f64>,
+    /// Shaft speed of all recordings, or of each.
+    pub speeds: Vec<Speed>,
+    /// Column of the signal, by name or number.
+    pub column: Option<String>,
+    /// Whether to draw.
+    pub figure: bool,
+}
+
+/// The command: prints the report, and writes `<folder>/<recording>.csv`, `.json` and, if wanted, figures.
+pub fn command(
+    project: &Project,
+    scene: &Path,
+    recordings: &[PathBuf],
+    options: &Options,
+    folder: &Path,
+) -> Result<()> {
+    let text = fs::read_to_string(scene).with_context(|| scene.display().to_string())?;
+    let scene = Scene::from_toml(&text).with_context(|| scene.display().to_string())?;
+    let recordings = read(recordings, options)?;
+    for r in &recordings {
+        eprintln!("{}: {:.3} s at {} Hz, shaft {:.4} Hz", r.name(), r.duration(), r.rate(), r.speed());
+    }
+    let maps = |scene: &Scene| contact_map::of(scene, None, project).ok().flatten();
+    let report = spall_size::size_with(&recordings, &scene, &maps, &mut |done| eprintln!("{}", line(done)))?;
+    println!("{}", serde_json::to_string_pretty(&report)?);
+    std::io::stdout().flush()?;
+    let stems = write(&report, folder)?;
+    if options.figure {
+        // The answer is out: without Python there is no figure, but no failure either.
+        match Python::prepare(project).and_then(|python| python.run("size.py", &stems)) {
+            Ok(drawn) => eprint!("{drawn}"),
+            Err(why) => eprintln!("no figure: {why:#}"),
+        }
+    }
+    Ok(())
+}
+
+fn read(paths: &[PathBuf], options: &Options) -> Result<Vec<Recording>> {
+    let count = options.speeds.len();
+    if count != 1 && count != paths.len() {
+        bail!("{count} speeds for {} recordings: give one for all, or one for each", paths.len());
+    }
+    let speeds = options.speeds.iter().cycle();
+    let recordings = paths.iter().zip(speeds).map(|(path, speed)| {
+        let source = Source { rate: options.rate, speed: speed.clone(), signal: options.column.clone() };
+        Ok(Recording::read(path, &source)?)
+    });
+    recordings.collect()
+}
+
+/// What one recording gave, in a line.
+fn line(done: &RecordingReport) -> String {
+    match (done.length_deg, done.uncertainty_deg, &done.reason) {
+        (Some(length), Some(uncertainty), _) => format!("{}: {length:.2} ± {uncertainty:.2} degrees", done.name),
+        (_, _, why) => format!("{}: unresolved: {}", done.name, why.as_deref().unwrap_or("no reason given")),
+    }
+}
+
+/// Averaged passages as CSV and what was found in them as JSON; gives the files' stems.
+fn write(report: &Report, folder: &Path) -> Result<Vec<PathBuf>> {
+    fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
+    let mut stems: Vec<PathBuf> = Vec::new();
+    for (figure, recording) in report.figures.iter().zip(&report.recordings) {
+        let name = Path::new(&figure.name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let mut stem = folder.join(&name);
+        // Recordings of one name from several folders.
+        for count in 2.. {
+            if !stems.contains(&stem) {
+                break;
+            }
+            stem = folder.join(format!("{name}-{count}"));
+        }
+        let path = with_ending(&stem, ".csv");
+        let mut out = BufWriter::new(File::create(&path).with_context(|| path.display().to_string())?);
+        write_passage(&mut out, figure)?;
+        out.flush()?;
+        let path = with_ending(&stem, ".json");
+        let mut found = serde_json::to_value(recording)?;
+        found["critical_load_n"] = serde_json::json!(report.critical_load_n);
+        found["kind"] = serde_json::json!(report.kind);
+        fs::write(&path, serde_json::to_string_pretty(&found)? + "\n").with_context(|| path.display().to_string())?;
+        stems.push(stem);
+    }
+    Ok(stems)
+}
+
+/// A recording's name may hold dots: the ending is added, not exchanged.
+fn with_ending(stem: &Path, ending: &str) -> PathBuf {
+    let mut name = stem.as_os_str().to_owned();
+    name.push(ending);
+    name.into()
+}
+
+fn write_passage(out: &mut impl Write, figure: &Figure) -> Result<()> {
+    let mut names = vec![("angle", "deg"), ("signal", "1"), ("level", "dB"), ("low", "1")];
+    let mut columns = vec![&figure.angle, &figure.signal, &figure.level, &figure.low];
+    for (name, unit, column) in [("model", "1", &figure.model), ("path", "m", &figure.path)] {
+        if let Some(column) = column {
+            names.push((name, unit));
+            columns.push(column);
+        }
+    }
+    csv::header(out, names.into_iter())?;
+    for i in 0..figure.angle.len() {
+        csv::row(out, columns.iter().map(|column| column[i]))?;
+    }
+    Ok(())
+}
