@@ -12,13 +12,20 @@ impl Simulation {
         }
         let drive = self.drive(false);
         let progress = &self.state.progress;
+        // Outputs must not depend on what was computed before, or a restored state would show other roundings.
+        self.model.forget_contacts();
         self.model.derivative(&drive, 0.0, &progress.cells, &progress.state, &mut self.derivative, &mut self.forces);
+        if !self.state.started {
+            self.rest();
+        }
+        let progress = &self.state.progress;
         let shaft = self.model.shaft_state(&drive, 0.0, &progress.state);
         let housing = self.model.housing_state(&drive, 0.0, &progress.state);
         let acceleration = [
             self.acceleration(self.model.layout.shaft, drive.shaft.map(|q| q.0[2])),
             self.acceleration(self.model.layout.housing, drive.housing.map(|q| q.0[2])),
         ];
+        self.present_acceleration = acceleration[1];
         let torque = self.model.cage_torque(&drive, 0.0, &progress.state, acceleration[1], &self.forces);
         let sensor = self.model.layout.sensor.map_or(0.0, |i| self.derivative[i + 1]);
         let cage_angle = self.state.cage.total();
@@ -63,6 +70,17 @@ impl Simulation {
         }
         self.outputs_are_stale = false;
         Ok(())
+    }
+
+    /// The start is a static equilibrium: what rounding leaves of accelerations is none.
+    fn rest(&mut self) {
+        let layout = &self.model.layout;
+        for place in [layout.shaft, layout.housing].into_iter().flatten() {
+            self.derivative[place + 2..place + 4].fill(0.0);
+        }
+        if let Some(place) = layout.sensor {
+            self.derivative[place + 1] = 0.0;
+        }
     }
 
     fn acceleration(&self, place: Option<usize>, prescribed: [f64; 2]) -> [f64; 2] {
