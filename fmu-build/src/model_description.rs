@@ -39,10 +39,10 @@ pub struct Capabilities {
 pub const CAPABILITIES: Capabilities = Capabilities {
     variable_step: true,
     interpolates_inputs: true,
-    output_derivative_order: 0,
+    output_derivative_order: 1,
     state: true,
     serialized_state: true,
-    directional_derivatives: false,
+    directional_derivatives: true,
     own_memory: true,
 };
 
@@ -213,21 +213,9 @@ fn model_structure(xml: &mut Xml, table: &[Variable]) -> io::Result<()> {
             outputs().try_for_each(|output| unknown(xml, output, &output.depends_on))
         })?;
         xml.element("InitialUnknowns", vec![], |xml| {
-            outputs().try_for_each(|output| unknown(xml, output, &initial_dependencies(table, output)))
+            outputs().try_for_each(|output| unknown(xml, output, &output.initially_depends_on))
         })
     })
-}
-
-/// What an output depends on at the start. The static equilibrium ties every real output to every input and
-/// parameter, so the list is as long as the standard allows; integers count solver work, which starts at nought.
-fn initial_dependencies(table: &[Variable], output: &Variable) -> Vec<u32> {
-    match output.kind {
-        Kind::Real { .. } => {
-            let known = table.iter().filter(|variable| variable.causality != Causality::Output);
-            known.map(|variable| variable.reference).collect()
-        }
-        _ => Vec::new(),
-    }
 }
 
 fn unknown(xml: &mut Xml, output: &Variable, depends_on: &[u32]) -> io::Result<()> {

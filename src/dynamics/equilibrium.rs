@@ -330,7 +330,7 @@ fn dot4(a: [f64; 4], b: [f64; 4]) -> f64 {
 }
 
 /// Gaussian elimination with row pivoting; a singular system gives non-finite values.
-fn solve(mut a: [[f64; 4]; 4], mut b: [f64; 4]) -> [f64; 4] {
+pub(super) fn solve(mut a: [[f64; 4]; 4], mut b: [f64; 4]) -> [f64; 4] {
     for i in 0..4 {
         let pivot = (i..4).fold(i, |best, k| if a[k][i].abs() > a[best][i].abs() { k } else { best });
         a.swap(i, pivot);

@@ -31,7 +31,7 @@ use crate::scene::Motion;
 pub const BODIES: usize = 5;
 
 /// How far apart along path and raceway the approach near the defect is looked at for its second derivatives [m].
-const DIFFERENCE: f64 = 1e-9;
+pub(super) const DIFFERENCE: f64 = 1e-9;
 
 /// Rows and columns of one element.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -69,30 +69,30 @@ pub struct Jacobian {
 }
 
 /// One element's contacts to first order. Vectors are in x and y.
-struct Linearized {
-    e_r: [f64; 2],
-    e_t: [f64; 2],
+pub(super) struct Linearized {
+    pub(super) e_r: [f64; 2],
+    pub(super) e_t: [f64; 2],
     /// f and its derivatives G, D.
-    inner: [f64; 2],
-    by_q: [[f64; 2]; 2],
-    by_q_rate: [[f64; 2]; 2],
+    pub(super) inner: [f64; 2],
+    pub(super) by_q: [[f64; 2]; 2],
+    pub(super) by_q_rate: [[f64; 2]; 2],
     /// (F_r, F_t), and by u, u' and time.
     outer: [f64; 2],
     outer_by_path: [f64; 2],
     outer_by_rate: [f64; 2],
     outer_by_time: [f64; 2],
-    path_rate: f64,
+    pub(super) path_rate: f64,
     path_rate_by_time: f64,
 }
 
 /// What all elements share at one instant.
-struct Instant {
-    cage: (f64, f64),
-    cage_angle: f64,
-    omega: f64,
-    alpha: f64,
-    shaft: RingState,
-    housing: RingState,
+pub(super) struct Instant {
+    pub(super) cage: (f64, f64),
+    pub(super) cage_angle: f64,
+    pub(super) omega: f64,
+    pub(super) alpha: f64,
+    pub(super) shaft: RingState,
+    pub(super) housing: RingState,
     /// Prescribed velocity and acceleration of the rings; zero where the state has them.
     shaft_moves: [[f64; 2]; 2],
     housing_moves: [[f64; 2]; 2],
@@ -222,7 +222,7 @@ impl Model {
         }
     }
 
-    fn instant(&self, drive: &Drive, tau: f64, state: &[f64]) -> Instant {
+    pub(super) fn instant(&self, drive: &Drive, tau: f64, state: &[f64]) -> Instant {
         let cage_angle = drive.cage_angle(tau);
         let moves = |motion: Motion, place: &[super::drive::Quadratic; 2]| {
             if motion == Motion::Host { [place.map(|q| q.rate_at(tau)), place.map(|q| q.0[2])] } else { [[0.0; 2]; 2] }
@@ -274,7 +274,7 @@ impl Model {
         by_time[place] = (sensor.stiffness * velocity[1] + sensor.damping * acceleration[1]) / sensor.mass;
     }
 
-    fn linearized(&self, j: usize, cell: u32, u: f64, w: f64, at: &Instant) -> Linearized {
+    pub(super) fn linearized(&self, j: usize, cell: u32, u: f64, w: f64, at: &Instant) -> Linearized {
         let e_r = self.direction(j, at.cage);
         let e_t = [-e_r[1], e_r[0]];
         let rho = self.outer_centre_radius + u;
@@ -344,7 +344,7 @@ impl Model {
     }
 
     /// Second derivatives of the approach of element `j`, which is near the defect.
-    fn bend(&self, j: usize, cell: u32, u: f64, cage_angle: f64) -> Bend {
+    pub(super) fn bend(&self, j: usize, cell: u32, u: f64, cage_angle: f64) -> Bend {
         let look = |u: f64, angle: f64| self.outer_approach(j, cell, u, angle, self.outer_centre_radius + u);
         let angle = DIFFERENCE / self.outer_centre_radius;
         let (inside, outside) = (look(u - DIFFERENCE, cage_angle), look(u + DIFFERENCE, cage_angle));
@@ -362,11 +362,11 @@ impl Model {
 
 /// Second derivatives of an approach, and of its direction by the angle.
 #[derive(Debug, Clone, Copy, Default)]
-struct Bend {
-    path_path: f64,
-    path_angle: f64,
-    angle_angle: f64,
-    direction_by_angle: [f64; 2],
+pub(super) struct Bend {
+    pub(super) path_path: f64,
+    pub(super) path_angle: f64,
+    pub(super) angle_angle: f64,
+    pub(super) direction_by_angle: [f64; 2],
 }
 
 fn places(layout: &Layout) -> [Option<(usize, usize)>; BODIES] {

@@ -5,7 +5,9 @@
 
 pub mod drive;
 pub mod equilibrium;
+pub mod equilibrium_variation;
 pub mod forces;
 pub mod jacobian;
 pub mod model;
 pub mod tangent;
+pub mod variation;

@@ -1,26 +1,284 @@
-//! Derivatives of outputs: by time, and by inputs. Not provided yet; the model description says so.
+//! Derivatives of outputs: by inputs, and by time.
+//!
+//! *By inputs at a communication point* a derivative is what a host sees when it sets an input and reads an output
+//! without a step between: states stay, and only what feeds through directly moves. *In initialization mode* the output is
+//! that of the static equilibrium, which moves with the input; rings at rest stay at rest. Cage angles follow no input in
+//! either case.
+//!
+//! *By time* an output changes with the states' derivatives, the cage angle and the inputs, which go on as they would in
+//! the next step: prescribed rings by their velocity and acceleration, loads and speed by the derivatives set for them.
+//!
+//! All follow from the first-order change of [`crate::dynamics::variation`]. Means over the last step and counts of the solver
+//! change with nothing until the next step.
 
-use super::{Simulation, SimulationError};
+use super::access;
+use super::table::{Quantity, RingName};
+use super::variables::Causality;
+use super::{Simulation, SimulationError, VariableError, wrong_type};
+use crate::dynamics::drive::Drive;
+use crate::dynamics::forces::RingState;
+use crate::dynamics::variation::{ForceChange, Variation};
+use crate::scene::Motion;
 
-impl Simulation {
-    /// Derivatives of real outputs by time at the present time.
-    pub fn output_derivatives(
-        &mut self,
-        _references: &[u32],
-        _orders: &[i32],
-        _values: &mut [f64],
-    ) -> Result<(), SimulationError> {
-        Err(SimulationError::NotProvided("derivatives of outputs by time"))
+/// A small change of everything that outputs are made of, and what it makes of the forces.
+#[derive(Debug, Clone)]
+pub(super) struct Change {
+    variation: Variation,
+    forces: ForceChange,
+    /// Of the external loads on inner and outer ring [N].
+    loads: [f64; 4],
+    /// Of the sensor's position and velocity.
+    sensor: [f64; 2],
+    /// Of the accelerations of inner and outer ring [m/s²].
+    accelerations: [[f64; 2]; 2],
+    sensor_acceleration: f64,
+    cage_torque: f64,
+    stiffness: [[f64; 2]; 2],
+}
+
+impl Change {
+    pub(super) fn new(count: usize) -> Self {
+        Self {
+            variation: Variation::new(count),
+            forces: ForceChange::new(count),
+            loads: [0.0; 4],
+            sensor: [0.0; 2],
+            accelerations: [[0.0; 2]; 2],
+            sensor_acceleration: 0.0,
+            cage_torque: 0.0,
+            stiffness: [[0.0; 2]; 2],
+        }
     }
 
-    /// The change of `unknowns` for a change `seed` of `knowns`, to first order.
+    fn clear(&mut self) {
+        self.variation.clear();
+        (self.loads, self.sensor, self.accelerations) = ([0.0; 4], [0.0; 2], [[0.0; 2]; 2]);
+        (self.sensor_acceleration, self.cage_torque) = (0.0, 0.0);
+        self.stiffness = [[0.0; 2]; 2];
+    }
+
+    fn ring(&mut self, name: RingName) -> &mut RingState {
+        match name {
+            RingName::Shaft => &mut self.variation.shaft,
+            RingName::Housing => &mut self.variation.housing,
+        }
+    }
+}
+
+impl Simulation {
+    /// Derivatives by time of real outputs at the present time; of order 1.
+    ///
+    /// # Errors
+    /// Before `initialize`; another order; a variable that is no real output.
+    pub fn output_derivatives(
+        &mut self,
+        references: &[u32],
+        orders: &[i32],
+        values: &mut [f64],
+    ) -> Result<(), SimulationError> {
+        for (&reference, &order) in references.iter().zip(orders) {
+            let variable = self.unknown(reference)?;
+            if order != 1 {
+                let name = variable.name.clone();
+                return Err(VariableError::OutputDerivative { name, order }.into());
+            }
+        }
+        if !self.state.started {
+            return Err(SimulationError::NotInitialized);
+        }
+        if self.outputs_are_stale {
+            self.refresh()?;
+        }
+        let drive = self.drive(true);
+        self.model.forget_contacts();
+        let progress = &self.state.progress;
+        self.model.derivative(&drive, 0.0, &progress.cells, &progress.state, &mut self.derivative, &mut self.forces);
+        self.along_time(&drive);
+        self.finish_change(references);
+        for (value, &reference) in values.iter_mut().zip(references) {
+            *value = self.changed(self.quantities[reference as usize]);
+        }
+        Ok(())
+    }
+
+    /// The change of `unknowns`, real outputs, for a change `seed` of `knowns`, real inputs, to first order.
+    ///
+    /// # Errors
+    /// Variables of another kind; before `initialize` also an equilibrium that does not exist or has no derivative.
     pub fn directional_derivative(
         &mut self,
-        _unknowns: &[u32],
-        _knowns: &[u32],
-        _seed: &[f64],
-        _values: &mut [f64],
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+        values: &mut [f64],
     ) -> Result<(), SimulationError> {
-        Err(SimulationError::NotProvided("directional derivatives"))
+        for &reference in unknowns {
+            self.unknown(reference)?;
+        }
+        for (&reference, &value) in knowns.iter().zip(seed) {
+            let variable = self.variable(reference)?;
+            if access::classes(&self.access, &[reference]) != Some(access::INPUT) {
+                return Err(VariableError::NotAKnown { name: variable.name.clone() }.into());
+            }
+            if !value.is_finite() {
+                return Err(super::out_of_range(variable, value, f64::MIN, f64::MAX).into());
+            }
+        }
+        if self.outputs_are_stale {
+            self.refresh()?;
+        }
+        self.model.forget_contacts();
+        self.along_inputs(knowns, seed);
+        if !self.state.started {
+            let drive = self.drive(false);
+            let (progress, loads) = (&self.state.progress, self.change.loads);
+            let found = self.model.vary_equilibrium(
+                &drive,
+                &progress.cells,
+                &progress.state,
+                loads,
+                &mut self.change.variation,
+            );
+            found.ok_or(SimulationError::NoDerivative)?;
+        }
+        self.finish_change(unknowns);
+        for (value, &reference) in values.iter_mut().zip(unknowns) {
+            *value = self.changed(self.quantities[reference as usize]);
+        }
+        Ok(())
+    }
+
+    /// The variable, if it is a real output.
+    fn unknown(&self, reference: u32) -> Result<&super::Variable, VariableError> {
+        let variable = self.variable(reference)?;
+        if !matches!(variable.kind, super::Kind::Real { .. }) {
+            return Err(wrong_type(variable, "Real"));
+        }
+        if variable.causality != Causality::Output {
+            return Err(VariableError::NotAnUnknown { name: variable.name.clone() });
+        }
+        Ok(variable)
+    }
+
+    /// Starts the change with that of the inputs alone.
+    fn along_inputs(&mut self, knowns: &[u32], seed: &[f64]) {
+        let change = &mut self.change;
+        change.clear();
+        for (&reference, &value) in knowns.iter().zip(seed) {
+            match self.quantities[reference as usize] {
+                Quantity::ShaftSpeed => change.variation.cage_speed += self.model.cage_ratio * value,
+                Quantity::Load(RingName::Shaft, axis) => change.loads[axis] += value,
+                Quantity::Load(RingName::Housing, axis) => change.loads[2 + axis] += value,
+                Quantity::Position(name, axis) => change.ring(name).position[axis] += value,
+                Quantity::Velocity(name, axis) => change.ring(name).velocity[axis] += value,
+                Quantity::Acceleration(RingName::Shaft, axis) => change.accelerations[0][axis] += value,
+                Quantity::Acceleration(RingName::Housing, axis) => change.accelerations[1][axis] += value,
+                _ => {}
+            }
+        }
+    }
+
+    /// The change per second of state and inputs.
+    fn along_time(&mut self, drive: &Drive) {
+        let change = &mut self.change;
+        change.clear();
+        let layout = &self.model.layout;
+        let z = layout.element_count;
+        let variation = &mut change.variation;
+        (variation.cage_angle, variation.cage_speed) = (drive.cage.0[1], drive.cage.0[2]);
+        variation.path.copy_from_slice(&self.derivative[..z]);
+        variation.radial_velocity.copy_from_slice(&self.derivative[z..2 * z]);
+        let rings = [
+            (&mut variation.shaft, layout.shaft, &drive.shaft),
+            (&mut variation.housing, layout.housing, &drive.housing),
+        ];
+        for (ring, place, prescribed) in rings {
+            *ring = match place {
+                Some(i) => RingState {
+                    position: [self.derivative[i], self.derivative[i + 1]],
+                    velocity: [self.derivative[i + 2], self.derivative[i + 3]],
+                },
+                // Zero for a fixed ring.
+                None => {
+                    RingState { position: prescribed.map(|q| q.rate_at(0.0)), velocity: prescribed.map(|q| q.0[2]) }
+                }
+            };
+        }
+        if let Some(i) = layout.sensor {
+            change.sensor = [self.derivative[i], self.derivative[i + 1]];
+        }
+        for (axis, load) in drive.shaft_load.iter().chain(&drive.housing_load).enumerate() {
+            change.loads[axis] = load.rate_at(0.0);
+        }
+    }
+
+    /// From the change of state and inputs to that of forces, accelerations and, if it is asked for, stiffness.
+    fn finish_change(&mut self, unknowns: &[u32]) {
+        let drive = self.drive(false);
+        let progress = &self.state.progress;
+        let (cells, state) = (&progress.cells, &progress.state);
+        let change = &mut self.change;
+        let present = [0, 1].map(|a| self.present_acceleration[a]);
+        self.model.vary(&drive, cells, state, present, &change.variation, &mut change.forces);
+
+        let (shaft, housing) = (&change.variation.shaft, &change.variation.housing);
+        let sensor_force = self.model.sensor.as_ref().map_or(0.0, |sensor| {
+            sensor.stiffness * (change.sensor[0] - housing.position[1])
+                + sensor.damping * (change.sensor[1] - housing.velocity[1])
+        });
+        // At the start nothing accelerates, whatever the inputs are.
+        if self.state.started {
+            change.sensor_acceleration = self.model.sensor.as_ref().map_or(0.0, |sensor| -sensor_force / sensor.mass);
+            let rings = [
+                (&self.model.shaft, shaft, change.forces.shaft),
+                (&self.model.housing, housing, change.forces.housing),
+            ];
+            for (ring, (support, moved, force)) in rings.into_iter().enumerate() {
+                if support.motion != Motion::Internal {
+                    continue;
+                }
+                for axis in 0..2 {
+                    let sensor = if ring == 1 && axis == 1 { sensor_force } else { 0.0 };
+                    change.accelerations[ring][axis] = (change.loads[2 * ring + axis] + force[axis] + sensor
+                        - support.damping * moved.velocity[axis]
+                        - support.stiffness * moved.position[axis])
+                        / support.mass;
+                }
+            }
+        }
+        let by_acceleration = change.forces.torque_by_acceleration;
+        change.cage_torque = change.forces.cage_torque
+            + by_acceleration[0] * change.accelerations[1][0]
+            + by_acceleration[1] * change.accelerations[1][1];
+        let wanted = |&reference: &u32| matches!(self.quantities[reference as usize], Quantity::Stiffness(..));
+        if unknowns.iter().any(wanted) {
+            change.stiffness = self.model.vary_stiffness(&drive, cells, state, &change.variation);
+        }
+    }
+
+    /// What the change makes of one output.
+    fn changed(&self, quantity: Quantity) -> f64 {
+        let Change { variation, forces, .. } = &self.change;
+        let ring = |name: RingName| match name {
+            RingName::Shaft => (0, &variation.shaft, forces.shaft),
+            RingName::Housing => (1, &variation.housing, forces.housing),
+        };
+        match quantity {
+            Quantity::Position(name, axis) => ring(name).1.position[axis],
+            Quantity::Velocity(name, axis) => ring(name).1.velocity[axis],
+            Quantity::Acceleration(name, axis) => self.change.accelerations[ring(name).0][axis],
+            Quantity::Force(name, axis) => ring(name).2[axis],
+            // Before the first step the mean is the force itself.
+            Quantity::MeanForce(name, axis) if !self.state.started => ring(name).2[axis],
+            Quantity::Stiffness(row, column) => -self.change.stiffness[row][column],
+            Quantity::SensorAcceleration => self.change.sensor_acceleration,
+            Quantity::CageAngle | Quantity::ElementAngle(_) => variation.cage_angle,
+            Quantity::CageSpeed => variation.cage_speed,
+            Quantity::CageTorque => self.change.cage_torque,
+            Quantity::ElementPath(j) => variation.path[j],
+            Quantity::ElementInnerForce(j) => forces.inner[j],
+            Quantity::ElementOuterForce(j) => forces.outer[j],
+            _ => 0.0,
+        }
     }
 }

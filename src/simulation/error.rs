@@ -33,9 +33,9 @@ pub enum SimulationError {
     /// A communication step that cannot be taken. Nothing was changed.
     #[error("communication step {0} s: it must be finite and above 0")]
     CommunicationStep(f64),
-    /// Something that this model does not offer.
-    #[error("{0} are not provided by this model")]
-    NotProvided(&'static str),
+    /// Rings that nothing holds: how the equilibrium moves with the inputs is not defined.
+    #[error("the initial equilibrium has no derivative: an internal ring touches nothing and has no support stiffness")]
+    NoDerivative,
     /// A step was asked for before initialization.
     #[error("a step was asked for before initialization was finished")]
     NotInitialized,
@@ -88,6 +88,26 @@ pub enum VariableError {
     /// Derivatives are taken of inputs only, of order 1 or 2.
     #[error("derivative of order {order} of {name}: only orders 1 and 2 of real inputs can be set")]
     Derivative {
+        /// Its name.
+        name: String,
+        /// Order asked for.
+        order: i32,
+    },
+    /// Derivatives are given of real outputs.
+    #[error("derivative of {name}: it is no output")]
+    NotAnUnknown {
+        /// Its name.
+        name: String,
+    },
+    /// Directional derivatives are taken by real inputs.
+    #[error("directional derivative by {name}: it is no real input")]
+    NotAKnown {
+        /// Its name.
+        name: String,
+    },
+    /// Derivatives by time are given of order 1.
+    #[error("derivative of order {order} of {name} by time: only order 1 is given")]
+    OutputDerivative {
         /// Its name.
         name: String,
         /// Order asked for.

@@ -4,6 +4,7 @@
 
 mod access;
 pub mod arrow;
+mod dependencies;
 pub mod derivatives;
 pub mod dormand_prince;
 pub mod error;
@@ -32,6 +33,7 @@ use crate::dynamics::model::Model;
 use crate::scene::{ContactLaw, Scene};
 use crate::surface::Surface;
 use access::Access;
+use derivatives::Change;
 use progress::Progress;
 use recorder::Recorder;
 use setup::Inputs;
@@ -66,6 +68,9 @@ pub struct Simulation {
     method: Method,
     forces: Forces,
     derivative: Vec<f64>,
+    change: Change,
+    /// The outer ring's acceleration when outputs were computed last [m/s²].
+    present_acceleration: [f64; 2],
     state: State,
     /// Parameters have been set since the model was built.
     model_is_stale: bool,
@@ -137,6 +142,8 @@ impl Simulation {
             method: Method::Automatic,
             forces: Forces::new(model.element_count),
             derivative: vec![0.0; model.layout.len],
+            change: Change::new(model.element_count),
+            present_acceleration: [0.0; 2],
             state: State {
                 time: 0.0,
                 started: false,

@@ -85,7 +85,13 @@ impl Simulation {
         }
         let drive = self.drive(false);
         let progress = &self.state.progress;
+        // Outputs must not depend on what was computed before, or a restored state would show other roundings.
+        self.model.forget_contacts();
         self.model.derivative(&drive, 0.0, &progress.cells, &progress.state, &mut self.derivative, &mut self.forces);
+        if !self.state.started {
+            self.rest();
+        }
+        let progress = &self.state.progress;
         let instant = Instant::new(
             &self.model,
             (&drive, 0.0),
@@ -93,6 +99,7 @@ impl Simulation {
             &self.forces,
             self.state.cage.total(),
         );
+        self.present_acceleration = instant.acceleration[place(RingName::Housing)];
         let first = self.inputs.count;
         for (i, quantity) in self.quantities.iter().enumerate().skip(first) {
             let value = match *quantity {
@@ -117,6 +124,17 @@ impl Simulation {
         }
         self.outputs_are_stale = false;
         Ok(())
+    }
+
+    /// The start is a static equilibrium: what rounding leaves of accelerations is none.
+    fn rest(&mut self) {
+        let layout = &self.model.layout;
+        for place in [layout.shaft, layout.housing].into_iter().flatten() {
+            self.derivative[place + 2..place + 4].fill(0.0);
+        }
+        if let Some(place) = layout.sensor {
+            self.derivative[place + 1] = 0.0;
+        }
     }
 
     /// Computes the tangent stiffness of the inner ring, −∂F/∂x with the elements in static balance [N/m].

@@ -2,6 +2,7 @@
 //!
 //! Inputs come first, then outputs, then parameters. A variable's index is its FMI value reference.
 
+use super::dependencies;
 use super::variables::{Causality, Kind, Unit, Variability, Variable};
 use crate::scene::{Damping, Motion, Scene};
 
@@ -66,7 +67,7 @@ pub fn rows(scene: &Scene) -> Vec<(Variable, Quantity)> {
     builder.inputs();
     builder.outputs();
     builder.parameters();
-    builder.fill_dependencies();
+    dependencies::fill(&mut builder.rows, scene);
     builder.rows
 }
 
@@ -401,52 +402,8 @@ impl Builder<'_> {
             causality: causality.0,
             variability: causality.1,
             depends_on: Vec::new(),
+            initially_depends_on: Vec::new(),
         };
         self.rows.push((variable, quantity));
-    }
-
-    /// Direct dependence of outputs on inputs. States do not follow inputs at once; forces follow prescribed motion.
-    fn fill_dependencies(&mut self) {
-        let inputs: Vec<Quantity> = self
-            .rows
-            .iter()
-            .take_while(|(v, _)| v.causality == Causality::Input)
-            .map(|(_, quantity)| *quantity)
-            .collect();
-        let defect = self.scene.defect.is_some();
-        let sensor_follows_input = self.motion(RingName::Housing) == Motion::Host;
-        for (variable, quantity) in &mut self.rows {
-            if variable.causality != Causality::Output {
-                continue;
-            }
-            let follows = |input: Quantity| follows(*quantity, input, defect, sensor_follows_input);
-            variable.depends_on = (0..inputs.len()).filter(|&i| follows(inputs[i])).map(|i| i as u32).collect();
-        }
-    }
-}
-
-/// Whether an output follows an input at the same instant.
-fn follows(output: Quantity, input: Quantity, defect: bool, sensor_follows_input: bool) -> bool {
-    use RingName::{Housing, Shaft};
-    let place = matches!(input, Q::Position(..));
-    let pace = matches!(input, Q::Velocity(..));
-    let speed = input == Q::ShaftSpeed;
-    match output {
-        // Inner contacts see both rings, and the cage speed through the rate of approach.
-        Q::Force(Shaft, _) | Q::ElementInnerForce(_) => place || pace || speed,
-        // Outer contacts see the path, which is measured from the outer ring, and its rate.
-        Q::Force(Housing, _) | Q::ElementOuterForce(_) => matches!(input, Q::Velocity(Housing, _)) || (defect && speed),
-        Q::Acceleration(Shaft, axis) => place || pace || speed || input == Q::Load(Shaft, axis),
-        Q::Acceleration(Housing, axis) => {
-            matches!(input, Q::Velocity(Housing, _)) || (defect && speed) || input == Q::Load(Housing, axis)
-        }
-        Q::Stiffness(..) => place,
-        Q::SensorAcceleration => {
-            sensor_follows_input && matches!(input, Q::Position(Housing, 1) | Q::Velocity(Housing, 1))
-        }
-        Q::CageSpeed => speed,
-        // Tangential parts of the inner contacts, and the elements' inertia as the outer ring accelerates.
-        Q::CageTorque => place || pace || speed || matches!(input, Q::Acceleration(Housing, _) | Q::Load(Housing, _)),
-        _ => false,
     }
 }

@@ -20,6 +20,8 @@ pub struct Variable {
     pub variability: Variability,
     /// For outputs: the table indices, ascending, of all inputs that it depends on directly.
     pub depends_on: Vec<u32>,
+    /// For outputs: the table indices, ascending, of all inputs and parameters that it depends on at the start.
+    pub initially_depends_on: Vec<u32>,
 }
 
 /// Type of a variable.

@@ -5,6 +5,7 @@
 // What helpers unwrap is the test's own set-up.
 #![allow(clippy::unwrap_used)]
 
+mod derivatives;
 mod host;
 mod hostile;
 mod instantiate;

@@ -1,0 +1,75 @@
+//! Which output depends on which input or parameter, at a communication point and at the start.
+//!
+//! At a communication point only what feeds through without a step counts: states do not follow inputs at once, forces
+//! follow prescribed motion. At the start the static equilibrium ties forces, positions and paths to every load and every
+//! motion that is given; but rings are at rest whatever the inputs are, and what only matters in motion does not enter.
+
+use super::table::{Quantity as Q, RingName};
+use super::variables::{Causality, Kind, Variable};
+use crate::scene::{Motion, Scene};
+
+/// Fills in the dependencies of all outputs.
+pub(super) fn fill(rows: &mut [(Variable, Q)], scene: &Scene) {
+    let knowns: Vec<(u32, Q, bool)> = rows
+        .iter()
+        .filter(|(v, _)| v.causality != Causality::Output)
+        .map(|(v, quantity)| (v.reference, *quantity, v.causality == Causality::Input))
+        .collect();
+    let defect = scene.defect.is_some();
+    let sensor_follows_input = scene.housing.motion == Motion::Host;
+    for (variable, quantity) in rows.iter_mut().filter(|(v, _)| v.causality == Causality::Output) {
+        let real = matches!(variable.kind, Kind::Real { .. });
+        for &(reference, known, input) in &knowns {
+            if input && follows(*quantity, known, defect, sensor_follows_input) {
+                variable.depends_on.push(reference);
+            }
+            if real && starts_from(*quantity, known) {
+                variable.initially_depends_on.push(reference);
+            }
+        }
+    }
+}
+
+/// Whether an output follows an input at the same instant.
+fn follows(output: Q, input: Q, defect: bool, sensor_follows_input: bool) -> bool {
+    use RingName::{Housing, Shaft};
+    let place = matches!(input, Q::Position(..));
+    let pace = matches!(input, Q::Velocity(..));
+    let speed = input == Q::ShaftSpeed;
+    match output {
+        // Inner contacts see both rings, and the cage speed through the rate of approach.
+        Q::Force(Shaft, _) | Q::ElementInnerForce(_) => place || pace || speed,
+        // Outer contacts see the path, which is measured from the outer ring, and its rate.
+        Q::Force(Housing, _) | Q::ElementOuterForce(_) => matches!(input, Q::Velocity(Housing, _)) || (defect && speed),
+        Q::Acceleration(Shaft, axis) => place || pace || speed || input == Q::Load(Shaft, axis),
+        Q::Acceleration(Housing, axis) => {
+            matches!(input, Q::Velocity(Housing, _)) || (defect && speed) || input == Q::Load(Housing, axis)
+        }
+        Q::Stiffness(..) => place,
+        Q::SensorAcceleration => {
+            sensor_follows_input && matches!(input, Q::Position(Housing, 1) | Q::Velocity(Housing, 1))
+        }
+        Q::CageSpeed => speed,
+        // Tangential parts of the inner contacts, and the elements' inertia as the outer ring accelerates.
+        Q::CageTorque => place || pace || speed || matches!(input, Q::Acceleration(Housing, _) | Q::Load(Housing, _)),
+        _ => false,
+    }
+}
+
+/// Whether an output depends on an input or a parameter in initialization mode.
+fn starts_from(output: Q, known: Q) -> bool {
+    match output {
+        Q::CageAngle | Q::ElementAngle(_) => known == Q::CageInitialAngle,
+        Q::CageSpeed => matches!(known, Q::ShaftSpeed | Q::CageSlip),
+        // At rest.
+        Q::Velocity(..) | Q::Acceleration(..) | Q::SensorAcceleration => false,
+        _ => match known {
+            // The tolerance is that of steps; masses and dampers of rings matter in motion.
+            Q::Tolerance | Q::RingMass(_) | Q::RingDamping(_) => false,
+            // Only the cage's torque knows that a prescribed outer ring accelerates.
+            Q::Acceleration(RingName::Housing, _) => output == Q::CageTorque,
+            Q::Acceleration(RingName::Shaft, _) => false,
+            _ => true,
+        },
+    }
+}

@@ -1,0 +1,397 @@
+//! Derivatives: what the functions give is what a host finds by differences.
+
+use crate::host::Host;
+use brinell::fmi2::*;
+use brinell::simulation::variables::{Causality, Kind, Unit, Variable};
+use std::ptr;
+
+/// All that may move: rings inside, one ring or both from the host, sound, spalled, spalled and compliant.
+const SCENES: [&str; 6] =
+    ["6205-healthy", "6205-hosted", "6205-epps", "er16k-tb1", "er16k-tb1-hosted-shaft", "er16k-tb2-compliant"];
+
+fn is_real(variable: &&Variable) -> bool {
+    matches!(variable.kind, Kind::Real { .. })
+}
+
+fn inputs(table: &[Variable]) -> Vec<&Variable> {
+    table.iter().filter(|v| v.causality == Causality::Input).collect()
+}
+
+fn outputs(table: &[Variable]) -> Vec<&Variable> {
+    table.iter().filter(|v| v.causality == Causality::Output).filter(is_real).collect()
+}
+
+fn references(variables: &[&Variable]) -> Vec<u32> {
+    variables.iter().map(|v| v.reference).collect()
+}
+
+impl Host {
+    fn directional(&self, unknowns: &[u32], knowns: &[u32], seed: &[f64]) -> Result<Vec<f64>, Status> {
+        let mut values = vec![f64::NAN; unknowns.len()];
+        // SAFETY: the arrays are as long as said.
+        let status = unsafe {
+            fmi2GetDirectionalDerivative(
+                self.c,
+                unknowns.as_ptr(),
+                unknowns.len(),
+                knowns.as_ptr(),
+                knowns.len(),
+                seed.as_ptr(),
+                values.as_mut_ptr(),
+            )
+        };
+        if status == Status::Ok { Ok(values) } else { Err(status) }
+    }
+
+    fn by_time(&self, unknowns: &[u32], order: i32) -> Result<Vec<f64>, Status> {
+        let (orders, mut values) = (vec![order; unknowns.len()], vec![f64::NAN; unknowns.len()]);
+        // SAFETY: the arrays are as long as said.
+        let status = unsafe {
+            let (unknowns, count) = (unknowns.as_ptr(), unknowns.len());
+            fmi2GetRealOutputDerivatives(self.c, unknowns, count, orders.as_ptr(), values.as_mut_ptr())
+        };
+        if status == Status::Ok { Ok(values) } else { Err(status) }
+    }
+
+    fn rate(&self, reference: u32, order: i32, value: f64) -> Status {
+        // SAFETY: one element each.
+        unsafe { fmi2SetRealInputDerivatives(self.c, &raw const reference, 1, &raw const order, &raw const value) }
+    }
+
+    /// Presses the inner ring into the elements, moving and sliding a little, where the host moves it.
+    fn press(&self) {
+        let table = self.table();
+        let values = [
+            ("shaft.x", 3e-6),
+            ("shaft.y", -18e-6),
+            ("shaft.vx", -4e-4),
+            ("shaft.vy", 7e-4),
+            ("shaft.ax", 0.3),
+            ("shaft.ay", -0.2),
+            ("housing.x", 1e-6),
+            ("housing.y", 1e-6),
+            ("housing.vx", 5e-4),
+            ("housing.vy", -3e-4),
+            ("housing.ax", -0.1),
+            ("housing.ay", 0.4),
+        ];
+        for (name, value) in values {
+            if let Some(input) = inputs(&table).into_iter().find(|v| v.name == name) {
+                assert_eq!(self.set(&[input.reference], &[value]), Status::Ok);
+            }
+        }
+    }
+}
+
+/// A change of an input that is small against what it sits on and large against rounding.
+fn nudge(input: &Variable) -> f64 {
+    match input.kind {
+        // Paths are some micrometres, loads hundreds of newtons.
+        Kind::Real { unit: Unit::Metre, .. } => 1e-11,
+        Kind::Real { unit: Unit::MetrePerSecond, .. } => 1e-6,
+        Kind::Real { unit: Unit::MetrePerSecondSquared, .. } => 1.0,
+        Kind::Real { unit: Unit::Newton, .. } => 0.05,
+        _ => 1e-3,
+    }
+}
+
+/// Differences of all outputs by each input, against the derivatives given; and whether each output moved.
+fn compare(host: &Host, moment: &str) -> Vec<Vec<bool>> {
+    let table = host.table();
+    let (inputs, outputs) = (inputs(&table), outputs(&table));
+    let unknowns = references(&outputs);
+    let middle = host.get(&unknowns).unwrap();
+    let mut moved = Vec::new();
+    for input in &inputs {
+        let reference = input.reference;
+        let given = host.directional(&unknowns, &[reference], &[1.0]).unwrap();
+        let at = host.get(&[reference]).unwrap()[0];
+        let step = nudge(input);
+        let look = |value: f64| {
+            assert_eq!(host.set(&[reference], &[value]), Status::Ok);
+            host.get(&unknowns).unwrap()
+        };
+        let (below, above, back) = (look(at - step), look(at + step), look(at));
+        assert_eq!(back, middle, "{moment}: outputs follow the inputs alone");
+        moved.push((0..outputs.len()).map(|i| below[i] != middle[i] || above[i] != middle[i]).collect());
+        for (i, output) in outputs.iter().enumerate() {
+            let difference = (above[i] - below[i]) / (2.0 * step);
+            let Kind::Real { nominal, .. } = output.kind else { panic!() };
+            // Truncation: a contact's curvature over a ten-thousandth of its approach. Rounding: 1e-12 of an output's
+            // magnitude is what the equilibrium's residual leaves.
+            let tolerance = 2e-6 * given[i].abs() + 2e-12 * middle[i].abs().max(nominal) / step;
+            assert!(
+                (given[i] - difference).abs() <= tolerance,
+                "{moment}: {} by {}: {} given, {difference} found, allowed {tolerance:e}",
+                output.name,
+                input.name,
+                given[i]
+            );
+        }
+    }
+    moved
+}
+
+/// Outputs that moved against outputs that are said to depend. An element that is never loaded never moves, so what is said
+/// of elements must be true of one.
+fn check_dependencies(table: &[Variable], moved: &[Vec<bool>], listed: impl Fn(&Variable) -> &[u32], moment: &str) {
+    let outputs = outputs(table);
+    let kind = |name: &str| name.split_once(']').map_or(name, |(_, kind)| kind).to_owned();
+    for (i, output) in outputs.iter().enumerate() {
+        let found_at = |i: usize| {
+            inputs(table).into_iter().zip(moved).filter(move |(_, moved)| moved[i]).map(|(v, _)| v.reference)
+        };
+        let found: Vec<u32> = found_at(i).collect();
+        let of_kind = (0..outputs.len()).filter(|&k| kind(&outputs[k].name) == kind(&output.name));
+        let found_of_kind: Vec<u32> = of_kind.flat_map(found_at).collect();
+        let said: Vec<u32> =
+            listed(output).iter().copied().filter(|&r| table[r as usize].causality == Causality::Input).collect();
+        for reference in &found {
+            let input = &table[*reference as usize].name;
+            assert!(said.contains(reference), "{moment}: {} follows {input}, which is not listed", output.name);
+        }
+        for reference in said {
+            let input = &table[reference as usize].name;
+            assert!(
+                found_of_kind.contains(&reference),
+                "{moment}: {} is said to follow {input} but never did",
+                output.name
+            );
+        }
+    }
+}
+
+fn merge(all: &mut Vec<Vec<bool>>, more: Vec<Vec<bool>>) {
+    if all.is_empty() {
+        *all = more;
+        return;
+    }
+    for (all, more) in all.iter_mut().flatten().zip(more.into_iter().flatten()) {
+        *all |= more;
+    }
+}
+
+#[test]
+fn directional_derivatives_at_communication_points_are_central_differences() {
+    for scene in SCENES {
+        let host = Host::of(scene);
+        host.press();
+        host.start();
+        let table = host.table();
+        let mut moved = Vec::new();
+        let mut time = 0.0;
+        for point in 0..50 {
+            merge(&mut moved, compare(&host, &format!("{scene} at {time} s")));
+            // Through the defect, where there is one, and not always from a resting ring.
+            let step = 2.5e-4 + 1e-6 * f64::from(point);
+            assert_eq!(host.step(time, step), Status::Ok, "{:?}", host.lines());
+            time += step;
+            host.press();
+        }
+        check_dependencies(&table, &moved, |v| &v.depends_on, scene);
+    }
+}
+
+#[test]
+fn directional_derivatives_in_initialization_mode_are_central_differences() {
+    for scene in SCENES {
+        let mut moved = Vec::new();
+        // Element 1 in the middle of the load zone, beside it, and, where there is a defect, at its edge.
+        for angle in [-1.9, -std::f64::consts::FRAC_PI_2, -1.72, -1.3] {
+            let host = Host::of(scene);
+            host.press();
+            assert_eq!(host.set(&[host.reference("cage.initial_angle")], &[angle]), Status::Ok);
+            assert_eq!(host.setup(None, 0.0, None), Status::Ok);
+            assert_eq!(host.enter(), Status::Ok);
+            merge(&mut moved, compare(&host, &format!("{scene}, initial angle {angle}")));
+        }
+        let host = Host::of(scene);
+        let loose = ["shaft.stiffness", "housing.stiffness"];
+        // A ring without a spring to ground passes its load on, so that its neighbour's forces do not see it.
+        for name in loose {
+            if host.table().iter().any(|v| v.name == name) {
+                assert_eq!(host.set(&[host.reference(name)], &[2e7]), Status::Ok);
+            }
+        }
+        host.press();
+        assert_eq!(host.setup(None, 0.0, None), Status::Ok);
+        assert_eq!(host.enter(), Status::Ok);
+        merge(&mut moved, compare(&host, &format!("{scene}, both rings held")));
+        check_dependencies(&host.table(), &moved, |v| &v.initially_depends_on, &format!("{scene}, start"));
+    }
+}
+
+#[test]
+fn a_directional_derivative_is_linear_in_its_seed() {
+    let host = Host::of("er16k-tb1-hosted-shaft");
+    host.press();
+    host.start();
+    assert_eq!(host.step(0.0, 6e-3), Status::Ok);
+    host.press();
+    let table = host.table();
+    let (knowns, unknowns) = (references(&inputs(&table)), references(&outputs(&table)));
+    let seed: Vec<f64> = (0..knowns.len()).map(|i| 0.5 - i as f64).collect();
+    let together = host.directional(&unknowns, &knowns, &seed).unwrap();
+    let mut sum = vec![0.0; unknowns.len()];
+    let mut size = vec![0.0f64; unknowns.len()];
+    for (&known, &seed) in knowns.iter().zip(&seed) {
+        for (i, part) in host.directional(&unknowns, &[known], &[seed]).unwrap().into_iter().enumerate() {
+            sum[i] += part;
+            size[i] += part.abs();
+        }
+    }
+    for i in 0..sum.len() {
+        // Rounding of some tens of terms.
+        assert!((together[i] - sum[i]).abs() <= 1e-12 * size[i], "{}", table[unknowns[i] as usize].name);
+    }
+    // A known given twice counts twice; no knowns, no change.
+    let y = host.reference("shaft.y");
+    let twice = host.directional(&unknowns, &[y, y], &[1.0, 1.0]).unwrap();
+    let once = host.directional(&unknowns, &[y], &[2.0]).unwrap();
+    assert_eq!(twice, once);
+    assert_eq!(host.directional(&unknowns, &[], &[]).unwrap(), vec![0.0; unknowns.len()]);
+    assert_eq!(host.directional(&[], &knowns, &seed).unwrap(), Vec::<f64>::new());
+}
+
+#[test]
+fn unknowns_are_real_outputs_and_knowns_real_inputs_or_the_call_is_an_error() {
+    let host = Host::started("er16k-tb1");
+    let state = host.save();
+    let count = host.table().len() as u32;
+    let (speed, force, steps) =
+        (host.reference("shaft.speed"), host.reference("shaft.force.y"), host.reference("solver.steps"));
+    let mass = host.reference("shaft.mass");
+    let cases = [
+        (speed, speed, "no output"),
+        (mass, speed, "no output"),
+        (steps, speed, "not of type Real"),
+        (count, speed, "unknown"),
+        (force, force, "no real input"),
+        (force, mass, "no real input"),
+        (force, steps, "no real input"),
+        (force, u32::MAX, "unknown"),
+    ];
+    for (unknown, known, words) in cases {
+        host.lines();
+        assert_eq!(host.directional(&[unknown], &[known], &[1.0]), Err(Status::Error), "{words}");
+        assert!(host.lines()[0].message.contains(words), "{words}");
+        assert_eq!(host.restore(state), Status::Ok);
+    }
+    for seed in [f64::NAN, f64::INFINITY] {
+        assert_eq!(host.directional(&[force], &[speed], &[seed]), Err(Status::Discard));
+    }
+}
+
+#[test]
+fn a_loose_ring_has_an_output_but_no_derivative_in_initialization_mode() {
+    // No load, no spring: the inner ring floats in the clearance.
+    let host = Host::of("6205-healthy");
+    for axis in ["shaft.load.x", "shaft.load.y"] {
+        assert_eq!(host.set(&[host.reference(axis)], &[0.0]), Status::Ok);
+    }
+    assert_eq!(host.setup(None, 0.0, None), Status::Ok);
+    assert_eq!(host.enter(), Status::Ok);
+    let (load, y) = (host.reference("shaft.load.y"), host.reference("shaft.y"));
+    assert!(host.get(&[y]).is_ok());
+    assert_eq!(host.directional(&[y], &[load], &[1.0]), Err(Status::Discard));
+    assert!(host.lines().pop().unwrap().message.contains("no derivative"));
+    assert!(host.get(&[y]).is_ok());
+}
+
+#[test]
+fn derivatives_of_outputs_by_time_are_what_short_steps_show() {
+    for scene in SCENES {
+        let host = Host::of(scene);
+        host.press();
+        host.start();
+        let table = host.table();
+        let outputs: Vec<_> = outputs(&table).into_iter().filter(|v| !v.name.contains("mean_force")).collect();
+        let unknowns = references(&outputs);
+        let mut time = 0.0;
+        for point in 0..8 {
+            let step = 1.3e-3 + 1e-5 * f64::from(point);
+            assert_eq!(host.step(time, step), Status::Ok);
+            time += step;
+            host.press();
+            for input in inputs(&table) {
+                match input.name.as_str() {
+                    "shaft.speed" => assert_eq!(host.rate(input.reference, 1, 40.0), Status::Ok),
+                    name if name.contains("load") => assert_eq!(host.rate(input.reference, 1, 1e3), Status::Ok),
+                    _ => {}
+                }
+            }
+            let given = host.by_time(&unknowns, 1).unwrap();
+            let before = host.get(&unknowns).unwrap();
+            let state = host.save();
+            let after = |h: f64| {
+                assert_eq!(host.restore(state), Status::Ok);
+                assert_eq!(host.step(time, h), Status::Ok);
+                host.get(&unknowns).unwrap()
+            };
+            // Forward differences, extrapolated to no step at all.
+            let h = 2e-9;
+            let (near, far) = (after(h), after(2.0 * h));
+            assert_eq!(host.restore(state), Status::Ok);
+            for (i, output) in outputs.iter().enumerate() {
+                let found = (4.0 * near[i] - far[i] - 3.0 * before[i]) / (2.0 * h);
+                let Kind::Real { nominal, unit, .. } = output.kind else { panic!() };
+                // The third derivative of a mode at 50 kHz over these steps; rounding, of which the sensor's spring of
+                // 9e9 N/m makes 1e-10 m/s² from positions of 10 µm.
+                let rounding = if unit == Unit::MetrePerSecondSquared { 1e-10 } else { 1e-12 };
+                let tolerance = 1e-4 * given[i].abs() + rounding * before[i].abs().max(nominal) / h;
+                assert!(
+                    (given[i] - found).abs() <= tolerance,
+                    "{scene} at {time}: {} changes by {} /s, found {found}, allowed {tolerance:e}",
+                    output.name,
+                    given[i]
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn derivatives_by_time_of_another_order_or_variable_are_errors() {
+    let host = Host::started("er16k-tb1");
+    let state = host.save();
+    let force = host.reference("shaft.force.y");
+    for (reference, order, words) in [
+        (force, 0, "order 0"),
+        (force, 2, "order 2"),
+        (force, -1, "order -1"),
+        (host.reference("shaft.speed"), 1, "no output"),
+        (host.reference("solver.steps"), 1, "not of type Real"),
+        (u32::MAX, 1, "unknown"),
+    ] {
+        host.lines();
+        assert_eq!(host.by_time(&[reference], order), Err(Status::Error), "{words}");
+        assert!(host.lines()[0].message.contains(words), "{words}");
+        assert_eq!(host.restore(state), Status::Ok);
+    }
+    // SAFETY: NULL goes with no variables.
+    let status = unsafe { fmi2GetRealOutputDerivatives(host.c, ptr::null(), 0, ptr::null(), ptr::null_mut()) };
+    assert_eq!(status, Status::Ok);
+}
+
+#[test]
+fn asking_for_derivatives_changes_nothing_that_follows() {
+    for scene in SCENES {
+        let (asked, silent) = (Host::of(scene), Host::of(scene));
+        for host in [&asked, &silent] {
+            host.press();
+            host.start();
+        }
+        let table = asked.table();
+        let (knowns, unknowns) = (references(&inputs(&table)), references(&outputs(&table)));
+        let seed = vec![1.0; knowns.len()];
+        for n in 0..40 {
+            let time = f64::from(n) * 2e-4;
+            asked.directional(&unknowns, &knowns, &seed).unwrap();
+            asked.by_time(&unknowns, 1).unwrap();
+            for host in [&asked, &silent] {
+                assert_eq!(host.step(time, 2e-4), Status::Ok);
+            }
+            assert_eq!(asked.get(&unknowns).unwrap(), silent.get(&unknowns).unwrap(), "{scene}");
+        }
+    }
+}
