@@ -301,7 +301,7 @@ fn energy_without_damping() -> Row {
     let mut bearing = Named::started(scene);
     let energy = |b: &mut Named| {
         let of = |force: f64, k: f64| 0.4 * force * (force / k).powf(2.0 / 3.0);
-        let w = b.0.state_vector()[z];
+        let w = b.0.state_vector()[z.next_multiple_of(8)];
         let (inner, outer) = (b.get("element[1].force.inner"), b.get("element[1].force.outer"));
         of(inner, hertz.inner) + of(outer, hertz.outer) + 0.5 * mass * w * w
     };

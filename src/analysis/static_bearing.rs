@@ -176,9 +176,9 @@ impl StaticBearing {
         let elements = (0..model.element_count).map(|j| LoadedElement {
             angle: wrap(cage_angle + model.element_offset(j)),
             path: paths[j],
-            inner_force: forces.inner[j],
-            outer_force: forces.outer[j],
-            inner_approach: forces.inner_approach[j],
+            inner_force: forces.contacts.inner[j],
+            outer_force: forces.contacts.outer[j],
+            inner_approach: forces.contacts.inner_approach[j],
             in_defect: self.is_in_defect(j, cage_angle),
         });
         Ok(Balance {

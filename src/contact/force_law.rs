@@ -10,6 +10,9 @@
 
 use crate::scene::Damping;
 
+/// Turns the dimensionless factor of Hunt and Crossley's damping into a length of an approach's magnitude [m].
+pub(crate) const PUSHING_LENGTH: f64 = 1e-6;
+
 /// Force and its derivatives with respect to approach and rate of approach.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Force {
@@ -55,6 +58,15 @@ impl ForceLaw {
         }
     }
 
+    /// a and b with which both damping laws are Q = K √δ max(0, δ + (a δ + b) δ̇), a in s/m and b in s.
+    #[inline]
+    pub fn damping_weights(&self) -> [f64; 2] {
+        match self.damping {
+            Damping::HuntCrossley(chi) => [chi, 0.0],
+            Damping::Proportional(tau) => [0.0, 1.5 * tau],
+        }
+    }
+
     /// Force with its derivatives.
     pub fn with_derivatives(&self, delta: f64, rate: f64) -> Force {
         if self.pushing(delta, rate) <= 0.0 {
@@ -81,11 +93,7 @@ impl ForceLaw {
     #[inline]
     pub fn pushing(&self, delta: f64, rate: f64) -> f64 {
         match self.damping {
-            Damping::HuntCrossley(chi) => {
-                // One micrometre turns the dimensionless factor into a length of the approach's magnitude.
-                const LENGTH: f64 = 1e-6;
-                delta.min(LENGTH * (1.0 + chi * rate))
-            }
+            Damping::HuntCrossley(chi) => delta.min(PUSHING_LENGTH * (1.0 + chi * rate)),
             Damping::Proportional(tau) => delta + (1.5 * tau * rate).min(0.0),
         }
     }

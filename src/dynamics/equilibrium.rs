@@ -250,8 +250,8 @@ impl Model {
     }
 
     fn write(&self, drive: &Drive, rings: &Rings, u: &[f64], state: &mut [f64]) {
-        let z = self.element_count;
-        state[..z].copy_from_slice(u);
+        let w = self.layout.radial_velocity;
+        state[..self.element_count].copy_from_slice(u);
         for (place, first) in [(self.layout.shaft, 0), (self.layout.housing, 2)] {
             if let Some(i) = place {
                 state[i..i + 2].copy_from_slice(&rings.position[first..first + 2]);
@@ -260,8 +260,8 @@ impl Model {
         // At rest against the outer ring: u' = 0.
         let housing = self.housing_state(drive, 0.0, state);
         let cage = super::forces::cos_sin(drive.cage_angle(0.0));
-        for j in 0..z {
-            state[z + j] = dot(housing.velocity, self.direction(j, cage));
+        for j in 0..self.element_count {
+            state[w + j] = dot(housing.velocity, self.direction(j, cage));
         }
         if let Some(i) = self.layout.sensor {
             (state[i], state[i + 1]) = (housing.position[1], housing.velocity[1]);

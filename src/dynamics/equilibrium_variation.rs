@@ -50,7 +50,7 @@ impl Model {
         let mut matrix = [[0.0; 4]; 4];
         let mut force = loads;
         for j in 0..z {
-            let element = self.varying(j, cells[j], (state[j], state[z + j]), &at, true);
+            let element = self.varying(j, cells[j], (state[j], state[self.layout.radial_velocity + j]), &at, true);
             add(&mut force, self.balanced(&element, &given).rings);
             for k in (0..4).filter(|&k| free[k]) {
                 let rings = self.balanced(&element, &by_ring[k]).rings;
@@ -78,7 +78,7 @@ impl Model {
         }
         let whole = ElementVariation { offset: [0, 1].map(|a| by.housing.position[a] - by.shaft.position[a]), ..given };
         for j in 0..z {
-            let element = self.varying(j, cells[j], (state[j], state[z + j]), &at, true);
+            let element = self.varying(j, cells[j], (state[j], state[self.layout.radial_velocity + j]), &at, true);
             by.path[j] = self.balanced(&element, &whole).path;
             by.radial_velocity[j] = dot(by.housing.velocity, element.e_r);
         }

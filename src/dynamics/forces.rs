@@ -13,39 +13,25 @@
 //! F_r = Q(u, u') and F_t = 0. As w is the element's *absolute* radial velocity, no ring acceleration enters.
 //! The cage is kinematic: it takes up every tangential force on the elements. What it takes is the cage torque.
 
-use super::drive::{Drive, Quadratic};
+use super::contact_lanes::Record;
+use super::drive::{Clock, Drive, Quadratic};
 use super::model::Model;
 use crate::contact::error::ContactError;
 use crate::contact::near_defect::OuterApproach;
+use crate::numerics::lanes::{Each, Kernel, Lanes, Lists, QUAD, Wide, dispatch, largest_of, places};
 use crate::numerics::{sin_cos, wrap};
-use crate::scene::Motion;
+use crate::scene::{Motion, Ring};
 
 /// Cell of an element on the smooth raceway, away from the defect.
 pub const SMOOTH: u32 = u32::MAX;
 
-/// What the right-hand side found on its way. Its vectors are made once.
+/// What the right-hand side found on its way. Its lists are made once.
 #[derive(Debug, Clone, Default)]
 pub struct Forces {
-    /// Force of the inner contact Q_i of each element [N].
-    pub inner: Vec<f64>,
-    /// Direction of q, radial and tangential, of each element.
-    pub normal: Vec<[f64; 2]>,
-    /// Force of the outer contact of each element [N].
-    pub outer: Vec<f64>,
-    /// Outer contact force on each element, inwards [N].
-    pub outer_radial: Vec<f64>,
-    /// Outer contact force on each element, counter-clockwise [N].
-    pub outer_tangential: Vec<f64>,
-    /// Approach of the inner contact [m]: negative when there is a gap.
-    pub inner_approach: Vec<f64>,
-    /// Equivalent approach of the outer contact [m].
-    pub outer_approach: Vec<f64>,
-    /// How clearly the inner contact pushes ([`crate::contact::force_law::ForceLaw::pushing`]) [m].
-    pub inner_pushing: Vec<f64>,
-    /// How clearly the outer contact pushes [m].
-    pub outer_pushing: Vec<f64>,
-    /// u' of each element [m/s].
-    pub path_rate: Vec<f64>,
+    /// Each contact; only [`Model::derivative`] fills it.
+    pub contacts: Record,
+    /// Outer stiffness of the elements on the smooth raceway [N/m^1.5].
+    pub(super) smooth_outer: Vec<f64>,
     /// The bearing's force on the inner ring [N].
     pub shaft: [f64; 2],
     /// The bearing's force on the outer ring [N].
@@ -59,26 +45,40 @@ pub struct Forces {
 impl Forces {
     /// Room for `count` elements.
     pub fn new(count: usize) -> Self {
-        let zeros = || vec![0.0; count];
-        Self {
-            inner: zeros(),
-            normal: vec![[0.0; 2]; count],
-            outer: zeros(),
-            outer_radial: zeros(),
-            outer_tangential: zeros(),
-            inner_approach: zeros(),
-            outer_approach: zeros(),
-            inner_pushing: zeros(),
-            outer_pushing: zeros(),
-            path_rate: zeros(),
-            ..Self::default()
-        }
+        let places = places(count);
+        Self { contacts: Record::new(places), smooth_outer: vec![0.0; places], ..Self::default() }
     }
 
     /// Largest approach of any contact [m], 0 if there is none.
     pub fn largest_approach(&self) -> f64 {
-        self.inner_approach.iter().chain(&self.outer_approach).copied().fold(0.0, f64::max)
+        self.contacts.inner_approach.iter().chain(&self.contacts.outer_approach).copied().fold(0.0, f64::max)
     }
+
+    /// As [`Self::largest_approach`], inside a kernel.
+    #[inline(always)]
+    pub(crate) fn largest_approach_on<S: Wide>(&self, simd: S) -> f64 {
+        let (mut most, approach) = ([0.0; QUAD], [&self.contacts.inner_approach[..], &self.contacts.outer_approach]);
+        Lists { from: approach, to: [] }.for_each(simd, approach[0].len(), &Largest, &mut most);
+        largest_of(most)
+    }
+}
+
+/// What all elements see of rings and cage at one instant.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Moment {
+    /// cos and sin of the cage angle.
+    pub(super) cage: (f64, f64),
+    pub(super) cage_angle: f64,
+    pub(super) omega: f64,
+    pub(super) shaft: RingState,
+    pub(super) housing: RingState,
+    /// Position and velocity of the outer ring's centre seen from the inner's.
+    pub(super) offset: [f64; 2],
+    pub(super) drift: [f64; 2],
+    /// Acceleration of an element by gravity, and that of its w as the outer ring moves along the raceway [m/s²].
+    pub(super) body: [f64; 2],
+    /// a and b of the damping law ([`crate::contact::force_law::ForceLaw::damping_weights`]).
+    pub(super) damping: [f64; 2],
 }
 
 /// An element seen from the inner ring's centre.
@@ -103,13 +103,13 @@ pub struct RingState {
 
 impl Model {
     /// Position and velocity of the inner ring, wherever they come from.
-    #[inline]
+    #[inline(always)]
     pub fn shaft_state(&self, drive: &Drive, tau: f64, state: &[f64]) -> RingState {
         ring_state(self.layout.shaft, self.shaft.motion, &drive.shaft, tau, state)
     }
 
     /// Position and velocity of the outer ring, wherever they come from.
-    #[inline]
+    #[inline(always)]
     pub fn housing_state(&self, drive: &Drive, tau: f64, state: &[f64]) -> RingState {
         ring_state(self.layout.housing, self.housing.motion, &drive.housing, tau, state)
     }
@@ -120,7 +120,7 @@ impl Model {
         wrap(cage_angle + self.element_offset(j) - defect_angle)
     }
 
-    /// Derivative of `state` at `tau`; `cells` says in which cell of the defect each element is.
+    /// Derivative of `state` at `tau`, and each contact; `cells` says in which cell of the defect each element is.
     pub fn derivative(
         &self,
         drive: &Drive,
@@ -130,128 +130,102 @@ impl Model {
         derivative: &mut [f64],
         forces: &mut Forces,
     ) {
-        let z = self.element_count;
-        let shaft = self.shaft_state(drive, tau, state);
-        let housing = self.housing_state(drive, tau, state);
-        // Two copies of the loop, so that a rigid assembly does not even pay for the question.
-        if self.outer.compliance == 0.0 {
-            self.contact_forces::<false>(drive, tau, cells, state, (&shaft, &housing), forces);
-        } else {
-            self.contact_forces::<true>(drive, tau, cells, state, (&shaft, &housing), forces);
-        }
-
-        let cage_angle = drive.cage_angle(tau);
-        let omega = drive.cage.rate_at(tau);
-        let cage = cos_sin(cage_angle);
-        let per_mass = 1.0 / self.element_mass;
-        for j in 0..z {
-            let e_r = self.direction(j, cage);
-            let rho = self.outer_centre_radius + state[j];
-            let along = housing.velocity[1] * e_r[0] - housing.velocity[0] * e_r[1];
-            derivative[j] = forces.path_rate[j];
-            derivative[z + j] = (forces.inner[j] * forces.normal[j][0] - forces.outer_radial[j]) * per_mass
-                + dot(self.gravity, e_r)
-                + omega * (along + rho * omega);
-        }
-
-        if let Some(i) = self.layout.shaft {
-            let per_mass = 1.0 / self.shaft.mass;
-            for axis in 0..2 {
-                let (x, v) = (shaft.position[axis], shaft.velocity[axis]);
-                derivative[i + axis] = v;
-                derivative[i + 2 + axis] = per_mass
-                    * (drive.shaft_load[axis].at(tau) + forces.shaft[axis]
-                        - self.shaft.damping * v
-                        - self.shaft.stiffness * x);
-            }
-        }
-        let reaction = self.sensor_derivative(&housing, state, derivative);
-        if let Some(i) = self.layout.housing {
-            let per_mass = 1.0 / self.housing.mass;
-            for axis in 0..2 {
-                let (x, v) = (housing.position[axis], housing.velocity[axis]);
-                let sensor = if axis == 1 { reaction } else { 0.0 };
-                derivative[i + axis] = v;
-                derivative[i + 2 + axis] = per_mass
-                    * (drive.housing_load[axis].at(tau) + forces.housing[axis] + sensor
-                        - self.housing.damping * v
-                        - self.housing.stiffness * x);
-            }
-        }
+        dispatch(Derivative { model: self, drive, clock: drive.clock(tau), cells, state, derivative, forces });
     }
 
-    /// The sensor's own derivative, and its force on the housing along y [N].
-    fn sensor_derivative(&self, housing: &RingState, state: &[f64], derivative: &mut [f64]) -> f64 {
-        let (Some(sensor), Some(i)) = (&self.sensor, self.layout.sensor) else { return 0.0 };
-        let (y, v) = (state[i], state[i + 1]);
-        let force = sensor.stiffness * (y - housing.position[1]) + sensor.damping * (v - housing.velocity[1]);
-        derivative[i] = v;
-        derivative[i + 1] = -force / sensor.mass;
-        force
-    }
-
-    /// Forces in all contacts; `COMPLIANT` says whether the outer raceway yields.
-    fn contact_forces<const COMPLIANT: bool>(
+    /// As [`Self::derivative`] inside a kernel. Each contact is kept only if `RECORD`.
+    #[inline(always)]
+    pub(crate) fn derivative_on<S: Wide, const RECORD: bool>(
         &self,
-        drive: &Drive,
-        tau: f64,
+        simd: S,
+        (drive, clock): (&Drive, &Clock),
         cells: &[u32],
         state: &[f64],
-        rings: (&RingState, &RingState),
+        derivative: &mut [f64],
         forces: &mut Forces,
     ) {
-        let z = self.element_count;
-        let (shaft, housing) = rings;
-        let cage_angle = drive.cage_angle(tau);
-        let omega = drive.cage.rate_at(tau);
-        let cage = cos_sin(cage_angle);
-        // From the inner to the outer ring's centre.
-        let offset = [0, 1].map(|a| housing.position[a] - shaft.position[a]);
-        let drift = [0, 1].map(|a| housing.velocity[a] - shaft.velocity[a]);
-        (forces.shaft, forces.housing) = ([0.0; 2], [0.0; 2]);
-        for j in 0..z {
-            let e_r = self.direction(j, cage);
-            let e_t = [-e_r[1], e_r[0]];
-            let (u, w) = (state[j], state[z + j]);
-            let rho = self.outer_centre_radius + u;
-            let path_rate = w - dot(housing.velocity, e_r);
-            forces.path_rate[j] = path_rate;
+        let (at, tau) = (self.moment(drive, clock, state), clock.tau);
+        let mut on_rings = self.smooth_contacts::<S, RECORD>(simd, &at, cells, state, derivative, forces);
+        if !self.all_smooth() {
+            self.other_contacts(&at, cells, state, derivative, &mut on_rings, forces);
+        }
+        let [shaft_x, shaft_y, housing_x, housing_y] = on_rings;
+        (forces.shaft, forces.housing) = ([shaft_x, shaft_y], [housing_x, housing_y]);
+        if let Some(i) = self.layout.shaft {
+            let force = [drive.shaft_load[0].at(tau) + shaft_x, drive.shaft_load[1].at(tau) + shaft_y];
+            ring_rates(simd, &self.shaft, self.per_mass[1], &at.shaft, force).store(derivative, i);
+        }
+        let mut reaction = 0.0;
+        if let (Some(sensor), Some(i)) = (&self.sensor, self.layout.sensor) {
+            let (y, v) = (state[i], state[i + 1]);
+            reaction = sensor.stiffness * (y - at.housing.position[1]) + sensor.damping * (v - at.housing.velocity[1]);
+            whole(simd, [v, 0.0, 0.0, 0.0], [0.0, -reaction * self.per_mass[3], 0.0, 0.0]).store(derivative, i);
+        }
+        if let Some(i) = self.layout.housing {
+            let force = [
+                drive.housing_load[0].at(tau) + housing_x,
+                drive.housing_load[1].at(tau) + (housing_y + reaction),
+            ];
+            ring_rates(simd, &self.housing, self.per_mass[2], &at.housing, force).store(derivative, i);
+        }
+    }
 
-            let InnerGap { approach: delta, n, .. } = self.inner_gap(u, offset, e_r);
-            let rate = -(n[0] * (dot(drift, e_r) + path_rate) + n[1] * (dot(drift, e_t) + rho * omega));
-            let inner = self.inner.force(delta, rate);
-            forces.inner_approach[j] = delta;
-            forces.inner_pushing[j] = self.inner.pushing(delta, rate);
-            forces.inner[j] = inner;
-            forces.normal[j] = n;
+    #[inline(always)]
+    fn moment(&self, drive: &Drive, clock: &Clock, state: &[f64]) -> Moment {
+        let shaft = self.shaft_state(drive, clock.tau, state);
+        let housing = self.housing_state(drive, clock.tau, state);
+        let (omega, v) = (clock.cage_speed, housing.velocity);
+        Moment {
+            cage: clock.cage,
+            cage_angle: clock.cage_angle,
+            omega,
+            shaft,
+            housing,
+            offset: [0, 1].map(|a| housing.position[a] - shaft.position[a]),
+            drift: [0, 1].map(|a| housing.velocity[a] - shaft.velocity[a]),
+            body: [self.gravity[0] + omega * v[1], self.gravity[1] - omega * v[0]],
+            damping: self.inner.damping_weights(),
+        }
+    }
 
-            let mut outer_rate = path_rate;
-            let (mut approach, mut radial, mut tangential) = (u, 1.0, 0.0);
-            let mut magnitude = 1.0;
-            if let Some(near) = self.near_defect(j, cells[j], u, cage_angle, rho) {
-                let near = near.unwrap_or_else(|error| {
-                    forces.unsolved = Some(error);
-                    OuterApproach::unsolved()
-                });
-                outer_rate = near.by_path * path_rate + near.by_angle * omega;
-                (approach, radial, tangential) = (near.value, near.radial, near.tangential);
-                magnitude = (radial * radial + tangential * tangential).sqrt();
-                forces.defect_lookups += 1;
+    /// Adds the outer contacts that are not those of the smooth rigid raceway.
+    #[inline(never)]
+    fn other_contacts(
+        &self,
+        at: &Moment,
+        cells: &[u32],
+        state: &[f64],
+        derivative: &mut [f64],
+        on_rings: &mut [f64; 4],
+        forces: &mut Forces,
+    ) {
+        let (compliant, start) = (self.outer.compliance != 0.0, self.layout.radial_velocity);
+        for (j, &cell) in cells.iter().enumerate() {
+            if cell == SMOOTH && !compliant {
+                continue;
             }
+            let e_r = self.direction(j, at.cage);
+            let (u, path_rate) = (state[j], derivative[j]);
+            let near = self.near_defect(j, cell, u, at.cage_angle, self.outer_centre_radius + u);
+            forces.defect_lookups += u64::from(near.is_some());
+            let near = near.unwrap_or_else(|| Ok(OuterApproach::smooth(u))).unwrap_or_else(|error| {
+                forces.unsolved = Some(error);
+                OuterApproach::unsolved()
+            });
+            let rate = near.by_path * path_rate + near.by_angle * at.omega;
             let (part, part_rate) =
-                if COMPLIANT { self.outer.of_contact(approach, outer_rate) } else { (approach, outer_rate) };
+                if compliant { self.outer.of_contact(near.value, rate) } else { (near.value, rate) };
             let outer = self.outer.contact.force(part, part_rate);
-            let (f_r, f_t) = (outer * radial, outer * tangential);
-            forces.outer_approach[j] = approach;
-            forces.outer_pushing[j] = self.outer.contact.pushing(part, part_rate);
-            forces.outer[j] = outer * magnitude;
-            forces.outer_radial[j] = f_r;
-            forces.outer_tangential[j] = f_t;
-
+            let (f_r, f_t) = (outer * near.radial, outer * near.tangential);
+            derivative[start + j] -= f_r * self.per_mass[0];
             for axis in 0..2 {
-                forces.shaft[axis] -= inner * (n[0] * e_r[axis] + n[1] * e_t[axis]);
-                forces.housing[axis] += f_r * e_r[axis] - f_t * e_t[axis];
+                on_rings[2 + axis] += f_r * e_r[axis] - f_t * [-e_r[1], e_r[0]][axis];
             }
+            let record = &mut forces.contacts;
+            record.outer_approach[j] = near.value;
+            record.outer_pushing[j] = self.outer.contact.pushing(part, part_rate);
+            record.outer[j] = outer * (near.radial * near.radial + near.tangential * near.tangential).sqrt();
+            (record.outer_radial[j], record.outer_tangential[j]) = (f_r, f_t);
         }
     }
 
@@ -316,14 +290,71 @@ impl Model {
                 let e_r = self.direction(j, cage);
                 let e_t = [-e_r[1], e_r[0]];
                 let rho = self.outer_centre_radius + state[j];
-                let inertia = dot(acceleration, e_t) + 2.0 * forces.path_rate[j] * omega + rho * alpha;
-                let contacts = forces.inner[j] * forces.normal[j][1] + forces.outer_tangential[j];
+                let contacts = &forces.contacts;
+                let inertia = dot(acceleration, e_t) + 2.0 * contacts.path_rate[j] * omega + rho * alpha;
+                let contacts = contacts.inner[j] * contacts.normal_tangential[j] + contacts.outer_tangential[j];
                 rho * (contacts + self.element_mass * (dot(self.gravity, e_t) - inertia))
             })
             .sum()
     }
 }
 
+/// The largest approach.
+struct Largest;
+
+impl Each<2, 0> for Largest {
+    type Sum = [f64; QUAD];
+
+    #[inline(always)]
+    fn places<S: Wide>(&self, _: S, approach: [Lanes<S>; 2], most: &mut [f64; QUAD]) -> [Lanes<S>; 0] {
+        approach[0].at_least(approach[1]).largest_to(most);
+        []
+    }
+}
+
+/// The whole right-hand side.
+struct Derivative<'a> {
+    model: &'a Model,
+    drive: &'a Drive,
+    clock: Clock,
+    cells: &'a [u32],
+    state: &'a [f64],
+    derivative: &'a mut [f64],
+    forces: &'a mut Forces,
+}
+
+impl Kernel for Derivative<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Wide>(self, simd: S) {
+        let Self { model, drive, clock, cells, state, derivative, forces } = self;
+        model.derivative_on::<S, true>(simd, (drive, &clock), cells, state, derivative, forces);
+    }
+}
+
+/// Velocity and acceleration of a ring on its support, `force` [N] being all else that acts on it.
+#[inline(always)]
+fn ring_rates<S: Wide>(
+    simd: S,
+    ring: &Ring,
+    per_mass: f64,
+    state: &RingState,
+    force: [f64; 2],
+) -> Lanes<S::Quad> {
+    let (x, v) = (state.position, state.velocity);
+    let along = [0, 1].map(|a| per_mass * (force[a] - ring.damping * v[a] - ring.stiffness * x[a]));
+    whole(simd, [v[0], v[1], 0.0, 0.0], [0.0, 0.0, along[0], along[1]])
+}
+
+/// The sum of two quadruples, written at once: the compiler would write one that is put together in two halves, and reading
+/// them together soon after would have to wait.
+#[inline(always)]
+fn whole<S: Wide>(simd: S, one: [f64; QUAD], other: [f64; QUAD]) -> Lanes<S::Quad> {
+    Lanes::of(simd, one) + Lanes::of(simd, other)
+}
+
+#[inline(always)]
 fn ring_state(place: Option<usize>, motion: Motion, prescribed: &[Quadratic; 2], tau: f64, state: &[f64]) -> RingState {
     match (place, motion) {
         (Some(i), _) => RingState { position: [state[i], state[i + 1]], velocity: [state[i + 2], state[i + 3]] },
@@ -335,7 +366,7 @@ fn ring_state(place: Option<usize>, motion: Motion, prescribed: &[Quadratic; 2],
     }
 }
 
-#[inline]
+#[inline(always)]
 pub(super) fn cos_sin(angle: f64) -> (f64, f64) {
     let (sin, cos) = sin_cos(angle);
     (cos, sin)

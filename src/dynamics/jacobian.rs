@@ -66,6 +66,8 @@ pub struct Jacobian {
     /// Where position and velocity of each body stand in the state; `None` for a body without state, whose rows and
     /// columns count for nothing.
     pub places: [Option<(usize, usize)>; BODIES],
+    /// Where the elements' velocities begin in the state.
+    pub radial_velocity: usize,
 }
 
 /// One element's contacts to first order. Vectors are in x and y.
@@ -106,6 +108,7 @@ impl Jacobian {
             by_position: [[0.0; BODIES]; BODIES],
             by_velocity: [[0.0; BODIES]; BODIES],
             places: places(&model.layout),
+            radial_velocity: model.layout.radial_velocity,
         }
     }
 
@@ -117,6 +120,7 @@ impl Jacobian {
             by_position: [[0.0; BODIES]; BODIES],
             by_velocity: [[0.0; BODIES]; BODIES],
             places: [None; BODIES],
+            radial_velocity: 1,
         }
     }
 
@@ -154,14 +158,14 @@ impl Model {
         jacobian: &mut Jacobian,
         by_time: &mut [f64],
     ) {
-        let z = self.element_count;
+        let start = self.layout.radial_velocity;
         let at = self.instant(drive, tau, state);
         let per_mass = 1.0 / self.element_mass;
         let per_ring =
             [&self.shaft, &self.housing].map(|r| if r.motion == Motion::Internal { 1.0 / r.mass } else { 0.0 });
         self.support(drive, tau, &at, per_ring, jacobian, by_time);
-        for j in 0..z {
-            let (u, w) = (state[j], state[z + j]);
+        for j in 0..self.element_count {
+            let (u, w) = (state[j], state[start + j]);
             let rho = self.outer_centre_radius + u;
             let element = self.linearized(j, cells[j], u, w, &at);
             let Linearized { e_r, e_t, by_q, by_q_rate, .. } = &element;
@@ -203,7 +207,7 @@ impl Model {
 
             let along = dot(at.housing.velocity, *e_t);
             by_time[j] = element.path_rate_by_time;
-            by_time[z + j] = (dot(inner_by_time, *e_r) + omega * dot(element.inner, *e_t) - element.outer_by_time[0])
+            by_time[start + j] = (dot(inner_by_time, *e_r) + omega * dot(element.inner, *e_t) - element.outer_by_time[0])
                 * per_mass
                 + omega * dot(self.gravity, *e_t)
                 + at.alpha * (along + 2.0 * rho * omega)
@@ -250,7 +254,7 @@ impl Model {
         by_time: &mut [f64],
     ) {
         (jacobian.by_position, jacobian.by_velocity) = ([[0.0; BODIES]; BODIES], [[0.0; BODIES]; BODIES]);
-        by_time[2 * self.element_count..].fill(0.0);
+        by_time[2 * self.layout.radial_velocity..].fill(0.0);
         for (ring, support, load) in [(0, &self.shaft, &drive.shaft_load), (1, &self.housing, &drive.housing_load)] {
             for axis in 0..2 {
                 let i = 2 * ring + axis;

@@ -3,6 +3,7 @@
 //! Knows neither steps nor hosts. Time enters only through a [`drive::Drive`], which gives the cage angle and the
 //! prescribed motions and loads as polynomials of the time since the last communication point.
 
+pub mod contact_lanes;
 pub mod drive;
 pub mod equilibrium;
 pub mod equilibrium_variation;

@@ -1,7 +1,8 @@
 //! The parameters of the equations of motion, worked out once from a scene, and the layout of the state vector.
 //!
 //! The state is `[u_1…u_Z, w_1…w_Z, shaft x y vx vy, housing x y vx vy, sensor y vy]`; a ring that is not internal and
-//! an absent sensor take no place. u is the roller path (ρ − (R_o − r), ρ the distance of the element's centre from the
+//! an absent sensor take no place. The lists of u and w are filled up with zeros to a multiple of eight places, the rings'
+//! part to a multiple of four, so that they are treated several at a time. u is the roller path (ρ − (R_o − r), ρ the distance of the element's centre from the
 //! *outer ring's* centre), w the radial component of the element's absolute velocity.
 
 use crate::contact::compliant::CompliantContact;
@@ -9,6 +10,7 @@ use crate::contact::force_law::ForceLaw;
 use crate::contact::near_defect::NearDefect;
 use crate::geometry::hertz_constant::HertzConstants;
 use crate::geometry::kinematics::cage_ratio;
+use crate::numerics::lanes::{Cut, QUAD, places};
 use crate::numerics::sin_cos;
 use crate::scene::{Motion, Ring, Scene, Sensor};
 use std::f64::consts::TAU;
@@ -20,6 +22,8 @@ pub struct Model {
     pub element_count: usize,
     /// Mass of one element [kg].
     pub element_mass: f64,
+    /// 1/mass of one element, the inner ring, the outer ring, the sensor [1/kg]; 0 where a ring or sensor has none.
+    pub(super) per_mass: [f64; 4],
     /// Radius of one element [m].
     pub element_radius: f64,
     /// R_o − r [m], the distance ρ of an element that touches the smooth outer raceway.
@@ -44,15 +48,32 @@ pub struct Model {
     pub cage_ratio: f64,
     /// Places of the state vector.
     pub layout: Layout,
-    /// cos and sin of each element's angle ahead of element 1.
-    pub(super) spacing: Vec<(f64, f64)>,
+    /// What differs from element to element.
+    pub(super) each: EachElement,
+}
+
+/// What differs from element to element, a list each; beyond the last element there is none: all zeros.
+#[derive(Debug, Clone)]
+pub(super) struct EachElement {
+    /// cos and sin of the element's angle ahead of element 1.
+    pub(super) cos: Vec<f64>,
+    pub(super) sin: Vec<f64>,
+    /// 1 where there is an element.
+    pub(super) present: Vec<f64>,
+    /// 1/mass [1/kg].
+    pub(super) per_mass: Vec<f64>,
+    /// Hertz constants [N/m^1.5].
+    pub(super) inner: Vec<f64>,
+    pub(super) outer: Vec<f64>,
 }
 
 /// Where a state is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Layout {
-    /// Number of elements Z; `u` starts at 0 and `w` at Z.
+    /// Number of elements Z; `u` starts at 0.
     pub element_count: usize,
+    /// Start of `w`.
+    pub radial_velocity: usize,
     /// Start of the inner ring's x, y, vx, vy.
     pub shaft: Option<usize>,
     /// Start of the outer ring's.
@@ -65,7 +86,8 @@ pub struct Layout {
 
 impl Layout {
     fn new(scene: &Scene) -> Self {
-        let mut len = 2 * scene.bearing.element_count;
+        let radial_velocity = places(scene.bearing.element_count);
+        let mut len = 2 * radial_velocity;
         let mut take = |wanted: bool, count: usize| {
             wanted.then(|| {
                 len += count;
@@ -75,24 +97,40 @@ impl Layout {
         let shaft = take(scene.shaft.motion == Motion::Internal, 4);
         let housing = take(scene.housing.motion == Motion::Internal, 4);
         let sensor = take(scene.sensor.is_some(), 2);
-        Self { element_count: scene.bearing.element_count, shaft, housing, sensor, len }
+        let element_count = scene.bearing.element_count;
+        Self { element_count, radial_velocity, shaft, housing, sensor, len: len.next_multiple_of(QUAD) }
     }
 
     /// Whether state `i` is a position; otherwise it is a velocity.
     #[inline]
     pub fn is_position(&self, i: usize) -> bool {
         let within = |start: Option<usize>, count: usize| start.is_some_and(|s| i >= s && i < s + count);
-        i < self.element_count || within(self.shaft, 2) || within(self.housing, 2) || within(self.sensor, 1)
+        i < self.radial_velocity || within(self.shaft, 2) || within(self.housing, 2) || within(self.sensor, 1)
+    }
+
+    /// How the state is cut.
+    pub fn cut(&self) -> Cut {
+        Cut { count: self.element_count, rest: self.len - 2 * self.radial_velocity }
+    }
+
+    /// Whether place `i` is a state's, not one that only fills a list up.
+    pub fn is_used(&self, i: usize) -> bool {
+        let within = |start: usize, count: usize| i >= start && i < start + count;
+        within(0, self.element_count)
+            || within(self.radial_velocity, self.element_count)
+            || [(self.shaft, 4), (self.housing, 4), (self.sensor, 2)]
+                .into_iter()
+                .any(|(start, count)| start.is_some_and(|start| within(start, count)))
     }
 
     /// Name of state `i` for messages.
     pub fn name(&self, i: usize) -> String {
-        let z = self.element_count;
-        if i < z {
+        let w = self.radial_velocity;
+        if i < w {
             return format!("the path of element {}", i + 1);
         }
-        if i < 2 * z {
-            return format!("the radial velocity of element {}", i - z + 1);
+        if i < 2 * w {
+            return format!("the radial velocity of element {}", i - w + 1);
         }
         let ring = |start: Option<usize>, count: usize| start.filter(|&s| i >= s && i < s + count).map(|s| i - s);
         let part = ["x", "y", "vx", "vy"];
@@ -116,6 +154,13 @@ impl Model {
         Self {
             element_count: bearing.element_count,
             element_mass: bearing.mass_of_element(),
+            per_mass: [
+                bearing.mass_of_element(),
+                scene.shaft.mass,
+                scene.housing.mass,
+                scene.sensor.map_or(0.0, |sensor| sensor.mass),
+            ]
+            .map(|mass| if mass > 0.0 { 1.0 / mass } else { 0.0 }),
             element_radius,
             outer_centre_radius: bearing.outer_raceway_radius() - element_radius,
             radial_clearance: bearing.radial_clearance,
@@ -128,12 +173,7 @@ impl Model {
             defect: near_defect.zip(scene.defect.as_ref().map(|d| d.angle)),
             cage_ratio: cage_ratio(bearing, scene.cage.slip),
             layout: Layout::new(scene),
-            spacing: (0..bearing.element_count)
-                .map(|j| {
-                    let (sin, cos) = sin_cos(j as f64 * TAU / bearing.element_count as f64);
-                    (cos, sin)
-                })
-                .collect(),
+            each: EachElement::new(bearing.element_count, 1.0 / bearing.mass_of_element(), hertz),
         }
     }
 
@@ -152,7 +192,24 @@ impl Model {
     /// Radial direction of element `j` for cos and sin of the cage angle.
     #[inline]
     pub(super) fn direction(&self, j: usize, cage: (f64, f64)) -> [f64; 2] {
-        let (cos, sin) = self.spacing[j];
+        let (cos, sin) = (self.each.cos[j], self.each.sin[j]);
         [cage.0 * cos - cage.1 * sin, cage.1 * cos + cage.0 * sin]
+    }
+}
+
+impl EachElement {
+    fn new(count: usize, per_mass: f64, hertz: HertzConstants) -> Self {
+        let list = |of: &dyn Fn(usize) -> f64| {
+            (0..places(count)).map(|j| if j < count { of(j) } else { 0.0 }).collect::<Vec<f64>>()
+        };
+        let angle = |j: usize| j as f64 * TAU / count as f64;
+        Self {
+            cos: list(&|j| sin_cos(angle(j)).1),
+            sin: list(&|j| sin_cos(angle(j)).0),
+            present: list(&|_| 1.0),
+            per_mass: list(&|_| per_mass),
+            inner: list(&|_| hertz.inner),
+            outer: list(&|_| hertz.outer),
+        }
     }
 }

@@ -168,7 +168,7 @@ impl Model {
         let moves = by.cage_angle != 0.0;
         for j in 0..z {
             let bends = moves || by.path[j] != 0.0;
-            let element = self.varying(j, cells[j], (state[j], state[z + j]), &at, bends);
+            let element = self.varying(j, cells[j], (state[j], state[self.layout.radial_velocity + j]), &at, bends);
             let VaryingElement { e_r, e_t, rho, omega, .. } = element;
             let path_rate =
                 by.radial_velocity[j] - dot(by.housing.velocity, e_r) - dot(at.housing.velocity, e_t) * by.cage_angle;

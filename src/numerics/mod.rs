@@ -4,18 +4,11 @@
 //! platform's own; those used here are compiled with the project.
 
 pub mod elliptic;
+pub mod lanes;
+mod power;
+mod trigonometry;
 #[cfg(test)]
 pub(crate) mod trees;
 
-/// Sine and cosine of `angle` [rad], with the same bits on every machine.
-#[inline]
-pub fn sin_cos(angle: f64) -> (f64, f64) {
-    libm::sincos(angle)
-}
-
-/// `angle` [rad] brought into [−π, π] by whole turns.
-#[inline]
-pub fn wrap(angle: f64) -> f64 {
-    let turn = 2.0 * std::f64::consts::PI;
-    angle - turn * (angle / turn).round()
-}
+pub use power::rough_power;
+pub use trigonometry::{sin_cos, wrap};

@@ -117,17 +117,17 @@ impl Arrow {
 
     /// Puts x into `b`, for the `jacobian` that was eliminated last.
     pub fn solve(&self, jacobian: &Jacobian, b: &mut [f64]) {
-        let z = self.elements.len();
+        let start = jacobian.radial_velocity;
         let inverse_shift = 1.0 / self.shift;
         // What the positions' right-hand sides alone would move.
         let shifted = jacobian.places.map(|place| place.map_or(0.0, |(position, _)| b[position] * inverse_shift));
         let offset = [shifted[2] - shifted[0], shifted[3] - shifted[1]];
         let mut v = [0.0; BODIES];
         for (j, (block, solved)) in jacobian.elements.iter().zip(&self.elements).enumerate() {
-            let (b_u, b_w) = (b[j], b[z + j] + block.by_offset[0] * offset[0] + block.by_offset[1] * offset[1]);
+            let (b_u, b_w) = (b[j], b[start + j] + block.by_offset[0] * offset[0] + block.by_offset[1] * offset[1]);
             let [to_u, to_w] = solved.inverse;
             let (u, w) = (to_u[0] * b_u + to_u[1] * b_w, to_w[0] * b_u + to_w[1] * b_w);
-            (b[j], b[z + j]) = (u, w);
+            (b[j], b[start + j]) = (u, w);
             for i in 0..RINGS {
                 v[i] += block.rings_by_path[i] * u + block.rings_by_velocity[i] * w;
             }
@@ -153,7 +153,7 @@ impl Arrow {
             }
         }
         for (j, solved) in self.elements.iter().enumerate() {
-            for (place, row) in [(j, solved.by_rings[0]), (z + j, solved.by_rings[1])] {
+            for (place, row) in [(j, solved.by_rings[0]), (start + j, solved.by_rings[1])] {
                 for k in 0..RINGS {
                     b[place] += row[k] * v[k];
                 }
@@ -199,10 +199,10 @@ mod tests {
             for shift in [1e2, 1e5, 1e9] {
                 arrow.factor(&jacobian, shift);
                 let mut noise = noise(7);
-                let b: Vec<f64> = (0..len).map(|_| noise()).collect();
+                let b: Vec<f64> = (0..len).map(|i| if model.layout.is_used(i) { noise() } else { 0.0 }).collect();
                 let mut x = b.clone();
                 arrow.solve(&jacobian, &mut x);
-                for i in 0..len {
+                for i in (0..len).filter(|&i| model.layout.is_used(i)) {
                     let (mut sum, mut size) = (shift * x[i], (shift * x[i]).abs() + b[i].abs());
                     for k in 0..len {
                         sum -= matrix[i][k] * x[k];

@@ -187,7 +187,7 @@ impl Simulation {
         let variation = &mut change.variation;
         (variation.cage_angle, variation.cage_speed) = (drive.cage.0[1], drive.cage.0[2]);
         variation.path.copy_from_slice(&self.derivative[..z]);
-        variation.radial_velocity.copy_from_slice(&self.derivative[z..2 * z]);
+        variation.radial_velocity.copy_from_slice(&self.derivative[layout.radial_velocity..][..z]);
         let rings = [
             (&mut variation.shaft, layout.shaft, &drive.shaft),
             (&mut variation.housing, layout.housing, &drive.housing),

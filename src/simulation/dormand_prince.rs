@@ -3,6 +3,11 @@
 //! Coefficients: Dormand and Prince (1980); dense output: Hairer, Nørsett and Wanner, *Solving Ordinary Differential
 //! Equations I*, II.6. The last stage of a step is the first of the next.
 
+use crate::numerics::lanes::{Cut, Each, Lanes, QUAD, Wide, largest_of};
+
+/// Index of the stage at the end of a step.
+pub const LAST: usize = 6;
+
 /// Nodes c.
 pub const NODES: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
 
@@ -31,7 +36,7 @@ const DENSE: [f64; 7] = [
     69997945.0 / 29380423.0,
 ];
 
-/// Room for the stages of a step, made once.
+/// Room for the stages of a step, made once. States are cut as [`Cut`] says.
 #[derive(Debug, Clone, Default)]
 pub struct DormandPrince {
     /// Stage derivatives; the first is that at the start of the step.
@@ -39,31 +44,55 @@ pub struct DormandPrince {
     /// State at the end of the step tried last.
     pub end: Vec<f64>,
     trial: Vec<f64>,
+    cut: Cut,
 }
 
 impl DormandPrince {
-    /// Room for `len` states.
-    pub fn new(len: usize) -> Self {
-        let zeros = || vec![0.0; len];
-        Self { stages: std::array::from_fn(|_| zeros()), end: zeros(), trial: zeros() }
+    /// Room for states that are cut in this way.
+    pub fn new(cut: Cut) -> Self {
+        let zeros = || vec![0.0; cut.len()];
+        Self { stages: std::array::from_fn(|_| zeros()), end: zeros(), trial: zeros(), cut }
     }
 
-    /// Tries a step of length `h` from `state`; the first stage must be there. `derivative(c h, state, out, stage)` is
-    /// asked for stages 1 to 6, the last at the end of the step.
-    pub fn try_step(&mut self, state: &[f64], h: f64, mut derivative: impl FnMut(f64, &[f64], &mut [f64], usize)) {
-        for stage in 1..7 {
-            let (done, rest) = self.stages.split_at_mut(stage);
-            combine(&mut self.trial, state, done, &STAGES[stage], h);
-            if stage == 6 {
-                self.end.copy_from_slice(&self.trial);
+    /// Tries a step of length `h` from `state`; the first stage must be there.
+    #[inline(always)]
+    pub fn try_step<S: Wide>(
+        &mut self,
+        simd: S,
+        state: &[f64],
+        h: f64,
+        right_hand_side: &mut impl RightHandSide,
+    ) {
+        let Self { stages, end, trial, cut } = self;
+        for stage in 1..LAST {
+            let (done, rest) = stages.split_at_mut(stage);
+            match stage {
+                1 => cut.for_each(simd, [state, &done[0]], trial, &Combine::<1>(h), &mut ()),
+                2 => cut.for_each(simd, [state, &done[0], &done[1]], trial, &Combine::<2>(h), &mut ()),
+                3 => cut.for_each(simd, [state, &done[0], &done[1], &done[2]], trial, &Combine::<3>(h), &mut ()),
+                4 => cut.for_each(simd, [state, &done[0], &done[1], &done[2], &done[3]], trial, &Combine::<4>(h), &mut ()),
+                _ => cut.for_each(simd, [state, &done[0], &done[1], &done[2], &done[3], &done[4]], trial, &Combine::<5>(h), &mut ()),
             }
-            derivative(NODES[stage] * h, &self.trial, &mut rest[0], stage);
+            right_hand_side.evaluate(simd, stage, trial, &mut rest[0]);
         }
+        let (done, rest) = stages.split_at_mut(LAST);
+        cut.for_each(simd, [state, &done[0], &done[1], &done[2], &done[3], &done[4], &done[5]], end, &Combine::<6>(h), &mut ());
+        right_hand_side.evaluate(simd, LAST, end, &mut rest[0]);
+    }
+
+    /// Largest magnitude of the error estimate of the step tried last, each component times its weight; infinite as soon
+    /// as one is no finite number.
+    #[inline(always)]
+    pub fn error<S: Wide>(&self, simd: S, h: f64, weights: &[f64]) -> f64 {
+        let mut found = Found { largest: [0.0; QUAD], poison: [0.0; QUAD] };
+        let [first, _, rest @ ..] = &self.stages;
+        let [b, c, d, e, f] = rest;
+        self.cut.look(simd, [weights, first, b, c, d, e, f], &Errors, &mut found);
+        if found.poison == [0.0; QUAD] { h * largest_of(found.largest) } else { f64::INFINITY }
     }
 
     /// Error estimate of component `i` of the step tried last.
-    #[inline]
-    pub fn error(&self, i: usize, h: f64) -> f64 {
+    pub fn error_of(&self, i: usize, h: f64) -> f64 {
         let mut sum = 0.0;
         for (stage, weight) in self.stages.iter().zip(ERROR) {
             sum += weight * stage[i];
@@ -92,14 +121,60 @@ impl DormandPrince {
     }
 }
 
-#[inline]
-fn combine(out: &mut [f64], state: &[f64], stages: &[Vec<f64>], weights: &[f64; 6], h: f64) {
-    for (i, value) in out.iter_mut().enumerate() {
-        let mut sum = 0.0;
-        for (stage, weight) in stages.iter().zip(weights) {
-            sum += weight * stage[i];
+/// What the method integrates.
+pub trait RightHandSide {
+    /// Puts the derivative of `state` at the node of a stage into `out`. Asked for stages 1 to [`LAST`], the last one at
+    /// the end of the step. To be marked `inline(always)`.
+    fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: &[f64], out: &mut [f64]);
+}
+
+/// The argument of one stage, for a step of this length: state and all stages before it.
+struct Combine<const STAGE: usize>(f64);
+
+macro_rules! combine {
+    ($($stage:literal: $count:literal),*) => {$(
+        impl Each<$count, 1> for Combine<$stage> {
+            type Sum = ();
+
+            #[inline(always)]
+            fn places<S: Wide>(&self, simd: S, from: [Lanes<S>; $count], (): &mut ()) -> [Lanes<S>; 1] {
+                let weights = &STAGES[$stage];
+                let mut sum = Lanes::splat(simd, weights[0]) * from[1];
+                for stage in 1..$stage {
+                    if weights[stage] != 0.0 {
+                        sum = sum + Lanes::splat(simd, weights[stage]) * from[stage + 1];
+                    }
+                }
+                [from[0] + Lanes::splat(simd, self.0) * sum]
+            }
         }
-        *value = state[i] + h * sum;
+    )*};
+}
+
+combine!(1: 2, 2: 3, 3: 4, 4: 5, 5: 6, 6: 7);
+
+/// Weighted errors.
+struct Errors;
+
+struct Found {
+    largest: [f64; QUAD],
+    /// 0 times every error: 0, unless one is no finite number.
+    poison: [f64; QUAD],
+}
+
+impl Each<7, 0> for Errors {
+    type Sum = Found;
+
+    #[inline(always)]
+    fn places<S: Wide>(&self, simd: S, [weight, first, rest @ ..]: [Lanes<S>; 7], found: &mut Found) -> [Lanes<S>; 0] {
+        let mut sum = Lanes::splat(simd, ERROR[0]) * first;
+        for (k, stage) in rest.into_iter().enumerate() {
+            sum = sum + Lanes::splat(simd, ERROR[k + 2]) * stage;
+        }
+        let error = (weight * sum).abs();
+        (Lanes::splat(simd, 0.0) * error).add_to(&mut found.poison);
+        error.largest_to(&mut found.largest);
+        []
     }
 }
 
@@ -107,22 +182,36 @@ fn combine(out: &mut [f64], state: &[f64], stages: &[Vec<f64>], weights: &[f64; 
 mod tests {
     use super::*;
     use crate::numerics::trees;
+    use pulp::Scalar256b;
 
     /// y' = −y² + sin τ and a linear oscillator beside it.
     fn right_hand_side(tau: f64, y: &[f64], out: &mut [f64]) {
         (out[0], out[1], out[2]) = (tau.sin() - y[0] * y[0], y[2], -4.0 * y[1]);
     }
 
+    /// The test's equations in a step from this time on and of this length.
+    struct From(f64, f64);
+
+    impl RightHandSide for From {
+        fn evaluate<S: Wide>(&mut self, _: S, stage: usize, state: &[f64], out: &mut [f64]) {
+            right_hand_side(self.0 + NODES[stage] * self.1, state, out);
+        }
+    }
+
+    fn step(method: &mut DormandPrince, tau: f64, state: &[f64], h: f64) {
+        method.try_step(Scalar256b, state, h, &mut From(tau, h));
+    }
+
     fn integrate(count: usize) -> Vec<f64> {
-        let mut method = DormandPrince::new(3);
-        let mut state = vec![1.0, 0.0, 1.0];
+        let mut method = DormandPrince::new(Cut { count: 0, rest: 4 });
+        let mut state = vec![1.0, 0.0, 1.0, 0.0];
         let h = 1.0 / count as f64;
         for i in 0..count {
             let tau = i as f64 * h;
-            let mut first = vec![0.0; 3];
+            let mut first = vec![0.0; 4];
             right_hand_side(tau, &state, &mut first);
             method.stages[0] = first;
-            method.try_step(&state, h, |c, y, out, _| right_hand_side(tau + c, y, out));
+            step(&mut method, tau, &state, h);
             state.copy_from_slice(&method.end);
         }
         state
@@ -172,13 +261,13 @@ mod tests {
     fn dense_output_is_of_order_four() {
         // One step from the exact state: its dense output is wrong by O(h⁵). Largest error over the step's shares.
         let error = |h: f64| {
-            let mut method = DormandPrince::new(3);
-            let state = vec![0.0, 0.0, 1.0];
-            let mut first = vec![0.0; 3];
+            let mut method = DormandPrince::new(Cut { count: 0, rest: 4 });
+            let state = vec![0.0, 0.0, 1.0, 0.0];
+            let mut first = vec![0.0; 4];
             right_hand_side(0.0, &state, &mut first);
             method.stages[0] = first;
-            method.try_step(&state, h, |c, y, out, _| right_hand_side(c, y, out));
-            let mut found = vec![0.0; 3];
+            step(&mut method, 0.0, &state, h);
+            let mut found = vec![0.0; 4];
             (1..20)
                 .map(|i| {
                     let share = i as f64 / 20.0;

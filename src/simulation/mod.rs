@@ -486,7 +486,7 @@ impl Simulation {
         }
         self.model.equilibrium(&drive, &progress.cells, &mut progress.state)?;
         self.model.derivative(&drive, 0.0, &progress.cells, &progress.state, &mut self.derivative, &mut self.forces);
-        let pushing = self.forces.inner_pushing.iter().chain(&self.forces.outer_pushing);
+        let pushing = self.forces.contacts.inner_pushing.iter().chain(&self.forces.contacts.outer_pushing);
         for (flag, &value) in progress.pushing.iter_mut().zip(pushing) {
             *flag = value > 0.0;
         }

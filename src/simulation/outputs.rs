@@ -63,8 +63,8 @@ impl<'a> Instant<'a> {
             Quantity::CageTorque => self.cage_torque,
             Quantity::ElementAngle(j) => self.cage_angle + self.model.element_offset(j),
             Quantity::ElementPath(j) => self.state[j],
-            Quantity::ElementInnerForce(j) => self.forces.inner[j],
-            Quantity::ElementOuterForce(j) => self.forces.outer[j],
+            Quantity::ElementInnerForce(j) => self.forces.contacts.inner[j],
+            Quantity::ElementOuterForce(j) => self.forces.contacts.outer[j],
             _ => return None,
         })
     }

@@ -3,6 +3,7 @@
 use super::recorder::Due;
 use super::switching::Choice;
 use crate::dynamics::forces::SMOOTH;
+use crate::numerics::lanes::places;
 
 /// Step tried first [s]: far below the period of an element on its contacts, and grown at once if that was too timid.
 const FIRST_STEP: f64 = 1e-6;
@@ -14,7 +15,7 @@ pub struct Progress {
     pub state: Vec<f64>,
     /// Cell of the defect in which each element is.
     pub cells: Vec<u32>,
-    /// Whether the inner contacts, then the outer contacts, push.
+    /// Whether the inner contacts, then the outer contacts, push; each list filled up to a multiple of eight.
     pub pushing: Vec<bool>,
     /// Step that error control would like next [s].
     pub next_step: f64,
@@ -42,7 +43,7 @@ impl Progress {
         Self {
             state: vec![0.0; len],
             cells: vec![SMOOTH; count],
-            pushing: vec![false; 2 * count],
+            pushing: vec![false; 2 * places(count)],
             next_step: FIRST_STEP,
             last_error: 1.0,
             choice: Choice::default(),

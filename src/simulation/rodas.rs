@@ -11,6 +11,8 @@
 //!
 //! J and ∂f/∂t must be exact for the order to hold. At the onset of a contact they jump; steps end there.
 
+use crate::numerics::lanes::Wide;
+
 /// γ
 pub const GAMMA: f64 = 0.21193756319429014;
 
@@ -116,16 +118,14 @@ impl Rodas {
     }
 
     /// Tries a step of length `h` from `state`, where the derivative is `first` and its derivative by time `by_time`.
-    ///
-    /// `derivative(c h, state, out)` is asked for seven stages, `solve(b)` puts (1/(hγ) − J)⁻¹ b into b.
-    pub fn try_step(
+    #[inline(always)]
+    pub fn try_step<S: Wide>(
         &mut self,
+        simd: S,
         state: &[f64],
-        first: &[f64],
-        by_time: &[f64],
+        (first, by_time): (&[f64], &[f64]),
         h: f64,
-        mut derivative: impl FnMut(f64, &[f64], &mut [f64]),
-        mut solve: impl FnMut(&mut [f64]),
+        system: &mut impl System,
     ) {
         let per_h = 1.0 / h;
         for stage in 0..8 {
@@ -139,7 +139,7 @@ impl Rodas {
                 } else {
                     add(&mut self.trial, &done[stage - 1]);
                 }
-                derivative(NODES[stage] * h, &self.trial, k);
+                system.evaluate(simd, stage, &self.trial, k);
                 for (j, earlier) in done.iter().enumerate() {
                     let weight = COUPLING[stage][j] * per_h;
                     for (value, earlier) in k.iter_mut().zip(earlier) {
@@ -153,14 +153,24 @@ impl Rodas {
                     *value += weight * by_time;
                 }
             }
-            solve(k);
+            system.solve(k);
         }
         self.end.copy_from_slice(&self.trial);
         add(&mut self.end, &self.stages[7]);
     }
 
+    /// Largest magnitude of the error estimate of the step tried last, each component times its weight; infinite as soon
+    /// as one is no finite number.
+    pub fn largest_error(&self, weights: &[f64]) -> f64 {
+        let (mut largest, mut poison) = (0.0f64, 0.0);
+        for (error, weight) in self.stages[7].iter().zip(weights) {
+            largest = largest.max((error * weight).abs());
+            poison += 0.0 * error;
+        }
+        if poison == 0.0 { largest } else { f64::INFINITY }
+    }
+
     /// Error estimate of component `i` of the step tried last.
-    #[inline]
     pub fn error(&self, i: usize) -> f64 {
         self.stages[7][i]
     }
@@ -182,7 +192,16 @@ impl Rodas {
     }
 }
 
-#[inline]
+/// What the method integrates.
+pub trait System {
+    /// Puts the derivative of `state` at the node of a stage, 1 to 7, into `out`. To be marked `inline(always)`.
+    fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: &[f64], out: &mut [f64]);
+
+    /// Puts (1/(hγ) − J)⁻¹ b into b.
+    fn solve(&self, b: &mut [f64]);
+}
+
+#[inline(always)]
 fn combine(out: &mut [f64], state: &[f64], stages: &[Vec<f64>], weights: &[f64; 7]) {
     for (i, value) in out.iter_mut().enumerate() {
         let mut sum = 0.0;
@@ -193,7 +212,7 @@ fn combine(out: &mut [f64], state: &[f64], stages: &[Vec<f64>], weights: &[f64; 
     }
 }
 
-#[inline]
+#[inline(always)]
 fn add(to: &mut [f64], what: &[f64]) {
     for (value, what) in to.iter_mut().zip(what) {
         *value += what;
@@ -204,6 +223,7 @@ fn add(to: &mut [f64], what: &[f64]) {
 mod tests {
     use super::*;
     use crate::numerics::trees;
+    use pulp::Scalar256b;
 
     /// (α, Γ, b) of the untransformed method: Γ⁻¹ = 1/γ − C, α = a Γ, b = m Γ.
     fn untransformed() -> ([[f64; 8]; 8], [[f64; 8]; 8], [f64; 8]) {
@@ -275,23 +295,31 @@ mod tests {
         (out[0], out[1], out[2]) = (LAMBDA * (tau.cos() - y[0]) - tau.sin(), y[2], -4.0 * y[1] - y[1] * y[1] * y[1]);
     }
 
+    /// The test's equations in a step from `tau` of length `h`, linearised at y₁ = `y`.
+    struct Equations {
+        tau: f64,
+        h: f64,
+        y: f64,
+    }
+
+    impl System for Equations {
+        fn evaluate<S: Wide>(&mut self, _: S, stage: usize, state: &[f64], out: &mut [f64]) {
+            right_hand_side(self.tau + NODES[stage] * self.h, state, out);
+        }
+
+        fn solve(&self, b: &mut [f64]) {
+            let (s, k) = (1.0 / (self.h * GAMMA), -4.0 - 3.0 * self.y * self.y);
+            let determinant = s * s - k;
+            (b[0], b[1], b[2]) =
+                (b[0] / (s + LAMBDA), (s * b[1] + b[2]) / determinant, (k * b[1] + s * b[2]) / determinant);
+        }
+    }
+
     fn step(method: &mut Rodas, tau: f64, y: &[f64], h: f64) {
         let mut first = [0.0; 3];
         right_hand_side(tau, y, &mut first);
         let by_time = [-LAMBDA * tau.sin() - tau.cos(), 0.0, 0.0];
-        let (s, k) = (1.0 / (h * GAMMA), -4.0 - 3.0 * y[1] * y[1]);
-        method.try_step(
-            y,
-            &first,
-            &by_time,
-            h,
-            |c, y, out| right_hand_side(tau + c, y, out),
-            |b| {
-                let determinant = s * s - k;
-                (b[0], b[1], b[2]) =
-                    (b[0] / (s + LAMBDA), (s * b[1] + b[2]) / determinant, (k * b[1] + s * b[2]) / determinant);
-            },
-        );
+        method.try_step(Scalar256b, y, (&first, &by_time), h, &mut Equations { tau, h, y: y[1] });
     }
 
     fn integrate(count: usize) -> Vec<f64> {

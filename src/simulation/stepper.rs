@@ -13,7 +13,7 @@
 //! from: 1e-5 of a path of 1 mm would be more than a loaded contact's whole approach.
 
 use super::arrow::Arrow;
-use super::dormand_prince::{self, DormandPrince};
+use super::dormand_prince::{self, DormandPrince, RightHandSide};
 use super::knots::next_knot;
 use super::outputs::Instant;
 use super::progress::Progress;
@@ -22,10 +22,12 @@ use super::rodas::{self, Rodas};
 use super::step_error::StepError;
 use super::switching::Method;
 use crate::contact::error::ContactError;
-use crate::dynamics::drive::Drive;
+use crate::dynamics::drive::{Clock, Drive};
 use crate::dynamics::forces::Forces;
 use crate::dynamics::jacobian::Jacobian;
-use crate::dynamics::model::Model;
+use crate::dynamics::model::{Layout, Model};
+use crate::numerics::lanes::{Kernel, Wide, dispatch};
+use crate::numerics::rough_power;
 use crate::scene::Motion;
 
 /// How exactly, how long and by which method to step.
@@ -72,8 +74,12 @@ pub struct Stepper {
     weighted_force: [f64; 4],
     first_force: [f64; 4],
     last_force: [f64; 4],
-    /// State with the largest error in the step tried last.
-    worst: usize,
+    /// Turns errors of all states into lengths; 0 where there is no state.
+    weights: Vec<f64>,
+    /// Largest error of the step tried last [m], infinite as soon as one state's is not finite.
+    largest_error: f64,
+    /// Largest approach of any contact at its end [m].
+    largest_approach: f64,
 }
 
 impl Stepper {
@@ -81,7 +87,7 @@ impl Stepper {
     pub fn new(model: &Model) -> Self {
         let len = model.layout.len;
         Self {
-            explicit: DormandPrince::new(len),
+            explicit: DormandPrince::new(model.layout.cut()),
             implicit: Rodas::new(len),
             jacobian: Jacobian::new(model),
             by_time: vec![0.0; len],
@@ -93,7 +99,9 @@ impl Stepper {
             weighted_force: [0.0; 4],
             first_force: [0.0; 4],
             last_force: [0.0; 4],
-            worst: 0,
+            weights: (0..len).map(|i| weight(&model.layout, i)).collect(),
+            largest_error: 0.0,
+            largest_approach: 0.0,
         }
     }
 
@@ -135,12 +143,14 @@ impl Stepper {
             tau = if h == target - tau { target } else { tau + h };
             let taken = progress.steps + progress.rejected_steps - first_count;
             if taken > control.max_steps && tau < step {
+                // The accepted step's stages have been handed on: back for a look.
+                self.explicit.carry_over();
                 return Err(StepError::TooManySteps {
                     steps: taken,
                     limit: control.max_steps,
                     since: tau,
                     step: progress.next_step,
-                    component: model.layout.name(self.worst),
+                    component: self.worst(model, h, progress.choice.implicit),
                 });
             }
         }
@@ -198,13 +208,13 @@ impl Stepper {
             });
             tried += 1;
             self.try_step(model, drive, from, h, progress);
-            let error = self.error(model, control.tolerance, h, progress);
+            let error = self.error(control.tolerance);
             if !(error <= 1.0) {
                 progress.rejected_steps += 1;
                 let factor = if error.is_finite() { step_factor(error, 1.0).clamp(0.1, 0.9) } else { 0.1 };
                 progress.next_step = h * factor;
                 landing = None;
-                self.check_step(model, from, error, progress.next_step)?;
+                self.check_step(model, (from, h), error, progress)?;
                 continue;
             }
             let changed = self.pushing_differs(progress);
@@ -265,14 +275,20 @@ impl Stepper {
         }
     }
 
-    /// Whether a step shorter than the one that failed is still worth trying.
-    fn check_step(&self, model: &Model, since: f64, error: f64, step: f64) -> Result<(), StepError> {
+    /// Whether a step shorter than the one of length `h` that failed is still worth trying.
+    fn check_step(
+        &self,
+        model: &Model,
+        (since, h): (f64, f64),
+        error: f64,
+        progress: &Progress,
+    ) -> Result<(), StepError> {
         // A step must move time: late in a long communication step its last digit is the limit.
-        let limit = SMALLEST_STEP.max(4.0 * f64::EPSILON * since);
+        let (step, limit) = (progress.next_step, SMALLEST_STEP.max(4.0 * f64::EPSILON * since));
         if step >= limit {
             return Ok(());
         }
-        let component = model.layout.name(self.worst);
+        let component = self.worst(model, h, progress.choice.implicit);
         Err(if error.is_finite() {
             StepError::Underflow { step, limit, since, component }
         } else {
@@ -348,38 +364,15 @@ impl Stepper {
     }
 
     fn try_explicit(&mut self, model: &Model, drive: &Drive, from: f64, h: f64, progress: &Progress) {
-        let weights = dormand_prince::STAGES[6];
-        let mut sum = self.first_force.map(|f| weights[0] * f);
-        let (forces, cells) = (&mut self.forces, &progress.cells);
-        let mut last = [0.0; 4];
-        self.explicit.try_step(&progress.state, h, |c, state, out, stage| {
-            model.derivative(drive, from + c, cells, state, out, forces);
-            last = ring_forces(forces);
-            if stage < 6 {
-                for (sum, force) in sum.iter_mut().zip(last) {
-                    *sum += weights[stage] * force;
-                }
-            }
-        });
-        (self.weighted_force, self.last_force) = (sum, last);
+        dispatch(ExplicitStep { stepper: self, model, drive, from, h, progress });
     }
 
     fn try_implicit(&mut self, model: &Model, drive: &Drive, from: f64, h: f64, progress: &Progress) {
         self.linearize(model, drive, from, progress);
-        let (jacobian, arrow, cells) = (&self.jacobian, &mut self.arrow, &progress.cells);
-        arrow.factor(jacobian, 1.0 / (rodas::GAMMA * h));
-        let forces = &mut self.forces;
-        let [first, .., last] = &mut self.explicit.stages;
-        self.implicit.try_step(
-            &progress.state,
-            first,
-            &self.by_time,
-            h,
-            |c, state, out| model.derivative(drive, from + c, cells, state, out, forces),
-            |b| arrow.solve(jacobian, b),
-        );
-        model.derivative(drive, from + h, cells, &self.implicit.end, last, &mut self.forces);
+        self.arrow.factor(&self.jacobian, 1.0 / (rodas::GAMMA * h));
+        dispatch(ImplicitStep { stepper: self, model, drive, from, h, progress });
         self.last_force = ring_forces(&self.forces);
+        self.largest_error = self.implicit.largest_error(&self.weights);
     }
 
     /// Mean ring forces of an implicit step, by quadrature over its dense output. They are read only if a ring's motion
@@ -402,42 +395,46 @@ impl Stepper {
         }
     }
 
-    /// Largest error of the step tried last, per tolerance. Not finite as soon as one state's is not.
-    fn error(&mut self, model: &Model, tolerance: f64, h: f64, progress: &Progress) -> f64 {
-        let layout = &model.layout;
-        let length = self.forces.largest_approach() + SMALLEST_APPROACH;
-        let speed = VELOCITY_PER_APPROACH * length;
-        let mut worst = (0.0, 0);
-        for i in 0..layout.len {
-            let scale = if layout.is_position(i) { length } else { speed };
-            let error = if progress.choice.implicit { self.implicit.error(i) } else { self.explicit.error(i, h) };
-            let error = (error / scale).abs();
-            if !error.is_finite() {
-                self.worst = i;
-                return f64::INFINITY;
-            }
-            if error > worst.0 {
-                worst = (error, i);
-            }
-        }
-        self.worst = worst.1;
-        worst.0 / tolerance
+    /// Error of the step tried last, per tolerance. Infinite as soon as one state's is not finite.
+    fn error(&self, tolerance: f64) -> f64 {
+        self.largest_error / (tolerance * (self.largest_approach + SMALLEST_APPROACH))
     }
 
-    fn pushing_values(&self) -> impl Iterator<Item = f64> {
-        self.forces.inner_pushing.iter().chain(&self.forces.outer_pushing).copied()
+    /// Name of the state with the largest error in the step tried last, whose length was `h`.
+    fn worst(&self, model: &Model, h: f64, implicit: bool) -> String {
+        let error = |i: usize| {
+            let error = if implicit { self.implicit.error(i) } else { self.explicit.error_of(i, h) };
+            (self.weights[i] * error).abs()
+        };
+        // What is no number is the worst.
+        let worse = |i: usize, than: usize| !(error(i) <= error(than));
+        let worst = (0..model.layout.len).fold(0, |worst, i| if worse(i, worst) { i } else { worst });
+        model.layout.name(worst)
     }
 
     /// Notes which contacts push where the forces were computed last.
     fn note_pushing(&self, progress: &mut Progress) {
-        for (flag, value) in progress.pushing.iter_mut().zip(self.pushing_values()) {
-            *flag = value > 0.0;
+        let contacts = &self.forces.contacts;
+        let (inner, outer) = progress.pushing.split_at_mut(contacts.inner_pushing.len());
+        for (flags, lengths) in [(inner, &contacts.inner_pushing), (outer, &contacts.outer_pushing)] {
+            for (flag, &length) in flags.iter_mut().zip(lengths) {
+                *flag = length > 0.0;
+            }
         }
     }
 
     /// Whether any contact pushes where it did not at the start of the step, or the other way round.
     fn pushing_differs(&self, progress: &Progress) -> bool {
-        self.pushing_values().zip(&progress.pushing).any(|(value, &flag)| (value > 0.0) != flag)
+        let contacts = &self.forces.contacts;
+        let (inner, outer) = progress.pushing.split_at(contacts.inner_pushing.len());
+        let mut differs = false;
+        for (flags, lengths) in [(inner, &contacts.inner_pushing), (outer, &contacts.outer_pushing)] {
+            // All of them, without a branch: mostly none differs.
+            for (&flag, &length) in flags.iter().zip(lengths) {
+                differs |= (length > 0.0) != flag;
+            }
+        }
+        differs
     }
 
     /// Share of the step at which the first contact changes; leaves the forces there.
@@ -466,6 +463,121 @@ impl Stepper {
     }
 }
 
+/// One explicit step, all stages in one kernel.
+struct ExplicitStep<'a> {
+    stepper: &'a mut Stepper,
+    model: &'a Model,
+    drive: &'a Drive,
+    from: f64,
+    h: f64,
+    progress: &'a Progress,
+}
+
+impl Kernel for ExplicitStep<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Wide>(self, simd: S) {
+        let Self { stepper, model, drive, from, h, progress } = self;
+        let sum = stepper.first_force.map(|force| dormand_prince::STAGES[dormand_prince::LAST][0] * force);
+        let forces = &mut stepper.forces;
+        let nodes: [f64; dormand_prince::LAST] = std::array::from_fn(|i| dormand_prince::NODES[i] * h);
+        let clocks = drive.clocks(from, nodes);
+        let mut stages = Stages { model, drive, clocks, cells: &progress.cells, forces, sum };
+        stepper.explicit.try_step(simd, &progress.state, h, &mut stages);
+        stepper.weighted_force = stages.sum;
+        stepper.last_force = ring_forces(&stepper.forces);
+        stepper.largest_error = stepper.explicit.error(simd, h, &stepper.weights);
+        stepper.largest_approach = stepper.forces.largest_approach_on(simd);
+    }
+}
+
+/// One implicit step, all stages in one kernel.
+struct ImplicitStep<'a> {
+    stepper: &'a mut Stepper,
+    model: &'a Model,
+    drive: &'a Drive,
+    from: f64,
+    h: f64,
+    progress: &'a Progress,
+}
+
+impl Kernel for ImplicitStep<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Wide>(self, simd: S) {
+        let Self { stepper, model, drive, from, h, progress } = self;
+        let [first, .., last] = &mut stepper.explicit.stages;
+        let clocks = drive.clocks(from, rodas::NODES.map(|node| node * h));
+        let (cells, forces) = (&progress.cells, &mut stepper.forces);
+        let mut system = System { model, drive, clocks, cells, forces, jacobian: &stepper.jacobian, arrow: &stepper.arrow };
+        stepper.implicit.try_step(simd, &progress.state, (first, &stepper.by_time), h, &mut system);
+        let at = (drive, &clocks[rodas::NODES.len() - 1]);
+        model.derivative_on::<S, true>(simd, at, cells, &stepper.implicit.end, last, &mut stepper.forces);
+        stepper.largest_approach = stepper.forces.largest_approach_on(simd);
+    }
+}
+
+/// The equations of motion and their linear systems during one implicit step.
+struct System<'a> {
+    model: &'a Model,
+    drive: &'a Drive,
+    clocks: [Clock; 8],
+    cells: &'a [u32],
+    forces: &'a mut Forces,
+    jacobian: &'a Jacobian,
+    arrow: &'a Arrow,
+}
+
+impl rodas::System for System<'_> {
+    #[inline(always)]
+    fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: &[f64], out: &mut [f64]) {
+        let at = (self.drive, &self.clocks[stage]);
+        self.model.derivative_on::<S, false>(simd, at, self.cells, state, out, self.forces);
+    }
+
+    fn solve(&self, b: &mut [f64]) {
+        self.arrow.solve(self.jacobian, b);
+    }
+}
+
+/// The equations of motion during one step, and what the stages add up to.
+struct Stages<'a> {
+    model: &'a Model,
+    drive: &'a Drive,
+    /// Those of the first five stages; the last two are at the same time.
+    clocks: [Clock; dormand_prince::LAST],
+    cells: &'a [u32],
+    forces: &'a mut Forces,
+    /// Sum of weight × ring force.
+    sum: [f64; 4],
+}
+
+impl RightHandSide for Stages<'_> {
+    #[inline(always)]
+    fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: &[f64], out: &mut [f64]) {
+        let at = (self.drive, &self.clocks[stage.min(dormand_prince::LAST - 1)]);
+        let (cells, forces) = (self.cells, &mut *self.forces);
+        if stage == dormand_prince::LAST {
+            return self.model.derivative_on::<S, true>(simd, at, cells, state, out, forces);
+        }
+        self.model.derivative_on::<S, false>(simd, at, cells, state, out, forces);
+        for (sum, force) in self.sum.iter_mut().zip(ring_forces(forces)) {
+            *sum += dormand_prince::STAGES[dormand_prince::LAST][stage] * force;
+        }
+    }
+}
+
+/// Weight that turns the error of state `i` into a length.
+fn weight(layout: &Layout, i: usize) -> f64 {
+    match (layout.is_used(i), layout.is_position(i)) {
+        (false, _) => 0.0,
+        (true, true) => 1.0,
+        (true, false) => 1.0 / VELOCITY_PER_APPROACH,
+    }
+}
+
 /// Beyond an element's radius the rings are beside each other, and a contact that is not a number would push nothing.
 fn check_rings(model: &Model, drive: &Drive, tau: f64, progress: &Progress) -> Result<(), StepError> {
     let shaft = model.shaft_state(drive, tau, &progress.state).position;
@@ -485,5 +597,5 @@ fn ring_forces(forces: &Forces) -> [f64; 4] {
 /// Factor from this step to the next for an error per tolerance: a proportional–integral controller (Hairer and
 /// Wanner, *Solving Ordinary Differential Equations II*, IV.2) with the exponents usual for order 5(4).
 fn step_factor(error: f64, last_error: f64) -> f64 {
-    0.9 * libm::pow(error.max(1e-10), -0.17) * libm::pow(last_error, 0.04)
+    0.9 * rough_power(error.max(1e-10), -0.17) * rough_power(last_error, 0.04)
 }

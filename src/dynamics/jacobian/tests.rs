@@ -46,8 +46,10 @@ pub(crate) fn noise(seed: u64) -> impl FnMut() -> f64 {
 pub(crate) fn moving(model: &Model, drive: &Drive, seed: u64) -> (Vec<f64>, Vec<u32>) {
     let mut noise = noise(seed);
     let z = model.element_count;
+    let layout = &model.layout;
+    let size = |i: usize| if layout.is_position(i) { 1e-6 } else { 2e-2 };
     let mut state: Vec<f64> =
-        (0..model.layout.len).map(|i| if model.layout.is_position(i) { 1e-6 } else { 2e-2 } * noise()).collect();
+        (0..layout.len).map(|i| if layout.is_used(i) { size(i) * noise() } else { 0.0 }).collect();
     let cells: Vec<u32> = (0..z).map(|j| model.cell_at(j, drive.cage_angle(0.0))).collect();
     if let Some(i) = model.layout.shaft {
         state[i + 1] -= 20e-6;
@@ -62,7 +64,7 @@ pub(crate) fn moving(model: &Model, drive: &Drive, seed: u64) -> (Vec<f64>, Vec<
 
 /// The whole matrix, rows by columns.
 pub(crate) fn whole(jacobian: &Jacobian, len: usize) -> Vec<Vec<f64>> {
-    let z = jacobian.elements.len();
+    let z = jacobian.radial_velocity;
     let mut matrix = vec![vec![0.0; len]; len];
     let places = jacobian.places;
     for (j, block) in jacobian.elements.iter().enumerate() {
@@ -103,7 +105,7 @@ pub(crate) const DAMPINGS: [Damping; 3] =
 
 /// Which contacts push, which are derivatives' branches.
 fn branch(forces: &Forces) -> Vec<bool> {
-    forces.inner_pushing.iter().chain(&forces.outer_pushing).map(|&p| p > 0.0).collect()
+    forces.contacts.inner_pushing.iter().chain(&forces.contacts.outer_pushing).map(|&p| p > 0.0).collect()
 }
 
 #[test]

@@ -1,0 +1,466 @@
+//! Several numbers at a time, with the same bits on every machine.
+//!
+//! A kernel is compiled for AVX-512, for AVX2 and for what every machine has; which one runs is found out at run time.
+//! Additions, products, quotients and square roots are rounded one by one, never fused, so the width changes no bit, as
+//! long as sums over lanes have a fixed order: they are sums of four lanes, groups of four in ascending order.
+//!
+//! Lists of numbers have a multiple of [`WIDEST`] places. Those beyond the last number are zeros and must stay so: a machine
+//! with fewer lanes leaves out what it need not look at.
+
+use pulp::{Arch, NullaryFnOnce, Scalar256b, Simd};
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// Lanes that every machine has, or is made to have.
+pub const QUAD: usize = 4;
+/// Most lanes that any machine has.
+pub const WIDEST: usize = 8;
+
+/// Places that a list of `count` numbers takes.
+pub fn places(count: usize) -> usize {
+    count.next_multiple_of(WIDEST)
+}
+
+/// An instruction set that has registers of four numbers, or of a multiple.
+pub trait Wide: Simd {
+    /// The same machine with four lanes.
+    type Quad: Wide;
+
+    /// The same machine with four lanes.
+    fn quad(self) -> Self::Quad;
+
+    /// Four numbers in one register.
+    fn four(self, numbers: [f64; QUAD]) -> <Self::Quad as Simd>::f64s;
+
+    /// The larger of two numbers in each lane; `value` where either is no number.
+    fn larger(self, value: Self::f64s, limit: Self::f64s) -> Self::f64s;
+
+    /// The smaller of two numbers in each lane; `value` where either is no number.
+    fn smaller(self, value: Self::f64s, limit: Self::f64s) -> Self::f64s;
+
+    /// Adds to `sum` all groups of four in `value`, in ascending order.
+    fn add_quads(self, sum: [f64; QUAD], value: Self::f64s) -> [f64; QUAD];
+
+    /// The largest of `most` and of all groups of four in `value`.
+    fn largest_quads(self, most: [f64; QUAD], value: Self::f64s) -> [f64; QUAD];
+}
+
+impl Wide for Scalar256b {
+    type Quad = Self;
+
+    #[inline(always)]
+    fn quad(self) -> Self {
+        self
+    }
+
+    #[inline(always)]
+    fn four(self, numbers: [f64; QUAD]) -> Self::f64s {
+        pulp::cast(numbers)
+    }
+
+    #[inline(always)]
+    fn larger(self, value: Self::f64s, limit: Self::f64s) -> Self::f64s {
+        self.select_f64s(self.less_than_f64s(value, limit), limit, value)
+    }
+
+    #[inline(always)]
+    fn smaller(self, value: Self::f64s, limit: Self::f64s) -> Self::f64s {
+        self.select_f64s(self.less_than_f64s(limit, value), limit, value)
+    }
+
+    #[inline(always)]
+    fn largest_quads(self, most: [f64; QUAD], value: Self::f64s) -> [f64; QUAD] {
+        pulp::cast(self.larger(pulp::cast(most), value))
+    }
+
+    #[inline(always)]
+    fn add_quads(self, sum: [f64; QUAD], value: Self::f64s) -> [f64; QUAD] {
+        pulp::cast(self.add_f64s(pulp::cast(sum), value))
+    }
+}
+
+/// The machine's own maximum and minimum give their second operand where either is no number.
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+mod x86 {
+    use super::{QUAD, Wide};
+    use pulp::x86::{V3, V4};
+    use pulp::{Simd, cast};
+
+    impl Wide for V3 {
+        type Quad = Self;
+
+        #[inline(always)]
+        fn quad(self) -> Self {
+            self
+        }
+
+        #[inline(always)]
+        fn four(self, numbers: [f64; QUAD]) -> Self::f64s {
+            cast(numbers)
+        }
+
+        #[inline(always)]
+        fn larger(self, value: Self::f64s, limit: Self::f64s) -> Self::f64s {
+            cast(self.avx._mm256_max_pd(cast(limit), cast(value)))
+        }
+
+        #[inline(always)]
+        fn smaller(self, value: Self::f64s, limit: Self::f64s) -> Self::f64s {
+            cast(self.avx._mm256_min_pd(cast(limit), cast(value)))
+        }
+
+        #[inline(always)]
+        fn largest_quads(self, most: [f64; QUAD], value: Self::f64s) -> [f64; QUAD] {
+            pulp::cast(self.larger(pulp::cast(most), value))
+        }
+
+        #[inline(always)]
+        fn add_quads(self, sum: [f64; QUAD], value: Self::f64s) -> [f64; QUAD] {
+            cast(self.add_f64s(cast(sum), value))
+        }
+    }
+
+    impl Wide for V4 {
+        type Quad = V3;
+
+        #[inline(always)]
+        fn quad(self) -> V3 {
+            *self
+        }
+
+        #[inline(always)]
+        fn four(self, numbers: [f64; QUAD]) -> <V3 as Simd>::f64s {
+            cast(numbers)
+        }
+
+        #[inline(always)]
+        fn larger(self, value: Self::f64s, limit: Self::f64s) -> Self::f64s {
+            cast(self.avx512f._mm512_max_pd(cast(limit), cast(value)))
+        }
+
+        #[inline(always)]
+        fn smaller(self, value: Self::f64s, limit: Self::f64s) -> Self::f64s {
+            cast(self.avx512f._mm512_min_pd(cast(limit), cast(value)))
+        }
+
+        #[inline(always)]
+        fn largest_quads(self, most: [f64; QUAD], value: Self::f64s) -> [f64; QUAD] {
+            let [low, high]: [<V3 as Simd>::f64s; 2] = cast(value);
+            self.quad().largest_quads(self.quad().largest_quads(most, low), high)
+        }
+
+        #[inline(always)]
+        fn add_quads(self, sum: [f64; QUAD], value: Self::f64s) -> [f64; QUAD] {
+            let [low, high]: [<V3 as Simd>::f64s; 2] = cast(value);
+            self.quad().add_quads(self.quad().add_quads(sum, low), high)
+        }
+    }
+}
+
+/// What runs on several numbers at a time.
+pub trait Kernel {
+    /// What it gives.
+    type Output;
+
+    /// Runs; to be marked `inline(always)`, with all that it calls in its inner loops.
+    fn run<S: Wide>(self, simd: S) -> Self::Output;
+}
+
+/// Runs a kernel with the widest registers of this machine.
+#[inline]
+pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
+    struct On<S, K>(S, K);
+    impl<S: Wide, K: Kernel> NullaryFnOnce for On<S, K> {
+        type Output = K::Output;
+
+        #[inline(always)]
+        fn call(self) -> K::Output {
+            self.1.run(self.0)
+        }
+    }
+    match Arch::new() {
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        Arch::V4(simd) => simd.vectorize(On(simd, kernel)),
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        Arch::V3(simd) => simd.vectorize(On(simd, kernel)),
+        _ => kernel.run(Scalar256b),
+    }
+}
+
+/// What is done with each place of some lists: `I` lists are read and `O` written.
+pub trait Each<const I: usize, const O: usize> {
+    /// What is summed up over the places.
+    type Sum;
+
+    /// Several places at a time. To be marked `inline(always)`.
+    fn places<S: Wide>(&self, simd: S, from: [Lanes<S>; I], sum: &mut Self::Sum) -> [Lanes<S>; O];
+}
+
+/// Lists that are read and written together.
+#[derive(Debug)]
+pub struct Lists<'a, const I: usize, const O: usize> {
+    /// Those that are read.
+    pub from: [&'a [f64]; I],
+    /// Those that are written.
+    pub to: [&'a mut [f64]; O],
+}
+
+impl<const I: usize, const O: usize> Lists<'_, I, O> {
+    /// Treats the first `count` places, and perhaps some of those that fill the lists up.
+    // Loops instead of `map` over arrays, which the compiler does not always resolve.
+    #[inline(always)]
+    pub fn for_each<S: Wide, E: Each<I, O>>(self, simd: S, count: usize, each: &E, sum: &mut E::Sum) {
+        let groups = count.div_ceil(S::F64_LANES);
+        let mut from: [&[S::f64s]; I] = [&[]; I];
+        for (registers, list) in from.iter_mut().zip(self.from) {
+            // Equal lengths, seen once, spare the look at every access.
+            *registers = &S::as_simd_f64s(list).0[..groups];
+        }
+        let mut to: [&mut [S::f64s]; O] = std::array::from_fn(|_| Default::default());
+        for (registers, list) in to.iter_mut().zip(self.to) {
+            *registers = &mut S::as_mut_simd_f64s(list).0[..groups];
+        }
+        for k in 0..groups {
+            let mut values = [Lanes::splat(simd, 0.0); I];
+            for (value, list) in values.iter_mut().zip(&from) {
+                value.1 = list[k];
+            }
+            let found = each.places(simd, values, sum);
+            for (list, value) in to.iter_mut().zip(found) {
+                list[k] = value.1;
+            }
+        }
+    }
+}
+
+/// How a vector of states is made up: two lists of equal length, which are treated with all lanes there are, and a rest,
+/// which is treated by four. Whoever writes and whoever reads a vector soon after must cut it in the same way: a register
+/// that was written in parts is read late.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Cut {
+    /// Numbers in each list.
+    pub count: usize,
+    /// Numbers in the rest, a multiple of [`QUAD`].
+    pub rest: usize,
+}
+
+impl Cut {
+    /// Start of the second list.
+    pub fn second(self) -> usize {
+        places(self.count)
+    }
+
+    /// Start of the rest.
+    pub fn third(self) -> usize {
+        2 * places(self.count)
+    }
+
+    /// Length of the whole.
+    pub fn len(self) -> usize {
+        self.third() + self.rest
+    }
+
+    /// Whether there is nothing.
+    pub fn is_empty(self) -> bool {
+        self.len() == 0
+    }
+
+    /// Treats all places.
+    #[inline(always)]
+    pub fn for_each<S: Wide, E: Each<I, 1>, const I: usize>(
+        self,
+        simd: S,
+        from: [&[f64]; I],
+        to: &mut [f64],
+        each: &E,
+        sum: &mut E::Sum,
+    ) {
+        if S::F64_LANES == QUAD {
+            return Lists { from, to: [to] }.for_each(simd, self.len(), each, sum);
+        }
+        let (lists, rest) = to.split_at_mut(self.third());
+        Lists { from, to: [lists] }.for_each(simd, self.third(), each, sum);
+        Lists { from: after(from, self.third()), to: [rest] }.for_each(simd.quad(), self.rest, each, sum);
+    }
+
+    /// Treats all places of lists that are only read.
+    #[inline(always)]
+    pub fn look<S: Wide, E: Each<I, 0>, const I: usize>(self, simd: S, from: [&[f64]; I], each: &E, sum: &mut E::Sum) {
+        Lists { from, to: [] }.for_each(simd, self.third(), each, sum);
+        Lists { from: after(from, self.third()), to: [] }.for_each(simd.quad(), self.rest, each, sum);
+    }
+}
+
+/// What comes after place `start` of each list.
+#[inline(always)]
+fn after<const I: usize>(lists: [&[f64]; I], start: usize) -> [&[f64]; I] {
+    let mut rest: [&[f64]; I] = [&[]; I];
+    for (rest, list) in rest.iter_mut().zip(lists) {
+        *rest = &list[start..];
+    }
+    rest
+}
+
+/// Some numbers in one register.
+#[derive(Debug, Clone, Copy)]
+pub struct Lanes<S: Simd>(S, S::f64s);
+
+impl<S: Wide> Lanes<S> {
+    /// The same number in all lanes.
+    #[inline(always)]
+    pub fn splat(simd: S, value: f64) -> Self {
+        Self(simd, simd.splat_f64s(value))
+    }
+
+    /// Four numbers.
+    #[inline(always)]
+    pub fn of(simd: S, numbers: [f64; QUAD]) -> Lanes<S::Quad> {
+        Lanes(simd.quad(), simd.four(numbers))
+    }
+
+    /// Puts the numbers at place `at` of a list.
+    #[inline(always)]
+    pub fn store(self, to: &mut [f64], at: usize) {
+        S::as_mut_simd_f64s(&mut to[at..at + S::F64_LANES]).0[0] = self.1;
+    }
+
+    /// Square root.
+    #[inline(always)]
+    pub fn sqrt(self) -> Self {
+        Self(self.0, self.0.sqrt_f64s(self.1))
+    }
+
+    /// Magnitude.
+    #[inline(always)]
+    pub fn abs(self) -> Self {
+        Self(self.0, self.0.abs_f64s(self.1))
+    }
+
+    /// 0 where the number is negative; what is not a number stays so.
+    #[inline(always)]
+    pub fn or_zero(self) -> Self {
+        self.at_least(Self::splat(self.0, 0.0))
+    }
+
+    /// The larger of two; where this is not a number, this.
+    #[inline(always)]
+    pub fn at_least(self, limit: Self) -> Self {
+        Self(self.0, self.0.larger(self.1, limit.1))
+    }
+
+    /// The smaller of two; where this is not a number, this.
+    #[inline(always)]
+    pub fn at_most(self, limit: Self) -> Self {
+        Self(self.0, self.0.smaller(self.1, limit.1))
+    }
+
+    /// Adds all groups of four to `sum`, in ascending order.
+    #[inline(always)]
+    pub fn add_to(self, sum: &mut [f64; QUAD]) {
+        *sum = self.0.add_quads(*sum, self.1);
+    }
+
+    /// Puts the largest of all groups of four and of `most` into `most`.
+    #[inline(always)]
+    pub fn largest_to(self, most: &mut [f64; QUAD]) {
+        *most = self.0.largest_quads(*most, self.1);
+    }
+}
+
+macro_rules! operator {
+    ($trait:ident, $method:ident, $operation:ident) => {
+        impl<S: Simd> $trait for Lanes<S> {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self(self.0, self.0.$operation(self.1, other.1))
+            }
+        }
+    };
+}
+
+operator!(Add, add, add_f64s);
+operator!(Sub, sub, sub_f64s);
+operator!(Mul, mul, mul_f64s);
+operator!(Div, div, div_f64s);
+
+impl<S: Simd> Neg for Lanes<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(self.0, self.0.neg_f64s(self.1))
+    }
+}
+
+/// Sum of four lanes.
+#[inline(always)]
+pub fn sum_of(lanes: [f64; QUAD]) -> f64 {
+    (lanes[0] + lanes[1]) + (lanes[2] + lanes[3])
+}
+
+/// The largest of four lanes.
+#[inline(always)]
+pub fn largest_of(lanes: [f64; QUAD]) -> f64 {
+    let larger = |a: f64, b: f64| if a > b { a } else { b };
+    larger(larger(lanes[0], lanes[1]), larger(lanes[2], lanes[3]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Something with every operation.
+    struct Everything;
+
+    impl Each<1, 1> for Everything {
+        type Sum = [f64; QUAD];
+
+        #[inline(always)]
+        fn places<S: Wide>(&self, simd: S, [x]: [Lanes<S>; 1], sum: &mut [f64; QUAD]) -> [Lanes<S>; 1] {
+            let one = Lanes::splat(simd, 1.0);
+            let y = ((x * x + one).sqrt() - x.or_zero() / (x.abs() + one)).at_most(-x + one);
+            y.add_to(sum);
+            [y]
+        }
+    }
+
+    struct OnList<'a>(&'a [f64], &'a mut [f64]);
+
+    impl Kernel for OnList<'_> {
+        type Output = [f64; QUAD];
+
+        #[inline(always)]
+        fn run<S: Wide>(self, simd: S) -> [f64; QUAD] {
+            let (mut sum, count) = ([0.0; QUAD], self.0.len());
+            Lists { from: [self.0], to: [self.1] }.for_each(simd, count, &Everything, &mut sum);
+            sum
+        }
+    }
+
+    #[test]
+    fn every_width_gives_the_same_bits() {
+        for count in [8, 16, 40] {
+            let x: Vec<f64> = (0..count).map(|i| (i as f64 - 5.3) * 0.77).collect();
+            let (mut wide, mut narrow) = (vec![0.0; count], vec![0.0; count]);
+            let sums = [dispatch(OnList(&x, &mut wide)), OnList(&x, &mut narrow).run(Scalar256b)];
+            assert_eq!(sums[0].map(f64::to_bits), sums[1].map(f64::to_bits));
+            for i in 0..count {
+                let expected = ((x[i] * x[i] + 1.0).sqrt() - x[i].max(0.0) / (x[i].abs() + 1.0)).min(-x[i] + 1.0);
+                assert_eq!((wide[i].to_bits(), narrow[i].to_bits()), (expected.to_bits(), expected.to_bits()));
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_not_a_number_stays_so() {
+        for count in [8, 24] {
+            let (mut x, mut wide, mut narrow) = (vec![1.0; count], vec![0.0; count], vec![0.0; count]);
+            x[2] = f64::NAN;
+            dispatch(OnList(&x, &mut wide));
+            OnList(&x, &mut narrow).run(Scalar256b);
+            assert!(wide[2].is_nan() && narrow[2].is_nan());
+            assert!(wide[1].is_finite() && narrow[3].is_finite());
+        }
+    }
+}
