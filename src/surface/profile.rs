@@ -65,6 +65,22 @@ impl Profile {
         Self { points: self.points.iter().map(|&(arc, depth)| (arc, factor * depth)).collect() }
     }
 
+    /// With every vertical edge moved towards its lower side by `distance` [m], but not past its neighbours.
+    pub(crate) fn with_edges_moved(&self, distance: f64) -> Self {
+        let mut points = self.points.clone();
+        for k in 1..points.len() {
+            let ((s0, d0), (s1, d1)) = (self.points[k - 1], self.points[k]);
+            if s0 == s1 && d0 != d1 {
+                let arc = s0 + distance.copysign(d1 - d0);
+                let low = if k > 1 { points[k - 2].0 } else { f64::NEG_INFINITY };
+                let high = self.points.get(k + 1).map_or(f64::INFINITY, |next| next.0);
+                let arc = arc.max(low).min(high);
+                (points[k - 1].0, points[k].0) = (arc, arc);
+            }
+        }
+        Self { points }
+    }
+
     /// Arcs and depths [m]. Arcs do not descend; the first and last depth are 0; two equal arcs are a vertical edge.
     pub fn points(&self) -> &[(f64, f64)] {
         &self.points
