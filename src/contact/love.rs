@@ -104,7 +104,9 @@ impl LoveContact {
 
     /// Radial path [m] at which an element at arc `s` [m] begins to touch.
     pub fn first_touch(&self, s: f64) -> f64 {
-        self.grid().first_touch(s)
+        // A groove is lowest in its middle, along the first grid's row; a topography may be so anywhere.
+        let grids = if self.grid().mirrored() { 1 } else { self.layers.len() };
+        self.layers.iter().take(grids).map(|layer| layer.grid.first_touch(s)).fold(f64::INFINITY, f64::min)
     }
 
     /// Forgets the last contact, so that the next answer does not depend on it even in its rounding.
@@ -119,7 +121,7 @@ impl LoveContact {
     /// # Errors
     /// [`ContactError::OutOfRange`] beyond the largest approach, [`ContactError::NotConverged`] when the grid cannot be solved.
     pub fn solve(&mut self, u: f64, s: f64) -> Result<EquivalentApproach, ContactError> {
-        let touch = self.grid().first_touch(s);
+        let touch = self.first_touch(s);
         let far = touch - 0.1 * self.largest_approach;
         if u < far {
             // No contact within reach: how far off it is, and no more.
@@ -143,7 +145,7 @@ impl LoveContact {
         onset: &mut Option<(f64, EquivalentApproach)>,
     ) -> Result<EquivalentApproach, ContactError> {
         if onset.is_none() {
-            let touch = self.grid().first_touch(s);
+            let touch = self.first_touch(s);
             let at_touch = self.below_onset(touch, s, touch)?;
             *onset = Some((touch, at_touch));
         }

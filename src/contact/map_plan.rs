@@ -29,6 +29,8 @@ const LOWEST: f64 = -1.0;
 const ONSET: f64 = 0.03;
 /// The grid is prepared for so many times the largest approach: coarse cells reach above it.
 const PREPARED: f64 = 1.8;
+/// The root mean square error is to be this part of the largest one.
+const MEAN: f64 = 0.1;
 /// Nodes or cells of one job: the next contact starts from the last one within a job.
 const JOB: usize = 8;
 
@@ -176,13 +178,25 @@ impl MapPlan {
             errors.retain(|(p, key), _| self.patches[*p].cells.leaves.contains(key));
             // A little better than asked for: the checks do not hit the worst place.
             let limit = 0.8 * self.specification.accuracy;
-            let poor: Vec<(usize, Key)> = errors
+            let far = |found: &[Error], limit: f64| found.iter().flatten().any(|e| e.abs() > limit);
+            let mut poor: Vec<(usize, Key)> = errors
                 .iter()
-                .filter(|((_, key), found)| key.0 < LEVELS && found.iter().flatten().any(|e| e.abs() > limit))
+                .filter(|((_, key), found)| key.0 < LEVELS && far(found, limit))
                 .map(|(&place, _)| place)
                 .collect();
+            let accuracy = summary(&errors);
+            let mean = MEAN * self.specification.accuracy;
+            if poor.is_empty() && accuracy.rms_normal.max(accuracy.rms_tangential) > 0.95 * mean {
+                // Cells that hold more than their share of the mean square, by their area.
+                let share = |key: &Key| 1.5 * mean * f64::from(1_u32 << key.0);
+                poor = errors
+                    .iter()
+                    .filter(|((_, key), found)| key.0 < LEVELS && far(found, share(key)))
+                    .map(|(&place, _)| place)
+                    .collect();
+            }
             if poor.is_empty() {
-                return Ok(ContactMap { accuracy: summary(&errors), ..map });
+                return Ok(ContactMap { accuracy, ..map });
             }
             for (p, key) in poor {
                 self.patches[p].cells.cut(key);

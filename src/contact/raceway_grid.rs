@@ -104,33 +104,31 @@ pub struct Resolution {
 /// by comparison with finer grids; it is that of a flat punch, too (`tests/contact_grid.rs`).
 const BEYOND_EDGE: f64 = 0.17;
 
-/// Moves vertical edges a little towards the lower side, and finds the grid's origin and its cells' length, some
-/// `length` [m], for which the first and the last one lie on cell borders.
+/// An edge is what is steeper than 60°: there the pressure has a peak narrower than any cell.
+const STEEP: f64 = 1.732;
+
+/// Continues the raceway a little beyond its edges, and finds the grid's origin and its cells' length, some
+/// `length` [m], for which the first and the last continued edge lie on cell borders.
 fn columns_at_edges(surface: &mut Surface, length: f64) -> (f64, f64) {
-    let beyond: f64 = std::env::var("BEYOND").map_or(BEYOND_EDGE, |v| v.parse().unwrap_or(0.0));
-    let Surface::Profile(profile) = surface else {
-        let (first, last) = surface.extent();
-        let whole = ((last - first) / length).ceil().max(1.0);
-        return (first, (last - first) / whole);
+    let drop = BEYOND_EDGE * length;
+    let corners = match surface {
+        Surface::Profile(profile) => profile.upper_corners(STEEP, drop),
+        Surface::Topography(_) => Vec::new(),
     };
-    let falls: Vec<(f64, f64)> = profile
-        .points()
-        .windows(2)
-        .filter(|pair| pair[0].0 == pair[1].0 && pair[0].1 != pair[1].1)
-        .map(|pair| (pair[0].0, (pair[1].1 - pair[0].1).signum()))
-        .collect();
-    let (Some(&(first, first_fall)), Some(&(last, last_fall))) = (falls.first(), falls.last()) else {
-        let (first, last) = profile.extent();
+    let (Some(&(first, first_fall)), Some(&(last, last_fall)), Surface::Profile(profile)) =
+        (corners.first(), corners.last(), &mut *surface)
+    else {
+        let (first, last) = surface.extent();
         let whole = ((last - first) / length).ceil().max(1.0);
         return (first, (last - first) / whole);
     };
     let mut cell = length;
     if last > first {
         let whole = ((last - first) / length).ceil().max(1.0);
-        cell = (last - first) / (whole - (last_fall - first_fall) * beyond);
+        cell = (last - first) / (whole - (last_fall - first_fall) * BEYOND_EDGE);
     }
-    *profile = profile.with_edges_moved(beyond * cell);
-    (first + first_fall * beyond * cell, cell)
+    *profile = profile.with_corners_continued(STEEP, drop, BEYOND_EDGE * cell);
+    (first + first_fall * BEYOND_EDGE * cell, cell)
 }
 
 /// Cells fixed to the raceway.

@@ -65,18 +65,46 @@ impl Profile {
         Self { points: self.points.iter().map(|&(arc, depth)| (arc, factor * depth)).collect() }
     }
 
-    /// With every vertical edge moved towards its lower side by `distance` [m], but not past its neighbours.
-    pub(crate) fn with_edges_moved(&self, distance: f64) -> Self {
-        let mut points = self.points.clone();
-        for k in 1..points.len() {
-            let ((s0, d0), (s1, d1)) = (self.points[k - 1], self.points[k]);
-            if s0 == s1 && d0 != d1 {
-                let arc = s0 + distance.copysign(d1 - d0);
-                let low = if k > 1 { points[k - 2].0 } else { f64::NEG_INFINITY };
-                let high = self.points.get(k + 1).map_or(f64::INFINITY, |next| next.0);
-                let arc = arc.max(low).min(high);
-                (points[k - 1].0, points[k].0) = (arc, arc);
+    /// Upper corners of edges that are at least `steep` (tangent) and `drop` [m] deep, in ascending order: index of the point,
+    /// and +1 where the raceway falls with growing arc, −1 where it rises.
+    fn corners(&self, steep: f64, drop: f64) -> Vec<(usize, f64)> {
+        let step = |k: usize| {
+            let ((s0, d0), (s1, d1)) = (self.points[k], self.points[k + 1]);
+            if (d1 - d0).abs() > steep * (s1 - s0) { (d1 - d0).signum() } else { 0.0 }
+        };
+        let (mut corners, mut k) = (Vec::new(), 0);
+        while k + 1 < self.points.len() {
+            let (from, fall) = (k, step(k));
+            k += 1;
+            while fall != 0.0 && k + 1 < self.points.len() && step(k) == fall {
+                k += 1;
             }
+            if fall != 0.0 && (self.points[k].1 - self.points[from].1).abs() >= drop {
+                corners.push((if fall > 0.0 { from } else { k }, fall));
+            }
+        }
+        corners
+    }
+
+    /// Arcs [m] of the upper corners of edges at least `steep` (tangent) and `drop` [m] deep, with +1 where the raceway falls
+    /// with growing arc and −1 where it rises.
+    pub(crate) fn upper_corners(&self, steep: f64, drop: f64) -> Vec<(f64, f64)> {
+        self.corners(steep, drop).into_iter().map(|(k, fall)| (self.points[k].0, fall)).collect()
+    }
+
+    /// With the upper side of such edges continued level by `distance` [m], and a vertical edge there.
+    pub(crate) fn with_corners_continued(&self, steep: f64, drop: f64, distance: f64) -> Self {
+        let mut points = self.points.clone();
+        for (k, fall) in self.corners(steep, drop) {
+            let (corner, depth) = self.points[k];
+            let end = corner + fall * distance;
+            let covered = |s: f64| if fall > 0.0 { s >= corner && s <= end } else { s <= corner && s >= end };
+            let below = self.depth_at(end);
+            let keep = |&(s, d): &(f64, f64)| !covered(s) || s == corner && d == depth;
+            points.retain(keep);
+            let at = points.partition_point(|&(s, _)| s < corner) + usize::from(fall > 0.0);
+            let edge = if fall > 0.0 { [(end, depth), (end, below)] } else { [(end, below), (end, depth)] };
+            points.splice(at..at, edge);
         }
         Self { points }
     }
