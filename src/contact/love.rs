@@ -44,7 +44,6 @@ struct Energy {
     s: f64,
     uu: f64,
     us: f64,
-    ss: f64,
 }
 
 /// The contact of an element with one raceway, solved when asked.
@@ -62,9 +61,8 @@ struct Layer {
     grid: RacewayGrid,
     solver: ActiveSet,
     interference: Vec<f64>,
-    slopes: Vec<[f64; 2]>,
+    slopes: Vec<f64>,
     unit: Vec<f64>,
-    sloped: Vec<f64>,
 }
 
 impl LoveContact {
@@ -260,7 +258,6 @@ impl Layer {
             interference: Vec::new(),
             slopes: Vec::new(),
             unit: Vec::new(),
-            sloped: Vec::new(),
         })
     }
 
@@ -290,29 +287,22 @@ impl Layer {
 
     fn collect(&mut self, first: i32) -> Energy {
         self.solver.right_hand_side(&mut self.unit);
-        self.solver.right_hand_side(&mut self.sloped);
         let columns = self.slopes.len();
         let mut energy = Energy::default();
         for (run, k, p) in self.solver.cells() {
             let column = (run.first - first) as usize + k;
             let share = self.grid.share(run.row);
             // ∂h/∂s = −∂h/∂t
-            let [slope, curvature] = self.slopes[column];
             energy.w += 0.5 * p * self.interference[run.row * columns + column];
             energy.u += share * p;
-            energy.s += share * p * slope;
-            energy.ss -= share * p * curvature;
+            energy.s += share * p * self.slopes[column];
             self.unit[run.at + k] = share;
-            self.sloped[run.at + k] = share * slope;
         }
         self.solver.apply_inverse(&mut self.unit);
-        self.solver.apply_inverse(&mut self.sloped);
         for (run, k, _) in self.solver.cells() {
-            let share = self.grid.share(run.row);
-            let slope = self.slopes[(run.first - first) as usize + k][0];
-            energy.uu += share * self.unit[run.at + k];
-            energy.us += share * self.sloped[run.at + k];
-            energy.ss += share * slope * self.sloped[run.at + k];
+            let by_u = self.grid.share(run.row) * self.unit[run.at + k];
+            energy.uu += by_u;
+            energy.us += by_u * self.slopes[(run.first - first) as usize + k];
         }
         energy
     }
@@ -325,7 +315,6 @@ impl Energy {
         self.s += part * other.s;
         self.uu += part * other.uu;
         self.us += part * other.us;
-        self.ss += part * other.ss;
     }
 }
 
@@ -359,7 +348,6 @@ impl SmoothScale {
         let (v_u, v_s) = (per_w * e.u, per_w * e.s);
         let v_uu = per_w * e.uu + bend * e.u * e.u;
         let v_us = per_w * e.us + bend * e.u * e.s;
-        let v_ss = per_w * e.ss + bend * e.s * e.s;
         let [value, slope, curvature] = self.at(v);
         EquivalentApproach {
             value,
@@ -367,7 +355,6 @@ impl SmoothScale {
             ds: slope * v_s,
             duu: slope * v_uu + curvature * v_u * v_u,
             dus: slope * v_us + curvature * v_u * v_s,
-            dss: slope * v_ss + curvature * v_s * v_s,
         }
     }
 

@@ -67,7 +67,7 @@ impl ContactMap {
                         number(value);
                     }
                     for strip in &patch.strips {
-                        number(f64::from(strip.rows));
+                        number(strip.rows);
                         for value in strip.reference {
                             number(value);
                         }
@@ -163,7 +163,7 @@ fn read_stretch(numbers: &mut Numbers<'_>) -> Option<Stretch> {
     for _ in 0..count {
         let rows = numbers.count()?;
         let reference = [numbers.number()?, numbers.number()?, numbers.number()?, numbers.number()?];
-        strips.push(Strip { reference, first, rows: i32::try_from(rows).ok()? });
+        strips.push(Strip { reference, first, rows: rows as f64 });
         first += rows;
     }
     let count = numbers.count()?;
@@ -198,7 +198,7 @@ fn read_stretch(numbers: &mut Numbers<'_>) -> Option<Stretch> {
 fn consistent(map: &ContactMap) -> bool {
     let patch = |stretch: &Stretch| match stretch {
         Stretch::Flat(_) => true,
-        Stretch::Patch(p) => p.size.iter().all(|&side| side > 0.0) && p.strips.iter().all(|strip| strip.rows > 0),
+        Stretch::Patch(p) => p.size.iter().all(|&side| side > 0.0) && p.strips.iter().all(|strip| strip.rows > 0.0),
     };
     map.knots.is_sorted() && map.stretches.iter().all(patch)
 }

@@ -284,7 +284,7 @@ impl MapPlan {
         for plan in &self.patches {
             let mut first = 0;
             let strips = plan.references.iter().zip(&plan.cells.rows).map(|(&reference, &rows)| {
-                let strip = Strip { reference, first, rows: rows as i32 };
+                let strip = Strip { reference, first, rows: rows as f64 };
                 first += rows;
                 strip
             });

@@ -70,11 +70,11 @@ impl ElementOnRaceway {
         if along < across { [major, minor] } else { [minor, major] }
     }
 
-    /// Part of the gap along the raceway with its first two derivatives, at distance t [m] from the element.
+    /// Part of the gap along the raceway with its slope, at distance t [m] from the element.
     #[inline]
-    fn along(&self, t: f64) -> [f64; 3] {
+    fn along(&self, t: f64) -> [f64; 2] {
         let (inner, outer) = (circle(self.element_radius, t), circle(self.raceway_radius, t));
-        [inner[0] - outer[0], inner[1] - outer[1], inner[2] - outer[2]]
+        [inner[0] - outer[0], inner[1] - outer[1]]
     }
 
     fn across(&self, t: f64) -> f64 {
@@ -82,12 +82,11 @@ impl ElementOnRaceway {
     }
 }
 
-/// R − √(R² − t²) without cancellation, and two derivatives.
+/// R − √(R² − t²) without cancellation, and its slope.
 #[inline]
-fn circle(radius: f64, t: f64) -> [f64; 3] {
+fn circle(radius: f64, t: f64) -> [f64; 2] {
     let root = (radius * radius - t * t).sqrt();
-    let slope = t / root;
-    [t * t / (radius + root), slope, (1.0 + slope * slope) / root]
+    [t * t / (radius + root), t / root]
 }
 
 /// Number of cells across Hertz's ellipse at the largest approach.
@@ -329,23 +328,23 @@ impl RacewayGrid {
         })
     }
 
-    /// Interference u − h of a window, and the gap's first two derivatives by t = x − s for each column.
+    /// Interference u − h of a window, and the gap's slope by t = x − s for each column.
     pub fn interference(
         &self,
         u: f64,
         s: f64,
         (first, columns): (i32, usize),
         out: &mut Vec<f64>,
-        slopes: &mut Vec<[f64; 2]>,
+        slopes: &mut Vec<f64>,
     ) {
         out.clear();
         slopes.clear();
         out.resize(self.rows * columns, 0.0);
         let Some((bottom, others)) = out.split_at_mut_checked(columns) else { return };
         for (k, value) in bottom.iter_mut().enumerate() {
-            let [along, slope, curvature] = self.element.along(self.centre(first + k as i32) - s);
+            let [along, slope] = self.element.along(self.centre(first + k as i32) - s);
             *value = u - along;
-            slopes.push([slope, curvature]);
+            slopes.push(slope);
         }
         for (j, row) in others.chunks_exact_mut(columns).enumerate() {
             for (value, &b) in row.iter_mut().zip(bottom.iter()) {
