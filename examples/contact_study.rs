@@ -15,7 +15,7 @@ fn main() {
     for (name, element, surface, largest) in [("tb1", element, &surface, 10e-6), ("epps", skf, &epps, 25e-6), ("rough", element, &rough, 10e-6)] {
     if which != "" && which != name { continue; }
     for (c, r) in [(32,16), (48,32), (96,32)] {
-        let mut love = LoveContact::new(element, surface, 1.6 * largest, Resolution { columns: c, rows: r }).unwrap();
+        let mut love = LoveContact::new(element, surface, 1.8 * largest, Resolution { columns: c, rows: r }).unwrap();
         print!("{name} {c} {r}");
         let (s0, s1) = surface.extent();
         for q in [0.0, 0.03, 0.1, 0.3, 0.5, 1.0] { let s = s0 + q * (s1 - s0); let u = love.first_touch(s) + 0.7 * largest;

@@ -134,28 +134,6 @@ impl LoveContact {
         self.below_onset(u, s, touch)
     }
 
-    /// As [`LoveContact::solve`], but always the first-order continuation below the onset, however far; `onset` keeps where it starts from
-    /// between calls with the same `s`.
-    pub(super) fn solve_or_continue(
-        &mut self,
-        u: f64,
-        s: f64,
-        onset: &mut Option<(f64, EquivalentApproach)>,
-    ) -> Result<EquivalentApproach, ContactError> {
-        if onset.is_none() {
-            let touch = self.first_touch(s);
-            let at_touch = self.below_onset(touch, s, touch)?;
-            *onset = Some((touch, at_touch));
-        }
-        if let Some((at, start)) = *onset {
-            let value = start.value + start.du * (u - at);
-            if value <= self.smooth.onset() {
-                return Ok(EquivalentApproach { value, ..start });
-            }
-        }
-        self.equivalent(u, s)
-    }
-
     /// First-order continuation from the path at which Δ has the onset's small value.
     fn below_onset(&mut self, u: f64, s: f64, touch: f64) -> Result<EquivalentApproach, ContactError> {
         let onset = self.smooth.onset();

@@ -12,7 +12,6 @@ use std::collections::BTreeMap;
 use crate::surface::Surface;
 
 use super::{
-    equivalent::EquivalentApproach,
     error::ContactError,
     love::LoveContact,
     map::{Accuracy, ContactMap, Patch, Stretch, Strip},

@@ -103,6 +103,18 @@ pub struct Resolution {
 /// by comparison with finer grids; it is that of a flat punch, too (`tests/contact_grid.rs`).
 const BEYOND_EDGE: f64 = 0.17;
 
+/// Refuses measured points that are farther apart than a cell is long or wide.
+fn check_sampling(surface: &Surface, cell: [f64; 2]) -> Result<(), ContactError> {
+    for ((interval, cell), direction) in surface.coarsest_intervals().into_iter().zip(cell).zip(["along", "across"]) {
+        // Distances of points that were rounded when they were written.
+        if let Some((at, step)) = interval.filter(|&(_, step)| step > cell * (1.0 + 1e-6)) {
+            let (step_um, at_mm, cell_um) = (step * 1e6, at * 1e3, cell * 1e6);
+            return Err(ContactError::TooCoarse { direction, step_um, at_mm, cell_um });
+        }
+    }
+    Ok(())
+}
+
 /// An edge is what is steeper than 60°: there the pressure has a peak narrower than any cell.
 const STEEP: f64 = 1.732;
 
@@ -173,6 +185,7 @@ impl RacewayGrid {
         let mut surface = surface.cloned();
         let mut origin = 0.0;
         if let Some(surface) = &mut surface {
+            check_sampling(surface, cell)?;
             (origin, cell[0]) = columns_at_edges(surface, cell[0]);
         }
         let mut grid = Self {

@@ -10,6 +10,8 @@ use super::SurfaceError;
 pub struct Profile {
     /// Arc and depth; arcs do not descend, at most two are equal, the first and last depth are 0.
     points: Vec<(f64, f64)>,
+    /// Whether the points are samples of something unknown between them, and not corners of a polygon.
+    sampled: bool,
 }
 
 impl Profile {
@@ -28,7 +30,7 @@ impl Profile {
             points.push((half - run, depth));
         }
         points.push((half, 0.0));
-        Self { points }
+        Self { points, sampled: false }
     }
 
     /// A polygon through arcs and depths [m], arcs not descending.
@@ -57,12 +59,24 @@ impl Profile {
     /// As [`from_points`](Self::from_points), of points that are known to be in order.
     pub(super) fn closed(mut points: Vec<(f64, f64)>) -> Self {
         close_ends(&mut points);
-        Self { points }
+        Self { points, sampled: false }
+    }
+
+    /// The points are samples of something unknown between them, and not corners of a polygon.
+    pub(super) fn as_samples(self) -> Self {
+        Self { sampled: true, ..self }
+    }
+
+    /// Middle and length [m] of the longest straight line between two samples that differ; `None` for a polygon.
+    pub(super) fn coarsest(&self) -> Option<(f64, f64)> {
+        let lines = self.points.windows(2).filter(|pair| self.sampled && pair[0].1 != pair[1].1);
+        let lines = lines.map(|pair| (0.5 * (pair[0].0 + pair[1].0), pair[1].0 - pair[0].0));
+        lines.max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// With every depth multiplied by `factor`.
     pub(super) fn scaled(&self, factor: f64) -> Self {
-        Self { points: self.points.iter().map(|&(arc, depth)| (arc, factor * depth)).collect() }
+        Self { points: self.points.iter().map(|&(arc, depth)| (arc, factor * depth)).collect(), ..*self }
     }
 
     /// Upper corners of edges that are at least `steep` (tangent) and `drop` [m] deep, in ascending order: index of the point,
@@ -106,7 +120,7 @@ impl Profile {
             let edge = if fall > 0.0 { [(end, depth), (end, below)] } else { [(end, below), (end, depth)] };
             points.splice(at..at, edge);
         }
-        Self { points }
+        Self { points, ..*self }
     }
 
     /// Arcs and depths [m]. Arcs do not descend; the first and last depth are 0; two equal arcs are a vertical edge.
