@@ -48,9 +48,9 @@ fn force_of_a_sphere_converges_to_hertz() {
 #[test]
 fn both_solvers_give_the_same_force_on_smooth_and_broken_gaps() {
     for (problem, mirror) in [
-        (sphere(32, 1.2, None), Mirror { x: true, y: true }),
-        (sphere(32, 1.3, Some(0.1)), Mirror { x: false, y: true }),
-        (sphere(64, 1.3, Some(0.002)), Mirror { x: false, y: true }),
+        (sphere(32, 1.2, None), Mirror { x: true, y: true, ..Mirror::default() }),
+        (sphere(32, 1.3, Some(0.1)), Mirror { x: false, y: true, ..Mirror::default() }),
+        (sphere(64, 1.3, Some(0.002)), Mirror { x: false, y: true, ..Mirror::default() }),
         (sphere(27, 1.3, Some(0.1)), Mirror::default()),
     ] {
         assert_eq!(problem.mirror(), mirror);

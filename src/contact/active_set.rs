@@ -9,6 +9,8 @@
 //! The next contact starts from the last set, and the last factor is kept while the set stays the same, so a warm contact
 //! costs two triangular solutions and one product. Cells are addressed by their column on the raceway; only their differences enter K.
 
+use std::sync::Arc;
+
 use pulp::{Arch, NullaryFnOnce};
 
 use super::{cholesky::Cholesky, error::ContactError, half_space::KernelTable};
@@ -25,6 +27,8 @@ pub struct Mirror {
     pub x: bool,
     /// Front and back: row 0 is behind the middle.
     pub y: bool,
+    /// Front and back, and the middle runs along row 0, of which one half is an unknown: its interference is to be halved.
+    pub middle_row: bool,
 }
 
 impl Mirror {
@@ -45,7 +49,8 @@ struct RowPairs {
 }
 
 impl RowPairs {
-    fn new(kernel: &KernelTable, rows: usize, mirrored: bool) -> Self {
+    fn new(kernel: &KernelTable, rows: usize, mirror: Mirror) -> Self {
+        let mirrored = mirror.y || mirror.middle_row;
         let reach = kernel.columns();
         let width = 2 * reach - 1 + BLOCK;
         let pairs = if mirrored { rows * rows } else { rows };
@@ -53,8 +58,15 @@ impl RowPairs {
         for (index, out) in values.chunks_exact_mut(width).enumerate() {
             if mirrored {
                 let (j, k) = (index / rows, index % rows);
-                for ((out, direct), image) in out.iter_mut().zip(kernel.row(j.abs_diff(k))).zip(kernel.row(j + k + 1)) {
-                    *out = direct + image;
+                let other = if mirror.middle_row { j + k } else { j + k + 1 };
+                // Halves of a row in the middle: of both its force and its image.
+                let part = match (j, k) {
+                    (0, 0) if mirror.middle_row => 0.25,
+                    (0, _) | (_, 0) if mirror.middle_row => 0.5,
+                    _ => 1.0,
+                };
+                for ((out, direct), image) in out.iter_mut().zip(kernel.row(j.abs_diff(k))).zip(kernel.row(other)) {
+                    *out = part * (direct + image);
                 }
             } else {
                 out[..2 * reach - 1].copy_from_slice(kernel.row(index));
@@ -115,7 +127,8 @@ enum State {
 /// The solver with its workspace and the last set.
 #[derive(Debug, Clone)]
 pub struct ActiveSet {
-    pairs: RowPairs,
+    /// Shared by copies of a solver.
+    pairs: Arc<RowPairs>,
     mirror: Mirror,
     factor: Cholesky,
     factored: Vec<Run>,
@@ -129,7 +142,7 @@ impl ActiveSet {
     /// Solver for `rows` rows of unknowns. The table must hold the largest offset that can occur: all columns of a window (twice as many
     /// with left and right mirrored) and all `rows` (twice as many with front and back mirrored).
     pub fn new(kernel: &KernelTable, rows: usize, mirror: Mirror) -> Result<Self, ContactError> {
-        let needed = if mirror.y { 2 * rows } else { rows };
+        let needed = if mirror.y || mirror.middle_row { 2 * rows } else { rows };
         if kernel.rows() < needed {
             return Err(ContactError::WrongLength {
                 quantity: "kernel table, rows",
@@ -138,7 +151,7 @@ impl ActiveSet {
             });
         }
         Ok(Self {
-            pairs: RowPairs::new(kernel, rows, mirror.y),
+            pairs: Arc::new(RowPairs::new(kernel, rows, mirror)),
             mirror,
             factor: Cholesky::default(),
             factored: Vec::new(),

@@ -9,7 +9,7 @@
 //! F_t = −∂W/∂s = −K Δ^{3/2} ∂Δ/∂s   on the element along +s, per metre of raceway arc
 //! ```
 
-/// Δ with its first and second derivatives by u and s [m, –, 1/m]. Below zero there is no contact; the value then only tells how far off
+/// Δ with the derivatives by u and s that the forces, and their slopes along the path, need [m, –, 1/m]. Below zero there is no contact; the value then only tells how far off
 /// the contact is.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct EquivalentApproach {
@@ -23,8 +23,6 @@ pub struct EquivalentApproach {
     pub duu: f64,
     /// ∂²Δ/∂u∂s [1/m].
     pub dus: f64,
-    /// ∂²Δ/∂s² [1/m].
-    pub dss: f64,
 }
 
 impl EquivalentApproach {

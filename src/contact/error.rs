@@ -15,6 +15,20 @@ pub enum ContactError {
         /// What is allowed.
         limit: String,
     },
+    /// Measured points farther apart than the grid's cells: what the grid would resolve was never measured.
+    #[error(
+        "defect profile: points are {step_um:.2} um apart {direction} the raceway at {at_mm:.4} mm, the limit is a cell of the contact grid,          {cell_um:.2} um: measure more finely, make cells longer with contact.cells, or add points on lines that are meant to be straight"
+    )]
+    TooCoarse {
+        /// "along" or "across".
+        direction: &'static str,
+        /// Distance of the points [µm].
+        step_um: f64,
+        /// Arc or axial coordinate between them, from the middle [mm].
+        at_mm: f64,
+        /// Length or width of a cell [µm].
+        cell_um: f64,
+    },
     /// An array has the wrong length.
     #[error("{quantity} has {length} values, {expected} are needed")]
     WrongLength {

@@ -196,6 +196,7 @@ impl GridProblem {
         Mirror {
             x: n.is_multiple_of(2) && all(&|i, j| same(j * n + i, j * n + n - 1 - i)),
             y: m.is_multiple_of(2) && all(&|i, j| same(j * n + i, (m - 1 - j) * n + i)),
+            middle_row: false,
         }
     }
 

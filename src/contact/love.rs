@@ -23,7 +23,7 @@ use libm::pow;
 use crate::surface::Surface;
 
 use super::{
-    active_set::{ActiveSet, Mirror, Window},
+    active_set::{ActiveSet, Window},
     equivalent::EquivalentApproach,
     error::ContactError,
     half_space::KernelTable,
@@ -44,21 +44,25 @@ struct Energy {
     s: f64,
     uu: f64,
     us: f64,
-    ss: f64,
 }
 
 /// The contact of an element with one raceway, solved when asked.
 #[derive(Debug, Clone)]
 pub struct LoveContact {
-    grid: RacewayGrid,
+    layers: Vec<Layer>,
     largest_approach: f64,
-    solver: ActiveSet,
     smooth: SmoothScale,
-    interference: Vec<f64>,
-    slopes: Vec<[f64; 2]>,
-    unit: Vec<f64>,
-    sloped: Vec<f64>,
     solves: u64,
+}
+
+/// One grid with its solver.
+#[derive(Debug, Clone)]
+struct Layer {
+    grid: RacewayGrid,
+    solver: ActiveSet,
+    interference: Vec<f64>,
+    slopes: Vec<f64>,
+    unit: Vec<f64>,
 }
 
 impl LoveContact {
@@ -73,26 +77,17 @@ impl LoveContact {
         resolution: Resolution,
     ) -> Result<Self, ContactError> {
         let grid = RacewayGrid::new(element, Some(surface), largest_approach, resolution)?;
-        let solver = solver_for(&grid, largest_approach)?;
-        let mut contact = Self {
-            grid,
-            largest_approach,
-            solver,
-            smooth: SmoothScale::default(),
-            interference: Vec::new(),
-            slopes: Vec::new(),
-            unit: Vec::new(),
-            sloped: Vec::new(),
-            solves: 0,
-        };
+        let layers = if std::env::var("ONE").is_ok() { vec![Layer::new(grid, largest_approach)?] } else {
+            vec![Layer::new(grid.interlaced(), largest_approach)?, Layer::new(grid, largest_approach)?] };
+        let mut contact = Self { layers, largest_approach, smooth: SmoothScale::default(), solves: 0 };
         contact.smooth = contact.smooth_scale()?;
         contact.solves = 0;
         Ok(contact)
     }
 
-    /// The grid under the element.
+    /// The grid under the element that has a row along the groove's bottom.
     pub fn grid(&self) -> &RacewayGrid {
-        &self.grid
+        &self.layers[0].grid
     }
 
     /// Contacts solved so far.
@@ -107,12 +102,16 @@ impl LoveContact {
 
     /// Radial path [m] at which an element at arc `s` [m] begins to touch.
     pub fn first_touch(&self, s: f64) -> f64 {
-        self.grid.first_touch(s)
+        // A groove is lowest in its middle, along the first grid's row; a topography may be so anywhere.
+        let grids = if self.grid().mirrored() { 1 } else { self.layers.len() };
+        self.layers.iter().take(grids).map(|layer| layer.grid.first_touch(s)).fold(f64::INFINITY, f64::min)
     }
 
     /// Forgets the last contact, so that the next answer does not depend on it even in its rounding.
     pub fn forget(&mut self) {
-        self.solver.forget();
+        for layer in &mut self.layers {
+            layer.solver.forget();
+        }
     }
 
     /// Equivalent approach at radial path `u` and arc `s` [m].
@@ -120,7 +119,7 @@ impl LoveContact {
     /// # Errors
     /// [`ContactError::OutOfRange`] beyond the largest approach, [`ContactError::NotConverged`] when the grid cannot be solved.
     pub fn solve(&mut self, u: f64, s: f64) -> Result<EquivalentApproach, ContactError> {
-        let touch = self.grid.first_touch(s);
+        let touch = self.first_touch(s);
         let far = touch - 0.1 * self.largest_approach;
         if u < far {
             // No contact within reach: how far off it is, and no more.
@@ -133,28 +132,6 @@ impl LoveContact {
             }
         }
         self.below_onset(u, s, touch)
-    }
-
-    /// As [`LoveContact::solve`], but always the first-order continuation below the onset, however far; `onset` keeps where it starts from
-    /// between calls with the same `s`.
-    pub(super) fn solve_or_continue(
-        &mut self,
-        u: f64,
-        s: f64,
-        onset: &mut Option<(f64, EquivalentApproach)>,
-    ) -> Result<EquivalentApproach, ContactError> {
-        if onset.is_none() {
-            let touch = self.grid.first_touch(s);
-            let at_touch = self.below_onset(touch, s, touch)?;
-            *onset = Some((touch, at_touch));
-        }
-        if let Some((at, start)) = *onset {
-            let value = start.value + start.du * (u - at);
-            if value <= self.smooth.onset() {
-                return Ok(EquivalentApproach { value, ..start });
-            }
-        }
-        self.equivalent(u, s)
     }
 
     /// First-order continuation from the path at which Δ has the onset's small value.
@@ -205,67 +182,36 @@ impl LoveContact {
         Ok(approach)
     }
 
+    /// Mean over the grids.
     fn energy(&mut self, u: f64, s: f64) -> Result<Energy, ContactError> {
-        loop {
-            let span = self.grid.window(u, s);
-            let limit = self.grid.deepest() + 3.0 * self.largest_approach;
-            if !(u <= limit) || !s.is_finite() {
-                return Err(ContactError::OutOfRange {
-                    quantity: "radial path",
-                    value: u,
-                    lower: f64::NEG_INFINITY,
-                    upper: limit,
-                });
-            }
-            self.grid.interference(u, s, span, &mut self.interference, &mut self.slopes);
-            let window = Window { first: span.0, columns: span.1, interference: &self.interference };
-            self.solver.solve(window)?;
+        let limit = self.grid().deepest() + 3.0 * self.largest_approach;
+        if !(u <= limit) || !s.is_finite() {
+            return Err(ContactError::OutOfRange {
+                quantity: "radial path",
+                value: u,
+                lower: f64::NEG_INFINITY,
+                upper: limit,
+            });
+        }
+        let mut sum = Energy::default();
+        let part = 1.0 / self.layers.len() as f64;
+        for layer in &mut self.layers {
+            sum.add(&layer.energy(u, s, self.largest_approach)?, part);
             self.solves += 1;
-            let rows = self.grid.rows();
-            let border = |row: usize| row + 1 == rows || (row == 0 && !self.grid.mirrored());
-            if !self.solver.runs().iter().any(|run| border(run.row)) {
-                return Ok(self.collect(span.0));
-            }
-            // The contact is wider than the grid across the raceway: more rows, and once more.
-            let half = if self.grid.mirrored() { rows } else { rows / 2 };
-            self.grid.set_rows(half + half / 4 + 2);
-            self.solver = solver_for(&self.grid, self.largest_approach)?;
         }
-    }
-
-    fn collect(&mut self, first: i32) -> Energy {
-        self.solver.right_hand_side(&mut self.unit);
-        self.solver.right_hand_side(&mut self.sloped);
-        let columns = self.slopes.len();
-        let mut energy = Energy::default();
-        for (run, k, p) in self.solver.cells() {
-            let column = (run.first - first) as usize + k;
-            // ∂h/∂s = −∂h/∂t
-            let [slope, curvature] = self.slopes[column];
-            energy.w += 0.5 * p * self.interference[run.row * columns + column];
-            energy.u += p;
-            energy.s += p * slope;
-            energy.ss -= p * curvature;
-            self.unit[run.at + k] = 1.0;
-            self.sloped[run.at + k] = slope;
-        }
-        self.solver.apply_inverse(&mut self.unit);
-        self.solver.apply_inverse(&mut self.sloped);
-        for (run, k, _) in self.solver.cells() {
-            let slope = self.slopes[(run.first - first) as usize + k][0];
-            energy.uu += self.unit[run.at + k];
-            energy.us += self.sloped[run.at + k];
-            energy.ss += slope * self.sloped[run.at + k];
-        }
-        energy
+        Ok(sum)
     }
 
     /// W of the smooth raceway, the element above the middle of a cell.
     fn smooth_scale(&mut self) -> Result<SmoothScale, ContactError> {
-        let smooth = self.grid.without_defect();
-        let with_defect = std::mem::replace(&mut self.grid, smooth);
-        let s = self.grid.centre(0);
-        let onset = (ONSET_TOUCHES * self.grid.first_touch(s)).max(1e-4 * self.largest_approach);
+        let smooth: Vec<Layer> = self
+            .layers
+            .iter()
+            .map(|layer| Layer::new(layer.grid.without_defect(), self.largest_approach))
+            .collect::<Result<_, _>>()?;
+        let with_defect = std::mem::replace(&mut self.layers, smooth);
+        let s = self.grid().centre(0);
+        let onset = (ONSET_TOUCHES * self.grid().first_touch(s)).max(1e-4 * self.largest_approach);
         let (low, high) = (onset.sqrt(), (1.02 * self.largest_approach).sqrt());
         let mut nodes = Vec::new();
         for k in 0..=SMOOTH_NODES {
@@ -276,11 +222,77 @@ impl LoveContact {
             let slope = 0.4 * v / energy.w * energy.u;
             nodes.push([v, u, 1.0 / slope]);
         }
-        let rows = self.grid.rows();
-        self.grid = with_defect;
-        self.grid.set_rows(if self.grid.mirrored() { rows } else { rows / 2 });
-        self.solver.forget();
+        self.layers = with_defect;
         Ok(SmoothScale { nodes })
+    }
+}
+
+impl Layer {
+    fn new(grid: RacewayGrid, largest_approach: f64) -> Result<Self, ContactError> {
+        let solver = solver_for(&grid, largest_approach)?;
+        Ok(Self {
+            grid,
+            solver,
+            interference: Vec::new(),
+            slopes: Vec::new(),
+            unit: Vec::new(),
+        })
+    }
+
+    fn energy(&mut self, u: f64, s: f64, largest_approach: f64) -> Result<Energy, ContactError> {
+        loop {
+            let span = self.grid.window(u, s);
+            self.grid.interference(u, s, span, &mut self.interference, &mut self.slopes);
+            for (row, values) in self.interference.chunks_exact_mut(span.1).enumerate() {
+                let share = self.grid.share(row);
+                if share < 1.0 {
+                    values.iter_mut().for_each(|value| *value *= share);
+                }
+            }
+            let window = Window { first: span.0, columns: span.1, interference: &self.interference };
+            self.solver.solve(window)?;
+            let rows = self.grid.rows();
+            let border = |row: usize| row + 1 == rows || (row == 0 && !self.grid.mirrored());
+            if !self.solver.runs().iter().any(|run| border(run.row)) {
+                return Ok(self.collect(span.0));
+            }
+            // The contact is wider than the grid across the raceway: more rows, and once more.
+            let half = self.grid.half_rows();
+            self.grid.set_rows(half + half / 4 + 2);
+            self.solver = solver_for(&self.grid, largest_approach)?;
+        }
+    }
+
+    fn collect(&mut self, first: i32) -> Energy {
+        self.solver.right_hand_side(&mut self.unit);
+        let columns = self.slopes.len();
+        let mut energy = Energy::default();
+        for (run, k, p) in self.solver.cells() {
+            let column = (run.first - first) as usize + k;
+            let share = self.grid.share(run.row);
+            // ∂h/∂s = −∂h/∂t
+            energy.w += 0.5 * p * self.interference[run.row * columns + column];
+            energy.u += share * p;
+            energy.s += share * p * self.slopes[column];
+            self.unit[run.at + k] = share;
+        }
+        self.solver.apply_inverse(&mut self.unit);
+        for (run, k, _) in self.solver.cells() {
+            let by_u = self.grid.share(run.row) * self.unit[run.at + k];
+            energy.uu += by_u;
+            energy.us += by_u * self.slopes[(run.first - first) as usize + k];
+        }
+        energy
+    }
+}
+
+impl Energy {
+    fn add(&mut self, other: &Self, part: f64) {
+        self.w += part * other.w;
+        self.u += part * other.u;
+        self.s += part * other.s;
+        self.uu += part * other.uu;
+        self.us += part * other.us;
     }
 }
 
@@ -288,7 +300,7 @@ fn solver_for(grid: &RacewayGrid, largest_approach: f64) -> Result<ActiveSet, Co
     let columns = grid.widest(grid.deepest() + 3.0 * largest_approach);
     let rows = if grid.mirrored() { 2 * grid.rows() } else { grid.rows() };
     let kernel = KernelTable::new(columns, rows, grid.cell());
-    ActiveSet::new(&kernel, grid.rows(), Mirror { x: false, y: grid.mirrored() })
+    ActiveSet::new(&kernel, grid.rows(), grid.mirror())
 }
 
 /// Δ as a function of V = W^{2/5}, cubic Hermite between nodes [V, Δ, dΔ/dV].
@@ -314,7 +326,6 @@ impl SmoothScale {
         let (v_u, v_s) = (per_w * e.u, per_w * e.s);
         let v_uu = per_w * e.uu + bend * e.u * e.u;
         let v_us = per_w * e.us + bend * e.u * e.s;
-        let v_ss = per_w * e.ss + bend * e.s * e.s;
         let [value, slope, curvature] = self.at(v);
         EquivalentApproach {
             value,
@@ -322,7 +333,6 @@ impl SmoothScale {
             ds: slope * v_s,
             duu: slope * v_uu + curvature * v_u * v_u,
             dus: slope * v_us + curvature * v_u * v_s,
-            dss: slope * v_ss + curvature * v_s * v_s,
         }
     }
 

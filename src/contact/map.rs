@@ -1,30 +1,36 @@
 //! Law `map`: the equivalent approach Δ(u, s), solved beforehand on nodes and interpolated.
 //!
 //! Element, raceway and defect do not change during a run, so the contact is one function of radial path and arc. Near the
-//! defect's flanks Δ is a C¹ bicubic Hermite surface through nodes whose gradients are the grid solver's own forces; both forces are
+//! defect's flanks Δ is a C¹ surface of bicubic Hermite cells through nodes whose gradients are the grid solver's own forces; both forces are
 //! derivatives of that one surface, hence a closed path costs no work whatever the interpolation error. On the smooth
 //! raceway Δ = u and on a flat floor Δ = u − depth, in closed form; the flanks' first and last columns *are* these forms, so the pieces join in
 //! value and slope. The path is counted from a smooth reference T(s) close to the first touch, so that the onset runs along the
-//! nodes and not across them: Δ(u, s) = f(u − T(s), s). Below the onset Δ is continued linearly, which keeps its zero where the contact begins.
+//! nodes and not across them: Δ(u, s) = f(u − T(s), s). Below the lowest nodes Δ is continued linearly, which keeps its zero where the contact begins.
 //!
-//! Valid for Δ up to `largest_approach`; beyond it a lookup is an error, never a number.
+//! A cell that is not accurate enough is cut in four, again and again: a second contact (the floor's beside the edge's) begins on a line
+//! across the map, and only the cells on that line need to be small.
+//!
+//! Valid for Δ up to `largest_approach`; above, Δ is continued linearly up to [`CONTINUED`] times that, where F is some per cent
+//! off (`docs/contact.md`), and beyond a lookup is an error, never a number.
 
 use super::{equivalent::EquivalentApproach, error::ContactError};
 
-/// Δ and its scaled derivatives at a node: Δ, Δ_s ds, Δ_u du, Δ_us du ds [m]. Value and arc derivative lie side by side: they are
-/// interpolated alike.
-pub(super) type Node = [f64; 4];
+/// A map answers up to so many times its largest approach; above it by continuation.
+pub const CONTINUED: f64 = 1.5;
+
+/// Coefficients c[j][i] of q^i t^j, with q along the raceway and t along the path from 0 to 1.
+pub(super) type Cubic = [[f64; 4]; 4];
 
 /// Error of a map between its nodes, relative to the smooth contact's force at the largest approach.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Accuracy {
     /// Largest error of the normal force.
     pub max_normal: f64,
-    /// Root mean square error of the normal force.
+    /// Root mean square error of the normal force over arc and path.
     pub rms_normal: f64,
     /// Largest error of the tangential force.
     pub max_tangential: f64,
-    /// Root mean square error of the tangential force.
+    /// Root mean square error of the tangential force over arc and path.
     pub rms_tangential: f64,
     /// Points between nodes at which the errors were found.
     pub points: usize,
@@ -37,46 +43,39 @@ impl Accuracy {
     }
 }
 
-/// Nodes at one arc: reference path and its slope times the strip's arc step [m], place of the first node, number.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Column {
-    pub(super) reference: [f64; 2],
-    pub(super) at: usize,
-    pub(super) count: usize,
-}
-
-/// One interval of a patch, with nodes as dense as the accuracy needs them there.
+/// A stretch of raceway one coarse cell long.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Strip {
-    /// Index of the first of its `parts` + 1 columns.
+    /// Reference path T(s): coefficients of q⁰ … q³ [m].
+    pub(super) reference: [f64; 4],
+    /// Index of the lowest coarse cell.
     pub(super) first: usize,
-    pub(super) parts: i32,
-    /// Distance of nodes along the raceway and along the path [m], and nodes per metre.
-    pub(super) arc_step: f64,
-    pub(super) path_step: f64,
-    pub(super) per_arc: f64,
-    pub(super) per_path: f64,
-    /// Index of the lowest node; node 0 stands on the reference path.
-    pub(super) lowest: i32,
+    /// Coarse cells one above the other.
+    pub(super) rows: f64,
 }
 
-impl Strip {
-    pub(super) fn new(first: usize, parts: i32, width: f64, path_step: f64, lowest: i32) -> Self {
-        let arc_step = width / f64::from(parts);
-        Self { first, parts, arc_step, path_step, per_arc: 1.0 / arc_step, per_path: 1.0 / path_step, lowest }
-    }
+/// A cell: one cubic, or four cells [left low, right low, left high, right high].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Cell {
+    Leaf(u32),
+    Cut([u32; 4]),
 }
 
-/// A stretch of raceway with nodes, cut into strips of one width.
+/// A stretch of raceway with nodes.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Patch {
-    /// First arc and width of a strip [m].
+    /// First arc [m].
     pub(super) start: f64,
-    pub(super) width: f64,
-    pub(super) per_width: f64,
+    /// Length and height of a coarse cell [m], and how many make a metre.
+    pub(super) size: [f64; 2],
+    pub(super) per_metre: [f64; 2],
+    /// Coarse cells begin so many of their heights above the reference path.
+    pub(super) lowest: f64,
     pub(super) strips: Vec<Strip>,
-    pub(super) columns: Vec<Column>,
-    pub(super) nodes: Vec<Node>,
+    last_strip: f64,
+    /// Coarse cells first, strip by strip; then cut ones, each after the one it is part of.
+    pub(super) cells: Vec<Cell>,
+    pub(super) leaves: Vec<Cubic>,
 }
 
 /// What lies between the patches.
@@ -95,6 +94,7 @@ pub struct ContactMap {
     pub(super) knots: Vec<f64>,
     /// One fewer than knots.
     pub(super) stretches: Vec<Stretch>,
+    pub(super) nodes: usize,
     pub(super) largest_approach: f64,
     pub(super) accuracy: Accuracy,
     pub(super) fingerprint: u64,
@@ -116,10 +116,9 @@ impl ContactMap {
         self.accuracy
     }
 
-    /// Number of nodes.
+    /// Number of nodes at which contacts were solved.
     pub fn nodes(&self) -> usize {
-        let count = |stretch: &Stretch| if let Stretch::Patch(patch) = stretch { patch.nodes.len() } else { 0 };
-        self.stretches.iter().map(count).sum()
+        self.nodes
     }
 
     /// Fingerprint of the inputs the map was made from.
@@ -130,12 +129,24 @@ impl ContactMap {
     /// Equivalent approach at radial path `u` and arc `s` [m].
     ///
     /// # Errors
-    /// [`ContactError::OutOfRange`] where the approach is larger than the map was made for.
+    /// [`ContactError::OutOfRange`] where the approach is much larger than the map was made for.
     #[inline]
     pub fn lookup(&self, u: f64, s: f64) -> Result<EquivalentApproach, ContactError> {
         let next = self.knots.iter().take_while(|&&knot| knot <= s).count();
-        match self.stretches.get(next.wrapping_sub(1)) {
-            Some(Stretch::Patch(patch)) => patch.lookup(u, s).ok_or_else(|| self.out_of_range(u)),
+        self.lookup_in(next.wrapping_sub(1), u, s)
+    }
+
+    /// As [`ContactMap::lookup`], between knots `stretch` and `stretch` + 1 or slightly beyond.
+    ///
+    /// # Errors
+    /// As [`ContactMap::lookup`].
+    #[inline]
+    pub fn lookup_in(&self, stretch: usize, u: f64, s: f64) -> Result<EquivalentApproach, ContactError> {
+        match self.stretches.get(stretch) {
+            Some(Stretch::Patch(patch)) => match patch.lookup(u, s) {
+                Some(approach) if approach.value <= CONTINUED * self.largest_approach => Ok(approach),
+                _ => Err(self.out_of_range(u)),
+            },
             Some(Stretch::Flat(depth)) => Ok(EquivalentApproach::flat(u, *depth)),
             None => Ok(EquivalentApproach::flat(u, 0.0)),
         }
@@ -147,95 +158,98 @@ impl ContactMap {
             quantity: "radial path in the contact map",
             value: u,
             lower: f64::NEG_INFINITY,
-            upper: self.largest_approach,
+            upper: CONTINUED * self.largest_approach,
         }
     }
 }
 
 impl Patch {
+    pub(super) fn new(
+        start: f64,
+        size: [f64; 2],
+        lowest: f64,
+        strips: Vec<Strip>,
+        cells: Vec<Cell>,
+        leaves: Vec<Cubic>,
+    ) -> Self {
+        let last_strip = strips.len() as f64 - 1.0;
+        Self { start, size, per_metre: size.map(|side| 1.0 / side), lowest, strips, last_strip, cells, leaves }
+    }
+
     #[inline]
     fn lookup(&self, u: f64, s: f64) -> Option<EquivalentApproach> {
-        // Signed 32-bit conversions: one instruction, where unsigned ones are several.
-        let along = (s - self.start) * self.per_width;
-        let k = (along as i32).min(self.strips.len() as i32 - 1);
-        let strip = self.strips.get(k as usize)?;
-        let along = (along - f64::from(k)) * f64::from(strip.parts);
-        let part = (along as i32).min(strip.parts - 1);
-        let q = along - f64::from(part);
-        let first = strip.first + part as usize;
-        let [left, right] = self.columns.get(first..first + 2)? else { return None };
-        let (du, ds) = (strip.per_path, strip.per_arc);
-        let lowest = f64::from(strip.lowest);
-        let by_arc = hermite(q);
-        let reference =
-            |b: &[f64; 4]| combine(&[left.reference[0], left.reference[1], right.reference[0], right.reference[1]], b);
-        let height = (u - reference(&by_arc[0])) * du - lowest;
-        // Below the nodes the lowest edge is continued by its slope.
-        let below = height < 0.0;
-        let cell = height.max(0.0) as i32;
-        let t = if below { 0.0 } else { height - f64::from(cell) };
-        let cell = cell as usize;
-        let pair = |column: &Column| -> Option<[Node; 2]> {
-            if cell + 1 >= column.count {
-                return None;
-            }
-            match self.nodes.get(column.at + cell..column.at + cell + 2)? {
-                [low, high] => Some([*low, *high]),
-                _ => None,
+        let [mut per_arc, mut per_path] = self.per_metre;
+        let along = (s - self.start) * per_arc;
+        let (k, from) = whole_part(along, self.last_strip);
+        let mut q = along - from;
+        let strip = self.strips.get(k)?;
+        let [c0, c1, c2, c3] = strip.reference;
+        let reference = (c0 + q * c1) + (q * q) * (c2 + q * c3);
+        let slope = (c1 + q * (2.0 * c2 + q * (3.0 * c3))) * per_arc;
+        let height = (u - reference) * per_path - self.lowest;
+        let inside = height.max(0.0).min(strip.rows);
+        let (row, below) = whole_part(inside, strip.rows - 1.0);
+        let mut t = inside - below;
+        let mut cell = self.cells.get(strip.first + row)?;
+        let leaf = loop {
+            match cell {
+                Cell::Leaf(leaf) => break self.leaves.get(*leaf as usize)?,
+                Cell::Cut(parts) => {
+                    (q, t, per_arc, per_path) = (2.0 * q, 2.0 * t, 2.0 * per_arc, 2.0 * per_path);
+                    let (right, high) = (usize::from(q >= 1.0), usize::from(t >= 1.0));
+                    (q, t) = (q - right as f64, t - high as f64);
+                    cell = self.cells.get(parts[right + 2 * high] as usize)?;
+                }
             }
         };
-        let (l, r) = (pair(left)?, pair(right)?);
-        let by_path = hermite(t);
-        // Along the path first: value and arc derivative at both columns, each with its path derivatives.
-        let across = |b: &[f64; 4]| {
-            let mut mixed = [0.0; 4];
-            for v in 0..2 {
-                mixed[v] = (l[0][v] * b[0] + l[0][v + 2] * b[1]) + (l[1][v] * b[2] + l[1][v + 2] * b[3]);
-                mixed[v + 2] = (r[0][v] * b[0] + r[0][v + 2] * b[1]) + (r[1][v] * b[2] + r[1][v + 2] * b[3]);
-            }
-            mixed
-        };
-        let (v, v_t, v_tt) = (across(&by_path[0]), across(&by_path[1]), across(&by_path[2]));
-        let mut f = EquivalentApproach {
-            value: combine(&v, &by_arc[0]),
-            du: combine(&v_t, &by_arc[0]) * du,
-            ds: combine(&v, &by_arc[1]) * ds,
-            duu: combine(&v_tt, &by_arc[0]) * du * du,
-            dus: combine(&v_t, &by_arc[1]) * du * ds,
-            dss: combine(&v, &by_arc[2]) * ds * ds,
-        };
-        if below {
-            let gap = height * strip.path_step;
-            f.value += f.du * gap;
-            f.ds += f.dus * gap;
-            f.dss += combine(&v_t, &by_arc[2]) * du * ds * ds * gap;
+        let mut f = evaluate(leaf, q, t, per_arc, per_path);
+        if height != inside {
+            let beyond = (height - inside) * self.size[1];
+            // Beyond the nodes the edge is continued by its slope.
+            f.value += f.du * beyond;
+            f.ds += f.dus * beyond;
             f.duu = 0.0;
         }
         // Δ(u, s) = f(u − T(s), s)
-        let (slope, bend) = (reference(&by_arc[1]) * ds, reference(&by_arc[2]) * ds * ds);
         Some(EquivalentApproach {
             value: f.value,
             du: f.du,
             ds: f.ds - f.du * slope,
             duu: f.duu,
             dus: f.dus - f.duu * slope,
-            dss: f.dss - 2.0 * f.dus * slope + f.duu * slope * slope - f.du * bend,
         })
     }
 }
 
-/// Cubic Hermite weights of value and slope at 0 and at 1, with two derivatives.
+/// The whole number below `x`, at least 0 and at most `last`, as an index and as a number; for a whole `x` it may be the one before.
+/// Adding 1.5 × 2⁵² leaves it in the low bits: half the instructions of two conversions.
 #[inline(always)]
-pub(super) fn hermite(t: f64) -> [[f64; 4]; 3] {
-    let w = 1.0 - t;
-    [
-        [w * w * (1.0 + 2.0 * t), t * w * w, t * t * (3.0 - 2.0 * t), -t * t * w],
-        [-6.0 * t * w, w * (1.0 - 3.0 * t), 6.0 * t * w, t * (3.0 * t - 2.0)],
-        [12.0 * t - 6.0, 6.0 * t - 4.0, 6.0 - 12.0 * t, 6.0 * t - 2.0],
-    ]
+fn whole_part(x: f64, last: f64) -> (usize, f64) {
+    const SHIFT: f64 = 6_755_399_441_055_744.0;
+    let shifted = (x - 0.5).max(0.0).min(last) + SHIFT;
+    (shifted.to_bits() as u32 as usize, shifted - SHIFT)
 }
 
+/// Value and derivatives of a cubic whose q and t grow by `per_arc` and `per_path` a metre.
 #[inline(always)]
-pub(super) fn combine(a: &[f64; 4], b: &[f64; 4]) -> f64 {
-    (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
+pub(super) fn evaluate(c: &Cubic, q: f64, t: f64, per_arc: f64, per_path: f64) -> EquivalentApproach {
+    let (mut value, mut by_t, mut by_tt) = ([0.0; 4], [0.0; 4], [0.0; 4]);
+    for i in 0..4 {
+        let (c0, c1, c2, c3) = (c[0][i], c[1][i], c[2][i], c[3][i]);
+        let top = c2 + t * c3;
+        let middle = c1 + t * top;
+        value[i] = c0 + t * middle;
+        let inner = top + t * c3;
+        by_t[i] = middle + t * inner;
+        by_tt[i] = 2.0 * (inner + t * c3);
+    }
+    let at = |p: &[f64; 4]| (p[0] + q * p[1]) + (q * q) * (p[2] + q * p[3]);
+    let slope = |p: &[f64; 4]| p[1] + q * (2.0 * p[2] + 3.0 * q * p[3]);
+    EquivalentApproach {
+        value: at(&value),
+        du: at(&by_t) * per_path,
+        ds: slope(&value) * per_arc,
+        duu: at(&by_tt) * per_path * per_path,
+        dus: slope(&by_t) * per_path * per_arc,
+    }
 }

@@ -4,11 +4,11 @@ use std::hash::Hasher;
 
 use super::{
     error::ContactError,
-    map::{Accuracy, Column, ContactMap, Patch, Stretch, Strip},
+    map::{Accuracy, Cell, ContactMap, Patch, Stretch, Strip},
 };
 
 const MAGIC: &[u8; 8] = b"BRNL-MAP";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// FNV-1a, 64 bits: guards against damage and mix-ups, not against malice.
 #[derive(Debug, Clone, Copy)]
@@ -50,6 +50,7 @@ impl ContactMap {
             number(value);
         }
         number(a.points as f64);
+        number(self.nodes as f64);
         number(self.stretches.len() as f64);
         for &knot in &self.knots {
             number(knot);
@@ -62,19 +63,25 @@ impl ContactMap {
                 }
                 Stretch::Patch(patch) => {
                     number(patch.strips.len() as f64);
-                    number(patch.start);
-                    number(patch.width);
+                    for value in [patch.start, patch.size[0], patch.size[1], patch.lowest] {
+                        number(value);
+                    }
                     for strip in &patch.strips {
-                        number(f64::from(strip.parts));
-                        number(strip.path_step);
-                        number(f64::from(strip.lowest));
-                        for column in &patch.columns[strip.first..=strip.first + strip.parts as usize] {
-                            number(column.reference[0]);
-                            number(column.reference[1]);
-                            number(column.count as f64);
+                        number(strip.rows);
+                        for value in strip.reference {
+                            number(value);
                         }
                     }
-                    for &value in patch.nodes.iter().flatten() {
+                    // A cut cell is −1: its parts follow in the order of the cuts.
+                    number(patch.cells.len() as f64);
+                    for cell in &patch.cells {
+                        number(match cell {
+                            Cell::Leaf(leaf) => f64::from(*leaf),
+                            Cell::Cut(_) => -1.0,
+                        });
+                    }
+                    number(patch.leaves.len() as f64);
+                    for &value in patch.leaves.iter().flatten().flatten() {
                         number(value);
                     }
                 }
@@ -138,11 +145,12 @@ fn read(body: &[u8], fingerprint: u64) -> Option<ContactMap> {
         points: 0,
     };
     accuracy.points = numbers.number()? as usize;
+    let nodes = numbers.number()? as usize;
     let count = numbers.count()?;
     let knots = (0..if count == 0 { 0 } else { count + 1 }).map(|_| numbers.number()).collect::<Option<Vec<_>>>()?;
     let stretches = (0..count).map(|_| read_stretch(&mut numbers)).collect::<Option<Vec<_>>>()?;
     let complete = numbers.0.next().is_none() && body.len().is_multiple_of(8);
-    complete.then_some(ContactMap { knots, stretches, largest_approach, accuracy, fingerprint })
+    complete.then_some(ContactMap { knots, stretches, nodes, largest_approach, accuracy, fingerprint })
 }
 
 fn read_stretch(numbers: &mut Numbers<'_>) -> Option<Stretch> {
@@ -150,35 +158,47 @@ fn read_stretch(numbers: &mut Numbers<'_>) -> Option<Stretch> {
     if count == 0 {
         return Some(Stretch::Flat(numbers.number()?));
     }
-    let (start, width) = (numbers.number()?, numbers.number()?);
-    let (mut strips, mut columns) = (Vec::new(), Vec::new());
-    let mut at = 0;
+    let (start, size, lowest) = (numbers.number()?, [numbers.number()?, numbers.number()?], numbers.number()?);
+    let (mut strips, mut first) = (Vec::new(), 0);
     for _ in 0..count {
-        let parts = numbers.count()?;
-        let path_step = numbers.number()?;
-        let lowest = numbers.number()? as i32;
-        strips.push(Strip::new(columns.len(), i32::try_from(parts).ok()?, width, path_step, lowest));
-        for _ in 0..=parts {
-            let reference = [numbers.number()?, numbers.number()?];
-            let count = numbers.count()?;
-            columns.push(Column { reference, at, count });
-            at += count;
+        let rows = numbers.count()?;
+        let reference = [numbers.number()?, numbers.number()?, numbers.number()?, numbers.number()?];
+        strips.push(Strip { reference, first, rows: rows as f64 });
+        first += rows;
+    }
+    let count = numbers.count()?;
+    let mut cells = Vec::new();
+    let mut part = u32::try_from(first).ok()?;
+    for _ in 0..count {
+        let leaf = numbers.number()?;
+        cells.push(if leaf < 0.0 {
+            part += 4;
+            Cell::Cut([part - 4, part - 3, part - 2, part - 1])
+        } else {
+            Cell::Leaf(leaf as u32)
+        });
+    }
+    // All parts are there, and each lies behind the cell that was cut.
+    let complete = part as usize == cells.len();
+    let ordered = cells.iter().zip(0..).all(|(cell, n)| !matches!(cell, Cell::Cut(parts) if parts[0] <= n));
+    let count = numbers.count()?;
+    let mut leaves = Vec::new();
+    for _ in 0..count {
+        let mut cubic = [[0.0; 4]; 4];
+        for value in cubic.iter_mut().flatten() {
+            *value = numbers.number()?;
         }
+        leaves.push(cubic);
     }
-    let mut nodes = Vec::new();
-    for _ in 0..at {
-        nodes.push([numbers.number()?, numbers.number()?, numbers.number()?, numbers.number()?]);
-    }
-    Some(Stretch::Patch(Patch { start, width, per_width: 1.0 / width, strips, columns, nodes }))
+    let known = cells.iter().all(|cell| !matches!(cell, Cell::Leaf(leaf) if *leaf as usize >= leaves.len()));
+    (complete && ordered && known).then(|| Stretch::Patch(Patch::new(start, size, lowest, strips, cells, leaves)))
 }
 
 /// What a lookup relies on.
 fn consistent(map: &ContactMap) -> bool {
     let patch = |stretch: &Stretch| match stretch {
         Stretch::Flat(_) => true,
-        Stretch::Patch(p) => {
-            p.width > 0.0 && p.strips.iter().all(|s| s.parts > 0 && s.arc_step > 0.0 && s.path_step > 0.0)
-        }
+        Stretch::Patch(p) => p.size.iter().all(|&side| side > 0.0) && p.strips.iter().all(|strip| strip.rows > 0.0),
     };
     map.knots.is_sorted() && map.stretches.iter().all(patch)
 }

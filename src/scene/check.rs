@@ -147,7 +147,9 @@ impl Contact {
             Damping::HuntCrossley(chi) => DAMPING_CHI.check(chi),
             Damping::Proportional(tau) => DAMPING_TAU.check(tau),
         }?;
-        self.largest_force.map_or(Ok(()), |force| LARGEST_FORCE.check(force))
+        self.largest_force.map_or(Ok(()), |force| LARGEST_FORCE.check(force))?;
+        self.cells.into_iter().flatten().try_for_each(|cells| CONTACT_CELLS.check(f64::from(cells)))?;
+        self.map_accuracy.map_or(Ok(()), |accuracy| MAP_ACCURACY.check(accuracy))
     }
 }
 

@@ -14,6 +14,8 @@
 //! | `bearing.element_mass_g`, `hertz_inner_n_m1_5`, `hertz_outer_n_m1_5` | computed |
 //! | `contact.law` | `"map"` with a defect, else `"hertz"` |
 //! | `contact.largest_force_n` | four times the static force on the most loaded element, at least 1000 N |
+//! | `contact.cells` | `[48, 32]`: cells along and across the contact at the largest force, laws `map` and `love` |
+//! | `contact.map_accuracy` | 1e-3 of the largest force |
 //! | `contact.damping` | `"hunt-crossley"`; its `damping_chi_s_m` 0.5 |
 //! | `cage.slip`, `cage.initial_angle_deg` | 0, −90 |
 //! | `defect` | none; its `edge_slope_deg` 90 |
@@ -194,6 +196,8 @@ struct ContactTable {
     damping: DampingModel,
     damping_chi_s_m: Option<f64>,
     largest_force_n: Option<f64>,
+    cells: Option<[u32; 2]>,
+    map_accuracy: Option<f64>,
     damping_tau_s: Option<f64>,
 }
 
@@ -224,7 +228,13 @@ impl ContactTable {
             }
         };
         let default = if defect { ContactLaw::Map } else { ContactLaw::Hertz };
-        Ok(Contact { law: self.law.unwrap_or(default), damping, largest_force: self.largest_force_n })
+        Ok(Contact {
+            law: self.law.unwrap_or(default),
+            damping,
+            largest_force: self.largest_force_n,
+            cells: self.cells,
+            map_accuracy: self.map_accuracy,
+        })
     }
 }
 

@@ -113,6 +113,11 @@ pub struct Contact {
     /// Largest force on an element near the defect that laws `map` and `love` are prepared for [N]; `None` to take it
     /// from the loads.
     pub largest_force: Option<f64>,
+    /// Cells of the contact grid of laws `map` and `love` along and across Hertz's ellipse at the largest force; `None` for
+    /// the usual ones.
+    pub cells: Option<[u32; 2]>,
+    /// Largest error of the contact map, relative to the largest force; `None` for the usual one.
+    pub map_accuracy: Option<f64>,
 }
 
 /// Law of the outer contact near the defect. On the smooth raceway all three are Hertz's.

@@ -96,6 +96,12 @@ pub(super) const DAMPING_TAU: Quantity =
     quantity("contact damping", "contact.damping_tau_s", 1.0, Inclusive(0.0), Inclusive(1.0));
 pub(super) const LARGEST_FORCE: Quantity =
     quantity("largest contact force", "contact.largest_force_n", 1.0, Inclusive(1e-3), Inclusive(1e9));
+/// Fewer are no grid, more take minutes.
+pub(super) const CONTACT_CELLS: Quantity =
+    quantity("number of cells of the contact grid", "contact.cells", 1.0, Inclusive(8.0), Inclusive(256.0));
+/// Finer than the steps of any grid.
+pub(super) const MAP_ACCURACY: Quantity =
+    quantity("accuracy of the contact map", "contact.map_accuracy", 1.0, Inclusive(1e-5), Inclusive(0.1));
 pub(super) const CAGE_SLIP: Quantity = quantity("cage slip", "cage.slip", 1.0, Inclusive(0.0), Inclusive(1.0));
 pub(super) const INITIAL_ANGLE: Quantity =
     quantity("initial cage angle", "cage.initial_angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3));

@@ -6,9 +6,10 @@ use super::SimulationError;
 use super::table::{Quantity, RingName};
 use super::variables::{Kind, Variable};
 use crate::contact::map::ContactMap;
-use crate::contact::map_build::{MapPlan, MapSpecification, Runner, Sequential};
+use crate::contact::map_build::{MapSpecification, Runner, Sequential};
+use crate::contact::map_plan::MapPlan;
 use crate::contact::near_defect::{NearDefect, NearLove, NearMap};
-use crate::contact::raceway_grid::ElementOnRaceway;
+use crate::contact::raceway_grid::{ElementOnRaceway, Resolution};
 use crate::contact::rigid_path::RigidPath;
 use crate::dynamics::model::Model;
 use crate::geometry::hertz_constant::HertzConstants;
@@ -142,12 +143,21 @@ fn element_on_raceway(scene: &Scene) -> ElementOnRaceway {
 }
 
 /// What the contact map of a scene covers: forces up to `contact.largest_force_n`, or else four times the static force on
-/// the most loaded element, 5 F/Z (Stribeck), and at least 1000 N.
+/// the most loaded element, 5 F/Z (Stribeck), and at least 1000 N. Δ counts the rings' and seats' compliance as well.
 pub fn map_specification(scene: &Scene) -> MapSpecification {
     let load = [scene.shaft.load, scene.housing.load].iter().map(|f| f[0].hypot(f[1])).fold(0.0, f64::max);
     let assumed = (4.0 * 5.0 * load / scene.bearing.element_count as f64).max(1000.0);
     let force = scene.contact.largest_force.unwrap_or(assumed);
-    MapSpecification::new(libm::pow(force / HertzConstants::of(&scene.bearing).outer, 2.0 / 3.0))
+    let contact = libm::pow(force / HertzConstants::of(&scene.bearing).outer, 2.0 / 3.0);
+    let usual = MapSpecification::new(contact + scene.bearing.outer_compliance * force);
+    MapSpecification {
+        accuracy: scene.contact.map_accuracy.unwrap_or(usual.accuracy),
+        resolution: scene.contact.cells.map_or(usual.resolution, |[columns, rows]| Resolution {
+            columns: columns as usize,
+            rows: rows as usize,
+        }),
+        ..usual
+    }
 }
 
 /// Computes the contact map of a scene, `None` where its law needs none. `runner` says on how many cores.

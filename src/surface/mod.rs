@@ -79,6 +79,15 @@ impl Surface {
         }
     }
 
+    /// Middle and length [m] of the longest interval along the raceway, and across it, between measured points of different depth; `None`
+    /// where the surface is not measured or does not change.
+    pub fn coarsest_intervals(&self) -> [Option<(f64, f64)>; 2] {
+        match self {
+            Self::Profile(profile) => [profile.coarsest(), None],
+            Self::Topography(topography) => topography.coarsest(),
+        }
+    }
+
     /// Exact mean depth [m] of the cell between two arcs and two axial coordinates [m].
     pub fn mean_depth(&self, arc: [f64; 2], axial: [f64; 2]) -> f64 {
         match self {

@@ -10,6 +10,8 @@ use super::SurfaceError;
 pub struct Profile {
     /// Arc and depth; arcs do not descend, at most two are equal, the first and last depth are 0.
     points: Vec<(f64, f64)>,
+    /// Whether the points are samples of something unknown between them, and not corners of a polygon.
+    sampled: bool,
 }
 
 impl Profile {
@@ -28,7 +30,7 @@ impl Profile {
             points.push((half - run, depth));
         }
         points.push((half, 0.0));
-        Self { points }
+        Self { points, sampled: false }
     }
 
     /// A polygon through arcs and depths [m], arcs not descending.
@@ -57,12 +59,68 @@ impl Profile {
     /// As [`from_points`](Self::from_points), of points that are known to be in order.
     pub(super) fn closed(mut points: Vec<(f64, f64)>) -> Self {
         close_ends(&mut points);
-        Self { points }
+        Self { points, sampled: false }
+    }
+
+    /// The points are samples of something unknown between them, and not corners of a polygon.
+    pub(super) fn as_samples(self) -> Self {
+        Self { sampled: true, ..self }
+    }
+
+    /// Middle and length [m] of the longest straight line between two samples that differ; `None` for a polygon.
+    pub(super) fn coarsest(&self) -> Option<(f64, f64)> {
+        let lines = self.points.windows(2).filter(|pair| self.sampled && pair[0].1 != pair[1].1);
+        let lines = lines.map(|pair| (0.5 * (pair[0].0 + pair[1].0), pair[1].0 - pair[0].0));
+        lines.max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// With every depth multiplied by `factor`.
     pub(super) fn scaled(&self, factor: f64) -> Self {
-        Self { points: self.points.iter().map(|&(arc, depth)| (arc, factor * depth)).collect() }
+        Self { points: self.points.iter().map(|&(arc, depth)| (arc, factor * depth)).collect(), ..*self }
+    }
+
+    /// Upper corners of edges that are at least `steep` (tangent) and `drop` [m] deep, in ascending order: index of the point,
+    /// and +1 where the raceway falls with growing arc, −1 where it rises.
+    fn corners(&self, steep: f64, drop: f64) -> Vec<(usize, f64)> {
+        let step = |k: usize| {
+            let ((s0, d0), (s1, d1)) = (self.points[k], self.points[k + 1]);
+            if (d1 - d0).abs() > steep * (s1 - s0) { (d1 - d0).signum() } else { 0.0 }
+        };
+        let (mut corners, mut k) = (Vec::new(), 0);
+        while k + 1 < self.points.len() {
+            let (from, fall) = (k, step(k));
+            k += 1;
+            while fall != 0.0 && k + 1 < self.points.len() && step(k) == fall {
+                k += 1;
+            }
+            if fall != 0.0 && (self.points[k].1 - self.points[from].1).abs() >= drop {
+                corners.push((if fall > 0.0 { from } else { k }, fall));
+            }
+        }
+        corners
+    }
+
+    /// Arcs [m] of the upper corners of edges at least `steep` (tangent) and `drop` [m] deep, with +1 where the raceway falls
+    /// with growing arc and −1 where it rises.
+    pub(crate) fn upper_corners(&self, steep: f64, drop: f64) -> Vec<(f64, f64)> {
+        self.corners(steep, drop).into_iter().map(|(k, fall)| (self.points[k].0, fall)).collect()
+    }
+
+    /// With the upper side of such edges continued level by `distance` [m], and a vertical edge there.
+    pub(crate) fn with_corners_continued(&self, steep: f64, drop: f64, distance: f64) -> Self {
+        let mut points = self.points.clone();
+        for (k, fall) in self.corners(steep, drop) {
+            let (corner, depth) = self.points[k];
+            let end = corner + fall * distance;
+            let covered = |s: f64| if fall > 0.0 { s >= corner && s <= end } else { s <= corner && s >= end };
+            let below = self.depth_at(end);
+            let keep = |&(s, d): &(f64, f64)| !covered(s) || s == corner && d == depth;
+            points.retain(keep);
+            let at = points.partition_point(|&(s, _)| s < corner) + usize::from(fall > 0.0);
+            let edge = if fall > 0.0 { [(end, depth), (end, below)] } else { [(end, below), (end, depth)] };
+            points.splice(at..at, edge);
+        }
+        Self { points, ..*self }
     }
 
     /// Arcs and depths [m]. Arcs do not descend; the first and last depth are 0; two equal arcs are a vertical edge.

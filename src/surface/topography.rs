@@ -131,6 +131,19 @@ impl Topography {
         Profile::closed(self.arcs.iter().map(|&arc| (arc, self.depth_at(arc, axial))).collect())
     }
 
+    /// Middle and length [m] of the longest interval between two arcs, and between two axial coordinates, over which the depth changes.
+    pub(super) fn coarsest(&self) -> [Option<(f64, f64)>; 2] {
+        let h = |i: usize, j: usize| self.depths[i * self.axials.len() + j];
+        let longest = |lines: &[f64], differ: &dyn Fn(usize) -> bool| {
+            let intervals = lines.windows(2).enumerate().filter(|(k, _)| differ(*k));
+            intervals.map(|(_, pair)| (0.5 * (pair[0] + pair[1]), pair[1] - pair[0])).max_by(|a, b| a.1.total_cmp(&b.1))
+        };
+        [
+            longest(&self.arcs, &|i| (0..self.axials.len()).any(|j| h(i, j) != h(i + 1, j))),
+            longest(&self.axials, &|j| (0..self.arcs.len()).any(|i| h(i, j) != h(i, j + 1))),
+        ]
+    }
+
     /// Arc and depth [m] of the point farthest from the smooth raceway.
     pub(super) fn farthest(&self) -> (f64, f64) {
         let mut farthest = (0.0, 0.0_f64);

@@ -1,0 +1,424 @@
+//! Where a [`ContactMap`] needs nodes, what they hold, and how far off it is between them.
+//!
+//! Around the flanks nodes cover every path from below the first touch to the largest approach. The map is compared with the
+//! grid at two points in each cell of nodes; a cell in which the error is larger than asked for is cut in four. That happens
+//! where a second contact begins, of the floor beside that of the edge: there the force has a kink in its slope, on a line across the map.
+//!
+//! Just above the first touch the grid has a few cells in contact and its derivatives are noise. Nodes there lie on the straight line that
+//! touches Δ a little higher; that costs 1e-3 of full scale or less, because the force itself is small there.
+
+use std::collections::BTreeMap;
+
+use crate::surface::Surface;
+
+use super::{
+    error::ContactError,
+    love::LoveContact,
+    map::{Accuracy, ContactMap, Patch, Stretch, Strip},
+    map_build::{MapSpecification, Runner},
+    map_cells::{Cells, FINEST, Key, LEVELS, Node, Place, hermite},
+    raceway_grid::ElementOnRaceway,
+};
+
+/// Coarse cells up to the largest approach.
+const ROWS: f64 = 4.0;
+/// Coarse cells begin so many of their heights above the reference path.
+const LOWEST: f64 = -1.0;
+/// Nodes less than this part of the largest approach above the first touch are continued from there.
+const ONSET: f64 = 0.03;
+/// The grid is prepared for so many times the largest approach: coarse cells reach above it.
+const PREPARED: f64 = 1.8;
+/// The root mean square error is to be this part of the largest one.
+const MEAN: f64 = 0.1;
+/// Nodes or cells of one job: the next contact starts from the last one within a job.
+const JOB: usize = 8;
+
+/// One stretch of nodes to be computed: its ends, what is beyond them, and its cells.
+#[derive(Debug, Clone)]
+struct PatchPlan {
+    start: f64,
+    before: f64,
+    after: f64,
+    references: Vec<[f64; 4]>,
+    cells: Cells,
+}
+
+impl PatchPlan {
+    fn end(&self) -> f64 {
+        self.start + self.cells.size[0] * self.cells.rows.len() as f64
+    }
+
+    /// Arc and reference path at a place along the lattice, with the reference's slope.
+    fn reference(&self, i: usize) -> (f64, [f64; 2]) {
+        let strip = (i / FINEST).min(self.references.len() - 1);
+        let q = (i - strip * FINEST) as f64 / FINEST as f64;
+        let width = self.cells.size[0];
+        let [c0, c1, c2, c3] = self.references[strip];
+        let path = c0 + q * (c1 + q * (c2 + q * c3));
+        let slope = (c1 + q * (2.0 * c2 + 3.0 * q * c3)) / width;
+        (self.start + i as f64 / FINEST as f64 * width, [path, slope])
+    }
+
+    fn height(&self, j: f64) -> f64 {
+        (LOWEST + j / FINEST as f64) * self.cells.size[1]
+    }
+
+    /// Depth of the flat stretch that begins or ends at a place along the lattice.
+    fn flat(&self, i: usize) -> Option<f64> {
+        match i {
+            0 => Some(self.before),
+            i if i == self.references.len() * FINEST => Some(self.after),
+            _ => None,
+        }
+    }
+}
+
+/// A map in the making.
+pub struct MapPlan {
+    specification: MapSpecification,
+    fingerprint: u64,
+    contact: LoveContact,
+    patches: Vec<PatchPlan>,
+}
+
+/// Errors of both forces relative to full scale at one point of a cell.
+type Error = [f64; 2];
+
+impl MapPlan {
+    /// Plans the coarsest nodes.
+    ///
+    /// # Errors
+    /// [`ContactError::BadInput`] for impossible inputs.
+    pub fn new(
+        surface: &Surface,
+        element: ElementOnRaceway,
+        specification: MapSpecification,
+    ) -> Result<Self, ContactError> {
+        if !(specification.accuracy > 0.0 && specification.accuracy < 1.0) {
+            return Err(ContactError::BadInput {
+                quantity: "accuracy of the contact map",
+                value: specification.accuracy,
+                unit: "of full scale",
+                limit: "between 0 and 1".to_owned(),
+            });
+        }
+        let contact =
+            LoveContact::new(element, surface, PREPARED * specification.largest_approach, specification.resolution)?;
+        let fingerprint = ContactMap::fingerprint_of(surface, element, specification);
+        let mut plan = Self { specification, fingerprint, contact, patches: Vec::new() };
+        plan.patches = plan.patches_for(surface, element);
+        Ok(plan)
+    }
+
+    fn patches_for(&self, surface: &Surface, element: ElementOnRaceway) -> Vec<PatchPlan> {
+        let largest = self.specification.largest_approach;
+        let cell = self.contact.grid().cell()[0];
+        let strip_width = 0.25 * element.contact_half_axes(largest)[0];
+        // No cell of another depth may be in contact.
+        let clear = 1.2 * element.contact_half_axes(largest)[0] + 3.0 * cell;
+        let raised = -shallowest(surface);
+        let mut free = Vec::new();
+        for (s0, s1, depth) in flats(surface) {
+            // Higher raceway on either side must stay below the element that presses on the flat.
+            let margin = clear.max(reach(element, depth + raised + largest) + 2.0 * cell);
+            let margin = if depth <= -raised { clear } else { margin };
+            if s1 - s0 > 2.0 * margin + 2.0 * strip_width {
+                free.push((s0 + margin, s1 - margin, depth));
+            }
+        }
+        free.windows(2)
+            .map(|pair| {
+                let (start, end) = (pair[0].1, pair[1].0);
+                let strips = ((end - start) / strip_width).ceil().max(1.0);
+                let size = [(end - start) / strips, largest / ROWS];
+                PatchPlan {
+                    start,
+                    before: pair[0].2,
+                    after: pair[1].2,
+                    references: Vec::new(),
+                    cells: Cells::new(size, vec![0; strips as usize]),
+                }
+            })
+            .collect()
+    }
+
+    /// The grid solver without nodes, the arcs [m] between which it is needed, and the depth of the flat stretches
+    /// between them: what law `love` solves inside the step.
+    pub fn into_love(self) -> (LoveContact, Vec<f64>, Vec<Option<f64>>) {
+        let (mut knots, mut flats) = (Vec::new(), Vec::new());
+        for (index, patch) in self.patches.iter().enumerate() {
+            if index > 0 {
+                flats.push(Some(patch.before));
+            }
+            knots.push(patch.start);
+            knots.push(patch.end());
+            flats.push(None);
+        }
+        (self.contact, knots, flats)
+    }
+
+    /// Computes nodes and the errors between them, and cuts cells until the accuracy is met or cells are at their smallest.
+    ///
+    /// # Errors
+    /// When a contact cannot be solved.
+    pub fn build(mut self, runner: &mut impl Runner) -> Result<ContactMap, ContactError> {
+        self.lay_out(runner)?;
+        let mut errors: BTreeMap<(usize, Key), Vec<Error>> = BTreeMap::new();
+        loop {
+            self.solve_missing(runner)?;
+            let mut stale = Vec::new();
+            for (p, patch) in self.patches.iter_mut().enumerate() {
+                stale.extend(patch.cells.assemble().into_iter().map(|key| (p, key)));
+            }
+            let map = self.map();
+            let jobs: Vec<&[(usize, Key)]> = stale.chunks(JOB).collect();
+            let found = runner.run(jobs.len(), &|job| self.errors(&map, jobs[job]))?;
+            errors.extend(stale.iter().copied().zip(found.into_iter().flatten()));
+            errors.retain(|(p, key), _| self.patches[*p].cells.leaves.contains(key));
+            // A little better than asked for: the checks do not hit the worst place.
+            let limit = 0.8 * self.specification.accuracy;
+            let far = |found: &[Error], limit: f64| found.iter().flatten().any(|e| e.abs() > limit);
+            let mut poor: Vec<(usize, Key)> = errors
+                .iter()
+                .filter(|((_, key), found)| key.0 < LEVELS && far(found, limit))
+                .map(|(&place, _)| place)
+                .collect();
+            let accuracy = summary(&errors);
+            let mean = MEAN * self.specification.accuracy;
+            if poor.is_empty() && accuracy.rms_normal.max(accuracy.rms_tangential) > 0.95 * mean {
+                // Cells that hold more than their share of the mean square, by their area.
+                let share = |key: &Key| 1.5 * mean * f64::from(1_u32 << key.0);
+                poor = errors
+                    .iter()
+                    .filter(|((_, key), found)| key.0 < LEVELS && far(found, share(key)))
+                    .map(|(&place, _)| place)
+                    .collect();
+            }
+            if poor.is_empty() {
+                return Ok(ContactMap { accuracy, ..map });
+            }
+            for (p, key) in poor {
+                self.patches[p].cells.cut(key);
+            }
+        }
+    }
+
+    /// Reference paths and coarse cells, as many above each other as the largest approach needs.
+    fn lay_out(&mut self, runner: &mut impl Runner) -> Result<(), ContactError> {
+        for p in 0..self.patches.len() {
+            let patch = &self.patches[p];
+            let (strips, [width, _]) = (patch.cells.rows.len(), patch.cells.size);
+            let ends: Vec<[f64; 2]> = (0..=strips)
+                .map(|k| match patch.flat_of(k, strips) {
+                    Some(depth) => [depth, 0.0],
+                    None => {
+                        let (s, h) = (patch.start + k as f64 * width, self.contact.grid().cell()[0]);
+                        let touch = |s: f64| self.contact.first_touch(s);
+                        [touch(s), (touch(s + h) - touch(s - h)) / (2.0 * h)]
+                    }
+                })
+                .collect();
+            self.patches[p].references =
+                ends.windows(2).map(|e| hermite([e[0][0], e[0][1] * width, e[1][0], e[1][1] * width])).collect();
+            let columns = runner.run(strips + 1, &|k| self.column(&self.patches[p], k))?;
+            let rows = columns.windows(2).map(|pair| pair[0].len().max(pair[1].len()) - 1).collect();
+            let mut cells = Cells::new(self.patches[p].cells.size, rows);
+            for (k, column) in columns.into_iter().enumerate() {
+                cells.nodes.extend((0..).map(|j| (k * FINEST, j * FINEST)).zip(column));
+            }
+            self.patches[p].cells = cells;
+        }
+        Ok(())
+    }
+
+    /// Coarse nodes above one place, up to the largest approach.
+    fn column(&self, patch: &PatchPlan, k: usize) -> Result<Vec<Node>, ContactError> {
+        let mut contact = self.contact.clone();
+        contact.forget();
+        let mut nodes = Vec::new();
+        loop {
+            let node = self.node(patch, &mut contact, (k * FINEST, nodes.len() * FINEST))?;
+            nodes.push(node);
+            if node[0] >= self.specification.largest_approach {
+                return Ok(nodes);
+            }
+        }
+    }
+
+    fn node(&self, patch: &PatchPlan, contact: &mut LoveContact, (i, j): Place) -> Result<Node, ContactError> {
+        let height = patch.height(j as f64);
+        if patch.flat(i).is_some() {
+            return Ok([height, 0.0, 1.0, 0.0]);
+        }
+        let (s, [path, slope]) = patch.reference(i);
+        let u = path + height;
+        let onset = contact.first_touch(s) + ONSET * self.specification.largest_approach;
+        if u >= onset {
+            let a = contact.solve(u, s)?;
+            return Ok([a.value, a.ds + a.du * slope, a.du, a.dus + a.duu * slope]);
+        }
+        let a = contact.solve(onset, s)?;
+        Ok([a.value + a.du * (u - onset), a.ds + a.du * slope, a.du, 0.0])
+    }
+
+    fn solve_missing(&mut self, runner: &mut impl Runner) -> Result<(), ContactError> {
+        let missing: Vec<(usize, Place)> = (0..self.patches.len())
+            .flat_map(|p| self.patches[p].cells.missing().into_iter().map(move |place| (p, place)))
+            .collect();
+        let jobs: Vec<&[(usize, Place)]> = missing.chunks(JOB).collect();
+        let solved = runner.run(jobs.len(), &|job| {
+            let mut contact = self.contact.clone();
+            contact.forget();
+            jobs[job].iter().map(|&(p, place)| self.node(&self.patches[p], &mut contact, place)).collect()
+        })?;
+        let solved: Vec<Node> = solved.into_iter().flat_map(|nodes: Vec<Node>| nodes).collect();
+        for ((p, place), node) in missing.into_iter().zip(solved) {
+            self.patches[p].cells.nodes.insert(place, node);
+        }
+        Ok(())
+    }
+
+    fn map(&self) -> ContactMap {
+        let (mut knots, mut stretches) = (Vec::new(), Vec::new());
+        for plan in &self.patches {
+            let mut first = 0;
+            let strips = plan.references.iter().zip(&plan.cells.rows).map(|(&reference, &rows)| {
+                let strip = Strip { reference, first, rows: rows as f64 };
+                first += rows;
+                strip
+            });
+            let strips = strips.collect();
+            let (cells, leaves) = plan.cells.stored();
+            let patch = Patch::new(plan.start, plan.cells.size, LOWEST, strips, cells, leaves);
+            if !knots.is_empty() {
+                stretches.push(Stretch::Flat(plan.before));
+            }
+            knots.push(plan.start);
+            knots.push(plan.end());
+            stretches.push(Stretch::Patch(patch));
+        }
+        ContactMap {
+            knots,
+            stretches,
+            nodes: self.patches.iter().map(|patch| patch.cells.node_count()).sum(),
+            largest_approach: self.specification.largest_approach,
+            accuracy: Accuracy::default(),
+            fingerprint: self.fingerprint,
+        }
+    }
+
+    /// Errors of some cells, at two places in each.
+    fn errors(&self, map: &ContactMap, cells: &[(usize, Key)]) -> Result<Vec<Vec<Error>>, ContactError> {
+        let mut contact = self.contact.clone();
+        contact.forget();
+        let mut out = Vec::new();
+        for &(p, (level, i, j)) in cells {
+            let patch = &self.patches[p];
+            let side = (FINEST >> level) as f64;
+            let mut found = Vec::new();
+            // Places by additive recurrence: they fill the cells evenly as these go by.
+            let n = (i * 31 + j * 17) as f64;
+            let (q, t) = ((n * 0.754_877_666).fract(), (n * 0.569_840_291).fract());
+            for (q, t) in [(q, t), ((q + 0.5).fract(), (t + 0.5).fract())] {
+                let (along, up) = ((i as f64 + q) * side, (j as f64 + t) * side);
+                let s = patch.start + along / FINEST as f64 * patch.cells.size[0];
+                let u = patch.reference_at(s) + patch.height(up);
+                found.extend(self.error(map, &mut contact, u, s)?);
+            }
+            out.push(found);
+        }
+        Ok(out)
+    }
+
+    /// Error of both forces relative to full scale; `None` without contact and beyond the largest approach.
+    fn error(
+        &self,
+        map: &ContactMap,
+        contact: &mut LoveContact,
+        u: f64,
+        s: f64,
+    ) -> Result<Option<Error>, ContactError> {
+        let largest = self.specification.largest_approach;
+        let full_scale = largest * largest.sqrt();
+        let found = map.lookup(u, s)?;
+        let exact = match contact.solve(u, s) {
+            Ok(exact) if exact.value <= largest => exact,
+            Ok(_) | Err(ContactError::OutOfRange { .. }) => return Ok(None),
+            Err(error) => return Err(error),
+        };
+        if exact.value <= 0.0 && found.value <= 0.0 {
+            return Ok(None);
+        }
+        let (found, exact) = (found.forces(1.0), exact.forces(1.0));
+        Ok(Some([(found[0] - exact[0]) / full_scale, (found[1] - exact[1]) / full_scale]))
+    }
+}
+
+impl PatchPlan {
+    fn flat_of(&self, k: usize, strips: usize) -> Option<f64> {
+        match k {
+            0 => Some(self.before),
+            k if k == strips => Some(self.after),
+            _ => None,
+        }
+    }
+
+    fn reference_at(&self, s: f64) -> f64 {
+        let along = (s - self.start) / self.cells.size[0];
+        let strip = (along.max(0.0) as usize).min(self.references.len() - 1);
+        let q = along - strip as f64;
+        let [c0, c1, c2, c3] = self.references[strip];
+        c0 + q * (c1 + q * (c2 + q * c3))
+    }
+}
+
+/// Figures over all points with contact; a point weighs as much as its cell is large.
+fn summary(errors: &BTreeMap<(usize, Key), Vec<Error>>) -> Accuracy {
+    let mut accuracy = Accuracy::default();
+    let (mut squares, mut weights) = ([0.0; 2], 0.0);
+    for ((_, key), found) in errors {
+        let weight = 0.25_f64.powi(key.0 as i32);
+        for [normal, tangential] in found {
+            accuracy.max_normal = accuracy.max_normal.max(normal.abs());
+            accuracy.max_tangential = accuracy.max_tangential.max(tangential.abs());
+            squares[0] += weight * normal * normal;
+            squares[1] += weight * tangential * tangential;
+            weights += weight;
+            accuracy.points += 1;
+        }
+    }
+    if weights > 0.0 {
+        accuracy.rms_normal = (squares[0] / weights).sqrt();
+        accuracy.rms_tangential = (squares[1] / weights).sqrt();
+    }
+    accuracy
+}
+
+/// Distance [m] along the raceway within which the element comes lower than `depth` [m]; a little more than the circles'.
+fn reach(element: ElementOnRaceway, depth: f64) -> f64 {
+    (2.0 * depth.max(0.0) / element.curvatures()[0]).sqrt()
+}
+
+/// Stretches of constant depth: first and last arc, depth [m].
+fn flats(surface: &Surface) -> Vec<(f64, f64, f64)> {
+    let (from, to) = surface.extent();
+    let mut flats = vec![(f64::NEG_INFINITY, from, 0.0)];
+    if let Surface::Profile(profile) = surface {
+        for pair in profile.points().windows(2) {
+            let ((s0, d0), (s1, d1)) = (pair[0], pair[1]);
+            if d0 == d1 && s1 > s0 {
+                flats.push((s0, s1, d0));
+            }
+        }
+    }
+    flats.push((to, f64::INFINITY, 0.0));
+    flats
+}
+
+fn shallowest(surface: &Surface) -> f64 {
+    let depths: Box<dyn Iterator<Item = f64>> = match surface {
+        Surface::Profile(profile) => Box::new(profile.points().iter().map(|&(_, depth)| depth)),
+        Surface::Topography(topography) => Box::new(topography.grid().2.iter().copied()),
+    };
+    depths.fold(0.0, f64::min)
+}
