@@ -6,7 +6,9 @@ use anyhow::Result;
 use brinell::analysis::recording::Speed;
 use clap::{Args, Parser, Subcommand};
 
-use crate::{check, demo, fmu, library::Library, model::Model, project::Project, report, run, size, stiffness};
+use crate::{
+    check, demo, fmu, library::Library, model::Model, project::Project, report, run, size, stiffness, validation,
+};
 
 /// Rolling bearings with a real surface defect as FMI 2.0 co-simulation units.
 #[derive(Debug, Parser)]
@@ -30,6 +32,8 @@ enum Command {
     Report(Report),
     /// Length of a spall from recordings of one bearing, or why there is none: JSON on standard output, figures
     Size(Size),
+    /// Computes every claim of the paper anew: docs/validation.md and its figures
+    Validate(Validate),
     /// Builds the FMU of a spalled 6205 bearing, drives it with fmpy and draws what happens
     Demo(Demo),
 }
@@ -148,6 +152,23 @@ impl Size {
 }
 
 #[derive(Debug, Args)]
+struct Validate {
+    /// Recordings to be sized, as FILE@HZ=DEGREES with the shaft's speed and the nominal length, 0 if healthy; without them the
+    /// table of recordings stays as it was
+    #[arg(value_name = "RECORDING")]
+    recordings: Vec<String>,
+    /// Sampling rate of the recordings in hertz
+    #[arg(long, value_name = "HZ", default_value_t = 51_200.0)]
+    rate: f64,
+    /// Folder for validation.md and figures [default: docs]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Leave the figures out; no Python is needed then
+    #[arg(long)]
+    no_figure: bool,
+}
+
+#[derive(Debug, Args)]
 struct Demo {
     /// Folder for CSV and figure [default: target/demo]
     #[arg(short, long, value_name = "DIR")]
@@ -213,6 +234,16 @@ impl Arguments {
                 };
                 let folder = options.output.unwrap_or_else(|| project.target().join("size"));
                 size::command(&project, &options.scene, &options.recordings, &wanted, &folder)
+            }
+            Command::Validate(options) => {
+                let known = options.recordings.iter().map(|text| validation::recordings::Known::parse(text));
+                let wanted = validation::Options {
+                    recordings: known.collect::<Result<_>>()?,
+                    rate: options.rate,
+                    figures: !options.no_figure,
+                };
+                let docs = project.source().unwrap_or(Path::new("")).join("docs");
+                validation::command(&project, &wanted, &options.output.unwrap_or(docs))
             }
             Command::Demo(options) => {
                 let folder = options.output.unwrap_or_else(|| project.target().join("demo"));

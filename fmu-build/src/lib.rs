@@ -23,3 +23,4 @@ pub mod size;
 pub mod slave;
 pub mod stiffness;
 pub mod units;
+pub mod validation;

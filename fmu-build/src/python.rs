@@ -24,6 +24,7 @@ const SCRIPTS: &[(&str, &str)] = &[
     ("run_figure.py", include_str!("../python/run_figure.py")),
     ("size.py", include_str!("../python/size.py")),
     ("stiffness.py", include_str!("../python/stiffness.py")),
+    ("validation.py", include_str!("../python/validation.py")),
     ("validate.py", include_str!("../python/validate.py")),
 ];
 const OLDEST: (u32, u32) = (3, 9);

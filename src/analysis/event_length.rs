@@ -33,8 +33,10 @@ const JUMP: (f64, f64) = (0.25, 1.2e-4);
 const CLEAR: f64 = 3.0;
 /// The same for an entry far before a single blow, where there is more to mistake.
 const CLEAR_FAR: f64 = 8.0;
-/// Sampling rate that blows need [Hz]: echoes fade faster the higher the band, and 5 to 11 kHz is just enough.
-const LOWEST_RATE: f64 = 24_000.0;
+/// Sampling rate that blows close to each other need [Hz]: echoes fade faster the higher the band, and 5 to 11 kHz is just enough.
+const ENOUGH_RATE: f64 = 24_000.0;
+/// Length from which blows are not close [degrees].
+const LONG: f64 = 3.0;
 /// Resamplings of the passages.
 const RESAMPLINGS: usize = 60;
 
@@ -67,9 +69,10 @@ pub enum Unresolved {
     NoPattern(f64, f64),
     /// Blows and echoes cannot be told apart in what the rate leaves.
     #[error(
-        "sampling rate {0:.0} Hz: below {1:.0} Hz the band above the rings' modes is too narrow to tell blows from echoes"
+        "{0:.2} degrees at a sampling rate of {1:.0} Hz: below {2:.0} Hz the band above the rings' modes is too narrow to tell a second blow that \
+         close from an echo"
     )]
-    LowRate(f64, f64),
+    LowRate(f64, f64, f64),
     /// No blow stands out.
     #[error("no blow stands out of the averaged passages: largest jump of the envelope below {0:.1} dB")]
     NoBlow(f64),
@@ -106,12 +109,10 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Result<EventLength, Unres
     if !comb.is_significant() {
         return Err(Unresolved::NoPattern(comb.significance, super::envelope::SIGNIFICANT));
     }
-    if measured.rate < LOWEST_RATE {
-        return Err(Unresolved::LowRate(measured.rate, LOWEST_RATE));
-    }
     let grid = Grid::new(measured);
-    let all = decibels(passages::average(&measured.envelope_rows(0.0, grid.points)));
-    let blows = events::blows(&all, grid.width, grid.smallest);
+    let envelopes = measured.envelope_rows(0.0, grid.points);
+    let blows = events::blows(&decibels(passages::average(&envelopes)), grid.width, grid.smallest);
+    let blows = events::without_echoes(blows, &envelopes, grid.width);
     let Some(first) = blows.first().copied() else { return Err(Unresolved::NoBlow(grid.smallest)) };
     let span = grid.span(&blows);
     if span > 0.6 * measured.spacing {
@@ -143,6 +144,9 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Result<EventLength, Unres
     let uncertainty = statistical.hypot(systematic);
     if length - uncertainty < limit {
         return Err(Unresolved::TooShort(length, uncertainty, limit));
+    }
+    if measured.rate < ENOUGH_RATE && length < LONG {
+        return Err(Unresolved::LowRate(length, measured.rate, ENOUGH_RATE));
     }
     if 2.0 * uncertainty > 0.5 * length {
         return Err(Unresolved::TooUncertain(length, 2.0 * uncertainty));

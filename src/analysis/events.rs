@@ -14,6 +14,15 @@ use super::statistics;
 const LOST_AT_EDGE: f64 = 0.15;
 /// A blow brings at least this share of the strongest blow's energy; below are echoes and noise.
 const WEAKEST_BLOW: f64 = 0.12;
+/// A blow jumps at least by this share of the steepest blow's jump [dB]: it rises out of silence, or over a decaying blow, while an echo
+/// or a beat rises over what it is a part of.
+const LOWEST_JUMP: f64 = 0.3;
+/// A jump that no echo makes [dB].
+const STEEP: f64 = 8.0;
+/// Correlation of loudness over the passages from which a rise is an echo of the blow before: two edges are hit each in its own way.
+const SAME_CAUSE: f64 = 0.6;
+/// Passages below which such a correlation may be chance: 0.6 of 20 passages is three standard deviations.
+const FEWEST_TO_COMPARE: usize = 20;
 /// Widest stretch before the first blow in which an entry is looked for [degrees].
 const ENTRY_REACH: f64 = 3.0;
 
@@ -63,16 +72,45 @@ pub fn blows(level: &[f64], width: usize, smallest: f64) -> Vec<Blow> {
         })
         .collect();
     let strongest = found.iter().map(|b| b.energy).fold(0.0, f64::max);
-    found.retain(|b| b.energy >= WEAKEST_BLOW * strongest);
+    let steepest = found.iter().map(|b| b.jump).fold(0.0, f64::max);
+    found.retain(|b| b.energy >= WEAKEST_BLOW * strongest && b.jump >= LOWEST_JUMP * steepest);
     found.iter_mut().for_each(|b| b.energy /= strongest);
-    let silence = |i: usize| {
-        let before = found[(i + found.len() - 1) % found.len()].at;
-        (found[i].at - before).rem_euclid(n as f64)
+    after_the_longest_silence(found, n)
+}
+
+/// The blows without echoes: rises that are loud whenever an earlier blow is loud, passage by passage, and not steep by themselves.
+///
+/// `envelopes` is one row per passage on the grid of the blows.
+pub fn without_echoes(mut blows: Vec<Blow>, envelopes: &[Vec<f64>], width: usize) -> Vec<Blow> {
+    let Some(n) = envelopes.first().map(Vec::len).filter(|_| envelopes.len() >= FEWEST_TO_COMPARE) else {
+        return blows;
     };
-    if let Some(first) = (0..found.len()).max_by(|&a, &b| silence(a).total_cmp(&silence(b))) {
-        found.rotate_left(first);
+    let loudness = |blow: &Blow| -> Vec<f64> {
+        let from = blow.at.max(0.0) as usize;
+        let loudest = |row: &Vec<f64>| (0..width).map(|k| row[(from + k) % n]).fold(f64::MIN_POSITIVE, f64::max);
+        envelopes.iter().map(|row| libm::log(loudest(row))).collect()
+    };
+    let all: Vec<Vec<f64>> = blows.iter().map(loudness).collect();
+    let echo =
+        |i: usize| blows[i].jump < STEEP && (0..i).any(|j| statistics::correlation(&all[i], &all[j]) > SAME_CAUSE);
+    let kept: Vec<bool> = (0..blows.len()).map(|i| !echo(i)).collect();
+    let mut kept = kept.into_iter();
+    blows.retain(|_| kept.next().unwrap_or(true));
+    after_the_longest_silence(blows, n)
+}
+
+/// Blows around a circle of `n` points, that after the longest silence first.
+fn after_the_longest_silence(mut blows: Vec<Blow>, n: usize) -> Vec<Blow> {
+    let silence = |i: usize| {
+        let before = blows[(i + blows.len() - 1) % blows.len()].at;
+        (blows[i].at - before).rem_euclid(n as f64)
+    };
+    if blows.len() > 1
+        && let Some(first) = (0..blows.len()).max_by(|&a, &b| silence(a).total_cmp(&silence(b)))
+    {
+        blows.rotate_left(first);
     }
-    found
+    blows
 }
 
 /// Where, within `reach` grid points of `near`, the envelope jumps most.

@@ -28,6 +28,19 @@ pub fn deviation(values: &[f64]) -> f64 {
     (values.iter().map(|x| (x - m) * (x - m)).sum::<f64>() / (values.len() - 1) as f64).sqrt()
 }
 
+/// Correlation of two series of equal length; 0 where one of them scatters by less than 0.05, for what is equal each time tells nothing.
+pub fn correlation(a: &[f64], b: &[f64]) -> f64 {
+    let (mean_a, mean_b) = (mean(a), mean(b));
+    let (mut ab, mut aa, mut bb) = (0.0, 0.0, 0.0);
+    for (x, y) in a.iter().zip(b) {
+        ab += (x - mean_a) * (y - mean_b);
+        aa += (x - mean_a) * (x - mean_a);
+        bb += (y - mean_b) * (y - mean_b);
+    }
+    let least = 0.05 * 0.05 * a.len() as f64;
+    if aa > least && bb > least { ab / (aa * bb).sqrt() } else { 0.0 }
+}
+
 /// Half the span between the 16 % and the 84 % quantile: the standard deviation, were the values normal.
 pub fn spread(values: &[f64]) -> f64 {
     match (quantile(values, 0.1587), quantile(values, 0.8413)) {

@@ -1,0 +1,104 @@
+//! The command `validate`: every claim of the paper beside what comes out here, into `docs/validation.md` and its figures.
+//!
+//! The prose stands in `assets/validation.md`; `{{name}}` in it is a table that is computed. Data go to `target/validation`.
+
+pub mod averages;
+pub mod blind;
+pub mod events;
+pub mod recordings;
+pub mod runs;
+pub mod statics;
+
+use std::fs::{self, File};
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use brinell::scene::ContactLaw;
+
+use crate::csv;
+use crate::project::Project;
+use crate::python::Python;
+use recordings::Known;
+
+const TEMPLATE: &str = include_str!("../../assets/validation.md");
+/// The laws that are laid beside each other.
+pub const LAWS: [ContactLaw; 2] = [ContactLaw::Map, ContactLaw::Hertz];
+
+/// What the user says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// Recordings to size and to lay beside their scene.
+    pub recordings: Vec<Known>,
+    /// Their sampling rate [Hz].
+    pub rate: f64,
+    /// Whether to draw.
+    pub figures: bool,
+}
+
+/// The tables by their names in the template.
+#[derive(Debug, Clone, Default)]
+pub struct Values(Vec<(&'static str, String)>);
+
+impl Values {
+    /// Sets the table of a name.
+    pub fn set(&mut self, name: &'static str, text: String) {
+        self.0.push((name, text));
+    }
+
+    /// The template with all its tables; one that is missing stays as its name.
+    fn filled(&self, template: &str) -> String {
+        self.0
+            .iter()
+            .fold(template.to_owned(), |text, (name, value)| text.replace(&format!("{{{{{name}}}}}"), value.trim_end()))
+    }
+}
+
+/// The command. `docs` is where `validation.md` and `figures/` are.
+pub fn command(project: &Project, options: &Options, docs: &Path) -> Result<()> {
+    let mut values = Values::default();
+    let step = |text: &str| eprintln!("validate: {text}");
+    step("static stiffness and critical loads");
+    statics::fill(project, &mut values)?;
+    step("single passages");
+    events::fill(project, &mut values)?;
+    step("averaged passages");
+    averages::fill(project, &mut values)?;
+    step("simulated recordings, sized");
+    blind::fill(project, &mut values)?;
+    if !options.recordings.is_empty() {
+        step("recordings");
+        let table = recordings::table(project, &options.recordings, options.rate)?;
+        let path = recordings::kept(docs);
+        fs::write(&path, table).with_context(|| path.display().to_string())?;
+    }
+    values.set("recordings", recordings::last(docs));
+    let path = docs.join("validation.md");
+    fs::write(&path, values.filled(TEMPLATE)).with_context(|| path.display().to_string())?;
+    println!("{}", path.display());
+    if options.figures {
+        let python = Python::prepare(project)?;
+        let figures = docs.join("figures");
+        fs::create_dir_all(&figures).with_context(|| figures.display().to_string())?;
+        print!("{}", python.run("validation.py", [folder(project), figures])?);
+    }
+    Ok(())
+}
+
+fn folder(project: &Project) -> PathBuf {
+    project.target().join("validation")
+}
+
+/// Columns of equal length into `target/validation/<name>.csv`.
+fn write_csv(project: &Project, name: &str, names: &[(String, &str)], columns: &[Vec<f64>]) -> Result<()> {
+    let folder = folder(project);
+    fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
+    let path = folder.join(format!("{name}.csv"));
+    let mut out = BufWriter::new(File::create(&path).with_context(|| path.display().to_string())?);
+    csv::header(&mut out, names.iter().map(|(name, unit)| (name.as_str(), *unit)))?;
+    let rows = columns.iter().map(Vec::len).min().unwrap_or(0);
+    for i in 0..rows {
+        csv::row(&mut out, columns.iter().map(|column| column[i]))?;
+    }
+    out.flush().with_context(|| path.display().to_string())
+}
