@@ -36,6 +36,9 @@ pub enum SimulationError {
     /// Rings that nothing holds: how the equilibrium moves with the inputs is not defined.
     #[error("the initial equilibrium has no derivative: an internal ring touches nothing and has no support stiffness")]
     NoDerivative,
+    /// A state that names places on the raceway which this model does not have.
+    #[error("the state is none of this model's: it has an element in a part of the defect that is not there")]
+    ForeignState,
     /// A step was asked for before initialization.
     #[error("a step was asked for before initialization was finished")]
     NotInitialized,

@@ -28,7 +28,7 @@ pub use switching::Method;
 
 use crate::contact::map::ContactMap;
 use crate::dynamics::drive::{CageAngle, Drive, Quadratic};
-use crate::dynamics::forces::Forces;
+use crate::dynamics::forces::{Forces, SMOOTH};
 use crate::dynamics::model::Model;
 use crate::scene::{ContactLaw, Scene};
 use crate::surface::Surface;
@@ -409,7 +409,16 @@ impl Simulation {
         self.outputs_are_stale = true;
         self.stiffness_is_stale = true;
         // Before the start, the equilibrium rebuilds the model when it is asked for.
-        if self.state.started { self.rebuild() } else { Ok(()) }
+        if !self.state.started {
+            return Ok(());
+        }
+        self.rebuild()?;
+        let cells = self.model.defect.as_ref().map_or(0, |(near, _)| near.knots().len().saturating_sub(1));
+        if self.state.progress.cells.iter().all(|&cell| cell == SMOOTH || (cell as usize) < cells) {
+            Ok(())
+        } else {
+            Err(SimulationError::ForeignState)
+        }
     }
 
     /// Where every external influence is during the next step.

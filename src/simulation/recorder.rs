@@ -65,6 +65,11 @@ impl Recorder {
         self.signals.iter().map(|(reference, _)| *reference)
     }
 
+    /// Time between two samples [s].
+    pub(super) fn period(&self) -> f64 {
+        self.period
+    }
+
     /// Samples that have not been fetched yet.
     pub fn samples(&self) -> Samples<'_> {
         Samples { first: self.first, width: 1 + self.signals.len(), values: &self.values }

@@ -4,6 +4,7 @@
 //! Numbers are written bit by bit, so a state that went through bytes continues with the same bits, also in another
 //! process. The bytes carry no version and no checksum: whoever stores them adds both.
 
+use super::variables::{Causality, Kind, Variable};
 use super::{Simulation, State};
 
 impl State {
@@ -89,16 +90,44 @@ impl Simulation {
             rest = tail;
             Some(())
         })?;
+        (rest.is_empty() && self.is_sound(&state)).then_some(state)
+    }
+
+    /// Whether a state of the right shape could have come about: numbers that are finite, values that could have been set.
+    fn is_sound(&self, state: &State) -> bool {
         let progress = &state.progress;
-        let sound = rest.is_empty()
-            && [state.time, state.cage.rest, progress.last_error, progress.choice.gained, progress.due.delay]
-                .iter()
-                .all(|value| value.is_finite())
-            && progress.state.iter().all(|value| value.is_finite())
-            && progress.next_step > 0.0;
-        sound.then_some(state)
+        let numbers = [
+            &[state.time, state.cage.rest, progress.last_error, progress.choice.gained][..],
+            &[progress.next_step, progress.due.delay],
+            &progress.mean_force,
+            &progress.state,
+            &state.values,
+            state.input_rates.as_flattened(),
+        ];
+        let in_range = |variable: &Variable| {
+            let (value, integer) =
+                (state.values[variable.reference as usize], state.integers[variable.reference as usize]);
+            match variable.kind {
+                // What a prescribed ring has reached since it was set may be beyond what can be set.
+                Kind::Real { min, max, .. } if variable.causality == Causality::Parameter => {
+                    min.is_none_or(|min| value >= min) && max.is_none_or(|max| value <= max)
+                }
+                Kind::Enumeration { items, .. } => integer >= 1 && integer as usize <= items.len(),
+                _ => true,
+            }
+        };
+        numbers.into_iter().flatten().all(|number| number.is_finite())
+            && progress.next_step > 0.0
+            // A sample that is overdue by ages would be made up for, period by period.
+            && self.recorder.as_ref().is_none_or(|recorder| progress.due.delay.abs() <= 2.0 * recorder.period())
+            && state.cage.rest.abs() <= std::f64::consts::PI
+            && state.cage.turns.unsigned_abs() < MOST_TURNS
+            && self.table.iter().all(in_range)
     }
 }
+
+/// Turns of the cage beyond which the angle has no digits left behind the point.
+const MOST_TURNS: u64 = 1 << 50;
 
 fn real(value: &mut f64, field: &mut impl FnMut(&mut [u8]) -> Option<()>) -> Option<()> {
     let mut bytes = value.to_le_bytes();

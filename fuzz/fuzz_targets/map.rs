@@ -1,0 +1,35 @@
+//! Bytes as a contact map: as they come, and with fingerprint and checksum put right, so that the contents are tried too.
+#![no_main]
+
+use std::sync::Arc;
+
+use brinell::contact::map::ContactMap;
+use brinell::contact::near_defect::{NearDefect, NearMap};
+use libfuzzer_sys::fuzz_target;
+
+const RACEWAY: f64 = 23.6e-3;
+
+fuzz_target!(|data: &[u8]| {
+    if ContactMap::from_bytes(data, 0).is_ok() {
+        look(data);
+    }
+    let mut bytes = b"BRNL-MAP\x01\0\0\0".to_vec();
+    bytes.extend_from_slice(&[0; 8]);
+    bytes.extend_from_slice(data);
+    bytes.extend_from_slice(&brinell_fuzz::fnv(&bytes).to_le_bytes());
+    look(&bytes);
+});
+
+fn look(bytes: &[u8]) {
+    let Ok(map) = ContactMap::from_bytes(bytes, 0) else { return };
+    let near = NearDefect::Map(NearMap::new(Arc::new(map), RACEWAY));
+    let knots = near.knots().to_vec();
+    for cell in 0..knots.len().saturating_sub(1) {
+        for share in [0.0, 0.3, 1.0] {
+            let angle = knots[cell] + share * (knots[cell + 1] - knots[cell]);
+            for path in [-1e-5, 0.0, 1e-7, 1e-5, 2e-4] {
+                let _ = near.approach(cell, path, angle, RACEWAY);
+            }
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! Bytes as a serialized state: as they come, and a good state with some of its bytes changed and its checksum put right, so
+//! that the contents are tried too. A state that is taken must be one that can be stepped, or fail with a status.
+#![no_main]
+
+use std::cell::OnceCell;
+use std::ptr;
+
+use brinell::fmi2::*;
+use brinell_fuzz::{Resources, fnv, get, start};
+use libfuzzer_sys::fuzz_target;
+
+/// Where the checksum stands and what it covers.
+const CHECKSUM: usize = 12;
+const CHECKED_FROM: usize = 20;
+
+struct Fixture {
+    c: Component,
+    good: Vec<u8>,
+    home: FmuState,
+    reals: Vec<u32>,
+}
+
+thread_local!(static FIXTURE: OnceCell<Fixture> = const { OnceCell::new() });
+
+impl Fixture {
+    fn new() -> Self {
+        let resources = Resources::new(0);
+        let c = resources.instance();
+        start(c);
+        let (mut home, mut size) = (ptr::null_mut(), 0);
+        unsafe {
+            // Element 1 is about to leave the edge.
+            assert_eq!(fmi2DoStep(c, 0.0, 4e-3, TRUE), Status::Ok);
+            assert_eq!(fmi2GetFMUstate(c, &mut home), Status::Ok);
+            assert_eq!(fmi2SerializedFMUstateSize(c, home, &mut size), Status::Ok);
+            let mut good = vec![0u8; size];
+            assert_eq!(fmi2SerializeFMUstate(c, home, good.as_mut_ptr().cast(), size), Status::Ok);
+            Self { c, good, home, reals: resources.reals() }
+        }
+    }
+
+    fn look(&self, bytes: &[u8]) {
+        let mut state = ptr::null_mut();
+        unsafe {
+            if fmi2DeSerializeFMUstate(self.c, bytes.as_ptr().cast(), bytes.len(), &mut state) == Status::Ok {
+                if fmi2SetFMUstate(self.c, state) == Status::Ok {
+                    get(self.c, &self.reals);
+                    let mut time = 0.0;
+                    fmi2GetRealStatus(self.c, LAST_SUCCESSFUL_TIME, &mut time);
+                    fmi2DoStep(self.c, time, 1e-5, TRUE);
+                    get(self.c, &self.reals);
+                }
+                fmi2FreeFMUstate(self.c, &mut state);
+            }
+            assert_eq!(fmi2SetFMUstate(self.c, self.home), Status::Ok);
+        }
+    }
+}
+
+fuzz_target!(|data: &[u8]| {
+    FIXTURE.with(|fixture| {
+        let fixture = fixture.get_or_init(Fixture::new);
+        fixture.look(data);
+        let mut bytes = fixture.good.clone();
+        let length = bytes.len();
+        // Eight bytes over a field, at the place that the two before them name.
+        for change in data.chunks_exact(10) {
+            let place = usize::from(u16::from_le_bytes([change[0], change[1]])) % (length - CHECKED_FROM - 8);
+            bytes[CHECKED_FROM + place..][..8].copy_from_slice(&change[2..]);
+        }
+        let sum = fnv(&bytes[CHECKED_FROM..]);
+        bytes[CHECKSUM..CHECKED_FROM].copy_from_slice(&sum.to_le_bytes());
+        fixture.look(&bytes);
+    });
+});
