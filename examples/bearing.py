@@ -68,10 +68,22 @@ def toml(value):
     return repr(value.item() if isinstance(value, np.generic) else value)
 
 
+def program():
+    """The words that call this project's program: `cargo fmu`, or what BRINELL_FMU says."""
+    return shlex.split(os.environ.get("BRINELL_FMU", "cargo fmu"))
+
+
+def executable():
+    """The same without cargo, once it is built."""
+    if "BRINELL_FMU" in os.environ:
+        return program()
+    target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
+    return [str(target / "release" / ("fmu-build.exe" if os.name == "nt" else "fmu-build"))]
+
+
 def build(scenes, folder):
-    """Builds the FMUs of scene files with `cargo fmu build` (or the program named in BRINELL_FMU). Gives their paths."""
-    program = shlex.split(os.environ["BRINELL_FMU"]) if "BRINELL_FMU" in os.environ else ["cargo", "fmu"]
-    command = [*program, "build", *(str(Path(scene).resolve()) for scene in scenes), "-o", str(Path(folder).resolve())]
+    """Builds the FMUs of scene files. Gives their paths."""
+    command = [*program(), "build", *(str(Path(scene).resolve()) for scene in scenes), "-o", str(Path(folder).resolve())]
     subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
     return [Path(folder) / f"{Path(scene).stem}.fmu" for scene in scenes]
 

@@ -41,7 +41,7 @@ with contextlib.redirect_stdout(sys.stderr):  # it greets on standard output
 NODES, LEFT, DAMPER, DISK, RIGHT = 13, 0, 5, 6, 12  # 12 elements of 50 mm
 GRAVITY = 9.81
 PRESSED = np.array([0.0, -300.0])  # N on the shaft at the bearing under study
-ECCENTRIC = 5e-4  # kg m: a disk that should be balanced; grade G 28 at 40 Hz
+ECCENTRIC = 5e-4  # kg m: a disk that should be balanced; grade G 36 at 50 Hz
 STEEL = 5e-6  # s, assumed: damping over stiffness of the shaft; 8 % of critical at 5 kHz, 0.1 % at the first critical
 SIMPSON = np.array([1.0, 4.0, 1.0]) / 6  # weights of start, middle and end in a mean
 HOUSING = {"mass": 6.638, "damping": 2210.7, "stiffness": 1.51056e7}  # as in the scene
@@ -287,7 +287,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--host", choices=("exact", "ross"), default="exact")
     parser.add_argument("--passes", type=int, default=1, help="of the host `exact`")
-    parser.add_argument("--speed", type=float, default=40.0, help="shaft speed [Hz]")
+    parser.add_argument("--speed", type=float, default=50.0, help="shaft speed [Hz]")
     parser.add_argument("--step", type=float, help="communication step [s]; default 5e-5, or 1e-5 with --host ross")
     parser.add_argument("--stop", type=float, default=4.0, help="end [s]")
     parser.add_argument("-o", "--output", type=Path, default=Path("target/examples"))

@@ -20,6 +20,7 @@ import itertools
 import json
 import os
 import shutil
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -28,6 +29,7 @@ import bearing
 import numpy as np
 import pyarrow
 import pyarrow.parquet as parquet
+from bearing import tomllib
 from dask.distributed import Client, LocalCluster, WorkerPlugin, as_completed, get_worker
 
 # What an instance is told: scene key → variable, factor.
@@ -41,6 +43,7 @@ TOLD = {
 HARMONICS = 5
 FEATURES = ["bpfo_hz", "rms_m_s2", "kurtosis", *(f"envelope_{k}_bpfo_m_s2" for k in range(1, HARMONICS + 1))]
 FEATURES += ["unloaded_s", "loaded_again_s", "unloaded_deg"]
+SIZED = ["sized_verdict", "sized_length_mm", "sized_uncertainty_mm", "sized_kind"]
 
 
 def design(count, grid, random, seed):
@@ -73,8 +76,10 @@ class Bearings(WorkerPlugin):
 
     name = "bearings"
 
-    def __init__(self, paths):
+    def __init__(self, paths, program=None):
+        self.program = program
         self.files = {name: Path(path).read_bytes() for name, path in paths.items()}
+        self.scenes = {name: Path(path).with_suffix(".toml").read_text(encoding="utf-8") for name, path in paths.items()}
 
     def setup(self, worker):
         self.folder = Path(worker.local_directory) / "bearings"
@@ -92,16 +97,39 @@ class Bearings(WorkerPlugin):
         self.instances[name].reset()
         return self.instances[name]
 
+    def sized(self, index, name, values, signal, options):
+        """The spall's length from the sensor's signal alone, by `fmu size`."""
+        recording, base = self.folder / f"run-{index}.npy", self.folder / f"{name}.toml"
+        np.save(recording, signal)
+        base.write_text(self.scenes[name], encoding="utf-8")
+        # Of the scene it takes the bearing, the rig and the load; it does not look at the defect.
+        load = {"shaft.load_n": [0.0, -values["shaft.load_n"]]} if "shaft.load_n" in values else {}
+        scene = bearing.changed_scene(base, f"run-{index}", load, self.folder)
+        speed = values.get("shaft.speed_hz", tomllib.loads(self.scenes[name])["shaft"]["speed_hz"])
+        command = [*self.program, "size", recording, "--scene", scene, "--rate", options["rate"], "--speed", speed]
+        command += ["-o", self.folder / "figures"]
+        done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
+        for path in (recording, scene):
+            path.unlink()
+        if done.returncode:
+            raise RuntimeError(f"fmu size: {done.stderr.strip()[-300:]}")
+        found = json.loads(done.stdout)
+        return {f"sized_{key}": found[key] for key in ("verdict", "length_mm", "uncertainty_mm", "kind")}
+
 
 def simulate(index, name, values, options):
     """One run on a worker: its row."""
     row = {"run": index, "fmu": name, **values, "error": None}
     begin = time.process_time()
     try:
-        instance = get_worker().plugins[Bearings.name].instance(name)
-        row.update(run_one(instance, values, options))
+        bearings = get_worker().plugins[Bearings.name]
+        row.update(run_one(bearings.instance(name), values, options))
+        if options["size"]:
+            row.update(bearings.sized(index, name, values, row["signal"], options))
     except Exception as error:  # whatever it is, the other runs go on
         row["error"] = f"{type(error).__name__}: {error}"
+    if not options["signals"]:
+        row.pop("signal", None)
     row["cpu_s"] = time.process_time() - begin
     return row
 
@@ -127,8 +155,7 @@ def run_one(instance, values, options):
     defect = instance.read(["defect.angle"])[0] if "defect.angle" in instance.reference else None
     if defect is not None:
         row.update(passage(t, table[:, 2 : 2 + count], table[:, 2 + count :], defect, options["settle"]))
-    if options["signals"]:
-        row["signal"] = signal.astype(np.float32)
+    row["signal"] = signal.astype(np.float32)
     return row
 
 
@@ -182,9 +209,10 @@ def done_already(folder):
 def columns(runs, options):
     """Every part has the same columns, whatever its runs."""
     known = {"run": pyarrow.int64(), "fmu": pyarrow.string(), "error": pyarrow.string()}
-    known["signal"] = pyarrow.list_(pyarrow.float32())
+    known.update({"signal": pyarrow.list_(pyarrow.float32()), "sized_verdict": pyarrow.string(), "sized_kind": pyarrow.string()})
     keys = dict.fromkeys(itertools.chain.from_iterable(runs))
-    names = ["run", "fmu", *keys, *FEATURES, *(["signal"] if options["signals"] else []), "error", "cpu_s"]
+    names = ["run", "fmu", *keys, *FEATURES, *(SIZED if options["size"] else [])]
+    names += [*(["signal"] if options["signals"] else []), "error", "cpu_s"]
     return pyarrow.schema([(name, known.get(name, pyarrow.float64())) for name in names])
 
 
@@ -198,7 +226,8 @@ def write_part(rows, schema, folder):
 
 def collect(client, runs, names, options, folder, every=50, at_result=lambda count: None):
     """Gives the missing runs to the workers, a few ahead of what they can do, and writes what comes back."""
-    missing = [index for index in range(len(runs)) if index not in done_already(folder)]
+    done = done_already(folder)
+    missing = [index for index in range(len(runs)) if index not in done]
     waiting, schema = iter(missing), columns(runs, options)
     rows, count, failed, begin, written = [], 0, 0, time.perf_counter(), time.perf_counter()
 
@@ -242,17 +271,13 @@ def bar(count, total, failed, seconds):
     print(text, end=end, file=sys.stderr, flush=True)
 
 
-def same_design(folder, runs, options, base):
+def same_design(folder, **design):
     """Refuses to mix two designs in one folder."""
-    text = json.dumps({"base": str(Path(base).name), "options": options, "runs": runs})
+    text = json.dumps(design, indent=1)
     path = folder / "design.json"
-    if path.exists():
-        old = json.loads(path.read_text())
-        new = json.loads(text)
-        shared = min(len(old["runs"]), len(runs))
-        if (old["base"], old["options"], old["runs"][:shared]) != (new["base"], new["options"], new["runs"][:shared]):
-            sys.exit(f"{folder} holds another design: choose another folder, or take this one away")
-    path.write_text(text)
+    if path.exists() and path.read_text(encoding="utf-8") != text:
+        sys.exit(f"{path} says that the folder holds another design: choose another folder, or take this one away")
+    path.write_text(text, encoding="utf-8")
 
 
 def pair(text):
@@ -271,6 +296,8 @@ def main(arguments=None):
     parser.add_argument("--settle", type=float, default=0.05, help="left out of the features [s]")
     parser.add_argument("--rate", type=float, default=51200.0, help="samples per second")
     parser.add_argument("--signals", action="store_true", help="keep the sensor's signal of each run")
+    parser.add_argument("--size", action="store_true", help="size the spall from each signal: some 15 s of a core per run; "
+                        "`cargo fmu` as built here must be at the same place on each worker")
     parser.add_argument("--workers", type=int, default=os.cpu_count())
     parser.add_argument("--scheduler", help="address of a dask scheduler; default: workers of our own")
     parser.add_argument("-o", "--output", type=Path, default=Path("target/sweep"))
@@ -281,20 +308,23 @@ def main(arguments=None):
         grid = {"defect.length_deg": [2.0, 5.0, 10.0, 15.8], "defect.depth_um": [20.0, 50.0, 100.0]}
         random = {"shaft.load_n": (300.0, 1500.0), "shaft.speed_hz": (8.0, 40.0)}
     runs = design(chosen.runs, grid, random, chosen.seed)
-    options = {name: getattr(chosen, name) for name in ("stop", "settle", "rate", "signals")}
+    options = {name: getattr(chosen, name) for name in ("stop", "settle", "rate", "signals", "size")}
     chosen.output.mkdir(parents=True, exist_ok=True)
-    same_design(chosen.output, runs, options, chosen.base)
+    scene = chosen.base.read_text(encoding="utf-8")
+    same_design(chosen.output, scene=scene, grid=grid, random=random, seed=chosen.seed, options=options)
     paths, names = prepare(chosen.base, runs, chosen.output / "fmu")
     cluster = chosen.scheduler or LocalCluster(
         n_workers=chosen.workers, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
     )
     with Client(cluster) as client:
         client.upload_file(str(Path(__file__).with_name("bearing.py")))
-        client.register_plugin(Bearings(paths))
+        client.register_plugin(Bearings(paths, bearing.executable()))
         count, failed, seconds = collect(client, runs, names, options, chosen.output)
     if not chosen.scheduler:
         cluster.close()
-    print(json.dumps({"runs": count, "failed": failed, "seconds": round(seconds, 2), "folder": str(chosen.output)}))
+    size = sum(part.stat().st_size for part in chosen.output.glob("part-*.parquet"))
+    said = {"runs": count, "failed": failed, "seconds": round(seconds, 2), "bytes": size, "folder": str(chosen.output)}
+    print(json.dumps(said))
 
 
 if __name__ == "__main__":

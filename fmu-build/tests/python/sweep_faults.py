@@ -16,7 +16,7 @@ import sweep  # noqa: E402
 from dask.distributed import Client, LocalCluster  # noqa: E402
 
 RUNS, BAD = 24, 5
-OPTIONS = {"stop": 0.08, "settle": 0.02, "rate": 51200.0, "signals": True}
+OPTIONS = {"stop": 0.08, "settle": 0.02, "rate": 51200.0, "signals": True, "size": False}
 
 
 def rows(folder):
