@@ -396,6 +396,13 @@ fn a_tolerance_outside_its_range_is_refused() {
 }
 
 #[test]
+fn a_budget_of_no_step_at_all_is_refused() {
+    let parts = ["most integration steps (solver.max_steps) is 0", "at least 1"];
+    refused("tolerance = 1e-5", "max_steps = 0", &parts);
+    accepted("tolerance = 1e-5", "max_steps = 1");
+}
+
+#[test]
 fn a_communication_step_beyond_the_stop_time_is_refused() {
     refused("step_s = 1e-4", "step_s = 0.2", &["(experiment.step_s) is 0.2", "at most 0.1"]);
 }

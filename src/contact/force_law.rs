@@ -37,24 +37,24 @@ impl ForceLaw {
     /// Elastic force [N] at approach `delta` [m].
     #[inline]
     pub fn elastic(&self, delta: f64) -> f64 {
-        let delta = delta.max(0.0);
+        let delta = or_zero(delta);
         self.stiffness * delta * delta.sqrt()
     }
 
     /// Elastic tangent stiffness [N/m] at approach `delta` [m].
     #[inline]
     pub fn elastic_stiffness(&self, delta: f64) -> f64 {
-        1.5 * self.stiffness * delta.max(0.0).sqrt()
+        1.5 * self.stiffness * or_zero(delta).sqrt()
     }
 
     /// Force [N] at approach `delta` [m] and its rate [m/s].
     #[inline]
     pub fn force(&self, delta: f64, rate: f64) -> f64 {
-        let delta = delta.max(0.0);
+        let delta = or_zero(delta);
         let root = self.stiffness * delta.sqrt();
         match self.damping {
-            Damping::HuntCrossley(chi) => root * delta * (1.0 + chi * rate).max(0.0),
-            Damping::Proportional(tau) => root * (delta + 1.5 * tau * rate).max(0.0),
+            Damping::HuntCrossley(chi) => root * delta * or_zero(1.0 + chi * rate),
+            Damping::Proportional(tau) => root * or_zero(delta + 1.5 * tau * rate),
         }
     }
 
@@ -99,6 +99,12 @@ impl ForceLaw {
     }
 }
 
+/// 0 for a negative value. What is no number stays so: a force of zero would hide it.
+#[inline]
+fn or_zero(value: f64) -> f64 {
+    if value < 0.0 { 0.0 } else { value }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -136,6 +142,14 @@ mod tests {
                 prop_assert!((force.by_approach - by_approach).abs() < 1e-7 * force.by_approach.abs() + 1e-8 * law.elastic_stiffness(delta));
                 prop_assert!((force.by_rate - by_rate).abs() < 1e-7 * by_rate.abs());
             }
+        }
+    }
+
+    #[test]
+    fn an_approach_that_is_no_number_gives_no_force_that_is_one() {
+        for law in laws() {
+            assert!(law.force(f64::NAN, 0.0).is_nan() && law.force(1e-6, f64::NAN).is_nan());
+            assert!(law.elastic(f64::NAN).is_nan() && law.elastic_stiffness(f64::NAN).is_nan());
         }
     }
 

@@ -139,11 +139,7 @@ mod tests {
     fn clocks_worked_out_together_are_those_worked_out_alone() {
         for (speed, acceleration) in [(100.0, 0.0), (-3000.0, 1e7), (0.0, 0.0), (1e4, -1e9)] {
             for from in [0.0, 3e-4] {
-                let drive = Drive {
-                    cage_start: 2.5,
-                    cage: Quadratic([0.0, speed, acceleration]),
-                    ..Drive::default()
-                };
+                let drive = Drive { cage_start: 2.5, cage: Quadratic([0.0, speed, acceleration]), ..Drive::default() };
                 let after = [0.0, 1e-7, 3e-6, 1e-5];
                 for (together, after) in drive.clocks(from, after).into_iter().zip(after) {
                     let alone = drive.clock(from + after);

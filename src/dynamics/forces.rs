@@ -162,10 +162,8 @@ impl Model {
             whole(simd, [v, 0.0, 0.0, 0.0], [0.0, -reaction * self.per_mass[3], 0.0, 0.0]).store(derivative, i);
         }
         if let Some(i) = self.layout.housing {
-            let force = [
-                drive.housing_load[0].at(tau) + housing_x,
-                drive.housing_load[1].at(tau) + (housing_y + reaction),
-            ];
+            let force =
+                [drive.housing_load[0].at(tau) + housing_x, drive.housing_load[1].at(tau) + (housing_y + reaction)];
             ring_rates(simd, &self.housing, self.per_mass[2], &at.housing, force).store(derivative, i);
         }
     }
@@ -335,13 +333,7 @@ impl Kernel for Derivative<'_> {
 
 /// Velocity and acceleration of a ring on its support, `force` [N] being all else that acts on it.
 #[inline(always)]
-fn ring_rates<S: Wide>(
-    simd: S,
-    ring: &Ring,
-    per_mass: f64,
-    state: &RingState,
-    force: [f64; 2],
-) -> Lanes<S::Quad> {
+fn ring_rates<S: Wide>(simd: S, ring: &Ring, per_mass: f64, state: &RingState, force: [f64; 2]) -> Lanes<S::Quad> {
     let (x, v) = (state.position, state.velocity);
     let along = [0, 1].map(|a| per_mass * (force[a] - ring.damping * v[a] - ring.stiffness * x[a]));
     whole(simd, [v[0], v[1], 0.0, 0.0], [0.0, 0.0, along[0], along[1]])

@@ -207,11 +207,11 @@ impl Model {
 
             let along = dot(at.housing.velocity, *e_t);
             by_time[j] = element.path_rate_by_time;
-            by_time[start + j] = (dot(inner_by_time, *e_r) + omega * dot(element.inner, *e_t) - element.outer_by_time[0])
-                * per_mass
-                + omega * dot(self.gravity, *e_t)
-                + at.alpha * (along + 2.0 * rho * omega)
-                + omega * (dot(at.housing_moves[1], *e_t) - omega * dot(at.housing.velocity, *e_r));
+            by_time[start + j] =
+                (dot(inner_by_time, *e_r) + omega * dot(element.inner, *e_t) - element.outer_by_time[0]) * per_mass
+                    + omega * dot(self.gravity, *e_t)
+                    + at.alpha * (along + 2.0 * rho * omega)
+                    + omega * (dot(at.housing_moves[1], *e_t) - omega * dot(at.housing.velocity, *e_r));
             let (outer, outer_by_time) = (element.outer, element.outer_by_time);
             for a in 0..2 {
                 if let Some((_, place)) = jacobian.places[a] {

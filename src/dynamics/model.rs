@@ -123,6 +123,11 @@ impl Layout {
                 .any(|(start, count)| start.is_some_and(|start| within(start, count)))
     }
 
+    /// Number of states, without the places that only fill lists up.
+    pub fn count(&self) -> usize {
+        (0..self.len).filter(|&i| self.is_used(i)).count()
+    }
+
     /// Name of state `i` for messages.
     pub fn name(&self, i: usize) -> String {
         let w = self.radial_velocity;

@@ -6,9 +6,9 @@
 pub mod elliptic;
 pub mod lanes;
 mod power;
-mod trigonometry;
 #[cfg(test)]
 pub(crate) mod trees;
+mod trigonometry;
 
 pub use power::rough_power;
 pub use trigonometry::{sin_cos, wrap};

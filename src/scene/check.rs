@@ -38,6 +38,7 @@ impl Scene {
         self.check_rings()?;
         self.check_sensor()?;
         TOLERANCE.check(self.tolerance)?;
+        MAX_STEPS.check(self.max_steps as f64)?;
         if let Some(rate) = self.recorder_rate {
             RECORDER_RATE.check(rate)?;
         }

@@ -134,6 +134,8 @@ pub(super) const SENSOR_STIFFNESS: Quantity =
 pub(super) const SENSOR_DAMPING: Quantity =
     quantity("sensor damping", "sensor.damping_n_s_m", 1.0, Inclusive(0.0), Inclusive(1e12));
 pub(super) const TOLERANCE: Quantity = quantity("tolerance", "solver.tolerance", 1.0, Inclusive(1e-12), Inclusive(0.1));
+pub(super) const MAX_STEPS: Quantity =
+    quantity("most integration steps", "solver.max_steps", 1.0, Inclusive(1.0), Inclusive(1e15));
 pub(super) const RECORDER_RATE: Quantity =
     quantity("recorder rate", "recorder.rate_hz", 1.0, Exclusive(0.0), Inclusive(1e7));
 pub(super) const STOP: Quantity = quantity("stop time", "experiment.stop_s", 1.0, Exclusive(0.0), Inclusive(1e9));

@@ -56,13 +56,7 @@ impl DormandPrince {
 
     /// Tries a step of length `h` from `state`; the first stage must be there.
     #[inline(always)]
-    pub fn try_step<S: Wide>(
-        &mut self,
-        simd: S,
-        state: &[f64],
-        h: f64,
-        right_hand_side: &mut impl RightHandSide,
-    ) {
+    pub fn try_step<S: Wide>(&mut self, simd: S, state: &[f64], h: f64, right_hand_side: &mut impl RightHandSide) {
         let Self { stages, end, trial, cut } = self;
         for stage in 1..LAST {
             let (done, rest) = stages.split_at_mut(stage);
@@ -70,13 +64,31 @@ impl DormandPrince {
                 1 => cut.for_each(simd, [state, &done[0]], trial, &Combine::<1>(h), &mut ()),
                 2 => cut.for_each(simd, [state, &done[0], &done[1]], trial, &Combine::<2>(h), &mut ()),
                 3 => cut.for_each(simd, [state, &done[0], &done[1], &done[2]], trial, &Combine::<3>(h), &mut ()),
-                4 => cut.for_each(simd, [state, &done[0], &done[1], &done[2], &done[3]], trial, &Combine::<4>(h), &mut ()),
-                _ => cut.for_each(simd, [state, &done[0], &done[1], &done[2], &done[3], &done[4]], trial, &Combine::<5>(h), &mut ()),
+                4 => cut.for_each(
+                    simd,
+                    [state, &done[0], &done[1], &done[2], &done[3]],
+                    trial,
+                    &Combine::<4>(h),
+                    &mut (),
+                ),
+                _ => cut.for_each(
+                    simd,
+                    [state, &done[0], &done[1], &done[2], &done[3], &done[4]],
+                    trial,
+                    &Combine::<5>(h),
+                    &mut (),
+                ),
             }
             right_hand_side.evaluate(simd, stage, trial, &mut rest[0]);
         }
         let (done, rest) = stages.split_at_mut(LAST);
-        cut.for_each(simd, [state, &done[0], &done[1], &done[2], &done[3], &done[4], &done[5]], end, &Combine::<6>(h), &mut ());
+        cut.for_each(
+            simd,
+            [state, &done[0], &done[1], &done[2], &done[3], &done[4], &done[5]],
+            end,
+            &Combine::<6>(h),
+            &mut (),
+        );
         right_hand_side.evaluate(simd, LAST, end, &mut rest[0]);
     }
 

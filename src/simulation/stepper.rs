@@ -511,7 +511,8 @@ impl Kernel for ImplicitStep<'_> {
         let [first, .., last] = &mut stepper.explicit.stages;
         let clocks = drive.clocks(from, rodas::NODES.map(|node| node * h));
         let (cells, forces) = (&progress.cells, &mut stepper.forces);
-        let mut system = System { model, drive, clocks, cells, forces, jacobian: &stepper.jacobian, arrow: &stepper.arrow };
+        let mut system =
+            System { model, drive, clocks, cells, forces, jacobian: &stepper.jacobian, arrow: &stepper.arrow };
         stepper.implicit.try_step(simd, &progress.state, (first, &stepper.by_time), h, &mut system);
         let at = (drive, &clocks[rodas::NODES.len() - 1]);
         model.derivative_on::<S, true>(simd, at, cells, &stepper.implicit.end, last, &mut stepper.forces);

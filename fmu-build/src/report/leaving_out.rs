@@ -132,7 +132,7 @@ fn cost(what: &'static str, scene: &Scene, seen: Seen, stop: f64) -> Result<Part
     )?;
     Ok(Part {
         what,
-        states: simulation.state_vector().len(),
+        states: simulation.equations().0.layout.count(),
         variables: simulation.table().len(),
         cost: seconds / stop,
         steps: steps as f64 / stop,

@@ -8,6 +8,7 @@
 //! Times are CPU times of the one thread that steps, best of several runs; other programs on the machine still take
 //! caches and memory from it, so ratios within a table mean more than the times.
 
+pub mod coupling;
 mod fixed_step;
 mod integration;
 mod leaving_out;
