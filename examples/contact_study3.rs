@@ -1,17 +1,17 @@
-use brinell::contact::map::ContactMap;
-use brinell::contact::map_build::{MapSpecification, Sequential};
-use brinell::contact::raceway_grid::{ElementOnRaceway, Resolution};
-use brinell::surface::{Profile, Surface};
-use std::f64::consts::FRAC_PI_2;
-const LENGTH: f64 = 6.517e-3;
+use brinell::scene::Scene;
+use brinell::simulation::setup::{build_map, map_specification};
+use brinell::contact::map_build::Sequential;
+use brinell::surface::Surface;
 fn main() {
-    let element = ElementOnRaceway { element_radius: 3.97e-3, raceway_radius: 23.6325e-3, groove_radius: 4.095e-3 };
-    let surface = Surface::Profile(Profile::spall(LENGTH, 100e-6, FRAC_PI_2));
-    let s = MapSpecification { accuracy: 3e-2, resolution: Resolution { columns: 16, rows: 8 }, ..MapSpecification::new(10e-6) };
-    let map = ContactMap::build(&surface, element, s, &mut Sequential(|_, _| ())).unwrap();
-    let mut best = f64::INFINITY; let mut sum = 0.0;
-    for _ in 0..std::env::args().nth(1).map_or(20000, |v| v.parse().unwrap()) { let start = std::time::Instant::now();
-        for i in 0..1000 { sum += map.lookup(5e-6, -0.5 * LENGTH - 0.1e-3 + 0.2e-6 * f64::from(i)).unwrap().forces(1.0)[0]; }
-        best = best.min(start.elapsed().as_secs_f64() / 1000.0); }
-    println!("lookup {:.1} ns {}", best * 1e9, sum > 0.0);
+    for name in std::env::args().skip(1) {
+        let scene = Scene::from_toml(&std::fs::read_to_string(format!("scenes/{name}.toml")).unwrap()).unwrap();
+        let profile = match &scene.defect.as_ref().unwrap().shape { brinell::scene::DefectShape::Profile(f) => Some(std::fs::read_to_string(format!("scenes/{f}")).unwrap()), _ => None };
+        let surface = Surface::load(&scene.defect.as_ref().unwrap().shape, profile.as_deref(), &scene.bearing).unwrap();
+        let t = std::time::Instant::now();
+        match build_map(&scene, &surface, &mut Sequential(|_, _| ())) {
+            Ok(Some(m)) => println!("{name} {:?} nodes {} {:?} {:.2}s", map_specification(&scene), m.nodes(), m.accuracy(), t.elapsed().as_secs_f64()),
+            Ok(None) => println!("none"),
+            Err(e) => println!("{name} {e}"),
+        }
+    }
 }

@@ -33,8 +33,11 @@ use super::{
 /// Nodes of the smooth raceway's energy; quadratically dense towards zero.
 const SMOOTH_NODES: usize = 64;
 /// The grid touches where the centre of its first cell touches, a little late. Below this many times that path the contact is a
-/// cell or two and Δ is continued linearly; the force there is 1e-3 of full scale, its error a small part of that.
+/// cell or two.
 const ONSET_TOUCHES: f64 = 3.0;
+/// Below this part of the largest approach a contact is a few cells and its stiffness is noise: Δ is continued linearly. The force there
+/// is 0.2 % of the largest, and by some per cent of that wrong.
+const ONSET: f64 = 0.015;
 
 /// Energy of the grid and its derivatives, without the factor π E* × cell area.
 #[derive(Debug, Clone, Copy, Default)]
@@ -125,6 +128,15 @@ impl LoveContact {
             // No contact within reach: how far off it is, and no more.
             return Ok(EquivalentApproach::flat(u, touch));
         }
+        self.solve_or_continue(u, s, touch)
+    }
+
+    /// As [`LoveContact::solve`], but with the first-order continuation however far off the contact is.
+    pub(super) fn continued(&mut self, u: f64, s: f64) -> Result<EquivalentApproach, ContactError> {
+        self.solve_or_continue(u, s, self.first_touch(s))
+    }
+
+    fn solve_or_continue(&mut self, u: f64, s: f64, touch: f64) -> Result<EquivalentApproach, ContactError> {
         if u > touch {
             let approach = self.equivalent(u, s)?;
             if approach.value >= self.smooth.onset() {
@@ -211,7 +223,7 @@ impl LoveContact {
             .collect::<Result<_, _>>()?;
         let with_defect = std::mem::replace(&mut self.layers, smooth);
         let s = self.grid().centre(0);
-        let onset = (ONSET_TOUCHES * self.grid().first_touch(s)).max(1e-4 * self.largest_approach);
+        let onset = (ONSET_TOUCHES * self.grid().first_touch(s)).max(ONSET * self.largest_approach);
         let (low, high) = (onset.sqrt(), (1.02 * self.largest_approach).sqrt());
         let mut nodes = Vec::new();
         for k in 0..=SMOOTH_NODES {

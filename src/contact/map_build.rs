@@ -59,11 +59,16 @@ impl<F: FnMut(usize, usize)> Runner for Sequential<F> {
     }
 }
 
+/// The map follows the grid, and the grid's own steps may be larger than the accuracy: a map is refused when its error is so many times what
+/// was asked for.
+const REFUSED: f64 = 1.5;
+
 impl ContactMap {
     /// Map for an element over `surface`.
     ///
     /// # Errors
-    /// [`ContactError::BadInput`] for impossible inputs, [`ContactError::MapNotAccurate`] when even the finest nodes miss the accuracy.
+    /// [`ContactError::BadInput`] for impossible inputs, [`ContactError::MapNotAccurate`] when even the finest nodes miss the accuracy
+    /// by more than a half; what was reached is in [`ContactMap::accuracy`].
     pub fn build(
         surface: &Surface,
         element: ElementOnRaceway,
@@ -71,7 +76,7 @@ impl ContactMap {
         runner: &mut impl Runner,
     ) -> Result<Self, ContactError> {
         let map = MapPlan::new(surface, element, specification)?.build(runner)?;
-        if map.accuracy.max() > specification.accuracy {
+        if map.accuracy.max() > REFUSED * specification.accuracy {
             return Err(ContactError::MapNotAccurate {
                 achieved: map.accuracy.max(),
                 requested: specification.accuracy,

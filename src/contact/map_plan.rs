@@ -3,9 +3,6 @@
 //! Around the flanks nodes cover every path from below the first touch to the largest approach. The map is compared with the
 //! grid at two points in each cell of nodes; a cell in which the error is larger than asked for is cut in four. That happens
 //! where a second contact begins, of the floor beside that of the edge: there the force has a kink in its slope, on a line across the map.
-//!
-//! Just above the first touch the grid has a few cells in contact and its derivatives are noise. Nodes there lie on the straight line that
-//! touches Δ a little higher; that costs 1e-3 of full scale or less, because the force itself is small there.
 
 use std::collections::BTreeMap;
 
@@ -24,8 +21,6 @@ use super::{
 const ROWS: f64 = 4.0;
 /// Coarse cells begin so many of their heights above the reference path.
 const LOWEST: f64 = -1.0;
-/// Nodes less than this part of the largest approach above the first touch are continued from there.
-const ONSET: f64 = 0.03;
 /// The grid is prepared for so many times the largest approach: coarse cells reach above it.
 const PREPARED: f64 = 1.8;
 /// The root mean square error is to be this part of the largest one.
@@ -251,14 +246,8 @@ impl MapPlan {
             return Ok([height, 0.0, 1.0, 0.0]);
         }
         let (s, [path, slope]) = patch.reference(i);
-        let u = path + height;
-        let onset = contact.first_touch(s) + ONSET * self.specification.largest_approach;
-        if u >= onset {
-            let a = contact.solve(u, s)?;
-            return Ok([a.value, a.ds + a.du * slope, a.du, a.dus + a.duu * slope]);
-        }
-        let a = contact.solve(onset, s)?;
-        Ok([a.value + a.du * (u - onset), a.ds + a.du * slope, a.du, 0.0])
+        let a = contact.continued(path + height, s)?;
+        Ok([a.value, a.ds + a.du * slope, a.du, a.dus + a.duu * slope])
     }
 
     fn solve_missing(&mut self, runner: &mut impl Runner) -> Result<(), ContactError> {
