@@ -56,7 +56,9 @@ def draw(stem):
         axes[2].plot(angle, -1e6 * data["path"], color=BLUE, label="element's centre, rolling over the spall")
         axes[2].set_ylabel("path (µm)")
     for axis in axes:
-        axis.legend(loc="upper right", ncols=1, frameon=True, framealpha=0.85, edgecolor="none")
+        low, high = axis.get_ylim()
+        axis.set_ylim(low, high + 0.3 * (high - low))
+        axis.legend(loc="upper right", ncols=6, columnspacing=1)
     origin = "leading edge" if "model" in data else "first blow"
     axes[-1].set_xlabel(f"element travel from the {origin} (degrees of the outer raceway)" if found["length_deg"] else "element travel (degrees of the outer raceway)")
     edges = found["edges_deg"]

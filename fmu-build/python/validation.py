@@ -25,7 +25,7 @@ def four_events():
     data = read("four-events")
     time = data["time"] * 1e3
     free = time[(time > 0) & (data["map element[1].force.outer"] == 0)][0]
-    again = time[(time > free) & (data["map element[1].force.inner"] > 0)][0]
+    again = time[(time > free + 1) & (data["map element[1].force.inner"] > 0)][0]
     figure, axes = plt.subplots(3, 1, figsize=(plotting.WIDTH, 7.2), sharex=True)
     panels = (("housing.ay", 1.0, "housing, y\n(m/s²)"), ("element[1].force.outer", 1.0, "outer force on\nthe element (N)"), ("element[1].path", 1e6, "path of the\nelement (µm)"))
     for axis, (name, scale, label) in zip(axes, panels):
@@ -36,10 +36,10 @@ def four_events():
     spread = np.quantile(np.abs(data["map housing.ay"]), 0.999)
     axes[0].set_ylim(-1.2 * spread, 1.6 * spread)
     low, high = axes[1].get_ylim()
-    axes[1].set_ylim(low, high + 0.25 * (high - low))
+    axes[1].set_ylim(low, high + 0.55 * (high - low))
     for at, text in ((0.0, "leading\nedge"), (free, "free"), (again, "carries again"), (10.997, "trailing\nedge")):
         # Names that would meet stand on two heights.
-        event(axes[1], at, text, 0.82 if text in ("free", "trailing\nedge") else 0.98)
+        event(axes[1], at, text, 0.8 if text in ("free", "trailing\nedge") else 0.98)
         for axis in (axes[0], axes[2]):
             axis.axvline(at, color="black", linewidth=0.8, linestyle=":")
     axes[0].set_title("Line spall of 15.8°, 500 N, 10 Hz: one element passes")
@@ -60,19 +60,21 @@ def epps():
     top.set_xlabel("arc from the middle of the spall (mm)")
     top.set_ylabel("depth (µm)")
     top.set_title("Etched spall of 0.8 mm on a 6205, 1500 N, 25 Hz")
-    top.legend(loc="lower right")
+    top.legend(loc="center right")
     time = data["time"] * 1e3
     panels = (("housing.ay", 1.0, "housing, y\n(m/s²)"), ("element[1].path", 1e6, "path of the\nelement (µm)"), ("element[1].force.outer", 1.0, "outer force on\nthe element (N)"))
-    curves = (("sharp hertz", ORANGE, "--", "90° edges, law hertz"), ("trace hertz", GREEN, "-", "trace, law hertz"), ("trace map", BLUE, "-", "trace, law map"))
+    curves = (("trace hertz", GREEN, "-", "trace, law hertz"), ("sharp hertz", ORANGE, ":", "90° edges, law hertz"), ("trace map", BLUE, "-", "trace, law map"), ("sharp map", SKY, ":", "90° edges, law map"))
     for axis, (name, scale, label) in zip(axes[1:], panels):
         for case, colour, style, text in curves:
-            axis.plot(time, scale * data[f"{case} {name}"], style, color=colour, linewidth=0.9, label=text)
+            axis.plot(time, scale * data[f"{case} {name}"], style, color=colour, linewidth=1.8 if style == ":" else 0.9, label=text)
         axis.set_ylabel(label)
         axis.set_xlim(-0.5, 2.5)
         for edge in (0.0, 0.5447):
             axis.axvline(edge, color="black", linewidth=0.8, linestyle=":")
     axes[2].invert_yaxis()
-    axes[1].legend(loc="upper right", ncols=1)
+    low, high = axes[1].get_ylim()
+    axes[1].set_ylim(low, high + 0.35 * (high - low))
+    axes[1].legend(loc="upper right", ncols=4, fontsize=8)
     axes[-1].set_xlabel("time from the leading edge (ms); dotted: both edges")
     figure.align_ylabels()
     plotting.save(figure, figures / "validation-epps")
@@ -91,14 +93,14 @@ def spectrograms(name, rows, title):
         passage = data[f"{key} sensor.acceleration"]
         # The passage repeats: three in a row leave the middle one without ends.
         long = np.tile(passage - passage.mean(), 3)
-        window = int(round(2.5e-3 * rate))
+        window = int(round(5e-3 * rate))
         frequency, at, power = signal.spectrogram(long, rate, window="hann", nperseg=window, noverlap=window - 8, nfft=4096, mode="psd")
         at = at * 1e3 - time.size / rate * 1e3 + time[0]
-        shown = frequency <= 3000
+        shown = frequency <= 2000
         level = 10 * np.log10(power[shown] / power[shown][:, (at > time[0]) & (at < time[-1])].max() + 1e-9)
         for axis, centre, event_name in zip(line, (0.0, exit_at), ("entry", "exit")):
             near = (at > centre - 3) & (at < centre + 9)
-            mesh = axis.pcolormesh(at[near] - centre, frequency[shown], level[:, near], vmin=-40, vmax=0, cmap="viridis", rasterized=True, shading="nearest")
+            mesh = axis.pcolormesh(at[near] - centre, frequency[shown], level[:, near], vmin=-30, vmax=0, cmap="viridis", rasterized=True, shading="nearest")
             axis.axvline(0, color="white", linewidth=0.9, linestyle=":")
             axis.set_title(f"{label}: {event_name}")
             axis.grid(False)

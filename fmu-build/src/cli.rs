@@ -160,6 +160,9 @@ struct Validate {
     /// Sampling rate of the recordings in hertz
     #[arg(long, value_name = "HZ", default_value_t = 51_200.0)]
     rate: f64,
+    /// Compute this part alone; the other tables are those of the last run
+    #[arg(long, value_enum, value_name = "PART")]
+    only: Option<validation::Part>,
     /// Folder for validation.md and figures [default: docs]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -240,6 +243,7 @@ impl Arguments {
                 let wanted = validation::Options {
                     recordings: known.collect::<Result<_>>()?,
                     rate: options.rate,
+                    only: options.only,
                     figures: !options.no_figure,
                 };
                 let docs = project.source().unwrap_or(Path::new("")).join("docs");

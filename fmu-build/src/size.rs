@@ -30,7 +30,7 @@ pub struct Options {
     pub figure: bool,
 }
 
-/// The command: prints the report, and writes `<folder>/<recording>.csv`, `.json` and, if wanted, figures.
+/// The command: prints the report, and writes `<folder>/<recording>-size.csv`, `.json` and, if wanted, figures.
 pub fn command(
     project: &Project,
     scene: &Path,
@@ -86,13 +86,14 @@ fn write(report: &Report, folder: &Path) -> Result<Vec<PathBuf>> {
     let mut stems: Vec<PathBuf> = Vec::new();
     for (figure, recording) in report.figures.iter().zip(&report.recordings) {
         let name = Path::new(&figure.name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let mut stem = folder.join(&name);
+        // Never the recording's own name: the folder may be its own.
+        let mut stem = folder.join(format!("{name}-size"));
         // Recordings of one name from several folders.
         for count in 2.. {
             if !stems.contains(&stem) {
                 break;
             }
-            stem = folder.join(format!("{name}-{count}"));
+            stem = folder.join(format!("{name}-size-{count}"));
         }
         let path = with_ending(&stem, ".csv");
         let mut out = BufWriter::new(File::create(&path).with_context(|| path.display().to_string())?);

@@ -59,7 +59,18 @@ pub fn find_comb(spectrum: &mut Spectrum, rate: f64, bpfo: f64, speed: f64) -> C
         .unwrap_or_else(|| comb_in(&spectrum.squared_envelope(whole), rate, bpfo, speed, whole))
 }
 
+/// The strongest comb from half to twice the nominal `bpfo` [Hz], where there is none near it: a wrong speed or rate, or another part of
+/// the bearing. Only the band of the comb near `bpfo` is searched.
+pub fn find_elsewhere(spectrum: &mut Spectrum, rate: f64, bpfo: f64, speed: f64, band: Band) -> Comb {
+    comb_within(&spectrum.squared_envelope(band), rate, bpfo, [0.5, 2.0], speed, band)
+}
+
 fn comb_in(squared_envelope: &[f64], rate: f64, bpfo: f64, speed: f64, band: Band) -> Comb {
+    comb_within(squared_envelope, rate, bpfo, [1.0 - SLIP.end(), 1.0 - SLIP.start()], speed, band)
+}
+
+/// The strongest comb at a frequency within shares of `bpfo`.
+fn comb_within(squared_envelope: &[f64], rate: f64, bpfo: f64, within: [f64; 2], speed: f64, band: Band) -> Comb {
     // The comb ends at HARMONICS·1.5 BPFO: means over blocks that keep that band lose nothing and save time.
     let block = ((rate / (bpfo * HARMONICS as f64 * 6.0)) as usize).max(1);
     let (envelope, rate) = (log_blocks(squared_envelope, block), rate / block as f64);
@@ -67,7 +78,7 @@ fn comb_in(squared_envelope: &[f64], rate: f64, bpfo: f64, speed: f64, band: Ban
     let (power, bin) = spectrum::power(&envelope, rate, 4 * envelope.len());
     let strength = |frequency: f64| comb_strength(&power, bin, frequency, speed, duration);
     let step = 0.1 / (duration * HARMONICS as f64);
-    let best = steps(bpfo * (1.0 - SLIP.end()), bpfo * (1.0 - SLIP.start()), step)
+    let best = steps(bpfo * within[0], bpfo * within[1], step)
         .map(|f| (f, strength(f)))
         .max_by(|a, b| a.1.total_cmp(&b.1))
         .unwrap_or((bpfo, 0.0));

@@ -67,6 +67,12 @@ pub enum Unresolved {
         "nothing repeats with the ball pass frequency: its comb stands {0:.1} standard deviations above chance, limit {1:.1}"
     )]
     NoPattern(f64, f64),
+    /// Something else repeats.
+    #[error(
+        "nothing repeats with the ball pass frequency: its comb stands {0:.1} standard deviations above chance, limit {1:.1}; but one at \
+         {2:.2} Hz stands {3:.1} above it: are speed, rate and bearing right, or is it not the outer raceway?"
+    )]
+    OtherPattern(f64, f64, f64, f64),
     /// Blows and echoes cannot be told apart in what the rate leaves.
     #[error(
         "{0:.2} degrees at a sampling rate of {1:.0} Hz: below {2:.0} Hz the band above the rings' modes is too narrow to tell a second blow that \
@@ -107,7 +113,11 @@ pub enum Unresolved {
 pub fn estimate(measured: &Measured, scene: &Scene) -> Result<EventLength, Unresolved> {
     let comb = &measured.comb;
     if !comb.is_significant() {
-        return Err(Unresolved::NoPattern(comb.significance, super::envelope::SIGNIFICANT));
+        let limit = super::envelope::SIGNIFICANT;
+        return Err(match &measured.elsewhere {
+            Some(other) => Unresolved::OtherPattern(comb.significance, limit, other.frequency, other.significance),
+            None => Unresolved::NoPattern(comb.significance, limit),
+        });
     }
     let grid = Grid::new(measured);
     let envelopes = measured.envelope_rows(0.0, grid.points);

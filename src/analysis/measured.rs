@@ -19,6 +19,8 @@ pub struct Measured {
     pub name: String,
     /// The comb in the envelope's spectrum.
     pub comb: Comb,
+    /// A comb elsewhere, where there is none near the ball pass frequency.
+    pub elsewhere: Option<Comb>,
     /// Mean ball pass frequency [Hz].
     pub bpfo: f64,
     /// Lag of the cage behind pure rolling.
@@ -53,6 +55,9 @@ impl Measured {
         }
         let mut spectrum = Spectrum::of(recording.samples(), rate);
         let comb = envelope::find_comb(&mut spectrum, rate, nominal, recording.speed());
+        let elsewhere = (!comb.is_significant())
+            .then(|| envelope::find_elsewhere(&mut spectrum, rate, nominal, recording.speed(), comb.band))
+            .filter(Comb::is_significant);
         let passages =
             Passages::find(recording.samples(), &spectrum.squared_envelope(comb.band), rate / comb.frequency);
         let mut high = spectrum.squared_envelope(Band { low: blow_band(rate), high: 0.45 * rate });
@@ -66,6 +71,7 @@ impl Measured {
             spacing: 360.0 / bearing.element_count as f64,
             signal: recording.samples().to_vec(),
             comb,
+            elsewhere,
             passages,
             rate,
             envelope: high,

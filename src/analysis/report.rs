@@ -91,7 +91,7 @@ pub struct RecordingReport {
     pub blows_deg: Vec<f64>,
     /// Both edges as the length has them, from the first blow, or by likeness from the entry [degrees].
     pub edges_deg: Option<[f64; 2]>,
-    /// Likeness to the scene's rig, 0 to 1, where it could be used.
+    /// Likeness to the scene's rig, 0 to 1, where the scene describes one; below 0.9 it was not used.
     pub likeness: Option<f64>,
     /// Frequencies of ringing after entry and after exit [Hz], where they could be measured.
     pub ringing_hz: Option<[f64; 2]>,

@@ -102,6 +102,8 @@ struct Sized {
     length: Result<Length, Unresolved>,
     events: Option<EventLength>,
     waveform: Option<WaveformLength>,
+    /// To the scene's rig, whether that was taken for the recording's or not.
+    likeness: Option<f64>,
     ringing: Option<Ringing>,
     expected: Option<[Ringing; 2]>,
     critical_load: Option<f64>,
@@ -122,7 +124,9 @@ impl Sized {
         let events = event_length::estimate(&measured, scene);
         let rig = Rig::new(scene, measured.bpfo, maps);
         let heard = rig.as_ref().filter(|_| measured.comb.is_significant());
-        let waveform = heard.and_then(|rig| waveform_length::estimate(&measured, scene, rig));
+        let heard = heard.map(|rig| waveform_length::estimate(&measured, scene, rig));
+        let likeness = heard.as_ref().map(|heard| heard.as_ref().map_or_else(|other| other.likeness, |w| w.likeness));
+        let waveform = heard.and_then(Result::ok);
         let spacing = measured.spacing;
         // Where an entry begins [share of a period], and how far from it the next exit is [degrees].
         let entry = match (&waveform, &events) {
@@ -164,7 +168,7 @@ impl Sized {
             }
             (None, Err(why)) => Err(why.clone()),
         };
-        Self { measured, length, events: events.ok(), waveform, ringing, expected, critical_load }
+        Self { measured, length, events: events.ok(), waveform, likeness, ringing, expected, critical_load }
     }
 
     fn report(&self) -> RecordingReport {
@@ -181,7 +185,7 @@ impl Sized {
             blows_deg: self.events.as_ref().map_or_else(Vec::new, |e| e.blows.clone()),
             edges_deg: self.edges(),
             passages: self.measured.passages.starts.len(),
-            likeness: self.waveform.as_ref().map(|w| w.likeness),
+            likeness: self.likeness,
             ringing_hz: self.ringing.map(pair),
             expected_ringing_hz: self.expected.map(|e| e.map(pair)),
             reason: self.length.as_ref().err().map(ToString::to_string),

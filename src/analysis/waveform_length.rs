@@ -48,8 +48,24 @@ pub struct WaveformLength {
     pub model: Vec<f64>,
 }
 
-/// Sizes the recording by the scene's rig; `None` when the scene cannot be simulated or sounds different.
-pub fn estimate(measured: &Measured, scene: &Scene, rig: &Rig<'_>) -> Option<WaveformLength> {
+/// A rig that is not the recording's.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NotAlike {
+    /// Likeness of the best trial; 0 where none could be simulated.
+    pub likeness: f64,
+}
+
+/// Sizes the recording by the scene's rig.
+///
+/// # Errors
+/// A rig that cannot be simulated, or sounds different.
+pub fn estimate(measured: &Measured, scene: &Scene, rig: &Rig<'_>) -> Result<WaveformLength, NotAlike> {
+    let mut heard = NotAlike { likeness: 0.0 };
+    let found = search(measured, scene, rig, &mut heard);
+    found.ok_or(heard)
+}
+
+fn search(measured: &Measured, scene: &Scene, rig: &Rig<'_>, heard: &mut NotAlike) -> Option<WaveformLength> {
     let rows = measured.signal_rows(0.0, POINTS);
     let target = below_cut(&passages::average(&rows), measured.bpfo);
     let search = Search { rig, target: &target };
@@ -58,7 +74,8 @@ pub fn estimate(measured: &Measured, scene: &Scene, rig: &Rig<'_>) -> Option<Wav
     let coarse: Vec<Trial> =
         lengths(1.0, 1.95 * spacing, 1.0).filter(|l| (l / spacing - 1.0).abs() > 0.02).map(simple).collect();
     let mut found = search.fits(&coarse, Run::Short);
-    if found.first()?.likeness < HOPELESS {
+    heard.likeness = found.first()?.likeness;
+    if heard.likeness < HOPELESS {
         return None;
     }
     let mut near: Vec<f64> = Vec::new();
@@ -88,6 +105,7 @@ pub fn estimate(measured: &Measured, scene: &Scene, rig: &Rig<'_>) -> Option<Wav
         likeness: cheap.likeness,
         passage: cheap.fits[cheap.top].passage.clone(),
     });
+    heard.likeness = best.likeness;
     if best.likeness < LIKE {
         return None;
     }

@@ -59,12 +59,12 @@ pub fn fill(project: &Project, values: &mut Values) -> Result<()> {
         let expected = shown(expected(&case));
         writeln!(table, "| {label} | {paper} | {} | {expected} | {:.0} |", row.join(" | "), least_stiffness(&case)?)?;
     }
-    values.set("frequencies", table);
+    values.set("frequencies", table)?;
     // The periods of all scenes are equal: one bearing, one speed.
     let mut all = vec![time];
     all.extend(columns);
     write_csv(project, "averages", &names, &all)?;
-    values.set("lighter", lighter(project)?);
+    values.set("lighter", lighter(project)?)?;
     Ok(())
 }
 

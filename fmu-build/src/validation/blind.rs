@@ -39,7 +39,7 @@ pub fn fill(project: &Project, values: &mut Values) -> Result<()> {
             writeln!(table, "{row}")?;
         }
     }
-    values.set("blind", table);
+    values.set("blind", table)?;
     let mut table = String::new();
     for length in [0.0, 0.5, 1.0, 1.3] {
         let case = rig.clone().with_spall(length, 100e-6).at_speed(25.0);
@@ -51,7 +51,7 @@ pub fn fill(project: &Project, values: &mut Values) -> Result<()> {
             writeln!(table, "| {label} | {noise} | {} | {} |", verdict(&found), short(&found.reason))?;
         }
     }
-    values.set("blind_short", table);
+    values.set("blind_short", table)?;
     let mut table = String::new();
     for (label, name, load) in [
         ("100 µm, 500 N", "er16k-tb2", 500.0),
@@ -66,7 +66,7 @@ pub fn fill(project: &Project, values: &mut Values) -> Result<()> {
         let critical = found.critical_load_n.map_or("–".to_owned(), |load| format!("{load:.0}"));
         writeln!(table, "| {label} | {} | {kind} | {critical} | {warned} |", verdict(&found))?;
     }
-    values.set("blind_extended", table);
+    values.set("blind_extended", table)?;
     Ok(())
 }
 

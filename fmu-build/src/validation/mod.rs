@@ -25,6 +25,21 @@ const TEMPLATE: &str = include_str!("../../assets/validation.md");
 /// The laws that are laid beside each other.
 pub const LAWS: [ContactLaw; 2] = [ContactLaw::Map, ContactLaw::Hertz];
 
+/// What can be computed by itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Part {
+    /// Static stiffness and critical loads
+    Statics,
+    /// Single passages: four events, Epps
+    Events,
+    /// Averaged passages, their frequencies and spectrograms
+    Averages,
+    /// Simulated recordings, sized
+    Blind,
+    /// Recordings that are given, sized
+    Recordings,
+}
+
 /// What the user says.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
@@ -32,47 +47,72 @@ pub struct Options {
     pub recordings: Vec<Known>,
     /// Their sampling rate [Hz].
     pub rate: f64,
+    /// The one part to compute; the others' tables are taken from the last run.
+    pub only: Option<Part>,
     /// Whether to draw.
     pub figures: bool,
 }
 
-/// The tables by their names in the template.
-#[derive(Debug, Clone, Default)]
-pub struct Values(Vec<(&'static str, String)>);
+/// The tables by their names in the template, kept beside the data.
+#[derive(Debug, Clone)]
+pub struct Values {
+    folder: PathBuf,
+}
 
 impl Values {
     /// Sets the table of a name.
-    pub fn set(&mut self, name: &'static str, text: String) {
-        self.0.push((name, text));
+    pub fn set(&mut self, name: &str, text: String) -> Result<()> {
+        fs::create_dir_all(&self.folder).with_context(|| self.folder.display().to_string())?;
+        let path = self.path(name);
+        fs::write(&path, text).with_context(|| path.display().to_string())
     }
 
-    /// The template with all its tables; one that is missing stays as its name.
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(format!("{name}.md"))
+    }
+
+    /// The template with all its tables; one that was never computed says so.
     fn filled(&self, template: &str) -> String {
-        self.0
-            .iter()
-            .fold(template.to_owned(), |text, (name, value)| text.replace(&format!("{{{{{name}}}}}"), value.trim_end()))
+        let mut parts = template.split("{{");
+        let mut text = parts.next().unwrap_or_default().to_owned();
+        for part in parts {
+            let (name, rest) = part.split_once("}}").unwrap_or(("", part));
+            let table = fs::read_to_string(self.path(name)).unwrap_or_else(|_| "not computed yet".to_owned());
+            text += table.trim_end();
+            text += rest;
+        }
+        text
     }
 }
 
 /// The command. `docs` is where `validation.md` and `figures/` are.
 pub fn command(project: &Project, options: &Options, docs: &Path) -> Result<()> {
-    let mut values = Values::default();
-    let step = |text: &str| eprintln!("validate: {text}");
-    step("static stiffness and critical loads");
-    statics::fill(project, &mut values)?;
-    step("single passages");
-    events::fill(project, &mut values)?;
-    step("averaged passages");
-    averages::fill(project, &mut values)?;
-    step("simulated recordings, sized");
-    blind::fill(project, &mut values)?;
-    if !options.recordings.is_empty() {
-        step("recordings");
+    let mut values = Values { folder: folder(project).join("tables") };
+    let wanted = |part: Part, text: &str| {
+        let wanted = options.only.is_none_or(|only| only == part);
+        if wanted {
+            eprintln!("validate: {text}");
+        }
+        wanted
+    };
+    if wanted(Part::Statics, "static stiffness and critical loads") {
+        statics::fill(project, &mut values)?;
+    }
+    if wanted(Part::Events, "single passages") {
+        events::fill(project, &mut values)?;
+    }
+    if wanted(Part::Averages, "averaged passages") {
+        averages::fill(project, &mut values)?;
+    }
+    if wanted(Part::Blind, "simulated recordings, sized") {
+        blind::fill(project, &mut values)?;
+    }
+    if !options.recordings.is_empty() && wanted(Part::Recordings, "recordings") {
         let table = recordings::table(project, &options.recordings, options.rate)?;
         let path = recordings::kept(docs);
         fs::write(&path, table).with_context(|| path.display().to_string())?;
     }
-    values.set("recordings", recordings::last(docs));
+    values.set("recordings", recordings::last(docs))?;
     let path = docs.join("validation.md");
     fs::write(&path, values.filled(TEMPLATE)).with_context(|| path.display().to_string())?;
     println!("{}", path.display());

@@ -27,27 +27,27 @@ const ROWS: [Row; 5] = [
 
 /// Fills in `stiffness`, `critical`, `depths`, `clearances`, `compliances` and `sensitivity`.
 pub fn fill(project: &Project, values: &mut Values) -> Result<()> {
-    values.set("stiffness", stiffness(project)?);
+    values.set("stiffness", stiffness(project)?)?;
     let deep = bearing(&Case::shipped(project, "er16k-tb2")?.with_law(ContactLaw::Hertz))?;
-    values.set("critical", critical_loads(project)?);
+    values.set("critical", critical_loads(project)?)?;
     let mut table = String::new();
     for depth in [20.0, 25.0, 30.0, 33.0, 40.0, 50.0, 75.0, 100.0] {
         writeln!(table, "| {depth:.0} | {} |", load(&deep.with_depth_times(depth / 100.0)?)?)?;
     }
-    values.set("depths", table);
+    values.set("depths", table)?;
     let shallow = deep.with_depth_times(0.3)?;
     let mut table = String::new();
     for clearance in [0.0, 5.0, 10.0, 20.0, 40.0] {
         let with = |bearing: &StaticBearing| load(&bearing.with_clearance(1e-6 * clearance));
         writeln!(table, "| {clearance:.0} | {} | {} |", with(&shallow)?, with(&deep)?)?;
     }
-    values.set("clearances", table);
+    values.set("clearances", table)?;
     let mut table = String::new();
     for compliance in [0.0, 10.0, 20.0, 40.0, 65.0, 80.0] {
         let with = |bearing: &StaticBearing| load(&bearing.with_outer_compliance(1e-9 * compliance));
         writeln!(table, "| {compliance:.0} | {} | {} |", with(&shallow)?, with(&deep)?)?;
     }
-    values.set("compliances", table);
+    values.set("compliances", table)?;
     let mut table = String::new();
     for (label, bearing) in [("100 µm", &deep), ("30 µm", &shallow)] {
         let critical = bearing.critical_load()?.context("no critical load")?;
@@ -61,7 +61,7 @@ pub fn fill(project: &Project, values: &mut Values) -> Result<()> {
             1e-9 * by.by_compliance
         )?;
     }
-    values.set("sensitivity", table);
+    values.set("sensitivity", table)?;
     Ok(())
 }
 

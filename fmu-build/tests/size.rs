@@ -1,0 +1,118 @@
+//! The command `size`, as a program: JSON alone on standard output, files beside it, refusals by quantity, value and limit.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+const RATE: f64 = 51_200.0;
+
+/// A healthy bearing: a shaft's harmonics and noise from a linear congruence.
+fn healthy(count: usize) -> Vec<f64> {
+    let mut state = 1u32;
+    (0..count)
+        .map(|i| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (std::f64::consts::TAU * 30.0 * i as f64 / RATE).sin() + f64::from(state >> 8) / f64::from(1 << 24) - 0.5
+        })
+        .collect()
+}
+
+fn csv(folder: &Path, name: &str, columns: &[(&str, Vec<f64>)]) -> PathBuf {
+    let mut text = columns.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(";") + "\n";
+    for i in 0..columns[0].1.len() {
+        let row: Vec<String> = columns.iter().map(|(_, column)| column[i].to_string()).collect();
+        text += &(row.join(";") + "\n");
+    }
+    let path = folder.join(name);
+    std::fs::write(&path, text).unwrap();
+    path
+}
+
+fn size(folder: &Path, recording: &Path, more: &[&str]) -> Output {
+    let scene = common::root().join("scenes/6205-healthy.toml");
+    Command::new(env!("CARGO_BIN_EXE_fmu-build"))
+        .arg("size")
+        .arg(recording)
+        .arg("--scene")
+        .arg(scene)
+        .args(["--no-figure", "-o"])
+        .arg(folder.join("out"))
+        .args(more)
+        .output()
+        .unwrap()
+}
+
+#[test]
+fn the_answer_is_json_alone_and_holds_every_key_of_the_contract() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = csv(folder.path(), "healthy.csv", &[("acceleration", healthy(60_000))]);
+    let output = size(folder.path(), &path, &["--rate", "51200", "--speed", "10"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    for key in ["verdict", "length_mm", "length_deg", "uncertainty_mm", "kind", "bpfo_hz", "slip", "passages", "reason"]
+    {
+        assert!(report.get(key).is_some(), "{key}");
+    }
+    assert_eq!(report["verdict"], "unresolved");
+    assert!(report["length_mm"].is_null() && report["length_deg"].is_null() && report["uncertainty_mm"].is_null());
+    assert!(report["reason"].as_str().unwrap().contains("ball pass frequency"));
+    // The averaged passage, not the recording itself.
+    let text = std::fs::read_to_string(folder.path().join("out/healthy-size.csv")).unwrap();
+    assert!(text.starts_with("angle [deg],signal [1],level [dB],low [1]\n"));
+    assert!(folder.path().join("out/healthy-size.json").is_file());
+}
+
+#[test]
+fn columns_tachometer_and_speeds_are_chosen_by_name_or_number() {
+    let folder = tempfile::tempdir().unwrap();
+    let count = 60_000;
+    let turn = |i: usize| 10.0 * i as f64 / RATE;
+    let tacho = (0..count).map(|i| f64::from(u8::from(turn(i).fract() < 0.05))).collect();
+    let columns =
+        [("left", vec![0.5; count]), ("right", healthy(count)), ("key", tacho), ("n [rpm]", vec![600.0; count])];
+    let path = csv(folder.path(), "four.csv", &columns);
+    for speed in [["--tacho", "key"], ["--speed-column", "n"], ["--speed-column", "4"], ["--speed", "10"]] {
+        let output = size(folder.path(), &path, &[&["--rate", "51200", "--column", "2"], &speed[..]].concat());
+        let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+        // The comb is sought from 3 % below to 2 % above the nominal 35.848 Hz.
+        let bpfo = report["bpfo_hz"].as_f64().unwrap();
+        assert!((34.7..36.7).contains(&bpfo), "{speed:?}: {bpfo}");
+    }
+    let output = size(folder.path(), &path, &["--rate", "51200", "--speed", "10"]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(!output.status.success() && said.contains("left, right, key, n [rpm]"), "{said}");
+}
+
+#[test]
+fn what_cannot_be_sized_is_refused_without_an_answer() {
+    let folder = tempfile::tempdir().unwrap();
+    let good = healthy(60_000);
+    let with = |change: &dyn Fn(&mut Vec<f64>)| {
+        let mut changed = good.clone();
+        change(&mut changed);
+        changed
+    };
+    let cases: [(&str, Vec<f64>, &[&str], &str); 6] = [
+        ("short", good[..3000].to_vec(), &["--speed", "10"], "at least 8"),
+        ("broken", with(&|x| x[17] = f64::NAN), &["--speed", "10"], "sample 17"),
+        ("clipped", with(&|x| x.iter_mut().for_each(|x| *x = x.clamp(-0.9, 0.9))), &["--speed", "10"], "clipped"),
+        ("constant", vec![1.0; 60_000], &["--speed", "10"], "constant"),
+        ("fast", good.clone(), &["--speed", "600"], "at least 64"),
+        ("still", good.clone(), &["--speed", "0"], "above 0"),
+    ];
+    for (name, samples, speed, expected) in cases {
+        let path = csv(folder.path(), &format!("{name}.csv"), &[("acceleration", samples)]);
+        let output = size(folder.path(), &path, &[&["--rate", "51200"], speed].concat());
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!output.status.success() && output.stdout.is_empty(), "{name}");
+        assert!(said.contains(expected) && said.contains(name), "{name}: {said}");
+    }
+    let time = (0..60_000).map(|i| f64::from(i) / RATE).collect();
+    let path = csv(folder.path(), "timed.csv", &[("time", time), ("acceleration", good.clone())]);
+    let output = size(folder.path(), &path, &["--rate", "25600", "--speed", "10"]);
+    assert!(String::from_utf8_lossy(&output.stderr).contains("the file states 51200"));
+}
