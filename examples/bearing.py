@@ -126,23 +126,23 @@ class Instance:
         )
         self.kept = callbacks
         self.slave.instantiate(callbacks=callbacks)
-        self.listen()
-
-    def listen(self):
-        """Has the FMU say what went wrong; a reset makes it silent again."""
+        # Without this an error would say no more than its status.
         self.slave.setDebugLogging(True, ["logStatusWarning", "logStatusDiscard", "logStatusError", "logStatusFatal"])
-        SAID.clear()
         self.time = 0.0
 
     def reset(self):
         """As if just made, whatever happened before."""
         self.slave.reset()
-        self.listen()
+        SAID.clear()
+        self.time = 0.0
 
     def enter(self, start=None):
         """Sets parameters and start values and goes into initialization mode."""
         for name, value in (start or {}).items():
-            self.write([name], [value])
+            if isinstance(value, str):
+                self.call(self.slave.setString, [self.reference[name]], [value])
+            else:
+                self.write([name], [value])
         self.call(self.slave.setupExperiment, startTime=0.0)
         self.call(self.slave.enterInitializationMode)
 

@@ -111,13 +111,17 @@ def main():
     free, free_linear = (decay(t[t > 0.01], signal[t > 0.01]) for signal in (found, expected))
 
     figure, axes = plots(3, 9)
+    between = np.linspace(min(speeds), max(speeds), 200)
+    curve = linear.run_unbalance_response(DISK, ECCENTRIC, 0.0, 2 * np.pi * between).forced_resp
     for axis, node, name in ((axes[0], DISK, "disk"), (axes[1], RIGHT, "shaft in the bearing")):
         at = rows[(rows[:, 1] == node) & (rows[:, 2] == 1)]
-        axis.plot(at[:, 0], at[:, 4] * 1e6, color=BLACK, label="ROSS with a linear bearing")
-        axis.plot(at[:, 0], at[:, 3] * 1e6, "o", color=ORANGE, label="ROSS with the FMU")
+        axis.plot(between, np.abs(curve[linear.number_dof * node + 1]) * 1e6, color=BLACK, label="ROSS, linear bearing")
+        axis.plot(at[:, 0], at[:, 3] * 1e6, "o", color=ORANGE, label="ROSS, FMU")
         axis.set(xlabel="shaft speed (Hz)", ylabel=f"{name}, y,\nat shaft speed (µm)", yscale="log")
-    axes[2].plot(t * 1e3, expected * 1e6, color=BLACK, label="ROSS with a linear bearing")
-    axes[2].plot(t * 1e3, found * 1e6, "--", color=ORANGE, label="ROSS with the FMU")
+        axis.yaxis.set_major_formatter("{x:g}")
+        axis.yaxis.set_minor_formatter("")
+    axes[2].plot(t * 1e3, expected * 1e6, color=BLACK, label="ROSS, linear bearing")
+    axes[2].plot(t * 1e3, found * 1e6, "--", color=ORANGE, label="ROSS, FMU")
     axes[2].set(xlabel="time after a strike on the disk (ms)", ylabel="disk, y (µm)")
     axes[0].set_title("Small motion about rest, healthy bearing", loc="left")
     legend(axes[0])

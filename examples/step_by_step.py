@@ -118,7 +118,7 @@ def draw(rows, seen, step, passes, stem):
     axes[0].plot(t, [-outer_load(when)[1::2].sum() for when in t], color=BLACK)
     axes[0].set_ylabel("load on the\nrotor, down (N)")
     axes[0].set_title(f"Rigid rotor on two bearings, {passes} pass{'es' * (passes > 1)}, step {step * 1e6:g} µs", loc="left")
-    axes[1].plot(t, forces[:, 1], color=BLUE, label="left, healthy")
+    axes[1].plot(t, forces[:, 1], color=BLUE, label="left, healthy", linewidth=0.8)
     axes[1].plot(t, forces[:, 3], color=ORANGE, label="right, spalled", linewidth=0.8)
     axes[1].set_ylabel("bearing's force on\nthe shaft, y (N)")
     axes[2].plot(t, places[:, 1] * 1e6, color=BLUE, label="left, healthy")
@@ -127,6 +127,7 @@ def draw(rows, seen, step, passes, stem):
     axes[3].plot(t, spalled["sensor.acceleration"], color=GREEN, linewidth=0.7)
     axes[3].set_ylabel("sensor on the\nright, y (m/s²)")
     axes[3].set_xlabel("time (s)")
+    axes[3].set_xlim(0, t[-1])
     for axis in axes[1:3]:
         legend(axis)
     save(figure, stem)

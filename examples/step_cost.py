@@ -67,13 +67,15 @@ def cost(run, count, idle):
     with Watch() as watch:
         run(count)
     # The first tenth is left out: there things are made and compiled.
-    first, last = np.array(watch.rows[len(watch.rows) // 10]), np.array(watch.rows[-1])
-    steps = count * (len(watch.rows) - 1 - len(watch.rows) // 10) / len(watch.rows)
-    whole, inside, calls = (last - first) / steps * [1e-3, 1e-3, 1.0]
-    # The clock is read twice around each call: half of its cost is inside.
-    whole -= 2 * clock * calls
-    inside -= (ctypes_call + clock) * calls
-    return whole, inside, fmpy_call * calls, whole - inside - fmpy_call * calls
+    rows = np.array(watch.rows[len(watch.rows) // 10 :])
+    per_step = len(watch.rows) // count  # calls of doStep: of several instances or passes
+    whole, inside, calls = np.diff(rows[::per_step], axis=0).T * [[1e-3], [1e-3], [1.0]]
+    calls = np.median(calls)
+    # The clock is read twice around each call: half of its cost is inside. Outside all steps are alike, so that their median leaves
+    # out what the machine did in between; inside they are not.
+    outside = np.median(whole - inside) + (ctypes_call - clock) * calls
+    inside = np.mean(inside) - (ctypes_call + clock) * calls
+    return inside + outside, inside, fmpy_call * calls, outside - fmpy_call * calls
 
 
 def main():

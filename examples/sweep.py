@@ -107,7 +107,7 @@ class Bearings(WorkerPlugin):
         scene = bearing.changed_scene(base, f"run-{index}", load, self.folder)
         speed = values.get("shaft.speed_hz", tomllib.loads(self.scenes[name])["shaft"]["speed_hz"])
         command = [*self.program, "size", recording, "--scene", scene, "--rate", options["rate"], "--speed", speed]
-        command += ["-o", self.folder / "figures"]
+        command += ["--no-figure", "-o", self.folder / "sized"]
         done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
         for path in (recording, scene):
             path.unlink()
@@ -324,6 +324,10 @@ def main(arguments=None):
         cluster.close()
     size = sum(part.stat().st_size for part in chosen.output.glob("part-*.parquet"))
     said = {"runs": count, "failed": failed, "seconds": round(seconds, 2), "bytes": size, "folder": str(chosen.output)}
+    if chosen.size:
+        parts = [parquet.read_table(part, columns=["sized_verdict"]) for part in chosen.output.glob("part-*.parquet")]
+        said["sized"] = sum(part.num_rows - part["sized_verdict"].null_count for part in parts)
+        said["resolved"] = sum(part["sized_verdict"].to_pylist().count("resolved") for part in parts)
     print(json.dumps(said))
 
 

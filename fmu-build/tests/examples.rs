@@ -14,12 +14,22 @@ use fmu_build::python::Python;
 use serde_json::Value;
 
 const RIGID: &str = "python examples/step_by_step.py --stop 0.06";
-const RESPONSE: &str = "python examples/rotor_ross.py response --short";
-const LINEAR: &str = "python examples/rotor_ross.py linear --short";
+const ROSS: &str = "python examples/rotor_ross.py --stop 1";
+const ROSS_ITSELF: &str = "python examples/rotor_ross.py --host ross --stop 0.2";
+const LINEAR: &str = "python examples/rotor_linear.py --short";
+const ERROR: &str = "python examples/coupling_error.py --short";
+const COST: &str = "python examples/step_cost.py --steps 200";
 const SWEEP: &str = "python examples/sweep.py --runs 8 --stop 0.1";
+const SIZED: &str = "python examples/sweep.py --runs 1 --stop 0.6 --size -o target/sized";
+const SCHEDULER: &str = "dask scheduler --host 127.0.0.1 --port 8786 --no-dashboard";
+const WORKER: &str = "dask worker tcp://127.0.0.1:8786 --nworkers 2 --nthreads 1 --no-dashboard";
+const CLUSTER: &str = "python examples/sweep.py --scheduler tcp://127.0.0.1:8786 --runs 8 --stop 0.1";
 /// What this file's environment does itself.
-const SET_UP: [&str; 2] =
-    ["python3 -m venv target/examples-env", "target/examples-env/bin/pip install -r examples/requirements.txt"];
+const SET_UP: [&str; 3] = [
+    "python3 -m venv target/examples-env",
+    ". target/examples-env/bin/activate",
+    "pip install -r examples/requirements.txt",
+];
 
 fn python() -> &'static Python {
     static PYTHON: OnceLock<Python> = OnceLock::new();
@@ -30,13 +40,44 @@ fn python() -> &'static Python {
     })
 }
 
-/// Runs a command of the guide with a folder of its own, and reads its last line.
-fn run(command: &str, folder: &Path) -> Value {
+/// Runs a command of the guide with a folder of its own, and gives what it said.
+fn run(command: &str, folder: &Path) -> String {
     let mut words = command.strip_prefix("python ").unwrap().split(' ');
     let script = common::root().join(words.next().unwrap());
-    let arguments = words.map(OsString::from).chain(["-o".into(), folder.into()]);
-    let said = python().run_file(&script, arguments).unwrap_or_else(|error| panic!("{error:#}"));
+    let words = words.take_while(|&word| word != "-o").map(OsString::from);
+    let arguments = words.chain(["-o".into(), folder.into()]);
+    python().run_file(&script, arguments).unwrap_or_else(|error| panic!("{error:#}"))
+}
+
+/// The last line that a program said, as JSON.
+fn last(said: &str) -> Value {
     serde_json::from_str(said.lines().last().unwrap()).unwrap()
+}
+
+/// ROSS does not run on Python 3.9, whatever it says of itself: there the example must say so.
+fn has_ross() -> bool {
+    let folder = common::folder("version");
+    let script = folder.join("version.py");
+    fs::write(&script, "import sys\nprint(sys.version_info >= (3, 10))").unwrap();
+    let new = python().run_file(&script, [""; 0]).unwrap().trim() == "True";
+    if !new {
+        let script = common::root().join("examples/rotor_ross.py");
+        let said = python().run_file(&script, [""; 0]).unwrap_err().to_string();
+        assert!(said.contains("ROSS 2.3 needs Python 3.10"), "{said}");
+    }
+    new
+}
+
+/// Rows of numbers in a Markdown table: the first columns' words, and the cells after them.
+fn table(text: &str, words: usize) -> Vec<(String, Vec<String>)> {
+    let rows = text.lines().filter(|line| line.starts_with("| ")).skip(1);
+    let cells =
+        rows.map(|line| line.trim_matches('|').split('|').map(|cell| cell.trim().to_owned()).collect::<Vec<_>>());
+    cells.map(|cells| (cells[..words].join(" "), cells[words..].to_vec())).collect()
+}
+
+fn percent(cell: &str) -> f64 {
+    cell.strip_suffix(" %").map_or(f64::INFINITY, |number| number.parse().unwrap_or(f64::INFINITY))
 }
 
 fn has_figure(stem: PathBuf) {
@@ -56,14 +97,15 @@ fn blocks(language: &str) -> Vec<String> {
 
 #[test]
 fn every_command_of_the_guide_is_run_here() {
-    let known = [RIGID, RESPONSE, LINEAR, SWEEP];
+    let known = [RIGID, ROSS, ROSS_ITSELF, LINEAR, ERROR, COST, SWEEP, SIZED, SCHEDULER, WORKER, CLUSTER];
     let commands: Vec<_> =
         blocks("sh").iter().flat_map(|block| block.lines().map(str::to_owned).collect::<Vec<_>>()).collect();
     for command in &commands {
-        assert!(known.contains(&command.as_str()) || SET_UP.contains(&command.as_str()), "not run: {command}");
+        let command = command.split(" #").next().unwrap().trim();
+        assert!(known.contains(&command) || SET_UP.contains(&command), "not run: {command}");
     }
     for command in known {
-        assert!(commands.iter().any(|found| found == command), "not in the guide: {command}");
+        assert!(commands.iter().any(|found| found.starts_with(command)), "not in the guide: {command}");
     }
 }
 
@@ -84,7 +126,7 @@ fn the_code_in_the_guide_runs() {
 #[test]
 fn two_bearings_carry_a_rigid_rotor() {
     let folder = common::folder("example-rigid");
-    let said = run(RIGID, &folder);
+    let said = last(&run(RIGID, &folder));
     has_figure(folder.join("step_by_step"));
     // 1000 N and 6 kg, 0.18 m and 0.22 m from the bearings 0.40 m apart. Over two passages the mean of the ringing
     // and of the momentum that the rotor gains is within 5 % of it.
@@ -96,23 +138,46 @@ fn two_bearings_carry_a_rigid_rotor() {
 }
 
 #[test]
-fn a_ross_rotor_shows_the_passage_frequency_of_a_spalled_bearing() {
+fn a_ross_rotor_shows_the_passage_frequency_of_a_spalled_bearing_with_sidebands_at_shaft_speed() {
+    if !has_ross() {
+        return;
+    }
     let folder = common::folder("example-ross");
-    let said = run(RESPONSE, &folder);
-    has_figure(folder.join("rotor_ross"));
+    let said = last(&run(ROSS, &folder));
+    has_figure(folder.join("rotor_exact"));
     let order = said["bpfo_order"].as_f64().unwrap();
     // 9/2 (1 − 7.94/39.32)
     assert!((order - 3.591_302_1).abs() < 1e-6, "{order}");
-    let at = |bearing: &str| said[format!("place_um_{bearing}")][format!("{order:.3}")].as_f64().unwrap();
+    let at = |bearing: &str, order: f64| said[format!("place_um_{bearing}")][format!("{order:.3}")].as_f64().unwrap();
     // A healthy bearing has the frequency too, by its varying compliance; the full case has a ratio of 34.
-    assert!(at("spalled") > 10.0 * at("healthy"), "{said}");
+    assert!(at("spalled", order) > 10.0 * at("healthy", order), "{said}");
+    // Impacts differ from one another, which makes a floor; the full case has sidebands of 11 and 17 times the floor.
+    let floor = said["floor_um_spalled"].as_f64().unwrap();
+    for side in [-1.0, 1.0] {
+        assert!(at("spalled", order + side) > 4.0 * floor, "{side}: {said}");
+    }
+}
+
+#[test]
+fn ross_integrates_the_rotor_itself_and_asks_as_assumed() {
+    if !has_ross() {
+        return;
+    }
+    // The example fails if ROSS does not ask once per step with the last accepted state.
+    let folder = common::folder("example-ross-itself");
+    let said = last(&run(ROSS_ITSELF, &folder));
+    has_figure(folder.join("rotor_ross"));
+    assert!(said["place_um_spalled"]["3.591"].as_f64().unwrap() > 0.5, "{said}");
 }
 
 #[test]
 fn small_motion_of_a_ross_rotor_is_that_with_a_linear_bearing() {
+    if !has_ross() {
+        return;
+    }
     let folder = common::folder("example-linear");
-    let said = run(LINEAR, &folder);
-    has_figure(folder.join("rotor_ross_linear"));
+    let said = last(&run(LINEAR, &folder));
+    has_figure(folder.join("rotor_linear"));
     // What is asked of the coupling: response 2 %, frequency of the free decay 0.5 %.
     for (name, limit) in [("largest_error_disk", 0.02), ("largest_error_bearing", 0.02), ("decay_hz_error", 0.005)] {
         let found = said[name].as_f64().unwrap().abs();
@@ -121,12 +186,77 @@ fn small_motion_of_a_ross_rotor_is_that_with_a_linear_bearing() {
 }
 
 #[test]
+fn the_coupling_is_as_exact_as_the_guide_says() {
+    if !has_ross() {
+        return;
+    }
+    let rows = table(&run(ERROR, &common::folder("example-error")), 2);
+    assert_eq!(rows.len(), 18);
+    let at = |row: &str, column: usize| {
+        let (_, cells) = rows.iter().find(|(words, _)| words == row).unwrap();
+        percent(&cells[column])
+    };
+    // Steps of 10 µs and 100 µs over 10 ms. The motion only begins then, so the errors are larger shares of it than in the guide's
+    // table over 50 ms. Limits: two to three times what was found; a scheme that lost an order would be ten times off.
+    for (row, short, long) in [
+        ("healthy 3 kg, 1 pass", 0.0005, 0.08),
+        ("healthy rigid rotor, 1 pass", 0.001, 0.2),
+        ("healthy ROSS", 0.04, 4.0),
+        ("healthy ROSS matrices, 1 pass", 0.0025, 4.0),
+        ("healthy ROSS matrices, 2 passes", 0.0003, 0.3),
+        ("spalled 3 kg, 1 pass", 0.03, 3.0),
+        ("spalled rigid rotor, 1 pass", 0.03, 4.0),
+        ("spalled ROSS matrices, 2 passes", 0.03, 8.0),
+    ] {
+        let found = (at(row, 0), at(row, 1));
+        assert!(found.0 < short && found.1 < long, "{row}: {found:?} %, limits {short} and {long} %");
+    }
+    assert!(at("healthy ROSS, no stand-in", 1).is_infinite(), "without the stand-in 100 µs are unstable: {rows:?}");
+}
+
+#[test]
+fn the_cost_of_a_step_is_told_apart() {
+    if !has_ross() {
+        return;
+    }
+    let rows = table(&run(COST, &common::folder("example-cost")), 2);
+    assert_eq!(rows.len(), 8);
+    for (host, cells) in rows {
+        let parts: Vec<f64> = cells.iter().map(|cell| cell.split(" µs").next().unwrap().parse().unwrap()).collect();
+        // Printed with a tenth of a microsecond; the whole without decimals.
+        assert!((parts[1..].iter().sum::<f64>() - parts[0]).abs() < 1.0, "{host}: {parts:?}");
+        assert!(parts.iter().all(|&part| part > 0.0), "{host}: {parts:?}");
+    }
+}
+
+#[test]
 fn a_sweep_runs_its_design() {
     let folder = common::folder("example-sweep");
-    let said = run(SWEEP, &folder);
+    let said = last(&run(SWEEP, &folder));
     assert_eq!((said["runs"].as_u64(), said["failed"].as_u64()), (Some(8), Some(0)), "{said}");
     // Started again it has nothing to do.
-    assert_eq!(run(SWEEP, &folder)["runs"].as_u64(), Some(0));
+    assert_eq!(last(&run(SWEEP, &folder))["runs"].as_u64(), Some(0));
+    // Another design does not get into the same folder.
+    let script = common::root().join("examples/sweep.py");
+    let other = ["--runs".into(), "8".into(), "--seed".into(), "2".into(), "-o".into(), folder.into_os_string()];
+    let said = python().run_file::<OsString>(&script, other).unwrap_err().to_string();
+    assert!(said.contains("another design"), "{said}");
+}
+
+#[test]
+fn a_sweep_sizes_spalls_on_request() {
+    let said = last(&run(SIZED, &common::folder("example-sized")));
+    assert_eq!((said["runs"].as_u64(), said["failed"].as_u64()), (Some(1), Some(0)), "{said}");
+    assert_eq!(said["sized"].as_u64(), Some(1), "{said}");
+}
+
+#[test]
+fn a_sweep_runs_on_a_cluster_that_is_there() {
+    let folder = common::folder("example-cluster");
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python/sweep_cluster.py");
+    let arguments = [SCHEDULER.into(), WORKER.into(), CLUSTER.into(), folder.into_os_string()];
+    let said = last(&python().run_file::<OsString>(&script, arguments).unwrap_or_else(|error| panic!("{error:#}")));
+    assert_eq!((said["runs"].as_u64(), said["failed"].as_u64()), (Some(8), Some(0)), "{said}");
 }
 
 #[test]
