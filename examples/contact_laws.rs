@@ -23,7 +23,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     for name in ["er16k-tb1", "6205-epps"] {
         let scene = Scene::from_toml(&std::fs::read_to_string(format!("scenes/{name}.toml"))?)?;
         println!("\n`{name}`, {:.0} ms\n", 1e3 * stop);
-        println!("| law | unloaded from | loaded again | peak force | its time | rms difference | largest difference | run time |");
+        println!(
+            "| law | unloaded from | loaded again | peak force | its time | rms difference | largest difference | run time |"
+        );
         println!("|---|---|---|---|---|---|---|---|");
         let laws = [
             ("love, finer", ContactLaw::Love, true),
@@ -42,7 +44,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             let apart: Vec<f64> = apart.by_ref().collect();
             let mean = rms(&mut apart.iter().copied()) / rms(&mut reference.iter().copied());
             let largest = peak(&mut apart.iter().copied()) / peak(&mut reference.iter().copied());
-            let ms = |index: Option<usize>| index.map_or("–".to_owned(), |k| format!("{:.2} ms", 1e3 * k as f64 / RATE));
+            let ms =
+                |index: Option<usize>| index.map_or("–".to_owned(), |k| format!("{:.2} ms", 1e3 * k as f64 / RATE));
             let lost = found.force.iter().position(|&f| f <= 0.0);
             let again = lost.and_then(|from| (from..found.force.len()).find(|&k| found.force[k] > 0.0));
             let after = again.or(lost).unwrap_or(0);

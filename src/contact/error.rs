@@ -80,7 +80,9 @@ pub enum ContactError {
         reason: String,
     },
     /// The map did not reach the accuracy asked for.
-    #[error("contact map: error {achieved:e} of full scale with {nodes} nodes, {requested:e} was asked for: more cells (contact.cells) or a larger error (contact.map_accuracy) may help")]
+    #[error(
+        "contact map: error {achieved:e} of full scale with {nodes} nodes, {requested:e} was asked for: more cells (contact.cells) or a larger error (contact.map_accuracy) may help"
+    )]
     MapNotAccurate {
         /// Largest error found between nodes, relative to full scale.
         achieved: f64,

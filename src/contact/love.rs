@@ -80,8 +80,11 @@ impl LoveContact {
         resolution: Resolution,
     ) -> Result<Self, ContactError> {
         let grid = RacewayGrid::new(element, Some(surface), largest_approach, resolution)?;
-        let layers = if std::env::var("ONE").is_ok() { vec![Layer::new(grid, largest_approach)?] } else {
-            vec![Layer::new(grid.interlaced(), largest_approach)?, Layer::new(grid, largest_approach)?] };
+        let layers = if std::env::var("ONE").is_ok() {
+            vec![Layer::new(grid, largest_approach)?]
+        } else {
+            vec![Layer::new(grid.interlaced(), largest_approach)?, Layer::new(grid, largest_approach)?]
+        };
         let mut contact = Self { layers, largest_approach, smooth: SmoothScale::default(), solves: 0 };
         contact.smooth = contact.smooth_scale()?;
         contact.solves = 0;
@@ -242,13 +245,7 @@ impl LoveContact {
 impl Layer {
     fn new(grid: RacewayGrid, largest_approach: f64) -> Result<Self, ContactError> {
         let solver = solver_for(&grid, largest_approach)?;
-        Ok(Self {
-            grid,
-            solver,
-            interference: Vec::new(),
-            slopes: Vec::new(),
-            unit: Vec::new(),
-        })
+        Ok(Self { grid, solver, interference: Vec::new(), slopes: Vec::new(), unit: Vec::new() })
     }
 
     fn energy(&mut self, u: f64, s: f64, largest_approach: f64) -> Result<Energy, ContactError> {

@@ -3,11 +3,13 @@
 //! | part | asks |
 //! |---|---|
 //! | `integration` | how wrong is a run, by which method and tolerance, for which CPU time |
+//! | `co_simulation` | how wrong is a coupled run, and when unstable, by communication step and way of coupling |
 //! | `leaving_out` | what does each part of a scene cost |
 //!
 //! Times are CPU times of the one thread that steps, best of several runs; other programs on the machine still take
 //! caches and memory from it, so ratios within a table mean more than the times.
 
+mod co_simulation;
 pub mod coupling;
 mod fixed_step;
 mod integration;
@@ -42,10 +44,11 @@ pub fn command(project: &Project, extent: Extent, folder: &Path) -> Result<()> {
     }
     let python = Python::prepare(project)?;
     let integration = integration::measure(&python, extent, &data)?;
+    let coupled = co_simulation::measure(extent, &data)?;
     let parts = leaving_out::measure(extent, &data)?;
     let stem = figures.join("error-vs-run-time");
     print!("{}", python.run("report.py", [data.as_os_str(), stem.as_os_str()])?);
-    let text = markdown::page(&machine::description(), &integration, &parts);
+    let text = markdown::page(&machine::description(), &integration, &coupled, &parts);
     let path = folder.join("error-vs-run-time.md");
     fs::write(&path, text).with_context(|| path.display().to_string())?;
     println!("{}", path.display());
