@@ -2,7 +2,6 @@
 //!
 //! Works on any FMI 2.0 co-simulation FMU that holds a binary for this platform.
 
-use std::env;
 use std::fs::{self, File};
 use std::path::Path;
 
@@ -11,10 +10,10 @@ use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 use zip::ZipArchive;
 
-use crate::library;
 use crate::project::Project;
 use crate::python::Python;
 use crate::slave::{SavedState, Slave};
+use crate::target::Target;
 
 /// Communication steps that are tried.
 const STEPS: u32 = 100;
@@ -147,7 +146,8 @@ fn validate(project: &Project, path: &Path) -> Result<()> {
 }
 
 fn step(folder: &Path, description: &Description) -> Result<()> {
-    let file = format!("binaries/{}/{}.{}", library::platform()?, description.identifier, env::consts::DLL_EXTENSION);
+    let target = Target::host()?;
+    let file = format!("binaries/{}/{}.{}", target.platform, description.identifier, target.extension);
     let path = folder.join(&file);
     ensure!(path.is_file(), "{file} is missing: nothing for this platform");
     let mut slave = Slave::new(&path, "check", &description.guid, &folder.join("resources"))?;

@@ -6,9 +6,8 @@ use anyhow::Result;
 use brinell::analysis::recording::Speed;
 use clap::{Args, Parser, Subcommand};
 
-use crate::{
-    check, demo, fmu, library::Library, model::Model, project::Project, report, run, size, stiffness, validation,
-};
+use crate::library::{self, Library};
+use crate::{check, demo, fmu, model::Model, project::Project, report, run, size, stiffness, validation};
 
 /// Rolling bearings with a real surface defect as FMI 2.0 co-simulation units.
 #[derive(Debug, Parser)]
@@ -183,8 +182,18 @@ struct Demo {
 #[derive(Debug, Args)]
 struct LibraryChoice {
     /// Compiled model library to pack, instead of building it from source
-    #[arg(long, value_name = "PATH")]
+    #[arg(long, value_name = "PATH", conflicts_with = "target")]
     library: Option<PathBuf>,
+    /// Platform to compile for: linux64, win64, darwin64, aarch64-linux, or Rust's name of it; may be given several times
+    /// [default: this one's]
+    #[arg(long, value_name = "PLATFORM")]
+    target: Vec<String>,
+}
+
+impl From<LibraryChoice> for library::Choice {
+    fn from(choice: LibraryChoice) -> Self {
+        Self { file: choice.library, platforms: choice.target }
+    }
 }
 
 impl Arguments {
@@ -195,7 +204,10 @@ impl Arguments {
             Command::Build(build) => {
                 // Scenes first: a typing error should not wait for a compiler.
                 let models = build.scenes.iter().map(|path| Model::read(path)).collect::<Result<Vec<_>>>()?;
-                let library = Library::obtain(&project, build.library.library.as_deref())?;
+                let library = Library::obtain(&project, &build.library.into())?;
+                for line in library.describe() {
+                    println!("{line}");
+                }
                 let folder = build.output.unwrap_or_else(|| project.target().join("fmu"));
                 for model in &models {
                     let path = fmu::write(model, &library, &folder)?;
@@ -251,7 +263,7 @@ impl Arguments {
             }
             Command::Demo(options) => {
                 let folder = options.output.unwrap_or_else(|| project.target().join("demo"));
-                demo::command(&project, options.library.library.as_deref(), &folder)
+                demo::command(&project, &options.library.into(), &folder)
             }
         }
     }

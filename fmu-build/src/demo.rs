@@ -9,7 +9,7 @@ use brinell::surface::Surface;
 
 use crate::csv;
 use crate::fmu;
-use crate::library::Library;
+use crate::library::{Choice, Library};
 use crate::model::Model;
 use crate::project::Project;
 use crate::python::Python;
@@ -20,12 +20,16 @@ const SPACING: f64 = 1e-6;
 const MARGIN: f64 = 0.5e-3;
 
 /// The command: builds the FMU into the folder, drives it, writes CSV files and a figure beside it.
-pub fn command(project: &Project, library: Option<&Path>, folder: &Path) -> Result<()> {
+pub fn command(project: &Project, library: &Choice, folder: &Path) -> Result<()> {
     // Without the source the scene is looked for where the user stands.
     let scene = project.source().unwrap_or(Path::new("")).join(SCENE);
     let model = Model::read(&scene)?;
-    let library = Library::obtain(project, library)?;
+    // The environment first: the linker that makes a portable library is in it.
     let python = Python::prepare(project)?;
+    let library = Library::obtain(project, library)?;
+    for line in library.describe() {
+        println!("{line}");
+    }
     fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
     let path = fmu::write(&model, &library, folder)?;
     println!("{}", path.display());

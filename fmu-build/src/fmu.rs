@@ -14,7 +14,8 @@ use crate::model_description::{self, CAPABILITIES};
 const ICON: &[u8] = include_bytes!("../assets/model.png");
 const LICENSE: &str = "Brinell is licensed under either of\n\n\
     - the Apache License, Version 2.0 (LICENSE-APACHE), or\n\
-    - the MIT license (LICENSE-MIT)\n\nat your option.\n";
+    - the MIT license (LICENSE-MIT)\n\nat your option.\n\n\
+    third-party.txt lists what else is compiled into the model library.\n";
 
 /// Packs a scene and the compiled library.
 pub fn pack(model: &Model, library: &Library) -> Result<Vec<u8>> {
@@ -36,6 +37,7 @@ pub fn pack(model: &Model, library: &Library) -> Result<Vec<u8>> {
     archive.add("documentation/licenses/license.txt", LICENSE)?;
     archive.add("documentation/licenses/LICENSE-MIT", include_str!("../../LICENSE-MIT"))?;
     archive.add("documentation/licenses/LICENSE-APACHE", include_str!("../../LICENSE-APACHE"))?;
+    archive.add("documentation/licenses/third-party.txt", include_str!("../assets/third-party.txt"))?;
     Ok(archive.to_bytes()?)
 }
 

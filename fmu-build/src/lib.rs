@@ -22,5 +22,6 @@ pub mod run;
 pub mod size;
 pub mod slave;
 pub mod stiffness;
+pub mod target;
 pub mod units;
 pub mod validation;

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 
 use brinell::fmi2::Category;
-use brinell::simulation::variables::{Causality, Kind, Unit, Variability, Variable};
+use brinell::simulation::variables::{Causality, Dependencies, Kind, Unit, Variability, Variable};
 use quick_xml::events::{BytesDecl, Event};
 use quick_xml::writer::Writer;
 
@@ -88,7 +88,7 @@ pub fn write(model: &Model, capabilities: &Capabilities) -> io::Result<String> {
         xml.element("ModelVariables", vec![], |xml| {
             table.iter().try_for_each(|variable| scalar_variable(xml, variable))
         })?;
-        model_structure(xml, table)
+        model_structure(xml, &model.simulation.dependencies())
     })?;
     xml.finish()
 }
@@ -206,25 +206,24 @@ fn typed(kind: &Kind) -> (&'static str, Attributes) {
     }
 }
 
-fn model_structure(xml: &mut Xml, table: &[Variable]) -> io::Result<()> {
-    let outputs = || table.iter().filter(|variable| variable.causality == Causality::Output);
+fn model_structure(xml: &mut Xml, outputs: &[Dependencies]) -> io::Result<()> {
     xml.element("ModelStructure", vec![], |xml| {
         xml.element("Outputs", vec![], |xml| {
-            outputs().try_for_each(|output| unknown(xml, output, &output.depends_on))
+            outputs.iter().try_for_each(|output| unknown(xml, output.output, &output.direct))
         })?;
         xml.element("InitialUnknowns", vec![], |xml| {
-            outputs().try_for_each(|output| unknown(xml, output, &output.initially_depends_on))
+            outputs.iter().try_for_each(|output| unknown(xml, output.output, &output.initial))
         })
     })
 }
 
-fn unknown(xml: &mut Xml, output: &Variable, depends_on: &[u32]) -> io::Result<()> {
+fn unknown(xml: &mut Xml, output: u32, depends_on: &[u32]) -> io::Result<()> {
     // The structure counts variables from 1, the table from 0.
     let indices: Vec<String> = depends_on.iter().map(|reference| (reference + 1).to_string()).collect();
     xml.empty(
         "Unknown",
         vec![
-            ("index", (output.reference + 1).to_string()),
+            ("index", (output + 1).to_string()),
             ("dependencies", indices.join(" ")),
             ("dependenciesKind", vec!["dependent"; indices.len()].join(" ")),
         ],

@@ -27,6 +27,7 @@ const SCRIPTS: &[(&str, &str)] = &[
     ("validation.py", include_str!("../python/validation.py")),
     ("validate.py", include_str!("../python/validate.py")),
 ];
+const INTERPRETER: &str = if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" };
 const OLDEST: (u32, u32) = (3, 9);
 
 /// A Python environment that is ready.
@@ -43,6 +44,11 @@ impl Python {
         Self::prepare_from(project, "python", REQUIREMENTS)
     }
 
+    /// Where this program's environment has its interpreter, once it is made.
+    pub fn interpreter_of(project: &Project) -> PathBuf {
+        project.target().join("python/env").join(INTERPRETER)
+    }
+
     /// Makes an environment of the packages in `requirements` under `target/<name>`, unless it is there.
     pub fn prepare_from(project: &Project, name: &str, requirements: &str) -> Result<Self> {
         let folder = project.target().join(name);
@@ -51,9 +57,8 @@ impl Python {
         lock.lock().context("lock of the Python environment")?;
 
         let environment = folder.join("env");
-        let bin = if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" };
         let python =
-            Self { interpreter: environment.join(bin), scripts: folder.join("scripts"), variables: Vec::new() };
+            Self { interpreter: environment.join(INTERPRETER), scripts: folder.join("scripts"), variables: Vec::new() };
         let stamp = folder.join("stamp");
         let whole = fs::read_to_string(&stamp).is_ok_and(|made_from| made_from == requirements);
         if !(whole && python.interpreter.is_file()) {

@@ -23,7 +23,7 @@ fn an_fmu_holds_what_the_standard_names_and_nothing_else() {
     let names: Vec<_> = headers(&bytes).into_iter().map(|header| header.name).collect();
     let library = format!(
         "binaries/{}/Brinell_6205_epps.{}",
-        fmu_build::library::platform().unwrap(),
+        fmu_build::target::Target::host().unwrap().platform,
         std::env::consts::DLL_EXTENSION
     );
     let expected = [
@@ -32,6 +32,7 @@ fn an_fmu_holds_what_the_standard_names_and_nothing_else() {
         "documentation/licenses/LICENSE-APACHE",
         "documentation/licenses/LICENSE-MIT",
         "documentation/licenses/license.txt",
+        "documentation/licenses/third-party.txt",
         "model.png",
         "modelDescription.xml",
         "resources/6205-epps-trace.csv",

@@ -61,10 +61,16 @@ fn the_table_keeps_the_rules_that_the_writer_relies_on() {
                     "{name}: start {start}"
                 );
             }
-            assert!(variable.depends_on.is_sorted(), "{name}: dependencies ascend");
-            for &input in &variable.depends_on {
-                assert_eq!(table[input as usize].causality, Causality::Input, "{name} depends on an input");
-            }
+        }
+        for output in model.simulation.dependencies() {
+            let name = &table[output.output as usize].name;
+            assert!(output.direct.is_sorted() && output.initial.is_sorted(), "{name}: dependencies ascend");
+            let causality = |&known: &u32| table[known as usize].causality;
+            assert!(output.direct.iter().all(|known| causality(known) == Causality::Input), "{name} follows inputs");
+            assert!(
+                output.initial.iter().all(|known| causality(known) != Causality::Output),
+                "{name} starts from knowns"
+            );
         }
     }
 }

@@ -9,7 +9,7 @@
 //! An element that nothing pushes rests against the outer raceway without force.
 
 use super::drive::{Drive, Quadratic};
-use super::forces::dot;
+use super::forces::{SMOOTH, dot};
 use super::model::Model;
 use crate::scene::Motion;
 
@@ -80,39 +80,20 @@ impl Model {
         u
     }
 
-    /// The path at which element `j` is in radial balance.
-    fn balanced_path(&self, j: usize, cell: u32, offset: [f64; 2], drive: &Drive) -> f64 {
-        let cage_angle = drive.cage_angle(0.0);
-        let omega = drive.cage.rate_at(0.0);
-        let force = |u: f64| {
-            let (contact, e_r) = self.damped_element(j, cell, u, offset, drive);
-            let (_, slope) = self.elastic_element(j, cell, u, offset, cage_angle).radial();
-            let rho = self.outer_centre_radius + u;
-            let body = self.element_mass * (dot(self.gravity, e_r) + rho * omega * omega);
-            (dot(contact.inner, e_r) - contact.outer[0] + body, slope)
-        };
-        let touch = self.touching_path(j, cell, cage_angle);
+    /// The path at which an element is in radial balance, looked for from `guess` on.
+    fn balanced_path(&self, cell: u32, guess: f64, radial: &Radial, at: &Start) -> f64 {
+        let force = |u: f64| self.radial_force(cell, u, radial, at);
+        let touch = if cell == SMOOTH { 0.0 } else { self.touching_path(radial.j, cell, at.cage_angle) };
         let at_touch = force(touch).0;
         if at_touch == 0.0 {
             return touch;
         }
-        let outwards = at_touch > 0.0;
-        let (mut low, mut high) = (touch, touch);
-        let mut width = 1e-6;
-        while if outwards { force(high).0 > 0.0 } else { force(low).0 < 0.0 } {
-            if outwards {
-                (low, high) = (high, high + width)
-            } else {
-                (low, high) = (low - width, low)
-            }
-            width *= 2.0;
-            if width > 1.0 {
-                break;
-            }
-        }
-        // Newton inside the bracket, halving where it would leave it.
-        let mut u = 0.5 * (low + high);
-        for _ in 0..200 {
+        // Newton from the path found last, with the bracket that the signs give; where Newton would leave the bracket or
+        // leap, halving, or walking on as long as there is no bracket.
+        let (mut low, mut high) = if at_touch > 0.0 { (touch, f64::INFINITY) } else { (f64::NEG_INFINITY, touch) };
+        let mut stride = 1e-6f64.copysign(at_touch);
+        let mut u = if guess > low && guess < high { guess } else { touch + stride };
+        for _ in 0..300 {
             let (f, slope) = force(u);
             if f > 0.0 {
                 low = u
@@ -124,8 +105,15 @@ impl Model {
             if f == 0.0 || (newton - u).abs() < 1e-21 {
                 return u;
             }
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            if next <= low || next >= high {
+            let next = if newton > low && newton < high && (newton - u).abs() < LONGEST_STEP {
+                newton
+            } else if low.is_finite() && high.is_finite() {
+                0.5 * (low + high)
+            } else {
+                stride *= 2.0;
+                u + stride
+            };
+            if next <= low || next >= high || stride.abs() > 1.0 {
                 return u;
             }
             u = next;
@@ -133,39 +121,76 @@ impl Model {
         u
     }
 
-    /// Contact forces on element `j` at the start's rates: u' = 0, rings at rest or as prescribed.
-    fn damped_element(&self, j: usize, cell: u32, u: f64, offset: [f64; 2], drive: &Drive) -> (OnElement, [f64; 2]) {
-        let cage_angle = drive.cage_angle(0.0);
-        let omega = drive.cage.rate_at(0.0);
-        let e_r = self.direction(j, super::forces::cos_sin(cage_angle));
-        let e_t = [-e_r[1], e_r[0]];
+    fn start(&self, drive: &Drive) -> Start {
         let velocity = |motion: Motion, place: &[Quadratic; 2]| {
             if motion == Motion::Host { place.map(|q| q.rate_at(0.0)) } else { [0.0; 2] }
         };
         let shaft = velocity(self.shaft.motion, &drive.shaft);
         let housing = velocity(self.housing.motion, &drive.housing);
-        let drift = [0, 1].map(|a| housing[a] - shaft[a]);
+        let cage_angle = drive.cage_angle(0.0);
+        Start {
+            cage_angle,
+            cage: super::forces::cos_sin(cage_angle),
+            omega: drive.cage.rate_at(0.0),
+            drift: [0, 1].map(|a| housing[a] - shaft[a]),
+        }
+    }
+
+    fn radial(&self, j: usize, offset: [f64; 2], at: &Start) -> Radial {
+        let e_r = self.direction(j, at.cage);
+        let e_t = [-e_r[1], e_r[0]];
+        Radial {
+            j,
+            e_r,
+            e_t,
+            offset,
+            drift: [dot(at.drift, e_r), dot(at.drift, e_t)],
+            gravity: self.element_mass * dot(self.gravity, e_r),
+        }
+    }
+
+    /// Radial force on an element at path `u`, and the slope of its elastic part.
+    #[inline]
+    fn radial_force(&self, cell: u32, u: f64, radial: &Radial, at: &Start) -> (f64, f64) {
+        let rho = self.outer_centre_radius + u;
+        let inner = self.inner_gap(u, radial.offset, radial.e_r);
+        let rate = -(inner.n[0] * radial.drift[0] + inner.n[1] * (radial.drift[1] + rho * at.omega));
+        let body = radial.gravity + self.element_mass * rho * at.omega * at.omega;
+        let across = self.inner.elastic(inner.approach) / inner.distance;
+        let k = self.inner.elastic_stiffness(inner.approach);
+        let slope = across - (k + across) * inner.n[0] * inner.n[0];
+        let near = self.outer_approach(radial.j, cell, u, at.cage_angle, rho);
+        let outer = self.outer.force(near.value, near.by_angle * at.omega);
+        let outer_slope = self.outer.elastic_stiffness(near.value) * near.by_path * near.radial
+            + self.outer.elastic(near.value) * near.radial_by_path;
+        let force = self.inner.force(inner.approach, rate) * inner.n[0] - outer * near.radial + body;
+        (force, slope - outer_slope)
+    }
+
+    /// Contact forces on element `j` at the start's rates: u' = 0, rings at rest or as prescribed.
+    fn damped_element(&self, cell: u32, u: f64, radial: &Radial, at: &Start) -> OnElement {
+        let Radial { e_r, e_t, offset, .. } = *radial;
         let rho = self.outer_centre_radius + u;
         let inner = self.inner_gap(u, offset, e_r);
-        let rate = -(inner.n[0] * dot(drift, e_r) + inner.n[1] * (dot(drift, e_t) + rho * omega));
+        let rate = -(inner.n[0] * radial.drift[0] + inner.n[1] * (radial.drift[1] + rho * at.omega));
         let force = self.inner.force(inner.approach, rate);
-        let near = self.outer_approach(j, cell, u, cage_angle, rho);
-        let outer = self.outer.force(near.value, near.by_angle * omega);
-        let on_element = OnElement {
+        let near = self.outer_approach(radial.j, cell, u, at.cage_angle, rho);
+        let outer = self.outer.force(near.value, near.by_angle * at.omega);
+        OnElement {
             inner: [0, 1].map(|a| force * (inner.n[0] * e_r[a] + inner.n[1] * e_t[a])),
             outer: [outer * near.radial, outer * near.tangential],
-        };
-        (on_element, e_r)
+        }
     }
 
     /// Balances all elements for given rings and sums the forces on the rings.
     fn balance(&self, drive: &Drive, cells: &[u32], rings: &Rings, u: &mut [f64]) -> Balance {
-        let offset = rings.offset();
+        let (offset, at) = (rings.offset(), self.start(drive));
         let mut force = [0.0; 4];
         let (mut largest, mut contact_sum) = (0.0f64, 0.0);
         for j in 0..self.element_count {
-            u[j] = self.balanced_path(j, cells[j], offset, drive);
-            let (element, e_r) = self.damped_element(j, cells[j], u[j], offset, drive);
+            let radial = self.radial(j, offset, &at);
+            u[j] = self.balanced_path(cells[j], u[j], &radial, &at);
+            let (element, e_r) = (self.damped_element(cells[j], u[j], &radial, &at), radial.e_r);
             contact_sum += dot(element.inner, element.inner).sqrt();
             let on_housing = [0, 1].map(|a| element.outer[0] * e_r[a] - element.outer[1] * [-e_r[1], e_r[0]][a]);
             for a in 0..2 {
@@ -267,6 +292,27 @@ impl Model {
             (state[i], state[i + 1]) = (housing.position[1], housing.velocity[1]);
         }
     }
+}
+
+/// What all elements share at the start.
+struct Start {
+    cage_angle: f64,
+    cage: (f64, f64),
+    omega: f64,
+    /// Velocity of the outer ring less that of the inner [m/s].
+    drift: [f64; 2],
+}
+
+/// What stays while one element's radial balance is looked for.
+struct Radial {
+    j: usize,
+    e_r: [f64; 2],
+    e_t: [f64; 2],
+    offset: [f64; 2],
+    /// Drift of the rings, radial and tangential [m/s].
+    drift: [f64; 2],
+    /// Radial part of the element's weight [N].
+    gravity: f64,
 }
 
 /// Contact forces on one element [N]: the inner in x and y, the outer inwards and counter-clockwise.

@@ -37,16 +37,17 @@ impl ElasticElement {
 }
 
 impl Model {
-    /// Elastic contact forces of element `j` at path `u`, the rings' centres being `offset` (outer minus inner) apart.
+    /// Elastic contact forces of element `j` at path `u`, the rings' centres being `offset` (outer minus inner) apart; the
+    /// cage angle comes with its cosine and sine.
     pub(super) fn elastic_element(
         &self,
         j: usize,
         cell: u32,
         u: f64,
         offset: [f64; 2],
-        cage_angle: f64,
+        (cage_angle, cage): (f64, (f64, f64)),
     ) -> ElasticElement {
-        let e_r = self.direction(j, cos_sin(cage_angle));
+        let e_r = self.direction(j, cage);
         let e_t = [-e_r[1], e_r[0]];
         let rho = self.outer_centre_radius + u;
         let gap = self.inner_gap(u, offset, e_r);
@@ -79,8 +80,9 @@ impl Model {
     /// Elastic Jacobian of the ring forces, elements eliminated, at the element paths `u`.
     pub fn ring_jacobian(&self, u: &[f64], cells: &[u32], offset: [f64; 2], cage_angle: f64) -> RingJacobian {
         let mut jacobian = [[0.0; 4]; 4];
+        let cage = (cage_angle, cos_sin(cage_angle));
         for j in 0..self.element_count {
-            let element = self.elastic_element(j, cells[j], u[j], offset, cage_angle);
+            let element = self.elastic_element(j, cells[j], u[j], offset, cage);
             let (_, g) = element.radial();
             let g_e = times(element.inner_by_q, element.e_r);
             // du/dx_i = −du/dx_o; an element without contact does not answer.

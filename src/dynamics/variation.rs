@@ -14,7 +14,7 @@
 //! onset of a contact there are two.
 
 use super::drive::Drive;
-use super::forces::{RingState, SMOOTH, dot};
+use super::forces::{RingState, SMOOTH, cos_sin, dot};
 use super::jacobian::{Bend, DIFFERENCE, Instant};
 use super::model::Model;
 use super::tangent::{ElasticElement, times};
@@ -241,11 +241,11 @@ impl Model {
         let cage_angle = drive.cage_angle(0.0);
         let (shaft, housing) = (self.shaft_state(drive, 0.0, state), self.housing_state(drive, 0.0, state));
         let offset = [0, 1].map(|a| housing.position[a] - shaft.position[a]);
-        let mut sum = [[0.0; 2]; 2];
+        let (mut sum, cage) = ([[0.0; 2]; 2], cos_sin(cage_angle));
         for j in 0..self.element_count {
             let (cell, u, turn) = (cells[j], state[j], by.cage_angle);
             let rho = self.outer_centre_radius + u;
-            let element = self.elastic_element(j, cell, u, offset, cage_angle);
+            let element = self.elastic_element(j, cell, u, offset, (cage_angle, cage));
             let (_, radial) = element.radial();
             if radial == 0.0 {
                 continue;

@@ -123,6 +123,12 @@ impl Bearing {
 
     fn check_clearance(&self) -> Result<(), SceneError> {
         CLEARANCE.check(self.radial_clearance)?;
+        // Far from every limit nothing needs to be rounded.
+        let well_inside = self.radial_clearance > 0.99 * self.smallest_radial_clearance()
+            && self.radial_clearance < 0.99 * self.largest_radial_clearance();
+        if well_inside && self.inner_raceway_radius() > 0.0 {
+            return Ok(());
+        }
         let clearance_um = shown(self.radial_clearance * 1e6);
         let limit_um = shown(self.smallest_radial_clearance() * 1e6);
         if clearance_um < limit_um {

@@ -25,7 +25,12 @@ pub(super) struct RingQuantities {
 impl Quantity {
     pub(super) fn check(&self, si: f64) -> Result<(), SceneError> {
         let limits = Limits { low: self.low, high: self.high };
-        let value = shown(si * self.per_si);
+        let value = si * self.per_si;
+        // Rounding to twelve digits matters close to a limit only, and takes its time.
+        if limits.hold(value) && limits.hold(value * (1.0 + 1e-11)) && limits.hold(value * (1.0 - 1e-11)) {
+            return Ok(());
+        }
+        let value = shown(value);
         if limits.hold(value) {
             return Ok(());
         }

@@ -5,29 +5,31 @@
 //! motion that is given; but rings are at rest whatever the inputs are, and what only matters in motion does not enter.
 
 use super::table::{Quantity as Q, RingName};
-use super::variables::{Causality, Kind, Variable};
+use super::variables::{Causality, Dependencies, Kind, Variable};
 use crate::scene::{Motion, Scene};
 
-/// Fills in the dependencies of all outputs.
-pub(super) fn fill(rows: &mut [(Variable, Q)], scene: &Scene) {
-    let knowns: Vec<(u32, Q, bool)> = rows
-        .iter()
-        .filter(|(v, _)| v.causality != Causality::Output)
-        .map(|(v, quantity)| (v.reference, *quantity, v.causality == Causality::Input))
-        .collect();
+/// The dependencies of all outputs, in the order of the table.
+pub(super) fn of(table: &[Variable], quantities: &[Q], scene: &Scene) -> Vec<Dependencies> {
+    let rows = || table.iter().zip(quantities);
+    let knowns: Vec<_> = rows().filter(|(variable, _)| variable.causality != Causality::Output).collect();
     let defect = scene.defect.is_some();
     let sensor_follows_input = scene.housing.motion == Motion::Host;
-    for (variable, quantity) in rows.iter_mut().filter(|(v, _)| v.causality == Causality::Output) {
-        let real = matches!(variable.kind, Kind::Real { .. });
-        for &(reference, known, input) in &knowns {
-            if input && follows(*quantity, known, defect, sensor_follows_input) {
-                variable.depends_on.push(reference);
+    rows()
+        .filter(|(variable, _)| variable.causality == Causality::Output)
+        .map(|(variable, &output)| {
+            let real = matches!(variable.kind, Kind::Real { .. });
+            let listed = |depends: &dyn Fn(&Variable, Q) -> bool| {
+                knowns.iter().filter(|(known, quantity)| depends(known, **quantity)).map(|(v, _)| v.reference).collect()
+            };
+            Dependencies {
+                output: variable.reference,
+                direct: listed(&|known, quantity| {
+                    known.causality == Causality::Input && follows(output, quantity, defect, sensor_follows_input)
+                }),
+                initial: listed(&|_, quantity| real && starts_from(output, quantity)),
             }
-            if real && starts_from(*quantity, known) {
-                variable.initially_depends_on.push(reference);
-            }
-        }
-    }
+        })
+        .collect()
 }
 
 /// Whether an output follows an input at the same instant.
@@ -64,8 +66,8 @@ fn starts_from(output: Q, known: Q) -> bool {
         // At rest.
         Q::Velocity(..) | Q::Acceleration(..) | Q::SensorAcceleration => false,
         _ => match known {
-            // The tolerance is that of steps; masses and dampers of rings matter in motion.
-            Q::Tolerance | Q::RingMass(_) | Q::RingDamping(_) => false,
+            // Tolerance and recorder are of steps; masses and dampers of rings matter in motion.
+            Q::Tolerance | Q::RecorderFolder | Q::RingMass(_) | Q::RingDamping(_) => false,
             // Only the cage's torque knows that a prescribed outer ring accelerates.
             Q::Acceleration(RingName::Housing, _) => output == Q::CageTorque,
             Q::Acceleration(RingName::Shaft, _) => false,

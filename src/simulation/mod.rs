@@ -40,7 +40,7 @@ use setup::Inputs;
 use std::sync::Arc;
 use stepper::{Control, Stepper};
 use table::Quantity;
-use variables::{Causality, Kind, Variable};
+use variables::{Causality, Dependencies, Kind, Variable};
 
 /// A bearing that is stepped through time.
 ///
@@ -173,6 +173,11 @@ impl Simulation {
     /// The variables, ordered by value reference, which is the index.
     pub fn table(&self) -> &[Variable] {
         &self.table
+    }
+
+    /// What each output depends on, in the order of the table.
+    pub fn dependencies(&self) -> Vec<Dependencies> {
+        dependencies::of(&self.table, &self.quantities, &self.scene)
     }
 
     /// The scene as it was set up.

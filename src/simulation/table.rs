@@ -2,7 +2,6 @@
 //!
 //! Inputs come first, then outputs, then parameters. A variable's index is its FMI value reference.
 
-use super::dependencies;
 use super::variables::{Causality, Kind, Unit, Variability, Variable};
 use crate::scene::{Damping, Motion, Scene};
 
@@ -63,11 +62,11 @@ pub const CONTACT_LAWS: &[(&str, &str)] = &[
 
 /// The table of a scene, with what each variable stands for.
 pub fn rows(scene: &Scene) -> Vec<(Variable, Quantity)> {
-    let mut builder = Builder { scene, rows: Vec::new() };
+    let count = 60 + 4 * scene.bearing.element_count;
+    let mut builder = Builder { scene, rows: Vec::with_capacity(count) };
     builder.inputs();
     builder.outputs();
     builder.parameters();
-    dependencies::fill(&mut builder.rows, scene);
     builder.rows
 }
 
@@ -177,31 +176,34 @@ impl Builder<'_> {
             0.1,
         );
         for j in 0..self.scene.bearing.element_count {
-            let n = j + 1;
+            let n = (j + 1).to_string();
+            // Concatenated: setting up an instance is mostly writing names.
+            let name = |part: &str| ["element[", &n, part].concat();
+            let text = |before: &str, after: &str| [before, &n, after].concat();
             self.output(
-                &format!("element[{n}].angle"),
-                &format!("Angle of element {n}, counter-clockwise from +x"),
+                &name("].angle"),
+                &text("Angle of element ", ", counter-clockwise from +x"),
                 Q::ElementAngle(j),
                 Unit::Radian,
                 1.0,
             );
             self.output(
-                &format!("element[{n}].path"),
-                &format!("Radial path of element {n}: 0 where it touches the smooth outer raceway, positive outwards"),
+                &name("].path"),
+                &text("Radial path of element ", ": 0 where it touches the smooth outer raceway, positive outwards"),
                 Q::ElementPath(j),
                 Unit::Metre,
                 1e-5,
             );
             self.output(
-                &format!("element[{n}].force.inner"),
-                &format!("Normal force between element {n} and the inner raceway"),
+                &name("].force.inner"),
+                &text("Normal force between element ", " and the inner raceway"),
                 Q::ElementInnerForce(j),
                 Unit::Newton,
                 100.0,
             );
             self.output(
-                &format!("element[{n}].force.outer"),
-                &format!("Normal force between element {n} and the outer raceway"),
+                &name("].force.outer"),
+                &text("Normal force between element ", " and the outer raceway"),
                 Q::ElementOuterForce(j),
                 Unit::Newton,
                 100.0,
@@ -237,8 +239,8 @@ impl Builder<'_> {
             for (axis, letter) in AXES.iter().enumerate() {
                 let place = suffix.replace('*', letter);
                 self.output(
-                    &format!("{name}.{place}"),
-                    &format!("{text} the {what} along {letter}"),
+                    &[name, ".", &place].concat(),
+                    &[text, " the ", what, " along ", letter].concat(),
                     quantity(ring, axis),
                     unit,
                     nominal,
@@ -401,8 +403,6 @@ impl Builder<'_> {
             kind,
             causality: causality.0,
             variability: causality.1,
-            depends_on: Vec::new(),
-            initially_depends_on: Vec::new(),
         };
         self.rows.push((variable, quantity));
     }

@@ -18,10 +18,17 @@ pub struct Variable {
     pub causality: Causality,
     /// Variability.
     pub variability: Variability,
-    /// For outputs: the table indices, ascending, of all inputs that it depends on directly.
-    pub depends_on: Vec<u32>,
-    /// For outputs: the table indices, ascending, of all inputs and parameters that it depends on at the start.
-    pub initially_depends_on: Vec<u32>,
+}
+
+/// What an output depends on.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Dependencies {
+    /// The output's index in the table.
+    pub output: u32,
+    /// Table indices, ascending, of all inputs that it follows at a communication point, without a step.
+    pub direct: Vec<u32>,
+    /// Table indices, ascending, of all inputs and parameters that it depends on at the start.
+    pub initial: Vec<u32>,
 }
 
 /// Type of a variable.

@@ -327,6 +327,11 @@ impl Host {
 
     /// The variable table, as the model description would tell it.
     pub(crate) fn table(&self) -> Vec<brinell::simulation::variables::Variable> {
+        self.simulation().table().to_vec()
+    }
+
+    /// The model behind the interface, set up once more.
+    pub(crate) fn simulation(&self) -> brinell::simulation::Simulation {
         let text = fs::read_to_string(self.resources.directory.join("scene.toml")).unwrap();
         let scene = brinell::scene::Scene::from_toml(&text).unwrap();
         let profile = match scene.defect.as_ref().map(|defect| &defect.shape) {
@@ -335,7 +340,7 @@ impl Host {
             }
             _ => None,
         };
-        brinell::simulation::Simulation::new(scene, profile.as_deref()).unwrap().table().to_vec()
+        brinell::simulation::Simulation::new(scene, profile.as_deref()).unwrap()
     }
 
     /// References of all real variables.

@@ -12,6 +12,7 @@ mod instantiate;
 mod logging;
 mod modes;
 mod panics;
+mod processes;
 mod saved_states;
 mod steps;
 mod variables;

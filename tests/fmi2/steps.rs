@@ -1,6 +1,6 @@
 //! Time: experiments, communication points, steps, and what is told about them.
 
-use crate::host::Host;
+use crate::host::{Host, Resources};
 use brinell::fmi2::*;
 use std::ffi::CStr;
 use std::ptr;
@@ -155,4 +155,22 @@ fn status_queries_answer_and_unknown_kinds_are_discarded() {
     assert_eq!(host.step(1e-4, 1e-4), Status::Ok);
     // SAFETY: NULL is what is tested.
     assert_eq!(unsafe { fmi2GetRealStatus(host.c, LAST_SUCCESSFUL_TIME, ptr::null_mut()) }, Status::Error);
+}
+
+#[test]
+fn an_enormous_step_ends_after_the_budget_of_integration_steps() {
+    let resources = Resources::of("er16k-tb1");
+    let text = std::fs::read_to_string(resources.directory.join("scene.toml")).unwrap();
+    let text = text.replace("[solver]", "[solver]\nmax_steps = 3000");
+    for step in [1e3, 1e15, f64::MAX] {
+        let host = Host::with(Resources::new(&text, None, "resources"), "budget", true);
+        host.start();
+        let before = std::time::Instant::now();
+        assert_eq!(host.step(0.0, step), Status::Error, "{step}");
+        // A few microseconds for each of 3000 integration steps, on a machine that is busy.
+        assert!(before.elapsed().as_secs() < 20);
+        let line = host.lines().pop().unwrap();
+        assert!(line.message.contains("3000") || line.message.contains("step"), "{line:?}");
+        assert_eq!(host.reset(), Status::Ok);
+    }
 }

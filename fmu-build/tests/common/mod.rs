@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use fmu_build::fmu;
-use fmu_build::library::Library;
+use fmu_build::library::{Choice, Library};
 use fmu_build::model::Model;
 use fmu_build::project::Project;
 use fmu_build::python::Python;
@@ -34,7 +34,11 @@ pub(crate) fn model(name: &str) -> Model {
 /// The compiled library, built once for this test binary.
 pub(crate) fn library() -> &'static Library {
     static LIBRARY: OnceLock<Library> = OnceLock::new();
-    LIBRARY.get_or_init(|| Library::obtain(&Project::find(), None).unwrap())
+    LIBRARY.get_or_init(|| {
+        // The linker that makes a portable library is in the environment.
+        python();
+        Library::obtain(&Project::find(), &Choice::default()).unwrap()
+    })
 }
 
 /// The Python environment.

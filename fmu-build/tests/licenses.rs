@@ -1,0 +1,107 @@
+//! The licences of all crates that are compiled into the model library stand in `fmu-build/assets/third-party.txt`, which
+//! every FMU holds. After a change of dependencies: `BLESS=1 cargo test -p fmu-build --test licenses`.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::{env, fs};
+
+use serde_json::Value;
+
+const HEAD: &str = "\
+What else is compiled into the model library, and under which licence. Where a choice is offered, MIT is taken.
+
+Rust's standard library: MIT or Apache-2.0, copyright the Rust project's contributors, https://github.com/rust-lang/rust
+LLVM's libunwind, where the library was linked through zig: Apache-2.0 with LLVM exception, https://llvm.org
+";
+
+fn metadata() -> Value {
+    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let output = Command::new(cargo)
+        .current_dir(common::root())
+        .args(["metadata", "--locked", "--offline", "--format-version", "1"])
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn is_macro(package: &Value) -> bool {
+    let targets = package["targets"].as_array().unwrap();
+    targets.iter().any(|target| target["kind"].as_array().unwrap().iter().any(|kind| kind == "proc-macro"))
+}
+
+/// The packages that the library needs at run time, on any platform.
+fn needed(metadata: &Value) -> Vec<&Value> {
+    let by_id = |list: &'static str| -> BTreeMap<&str, &Value> {
+        let list = if list == "nodes" { &metadata["resolve"]["nodes"] } else { &metadata[list] };
+        list.as_array().unwrap().iter().map(|item| (item["id"].as_str().unwrap(), item)).collect()
+    };
+    let (packages, nodes) = (by_id("packages"), by_id("nodes"));
+    let root = packages.values().find(|package| package["name"] == "brinell").unwrap()["id"].as_str().unwrap();
+    let (mut found, mut open) = (BTreeSet::new(), vec![root]);
+    while let Some(id) = open.pop() {
+        for dependency in nodes[id]["deps"].as_array().unwrap() {
+            let next = dependency["pkg"].as_str().unwrap();
+            let runs = dependency["dep_kinds"].as_array().unwrap().iter().any(|kind| kind["kind"].is_null());
+            if runs && next != root && !is_macro(packages[next]) && found.insert(next) {
+                open.push(next);
+            }
+        }
+    }
+    let mut found: Vec<_> = found.into_iter().map(|id| packages[id]).collect();
+    found.sort_by_key(|package| (package["name"].as_str().unwrap(), package["version"].as_str().unwrap()));
+    found
+}
+
+/// The files with the licence that is taken: that of MIT where there is one, else all.
+fn texts(folder: &Path) -> Vec<PathBuf> {
+    let mut files: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let name = |path: &PathBuf| path.file_name().unwrap().to_string_lossy().to_uppercase();
+    files.retain(|path| {
+        path.is_file() && ["LICENSE", "LICENCE", "COPYING", "NOTICE"].iter().any(|start| name(path).starts_with(start))
+    });
+    files.sort();
+    if files.iter().any(|path| name(path).contains("MIT")) {
+        files.retain(|path| name(path).contains("MIT") || name(path).starts_with("NOTICE"));
+    }
+    files
+}
+
+fn written() -> String {
+    let metadata = metadata();
+    let mut by_text: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    let mut page = HEAD.to_owned();
+    for package in needed(&metadata) {
+        let field = |name: &str| package[name].as_str().unwrap_or_default();
+        let shown = format!("{} {}", field("name"), field("version"));
+        assert!(!field("license").is_empty(), "{shown}: no licence is named");
+        writeln!(page, "{shown}: {}, {}", field("license").replace('/', " OR "), field("repository")).unwrap();
+        for file in texts(Path::new(field("manifest_path")).parent().unwrap()) {
+            let text = fs::read_to_string(&file).unwrap().replace("\r\n", "\n");
+            by_text.entry(text.trim().to_owned()).or_default().push(shown.clone());
+        }
+    }
+    let mut sections: Vec<_> = by_text.into_iter().map(|(text, names)| (names, text)).collect();
+    sections.sort();
+    for (names, text) in sections {
+        write!(page, "\n{}\n{}\n\n{text}\n", "=".repeat(80), names.join(", ")).unwrap();
+    }
+    page
+}
+
+#[test]
+fn every_crate_inside_the_library_is_listed_with_its_licence() {
+    let file = common::root().join("fmu-build/assets/third-party.txt");
+    let written = written();
+    if env::var_os("BLESS").is_some_and(|value| value == "1") {
+        fs::write(&file, &written).unwrap();
+    }
+    let committed = fs::read_to_string(&file).unwrap_or_default();
+    assert!(committed == written, "third-party.txt is not that of the dependencies; bless it");
+    assert!(written.contains("libm ") && written.contains("Permission is hereby granted"));
+}
