@@ -4,7 +4,7 @@
 //! has 33 bits, so that n times it is exact. There Taylor's series end where the next term is below rounding: 0.79¹⁹/19!
 //! is 1e-19. Beyond [`LARGEST`] the library's reduction takes over.
 
-use std::f64::consts::{FRAC_2_PI, TAU};
+use std::f64::consts::{FRAC_1_PI, FRAC_2_PI, TAU};
 
 /// Largest angle that the two parts of π/2 serve [rad].
 const LARGEST: f64 = 1e5;
@@ -70,9 +70,12 @@ fn series<const N: usize>(c: &[f64; N], x: f64) -> f64 {
 }
 
 /// `angle` [rad] brought into [−π, π] by whole turns.
-#[inline]
+#[inline(always)]
 pub fn wrap(angle: f64) -> f64 {
-    angle - TAU * (angle / TAU).round()
+    let turns = angle * (0.5 * FRAC_1_PI);
+    // As far as the sum below keeps whole numbers; the library's rounding is a call on machines without an instruction for it.
+    let whole = if turns.abs() < 1e15 { (turns + TO_WHOLE) - TO_WHOLE } else { turns.round() };
+    angle - TAU * whole
 }
 
 #[cfg(test)]
@@ -86,6 +89,19 @@ mod tests {
         assert_eq!(QUARTER[0] + QUARTER[1], PI / 2.0);
         // π/2 − (its double) = 6.123233995736766e-17, of which the second part holds what is below the first.
         assert!(((PI / 2.0 - QUARTER[0]) + 6.123_233_995_736_766e-17 - QUARTER[1]).abs() < 1e-26);
+    }
+
+    #[test]
+    fn a_wrapped_angle_lies_within_half_a_turn_and_differs_by_whole_turns() {
+        for i in -2000..2000 {
+            let angle = 0.37 * f64::from(i);
+            let wrapped = wrap(angle);
+            // Half a turn, and what rounding of the angle lets through.
+            assert!(wrapped.abs() <= PI + 1e-12, "{angle}: {wrapped}");
+            let turns = (angle - wrapped) / TAU;
+            assert!((turns - turns.round()).abs() < 1e-12, "{angle}: {wrapped}");
+        }
+        assert_eq!((wrap(0.0), wrap(3.0), wrap(-3.0)), (0.0, 3.0, -3.0));
     }
 
     #[test]

@@ -11,7 +11,7 @@
 //!
 //! J and ∂f/∂t must be exact for the order to hold. At the onset of a contact they jump; steps end there.
 
-use crate::numerics::lanes::Wide;
+use crate::numerics::lanes::{Cut, Each, Lanes, Wide};
 
 /// γ
 pub const GAMMA: f64 = 0.21193756319429014;
@@ -108,13 +108,15 @@ pub struct Rodas {
     /// State at the end of the step tried last.
     pub end: Vec<f64>,
     trial: Vec<f64>,
+    slope: Vec<f64>,
+    cut: Cut,
 }
 
 impl Rodas {
-    /// Room for `len` states.
-    pub fn new(len: usize) -> Self {
-        let zeros = || vec![0.0; len];
-        Self { stages: std::array::from_fn(|_| zeros()), end: zeros(), trial: zeros() }
+    /// Room for states that are cut in this way.
+    pub fn new(cut: Cut) -> Self {
+        let zeros = || vec![0.0; cut.len()];
+        Self { stages: std::array::from_fn(|_| zeros()), end: zeros(), trial: zeros(), slope: zeros(), cut }
     }
 
     /// Tries a step of length `h` from `state`, where the derivative is `first` and its derivative by time `by_time`.
@@ -127,36 +129,69 @@ impl Rodas {
         h: f64,
         system: &mut impl System,
     ) {
-        let per_h = 1.0 / h;
-        for stage in 0..8 {
-            let (done, rest) = self.stages.split_at_mut(stage);
+        let Self { stages, end, trial, slope, cut } = self;
+        let cut = *cut;
+        cut.for_each(simd, [first, by_time], &mut stages[0], &Coupled::<0>(h), &mut ());
+        system.solve(&mut stages[0]);
+        for stage in 1..8 {
+            let (done, rest) = stages.split_at_mut(stage);
             let k = &mut rest[0];
-            if stage == 0 {
-                k.copy_from_slice(first);
-            } else {
-                if stage < 6 {
-                    combine(&mut self.trial, state, done, &STAGES[stage]);
-                } else {
-                    add(&mut self.trial, &done[stage - 1]);
+            match stage {
+                1 => cut.for_each(simd, [state, &done[0]], trial, &Argument::<1>, &mut ()),
+                2 => cut.for_each(simd, [state, &done[0], &done[1]], trial, &Argument::<2>, &mut ()),
+                3 => cut.for_each(simd, [state, &done[0], &done[1], &done[2]], trial, &Argument::<3>, &mut ()),
+                4 => {
+                    cut.for_each(simd, [state, &done[0], &done[1], &done[2], &done[3]], trial, &Argument::<4>, &mut ())
                 }
-                system.evaluate(simd, stage, &self.trial, k);
-                for (j, earlier) in done.iter().enumerate() {
-                    let weight = COUPLING[stage][j] * per_h;
-                    for (value, earlier) in k.iter_mut().zip(earlier) {
-                        *value += weight * earlier;
-                    }
+                5 => cut.for_each(
+                    simd,
+                    [state, &done[0], &done[1], &done[2], &done[3], &done[4]],
+                    trial,
+                    &Argument::<5>,
+                    &mut (),
+                ),
+                _ => {
+                    slope.copy_from_slice(trial);
+                    cut.for_each(simd, [slope, &done[stage - 1]], trial, &Sum, &mut ());
                 }
             }
-            if TIME[stage] != 0.0 {
-                let weight = h * TIME[stage];
-                for (value, by_time) in k.iter_mut().zip(by_time) {
-                    *value += weight * by_time;
-                }
+            system.evaluate(simd, stage, trial, slope);
+            match stage {
+                1 => cut.for_each(simd, [slope, by_time, &done[0]], k, &Coupled::<1>(h), &mut ()),
+                2 => cut.for_each(simd, [slope, by_time, &done[0], &done[1]], k, &Coupled::<2>(h), &mut ()),
+                3 => cut.for_each(simd, [slope, by_time, &done[0], &done[1], &done[2]], k, &Coupled::<3>(h), &mut ()),
+                4 => cut.for_each(
+                    simd,
+                    [slope, by_time, &done[0], &done[1], &done[2], &done[3]],
+                    k,
+                    &Coupled::<4>(h),
+                    &mut (),
+                ),
+                5 => cut.for_each(
+                    simd,
+                    [slope, by_time, &done[0], &done[1], &done[2], &done[3], &done[4]],
+                    k,
+                    &Coupled::<5>(h),
+                    &mut (),
+                ),
+                6 => cut.for_each(
+                    simd,
+                    [slope, by_time, &done[0], &done[1], &done[2], &done[3], &done[4], &done[5]],
+                    k,
+                    &Coupled::<6>(h),
+                    &mut (),
+                ),
+                _ => cut.for_each(
+                    simd,
+                    [slope, by_time, &done[0], &done[1], &done[2], &done[3], &done[4], &done[5], &done[6]],
+                    k,
+                    &Coupled::<7>(h),
+                    &mut (),
+                ),
             }
             system.solve(k);
         }
-        self.end.copy_from_slice(&self.trial);
-        add(&mut self.end, &self.stages[7]);
+        cut.for_each(simd, [trial, &stages[7]], end, &Sum, &mut ());
     }
 
     /// Largest magnitude of the error estimate of the step tried last, each component times its weight; infinite as soon
@@ -201,21 +236,56 @@ pub trait System {
     fn solve(&self, b: &mut [f64]);
 }
 
-#[inline(always)]
-fn combine(out: &mut [f64], state: &[f64], stages: &[Vec<f64>], weights: &[f64; 7]) {
-    for (i, value) in out.iter_mut().enumerate() {
-        let mut sum = 0.0;
-        for (stage, weight) in stages.iter().zip(weights) {
-            sum += weight * stage[i];
+/// The argument of one of the first stages: state and all stages before it.
+struct Argument<const STAGE: usize>;
+
+/// The right-hand side of one stage's linear system, for a step of this length: slope, ∂f/∂t and all stages before it.
+struct Coupled<const STAGE: usize>(f64);
+
+/// The sum of two lists.
+struct Sum;
+
+macro_rules! stages {
+    ($($stage:literal: $argument:literal, $coupled:literal;)*) => {$(
+        impl Each<$argument, 1> for Argument<$stage> {
+            type Sum = ();
+
+            #[inline(always)]
+            fn places<S: Wide>(&self, simd: S, from: [Lanes<S>; $argument], (): &mut ()) -> [Lanes<S>; 1] {
+                let mut sum = from[0];
+                for stage in 0..$stage {
+                    sum = sum + Lanes::splat(simd, STAGES[$stage][stage]) * from[stage + 1];
+                }
+                [sum]
+            }
         }
-        *value = state[i] + sum;
-    }
+
+        impl Each<$coupled, 1> for Coupled<$stage> {
+            type Sum = ();
+
+            #[inline(always)]
+            fn places<S: Wide>(&self, simd: S, from: [Lanes<S>; $coupled], (): &mut ()) -> [Lanes<S>; 1] {
+                let mut sum = from[0];
+                for stage in 0..$stage {
+                    sum = sum + Lanes::splat(simd, COUPLING[$stage][stage] / self.0) * from[stage + 2];
+                }
+                if TIME[$stage] != 0.0 {
+                    sum = sum + Lanes::splat(simd, self.0 * TIME[$stage]) * from[1];
+                }
+                [sum]
+            }
+        }
+    )*};
 }
 
-#[inline(always)]
-fn add(to: &mut [f64], what: &[f64]) {
-    for (value, what) in to.iter_mut().zip(what) {
-        *value += what;
+stages!(0: 1, 2; 1: 2, 3; 2: 3, 4; 3: 4, 5; 4: 5, 6; 5: 6, 7; 6: 7, 8; 7: 8, 9;);
+
+impl Each<2, 1> for Sum {
+    type Sum = ();
+
+    #[inline(always)]
+    fn places<S: Wide>(&self, _: S, [a, b]: [Lanes<S>; 2], (): &mut ()) -> [Lanes<S>; 1] {
+        [a + b]
     }
 }
 
@@ -316,15 +386,15 @@ mod tests {
     }
 
     fn step(method: &mut Rodas, tau: f64, y: &[f64], h: f64) {
-        let mut first = [0.0; 3];
+        let mut first = [0.0; 4];
         right_hand_side(tau, y, &mut first);
-        let by_time = [-LAMBDA * tau.sin() - tau.cos(), 0.0, 0.0];
+        let by_time = [-LAMBDA * tau.sin() - tau.cos(), 0.0, 0.0, 0.0];
         method.try_step(Scalar256b, y, (&first, &by_time), h, &mut Equations { tau, h, y: y[1] });
     }
 
     fn integrate(count: usize) -> Vec<f64> {
-        let mut method = Rodas::new(3);
-        let mut y = vec![0.5, 0.0, 1.0];
+        let mut method = Rodas::new(Cut { count: 0, rest: 4 });
+        let mut y = vec![0.5, 0.0, 1.0, 0.0];
         let h = 1.0 / count as f64;
         for i in 0..count {
             step(&mut method, i as f64 * h, &y.clone(), h);
@@ -348,8 +418,8 @@ mod tests {
     #[test]
     fn dense_output_is_of_order_four() {
         let error = |h: f64| {
-            let mut method = Rodas::new(3);
-            let (y, mut found) = (vec![1.0, 0.0, 1.0], vec![0.0; 3]);
+            let mut method = Rodas::new(Cut { count: 0, rest: 4 });
+            let (y, mut found) = (vec![1.0, 0.0, 1.0, 0.0], vec![0.0; 4]);
             step(&mut method, 0.0, &y, h);
             (1..20)
                 .map(|i| {

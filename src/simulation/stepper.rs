@@ -5,7 +5,7 @@
 //! its cell and the right-hand side is smooth, but for the C¹ onset of a contact force.
 //!
 //! Knots are whole numbers (the cell of each element), never recognised by comparing times, so a restored state
-//! continues with the same bits. Contact changes are located by bisection on the dense output.
+//! continues with the same bits. Contact changes are located on the dense output.
 //!
 //! Two methods step, one at a time ([`super::switching`]); error control and landing are the same for both.
 //!
@@ -50,8 +50,9 @@ const SMALLEST_APPROACH: f64 = 0.1e-6;
 const VELOCITY_PER_APPROACH: f64 = 1e3;
 /// Shares of a step: a contact change this close to its start is not landed on, which bounds chatter.
 const CLOSEST_CHANGE: f64 = 1e-4;
-/// Bisections that locate a contact change: 1e-7 of a step. The force begins with the power 1.5 of what is left.
-const CHANGE_BISECTIONS: usize = 24;
+/// Width to which the share of a step is narrowed down at which a contact changes. The force begins with the power 1.5 of
+/// what is left.
+const CHANGE_WIDTH: f64 = 1e-7;
 /// Inner nodes of Lobatto's quadrature with four nodes, as shares of a step; exact for polynomials of degree 5.
 const LOBATTO: [f64; 2] = [0.276_393_202_250_021_03, 0.723_606_797_749_979];
 
@@ -88,7 +89,7 @@ impl Stepper {
         let len = model.layout.len;
         Self {
             explicit: DormandPrince::new(model.layout.cut()),
-            implicit: Rodas::new(len),
+            implicit: Rodas::new(model.layout.cut()),
             jacobian: Jacobian::new(model),
             by_time: vec![0.0; len],
             linearized: false,
@@ -214,7 +215,7 @@ impl Stepper {
                 let factor = if error.is_finite() { step_factor(error, 1.0).clamp(0.1, 0.9) } else { 0.1 };
                 progress.next_step = h * factor;
                 landing = None;
-                self.check_step(model, (from, h), error, progress)?;
+                self.check_step(model, drive, (from, h), error, progress)?;
                 continue;
             }
             let changed = self.pushing_differs(progress);
@@ -279,6 +280,7 @@ impl Stepper {
     fn check_step(
         &self,
         model: &Model,
+        drive: &Drive,
         (since, h): (f64, f64),
         error: f64,
         progress: &Progress,
@@ -287,6 +289,10 @@ impl Stepper {
         let (step, limit) = (progress.next_step, SMALLEST_STEP.max(4.0 * f64::EPSILON * since));
         if step >= limit {
             return Ok(());
+        }
+        if !error.is_finite() {
+            // Rings that the host has moved apart say more than what follows from it.
+            check_rings(model, drive, since + h, progress)?;
         }
         let component = self.worst(model, h, progress.choice.implicit);
         Err(if error.is_finite() {
@@ -406,9 +412,10 @@ impl Stepper {
             let error = if implicit { self.implicit.error(i) } else { self.explicit.error_of(i, h) };
             (self.weights[i] * error).abs()
         };
-        // What is no number is the worst.
-        let worse = |i: usize, than: usize| !(error(i) <= error(than));
-        let worst = (0..model.layout.len).fold(0, |worst, i| if worse(i, worst) { i } else { worst });
+        // What is no number is the worst, the first of them.
+        let worse = |i: usize, than: usize| error(i) > error(than) || error(i).is_nan() && !error(than).is_nan();
+        let states = (0..model.layout.len).filter(|&i| model.layout.is_used(i));
+        let worst = states.fold(0, |worst, i| if worse(i, worst) { i } else { worst });
         model.layout.name(worst)
     }
 
@@ -437,29 +444,65 @@ impl Stepper {
         differs
     }
 
+    /// How far the contact that has changed most is beyond its change [m]; negative while none has changed.
+    fn beyond_change(&self, progress: &Progress) -> f64 {
+        let contacts = &self.forces.contacts;
+        let (inner, outer) = progress.pushing.split_at(contacts.inner_pushing.len());
+        let (z, mut most) = (progress.cells.len(), f64::NEG_INFINITY);
+        for (flags, lengths) in [(inner, &contacts.inner_pushing), (outer, &contacts.outer_pushing)] {
+            for (&flag, &length) in flags.iter().zip(lengths).take(z) {
+                most = most.max(if flag { -length } else { length });
+            }
+        }
+        most
+    }
+
     /// Share of the step at which the first contact changes; leaves the forces there.
+    ///
+    /// What [`Self::beyond_change`] gives changes its sign there and is continuous. The secant's zero is looked at on its
+    /// far side, so that both ends of the bracket close in; every third look halves it, whatever the secant says.
     fn first_change(&mut self, model: &Model, drive: &Drive, from: f64, h: f64, progress: &Progress) -> f64 {
         let (mut before, mut after) = (0.0, 1.0);
-        for _ in 0..CHANGE_BISECTIONS {
-            let middle = 0.5 * (before + after);
-            if self.differs_at(model, drive, (from, h), middle, progress) { after = middle } else { before = middle }
+        let (mut at_before, mut at_after): (Option<f64>, f64) = (None, self.beyond_change(progress));
+        let mut last_before = true;
+        for look in 0.. {
+            let width: f64 = after - before;
+            if width <= CHANGE_WIDTH {
+                break;
+            }
+            let share = match at_before {
+                Some(at_before) if look % 3 != 2 => {
+                    let secant: f64 = before - width * at_before / (at_after - at_before);
+                    let margin = if last_before { 0.5 * CHANGE_WIDTH } else { -0.5 * CHANGE_WIDTH };
+                    (secant + margin).clamp(before + 0.25 * CHANGE_WIDTH, after - 0.25 * CHANGE_WIDTH)
+                }
+                _ => 0.5 * (before + after),
+            };
+            let value = self.beyond_change_at(model, drive, (from, h), share, progress);
+            // What is no number counts as changed: the step is then cut before it.
+            last_before = value <= 0.0;
+            if last_before {
+                (before, at_before) = (share, Some(value));
+            } else {
+                (after, at_after) = (share, value);
+            }
         }
-        self.differs_at(model, drive, (from, h), after, progress);
+        self.beyond_change_at(model, drive, (from, h), after, progress);
         after
     }
 
-    fn differs_at(
+    fn beyond_change_at(
         &mut self,
         model: &Model,
         drive: &Drive,
         (from, h): (f64, f64),
         share: f64,
         progress: &Progress,
-    ) -> bool {
+    ) -> f64 {
         self.dense_state(h, share, progress);
         let tau = from + share * h;
         model.derivative(drive, tau, &progress.cells, &self.dense, &mut self.scratch, &mut self.forces);
-        self.pushing_differs(progress)
+        self.beyond_change(progress)
     }
 }
 

@@ -45,7 +45,7 @@ const TRIAL: u32 = 6;
 /// Steps between two looks of the implicit method.
 const IMPLICIT_LOOK: u32 = 16;
 /// Explicit steps that cost as much as one implicit step; measured.
-const COST: f64 = 3.0;
+const COST: f64 = 5.0;
 /// Share of the stable step above which it is stability that limits. Error control lets the step swing below the limit.
 const NEAR_LIMIT: f64 = 0.5;
 /// Longest row of looks to be passed over.
