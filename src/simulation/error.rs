@@ -22,7 +22,7 @@ pub enum SimulationError {
     #[error(transparent)]
     Equilibrium(#[from] EquilibriumError),
     /// A contact near the defect cannot be computed, or the stored map not be used.
-    #[error("{0}; contact.largest_force_n says how large forces near the defect may be")]
+    #[error(transparent)]
     Contact(#[from] ContactError),
     /// The contact law cannot be used with this surface.
     #[error("contact.law = {law:?} takes a profile along the raceway only: use map or love for a topography")]
