@@ -78,7 +78,11 @@ fn comb_within(squared_envelope: &[f64], rate: f64, bpfo: f64, within: [f64; 2],
     let (power, bin) = spectrum::power(&envelope, rate, 4 * envelope.len());
     let strength = |frequency: f64| comb_strength(&power, bin, frequency, speed, duration);
     let step = 0.1 / (duration * HARMONICS as f64);
+    // Near the outer ring's frequency the shaft's comb may pass; what is sought elsewhere must not be it.
+    let far = within[1] - within[0] > 0.5;
+    let of_shaft = |f: f64| (f / speed - (f / speed).round()).abs() * speed < 0.01 * f;
     let best = steps(bpfo * within[0], bpfo * within[1], step)
+        .filter(|&f| !(far && of_shaft(f)))
         .map(|f| (f, strength(f)))
         .max_by(|a, b| a.1.total_cmp(&b.1))
         .unwrap_or((bpfo, 0.0));
