@@ -181,7 +181,6 @@ fn directional_derivatives_at_communication_points_are_central_differences() {
         let host = Host::of(scene);
         host.press();
         host.start();
-        let table = host.table();
         let mut moved = Vec::new();
         let mut time = 0.0;
         for point in 0..50 {
