@@ -22,6 +22,11 @@ impl Project {
         Self { source, target: std::path::absolute(&target).unwrap_or(target) }
     }
 
+    /// The workspace with its source in this folder; what is made goes into its own `target`.
+    pub fn at(source: &Path) -> Self {
+        Self { source: Some(source.to_path_buf()), target: source.join("target") }
+    }
+
     /// Root of the workspace's source, if it is there.
     pub fn source(&self) -> Option<&Path> {
         self.source.as_deref()

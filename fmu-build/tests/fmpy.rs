@@ -58,6 +58,18 @@ fn a_host_that_steps_by_milliseconds_records_at_51200_hz() {
 }
 
 #[test]
+fn a_light_shaft_of_the_host_is_stepped_again_until_both_agree() {
+    let folder = common::folder("implicit");
+    let fmus = [common::fmu_of("er16k-tb1", &folder), common::fmu_of("er16k-tb1-hosted-shaft", &folder)];
+    println!("{}", common::run_script("implicit_coupling.py", fmus));
+}
+
+#[test]
+fn directional_derivatives_of_every_shipped_fmu_are_central_differences() {
+    common::run_script("directional.py", all_fmus(&common::folder("directional")));
+}
+
+#[test]
 fn two_instances_of_two_scenes_do_not_disturb_each_other() {
     let folder = common::folder("two");
     common::run_script(

@@ -1,0 +1,76 @@
+//! The model library as it is packed: old enough for every Linux, stripped, free of this machine's paths, and the same
+//! bytes whenever it is built.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::process::Command;
+
+use fmu_build::library::{Choice, Library};
+use fmu_build::project::Project;
+use fmu_build::target::{OLDEST_GLIBC, Target, needed_glibc};
+
+#[test]
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+fn the_packed_library_runs_with_glibc_2_17_and_without_libgcc() {
+    let binary = &common::library().binaries()[0];
+    assert_eq!(binary.platform, "linux64");
+    assert!(needed_glibc(&binary.bytes).unwrap() <= OLDEST_GLIBC, "{:?}", common::library().describe());
+    let holds = |text: &[u8]| binary.bytes.windows(text.len()).any(|window| window == text);
+    assert!(!holds(b"libgcc_s"), "libgcc_s is asked for");
+    assert!(!holds(b".symtab") && !holds(b".debug_info"), "not stripped");
+    let root = common::root().to_str().unwrap();
+    assert!(!holds(root.as_bytes()), "it tells where it was built: {root}");
+}
+
+#[test]
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+fn objdump_finds_no_newer_symbol_and_34_functions() {
+    let file = common::folder("objdump").join("library.so");
+    std::fs::write(&file, &common::library().binaries()[0].bytes).unwrap();
+    let Ok(output) = Command::new("objdump").arg("-T").arg(&file).output() else {
+        println!("objdump is not installed: left out");
+        return;
+    };
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    let newest = needed_glibc(text.as_bytes()).unwrap();
+    assert!(newest <= OLDEST_GLIBC, "{newest:?}");
+    let exported: Vec<_> = text.lines().filter(|line| line.contains(".text") && !line.contains("*UND*")).collect();
+    assert_eq!(exported.len(), 34, "{exported:#?}");
+    assert!(exported.iter().all(|line| line.contains(" fmi2")), "{exported:#?}");
+}
+
+#[test]
+fn a_platform_without_its_standard_library_is_refused_with_the_command_that_installs_it() {
+    for target in fmu_build::target::TARGETS {
+        let Err(why) = target.check_installed(common::root()) else { continue };
+        let choice = Choice { file: None, platforms: vec![target.triple.to_owned()] };
+        let refused = Library::obtain(&Project::find(), &choice).unwrap_err().to_string();
+        assert_eq!(refused, why.to_string());
+        assert!(refused.contains(&format!("rustup target add {}", target.triple)), "{refused}");
+    }
+    assert!(Target::host().unwrap().check_installed(common::root()).is_ok());
+}
+
+#[test]
+#[ignore = "compiles the library once more, for some minutes"]
+fn two_builds_in_two_folders_give_equal_bytes() {
+    let copy = common::folder("second-build");
+    for part in [
+        "Cargo.toml",
+        "Cargo.lock",
+        "src",
+        "benches",
+        "tests",
+        "examples",
+        "fmu-build",
+        "LICENSE-MIT",
+        "LICENSE-APACHE",
+    ] {
+        let status = Command::new("cp").arg("-r").arg(common::root().join(part)).arg(&copy).status().unwrap();
+        assert!(status.success(), "{part}");
+    }
+    let first = common::library();
+    let second = Library::obtain(&Project::at(&copy), &Choice::default()).unwrap();
+    assert!(first.binaries()[0].bytes == second.binaries()[0].bytes, "the libraries differ");
+}

@@ -1,0 +1,101 @@
+//! Writes `docs/fmi2-conformance.md`: each rule of FMI 2.0 co-simulation, and what importers ask beyond it, with the tests that
+//! show it. A rule whose test is gone fails here; a test that fails fails the suite that this belongs to. After a change:
+//! `BLESS=1 cargo test --test conformance`.
+#![allow(clippy::unwrap_used)]
+
+#[path = "conformance/rules.rs"]
+mod rules;
+
+use rules::{Evidence, RULES};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn rust_files(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            rust_files(&path, found);
+        } else if path.extension().is_some_and(|end| end == "rs") {
+            found.push(path);
+        }
+    }
+}
+
+/// Names of all tests, with the file that each is in.
+fn tests() -> BTreeMap<String, String> {
+    let mut files = Vec::new();
+    for folder in ["src", "tests", "fmu-build/src", "fmu-build/tests"] {
+        rust_files(&root().join(folder), &mut files);
+    }
+    let mut tests = BTreeMap::new();
+    for file in files {
+        let text = fs::read_to_string(&file).unwrap();
+        let name = file.strip_prefix(root()).unwrap().to_string_lossy().replace('\\', "/");
+        let mut is_test = false;
+        for line in text.lines().map(str::trim) {
+            if line == "#[test]" {
+                is_test = true;
+            } else if let Some(rest) = line.strip_prefix("fn ") {
+                if std::mem::take(&mut is_test) || text.contains("proptest! {") {
+                    tests.insert(rest.split('(').next().unwrap().to_owned(), name.clone());
+                }
+            }
+        }
+    }
+    tests
+}
+
+fn written() -> String {
+    let tests = tests();
+    let mut page = String::from(
+        "# FMI 2.0, rule by rule\n\n\
+         Written by `tests/conformance.rs`; do not edit. Every test named here is run by `cargo test --workspace`, most against the \
+         exported C functions themselves; the suite fails with any of them, so a rule stands as *passes* only while its tests do. What \
+         is measured says with what.\n",
+    );
+    let mut section = "";
+    for (of, rule, evidence) in RULES {
+        if *of != section {
+            section = of;
+            write!(page, "\n## {section}\n\n| rule | shown by | result |\n|---|---|---|\n").unwrap();
+        }
+        let (mut shown, mut result) = (Vec::new(), Vec::new());
+        for one in *evidence {
+            match one {
+                Evidence::Test(name) => {
+                    let file = tests.get(*name).unwrap_or_else(|| panic!("no test {name}, which shows: {rule}"));
+                    shown.push(format!("[`{name}`](../{file})"));
+                    if !result.contains(&"passes".to_owned()) {
+                        result.push("passes".to_owned());
+                    }
+                }
+                Evidence::Measured(how, figure) => {
+                    shown.push(format!("`{how}`"));
+                    result.push((*figure).to_owned());
+                }
+                Evidence::Not(why) => result.push(format!("not done: {why}")),
+            }
+        }
+        writeln!(page, "| {rule} | {} | {} |", shown.join("<br>"), result.join("; ")).unwrap();
+    }
+    page
+}
+
+#[test]
+fn every_rule_has_a_test_or_a_measurement_and_the_page_says_which() {
+    let file = root().join("docs/fmi2-conformance.md");
+    let written = written();
+    if env::var_os("BLESS").is_some_and(|value| value == "1") {
+        fs::write(&file, &written).unwrap();
+    }
+    assert!(
+        fs::read_to_string(&file).unwrap_or_default() == written,
+        "fmi2-conformance.md is not up to date; bless it"
+    );
+}
