@@ -178,7 +178,11 @@ pub(crate) const RULES: &[(&str, &str, &[Evidence])] = &[
             M("cargo +nightly fuzz run calls", "15 min, no finding"),
         ],
     ),
-    ("Steps", "The result does not depend, within tolerance, on how the host splits the time."),
+    (
+        "Steps",
+        "The result does not depend, within tolerance, on how the host splits the time.",
+        &[T("the_result_does_not_depend_on_how_the_time_is_split")],
+    ),
     (
         "Variables",
         "Variability is explicit for what is not real; outputs are neither fixed nor tunable.",
