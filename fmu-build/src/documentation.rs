@@ -27,6 +27,20 @@ const STYLE: &str = "body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;mar
     border-bottom:1px solid #ccc;vertical-align:top}th{border-bottom:2px solid #666}td.n{white-space:nowrap}\
     pre{background:#f4f4f4;padding:1rem;overflow:auto}code{font-size:.95em}";
 
+/// The equations of motion, for a reader who wants to know what is computed.
+const EQUATIONS: &str = "<p>For each element u is its path, ρ the distance of its centre from the outer ring's, w its absolute \
+    radial velocity, e<sub>r</sub> and e<sub>t</sub> its radial and tangential directions, ω the cage's speed, q the way from \
+    the inner ring's centre to its own and n = q/|q|; v<sub>i</sub>, v<sub>o</sub> are the rings' velocities.</p>\n\
+    <pre>u' = w − e_r·v_o\n\
+    w' = (Q_i n·e_r − F_r)/m + g·e_r + ω (v_o·e_t + ρ ω)\n\
+    δ_i = R_i + r − |q|,   Q = K δ^1.5 max(0, 1 + χ δ') or max(0, K δ^1.5 + 1.5 τ K δ^0.5 δ')\n\
+    m_i x_i'' = F_i − Σ Q_i n − c_i v_i − k_i x_i\n\
+    m_o x_o'' = F_o + Σ (F_r e_r − F_t e_t) − c_o v_o − k_o x_o + f_s,   m_s y_s'' = −f_s</pre>\n\
+    <p>F<sub>r</sub> and F<sub>t</sub> are what the outer raceway exerts on an element. On the smooth raceway the approach is u; \
+    near a defect it is an equivalent one, Δ(u, place), of the contact law above. An explicit Runge–Kutta method of order 5 \
+    with error control steps, an implicit one of the same order where contacts are stiff; steps end where a contact begins or \
+    ends and where an element enters another part of the defect.</p>\n";
+
 /// Writes the page.
 pub fn write(model: &Model) -> String {
     let scene = &model.scene;
@@ -42,6 +56,8 @@ pub fn write(model: &Model) -> String {
     facts(&mut page, scene);
     page.push_str("<h2>Coupling</h2>\n");
     coupling(&mut page, scene);
+    page.push_str("<h2>Equations</h2>\n");
+    page.push_str(EQUATIONS);
     page.push_str("<h2>Variables</h2>\n");
     for kind in [Causality::Input, Causality::Parameter, Causality::Output] {
         variables(&mut page, model.simulation.table(), kind);
@@ -129,6 +145,12 @@ fn coupling(page: &mut String, scene: &Scene) {
     page.push_str(
         "<p>The start is the static equilibrium of the start values. Communication steps may have any positive \
          length and may differ; the solver's own steps are shorter and end on each communication point.</p>\n",
+    );
+    page.push_str(
+        "<p>The state can be saved, put back and serialized, so steps may be iterated. Directional derivatives of every real \
+         output by every input are given: at a communication point with the states as they are, in initialization mode through \
+         the static equilibrium. Derivatives of outputs by time are given of order 1, those of inputs are taken of orders 1 and \
+         2.</p>\n",
     );
     if scene.shaft.motion == Motion::Host || scene.housing.motion == Motion::Host {
         page.push_str(
