@@ -157,7 +157,7 @@ fn energy(bearing: &mut Named, scene: &Scene) -> f64 {
         let angle = bearing.get(&format!("element[{j}].angle"));
         let u = bearing.get(&format!("element[{j}].path"));
         let along = scene.gravity[0] * angle.cos() + scene.gravity[1] * angle.sin();
-        energy += 0.5 * mass * state[z.next_multiple_of(8) + j - 1] * state[z.next_multiple_of(4) + j - 1]
+        energy += 0.5 * mass * state[z.next_multiple_of(8) + j - 1] * state[z.next_multiple_of(8) + j - 1]
             - mass * along * (radius + u);
     }
     energy

@@ -44,7 +44,8 @@ const LOOK: u32 = 32;
 const TRIAL: u32 = 6;
 /// Steps between two looks of the implicit method.
 const IMPLICIT_LOOK: u32 = 16;
-/// Explicit steps that cost as much as one implicit step; measured.
+/// Explicit steps that cost as much as one implicit step; measured with nine elements: 4 in instructions with AVX2, 5.5 in time
+/// with AVX-512.
 const COST: f64 = 5.0;
 /// Share of the stable step above which it is stability that limits. Error control lets the step swing below the limit.
 const NEAR_LIMIT: f64 = 0.5;

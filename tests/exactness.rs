@@ -1,0 +1,119 @@
+//! Under every contact law, with an element passing the defect: a step allocates nothing, and a state that is put back
+//! continues with the same bits.
+//!
+//! Bits are also the same whatever the machine's instructions; kernels choose them at run time, so the rest of the program
+//! is what compiler flags can change:
+//! `for cpu in x86-64 x86-64-v3 x86-64-v4; do RUSTFLAGS="-C target-cpu=$cpu" cargo test --test exactness -- --nocapture bits; done`
+//! prints one fingerprint three times.
+
+#![allow(clippy::unwrap_used)]
+
+mod support;
+
+use brinell::scene::{ContactLaw, Defect, DefectShape, Scene};
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::f64::consts::FRAC_PI_2;
+use std::sync::atomic::{AtomicU64, Ordering};
+use support::{Named, shipped};
+
+/// Counts allocations of the threads that ask for it.
+struct Counting;
+
+static ALLOCATIONS: AtomicU64 = AtomicU64::new(0);
+
+// SAFETY: every call goes to the system allocator unchanged.
+#[allow(unsafe_code)]
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        if COUNTED.with(std::cell::Cell::get) {
+            ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
+        }
+        // SAFETY: as promised by the caller.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: as promised by the caller.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+thread_local! {
+    static COUNTED: std::cell::Cell<bool> = const { std::cell::Cell::new(false) };
+}
+
+const LAWS: [ContactLaw; 3] = [ContactLaw::Hertz, ContactLaw::Map, ContactLaw::Love];
+
+/// A bearing with a short shallow spall that element 1 is about to enter.
+fn passing(law: ContactLaw) -> Named {
+    let mut scene: Scene = shipped("er16k-tb1");
+    scene.contact.law = law;
+    scene.contact.largest_force = Some(1000.0);
+    let shape = DefectShape::Spall { length: 2e-4, depth: 2e-6, edge_slope: FRAC_PI_2 };
+    scene.defect = Some(Defect { angle: -FRAC_PI_2, shape });
+    // The spall's half length and half a contact's.
+    scene.cage.initial_angle = -FRAC_PI_2 - 3e-4 / scene.bearing.outer_raceway_radius();
+    Named::started(scene)
+}
+
+const OUTPUTS: [&str; 5] = ["shaft.y", "housing.ay", "element[1].path", "element[1].force.outer", "cage.angle"];
+
+fn lookups(bearing: &mut Named) -> i32 {
+    ["solver.map_lookups", "solver.contact_solves"].map(|name| bearing.count(name)).iter().sum()
+}
+
+#[test]
+fn a_step_past_the_defect_allocates_nothing() {
+    for law in LAWS {
+        let mut bearing = passing(law);
+        // Workspaces of the grid grow to their largest at the first contacts.
+        bearing.run(2e-5, 10);
+        let (before, looked_up) = (ALLOCATIONS.load(Ordering::Relaxed), lookups(&mut bearing));
+        COUNTED.with(|c| c.set(true));
+        let result = (0..10).try_for_each(|_| bearing.0.step(2e-5));
+        COUNTED.with(|c| c.set(false));
+        result.unwrap();
+        assert_eq!(ALLOCATIONS.load(Ordering::Relaxed) - before, 0, "{law:?}");
+        assert!(lookups(&mut bearing) > looked_up, "{law:?}: no element was near the defect");
+    }
+}
+
+#[test]
+fn a_state_taken_and_put_back_a_hundred_times_changes_no_bit() {
+    for law in LAWS {
+        let (mut bearing, mut alone) = (passing(law), passing(law));
+        for _ in 0..100 {
+            let state = bearing.0.save();
+            bearing.run(3.7e-6, 1);
+            bearing.0.restore(&state).unwrap();
+            bearing.run(3.7e-6, 1);
+            alone.run(3.7e-6, 1);
+            let bits = |bearing: &mut Named| OUTPUTS.map(|name| bearing.get(name).to_bits());
+            assert_eq!(bits(&mut bearing), bits(&mut alone), "{law:?}");
+        }
+        assert!(lookups(&mut bearing) > 0, "{law:?}: no element was near the defect");
+    }
+}
+
+/// FNV-1a of the bits.
+fn fingerprint(bits: impl Iterator<Item = u64>) -> u64 {
+    bits.flat_map(u64::to_le_bytes)
+        .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
+}
+
+#[test]
+fn bits_of_a_run_are_printed_for_comparison() {
+    let mut found = Vec::new();
+    for scene in ["6205-healthy", "er16k-tb1"] {
+        let mut bearing = Named::started(shipped(scene));
+        for _ in 0..100 {
+            bearing.run(1e-4, 1);
+            found.extend(OUTPUTS.map(|name| bearing.get(name)));
+        }
+    }
+    assert!(found.iter().all(|value| value.is_finite()));
+    println!("bits {:016x}", fingerprint(found.iter().map(|value| value.to_bits())));
+}
