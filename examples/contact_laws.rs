@@ -1,7 +1,7 @@
 //! Whole runs under the contact laws, as Markdown: events of one passage, and how far accelerations are apart.
 //!
 //! `cargo run --release --example contact_laws [-- STOP_S]`, some minutes; the tables of `docs/contact.md`. Finer means twice the cells in both
-//! directions, and for a map half the error. Differences are those of the housing's vertical acceleration, sampled at 51.2 kHz, from the
+//! directions. Differences are those of the housing's vertical acceleration, sampled at 51.2 kHz, from the
 //! finer `love`: root mean square and largest, each relative to that run's own. A struck spall is chaotic after some 30 ms; hence the short runs.
 
 use std::error::Error;
@@ -23,12 +23,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     for name in ["er16k-tb1", "6205-epps"] {
         let scene = Scene::from_toml(&std::fs::read_to_string(format!("scenes/{name}.toml"))?)?;
         println!("\n`{name}`, {:.0} ms\n", 1e3 * stop);
-        println!("| law | unloaded from | loaded again | peak force | its time | rms difference | largest difference | run time |");
+        println!(
+            "| law | unloaded from | loaded again | peak force | its time | rms difference | largest difference | run time |"
+        );
         println!("|---|---|---|---|---|---|---|---|");
         let laws = [
             ("love, finer", ContactLaw::Love, true),
             ("love", ContactLaw::Love, false),
-            ("map, finer", ContactLaw::Map, true),
             ("map", ContactLaw::Map, false),
             ("hertz", ContactLaw::Hertz, false),
         ];
@@ -42,7 +43,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             let apart: Vec<f64> = apart.by_ref().collect();
             let mean = rms(&mut apart.iter().copied()) / rms(&mut reference.iter().copied());
             let largest = peak(&mut apart.iter().copied()) / peak(&mut reference.iter().copied());
-            let ms = |index: Option<usize>| index.map_or("–".to_owned(), |k| format!("{:.2} ms", 1e3 * k as f64 / RATE));
+            let ms =
+                |index: Option<usize>| index.map_or("–".to_owned(), |k| format!("{:.2} ms", 1e3 * k as f64 / RATE));
             let lost = found.force.iter().position(|&f| f <= 0.0);
             let again = lost.and_then(|from| (from..found.force.len()).find(|&k| found.force[k] > 0.0));
             let after = again.or(lost).unwrap_or(0);
@@ -65,7 +67,6 @@ fn run(scene: &Scene, law: ContactLaw, finer: bool, stop: f64) -> Result<Run, Bo
     scene.contact.law = law;
     if finer {
         scene.contact.cells = Some([96, 64]);
-        scene.contact.map_accuracy = Some(5e-4);
     }
     let profile = match scene.defect.as_ref().map(|defect| &defect.shape) {
         Some(DefectShape::Profile(file)) => Some(std::fs::read_to_string(format!("scenes/{file}"))?),

@@ -107,7 +107,8 @@ fn circles_press_less_than_hertz_paraboloids_by_a_few_per_cent() {
         let solve = |circles: bool| {
             let gap = (0..n * m)
                 .map(|c| {
-                    let (x, y) = (((c % n) as f64 + 0.5) * cell[0] - half[0], ((c / n) as f64 + 0.5) * cell[1] - half[1]);
+                    let (x, y) =
+                        (((c % n) as f64 + 0.5) * cell[0] - half[0], ((c / n) as f64 + 0.5) * cell[1] - half[1]);
                     if circles {
                         sag(r, x) - sag(outer, x) + sag(r, y) - sag(groove, y)
                     } else {

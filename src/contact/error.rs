@@ -62,7 +62,9 @@ pub enum ContactError {
         limit: f64,
     },
     /// Outside the range the law was prepared for.
-    #[error("{quantity} {value:e} m is outside the range prepared, {lower:e} to {upper:e} m; contact.largest_force_n says how large forces near the defect may be")]
+    #[error(
+        "{quantity} {value:e} m is outside the range prepared, {lower:e} to {upper:e} m; contact.largest_force_n says how large forces near the defect may be"
+    )]
     OutOfRange {
         /// What.
         quantity: &'static str,
@@ -80,7 +82,9 @@ pub enum ContactError {
         reason: String,
     },
     /// The map did not reach the accuracy asked for.
-    #[error("contact map: error {achieved:e} of full scale with {nodes} nodes, {requested:e} was asked for: more cells (contact.cells) or a larger error (contact.map_accuracy) may help")]
+    #[error(
+        "contact map: error {achieved:e} of full scale with {nodes} nodes, {requested:e} was asked for: more cells (contact.cells) or a larger error (contact.map_accuracy) may help"
+    )]
     MapNotAccurate {
         /// Largest error found between nodes, relative to full scale.
         achieved: f64,

@@ -36,8 +36,7 @@ pub(super) struct Cells {
 
 impl Cells {
     pub(super) fn new(size: [f64; 2], rows: Vec<usize>) -> Self {
-        let leaves =
-            rows.iter().enumerate().flat_map(|(k, &rows)| (0..rows).map(move |row| (0, k, row))).collect();
+        let leaves = rows.iter().enumerate().flat_map(|(k, &rows)| (0..rows).map(move |row| (0, k, row))).collect();
         Self { size, rows, leaves, nodes: BTreeMap::new(), cubics: BTreeMap::new() }
     }
 
@@ -52,7 +51,9 @@ impl Cells {
         if self.rows.get(i / FINEST).is_none_or(|&rows| j >= rows * FINEST) {
             return None;
         }
-        (0..=LEVELS).map(|level| (level, i >> (LEVELS - level), j >> (LEVELS - level))).find(|k| self.leaves.contains(k))
+        (0..=LEVELS)
+            .map(|level| (level, i >> (LEVELS - level), j >> (LEVELS - level)))
+            .find(|k| self.leaves.contains(k))
     }
 
     /// The coarsest leaf in whose side a corner lies.
@@ -131,10 +132,7 @@ impl Cells {
 
     fn hanging(&self, coarse: Key, (i, j): Place) -> Node {
         let side = FINEST >> coarse.0;
-        let (q, t) = (
-            (i - coarse.1 * side) as f64 / side as f64,
-            (j - coarse.2 * side) as f64 / side as f64,
-        );
+        let (q, t) = ((i - coarse.1 * side) as f64 / side as f64, (j - coarse.2 * side) as f64 / side as f64);
         let cells = f64::from(1_u32 << coarse.0);
         let Some(cubic) = self.cubics.get(&coarse) else { return [f64::NAN; 4] };
         let f = evaluate(cubic, q, t, cells / self.size[0], cells / self.size[1]);

@@ -139,9 +139,11 @@ impl NearDefect {
     #[inline]
     pub fn approach(&self, cell: usize, u: f64, angle: f64, rho: f64) -> Result<OuterApproach, ContactError> {
         match self {
-            Self::Map(near) => {
-                Ok(OuterApproach::of(&near.map.lookup_in(cell, u, angle * near.raceway_radius)?, near.raceway_radius, rho))
-            }
+            Self::Map(near) => Ok(OuterApproach::of(
+                &near.map.lookup_in(cell, u, angle * near.raceway_radius)?,
+                near.raceway_radius,
+                rho,
+            )),
             Self::Love(near) => {
                 Ok(OuterApproach::of(&near.solve(cell, u, angle * near.raceway_radius)?, near.raceway_radius, rho))
             }

@@ -152,10 +152,10 @@ pub fn map_specification(scene: &Scene) -> MapSpecification {
     let usual = MapSpecification::new(contact + scene.bearing.outer_compliance * force);
     MapSpecification {
         accuracy: scene.contact.map_accuracy.unwrap_or(usual.accuracy),
-        resolution: scene.contact.cells.map_or(usual.resolution, |[columns, rows]| Resolution {
-            columns: columns as usize,
-            rows: rows as usize,
-        }),
+        resolution: scene
+            .contact
+            .cells
+            .map_or(usual.resolution, |[columns, rows]| Resolution { columns: columns as usize, rows: rows as usize }),
         ..usual
     }
 }
