@@ -1,7 +1,7 @@
 //! Whole runs under the contact laws, as Markdown: events of one passage, and how far accelerations are apart.
 //!
 //! `cargo run --release --example contact_laws [-- STOP_S]`, some minutes; the tables of `docs/contact.md`. Finer means twice the cells in both
-//! directions, and for a map half the error. Differences are those of the housing's vertical acceleration, sampled at 51.2 kHz, from the
+//! directions. Differences are those of the housing's vertical acceleration, sampled at 51.2 kHz, from the
 //! finer `love`: root mean square and largest, each relative to that run's own. A struck spall is chaotic after some 30 ms; hence the short runs.
 
 use std::error::Error;
@@ -30,7 +30,6 @@ fn main() -> Result<(), Box<dyn Error>> {
         let laws = [
             ("love, finer", ContactLaw::Love, true),
             ("love", ContactLaw::Love, false),
-            ("map, finer", ContactLaw::Map, true),
             ("map", ContactLaw::Map, false),
             ("hertz", ContactLaw::Hertz, false),
         ];
@@ -68,7 +67,6 @@ fn run(scene: &Scene, law: ContactLaw, finer: bool, stop: f64) -> Result<Run, Bo
     scene.contact.law = law;
     if finer {
         scene.contact.cells = Some([96, 64]);
-        scene.contact.map_accuracy = Some(5e-4);
     }
     let profile = match scene.defect.as_ref().map(|defect| &defect.shape) {
         Some(DefectShape::Profile(file)) => Some(std::fs::read_to_string(format!("scenes/{file}"))?),

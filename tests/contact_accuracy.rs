@@ -30,7 +30,8 @@ fn rough() -> Surface {
         for j in 0..=40 {
             let (s, y) = (f64::from(i) * 0.0065 - 0.39, f64::from(j) * 0.1 - 2.0);
             let flank = ((0.35 - s.abs()) / 0.08).clamp(0.0, 1.0);
-            let waves = (17.0 * s + 2.0 * y).sin() + 0.7 * (31.0 * s - 3.0 * y + 1.0).sin() + 0.5 * (5.0 * y + 9.0 * s).cos();
+            let waves =
+                (17.0 * s + 2.0 * y).sin() + 0.7 * (31.0 * s - 3.0 * y + 1.0).sin() + 0.5 * (5.0 * y + 9.0 * s).cos();
             writeln!(text, "{s:.5},{y:.5},{:.5}", flank * (8.0 + waves)).unwrap();
         }
     }
@@ -64,7 +65,13 @@ fn compare(map: &ContactMap, grid: &mut LoveContact, points: usize) -> ([f64; 2]
     (worst, squares.map(|sum| (sum / count).sqrt()))
 }
 
-fn demonstrate(name: &str, surface: &Surface, element: ElementOnRaceway, specification: MapSpecification, flanks: usize) {
+fn demonstrate(
+    name: &str,
+    surface: &Surface,
+    element: ElementOnRaceway,
+    specification: MapSpecification,
+    flanks: usize,
+) {
     let map = ContactMap::build(surface, element, specification, &mut Sequential(|_, _| ())).unwrap();
     let largest = specification.largest_approach;
     let mut grid = LoveContact::new(element, surface, 1.8 * largest, specification.resolution).unwrap();

@@ -9,7 +9,7 @@ use brinell::contact::love::LoveContact;
 use brinell::contact::map::ContactMap;
 use brinell::contact::map_build::{MapSpecification, Sequential};
 use brinell::contact::raceway_grid::{ElementOnRaceway, Resolution};
-use brinell::surface::{Profile, Surface};
+use brinell::surface::{Profile, Surface, Topography};
 
 const ER16K: ElementOnRaceway =
     ElementOnRaceway { element_radius: 3.97e-3, raceway_radius: 23.6325e-3, groove_radius: 4.095e-3 };
@@ -126,6 +126,10 @@ fn the_map_joins_the_closed_forms_in_value_and_slope() {
 fn beyond_the_largest_approach_a_lookup_is_an_error() {
     let map = coarse_map();
     assert!(map.lookup(3.0 * LARGEST, -0.5 * LENGTH).is_err());
+    // Between its largest approach and half as much again a map continues: some per cent of the force.
+    let (above, exact) = (1.4 * LARGEST, love().solve(1.4 * LARGEST, -0.5 * LENGTH).unwrap().forces(1.0)[0]);
+    let found = map.lookup(above, -0.5 * LENGTH).unwrap().forces(1.0)[0];
+    assert!((found / exact - 1.0).abs() < 0.03, "{found} {exact}");
     assert!(map.lookup(-1e-3, -0.5 * LENGTH).unwrap().value < 0.0);
 }
 
@@ -150,6 +154,23 @@ fn damaged_and_foreign_maps_are_refused() {
     for length in [0, 7, 40, bytes.len() - 8] {
         refused(&bytes[..length], own);
     }
+}
+
+#[test]
+fn a_trace_coarser_than_the_cells_is_refused_and_a_polygon_is_not() {
+    let text = "arc_mm,depth_um\n-0.5,0\n-0.4,40\n0.4,40\n0.5,0\n";
+    let trace = Surface::Profile(Profile::from_csv(text).unwrap());
+    let resolution = Resolution { columns: 32, rows: 16 };
+    let refused = LoveContact::new(ER16K, &trace, LARGEST, resolution).unwrap_err();
+    assert!(matches!(refused, ContactError::TooCoarse { step_um, .. } if (step_um - 100.0).abs() < 1e-6), "{refused}");
+    assert!(refused.to_string().contains("100.00 um apart along the raceway"), "{refused}");
+    let corners = vec![(-0.5e-3, 0.0), (-0.4e-3, 40e-6), (0.4e-3, 40e-6), (0.5e-3, 0.0)];
+    let polygon = Surface::Profile(Profile::from_points(corners).unwrap());
+    assert!(LoveContact::new(ER16K, &polygon, LARGEST, resolution).is_ok());
+    let text = "arc_mm,axial_mm,depth_um\n0,-1,0\n0,1,0\n0.001,-1,1\n0.001,1,2\n";
+    let topography = Surface::Topography(Topography::from_csv(text).unwrap());
+    let refused = LoveContact::new(ER16K, &topography, LARGEST, resolution).unwrap_err();
+    assert!(refused.to_string().contains("across the raceway"), "{refused}");
 }
 
 #[test]

@@ -150,15 +150,17 @@ impl ActiveSet {
                 expected: needed,
             });
         }
+        // Room for every window, so that later contacts allocate nothing unless they are the largest so far.
+        let columns = kernel.columns();
         Ok(Self {
             pairs: Arc::new(RowPairs::new(kernel, rows, mirror)),
             mirror,
             factor: Cholesky::default(),
-            factored: Vec::new(),
-            runs: Vec::new(),
-            state: Vec::new(),
+            factored: Vec::with_capacity(4 * rows),
+            runs: Vec::with_capacity(4 * rows),
+            state: Vec::with_capacity(rows * columns),
             pressure: Vec::new(),
-            deflection: Vec::new(),
+            deflection: Vec::with_capacity(columns.next_multiple_of(BLOCK)),
         })
     }
 

@@ -62,7 +62,9 @@ pub enum ContactError {
         limit: f64,
     },
     /// Outside the range the law was prepared for.
-    #[error("{quantity} {value:e} m is outside the range prepared, {lower:e} to {upper:e} m; contact.largest_force_n says how large forces near the defect may be")]
+    #[error(
+        "{quantity} {value:e} m is outside the range prepared, {lower:e} to {upper:e} m; contact.largest_force_n says how large forces near the defect may be"
+    )]
     OutOfRange {
         /// What.
         quantity: &'static str,
