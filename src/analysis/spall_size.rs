@@ -24,6 +24,9 @@ use crate::scene::{Bearing, ContactLaw, Scene};
 const COVERAGE: f64 = 2.0;
 /// Difference of likeness by which one kind of spall is preferred to the other.
 const CLEARLY_LIKER: f64 = 0.02;
+/// Significance of the comb from which likeness is asked: less than the events need, for to be alike is a proof of its own. Short
+/// recordings lose many harmonics to the shaft's.
+const HEARD: f64 = 5.0;
 /// Scatter between recordings of one spall, as a share of the length, from which they contradict each other.
 const CONTRADICTION: f64 = 0.2;
 /// Statistical uncertainty that is always granted [degrees]: events are sought on a grid of samples.
@@ -123,7 +126,7 @@ impl Sized {
     fn of(measured: Measured, scene: &Scene, maps: Maps<'_>) -> Self {
         let events = event_length::estimate(&measured, scene);
         let rig = Rig::new(scene, measured.bpfo, maps);
-        let heard = rig.as_ref().filter(|_| measured.comb.is_significant());
+        let heard = rig.as_ref().filter(|_| measured.comb.significance >= HEARD);
         let heard = heard.map(|rig| waveform_length::estimate(&measured, scene, rig));
         let likeness = heard.as_ref().map(|heard| heard.as_ref().map_or_else(|other| other.likeness, |w| w.likeness));
         let waveform = heard.and_then(Result::ok);

@@ -54,6 +54,7 @@ pub fn fill(project: &Project, values: &mut Values) -> Result<()> {
     values.set("blind_short", table)?;
     let mut table = String::new();
     for (label, name, load) in [
+        ("100 µm, 4000 N", "er16k-tb2", 4000.0),
         ("100 µm, 500 N", "er16k-tb2", 500.0),
         ("100 µm, 600 N", "er16k-tb2", 600.0),
         ("30 µm, 500 N", "er16k-tb2-30um", 500.0),
