@@ -40,6 +40,8 @@ TOLD = {
     "cage.slip": ("cage.slip", 1.0),
     "cage.initial_angle_deg": ("cage.initial_angle", np.pi / 180),
 }
+# Maps for many defects are coarser than that of one studied closely: 0.4 % of the largest force, for a third of the time.
+MAP_ACCURACY = 4e-3
 HARMONICS = 5
 FEATURES = ["bpfo_hz", "rms_m_s2", "kurtosis", *(f"envelope_{k}_bpfo_m_s2" for k in range(1, HARMONICS + 1))]
 FEATURES += ["unloaded_s", "loaded_again_s", "unloaded_deg"]
@@ -61,11 +63,13 @@ def design(count, grid, random, seed):
 def prepare(base, runs, folder):
     """Builds one FMU for each set of values that an instance cannot be told. Gives {name: path}, name of each run."""
     names, scenes = [], {}
+    contact = tomllib.loads(Path(base).read_text(encoding="utf-8")).get("contact", {})
+    coarser = {"contact.map_accuracy": MAP_ACCURACY} if contact.get("law", "map") == "map" else {}
     for run in runs:
         built_in = {key: value for key, value in run.items() if key not in TOLD}
         name = "-".join([Path(base).stem, *(f"{value:g}".replace(".", "p") for value in built_in.values())])
         if name not in scenes:
-            scenes[name] = bearing.changed_scene(base, name, built_in, folder)
+            scenes[name] = bearing.changed_scene(base, name, {**coarser, **built_in}, folder)
         names.append(name)
     paths = bearing.build(scenes.values(), folder)
     return dict(zip(scenes, paths)), names
