@@ -152,9 +152,9 @@ macro_rules! combine {
             fn places<S: Wide>(&self, simd: S, from: [Lanes<S>; $count], (): &mut ()) -> [Lanes<S>; 1] {
                 let weights = &STAGES[$stage];
                 let mut sum = Lanes::splat(simd, weights[0]) * from[1];
-                for stage in 1..$stage {
-                    if weights[stage] != 0.0 {
-                        sum = sum + Lanes::splat(simd, weights[stage]) * from[stage + 1];
+                for (&weight, &stage) in weights[1..].iter().zip(&from[2..]) {
+                    if weight != 0.0 {
+                        sum = sum + Lanes::splat(simd, weight) * stage;
                     }
                 }
                 [from[0] + Lanes::splat(simd, self.0) * sum]

@@ -253,8 +253,8 @@ macro_rules! stages {
             #[inline(always)]
             fn places<S: Wide>(&self, simd: S, from: [Lanes<S>; $argument], (): &mut ()) -> [Lanes<S>; 1] {
                 let mut sum = from[0];
-                for stage in 0..$stage {
-                    sum = sum + Lanes::splat(simd, STAGES[$stage][stage]) * from[stage + 1];
+                for (&weight, &stage) in STAGES[$stage].iter().zip(&from[1..]) {
+                    sum = sum + Lanes::splat(simd, weight) * stage;
                 }
                 [sum]
             }
@@ -266,8 +266,8 @@ macro_rules! stages {
             #[inline(always)]
             fn places<S: Wide>(&self, simd: S, from: [Lanes<S>; $coupled], (): &mut ()) -> [Lanes<S>; 1] {
                 let mut sum = from[0];
-                for stage in 0..$stage {
-                    sum = sum + Lanes::splat(simd, COUPLING[$stage][stage] / self.0) * from[stage + 2];
+                for (&weight, &stage) in COUPLING[$stage].iter().zip(&from[2..]) {
+                    sum = sum + Lanes::splat(simd, weight / self.0) * stage;
                 }
                 if TIME[$stage] != 0.0 {
                     sum = sum + Lanes::splat(simd, self.0 * TIME[$stage]) * from[1];
