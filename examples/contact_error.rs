@@ -1,6 +1,6 @@
 //! Error against run time of the contact alone, as CSV on standard output: `cargo run --release --example contact_error > docs/contact-error.csv`
 //!
-//! ER16K line spall, 100 µm deep, 90° edges, approaches to 10 µm. Grids are compared with one twice as fine as the finest listed, maps with their own
+//! ER16K line spall, 100 µm deep, 90° edges, approaches to 10 µm. Grids are compared with one of 128 × 48, maps with their own
 //! grid; each grid is two, half a row apart. Errors are relative to the smooth contact's force at 10 µm; times are the best of several on one core.
 
 use std::error::Error;
@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let surface = Surface::Profile(Profile::spall(LENGTH, 100e-6, FRAC_PI_2));
     // From just before the edge to the floor's first touch, 0.5 to 9 µm above the first touch.
     let grid = |columns, rows| LoveContact::new(element, &surface, 1.6 * LARGEST, Resolution { columns, rows });
-    let mut finest = grid(192, 64)?;
+    let mut finest = grid(128, 48)?;
     let mut places = Vec::new();
     for k in 0..24 {
         let s = -0.5 * LENGTH - 0.15e-3 + 1.15e-3 * (f64::from(k) + 0.37) / 24.0;
@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!(
         "law,columns,rows,nodes,max_normal,rms_normal,max_tangential,rms_tangential,seconds_per_contact,seconds_to_prepare"
     );
-    for (columns, rows) in [(16, 8), (16, 16), (32, 16), (32, 32), (48, 16), (48, 32), (64, 32), (96, 32), (96, 48)] {
+    for (columns, rows) in [(16, 8), (16, 16), (32, 16), (32, 32), (48, 16), (48, 32), (64, 32)] {
         let start = Instant::now();
         let mut contact = grid(columns, rows)?;
         let prepare = start.elapsed().as_secs_f64();
@@ -67,7 +67,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             e[3].sqrt()
         );
     }
-    for accuracy in [1e-2, 3e-3, 1e-3, 7e-4, 5e-4] {
+    for accuracy in [1e-2, 3e-3, 1e-3] {
         let specification = MapSpecification { accuracy, ..MapSpecification::new(LARGEST) };
         let start = Instant::now();
         // The finest ones meet the grid's own steps; what was reached stands in the table.

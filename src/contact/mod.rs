@@ -7,6 +7,7 @@ pub mod conjugate_gradients;
 pub mod equivalent;
 pub mod error;
 pub mod fft_product;
+mod flat_stretches;
 pub mod force_law;
 pub mod grid;
 pub mod half_space;

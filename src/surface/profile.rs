@@ -63,7 +63,7 @@ impl Profile {
     }
 
     /// The points are samples of something unknown between them, and not corners of a polygon.
-    pub(super) fn as_samples(self) -> Self {
+    pub(super) fn into_samples(self) -> Self {
         Self { sampled: true, ..self }
     }
 

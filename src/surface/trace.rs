@@ -30,6 +30,6 @@ impl Profile {
             }
         }
         let point = |row: &csv::Row<2>| ((row.values[0] - middle) / 1e3, row.values[1] / 1e6);
-        Ok(Self::from_points(rows.iter().map(point).collect())?.as_samples())
+        Ok(Self::from_points(rows.iter().map(point).collect())?.into_samples())
     }
 }
