@@ -81,3 +81,21 @@ for axis in axes[-1]:
     axis.set_xlabel("communication step (s), × unstable")
 axes[0, 0].legend(loc="lower right")
 plotting.save(figure, stem.with_name(stem.name + "-co-simulation"))
+
+# One contact: grids and maps.
+with open(data / "contact.csv", encoding="utf-8") as file:
+    contacts = list(csv.DictReader(file))
+figure, axis = plt.subplots(figsize=(plotting.WIDTH, 4.2))
+for law, colour, marker, name in (("love", BLUE, "o", "grid against a finer grid"), ("map", ORANGE, "s", "map against its grid")):
+    own = [row for row in contacts if row["law"] == law]
+    time = [float(row["seconds_per_contact"]) for row in own]
+    for column, face, kind in (("max_normal", colour, "largest"), ("rms_normal", "white", "root mean square")):
+        error = [float(row[column]) for row in own]
+        axis.loglog(time, error, marker, color=colour, markerfacecolor=face, label=f"{name}, {kind}")
+    for row, x in zip(own, time):
+        label = f"{row['columns']}×{row['rows']}" if law == "love" else f"{row['nodes']} nodes"
+        axis.annotate(label, (x, float(row["max_normal"])), textcoords="offset points", xytext=(7, 3), fontsize=8)
+axis.set_xlabel("CPU time of one contact (s)")
+axis.set_ylabel("error of the normal force / full scale")
+axis.legend(loc="upper center")
+plotting.save(figure, stem.with_name(stem.name + "-contact"))

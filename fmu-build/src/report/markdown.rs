@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::co_simulation::Coupled;
+use super::contact;
 use super::coupling::{Coupling, limits};
 use super::integration::{Check, Integration, Row};
 use super::leaving_out::Part;
@@ -12,18 +13,54 @@ const LEVELS: [f64; 3] = [1e-2, 1e-3, 1e-5];
 const METHODS: [&str; 5] = ["automatic", "DP5 only", "Rodas5P only", "RK4", "Verlet"];
 
 /// The whole page.
-pub(super) fn page(machine: &str, integration: &Integration, coupled: &[Coupled], parts: &[Part]) -> String {
+pub(super) fn page(
+    machine: &str,
+    contacts: &[contact::Row],
+    integration: &Integration,
+    coupled: &[Coupled],
+    parts: &[Part],
+) -> String {
     let mut text = format!(
         "# Error against run time\n\n\
          Written by `cargo fmu report`; the numbers behind it are in [`data/`](data). Measured on: {machine}. Times are CPU \
          times of one thread, the fastest of several runs.\n\n\
-         How wrong the contact itself is, by grid and map, is in [contact.md](contact.md); what stiff and extreme cases do is \
-         in [stability.md](stability.md).\n\n"
+         What stiff and extreme cases do is in [stability.md](stability.md).\n\n"
     );
+    text += &contact_part(contacts);
     text += &integration_part(integration);
     text += &coupled_part(coupled);
     text += &leaving_out_part(parts);
     text
+}
+
+fn contact_part(rows: &[contact::Row]) -> String {
+    let mut text = "## Contact\n\n\
+         One ball on the 90° edge of a spall (ER16K, 100 µm deep, approaches to 10 µm). Grids (law `love`) against one of 128 × 48 \
+         cells, maps against their own grid; errors over the smooth contact's force at 10 µm. Grids are warm, 50 nm further each \
+         time. [contact.md](contact.md) says how grids and maps are made.\n\n\
+         ![Error against time of one contact](figures/error-vs-run-time-contact.svg)\n\n\
+         | law | cells | nodes, both flanks | normal force: largest | rms | tangential: largest | rms | one contact | to prepare, one core |\n\
+         |---|---:|---:|---:|---:|---:|---:|---:|---:|\n"
+        .to_owned();
+    for row in rows {
+        let nodes = row.nodes.map_or("–".to_owned(), |nodes| nodes.to_string());
+        let [max_normal, rms_normal, max_tangential, rms_tangential] = row.error;
+        let seconds = if row.nodes.is_some() {
+            format!("{:.1} ns", 1e9 * row.seconds)
+        } else {
+            format!("{:.1} µs", 1e6 * row.seconds)
+        };
+        let _ = writeln!(
+            text,
+            "| {} | {} × {} | {nodes} | {max_normal:.1e} | {rms_normal:.1e} | {max_tangential:.1e} | {rms_tangential:.1e} | \
+             {seconds} | {} s |",
+            row.law,
+            row.cells.columns,
+            row.cells.rows,
+            cost(row.prepare)
+        );
+    }
+    text + "\n"
 }
 
 fn integration_part(found: &Integration) -> String {

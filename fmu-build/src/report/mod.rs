@@ -2,6 +2,7 @@
 //!
 //! | part | asks |
 //! |---|---|
+//! | `contact` | how wrong is one contact, by grid and by map, for which CPU time |
 //! | `integration` | how wrong is a run, by which method and tolerance, for which CPU time |
 //! | `co_simulation` | how wrong is a coupled run, and when unstable, by communication step and way of coupling |
 //! | `leaving_out` | what does each part of a scene cost |
@@ -10,6 +11,7 @@
 //! caches and memory from it, so ratios within a table mean more than the times.
 
 mod co_simulation;
+mod contact;
 pub mod coupling;
 mod fixed_step;
 mod integration;
@@ -43,12 +45,13 @@ pub fn command(project: &Project, extent: Extent, folder: &Path) -> Result<()> {
         fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
     }
     let python = Python::prepare(project)?;
+    let contacts = contact::measure(extent, &data)?;
     let integration = integration::measure(&python, extent, &data)?;
     let coupled = co_simulation::measure(extent, &data)?;
     let parts = leaving_out::measure(extent, &data)?;
     let stem = figures.join("error-vs-run-time");
     print!("{}", python.run("report.py", [data.as_os_str(), stem.as_os_str()])?);
-    let text = markdown::page(&machine::description(), &integration, &coupled, &parts);
+    let text = markdown::page(&machine::description(), &contacts, &integration, &coupled, &parts);
     let path = folder.join("error-vs-run-time.md");
     fs::write(&path, text).with_context(|| path.display().to_string())?;
     println!("{}", path.display());
