@@ -32,6 +32,14 @@ pub fn of(scene: &Scene, profile: Option<&str>, project: &Project) -> Result<Opt
     let map = setup::build_map(scene, &surface, &mut cores)?;
     cores.bar.finish_and_clear();
     let Some(map) = map else { return Ok(None) };
+    let (reached, wanted) = (map.accuracy().max(), setup::map_specification(scene).accuracy);
+    if reached > 1.5 * wanted {
+        eprintln!(
+            "contact map of {}: error up to {reached:.1e} of the largest force, {wanted:.0e} was wanted; more cells \
+             (contact.cells) may help, and a scene that gives contact.map_accuracy refuses such a map",
+            scene.name
+        );
+    }
     let bytes = map.to_bytes();
     if let Some(folder) = file.parent() {
         fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;

@@ -22,6 +22,8 @@ pub struct MapSpecification {
     pub largest_approach: f64,
     /// Largest error of either force between nodes, relative to the smooth contact's force at the largest approach.
     pub accuracy: f64,
+    /// Error up to which a map that misses the accuracy is still taken; `None` for half more than the accuracy.
+    pub tolerated: Option<f64>,
     /// Cells of the grid across Hertz's ellipse at the largest approach.
     pub resolution: Resolution,
 }
@@ -29,7 +31,7 @@ pub struct MapSpecification {
 impl MapSpecification {
     /// 0.1 % of full scale on 48 × 32 cells, twice.
     pub fn new(largest_approach: f64) -> Self {
-        Self { largest_approach, accuracy: 1e-3, resolution: Resolution { columns: 48, rows: 32 } }
+        Self { largest_approach, accuracy: 1e-3, tolerated: None, resolution: Resolution { columns: 48, rows: 32 } }
     }
 }
 
@@ -59,16 +61,16 @@ impl<F: FnMut(usize, usize)> Runner for Sequential<F> {
     }
 }
 
-/// The map follows the grid, and the grid's own steps may be larger than the accuracy: a map is refused when its error is so many times what
-/// was asked for.
+/// The map follows the grid, and the grid's own steps may be larger than the accuracy: a map is refused when its error is
+/// so many times what was asked for, unless the specification tolerates more.
 const REFUSED: f64 = 1.5;
 
 impl ContactMap {
     /// Map for an element over `surface`.
     ///
     /// # Errors
-    /// [`ContactError::BadInput`] for impossible inputs, [`ContactError::MapNotAccurate`] when even the finest nodes miss the accuracy
-    /// by more than a half; what was reached is in [`ContactMap::accuracy`].
+    /// [`ContactError::BadInput`] for impossible inputs, [`ContactError::MapNotAccurate`] when even the finest nodes miss the
+    /// accuracy by more than is tolerated; what was reached is in [`ContactMap::accuracy`].
     pub fn build(
         surface: &Surface,
         element: ElementOnRaceway,
@@ -76,7 +78,7 @@ impl ContactMap {
         runner: &mut impl Runner,
     ) -> Result<Self, ContactError> {
         let map = MapPlan::new(surface, element, specification)?.build(runner)?;
-        if map.accuracy.max() > REFUSED * specification.accuracy {
+        if map.accuracy.max() > specification.tolerated.unwrap_or(REFUSED * specification.accuracy) {
             return Err(ContactError::MapNotAccurate {
                 achieved: map.accuracy.max(),
                 requested: specification.accuracy,

@@ -332,10 +332,15 @@ impl MapPlan {
     ) -> Result<Option<Error>, ContactError> {
         let largest = self.specification.largest_approach;
         let full_scale = largest * largest.sqrt();
-        let found = map.lookup(u, s)?;
         let exact = match contact.solve(u, s) {
             Ok(exact) if exact.value <= largest => exact,
             Ok(_) | Err(ContactError::OutOfRange { .. }) => return Ok(None),
+            Err(error) => return Err(error),
+        };
+        let found = match map.lookup(u, s) {
+            Ok(found) => found,
+            // Cells still too large may hold anything between their corners: as wrong as can be, so they are cut.
+            Err(ContactError::OutOfRange { .. }) => return Ok(Some([1.0; 2])),
             Err(error) => return Err(error),
         };
         if exact.value <= 0.0 && found.value <= 0.0 {
