@@ -41,10 +41,10 @@ fn tests() -> BTreeMap<String, String> {
         for line in text.lines().map(str::trim) {
             if line == "#[test]" {
                 is_test = true;
-            } else if let Some(rest) = line.strip_prefix("fn ") {
-                if std::mem::take(&mut is_test) || text.contains("proptest! {") {
-                    tests.insert(rest.split('(').next().unwrap().to_owned(), name.clone());
-                }
+            } else if let Some(rest) = line.strip_prefix("fn ")
+                && (std::mem::take(&mut is_test) || text.contains("proptest! {"))
+            {
+                tests.insert(rest.split('(').next().unwrap().to_owned(), name.clone());
             }
         }
     }

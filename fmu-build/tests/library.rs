@@ -18,7 +18,8 @@ fn the_packed_library_runs_with_glibc_2_17_and_without_libgcc() {
     assert!(needed_glibc(&binary.bytes).unwrap() <= OLDEST_GLIBC, "{:?}", common::library().describe());
     let holds = |text: &[u8]| binary.bytes.windows(text.len()).any(|window| window == text);
     assert!(!holds(b"libgcc_s"), "libgcc_s is asked for");
-    assert!(!holds(b".symtab") && !holds(b".debug_info"), "not stripped");
+    // As names of sections, which end in NUL; the standard library's backtraces hold them as plain words.
+    assert!(!holds(b"\0.symtab\0") && !holds(b"\0.debug_info\0"), "not stripped");
     let root = common::root().to_str().unwrap();
     assert!(!holds(root.as_bytes()), "it tells where it was built: {root}");
 }
@@ -71,6 +72,13 @@ fn two_builds_in_two_folders_give_equal_bytes() {
         assert!(status.success(), "{part}");
     }
     let first = common::library();
+    // The environment with the linker serves both.
+    #[cfg(unix)]
+    {
+        let environment = Project::find().target().join("python");
+        std::fs::create_dir(copy.join("target")).unwrap();
+        std::os::unix::fs::symlink(environment, copy.join("target/python")).unwrap();
+    }
     let second = Library::obtain(&Project::at(&copy), &Choice::default()).unwrap();
     assert!(first.binaries()[0].bytes == second.binaries()[0].bytes, "the libraries differ");
 }

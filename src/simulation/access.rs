@@ -45,14 +45,16 @@ impl Access {
 /// is in its range.
 #[inline]
 pub(super) fn can_set(access: &[Access], writable: u8, references: &[u32], values: &[f64]) -> Option<u8> {
-    let (mut good, mut classes) = (true, 0);
+    let mut classes = 0;
     for (&reference, &value) in references.iter().zip(values) {
         let rule = access.get(reference as usize)?;
-        // No short cuts: the good path has no branch to mispredict.
-        good &= (rule.class & writable != 0) & (value >= rule.min) & (value <= rule.max);
+        // Hosts set what they may: three branches foretold cost less than three comparisons put together.
+        if rule.class & writable == 0 || !(value >= rule.min) || !(value <= rule.max) {
+            return None;
+        }
         classes |= rule.class;
     }
-    good.then_some(classes)
+    Some(classes)
 }
 
 /// All classes that occur among the references; `None` if one is unknown or not real.

@@ -323,7 +323,13 @@ pub(crate) const RULES: &[(&str, &str, &[Evidence])] = &[
     (
         "Archive",
         "Packing again gives equal bytes; so does compiling again, also in another folder.",
-        &[T("packing_a_scene_twice_gives_equal_bytes"), M("sha256sum of the library built in two folders", "equal")],
+        &[
+            T("packing_a_scene_twice_gives_equal_bytes"),
+            M(
+                "cargo test -p fmu-build --test library -- --ignored two_builds_in_two_folders_give_equal_bytes",
+                "equal",
+            ),
+        ],
     ),
     (
         "Archive",
@@ -352,6 +358,11 @@ pub(crate) const RULES: &[(&str, &str, &[Evidence])] = &[
     ),
     (
         "Hostile callers",
+        "Valgrind's memcheck finds no error and no leak in the tests of the C interface.",
+        &[M("valgrind (docs/fmi2.md, Memory)", "60 tests, 0 errors, nothing definitely or indirectly lost")],
+    ),
+    (
+        "Hostile callers",
         "Miri on what it can run.",
         &[N("the component could not be installed where this was written")],
     ),
@@ -362,6 +373,14 @@ pub(crate) const RULES: &[(&str, &str, &[Evidence])] = &[
     ),
     (
         "Importers",
+        "libcosim and the Rust crate fmi run every shipped FMU.",
+        &[
+            M("libcosimpy 0.0.6", "200 steps, all outputs finite"),
+            M("fmi 0.8.0", "200 steps, saved, set back, restored from bytes: equal bits"),
+        ],
+    ),
+    (
+        "Importers",
         "Iterated coupling with rollback through fmpy, with and without directional derivatives.",
         &[T("a_light_shaft_of_the_host_is_stepped_again_until_both_agree")],
     ),
@@ -369,5 +388,13 @@ pub(crate) const RULES: &[(&str, &str, &[Evidence])] = &[
         "Cost",
         "No allocation in setting, stepping, reading, saving and restoring.",
         &[T("setting_stepping_reading_saving_and_restoring_allocate_nothing"), T("a_step_allocates_nothing")],
+    ),
+    (
+        "Cost",
+        "20 values read in 45 ns, set in 25 ns; 10 ns in a step beyond the solver; a state saved or set back in 100 ns; created, initialized and freed in 50 µs.",
+        &[M(
+            "cargo bench --bench fmi2_interface",
+            "22 ns, 23 ns, 32 and 59 ns are kept; a step's 17 to 27 ns and 74 µs are not",
+        )],
     ),
 ];
