@@ -12,6 +12,9 @@ use super::runs::Case;
 use super::{LAWS, Values, write_csv};
 use crate::project::Project;
 
+/// A row of the table of events: its name, the prototype's figure, and how ours is read.
+type Event = (&'static str, &'static str, fn(&FourEvents) -> f64);
+
 /// Samples per second of what is looked at closely: elements ring on their contacts at 40 to 50 kHz.
 const RATE: f64 = 1e6;
 const NAMES: [&str; 5] =
@@ -31,7 +34,7 @@ pub fn fill(project: &Project, values: &mut Values) -> Result<()> {
         }
         columns.extend(run);
     }
-    let rows: [(&str, &str, fn(&FourEvents) -> f64); 6] = [
+    let rows: [Event; 6] = [
         ("element free of load after the leading edge (ms)", "0.6", |e| 1e3 * e.free),
         ("first strike of the floor after the leading edge (ms)", "weak", |e| 1e3 * e.floor),
         ("inner ring carries again (ms)", "10.1", |e| 1e3 * e.reload),
