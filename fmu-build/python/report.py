@@ -48,7 +48,7 @@ for axis in axes[:, 0]:
     axis.set_ylabel("acceleration error (rms / rms)")
 for axis in axes[-1]:
     axis.set_xlabel("CPU seconds per simulated second")
-axes[0, 0].legend(loc="lower left", ncols=1)
+axes[0, -1].legend(loc="lower right")
 plotting.save(figure, stem)
 
 # Co-simulation: one row of panels for each scene, one panel for each mass.
@@ -97,5 +97,5 @@ for law, colour, marker, name in (("love", BLUE, "o", "grid against a finer grid
         axis.annotate(label, (x, float(row["max_normal"])), textcoords="offset points", xytext=(7, 3), fontsize=8)
 axis.set_xlabel("CPU time of one contact (s)")
 axis.set_ylabel("error of the normal force / full scale")
-axis.legend(loc="upper center")
+axis.legend(loc="lower center")
 plotting.save(figure, stem.with_name(stem.name + "-contact"))

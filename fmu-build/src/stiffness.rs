@@ -9,6 +9,7 @@ use anyhow::{Context, Result, bail};
 use brinell::analysis::critical_load::{Bottom, CriticalLoad};
 use brinell::analysis::static_bearing::{Balance, StaticBearing, StaticError};
 use brinell::analysis::stiffness::{min_mean_max, sweep};
+use brinell::scene::ContactLaw;
 
 use crate::csv;
 use crate::model::Model;
@@ -33,12 +34,23 @@ const VARIATIONS: usize = 21;
 
 /// The command: `<folder>/<scene>-stiffness.csv`, with a defect `<scene>-critical-load.csv`, and, if wanted, a figure.
 pub fn command(project: &Project, model: &Model, options: Options, folder: &Path) -> Result<()> {
+    if let Some(amount) = options.load.filter(|amount| !(amount.is_finite() && *amount > 0.0)) {
+        bail!("load {amount} N: it must be finite and above 0");
+    }
     let profile = model.profile.as_ref().map(|profile| profile.text.as_str());
     let bearing = loaded(StaticBearing::new(&model.scene, profile)?, options.load)?;
     let healthy = loaded(
         StaticBearing::new(&brinell::scene::Scene { defect: None, ..model.scene.clone() }, None)?,
         options.load,
     )?;
+    // The bottom of a spall is flat: every law is Hertz's there, and with `hertz` a variation needs no new map.
+    let mut plain = model.scene.clone();
+    plain.contact.law = ContactLaw::Hertz;
+    let varied = match StaticBearing::new(&plain, profile) {
+        Ok(plain) => loaded(plain, options.load)?,
+        // A topography is no matter for law `hertz`.
+        Err(_) => bearing.clone(),
+    };
     let [x, y] = bearing.load();
     let bottom = bottom_of(&bearing)?;
     // In the middle of the sweep element 1 is in the middle of the defect, at its ends two elements are about it.
@@ -61,7 +73,7 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
         let mut out = create(&path)?;
         write_variations(
             &mut out,
-            &bearing,
+            &varied,
             bottom,
             critical,
             model.scene.bearing.radial_clearance,
@@ -71,7 +83,7 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
         println!("{}", path.display());
         paths.push(path);
     }
-    print!("{}", summary(&bearing, &balances, bottom.as_ref(), critical.as_ref())?);
+    print!("{}", summary(&bearing, &varied, &balances, bottom.as_ref(), critical.as_ref())?);
     if options.figure {
         let python = Python::prepare(project)?;
         print!("{}", python.run("stiffness.py", [stem])?);
@@ -82,9 +94,6 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
 /// The bearing under an amount of load along its own.
 fn loaded(bearing: StaticBearing, amount: Option<f64>) -> Result<StaticBearing> {
     let Some(amount) = amount else { return Ok(bearing) };
-    if !(amount.is_finite() && amount > 0.0) {
-        bail!("load {amount} N: it must be finite and above 0");
-    }
     let [x, y] = bearing.load();
     let length = libm::hypot(x, y);
     // A scene whose rings the host moves has no load: downwards then.
@@ -201,6 +210,7 @@ fn write_variations(
 
 fn summary(
     bearing: &StaticBearing,
+    varied: &StaticBearing,
     balances: &[Balance],
     bottom: Option<&Bottom>,
     critical: Option<&CriticalLoad>,
@@ -228,7 +238,7 @@ fn summary(
         angles[1],
         angles[0]
     );
-    if let Some(by) = bearing.sensitivity(critical)? {
+    if let Some(by) = varied.sensitivity(critical)? {
         text += &format!(
             "  per µm of depth {:+.1} N, per µm of clearance {:+.1} N, per nm/N of compliance {:+.1} N\n",
             by.by_depth * 1e-6,

@@ -79,6 +79,7 @@ pub(super) fn measure(python: &Python, extent: Extent, data: &Path) -> Result<In
             "6205-hosted",
             "6205-healthy",
             "6205-epps",
+            "6205-spall-5deg",
             "er16k-tb1-hosted-shaft",
             "er16k-tb1",
             "er16k-tb2",
