@@ -1,7 +1,7 @@
 //! Sizing of spalls from signals that are made here, by the kinematics of an element of finite size, or by the library's own
 //! simulation. No recording of a machine is needed.
 
-// A helper of a test may end it like the test itself.
+// What a test calls may end it like the test itself.
 #![allow(clippy::unwrap_used)]
 
 use brinell::analysis::error::SizingError;
