@@ -15,9 +15,9 @@ pub struct Instant<'a> {
     acceleration: [[f64; 2]; 2],
     sensor: f64,
     cage_angle: f64,
-    cage_speed: f64,
-    cage_torque: f64,
     model: &'a Model,
+    drive: &'a Drive,
+    tau: f64,
 }
 
 impl<'a> Instant<'a> {
@@ -25,7 +25,7 @@ impl<'a> Instant<'a> {
     /// `cage_start` is the cage angle at the communication point [rad], all turns counted.
     pub fn new(
         model: &'a Model,
-        (drive, tau): (&Drive, f64),
+        (drive, tau): (&'a Drive, f64),
         (state, derivative): (&'a [f64], &[f64]),
         forces: &'a Forces,
         cage_start: f64,
@@ -44,9 +44,9 @@ impl<'a> Instant<'a> {
             acceleration,
             sensor: model.layout.sensor.map_or(0.0, |i| derivative[i + 1]),
             cage_angle: cage_start + drive.cage.at(tau),
-            cage_speed: drive.cage.rate_at(tau),
-            cage_torque: model.cage_torque(drive, tau, state, acceleration[1], forces),
             model,
+            drive,
+            tau,
         }
     }
 
@@ -59,8 +59,12 @@ impl<'a> Instant<'a> {
             Quantity::Force(ring, axis) => [self.forces.shaft, self.forces.housing][place(ring)][axis],
             Quantity::SensorAcceleration => self.sensor,
             Quantity::CageAngle => self.cage_angle,
-            Quantity::CageSpeed => self.cage_speed,
-            Quantity::CageTorque => self.cage_torque,
+            Quantity::CageSpeed => self.drive.cage.rate_at(self.tau),
+            // A sum over all elements, and recorders do not ask for it.
+            Quantity::CageTorque => {
+                let acceleration = self.acceleration[place(RingName::Housing)];
+                self.model.cage_torque(self.drive, self.tau, self.state, acceleration, self.forces)
+            }
             Quantity::ElementAngle(j) => self.cage_angle + self.model.element_offset(j),
             Quantity::ElementPath(j) => self.state[j],
             Quantity::ElementInnerForce(j) => self.forces.contacts.inner[j],
