@@ -8,42 +8,13 @@
 
 #![allow(clippy::unwrap_used)]
 
+#[path = "support/counting.rs"]
+mod counting;
 mod support;
 
 use brinell::scene::{ContactLaw, Defect, DefectShape, Scene};
-use std::alloc::{GlobalAlloc, Layout, System};
 use std::f64::consts::FRAC_PI_2;
-use std::sync::atomic::{AtomicU64, Ordering};
 use support::{Named, shipped};
-
-/// Counts allocations of the threads that ask for it.
-struct Counting;
-
-static ALLOCATIONS: AtomicU64 = AtomicU64::new(0);
-
-// SAFETY: every call goes to the system allocator unchanged.
-#[allow(unsafe_code)]
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        if COUNTED.with(std::cell::Cell::get) {
-            ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
-        }
-        // SAFETY: as promised by the caller.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: as promised by the caller.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
-
-thread_local! {
-    static COUNTED: std::cell::Cell<bool> = const { std::cell::Cell::new(false) };
-}
 
 const LAWS: [ContactLaw; 3] = [ContactLaw::Hertz, ContactLaw::Map, ContactLaw::Love];
 
@@ -71,12 +42,10 @@ fn a_step_past_the_defect_allocates_nothing() {
         let mut bearing = passing(law);
         // Workspaces of the grid grow to their largest at the first contacts.
         bearing.run(2e-5, 10);
-        let (before, looked_up) = (ALLOCATIONS.load(Ordering::Relaxed), lookups(&mut bearing));
-        COUNTED.with(|c| c.set(true));
-        let result = (0..10).try_for_each(|_| bearing.0.step(2e-5));
-        COUNTED.with(|c| c.set(false));
+        let looked_up = lookups(&mut bearing);
+        let (result, allocations) = counting::counted(|| (0..10).try_for_each(|_| bearing.0.step(2e-5)));
         result.unwrap();
-        assert_eq!(ALLOCATIONS.load(Ordering::Relaxed) - before, 0, "{law:?}");
+        assert_eq!(allocations, 0, "{law:?}");
         assert!(lookups(&mut bearing) > looked_up, "{law:?}: no element was near the defect");
     }
 }

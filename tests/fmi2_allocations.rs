@@ -5,35 +5,15 @@
 // What helpers unwrap is the test's own set-up.
 #![allow(clippy::unwrap_used)]
 
+#[path = "support/counting.rs"]
+mod counting;
 #[path = "fmi2/host.rs"]
 #[allow(dead_code)]
 mod host;
 
 use brinell::fmi2::*;
+use counting::allocations;
 use host::Host;
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::sync::atomic::{AtomicU64, Ordering};
-
-struct Counting;
-
-static COUNT: AtomicU64 = AtomicU64::new(0);
-
-// SAFETY: passes everything on to the system's allocator.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        COUNT.fetch_add(1, Ordering::Relaxed);
-        // SAFETY: the caller's contract.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: the caller's contract.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 #[test]
 fn setting_stepping_reading_saving_and_restoring_allocate_nothing() {
@@ -42,7 +22,7 @@ fn setting_stepping_reading_saving_and_restoring_allocate_nothing() {
         let (speed, all) = (host.reference("shaft.speed"), host.reals());
         let mut values = vec![0.0; all.len()];
         let mut state = host.save();
-        let before = COUNT.load(Ordering::Relaxed);
+        let before = allocations();
         for n in 0..200 {
             assert_eq!(host.set(&[speed], &[60.0 + 0.01 * f64::from(n)]), Status::Ok);
             assert_eq!(host.step(f64::from(n) * 1e-4, 1e-4), Status::Ok);
@@ -53,6 +33,6 @@ fn setting_stepping_reading_saving_and_restoring_allocate_nothing() {
                 assert_eq!(fmi2SetFMUstate(host.c, state), Status::Ok);
             }
         }
-        assert_eq!(COUNT.load(Ordering::Relaxed) - before, 0, "{scene}");
+        assert_eq!(allocations() - before, 0, "{scene}");
     }
 }

@@ -1,43 +1,13 @@
 //! The model against laws: balance, symmetry, conservation, and what a step may not do.
 
+#[path = "support/counting.rs"]
+mod counting;
 mod support;
 
 use brinell::scene::{Damping, Motion, Scene};
 use brinell::simulation::Method;
 use proptest::prelude::*;
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::sync::atomic::{AtomicU64, Ordering};
 use support::{Named, shipped};
-
-/// Counts allocations of the whole test binary.
-struct Counting;
-
-static ALLOCATIONS: AtomicU64 = AtomicU64::new(0);
-
-// SAFETY: every call goes to the system allocator unchanged.
-#[allow(unsafe_code)]
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        if COUNTED.with(std::cell::Cell::get) {
-            ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
-        }
-        // SAFETY: as promised by the caller.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: as promised by the caller.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
-
-thread_local! {
-    /// Whether this thread's allocations count; other tests run beside it.
-    static COUNTED: std::cell::Cell<bool> = const { std::cell::Cell::new(false) };
-}
 
 fn without_damping(mut scene: Scene) -> Scene {
     scene.contact.damping = Damping::HuntCrossley(0.0);
@@ -200,12 +170,9 @@ fn a_step_allocates_nothing() {
         let mut bearing = Named::started(shipped(name));
         bearing.0.set_method(method);
         bearing.run(1e-4, 5);
-        let before = ALLOCATIONS.load(Ordering::Relaxed);
-        COUNTED.with(|c| c.set(true));
-        let result = (0..200).try_for_each(|_| bearing.0.step(1e-4));
-        COUNTED.with(|c| c.set(false));
+        let (result, allocations) = counting::counted(|| (0..200).try_for_each(|_| bearing.0.step(1e-4)));
         result.unwrap();
-        assert_eq!(ALLOCATIONS.load(Ordering::Relaxed) - before, 0, "{name}");
+        assert_eq!(allocations, 0, "{name}");
     }
 }
 

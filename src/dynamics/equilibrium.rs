@@ -11,6 +11,7 @@
 use super::drive::{Drive, Quadratic};
 use super::forces::{SMOOTH, dot};
 use super::model::Model;
+use crate::numerics::linear::solve4;
 use crate::scene::Motion;
 
 /// Why no equilibrium was found.
@@ -234,7 +235,7 @@ impl Model {
                 };
             }
         }
-        let mut step = solve(matrix, balance.force);
+        let mut step = solve4(matrix, balance.force);
         let length = step.iter().fold(0.0f64, |m, s| m.max(s.abs()));
         if !length.is_finite() || dot4(step, balance.force) <= 0.0 {
             step = balance.force.map(|f| f / balance.residual() * LONGEST_STEP);
@@ -373,27 +374,4 @@ impl Balance {
 
 fn dot4(a: [f64; 4], b: [f64; 4]) -> f64 {
     (0..4).map(|i| a[i] * b[i]).sum()
-}
-
-/// Gaussian elimination with row pivoting; a singular system gives non-finite values.
-pub(super) fn solve(mut a: [[f64; 4]; 4], mut b: [f64; 4]) -> [f64; 4] {
-    for i in 0..4 {
-        let pivot = (i..4).fold(i, |best, k| if a[k][i].abs() > a[best][i].abs() { k } else { best });
-        a.swap(i, pivot);
-        b.swap(i, pivot);
-        for k in i + 1..4 {
-            let factor = a[k][i] / a[i][i];
-            let pivot_row = a[i];
-            for (value, above) in a[k].iter_mut().zip(pivot_row).skip(i) {
-                *value -= factor * above;
-            }
-            b[k] -= factor * b[i];
-        }
-    }
-    let mut x = [0.0; 4];
-    for i in (0..4).rev() {
-        let sum: f64 = (i + 1..4).map(|k| a[i][k] * x[k]).sum();
-        x[i] = (b[i] - sum) / a[i][i];
-    }
-    x
 }

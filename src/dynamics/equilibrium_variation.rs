@@ -8,10 +8,10 @@
 //! equilibrium of their own; their derivative does not exist.
 
 use super::drive::Drive;
-use super::equilibrium::solve;
 use super::forces::dot;
 use super::model::Model;
 use super::variation::{ElementChange, ElementVariation, Variation, VaryingElement};
+use crate::numerics::linear::solve4;
 use crate::scene::Motion;
 
 /// Change of one element's path and of the forces on the rings, its balance kept.
@@ -68,7 +68,7 @@ impl Model {
                 matrix[i][i] = 1.0;
             }
         }
-        let moved = solve(matrix, force);
+        let moved = solve4(matrix, force);
         if moved.iter().any(|value| !value.is_finite()) {
             return None;
         }

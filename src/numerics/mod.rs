@@ -5,6 +5,7 @@
 
 pub mod elliptic;
 pub mod lanes;
+pub mod linear;
 mod power;
 #[cfg(test)]
 pub(crate) mod trees;

@@ -23,6 +23,7 @@
 //! The run begins in balance under half the load; then the whole load acts, and the ring swings with its own frequency on
 //! the bearing.
 
+use brinell::numerics::linear::solve4;
 use brinell::scene::{Motion, Ring, Scene};
 use brinell::simulation::{Simulation, SimulationError};
 
@@ -323,7 +324,7 @@ impl Host {
                     + h * v_0
                     + g * (0.5 * (mean[i] + load) + (f - end[i]) / 12.0 - c * (v_0 / 3.0 + v[i] / 6.0));
             }
-            let y = solve(matrix, right);
+            let y = solve4(matrix, right);
             found = [[y[0], y[1]], [y[2], y[3]]];
             let pull = times(found[0]);
             v = [0, 1].map(|i| {
@@ -333,29 +334,6 @@ impl Host {
         }
         Ok([found[0], found[1], v])
     }
-}
-
-/// Gaussian elimination with row pivoting.
-fn solve(mut a: [[f64; 4]; 4], mut b: [f64; 4]) -> [f64; 4] {
-    for i in 0..4 {
-        let pivot = (i..4).fold(i, |best, k| if a[k][i].abs() > a[best][i].abs() { k } else { best });
-        a.swap(i, pivot);
-        b.swap(i, pivot);
-        for k in i + 1..4 {
-            let factor = a[k][i] / a[i][i];
-            for j in i..4 {
-                a[k][j] -= factor * a[i][j];
-            }
-            b[k] -= factor * b[i];
-        }
-    }
-    for i in (0..4).rev() {
-        for j in i + 1..4 {
-            b[i] -= a[i][j] * b[j];
-        }
-        b[i] /= a[i][i];
-    }
-    b
 }
 
 #[cfg(test)]
