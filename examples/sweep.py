@@ -76,39 +76,52 @@ def prepare(base, runs, folder):
 
 
 class Bearings(WorkerPlugin):
-    """Lives on a worker: the FMUs' files, and one instance of each."""
+    """Lives on a worker: the FMUs' files, one instance of each, and the module that drives them.
+
+    The module comes with the plugin and is imported only after `setup`: a worker that joins later unpacks all its plugins
+    at once, before a file that was uploaded for it is there.
+    """
 
     name = "bearings"
 
-    def __init__(self, paths, program=None):
+    def __init__(self, paths, module, program=None):
         self.program = program
+        self.module = Path(module).read_bytes()
         self.files = {name: Path(path).read_bytes() for name, path in paths.items()}
         self.scenes = {name: Path(path).with_suffix(".toml").read_text(encoding="utf-8") for name, path in paths.items()}
 
     def setup(self, worker):
         self.folder = Path(worker.local_directory) / "bearings"
+        self.folder.mkdir(parents=True, exist_ok=True)
+        (self.folder / "bearing.py").write_bytes(self.module)
+        sys.path.insert(0, str(self.folder))
+        sys.modules.pop("bearing", None)  # an earlier sweep's
         self.instances = {}
 
     def teardown(self, worker):
+        sys.path.remove(str(self.folder))
         shutil.rmtree(self.folder, ignore_errors=True)
 
     def instance(self, name):
+        from bearing import Instance
+
         if name not in self.instances:
-            self.folder.mkdir(parents=True, exist_ok=True)
             path = self.folder / f"{name}.fmu"
             path.write_bytes(self.files[name])
-            self.instances[name] = bearing.Instance(str(path))
+            self.instances[name] = Instance(str(path))
         self.instances[name].reset()
         return self.instances[name]
 
     def sized(self, index, name, values, signal, options):
         """The spall's length from the sensor's signal alone, by `fmu size`."""
+        from bearing import changed_scene, tomllib
+
         recording, base = self.folder / f"run-{index}.npy", self.folder / f"{name}.toml"
         np.save(recording, signal)
         base.write_text(self.scenes[name], encoding="utf-8")
         # Of the scene it takes the bearing, the rig and the load; it does not look at the defect.
         load = {"shaft.load_n": [0.0, -values["shaft.load_n"]]} if "shaft.load_n" in values else {}
-        scene = bearing.changed_scene(base, f"run-{index}", load, self.folder)
+        scene = changed_scene(base, f"run-{index}", load, self.folder)
         speed = values.get("shaft.speed_hz", tomllib.loads(self.scenes[name])["shaft"]["speed_hz"])
         command = [*self.program, "size", recording, "--scene", scene, "--rate", options["rate"], "--speed", speed]
         command += ["--no-figure", "-o", self.folder / "sized"]
@@ -140,12 +153,14 @@ def simulate(index, name, values, options):
 
 def run_one(instance, values, options):
     """Steps an instance that is reset, and gives the features of what the sensor shows."""
+    from bearing import Numbers  # not above: the scheduler unpacks this function too, and has no such module
+
     told = {TOLD[key][0]: TOLD[key][1] * value for key, value in values.items() if key in TOLD}
     instance.enter(told)
     instance.run()
     count = sum(name.endswith(".path") for name in instance.reference)
     elements = [f"element[{j}].{what}" for what in ("angle", "force.outer") for j in range(1, count + 1)]
-    seen = bearing.Numbers(instance, ["sensor.acceleration", "cage.speed", *elements])
+    seen = Numbers(instance, ["sensor.acceleration", "cage.speed", *elements])
     slave, h = instance.slave, 1.0 / options["rate"]
     table = np.empty((round(options["stop"] * options["rate"]), len(seen.array)))
     for index in range(len(table)):
@@ -321,8 +336,7 @@ def main(arguments=None):
         n_workers=chosen.workers, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
     )
     with Client(cluster) as client:
-        client.upload_file(str(Path(__file__).with_name("bearing.py")))
-        client.register_plugin(Bearings(paths, bearing.executable()))
+        client.register_plugin(Bearings(paths, bearing.__file__, bearing.executable()))
         count, failed, seconds = collect(client, runs, names, options, chosen.output)
     if not chosen.scheduler:
         cluster.close()

@@ -50,8 +50,7 @@ def main():
         place.mkdir()
     with LocalCluster(n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address=None) as cluster:
         with Client(cluster) as client:
-            client.upload_file(str(Path(sys.argv[1]) / "bearing.py"))
-            client.register_plugin(sweep.Bearings(paths))
+            client.register_plugin(sweep.Bearings(paths, bearing.__file__))
             ended = []
 
             def end_a_worker_then_interrupt(count):
