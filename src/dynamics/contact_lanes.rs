@@ -1,7 +1,7 @@
 //! Contacts of several elements at a time: everything of the right-hand side that is the same for all elements.
 //!
 //! The equations are those of [`super::forces`], in the same grouping. An element near the defect, and every element of
-//! a bearing whose outer raceway yields, has outer stiffness 0 here; its outer contact is added by itself.
+//! a bearing whose outer raceway yields, has outer stiffness 0 here; its outer contact has been worked out before.
 //!
 //! Both damping laws are one expression without a branch:
 //! ```text
@@ -21,8 +21,9 @@ struct Smooth<'a> {
     at: &'a Moment,
 }
 
-/// Lists that are read: cos, sin, whether there is an element, 1/mass, Hertz constants of both contacts, u, w.
-const FROM: usize = 8;
+/// Lists that are read: cos, sin, whether there is an element, 1/mass, Hertz constants of both contacts, acceleration by other
+/// outer contacts, u, w.
+const FROM: usize = 9;
 
 /// What follows for some elements.
 struct Found<S: Wide> {
@@ -100,16 +101,14 @@ impl Model {
         &self,
         simd: S,
         at: &Moment,
-        cells: &[u32],
         state: &[f64],
         derivative: &mut [f64],
         forces: &mut Forces,
     ) -> [f64; 4] {
         let (count, start) = (self.element_count, self.layout.radial_velocity);
-        let outer: &[f64] =
-            if self.all_smooth() { &self.each.outer } else { self.smooth_only(cells, &mut forces.smooth_outer) };
-        let each = &self.each;
-        let from = [&each.cos, &each.sin, &each.present, &each.per_mass, &each.inner, outer, state, &state[start..]];
+        let (each, outer, others) = (&self.each, &forces.smooth_outer[..], &forces.other_outer[..]);
+        let from =
+            [&each.cos, &each.sin, &each.present, &each.per_mass, &each.inner, outer, others, state, &state[start..]];
         let (path_rate, acceleration) = derivative.split_at_mut(start);
         let (smooth, mut sums) = (Smooth { model: self, at }, [[0.0; QUAD]; 4]);
         if RECORD {
@@ -148,22 +147,6 @@ impl Model {
         let [shaft_x, shaft_y, housing_x, housing_y] = sums;
         [-sum_of(shaft_x), -sum_of(shaft_y), sum_of(housing_x), sum_of(housing_y)]
     }
-
-    /// Whether every outer contact is always that of the smooth rigid raceway.
-    #[inline]
-    pub(super) fn all_smooth(&self) -> bool {
-        self.defect.is_none() && self.outer.compliance == 0.0
-    }
-
-    /// Outer stiffness of those elements only that are on the smooth rigid raceway.
-    #[inline(always)]
-    fn smooth_only<'a>(&self, cells: &[u32], outer: &'a mut [f64]) -> &'a [f64] {
-        let rigid = self.outer.compliance == 0.0;
-        for ((outer, &stiffness), &cell) in outer.iter_mut().zip(&self.each.outer).zip(cells) {
-            *outer = if rigid && cell == super::forces::SMOOTH { stiffness } else { 0.0 };
-        }
-        outer
-    }
 }
 
 impl Smooth<'_> {
@@ -171,7 +154,7 @@ impl Smooth<'_> {
     fn contacts<S: Wide>(
         &self,
         simd: S,
-        [cos, sin, present, per_mass, inner, outer, u, w]: [Lanes<S>; FROM],
+        [cos, sin, present, per_mass, inner, outer, other, u, w]: [Lanes<S>; FROM],
         sums: &mut Sums,
     ) -> Found<S> {
         let (model, at) = (self.model, self.at);
@@ -194,7 +177,7 @@ impl Smooth<'_> {
         let inner = law.force(inner, delta, -opening);
         let outer = law.force(outer, u, path_rate);
         let turning = rho * Lanes::splat(simd, at.omega * at.omega);
-        let acceleration = (inner * n_r - outer) * per_mass + (dot(simd, at.body, e_r) + turning) * present;
+        let acceleration = (inner * n_r - outer) * per_mass + other + (dot(simd, at.body, e_r) + turning) * present;
 
         (inner * (n_r * e_r[0] - n_t * e_r[1])).add_to(&mut sums[0]);
         (inner * (n_r * e_r[1] + n_t * e_r[0])).add_to(&mut sums[1]);

@@ -30,8 +30,14 @@ pub const SMOOTH: u32 = u32::MAX;
 pub struct Forces {
     /// Each contact; only [`Model::derivative`] fills it.
     pub contacts: Record,
-    /// Outer stiffness of the elements on the smooth raceway [N/m^1.5].
+    /// Outer stiffness of the elements on the smooth rigid raceway [N/m^1.5]; 0 for the others.
     pub(super) smooth_outer: Vec<f64>,
+    /// Acceleration of w by the other outer contacts [m/s²]; 0 for elements on the smooth rigid raceway.
+    pub(super) other_outer: Vec<f64>,
+    /// Elements that are not on the smooth rigid raceway, with their cells.
+    others: Vec<(usize, u32)>,
+    /// Their outer contacts.
+    other_contacts: Vec<OtherContact>,
     /// The bearing's force on the inner ring [N].
     pub shaft: [f64; 2],
     /// The bearing's force on the outer ring [N].
@@ -46,7 +52,39 @@ impl Forces {
     /// Room for `count` elements.
     pub fn new(count: usize) -> Self {
         let places = places(count);
-        Self { contacts: Record::new(places), smooth_outer: vec![0.0; places], ..Self::default() }
+        Self {
+            contacts: Record::new(places),
+            smooth_outer: vec![0.0; places],
+            other_outer: vec![0.0; places],
+            others: Vec::with_capacity(count),
+            other_contacts: Vec::with_capacity(count),
+            ..Self::default()
+        }
+    }
+
+    /// Sorts the elements by the raceway they are on. What follows inside kernels is for these cells.
+    fn enter(&mut self, model: &Model, cells: &[u32]) {
+        let rigid = model.outer.compliance == 0.0;
+        self.others.clear();
+        self.other_outer.fill(0.0);
+        self.smooth_outer.copy_from_slice(&model.each.outer);
+        for (j, &cell) in cells.iter().enumerate() {
+            if !(rigid && cell == SMOOTH) {
+                self.others.push((j, cell));
+                self.smooth_outer[j] = 0.0;
+            }
+        }
+    }
+
+    /// Puts what [`Model::other_contacts`] found among the contacts that are kept.
+    fn record_others(&mut self) {
+        let record = &mut self.contacts;
+        for other in &self.other_contacts {
+            let j = other.element;
+            record.outer_approach[j] = other.approach;
+            record.outer_pushing[j] = other.pushing;
+            [record.outer[j], record.outer_radial[j], record.outer_tangential[j]] = other.force;
+        }
     }
 
     /// Largest approach of any contact [m], 0 if there is none.
@@ -61,6 +99,16 @@ impl Forces {
         Lists { from: approach, to: [] }.for_each(simd, approach[0].len(), &Largest, &mut most);
         largest_of(most)
     }
+}
+
+/// An outer contact that is not that of the smooth rigid raceway.
+#[derive(Debug, Clone, Copy)]
+struct OtherContact {
+    element: usize,
+    approach: f64,
+    pushing: f64,
+    /// Magnitude [N], and the parts inwards and counter-clockwise on the element.
+    force: [f64; 3],
 }
 
 /// What all elements see of rings and cage at one instant.
@@ -130,26 +178,29 @@ impl Model {
         derivative: &mut [f64],
         forces: &mut Forces,
     ) {
-        dispatch(Derivative { model: self, drive, clock: drive.clock(tau), cells, state, derivative, forces });
+        forces.enter(self, cells);
+        dispatch(Derivative { model: self, drive, clock: drive.clock(tau), state, derivative, forces });
     }
 
-    /// As [`Self::derivative`] inside a kernel. Each contact is kept only if `RECORD`.
+    /// As [`Self::derivative`] inside a kernel, for the cells that `forces` have last seen there. Each contact is kept only if
+    /// `RECORD`.
     #[inline(always)]
     pub(crate) fn derivative_on<S: Wide, const RECORD: bool>(
         &self,
         simd: S,
         (drive, clock): (&Drive, &Clock),
-        cells: &[u32],
         state: &[f64],
         derivative: &mut [f64],
         forces: &mut Forces,
     ) {
         let (at, tau) = (self.moment(drive, clock, state), clock.tau);
-        let mut on_rings = self.smooth_contacts::<S, RECORD>(simd, &at, cells, state, derivative, forces);
-        if !self.all_smooth() {
-            self.other_contacts(&at, cells, state, derivative, &mut on_rings, forces);
+        let others = if forces.others.is_empty() { [0.0; 2] } else { self.other_contacts(&at, state, forces) };
+        let [shaft_x, shaft_y, housing_x, housing_y] =
+            self.smooth_contacts::<S, RECORD>(simd, &at, state, derivative, forces);
+        let (housing_x, housing_y) = (housing_x + others[0], housing_y + others[1]);
+        if RECORD && !forces.others.is_empty() {
+            forces.record_others();
         }
-        let [shaft_x, shaft_y, housing_x, housing_y] = on_rings;
         (forces.shaft, forces.housing) = ([shaft_x, shaft_y], [housing_x, housing_y]);
         if let Some(i) = self.layout.shaft {
             let force = [drive.shaft_load[0].at(tau) + shaft_x, drive.shaft_load[1].at(tau) + shaft_y];
@@ -186,28 +237,23 @@ impl Model {
         }
     }
 
-    /// Adds the outer contacts that are not those of the smooth rigid raceway.
+    /// The outer contacts that are not those of the smooth rigid raceway; gives their force on the outer ring.
+    ///
+    /// They come first, so that what they add to an element's acceleration is long written when all elements' are read.
     #[inline(never)]
-    fn other_contacts(
-        &self,
-        at: &Moment,
-        cells: &[u32],
-        state: &[f64],
-        derivative: &mut [f64],
-        on_rings: &mut [f64; 4],
-        forces: &mut Forces,
-    ) {
+    fn other_contacts(&self, at: &Moment, state: &[f64], forces: &mut Forces) -> [f64; 2] {
         let (compliant, start) = (self.outer.compliance != 0.0, self.layout.radial_velocity);
-        for (j, &cell) in cells.iter().enumerate() {
-            if cell == SMOOTH && !compliant {
-                continue;
-            }
+        let mut on_housing = [0.0; 2];
+        let Forces { others, other_contacts, other_outer, defect_lookups, unsolved, .. } = forces;
+        other_contacts.clear();
+        for &(j, cell) in others.iter() {
             let e_r = self.direction(j, at.cage);
-            let (u, path_rate) = (state[j], derivative[j]);
+            let u = state[j];
+            let path_rate = state[start + j] - dot(at.housing.velocity, e_r);
             let near = self.near_defect(j, cell, u, at.cage_angle, self.outer_centre_radius + u);
-            forces.defect_lookups += u64::from(near.is_some());
+            *defect_lookups += u64::from(near.is_some());
             let near = near.unwrap_or_else(|| Ok(OuterApproach::smooth(u))).unwrap_or_else(|error| {
-                forces.unsolved = Some(error);
+                *unsolved = Some(error);
                 OuterApproach::unsolved()
             });
             let rate = near.by_path * path_rate + near.by_angle * at.omega;
@@ -215,16 +261,19 @@ impl Model {
                 if compliant { self.outer.of_contact(near.value, rate) } else { (near.value, rate) };
             let outer = self.outer.contact.force(part, part_rate);
             let (f_r, f_t) = (outer * near.radial, outer * near.tangential);
-            derivative[start + j] -= f_r * self.per_mass[0];
+            other_outer[j] = -f_r * self.per_mass[0];
             for axis in 0..2 {
-                on_rings[2 + axis] += f_r * e_r[axis] - f_t * [-e_r[1], e_r[0]][axis];
+                on_housing[axis] += f_r * e_r[axis] - f_t * [-e_r[1], e_r[0]][axis];
             }
-            let record = &mut forces.contacts;
-            record.outer_approach[j] = near.value;
-            record.outer_pushing[j] = self.outer.contact.pushing(part, part_rate);
-            record.outer[j] = outer * (near.radial * near.radial + near.tangential * near.tangential).sqrt();
-            (record.outer_radial[j], record.outer_tangential[j]) = (f_r, f_t);
+            let magnitude = outer * (near.radial * near.radial + near.tangential * near.tangential).sqrt();
+            other_contacts.push(OtherContact {
+                element: j,
+                approach: near.value,
+                pushing: self.outer.contact.pushing(part, part_rate),
+                force: [magnitude, f_r, f_t],
+            });
         }
+        on_housing
     }
 
     /// Where an element at path `u` in direction `e_r` is seen from the inner ring, whose centre is `offset` before the
@@ -315,7 +364,6 @@ struct Derivative<'a> {
     model: &'a Model,
     drive: &'a Drive,
     clock: Clock,
-    cells: &'a [u32],
     state: &'a [f64],
     derivative: &'a mut [f64],
     forces: &'a mut Forces,
@@ -326,8 +374,8 @@ impl Kernel for Derivative<'_> {
 
     #[inline(always)]
     fn run<S: Wide>(self, simd: S) {
-        let Self { model, drive, clock, cells, state, derivative, forces } = self;
-        model.derivative_on::<S, true>(simd, (drive, &clock), cells, state, derivative, forces);
+        let Self { model, drive, clock, state, derivative, forces } = self;
+        model.derivative_on::<S, true>(simd, (drive, &clock), state, derivative, forces);
     }
 }
 

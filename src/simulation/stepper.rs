@@ -526,7 +526,7 @@ impl Kernel for ExplicitStep<'_> {
         let forces = &mut stepper.forces;
         let nodes: [f64; dormand_prince::LAST] = std::array::from_fn(|i| dormand_prince::NODES[i] * h);
         let clocks = drive.clocks(from, nodes);
-        let mut stages = Stages { model, drive, clocks, cells: &progress.cells, forces, sum };
+        let mut stages = Stages { model, drive, clocks, forces, sum };
         stepper.explicit.try_step(simd, &progress.state, h, &mut stages);
         stepper.weighted_force = stages.sum;
         stepper.last_force = ring_forces(&stepper.forces);
@@ -551,15 +551,14 @@ impl Kernel for ImplicitStep<'_> {
     #[inline(always)]
     fn run<S: Wide>(self, simd: S) {
         let Self { stepper, model, drive, from, h, progress } = self;
-        let [first, .., last] = &mut stepper.explicit.stages;
+        let Stepper { explicit, implicit, forces, jacobian, arrow, by_time, largest_approach, .. } = stepper;
+        let [first, .., last] = &mut explicit.stages;
         let clocks = drive.clocks(from, rodas::NODES.map(|node| node * h));
-        let (cells, forces) = (&progress.cells, &mut stepper.forces);
-        let mut system =
-            System { model, drive, clocks, cells, forces, jacobian: &stepper.jacobian, arrow: &stepper.arrow };
-        stepper.implicit.try_step(simd, &progress.state, (first, &stepper.by_time), h, &mut system);
+        let mut system = System { model, drive, clocks, forces, jacobian, arrow };
+        implicit.try_step(simd, &progress.state, (first, by_time), h, &mut system);
         let at = (drive, &clocks[rodas::NODES.len() - 1]);
-        model.derivative_on::<S, true>(simd, at, cells, &stepper.implicit.end, last, &mut stepper.forces);
-        stepper.largest_approach = stepper.forces.largest_approach_on(simd);
+        model.derivative_on::<S, true>(simd, at, &implicit.end, last, forces);
+        *largest_approach = forces.largest_approach_on(simd);
     }
 }
 
@@ -568,7 +567,6 @@ struct System<'a> {
     model: &'a Model,
     drive: &'a Drive,
     clocks: [Clock; 8],
-    cells: &'a [u32],
     forces: &'a mut Forces,
     jacobian: &'a Jacobian,
     arrow: &'a Arrow,
@@ -578,7 +576,7 @@ impl rodas::System for System<'_> {
     #[inline(always)]
     fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: &[f64], out: &mut [f64]) {
         let at = (self.drive, &self.clocks[stage]);
-        self.model.derivative_on::<S, false>(simd, at, self.cells, state, out, self.forces);
+        self.model.derivative_on::<S, false>(simd, at, state, out, self.forces);
     }
 
     fn solve(&self, b: &mut [f64]) {
@@ -592,7 +590,6 @@ struct Stages<'a> {
     drive: &'a Drive,
     /// Those of the first five stages; the last two are at the same time.
     clocks: [Clock; dormand_prince::LAST],
-    cells: &'a [u32],
     forces: &'a mut Forces,
     /// Sum of weight × ring force.
     sum: [f64; 4],
@@ -602,11 +599,11 @@ impl RightHandSide for Stages<'_> {
     #[inline(always)]
     fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: &[f64], out: &mut [f64]) {
         let at = (self.drive, &self.clocks[stage.min(dormand_prince::LAST - 1)]);
-        let (cells, forces) = (self.cells, &mut *self.forces);
+        let forces = &mut *self.forces;
         if stage == dormand_prince::LAST {
-            return self.model.derivative_on::<S, true>(simd, at, cells, state, out, forces);
+            return self.model.derivative_on::<S, true>(simd, at, state, out, forces);
         }
-        self.model.derivative_on::<S, false>(simd, at, cells, state, out, forces);
+        self.model.derivative_on::<S, false>(simd, at, state, out, forces);
         for (sum, force) in self.sum.iter_mut().zip(ring_forces(forces)) {
             *sum += dormand_prince::STAGES[dormand_prince::LAST][stage] * force;
         }
