@@ -38,6 +38,8 @@ pub struct Forces {
     others: Vec<(usize, u32)>,
     /// Their outer contacts.
     other_contacts: Vec<OtherContact>,
+    /// Number of elements.
+    count: usize,
     /// The bearing's force on the inner ring [N].
     pub shaft: [f64; 2],
     /// The bearing's force on the outer ring [N].
@@ -53,6 +55,7 @@ impl Forces {
     pub fn new(count: usize) -> Self {
         let places = places(count);
         Self {
+            count,
             contacts: Record::new(places),
             smooth_outer: vec![0.0; places],
             other_outer: vec![0.0; places],
@@ -90,6 +93,38 @@ impl Forces {
     /// Largest approach of any contact [m], 0 if there is none.
     pub fn largest_approach(&self) -> f64 {
         self.contacts.inner_approach.iter().chain(&self.contacts.outer_approach).copied().fold(0.0, f64::max)
+    }
+
+    /// Notes which contacts push: 1 for those that do, −1 for the others, the inner contacts before the outer.
+    pub fn note_pushing(&self, sides: &mut [f64]) {
+        let lengths = self.contacts.inner_pushing.iter().chain(&self.contacts.outer_pushing);
+        for (side, &length) in sides.iter_mut().zip(lengths) {
+            *side = if length > 0.0 { 1.0 } else { -1.0 };
+        }
+    }
+
+    /// How far the contact that has changed most since `sides` were noted is beyond its change [m]; negative while none has.
+    pub fn beyond_change(&self, sides: &[f64]) -> f64 {
+        let places = self.contacts.inner_pushing.len();
+        let (inner, outer) = sides.split_at(places);
+        let mut most = f64::NEG_INFINITY;
+        for (sides, lengths) in [(inner, &self.contacts.inner_pushing), (outer, &self.contacts.outer_pushing)] {
+            for (side, length) in sides.iter().zip(lengths).take(self.count) {
+                most = most.max(-side * length);
+            }
+        }
+        most
+    }
+
+    /// Whether any contact has changed since `sides` were noted, inside a kernel.
+    #[inline(always)]
+    pub(crate) fn pushing_differs_on<S: Wide>(&self, simd: S, sides: &[f64]) -> bool {
+        let places = self.contacts.inner_pushing.len();
+        let (inner, outer) = sides.split_at(places);
+        let from = [inner, &self.contacts.inner_pushing, outer, &self.contacts.outer_pushing];
+        let mut most = [0.0; QUAD];
+        Lists { from, to: [] }.for_each(simd, places, &BeyondChange, &mut most);
+        largest_of(most) > 0.0
     }
 
     /// As [`Self::largest_approach`], inside a kernel.
@@ -343,6 +378,20 @@ impl Model {
                 rho * (contacts + self.element_mass * (dot(self.gravity, e_t) - inertia))
             })
             .sum()
+    }
+}
+
+/// How far the contact that has changed most is beyond its change.
+struct BeyondChange;
+
+impl Each<4, 0> for BeyondChange {
+    type Sum = [f64; QUAD];
+
+    #[inline(always)]
+    fn places<S: Wide>(&self, _: S, from: [Lanes<S>; 4], most: &mut [f64; QUAD]) -> [Lanes<S>; 0] {
+        let [inner_side, inner, outer_side, outer] = from;
+        (-(inner_side * inner)).at_least(-(outer_side * outer)).largest_to(most);
+        []
     }
 }
 

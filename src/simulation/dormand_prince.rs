@@ -113,18 +113,10 @@ impl DormandPrince {
     }
 
     /// State at share `share` of the step tried last, into `out`.
-    pub fn dense(&self, state: &[f64], h: f64, share: f64, out: &mut [f64]) {
-        let rest = 1.0 - share;
-        for (i, value) in out.iter_mut().enumerate() {
-            let difference = self.end[i] - state[i];
-            let start = h * self.stages[0][i] - difference;
-            let end = difference - h * self.stages[6][i] - start;
-            let mut bend = 0.0;
-            for (stage, weight) in self.stages.iter().zip(DENSE) {
-                bend += weight * stage[i];
-            }
-            *value = state[i] + share * (difference + rest * (start + share * (end + rest * h * bend)));
-        }
+    #[inline(always)]
+    pub fn dense<S: Wide>(&self, simd: S, state: &[f64], h: f64, share: f64, out: &mut [f64]) {
+        let [first, _, b, c, d, e, last] = &self.stages;
+        self.cut.for_each(simd, [state, &self.end, first, b, c, d, e, last], out, &Dense { h, share }, &mut ());
     }
 
     /// Makes the last stage of the step tried last the first of the next.
@@ -164,6 +156,30 @@ macro_rules! combine {
 }
 
 combine!(1: 2, 2: 3, 3: 4, 4: 5, 5: 6, 6: 7);
+
+/// The state at a share of a step of this length: from those at its ends and all stages but the second, whose weight is 0.
+struct Dense {
+    h: f64,
+    share: f64,
+}
+
+impl Each<8, 1> for Dense {
+    type Sum = ();
+
+    #[inline(always)]
+    fn places<S: Wide>(&self, simd: S, from: [Lanes<S>; 8], (): &mut ()) -> [Lanes<S>; 1] {
+        let [state, after, first, b, c, d, e, last] = from;
+        let [h, share, rest] = [self.h, self.share, 1.0 - self.share].map(|number| Lanes::splat(simd, number));
+        let difference = after - state;
+        let start = h * first - difference;
+        let end = difference - h * last - start;
+        let mut bend = Lanes::splat(simd, DENSE[0]) * first;
+        for (stage, &weight) in [b, c, d, e, last].into_iter().zip(&DENSE[2..]) {
+            bend = bend + Lanes::splat(simd, weight) * stage;
+        }
+        [state + share * (difference + rest * (start + share * (end + rest * h * bend)))]
+    }
+}
 
 /// Weighted errors.
 struct Errors;
@@ -283,7 +299,7 @@ mod tests {
             (1..20)
                 .map(|i| {
                     let share = i as f64 / 20.0;
-                    method.dense(&state, h, share, &mut found);
+                    method.dense(Scalar256b, &state, h, share, &mut found);
                     (found[1] - 0.5 * (2.0 * share * h).sin()).abs()
                 })
                 .fold(0.0, f64::max)

@@ -4,11 +4,13 @@
 
 mod access;
 pub mod arrow;
+mod contact_changes;
 mod dependencies;
 pub mod derivatives;
 pub mod dormand_prince;
 pub mod error;
 pub mod guid;
+mod kernels;
 mod knots;
 pub mod outputs;
 pub mod progress;
@@ -500,10 +502,7 @@ impl Simulation {
         }
         self.model.equilibrium(&drive, &progress.cells, &mut progress.state)?;
         self.model.derivative(&drive, 0.0, &progress.cells, &progress.state, &mut self.derivative, &mut self.forces);
-        let pushing = self.forces.contacts.inner_pushing.iter().chain(&self.forces.contacts.outer_pushing);
-        for (flag, &value) in progress.pushing.iter_mut().zip(pushing) {
-            *flag = value > 0.0;
-        }
+        self.forces.note_pushing(&mut progress.pushing);
         let (shaft, housing) = (self.forces.shaft, self.forces.housing);
         progress.mean_force = [shaft[0], shaft[1], housing[0], housing[1]];
         self.equilibrium_is_stale = false;

@@ -15,8 +15,9 @@ pub struct Progress {
     pub state: Vec<f64>,
     /// Cell of the defect in which each element is.
     pub cells: Vec<u32>,
-    /// Whether the inner contacts, then the outer contacts, push; each list filled up to a multiple of eight.
-    pub pushing: Vec<bool>,
+    /// 1 where a contact pushes and −1 where it does not, the inner ones and then the outer; each list filled up to a
+    /// multiple of eight.
+    pub pushing: Vec<f64>,
     /// Step that error control would like next [s].
     pub next_step: f64,
     /// Error of the last accepted step, per tolerance.
@@ -43,7 +44,7 @@ impl Progress {
         Self {
             state: vec![0.0; len],
             cells: vec![SMOOTH; count],
-            pushing: vec![false; 2 * places(count)],
+            pushing: vec![-1.0; 2 * places(count)],
             next_step: FIRST_STEP,
             last_error: 1.0,
             choice: Choice::default(),

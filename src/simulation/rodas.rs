@@ -211,19 +211,16 @@ impl Rodas {
     }
 
     /// State at share `share` of the step tried last, into `out`.
-    pub fn dense(&self, state: &[f64], share: f64, out: &mut [f64]) {
+    #[inline(always)]
+    pub fn dense<S: Wide>(&self, simd: S, state: &[f64], share: f64, out: &mut [f64]) {
         let rest = 1.0 - share;
         let mut weights = [0.0; 8];
         for (i, weight) in weights.iter_mut().enumerate() {
             *weight = share * rest * (DENSE[0][i] + share * (DENSE[1][i] + share * DENSE[2][i]));
         }
-        for (i, value) in out.iter_mut().enumerate() {
-            let mut bend = 0.0;
-            for (stage, weight) in self.stages.iter().zip(weights) {
-                bend += weight * stage[i];
-            }
-            *value = rest * state[i] + share * self.end[i] + bend;
-        }
+        let [a, b, c, d, e, f, g, last] = &self.stages;
+        let from = [state, &self.end, a, b, c, d, e, f, g, last];
+        self.cut.for_each(simd, from, out, &Dense { share, weights }, &mut ());
     }
 }
 
@@ -241,6 +238,26 @@ struct Argument<const STAGE: usize>;
 
 /// The right-hand side of one stage's linear system, for a step of this length: slope, ∂f/∂t and all stages before it.
 struct Coupled<const STAGE: usize>(f64);
+
+/// The state at a share of the step: from those at its ends and all stages with these weights.
+struct Dense {
+    share: f64,
+    weights: [f64; 8],
+}
+
+impl Each<10, 1> for Dense {
+    type Sum = ();
+
+    #[inline(always)]
+    fn places<S: Wide>(&self, simd: S, from: [Lanes<S>; 10], (): &mut ()) -> [Lanes<S>; 1] {
+        let [state, after, stages @ ..] = from;
+        let mut sum = Lanes::splat(simd, 1.0 - self.share) * state + Lanes::splat(simd, self.share) * after;
+        for (stage, weight) in stages.into_iter().zip(self.weights) {
+            sum = sum + Lanes::splat(simd, weight) * stage;
+        }
+        [sum]
+    }
+}
 
 /// The sum of two lists.
 struct Sum;
@@ -424,7 +441,7 @@ mod tests {
             (1..20)
                 .map(|i| {
                     let share = i as f64 / 20.0;
-                    method.dense(&y, share, &mut found);
+                    method.dense(Scalar256b, &y, share, &mut found);
                     (found[0] - (share * h).cos()).abs()
                 })
                 .fold(0.0, f64::max)

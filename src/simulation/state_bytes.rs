@@ -60,8 +60,10 @@ impl State {
             field(&mut bytes)?;
             *integer = i32::from_le_bytes(bytes);
         }
-        for pushing in &mut progress.pushing {
-            flag(pushing, field)?;
+        for side in &mut progress.pushing {
+            let mut pushes = *side > 0.0;
+            flag(&mut pushes, field)?;
+            *side = if pushes { 1.0 } else { -1.0 };
         }
         let counts = [
             &mut progress.steps,

@@ -13,7 +13,8 @@
 //! from: 1e-5 of a path of 1 mm would be more than a loaded contact's whole approach.
 
 use super::arrow::Arrow;
-use super::dormand_prince::{self, DormandPrince, RightHandSide};
+use super::dormand_prince::DormandPrince;
+use super::kernels::{Look, Trial};
 use super::knots::next_knot;
 use super::outputs::Instant;
 use super::progress::Progress;
@@ -22,11 +23,11 @@ use super::rodas::{self, Rodas};
 use super::step_error::StepError;
 use super::switching::Method;
 use crate::contact::error::ContactError;
-use crate::dynamics::drive::{Clock, Drive};
+use crate::dynamics::drive::Drive;
 use crate::dynamics::forces::Forces;
 use crate::dynamics::jacobian::Jacobian;
 use crate::dynamics::model::{Layout, Model};
-use crate::numerics::lanes::{Kernel, Wide, dispatch};
+use crate::numerics::lanes::dispatch;
 use crate::numerics::rough_power;
 use crate::scene::Motion;
 
@@ -50,9 +51,6 @@ const SMALLEST_APPROACH: f64 = 0.1e-6;
 const VELOCITY_PER_APPROACH: f64 = 1e3;
 /// Shares of a step: a contact change this close to its start is not landed on, which bounds chatter.
 const CLOSEST_CHANGE: f64 = 1e-4;
-/// Width to which the share of a step is narrowed down at which a contact changes. The force begins with the power 1.5 of
-/// what is left.
-const CHANGE_WIDTH: f64 = 1e-7;
 /// Inner nodes of Lobatto's quadrature with four nodes, as shares of a step; exact for polynomials of degree 5.
 const LOBATTO: [f64; 2] = [0.276_393_202_250_021_03, 0.723_606_797_749_979];
 
@@ -60,27 +58,29 @@ const LOBATTO: [f64; 2] = [0.276_393_202_250_021_03, 0.723_606_797_749_979];
 #[derive(Debug, Clone)]
 pub struct Stepper {
     /// Also keeps the derivatives at start (first stage) and end (last stage) of a step, whichever method takes it.
-    explicit: DormandPrince,
-    implicit: Rodas,
-    jacobian: Jacobian,
+    pub(super) explicit: DormandPrince,
+    pub(super) implicit: Rodas,
+    pub(super) jacobian: Jacobian,
     /// ∂f/∂t at the start of the step.
-    by_time: Vec<f64>,
+    pub(super) by_time: Vec<f64>,
     /// Jacobian and `by_time` belong to the start of the step.
-    linearized: bool,
-    arrow: Arrow,
-    forces: Forces,
-    dense: Vec<f64>,
-    scratch: Vec<f64>,
+    pub(super) linearized: bool,
+    pub(super) arrow: Arrow,
+    pub(super) forces: Forces,
+    pub(super) dense: Vec<f64>,
+    pub(super) scratch: Vec<f64>,
     /// Sum over the stages of the step tried last of weight × ring force.
-    weighted_force: [f64; 4],
-    first_force: [f64; 4],
-    last_force: [f64; 4],
+    pub(super) weighted_force: [f64; 4],
+    pub(super) first_force: [f64; 4],
+    pub(super) last_force: [f64; 4],
     /// Turns errors of all states into lengths; 0 where there is no state.
-    weights: Vec<f64>,
+    pub(super) weights: Vec<f64>,
     /// Largest error of the step tried last [m], infinite as soon as one state's is not finite.
-    largest_error: f64,
+    pub(super) largest_error: f64,
     /// Largest approach of any contact at its end [m].
-    largest_approach: f64,
+    pub(super) largest_approach: f64,
+    /// Whether any contact pushes there that did not at its start, or the other way round.
+    pub(super) changed: bool,
 }
 
 impl Stepper {
@@ -103,6 +103,7 @@ impl Stepper {
             weights: (0..len).map(|i| weight(&model.layout, i)).collect(),
             largest_error: 0.0,
             largest_approach: 0.0,
+            changed: false,
         }
     }
 
@@ -218,9 +219,8 @@ impl Stepper {
                 self.check_step(model, drive, (from, h), error, progress)?;
                 continue;
             }
-            let changed = self.pushing_differs(progress);
-            if changed && landing.is_none() {
-                let share = self.first_change(model, drive, from, h, progress);
+            if self.changed && landing.is_none() {
+                let share = self.first_change(model, drive, (from, h), control.tolerance, progress);
                 if share > CLOSEST_CHANGE && share < 1.0 {
                     progress.rejected_steps += 1;
                     landing = Some(share * h);
@@ -229,7 +229,7 @@ impl Stepper {
                     continue;
                 }
             }
-            if landing.is_none() {
+            if self.changed && landing.is_none() {
                 self.note_pushing(progress);
             }
             let proposal = h * step_factor(error, progress.last_error).clamp(0.2, 5.0);
@@ -257,23 +257,13 @@ impl Stepper {
     ) {
         let lookups = self.forces.defect_lookups;
         while let Some(tau) = recorder.due_before(&progress.due, from + h) {
-            self.dense_state(h, (tau - from).max(0.0) / h, progress);
+            self.look(model, drive, (from, h), (tau - from).max(0.0) / h, progress);
             let Self { dense, scratch, forces, .. } = self;
-            model.derivative(drive, tau, &progress.cells, dense, scratch, forces);
             let instant = Instant::new(model, (drive, tau), (dense, scratch), forces, recorder.cage_angle());
             recorder.take(&mut progress.due, &instant);
         }
         // What the recorder looks up is not the solver's work.
         self.forces.defect_lookups = lookups;
-    }
-
-    /// The state at a share of the step tried last, in `dense`.
-    fn dense_state(&mut self, h: f64, share: f64, progress: &Progress) {
-        if progress.choice.implicit {
-            self.implicit.dense(&progress.state, share, &mut self.dense);
-        } else {
-            self.explicit.dense(&progress.state, h, share, &mut self.dense);
-        }
     }
 
     /// Whether a step shorter than the one of length `h` that failed is still worth trying.
@@ -312,9 +302,9 @@ impl Stepper {
         if progress.choice.implicit {
             self.weigh_forces(model, drive, (from, h), progress);
             progress.implicit_steps += 1;
-            progress.state.copy_from_slice(&self.implicit.end);
+            std::mem::swap(&mut progress.state, &mut self.implicit.end);
         } else {
-            progress.state.copy_from_slice(&self.explicit.end);
+            std::mem::swap(&mut progress.state, &mut self.explicit.end);
         }
         progress.steps += 1;
         // Contacts that failed in trials which error control took back are of no account.
@@ -363,22 +353,22 @@ impl Stepper {
 
     fn try_step(&mut self, model: &Model, drive: &Drive, from: f64, h: f64, progress: &Progress) {
         if progress.choice.implicit {
-            self.try_implicit(model, drive, from, h, progress);
-        } else {
-            self.try_explicit(model, drive, from, h, progress);
+            self.linearize(model, drive, from, progress);
+            self.arrow.factor(&self.jacobian, 1.0 / (rodas::GAMMA * h));
         }
+        dispatch(Trial { stepper: self, model, drive, from, h, progress });
     }
 
-    fn try_explicit(&mut self, model: &Model, drive: &Drive, from: f64, h: f64, progress: &Progress) {
-        dispatch(ExplicitStep { stepper: self, model, drive, from, h, progress });
-    }
-
-    fn try_implicit(&mut self, model: &Model, drive: &Drive, from: f64, h: f64, progress: &Progress) {
-        self.linearize(model, drive, from, progress);
-        self.arrow.factor(&self.jacobian, 1.0 / (rodas::GAMMA * h));
-        dispatch(ImplicitStep { stepper: self, model, drive, from, h, progress });
-        self.last_force = ring_forces(&self.forces);
-        self.largest_error = self.implicit.largest_error(&self.weights);
+    /// The state at a share of the step tried last, in `dense`, its derivative in `scratch`, and all forces there.
+    pub(super) fn look(
+        &mut self,
+        model: &Model,
+        drive: &Drive,
+        (from, h): (f64, f64),
+        share: f64,
+        progress: &Progress,
+    ) {
+        dispatch(Look { stepper: self, model, drive, from, h, share, progress });
     }
 
     /// Mean ring forces of an implicit step, by quadrature over its dense output. They are read only if a ring's motion
@@ -392,9 +382,7 @@ impl Stepper {
             self.weighted_force[i] = (self.first_force[i] + self.last_force[i]) / 12.0;
         }
         for share in LOBATTO {
-            self.implicit.dense(&progress.state, share, &mut self.dense);
-            let tau = from + share * h;
-            model.derivative(drive, tau, &progress.cells, &self.dense, &mut self.scratch, &mut self.forces);
+            self.look(model, drive, (from, h), share, progress);
             for (sum, force) in self.weighted_force.iter_mut().zip(ring_forces(&self.forces)) {
                 *sum += 5.0 / 12.0 * force;
             }
@@ -417,196 +405,6 @@ impl Stepper {
         let states = (0..model.layout.len).filter(|&i| model.layout.is_used(i));
         let worst = states.fold(0, |worst, i| if worse(i, worst) { i } else { worst });
         model.layout.name(worst)
-    }
-
-    /// Notes which contacts push where the forces were computed last.
-    fn note_pushing(&self, progress: &mut Progress) {
-        let contacts = &self.forces.contacts;
-        let (inner, outer) = progress.pushing.split_at_mut(contacts.inner_pushing.len());
-        for (flags, lengths) in [(inner, &contacts.inner_pushing), (outer, &contacts.outer_pushing)] {
-            for (flag, &length) in flags.iter_mut().zip(lengths) {
-                *flag = length > 0.0;
-            }
-        }
-    }
-
-    /// Whether any contact pushes where it did not at the start of the step, or the other way round.
-    fn pushing_differs(&self, progress: &Progress) -> bool {
-        let contacts = &self.forces.contacts;
-        let (inner, outer) = progress.pushing.split_at(contacts.inner_pushing.len());
-        let mut differs = false;
-        for (flags, lengths) in [(inner, &contacts.inner_pushing), (outer, &contacts.outer_pushing)] {
-            // All of them, without a branch: mostly none differs.
-            for (&flag, &length) in flags.iter().zip(lengths) {
-                differs |= (length > 0.0) != flag;
-            }
-        }
-        differs
-    }
-
-    /// How far the contact that has changed most is beyond its change [m]; negative while none has changed.
-    fn beyond_change(&self, progress: &Progress) -> f64 {
-        let contacts = &self.forces.contacts;
-        let (inner, outer) = progress.pushing.split_at(contacts.inner_pushing.len());
-        let (z, mut most) = (progress.cells.len(), f64::NEG_INFINITY);
-        for (flags, lengths) in [(inner, &contacts.inner_pushing), (outer, &contacts.outer_pushing)] {
-            for (&flag, &length) in flags.iter().zip(lengths).take(z) {
-                most = most.max(if flag { -length } else { length });
-            }
-        }
-        most
-    }
-
-    /// Share of the step at which the first contact changes; leaves the forces there.
-    ///
-    /// What [`Self::beyond_change`] gives changes its sign there and is continuous. The secant's zero is looked at on its
-    /// far side, so that both ends of the bracket close in; every third look halves it, whatever the secant says.
-    fn first_change(&mut self, model: &Model, drive: &Drive, from: f64, h: f64, progress: &Progress) -> f64 {
-        let (mut before, mut after) = (0.0, 1.0);
-        let (mut at_before, mut at_after): (Option<f64>, f64) = (None, self.beyond_change(progress));
-        let mut last_before = true;
-        for look in 0.. {
-            let width: f64 = after - before;
-            if width <= CHANGE_WIDTH {
-                break;
-            }
-            let share = match at_before {
-                Some(at_before) if look % 3 != 2 => {
-                    let secant: f64 = before - width * at_before / (at_after - at_before);
-                    let margin = if last_before { 0.5 * CHANGE_WIDTH } else { -0.5 * CHANGE_WIDTH };
-                    (secant + margin).clamp(before + 0.25 * CHANGE_WIDTH, after - 0.25 * CHANGE_WIDTH)
-                }
-                _ => 0.5 * (before + after),
-            };
-            let value = self.beyond_change_at(model, drive, (from, h), share, progress);
-            // What is no number counts as changed: the step is then cut before it.
-            last_before = value <= 0.0;
-            if last_before {
-                (before, at_before) = (share, Some(value));
-            } else {
-                (after, at_after) = (share, value);
-            }
-        }
-        self.beyond_change_at(model, drive, (from, h), after, progress);
-        after
-    }
-
-    fn beyond_change_at(
-        &mut self,
-        model: &Model,
-        drive: &Drive,
-        (from, h): (f64, f64),
-        share: f64,
-        progress: &Progress,
-    ) -> f64 {
-        self.dense_state(h, share, progress);
-        let tau = from + share * h;
-        model.derivative(drive, tau, &progress.cells, &self.dense, &mut self.scratch, &mut self.forces);
-        self.beyond_change(progress)
-    }
-}
-
-/// One explicit step, all stages in one kernel.
-struct ExplicitStep<'a> {
-    stepper: &'a mut Stepper,
-    model: &'a Model,
-    drive: &'a Drive,
-    from: f64,
-    h: f64,
-    progress: &'a Progress,
-}
-
-impl Kernel for ExplicitStep<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S: Wide>(self, simd: S) {
-        let Self { stepper, model, drive, from, h, progress } = self;
-        let sum = stepper.first_force.map(|force| dormand_prince::STAGES[dormand_prince::LAST][0] * force);
-        let forces = &mut stepper.forces;
-        let nodes: [f64; dormand_prince::LAST] = std::array::from_fn(|i| dormand_prince::NODES[i] * h);
-        let clocks = drive.clocks(from, nodes);
-        let mut stages = Stages { model, drive, clocks, forces, sum };
-        stepper.explicit.try_step(simd, &progress.state, h, &mut stages);
-        stepper.weighted_force = stages.sum;
-        stepper.last_force = ring_forces(&stepper.forces);
-        stepper.largest_error = stepper.explicit.error(simd, h, &stepper.weights);
-        stepper.largest_approach = stepper.forces.largest_approach_on(simd);
-    }
-}
-
-/// One implicit step, all stages in one kernel.
-struct ImplicitStep<'a> {
-    stepper: &'a mut Stepper,
-    model: &'a Model,
-    drive: &'a Drive,
-    from: f64,
-    h: f64,
-    progress: &'a Progress,
-}
-
-impl Kernel for ImplicitStep<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S: Wide>(self, simd: S) {
-        let Self { stepper, model, drive, from, h, progress } = self;
-        let Stepper { explicit, implicit, forces, jacobian, arrow, by_time, largest_approach, .. } = stepper;
-        let [first, .., last] = &mut explicit.stages;
-        let clocks = drive.clocks(from, rodas::NODES.map(|node| node * h));
-        let mut system = System { model, drive, clocks, forces, jacobian, arrow };
-        implicit.try_step(simd, &progress.state, (first, by_time), h, &mut system);
-        let at = (drive, &clocks[rodas::NODES.len() - 1]);
-        model.derivative_on::<S, true>(simd, at, &implicit.end, last, forces);
-        *largest_approach = forces.largest_approach_on(simd);
-    }
-}
-
-/// The equations of motion and their linear systems during one implicit step.
-struct System<'a> {
-    model: &'a Model,
-    drive: &'a Drive,
-    clocks: [Clock; 8],
-    forces: &'a mut Forces,
-    jacobian: &'a Jacobian,
-    arrow: &'a Arrow,
-}
-
-impl rodas::System for System<'_> {
-    #[inline(always)]
-    fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: &[f64], out: &mut [f64]) {
-        let at = (self.drive, &self.clocks[stage]);
-        self.model.derivative_on::<S, false>(simd, at, state, out, self.forces);
-    }
-
-    fn solve(&self, b: &mut [f64]) {
-        self.arrow.solve(self.jacobian, b);
-    }
-}
-
-/// The equations of motion during one step, and what the stages add up to.
-struct Stages<'a> {
-    model: &'a Model,
-    drive: &'a Drive,
-    /// Those of the first five stages; the last two are at the same time.
-    clocks: [Clock; dormand_prince::LAST],
-    forces: &'a mut Forces,
-    /// Sum of weight × ring force.
-    sum: [f64; 4],
-}
-
-impl RightHandSide for Stages<'_> {
-    #[inline(always)]
-    fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: &[f64], out: &mut [f64]) {
-        let at = (self.drive, &self.clocks[stage.min(dormand_prince::LAST - 1)]);
-        let forces = &mut *self.forces;
-        if stage == dormand_prince::LAST {
-            return self.model.derivative_on::<S, true>(simd, at, state, out, forces);
-        }
-        self.model.derivative_on::<S, false>(simd, at, state, out, forces);
-        for (sum, force) in self.sum.iter_mut().zip(ring_forces(forces)) {
-            *sum += dormand_prince::STAGES[dormand_prince::LAST][stage] * force;
-        }
     }
 }
 
@@ -631,7 +429,7 @@ fn check_rings(model: &Model, drive: &Drive, tau: f64, progress: &Progress) -> R
     Err(StepError::RingsApart { offset: (x * x + y * y).sqrt(), limit, since: tau })
 }
 
-fn ring_forces(forces: &Forces) -> [f64; 4] {
+pub(super) fn ring_forces(forces: &Forces) -> [f64; 4] {
     [forces.shaft[0], forces.shaft[1], forces.housing[0], forces.housing[1]]
 }
 
