@@ -24,7 +24,7 @@ impl State {
     /// Number of bytes of [`to_bytes`](Self::to_bytes).
     pub fn byte_count(&self) -> usize {
         let progress = &self.progress;
-        let fixed = 8 + 1 + 8 + 8 + 2 * 8 + (1 + 4 * 4 + 8) + 4 * 8 + 4 * 8 + 2 * 8;
+        let fixed = 8 + 1 + 8 + 8 + 2 * 8 + (1 + 4 * 4 + 2 * 8) + 4 * 8 + 4 * 8 + 2 * 8;
         let real = progress.state.len() + self.values.len() + 2 * self.input_rates.len();
         fixed + 8 * real + 4 * (progress.cells.len() + self.integers.len()) + progress.pushing.len()
     }
@@ -48,6 +48,7 @@ impl State {
             count32(count, field)?;
         }
         real(&mut choice.gained, field)?;
+        real(&mut choice.stable_step, field)?;
         let lists = [&mut progress.mean_force[..], &mut progress.state, &mut self.values];
         for value in lists.into_iter().flatten().chain(self.input_rates.as_flattened_mut()) {
             real(value, field)?;
@@ -99,7 +100,8 @@ impl Simulation {
     fn is_sound(&self, state: &State) -> bool {
         let progress = &state.progress;
         let numbers = [
-            &[state.time, state.cage.rest, progress.last_error, progress.choice.gained][..],
+            &[state.time, state.cage.rest, progress.last_error][..],
+            &[progress.choice.gained, progress.choice.stable_step],
             &[progress.next_step, progress.due.delay],
             &progress.mean_force,
             &progress.state,
@@ -120,6 +122,7 @@ impl Simulation {
         };
         numbers.into_iter().flatten().all(|number| number.is_finite())
             && progress.next_step > 0.0
+            && progress.choice.stable_step >= 0.0
             // A sample that is overdue by ages would be made up for, period by period.
             && self.recorder.as_ref().is_none_or(|recorder| progress.due.delay.abs() <= 2.0 * recorder.period())
             && state.cage.rest.abs() <= std::f64::consts::PI

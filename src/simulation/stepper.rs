@@ -199,7 +199,7 @@ impl Stepper {
         let mut landing = None;
         let mut tried = 0;
         loop {
-            let wanted = progress.next_step;
+            let wanted = progress.choice.limited(progress.next_step);
             let h = landing.unwrap_or(if wanted >= remaining * (1.0 - 1e-9) {
                 remaining
             } else if 2.0 * wanted > remaining {

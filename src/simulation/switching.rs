@@ -6,6 +6,9 @@
 //! that limits the step, and the implicit method is tried. While that steps, each of its steps stands for
 //! max(1, h|λ|/r) explicit ones; when these would be cheaper, or have not become dearer within the first few steps,
 //! the explicit method comes back and the next trial waits twice as long.
+//!
+//! Explicit steps stay within h|λ| = r of the last look. Error control alone lets them swing across it, and what grows there
+//! before it is noticed is noise as large as the tolerance: in a healthy bearing several times all other errors.
 
 use crate::dynamics::jacobian::Jacobian;
 
@@ -36,6 +39,8 @@ pub struct Choice {
     pub wait: u32,
     /// Looks that will be passed over after the next trial that fails.
     pub patience: u32,
+    /// Longest explicit step that is stable by the fastest eigenvalue of the last look [s]; 0 before the first.
+    pub stable_step: f64,
 }
 
 /// Steps between two looks of the explicit method: one Jacobian in 200 right-hand sides.
@@ -72,7 +77,13 @@ impl Choice {
         if stiff && useful && self.wait > 0 {
             self.wait -= 1;
         }
-        *self = Self { implicit: again, wait: self.wait, patience: self.patience, ..Self::default() };
+        let stable_step = 1.0 / rate_of_steps(jacobian);
+        *self = Self { implicit: again, wait: self.wait, patience: self.patience, stable_step, ..Self::default() };
+    }
+
+    /// `step` [s], or the longest stable one if that is shorter and the explicit method steps.
+    pub fn limited(&self, step: f64) -> f64 {
+        if self.implicit || self.stable_step == 0.0 { step } else { step.min(self.stable_step) }
     }
 
     /// Notes a finished implicit step of length `h` [s] and how often it was tried; decides now and then.
@@ -85,7 +96,8 @@ impl Choice {
         }
         let pays = self.gained > COST * f64::from(self.tried);
         // `limited` marks that the trial is over.
-        let next = Self { implicit: pays, limited: 1, wait: self.wait, patience: self.patience, ..Self::default() };
+        let stable_step = 1.0 / rate_of_steps(jacobian);
+        let next = Self { implicit: pays, limited: 1, wait: self.wait, patience: self.patience, stable_step, ..Self::default() };
         *self = if pays {
             Self { patience: 0, ..next }
         } else if trial {
@@ -157,6 +169,18 @@ mod tests {
             choice.implicit_step(1e-6, 1, &fast);
         }
         assert!(choice.implicit);
+    }
+
+    #[test]
+    fn explicit_steps_stay_stable_and_implicit_ones_are_free() {
+        let fast = Jacobian::with_fastest(1e8);
+        let mut choice = Choice::default();
+        assert_eq!(choice.limited(1.0), 1.0);
+        while !choice.explicit_step(1e-9, 1, false) {}
+        choice.look_explicit(&fast);
+        let limit = 1.0 / rate_of_steps(&fast);
+        assert_eq!((choice.limited(1.0), choice.limited(0.5 * limit)), (limit, 0.5 * limit));
+        assert_eq!(Choice { implicit: true, ..choice }.limited(1.0), 1.0);
     }
 
     #[test]
