@@ -142,14 +142,14 @@ macro_rules! combine {
 
             #[inline(always)]
             fn places<S: Wide>(&self, simd: S, from: [Lanes<S>; $count], (): &mut ()) -> [Lanes<S>; 1] {
-                let weights = &STAGES[$stage];
-                let mut sum = Lanes::splat(simd, weights[0]) * from[1];
-                for (&weight, &stage) in weights[1..].iter().zip(&from[2..]) {
+                // The stage that was worked out last comes last: all else is ready while it is waited for.
+                let mut sum = from[0];
+                for (&weight, &stage) in STAGES[$stage].iter().zip(&from[1..]) {
                     if weight != 0.0 {
-                        sum = sum + Lanes::splat(simd, weight) * stage;
+                        sum = sum + Lanes::splat(simd, self.0 * weight) * stage;
                     }
                 }
-                [from[0] + Lanes::splat(simd, self.0) * sum]
+                [sum]
             }
         }
     )*};

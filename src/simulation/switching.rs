@@ -97,7 +97,14 @@ impl Choice {
         let pays = self.gained > COST * f64::from(self.tried);
         // `limited` marks that the trial is over.
         let stable_step = 1.0 / rate_of_steps(jacobian);
-        let next = Self { implicit: pays, limited: 1, wait: self.wait, patience: self.patience, stable_step, ..Self::default() };
+        let next = Self {
+            implicit: pays,
+            limited: 1,
+            wait: self.wait,
+            patience: self.patience,
+            stable_step,
+            ..Self::default()
+        };
         *self = if pays {
             Self { patience: 0, ..next }
         } else if trial {
