@@ -78,83 +78,8 @@ impl Wide for Scalar256b {
     }
 }
 
-/// The machine's own maximum and minimum give their second operand where either is no number.
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-mod x86 {
-    use super::{QUAD, Wide};
-    use pulp::x86::{V3, V4};
-    use pulp::{Simd, cast};
-
-    impl Wide for V3 {
-        type Quad = Self;
-
-        #[inline(always)]
-        fn quad(self) -> Self {
-            self
-        }
-
-        #[inline(always)]
-        fn four(self, numbers: [f64; QUAD]) -> Self::f64s {
-            cast(numbers)
-        }
-
-        #[inline(always)]
-        fn larger(self, value: Self::f64s, limit: Self::f64s) -> Self::f64s {
-            cast(self.avx._mm256_max_pd(cast(limit), cast(value)))
-        }
-
-        #[inline(always)]
-        fn smaller(self, value: Self::f64s, limit: Self::f64s) -> Self::f64s {
-            cast(self.avx._mm256_min_pd(cast(limit), cast(value)))
-        }
-
-        #[inline(always)]
-        fn largest_quads(self, most: [f64; QUAD], value: Self::f64s) -> [f64; QUAD] {
-            pulp::cast(self.larger(pulp::cast(most), value))
-        }
-
-        #[inline(always)]
-        fn add_quads(self, sum: [f64; QUAD], value: Self::f64s) -> [f64; QUAD] {
-            cast(self.add_f64s(cast(sum), value))
-        }
-    }
-
-    impl Wide for V4 {
-        type Quad = V3;
-
-        #[inline(always)]
-        fn quad(self) -> V3 {
-            *self
-        }
-
-        #[inline(always)]
-        fn four(self, numbers: [f64; QUAD]) -> <V3 as Simd>::f64s {
-            cast(numbers)
-        }
-
-        #[inline(always)]
-        fn larger(self, value: Self::f64s, limit: Self::f64s) -> Self::f64s {
-            cast(self.avx512f._mm512_max_pd(cast(limit), cast(value)))
-        }
-
-        #[inline(always)]
-        fn smaller(self, value: Self::f64s, limit: Self::f64s) -> Self::f64s {
-            cast(self.avx512f._mm512_min_pd(cast(limit), cast(value)))
-        }
-
-        #[inline(always)]
-        fn largest_quads(self, most: [f64; QUAD], value: Self::f64s) -> [f64; QUAD] {
-            let [low, high]: [<V3 as Simd>::f64s; 2] = cast(value);
-            self.quad().largest_quads(self.quad().largest_quads(most, low), high)
-        }
-
-        #[inline(always)]
-        fn add_quads(self, sum: [f64; QUAD], value: Self::f64s) -> [f64; QUAD] {
-            let [low, high]: [<V3 as Simd>::f64s; 2] = cast(value);
-            self.quad().add_quads(self.quad().add_quads(sum, low), high)
-        }
-    }
-}
+mod x86;
 
 /// What runs on several numbers at a time.
 pub trait Kernel {

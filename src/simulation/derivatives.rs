@@ -13,8 +13,9 @@
 
 use super::access;
 use super::table::{Quantity, RingName};
+use super::values::{out_of_range, wrong_type};
 use super::variables::Causality;
-use super::{Simulation, SimulationError, VariableError, wrong_type};
+use super::{Simulation, SimulationError, VariableError};
 use crate::dynamics::drive::Drive;
 use crate::dynamics::forces::RingState;
 use crate::dynamics::variation::{ForceChange, Variation};
@@ -121,7 +122,7 @@ impl Simulation {
                 return Err(VariableError::NotAKnown { name: variable.name.clone() }.into());
             }
             if !value.is_finite() {
-                return Err(super::out_of_range(variable, value, f64::MIN, f64::MAX).into());
+                return Err(out_of_range(variable, value, f64::MIN, f64::MAX).into());
             }
         }
         if self.outputs_are_stale {

@@ -1,7 +1,8 @@
 //! String variables. There is one: the folder of the recorder.
 
+use super::values::{not_settable, wrong_type};
 use super::variables::Kind;
-use super::{Simulation, VariableError, not_settable, wrong_type};
+use super::{Simulation, VariableError};
 
 impl Simulation {
     /// Reads strings.

@@ -1,0 +1,165 @@
+//! The variables' values, set and read by value reference.
+
+use super::Simulation;
+use super::access;
+use super::error::{SimulationError, VariableError};
+use super::variables::{Causality, Kind, Variable};
+
+impl Simulation {
+    /// Sets reals; all or none. Inputs at any time, parameters before `initialize`.
+    pub fn set_reals(&mut self, references: &[u32], values: &[f64]) -> Result<(), VariableError> {
+        let writable = if self.state.started { access::INPUT } else { access::INPUT | access::PARAMETER };
+        let Some(classes) = access::can_set(&self.access, writable, references, values) else {
+            return references
+                .iter()
+                .zip(values)
+                .try_for_each(|(&reference, &value)| self.check_real(reference, value));
+        };
+        for (&reference, &value) in references.iter().zip(values) {
+            self.values[reference as usize] = value;
+        }
+        self.model_is_stale |= classes & access::PARAMETER != 0;
+        self.mark_set();
+        Ok(())
+    }
+
+    /// Reads reals. Outputs are computed if something has changed since they were last.
+    pub fn reals(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), SimulationError> {
+        let Some(classes) = access::classes(&self.access, references) else {
+            return Err(self.not_real(references).into());
+        };
+        if classes & access::OUTPUT != 0 && self.outputs_are_stale {
+            self.refresh()?;
+        }
+        if classes & access::STIFFNESS != 0 {
+            self.refresh_stiffness();
+        }
+        for (value, &reference) in values.iter_mut().zip(references) {
+            *value = self.values[reference as usize];
+        }
+        Ok(())
+    }
+
+    /// Sets integers (the enumeration `contact.law`); all or none; before `initialize`.
+    pub fn set_integers(&mut self, references: &[u32], values: &[i32]) -> Result<(), VariableError> {
+        for (&reference, &value) in references.iter().zip(values) {
+            let variable = self.variable(reference)?;
+            let Kind::Enumeration { items, .. } = variable.kind else {
+                if variable.kind == Kind::Integer {
+                    return Err(not_settable(variable, "it is an output"));
+                }
+                return Err(wrong_type(variable, "Integer"));
+            };
+            if self.state.started {
+                return Err(not_settable(variable, "parameters are fixed after initialization"));
+            }
+            if value < 1 || value as usize > items.len() {
+                return Err(VariableError::OutOfRange {
+                    name: variable.name.clone(),
+                    value: value.into(),
+                    min: 1.0,
+                    max: items.len() as f64,
+                });
+            }
+        }
+        for (&reference, &value) in references.iter().zip(values) {
+            self.integers[reference as usize] = value;
+            self.model_is_stale = true;
+        }
+        self.mark_set();
+        Ok(())
+    }
+
+    /// Reads integers and enumerations.
+    pub fn integers(&mut self, references: &[u32], values: &mut [i32]) -> Result<(), SimulationError> {
+        let mut outputs = false;
+        for &reference in references {
+            let variable = self.variable(reference)?;
+            if !matches!(variable.kind, Kind::Integer | Kind::Enumeration { .. }) {
+                return Err(wrong_type(variable, "Integer").into());
+            }
+            outputs |= variable.causality == Causality::Output;
+        }
+        if outputs && self.outputs_are_stale {
+            self.refresh()?;
+        }
+        for (value, &reference) in values.iter_mut().zip(references) {
+            *value = self.integers[reference as usize];
+        }
+        Ok(())
+    }
+
+    /// Derivatives of order 1 or 2 of real inputs, for the next step only; all or none.
+    ///
+    /// The derivative of order 1 of a velocity is the same as the acceleration input; a position already moves with its
+    /// velocity and acceleration inputs, and a derivative given for it takes their place.
+    pub fn set_input_derivatives(
+        &mut self,
+        references: &[u32],
+        orders: &[i32],
+        values: &[f64],
+    ) -> Result<(), VariableError> {
+        for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
+            let variable = self.variable(reference)?;
+            if variable.causality != Causality::Input || !(1..=2).contains(&order) {
+                return Err(VariableError::Derivative { name: variable.name.clone(), order });
+            }
+            if !value.is_finite() {
+                return Err(out_of_range(variable, value, f64::MIN, f64::MAX));
+            }
+        }
+        for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
+            self.input_rates[reference as usize][order as usize - 1] = value;
+        }
+        Ok(())
+    }
+
+    /// The error for the first reference that is unknown or not real.
+    pub(super) fn not_real(&self, references: &[u32]) -> VariableError {
+        let error = |&reference: &u32| match self.variable(reference) {
+            Ok(variable) if matches!(variable.kind, Kind::Real { .. }) => None,
+            Ok(variable) => Some(wrong_type(variable, "Real")),
+            Err(error) => Some(error),
+        };
+        let last = self.table.len() as u32 - 1;
+        references.iter().find_map(error).unwrap_or(VariableError::UnknownReference(u32::MAX, last))
+    }
+
+    fn check_real(&self, reference: u32, value: f64) -> Result<(), VariableError> {
+        let variable = self.variable(reference)?;
+        let Kind::Real { min, max, .. } = variable.kind else { return Err(wrong_type(variable, "Real")) };
+        match variable.causality {
+            Causality::Output => return Err(not_settable(variable, "it is an output")),
+            Causality::Parameter if self.state.started => {
+                return Err(not_settable(variable, "parameters are fixed after initialization"));
+            }
+            _ => {}
+        }
+        let (min, max) = (min.unwrap_or(f64::MIN), max.unwrap_or(f64::MAX));
+        if value >= min && value <= max { Ok(()) } else { Err(out_of_range(variable, value, min, max)) }
+    }
+
+    pub(super) fn variable(&self, reference: u32) -> Result<&Variable, VariableError> {
+        self.table
+            .get(reference as usize)
+            .ok_or_else(|| VariableError::UnknownReference(reference, self.table.len() as u32 - 1))
+    }
+
+    pub(super) fn mark_set(&mut self) {
+        self.outputs_are_stale = true;
+        self.stiffness_is_stale = true;
+        self.equilibrium_is_stale = true;
+    }
+}
+
+pub(super) fn wrong_type(variable: &Variable, wanted: &'static str) -> VariableError {
+    VariableError::WrongType { name: variable.name.clone(), reference: variable.reference, wanted }
+}
+
+pub(super) fn not_settable(variable: &Variable, why: &'static str) -> VariableError {
+    VariableError::NotSettable { name: variable.name.clone(), why }
+}
+
+pub(super) fn out_of_range(variable: &Variable, value: f64, min: f64, max: f64) -> VariableError {
+    VariableError::OutOfRange { name: variable.name.clone(), value, min, max }
+}
