@@ -30,9 +30,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         path.ok_or("usage: contact_case CASE.json [--solver active-set|cg] [--repeat N] [--force N] [--residual R]")?;
     let case: Value = serde_json::from_str(&std::fs::read_to_string(&path).map_err(|e| format!("{path}: {e}"))?)?;
     let (problem, delta) = read(&case)?;
-    let cells = problem.columns() * problem.rows();
-    // The direct solver is the faster one up to some thousand cells, by measurement.
-    let name = solver.unwrap_or_else(|| if cells <= 2500 { "active-set" } else { "cg" }.to_owned());
+    let direct = problem.expected_unknowns(delta) < 200.0;
+    let name = solver.unwrap_or_else(|| if direct { "active-set" } else { "cg" }.to_owned());
     let start = Instant::now();
     let mut solver: Box<dyn GridSolver + '_> = match name.as_str() {
         "active-set" => Box::new(GridActiveSet::new(&problem, false)?),

@@ -5,24 +5,27 @@
 //! equation on it is solved better than the set is known). The preconditioner is the inverse of the periodic kernel, restricted to the set. A
 //! cold start takes its pressure from the same problem on a grid of half as many cells, and that from a quarter.
 //!
-//! For reference solutions and large stored problems; inside a simulation `active_set` is faster and has the same bits everywhere.
+//! For stored problems and reference solutions, with the same bits on every machine. Warm, or with few unknowns, `active_set` is faster.
 
 // `!(a > b)` is true for NaN as well, and is meant to be.
 #![allow(clippy::neg_cmp_op_on_partial_ord)]
+
+use pulp::{Arch, NullaryFnOnce};
 
 use super::{
     error::ContactError,
     fft_product::FftProduct,
     grid::{GridContact, GridProblem, GridSolver},
-    half_space::KernelTable,
 };
 
+/// Cells treated together.
+const CHUNK: usize = 32;
 /// Grids smaller than this in one direction are not coarsened any more.
 const COARSEST: usize = 16;
 /// Residual to which a coarser grid is solved: its own error is larger.
 const COARSE_TOLERANCE: f64 = 1e-2;
 
-/// One grid of the cascade with its workspace.
+/// One grid of the cascade with its workspace. Arrays are padded to whole chunks with cells that nothing presses.
 struct Level {
     columns: usize,
     rows: usize,
@@ -35,7 +38,8 @@ struct Level {
     preconditioned: Vec<f64>,
     direction: Vec<f64>,
     product: Vec<f64>,
-    active: Vec<bool>,
+    /// One on cells of the set, nought elsewhere.
+    active: Vec<f64>,
 }
 
 /// The solver for one problem.
@@ -59,7 +63,7 @@ impl<'a> ConjugateGradients<'a> {
                 limit: "between 1e-13 and 1".to_owned(),
             });
         }
-        let mut levels = vec![Level::new(problem.columns(), problem.rows(), problem.kernel(), problem.gap().to_vec())];
+        let mut levels = vec![Level::new(problem.columns(), problem.rows(), problem.cell(), problem.gap().to_vec())];
         let mut cell = problem.cell();
         while let Some(fine) = levels.last() {
             let (n, m) = (fine.columns, fine.rows);
@@ -76,7 +80,7 @@ impl<'a> ConjugateGradients<'a> {
                     );
                 }
             }
-            levels.push(Level::new(n / 2, m / 2, KernelTable::new(n / 2, m / 2, cell), gap));
+            levels.push(Level::new(n / 2, m / 2, cell, gap));
         }
         Ok(Self { problem, tolerance, levels })
     }
@@ -89,12 +93,13 @@ impl GridSolver for ConjugateGradients<'_> {
         for (depth, level) in self.levels.iter_mut().enumerate().rev() {
             level.start(approach, solution.take());
             let limit = if depth == 0 { self.tolerance } else { COARSE_TOLERANCE } * approach.abs();
-            (residual, iterations) = level.solve(limit)?;
+            (residual, iterations) = Arch::new().dispatch(Solve(level, limit))?;
             if depth > 0 {
-                solution = Some((level.columns, level.pressure.clone()));
+                solution = Some((level.columns, level.pressure[..level.columns * level.rows].to_vec()));
             }
         }
-        let scaled = self.levels[0].pressure.clone();
+        let finest = &self.levels[0];
+        let scaled = finest.pressure[..finest.columns * finest.rows].to_vec();
         self.problem.finish(approach, scaled, residual / approach.abs(), iterations)
     }
 
@@ -104,12 +109,12 @@ impl GridSolver for ConjugateGradients<'_> {
 }
 
 impl Level {
-    fn new(columns: usize, rows: usize, kernel: KernelTable, gap: Vec<f64>) -> Self {
-        let zero = vec![0.0; columns * rows];
+    fn new(columns: usize, rows: usize, cell: [f64; 2], gap: Vec<f64>) -> Self {
+        let zero = vec![0.0; (columns * rows).next_multiple_of(CHUNK)];
         Self {
             columns,
             rows,
-            fft: FftProduct::new(&kernel, columns, rows),
+            fft: FftProduct::new(columns, rows, cell),
             gap,
             interference: zero.clone(),
             pressure: zero.clone(),
@@ -117,8 +122,8 @@ impl Level {
             residual: zero.clone(),
             preconditioned: zero.clone(),
             direction: zero.clone(),
-            product: zero,
-            active: vec![false; columns * rows],
+            product: zero.clone(),
+            active: zero,
         }
     }
 
@@ -141,7 +146,7 @@ impl Level {
                         let (i0, i1) = near(i, n);
                         let value = 0.5625 * at(i0, j0) + 0.1875 * (at(i1, j0) + at(i0, j1)) + 0.0625 * at(i1, j1);
                         self.pressure[j * self.columns + i] = value;
-                        self.active[j * self.columns + i] = at(i0, j0) > 0.0;
+                        self.active[j * self.columns + i] = f64::from(at(i0, j0) > 0.0);
                     }
                 }
             }
@@ -149,108 +154,127 @@ impl Level {
                 let largest = self.interference.iter().fold(0.0_f64, |m, &g| m.max(g));
                 self.pressure.fill(0.0);
                 for (active, &g) in self.active.iter_mut().zip(&self.interference) {
-                    *active = g > 0.5 * largest;
+                    *active = f64::from(g > 0.5 * largest);
                 }
             }
         }
         for (p, &active) in self.pressure.iter_mut().zip(&self.active) {
-            *p = if active { *p } else { 0.0 };
+            *p *= active;
         }
     }
 
+    fn multiply_pressure(&mut self) {
+        let cells = self.columns * self.rows;
+        self.fft.multiply(&self.pressure[..cells], &mut self.deflection[..cells]);
+    }
+
     /// Residual reached [m] and iterations.
+    #[inline(always)]
     fn solve(&mut self, limit: f64) -> Result<(f64, usize), ContactError> {
         const MOST: usize = 1000;
+        let cells = self.columns * self.rows;
         let mut iterations = 0;
-        self.fft.multiply(&self.pressure, &mut self.deflection);
+        self.multiply_pressure();
         let (mut fresh, mut energy) = (true, 1.0);
         let (mut residual, mut best) = (f64::INFINITY, f64::INFINITY);
+        let mut step = 0.0;
         while iterations < MOST {
-            let [open, penetration, pull] = self.measure();
+            let [open, penetration, pull] = self.advance(step);
             residual = open.max(penetration);
             if residual <= limit && pull == 0.0 {
                 return Ok((residual, iterations));
             }
             // The set is changed when its own equation is solved well enough to tell, the better the longer it takes.
-            if open <= (0.3 * penetration).max(limit) || (pull > 0.0 && open <= 0.3 * best) {
+            if open <= penetration.max(limit) || (pull > 0.0 && open <= 0.3 * best) {
                 best = open.min(best);
-                if self.change_set(limit) {
-                    self.fft.multiply(&self.pressure, &mut self.deflection);
-                    fresh = true;
-                }
+                fresh |= self.change_set(limit);
             }
             iterations += 1;
-            self.mask_residual();
-            self.fft.approximate_inverse(&self.residual, &mut self.preconditioned);
-            for (z, &active) in self.preconditioned.iter_mut().zip(&self.active) {
-                *z = if active { *z } else { 0.0 };
-            }
+            self.fft.approximate_inverse(&self.residual[..cells], &mut self.preconditioned[..cells]);
             let next = dot(&self.residual, &self.preconditioned);
             let beta = if fresh { 0.0 } else { next / energy };
             (fresh, energy) = (false, next);
-            for (d, &z) in self.direction.iter_mut().zip(&self.preconditioned) {
-                *d = z + beta * *d;
+            for ((d, &z), &active) in self.direction.iter_mut().zip(&self.preconditioned).zip(&self.active) {
+                *d = active * beta.mul_add(*d, z);
             }
-            self.fft.multiply(&self.direction, &mut self.product);
+            self.fft.multiply(&self.direction[..cells], &mut self.product[..cells]);
             let curvature = dot(&self.direction, &self.product);
             if !(curvature > 0.0) {
                 break;
             }
-            let alpha = next / curvature;
-            for (p, &d) in self.pressure.iter_mut().zip(&self.direction) {
-                *p += alpha * d;
-            }
-            for (u, &q) in self.deflection.iter_mut().zip(&self.product) {
-                *u += alpha * q;
-            }
+            step = next / curvature;
         }
         Err(ContactError::NotConverged { iterations, residual, limit })
     }
 
-    /// Largest |g − u| on the set, largest g − u outside it, largest pull.
-    fn measure(&self) -> [f64; 3] {
-        let [mut open, mut penetration, mut pull] = [0.0_f64; 3];
-        for (((&g, &u), &p), &active) in
-            self.interference.iter().zip(&self.deflection).zip(&self.pressure).zip(&self.active)
+    /// Goes a step along the direction; largest |g − u| on the set, largest g − u outside it, largest pull.
+    #[inline(always)]
+    fn advance(&mut self, step: f64) -> [f64; 3] {
+        let [mut open, mut penetration, mut pull] = [[0.0_f64; CHUNK]; 3];
+        let larger = |most: &mut f64, value: f64| *most = if value > *most { value } else { *most };
+        let chunks = self.pressure.chunks_exact_mut(CHUNK).zip(self.deflection.chunks_exact_mut(CHUNK));
+        let steps = self.direction.chunks_exact(CHUNK).zip(self.product.chunks_exact(CHUNK));
+        let cells = self.interference.chunks_exact(CHUNK).zip(self.active.chunks_exact(CHUNK));
+        for ((((p, u), (d, q)), (g, active)), r) in
+            chunks.zip(steps).zip(cells).zip(self.residual.chunks_exact_mut(CHUNK))
         {
-            if active {
-                open = open.max((g - u).abs());
-                pull = pull.max(-p);
-            } else {
-                penetration = penetration.max(g - u);
+            for k in 0..CHUNK {
+                p[k] = step.mul_add(d[k], p[k]);
+                u[k] = step.mul_add(q[k], u[k]);
+                let gap = g[k] - u[k];
+                r[k] = active[k] * gap;
+                larger(&mut open[k], r[k].abs());
+                larger(&mut penetration[k], gap - r[k]);
+                larger(&mut pull[k], -p[k]);
             }
         }
-        [open, penetration, pull]
+        [open, penetration, pull].map(|most| most.iter().fold(0.0_f64, |m, &v| m.max(v)))
     }
 
+    /// Drops cells that pull and adds cells that interpenetrate; whether there were any.
     fn change_set(&mut self, limit: f64) -> bool {
-        let mut changed = false;
+        let (mut dropped, mut added) = (false, false);
         for (((p, active), &g), &u) in
             self.pressure.iter_mut().zip(&mut self.active).zip(&self.interference).zip(&self.deflection)
         {
-            if *active && *p < 0.0 {
-                (*p, *active, changed) = (0.0, false, true);
-            } else if !*active && g - u > 0.5 * limit {
-                (*active, changed) = (true, true);
+            if *p < 0.0 {
+                (*p, *active, dropped) = (0.0, 0.0, true);
+            } else if *active == 0.0 && g - u > 0.5 * limit {
+                (*active, added) = (1.0, true);
             }
         }
-        changed
-    }
-
-    fn mask_residual(&mut self) {
-        for (((r, &g), &u), &active) in
-            self.residual.iter_mut().zip(&self.interference).zip(&self.deflection).zip(&self.active)
-        {
-            *r = if active { g - u } else { 0.0 };
+        if dropped {
+            self.multiply_pressure();
         }
+        if dropped || added {
+            for (((r, &g), &u), &active) in
+                self.residual.iter_mut().zip(&self.interference).zip(&self.deflection).zip(&self.active)
+            {
+                *r = active * (g - u);
+            }
+        }
+        dropped || added
     }
 }
 
+/// [`Level::solve`] in the widest instructions that the machine has.
+struct Solve<'a>(&'a mut Level, f64);
+
+impl NullaryFnOnce for Solve<'_> {
+    type Output = Result<(f64, usize), ContactError>;
+
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        self.0.solve(self.1)
+    }
+}
+
+#[inline(always)]
 fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut partial = [0.0_f64; 8];
-    for (a, b) in a.chunks(8).zip(b.chunks(8)) {
-        for ((sum, &a), &b) in partial.iter_mut().zip(a).zip(b) {
-            *sum += a * b;
+    let mut partial = [0.0_f64; CHUNK];
+    for (a, b) in a.chunks_exact(CHUNK).zip(b.chunks_exact(CHUNK)) {
+        for k in 0..CHUNK {
+            partial[k] = a[k].mul_add(b[k], partial[k]);
         }
     }
     partial.iter().sum()

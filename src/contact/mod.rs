@@ -1,6 +1,7 @@
 //! Contact of one rolling element with a raceway. Knows no time, no cage and no ring: place and approach in, force out.
 
 pub mod active_set;
+mod batched_fft;
 pub mod cholesky;
 pub mod compliant;
 pub mod conjugate_gradients;
