@@ -21,3 +21,4 @@ pub mod map_plan;
 pub mod near_defect;
 pub mod raceway_grid;
 pub mod rigid_path;
+mod rigid_roller;

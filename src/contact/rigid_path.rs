@@ -14,7 +14,7 @@
 //! the contact a point, so this is invalid within one contact half-width of a spall's edge, where it overstates the
 //! force by about 15 %, and it ignores the profile across the raceway.
 
-use crate::numerics::sin_cos;
+use super::rigid_roller::{Feature, Roller};
 
 /// Path of a rigid element over a profile, as pieces between knots.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,8 +45,6 @@ struct Piece {
 
 /// Widest interval of a cubic along the raceway [m]. Its error is width⁴ P⁗/384, about 1e-16 m for an element of 8 mm.
 const INTERVAL: f64 = 5e-6;
-/// Spacing along the raceway [m] at which the touched feature is looked for before changes are bisected.
-const SEARCH: f64 = 2e-6;
 
 impl RigidPath {
     /// Rolls an element of radius `element_radius` over `points`, (arc, depth) [m] with non-decreasing arc, on a raceway
@@ -55,8 +53,7 @@ impl RigidPath {
     /// Depths must be below the element's radius; the surface layer sees to that.
     pub fn new(points: &[(f64, f64)], element_radius: f64, raceway_radius: f64) -> Self {
         let roller = Roller::new(points, element_radius, raceway_radius);
-        let (first, last) = roller.extent();
-        let stretches = roller.stretches(first, last);
+        let (first, stretches) = roller.stretches();
         let mut knots = vec![first];
         let mut pieces = Vec::with_capacity(stretches.len());
         for (end, feature) in stretches {
@@ -80,15 +77,20 @@ impl RigidPath {
 
 impl Piece {
     fn new(roller: &Roller, feature: Feature, start: f64, end: f64) -> Self {
-        let arc = (end - start) * roller.raceway_radius;
-        let count = (arc / INTERVAL).ceil().max(1.0) as usize;
+        let arc = (end - start) * roller.raceway_radius();
+        let level = roller.is_level(feature);
+        let count = if level { 1 } else { (arc / INTERVAL).ceil().max(1.0) as usize };
         let width = (end - start) / count as f64;
         let node = |i: usize| roller.touch_slope(feature, start + width * i as f64);
-        let cubics = (0..count)
+        let (mut p0, mut m0) = node(0);
+        m0 *= width;
+        let cubics = (1..=count)
             .map(|i| {
-                let ((p0, s0), (p1, s1)) = (node(i), node(i + 1));
-                let (m0, m1) = (s0 * width, s1 * width);
-                [p0, m0, 3.0 * (p1 - p0) - 2.0 * m0 - m1, 2.0 * (p0 - p1) + m0 + m1]
+                let (p1, s1) = node(i);
+                let m1 = s1 * width;
+                let cubic = [p0, m0, 3.0 * (p1 - p0) - 2.0 * m0 - m1, 2.0 * (p0 - p1) + m0 + m1];
+                (p0, m0) = (p1, m1);
+                cubic
             })
             .collect();
         Self { start, per_width: 1.0 / width, cubics }
@@ -105,212 +107,6 @@ impl Piece {
             slope: self.per_width * (c1 + t * (2.0 * c2 + t * 3.0 * c3)),
             curvature: self.per_width * self.per_width * (2.0 * c2 + 6.0 * t * c3),
         }
-    }
-}
-
-/// What the element touches.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Feature {
-    /// The raceway outside the profile.
-    Raceway,
-    /// A point of the profile.
-    Vertex(usize),
-    /// The inside of the straight piece after a point of the profile.
-    Stretch(usize),
-}
-
-/// The profile in polar form and the circle that rolls over it.
-struct Roller {
-    element_radius: f64,
-    raceway_radius: f64,
-    /// (φ, R), φ non-decreasing; starts and ends on the raceway.
-    vertices: Vec<(f64, f64)>,
-    shallowest: f64,
-}
-
-impl Roller {
-    fn new(points: &[(f64, f64)], element_radius: f64, raceway_radius: f64) -> Self {
-        let mut vertices: Vec<(f64, f64)> =
-            points.iter().map(|&(arc, depth)| (arc / raceway_radius, raceway_radius + depth)).collect();
-        if let (Some(&first), Some(&last)) = (vertices.first(), vertices.last()) {
-            // A profile that does not start or end at depth 0 has a wall there.
-            if first.1 != raceway_radius {
-                vertices.insert(0, (first.0, raceway_radius));
-            }
-            if last.1 != raceway_radius {
-                vertices.push((last.0, raceway_radius));
-            }
-        }
-        let shallowest = vertices.iter().map(|v| v.1 - raceway_radius).fold(0.0, f64::min);
-        Self { element_radius, raceway_radius, vertices, shallowest }
-    }
-
-    /// Angles between which the path may differ from 0: the profile, and beyond it what a raised rim touches.
-    fn extent(&self) -> (f64, f64) {
-        let first = self.vertices.first().map_or(0.0, |v| v.0);
-        let last = self.vertices.last().map_or(0.0, |v| v.0);
-        let gap = self.raceway_radius - self.element_radius;
-        // A rim that rises by e lifts the element over √(2 e r R/(R−r)) on either side; 1 % more to be clear of it.
-        let reach = (2.0 * -self.shallowest * self.element_radius * self.raceway_radius / gap).sqrt()
-            * (1.01 / self.raceway_radius);
-        (first - reach, last + reach)
-    }
-
-    /// Stretches of one touched feature between `first` and `last`, as (end angle, feature).
-    fn stretches(&self, first: f64, last: f64) -> Vec<(f64, Feature)> {
-        let count = ((last - first) * self.raceway_radius / SEARCH).ceil().max(1.0) as usize;
-        let mut found = Vec::new();
-        let mut left = (first, self.touched(first + 1e-12 * (last - first)));
-        for i in 1..=count {
-            let share = if i == count { 1.0 - 1e-12 } else { i as f64 / count as f64 };
-            let angle = first + (last - first) * share;
-            let right = (angle, self.touched(angle));
-            self.bisect(left, right, &mut found);
-            left = right;
-        }
-        found.push((last, left.1));
-        found
-    }
-
-    /// Pushes the ends of all features that give way to another between two angles.
-    fn bisect(&self, left: (f64, Feature), right: (f64, Feature), found: &mut Vec<(f64, Feature)>) {
-        if left.1 == right.1 {
-            return;
-        }
-        let middle = 0.5 * (left.0 + right.0);
-        // 1e-13 rad is 2e-15 m along the raceway.
-        if right.0 - left.0 < 1e-13 || middle <= left.0 || middle >= right.0 {
-            found.push((middle, left.1));
-            return;
-        }
-        let middle = (middle, self.touched(middle));
-        self.bisect(left, middle, found);
-        self.bisect(middle, right, found);
-    }
-
-    /// The feature that the element touches with its centre at `angle`.
-    fn touched(&self, angle: f64) -> Feature {
-        let mut best = (f64::INFINITY, Feature::Raceway);
-        let (first, last) = (self.vertices[0].0, self.vertices[self.vertices.len() - 1].0);
-        if angle <= first || angle >= last {
-            best.0 = 0.0;
-        }
-        // Outwards from the nearest vertex, until even the shallowest point there is too far to be touched.
-        let nearest = self.vertices.partition_point(|v| v.0 < angle);
-        // The straight piece above the centre first: its ends may be far away.
-        if let Some(below) = nearest.checked_sub(1)
-            && let Some(path) = self.stretch(below, angle)
-            && path < best.0
-        {
-            best = (path, Feature::Stretch(below));
-        }
-        let mut consider = |index: usize| -> bool {
-            let (phi, radius) = self.vertices[index];
-            if self.lower_bound(phi - angle) > best.0 {
-                return false;
-            }
-            if self.lower_bound(phi - angle) + radius - self.raceway_radius - self.shallowest < best.0
-                && let Some(path) = self.vertex(index, angle)
-                && path < best.0
-            {
-                best = (path, Feature::Vertex(index));
-            }
-            if let Some(path) = self.stretch(index, angle)
-                && path <= best.0
-            {
-                best = (path, Feature::Stretch(index));
-            }
-            true
-        };
-        (nearest..self.vertices.len()).take_while(|&i| consider(i)).count();
-        (0..nearest).rev().take_while(|&i| consider(i)).count();
-        best.1
-    }
-
-    /// A bound from below of the path over a point at angular distance `d`: chord term of the circle, minus what rises.
-    fn lower_bound(&self, d: f64) -> f64 {
-        // ρ(d) − (R−r) ≥ ½ R (R−r)/r d² for the point of a raceway of radius R; 10 % less covers other radii.
-        let gap = self.raceway_radius - self.element_radius;
-        0.45 * self.raceway_radius * gap / self.element_radius * d * d + self.shallowest
-    }
-
-    fn vertex(&self, index: usize, angle: f64) -> Option<f64> {
-        let (phi, radius) = self.vertices[index];
-        self.centre(radius, phi - angle).map(|rho| rho - (self.raceway_radius - self.element_radius))
-    }
-
-    /// ρ of the centre over the point at radius `radius` and angular distance `d`; `None` beyond the element's reach.
-    fn centre(&self, radius: f64, d: f64) -> Option<f64> {
-        let (sin, cos) = sin_cos(d);
-        let square = self.element_radius * self.element_radius - radius * radius * sin * sin;
-        (square > 0.0).then(|| radius * cos - square.sqrt())
-    }
-
-    /// The path over the straight piece after vertex `index`, if the element touches its inside.
-    fn stretch(&self, index: usize, angle: f64) -> Option<f64> {
-        let phi = self.stretch_touch(index, angle)?;
-        let radius = self.radius_on(index, phi);
-        self.centre(radius, phi - angle).map(|rho| rho - (self.raceway_radius - self.element_radius))
-    }
-
-    fn radius_on(&self, index: usize, phi: f64) -> f64 {
-        let ((phi0, r0), (phi1, r1)) = (self.vertices[index], self.vertices[index + 1]);
-        r0 + (r1 - r0) * ((phi - phi0) / (phi1 - phi0))
-    }
-
-    /// Angle of the touched point inside a straight piece: there the path over the piece's points has a minimum.
-    fn stretch_touch(&self, index: usize, angle: f64) -> Option<f64> {
-        let &(phi1, r1) = self.vertices.get(index + 1)?;
-        let (phi0, r0) = self.vertices[index];
-        if phi1 <= phi0 {
-            return None;
-        }
-        let slope = (r1 - r0) / (phi1 - phi0);
-        if slope == 0.0 {
-            return (angle > phi0 && angle < phi1).then_some(angle);
-        }
-        let derivative = |phi: f64| {
-            let radius = self.radius_on(index, phi);
-            let (sin, cos) = sin_cos(phi - angle);
-            let square = self.element_radius * self.element_radius - radius * radius * sin * sin;
-            if square <= 0.0 {
-                return if phi < angle { f64::NEG_INFINITY } else { f64::INFINITY };
-            }
-            slope * cos - radius * sin + (radius * slope * sin * sin + radius * radius * sin * cos) / square.sqrt()
-        };
-        if derivative(phi0) >= 0.0 || derivative(phi1) <= 0.0 {
-            return None;
-        }
-        let (mut low, mut high) = (phi0, phi1);
-        loop {
-            let middle = 0.5 * (low + high);
-            if middle <= low || middle >= high {
-                return Some(middle);
-            }
-            if derivative(middle) < 0.0 { low = middle } else { high = middle }
-        }
-    }
-
-    /// P and dP/dψ over one feature. By the envelope theorem only the direct dependence on ψ counts: with d = φ−ψ,
-    /// dP/dψ = R sin d − R² sin d cos d/√(r² − R² sin² d).
-    fn touch_slope(&self, feature: Feature, angle: f64) -> (f64, f64) {
-        let (phi, radius) = match feature {
-            Feature::Raceway => return (0.0, 0.0),
-            Feature::Vertex(index) => self.vertices[index],
-            // At the ends of a stretch rounding may put the touched point just outside it: then its end is touched.
-            Feature::Stretch(index) => {
-                let phi = self.stretch_touch(index, angle).unwrap_or_else(|| {
-                    let reach = |v: (f64, f64)| self.centre(v.1, v.0 - angle).unwrap_or(f64::INFINITY);
-                    let (from, to) = (self.vertices[index], self.vertices[index + 1]);
-                    if reach(from) <= reach(to) { from.0 } else { to.0 }
-                });
-                (phi, self.radius_on(index, phi))
-            }
-        };
-        let (sin, cos) = sin_cos(phi - angle);
-        let root = (self.element_radius * self.element_radius - radius * radius * sin * sin).max(0.0).sqrt();
-        let path = radius * cos - root - (self.raceway_radius - self.element_radius);
-        (path, radius * sin - radius * radius * sin * cos / root)
     }
 }
 
