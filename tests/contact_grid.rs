@@ -47,6 +47,29 @@ fn force_of_a_sphere_converges_to_hertz() {
 }
 
 #[test]
+fn force_of_a_sphere_is_hertz_s_wherever_cells_lie_when_gaps_are_halfway_between_centre_and_mean() {
+    let exact = 4.0 / 3.0 * APPROACH.powf(1.5);
+    for (n, limit) in [(32, 5e-4), (64, 6e-5), (128, 3e-5)] {
+        let (mut worst, mut sum) = (0.0_f64, 0.0);
+        for step in 0..24 {
+            // Windows of 1.05 to 1.28 radii, the sphere off the middle by up to half a cell, cells up to 1.2 times as long as wide.
+            let margin = 1.05 + 0.01 * f64::from(step);
+            let cell = 2.0 * margin * APPROACH.sqrt() / f64::from(n);
+            let cell = [cell, cell * if step % 3 == 2 { 1.2 } else { 1.0 }];
+            let off = if step < 6 { [0.0; 2] } else { [0.02 * f64::from(step), 0.5 - 0.02 * f64::from(step)] };
+            let gap = |x: f64, y: f64| 0.5 * ((x - off[0] * cell[0]).powi(2) + (y - off[1] * cell[1]).powi(2));
+            let problem = GridProblem::sampled(n as usize, n as usize, cell, 1.0, gap, Border::Window).unwrap();
+            let contact = ConjugateGradients::new(&problem, 1e-8).unwrap().at_approach(APPROACH).unwrap();
+            let error = contact.force / exact - 1.0;
+            assert!(error.abs() < limit, "{n} cells, window {margin}: {error:e}");
+            worst = worst.max(error.abs());
+            sum += error / 24.0;
+        }
+        println!("{n} cells: largest {worst:.1e}, mean {sum:.1e}");
+    }
+}
+
+#[test]
 fn both_solvers_give_the_same_force_on_smooth_and_broken_gaps() {
     for (problem, mirror) in [
         (sphere(32, 1.2, None), Mirror { x: true, y: true, ..Mirror::default() }),

@@ -590,3 +590,17 @@ fn write_the_table_of_stability() {
     std::fs::create_dir_all(&path).unwrap();
     std::fs::write(path.join("stability.md"), text).unwrap();
 }
+
+#[test]
+fn a_cage_that_turns_too_fast_for_time_to_pass_between_edges_fails_at_once() {
+    let text = std::fs::read_to_string("scenes/er16k-tb1.toml").unwrap();
+    let mut scene = Scene::from_toml(&text).unwrap();
+    scene.contact.law = ContactLaw::Hertz;
+    let mut simulation = Simulation::new(scene, None).unwrap();
+    simulation.initialize(0.0).unwrap();
+    let speed = simulation.table().iter().find(|variable| variable.name == "shaft.speed").unwrap().reference;
+    simulation.set_input_derivatives(&[speed], &[1], &[1e79]).unwrap();
+    // Without a limit this step would never end: passages at one instant are no integration steps.
+    let message = simulation.step(1e-5).unwrap_err().to_string();
+    assert!(message.contains("turns too fast"), "{message}");
+}

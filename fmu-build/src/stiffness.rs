@@ -11,6 +11,7 @@ use brinell::analysis::static_bearing::{Balance, StaticBearing, StaticError};
 use brinell::analysis::stiffness::{min_mean_max, sweep};
 use brinell::scene::ContactLaw;
 
+use crate::contact_map;
 use crate::csv;
 use crate::model::Model;
 use crate::project::Project;
@@ -38,7 +39,8 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
         bail!("load {amount} N: it must be finite and above 0");
     }
     let profile = model.profile.as_ref().map(|profile| profile.text.as_str());
-    let bearing = loaded(StaticBearing::new(&model.scene, profile)?, options.load)?;
+    let map = contact_map::of(&model.scene, profile, project)?;
+    let bearing = loaded(StaticBearing::with_map(&model.scene, profile, map.as_deref())?, options.load)?;
     let healthy = loaded(
         StaticBearing::new(&brinell::scene::Scene { defect: None, ..model.scene.clone() }, None)?,
         options.load,

@@ -14,6 +14,7 @@
 //! The load zone is the arc of smooth raceway on which the displaced inner ring squeezes: |ψ| < ψ_l from the direction of
 //! its displacement, cos ψ_l = G_r/|x|. It says where a healthy bearing's elements carry, with any number of them.
 
+use crate::contact::map::ContactMap;
 use crate::dynamics::drive::{Drive, Quadratic};
 use crate::dynamics::equilibrium::EquilibriumError;
 use crate::dynamics::forces::Forces;
@@ -21,9 +22,10 @@ use crate::dynamics::model::Model;
 use crate::numerics::wrap;
 use crate::scene::{Motion, Ring, Scene, SceneError};
 use crate::simulation::SimulationError;
-use crate::simulation::setup::build_model;
+use crate::simulation::setup::{build_model, largest_force, stored_map};
 use crate::surface::{Surface, SurfaceError};
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 
 /// Why a static study cannot be done.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -116,22 +118,41 @@ impl StaticBearing {
     /// # Errors
     /// Whatever is wrong with scene or profile, or a contact law that this defect cannot have.
     pub fn new(scene: &Scene, profile: Option<&str>) -> Result<Self, StaticError> {
+        Self::with_map(scene, profile, None)
+    }
+
+    /// As [`new`](Self::new), with the bytes of the contact map that was stored for the scene. Without it, law `map` computes the map
+    /// on one core.
+    ///
+    /// # Errors
+    /// Those of `new`; a map that is damaged or belongs to something else.
+    pub fn with_map(scene: &Scene, profile: Option<&str>, map: Option<&[u8]>) -> Result<Self, StaticError> {
         scene.check()?;
         let surface =
             scene.defect.as_ref().map(|defect| Surface::load(&defect.shape, profile, &scene.bearing)).transpose()?;
+        let map = match (&surface, map) {
+            (Some(surface), Some(bytes)) => Some(Arc::new(stored_map(scene, surface, bytes)?)),
+            _ => None,
+        };
         let load = load_on_bearing(scene);
         let still = Ring { motion: Motion::Fixed, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
         let mut held = scene.clone();
+        // The load goes another way; the map is to reach as far as the scene's.
+        held.contact.largest_force = Some(largest_force(scene));
         held.gravity = [0.0; 2];
         held.shaft = Ring { motion: Motion::Internal, mass: 1.0, ..still };
         held.housing = still;
         held.sensor = None;
-        Ok(Self { load, ..Self::with_surface(held, surface)? })
+        Ok(Self { load, ..Self::with_surface(held, surface, map.as_ref())? })
     }
 
-    fn with_surface(scene: Scene, surface: Option<Surface>) -> Result<Self, StaticError> {
+    fn with_surface(
+        scene: Scene,
+        surface: Option<Surface>,
+        map: Option<&Arc<ContactMap>>,
+    ) -> Result<Self, StaticError> {
         let radius = scene.bearing.outer_raceway_radius();
-        let model = build_model(&scene, surface.as_ref(), None)?;
+        let model = build_model(&scene, surface.as_ref(), map)?;
         let extent = surface.as_ref().map(Surface::extent).map(|(first, last)| [first / radius, last / radius]);
         Ok(Self { model, extent, surface, scene, load: [0.0; 2] })
     }
@@ -217,7 +238,7 @@ impl StaticBearing {
     /// No defect; a defect that becomes deeper than an element's radius.
     pub fn with_depth_times(&self, factor: f64) -> Result<Self, StaticError> {
         let surface = self.surface.as_ref().ok_or(StaticError::NoDefect)?.scaled(factor, &self.scene.bearing)?;
-        let mut other = Self::with_surface(self.scene.clone(), Some(surface))?;
+        let mut other = Self::with_surface(self.scene.clone(), Some(surface), None)?;
         other.load = self.load;
         Ok(other.with_clearance(self.model.radial_clearance).with_outer_compliance(self.model.outer.compliance))
     }

@@ -11,89 +11,17 @@
 
 use std::sync::Arc;
 
-use pulp::{Arch, NullaryFnOnce};
+use super::{
+    cholesky::Cholesky,
+    error::ContactError,
+    half_space::KernelTable,
+    row_pairs::{BLOCK, RowPairs},
+};
 
-use super::{cholesky::Cholesky, error::ContactError, half_space::KernelTable};
+pub use super::row_pairs::{Mirror, Run};
 
-/// Columns treated together in a product.
-const BLOCK: usize = 32;
 /// Interpenetration below this part of the largest interference counts as touching; rounding of K p is far below.
 const TOUCHING: f64 = 1e-13;
-
-/// Which halves of the contact mirror each other, so that only one of them is unknown.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Mirror {
-    /// Left and right: column 0 is right of the middle.
-    pub x: bool,
-    /// Front and back: row 0 is behind the middle.
-    pub y: bool,
-    /// Front and back, and the middle runs along row 0, of which one half is an unknown: its interference is to be halved.
-    pub middle_row: bool,
-}
-
-impl Mirror {
-    /// How many cells of the whole contact one unknown stands for.
-    pub fn images(self) -> f64 {
-        f64::from((1 + u8::from(self.x)) * (1 + u8::from(self.y)))
-    }
-}
-
-/// Influence of rows of cells on each other, the mirrored half added.
-#[derive(Debug, Clone)]
-struct RowPairs {
-    reach: usize,
-    rows: usize,
-    mirrored: bool,
-    width: usize,
-    values: Vec<f64>,
-}
-
-impl RowPairs {
-    fn new(kernel: &KernelTable, rows: usize, mirror: Mirror) -> Self {
-        let mirrored = mirror.y || mirror.middle_row;
-        let reach = kernel.columns();
-        let width = 2 * reach - 1 + BLOCK;
-        let pairs = if mirrored { rows * rows } else { rows };
-        let mut values = vec![0.0; pairs * width];
-        for (index, out) in values.chunks_exact_mut(width).enumerate() {
-            if mirrored {
-                let (j, k) = (index / rows, index % rows);
-                let other = if mirror.middle_row { j + k } else { j + k + 1 };
-                // Halves of a row in the middle: of both its force and its image.
-                let part = match (j, k) {
-                    (0, 0) if mirror.middle_row => 0.25,
-                    (0, _) | (_, 0) if mirror.middle_row => 0.5,
-                    _ => 1.0,
-                };
-                for ((out, direct), image) in out.iter_mut().zip(kernel.row(j.abs_diff(k))).zip(kernel.row(other)) {
-                    *out = part * (direct + image);
-                }
-            } else {
-                out[..2 * reach - 1].copy_from_slice(kernel.row(index));
-            }
-        }
-        Self { reach, rows, mirrored, width, values }
-    }
-
-    #[inline(always)]
-    fn pair(&self, j: usize, k: usize) -> &[f64] {
-        let index = if self.mirrored { j * self.rows + k } else { j.abs_diff(k) };
-        &self.values[index * self.width..(index + 1) * self.width]
-    }
-}
-
-/// Consecutive active cells of one row.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Run {
-    /// Row.
-    pub row: usize,
-    /// Column of the first cell.
-    pub first: i32,
-    /// Number of cells.
-    pub length: usize,
-    /// Index of the first cell's unknown.
-    pub at: usize,
-}
 
 /// Interference g = δ − h of the undeformed bodies [m] in a window of the grid.
 #[derive(Debug, Clone, Copy)]
@@ -189,7 +117,7 @@ impl ActiveSet {
     pub fn residual(&mut self, window: Window<'_>) -> f64 {
         let mut worst = 0.0_f64;
         let mut deflection = vec![0.0; window.columns.next_multiple_of(BLOCK)];
-        for row in 0..self.pairs.rows {
+        for row in 0..self.pairs.rows() {
             self.deflect(row, window.first, &mut deflection);
             let cells = row * window.columns..(row + 1) * window.columns;
             for ((&g, &state), &u) in window.interference[cells.clone()].iter().zip(&self.state[cells]).zip(&deflection)
@@ -218,8 +146,8 @@ impl ActiveSet {
     /// [`ContactError::WrongLength`] for a window wider than the kernel's table, [`ContactError::NotConverged`] when the set does not settle.
     pub fn solve(&mut self, window: Window<'_>) -> Result<Effort, ContactError> {
         let Window { first, columns, interference } = window;
-        let widest = if self.mirror.x { self.pairs.reach / 2 } else { self.pairs.reach };
-        if columns > widest || interference.len() != columns * self.pairs.rows {
+        let widest = if self.mirror.x { self.pairs.reach() / 2 } else { self.pairs.reach() };
+        if columns > widest || interference.len() != columns * self.pairs.rows() {
             return Err(ContactError::WrongLength {
                 quantity: "contact window, columns",
                 length: columns,
@@ -257,8 +185,7 @@ impl ActiveSet {
     }
 
     fn deflect(&self, row: usize, first: i32, out: &mut [f64]) {
-        let (pairs, runs, pressure) = (&self.pairs, &self.runs[..], &self.pressure[..]);
-        Arch::new().dispatch(Deflect { pairs, mirror_x: self.mirror.x, runs, pressure, row, first, out });
+        self.pairs.deflect(self.mirror.x, &self.runs, &self.pressure, (row, first), out);
     }
 
     fn start(&mut self, first: i32, columns: usize, interference: &[f64], largest: f64) {
@@ -331,7 +258,7 @@ impl ActiveSet {
         self.factored.clear();
         let count = self.runs.last().map_or(0, |run| run.at + run.length);
         self.factor.resize(count);
-        let middle = self.pairs.reach as i32 - 1;
+        let middle = self.pairs.reach() as i32 - 1;
         for (n, source) in self.runs.iter().enumerate() {
             for k in 0..source.length {
                 let c = source.at + k;
@@ -392,7 +319,7 @@ impl ActiveSet {
         self.deflection.clear();
         self.deflection.resize(window.columns.next_multiple_of(BLOCK), 0.0);
         let mut changed = false;
-        for row in 0..self.pairs.rows {
+        for row in 0..self.pairs.rows() {
             let g = &window.interference[row * window.columns..(row + 1) * window.columns];
             let state = &mut self.state[row * window.columns..(row + 1) * window.columns];
             let open = |c: &usize| g[*c] > touching && state[*c] == State::Open;
@@ -400,9 +327,8 @@ impl ActiveSet {
                 continue;
             };
             let out = &mut self.deflection[..(to + 1 - from).next_multiple_of(BLOCK)];
-            let (pairs, runs, pressure) = (&self.pairs, &self.runs[..], &self.pressure[..]);
-            let first = window.first + from as i32;
-            Arch::new().dispatch(Deflect { pairs, mirror_x: self.mirror.x, runs, pressure, row, first, out });
+            let at = (row, window.first + from as i32);
+            self.pairs.deflect(self.mirror.x, &self.runs, &self.pressure, at, out);
             for c in from..=to {
                 if state[c] == State::Open && g[c] - self.deflection[c - from] > touching {
                     state[c] = State::Active;
@@ -411,51 +337,5 @@ impl ActiveSet {
             }
         }
         changed
-    }
-}
-
-/// K p on consecutive cells of one row.
-struct Deflect<'a> {
-    pairs: &'a RowPairs,
-    mirror_x: bool,
-    runs: &'a [Run],
-    pressure: &'a [f64],
-    row: usize,
-    first: i32,
-    out: &'a mut [f64],
-}
-
-impl NullaryFnOnce for Deflect<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let middle = self.pairs.reach as i32 - 1;
-        for (b, out) in self.out.chunks_exact_mut(BLOCK).enumerate() {
-            let mut sum = [0.0_f64; BLOCK];
-            let first = self.first + (b * BLOCK) as i32;
-            for run in self.runs {
-                let pair = self.pairs.pair(self.row, run.row);
-                let pressure = &self.pressure[run.at..run.at + run.length];
-                for (k, &p) in pressure.iter().enumerate() {
-                    let from = run.first + k as i32;
-                    accumulate(&mut sum, pair, middle + first - from, p);
-                    if self.mirror_x {
-                        accumulate(&mut sum, pair, middle + first + from + 1, p);
-                    }
-                }
-            }
-            out.copy_from_slice(&sum);
-        }
-    }
-}
-
-#[inline(always)]
-fn accumulate(sum: &mut [f64; BLOCK], pair: &[f64], start: i32, p: f64) {
-    // Cells of the last block beyond the table are nobody's: they stay as they are.
-    if let Some(k) = pair.get(start as usize..start as usize + BLOCK) {
-        for l in 0..BLOCK {
-            sum[l] = k[l].mul_add(p, sum[l]);
-        }
     }
 }

@@ -157,6 +157,35 @@ impl GridProblem {
         Ok(Self { columns, rows, cell, effective_modulus, gap, border })
     }
 
+    /// A problem from its gap h(x, y) [m], a function of the place relative to the grid's middle [m]; the rest as for [`GridProblem::new`].
+    ///
+    /// A cell's gap is halfway between that at its centre and its mean over the cell (four points of Gauss's rule). With the centre's, the
+    /// force on a paraboloid of contact radius a is 0.06 (cell/a)² too high, with the mean 0.065 (cell/a)² too low; halfway only the
+    /// scatter is left of how cells lie under the border.
+    ///
+    /// # Errors
+    /// As [`GridProblem::new`].
+    pub fn sampled(
+        columns: usize,
+        rows: usize,
+        cell: [f64; 2],
+        effective_modulus: f64,
+        gap: impl Fn(f64, f64) -> f64,
+        border: Border,
+    ) -> Result<Self, ContactError> {
+        // Half the distance of Gauss's two points, 1/√3 of half a cell.
+        const NODE: f64 = 0.288_675_134_594_812_9;
+        let at = |c: usize| {
+            let x = ((c % columns) as f64 + 0.5 - 0.5 * columns as f64) * cell[0];
+            let y = ((c / columns) as f64 + 0.5 - 0.5 * rows as f64) * cell[1];
+            let (dx, dy) = (NODE * cell[0], NODE * cell[1]);
+            let mean =
+                0.25 * ((gap(x - dx, y - dy) + gap(x + dx, y + dy)) + (gap(x - dx, y + dy) + gap(x + dx, y - dy)));
+            0.5 * (gap(x, y) + mean)
+        };
+        Self::new(columns, rows, cell, effective_modulus, (0..columns * rows).map(at).collect(), border)
+    }
+
     /// Columns, along x.
     pub fn columns(&self) -> usize {
         self.columns

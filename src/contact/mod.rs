@@ -22,3 +22,4 @@ pub mod near_defect;
 pub mod raceway_grid;
 pub mod rigid_path;
 mod rigid_roller;
+mod row_pairs;

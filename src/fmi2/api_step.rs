@@ -28,15 +28,16 @@ pub unsafe extern "C" fn fmi2DoStep(
     _noSetFMUStatePriorToCurrentPoint: Boolean,
 ) -> Status {
     boundary::call(c, &state::DO_STEP, |instance| {
-        let mut clock = instance.clock.ok_or(Failure::NotSetUp)?;
         // Stands if the step fails or panics.
         instance.last_step = Status::Error;
+        let clock = instance.clock.as_ref().ok_or(Failure::NotSetUp)?;
         let end = clock.end_of_step(currentCommunicationPoint, communicationStepSize)?;
         #[cfg(feature = "panic-on-demand")]
         instance.logger.panic_on_demand();
         instance.step(communicationStepSize)?;
-        clock.time = end;
-        instance.clock = Some(clock);
+        if let Some(clock) = &mut instance.clock {
+            clock.time = end;
+        }
         instance.last_step = Status::Ok;
         Ok(())
     })

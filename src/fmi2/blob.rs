@@ -52,8 +52,8 @@ pub(super) enum BlobError {
         own: String,
     },
     /// The checksum is right, but the contents cannot be a state of this model.
-    #[error("serialized state: its contents are not a state of this model")]
-    Contents,
+    #[error("serialized state: its contents are none that a run of this model leaves behind: {0}")]
+    Contents(&'static str),
 }
 
 /// Number of bytes of [`encode`].
@@ -114,26 +114,29 @@ pub(super) fn decode(bytes: &[u8], guid: &str, simulation: &Simulation) -> Resul
             own: guid.to_owned(),
         });
     }
-    contents(rest, simulation).ok_or(BlobError::Contents)
+    contents(rest, simulation).map_err(BlobError::Contents)
 }
 
-fn contents(mut rest: &[u8], simulation: &Simulation) -> Option<Snapshot> {
-    let [mode, last_step, clock] = take(&mut rest)?;
-    let mut value = || Some(f64::from_le_bytes(take(&mut rest)?));
+fn contents(mut rest: &[u8], simulation: &Simulation) -> Result<Snapshot, &'static str> {
+    let (mode, last_step, clock) =
+        instance_part(&mut rest).ok_or("mode, status or time of the instance is impossible")?;
+    Ok(Snapshot { mode, last_step, clock, simulation: simulation.state_from_bytes(rest)? })
+}
+
+fn instance_part(rest: &mut &[u8]) -> Option<(Mode, Status, Option<Clock>)> {
+    let [mode, last_step, clock] = take(rest)?;
+    let mut value = || Some(f64::from_le_bytes(take(rest)?));
     let (start, stop, time) = (value()?, value()?, value()?);
-    Some(Snapshot {
-        mode: Mode::from_number(mode)?,
-        last_step: [Status::Ok, Status::Warning, Status::Discard, Status::Error]
-            .into_iter()
-            .find(|status| *status as u8 == last_step)?,
-        clock: match clock {
-            0 => None,
-            1 if start.is_finite() && time.is_finite() => Some(Clock { start, stop: None, time }),
-            2 if start.is_finite() && time.is_finite() && stop > start => Some(Clock { start, stop: Some(stop), time }),
-            _ => return None,
-        },
-        simulation: simulation.state_from_bytes(rest)?,
-    })
+    let last_step = [Status::Ok, Status::Warning, Status::Discard, Status::Error]
+        .into_iter()
+        .find(|status| *status as u8 == last_step)?;
+    let clock = match clock {
+        0 => None,
+        1 if start.is_finite() && time.is_finite() => Some(Clock { start, stop: None, time }),
+        2 if start.is_finite() && time.is_finite() && stop > start => Some(Clock { start, stop: Some(stop), time }),
+        _ => return None,
+    };
+    Some((Mode::from_number(mode)?, last_step, clock))
 }
 
 fn encoded_length(simulation: usize) -> usize {

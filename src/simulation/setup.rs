@@ -146,14 +146,19 @@ fn element_on_raceway(scene: &Scene) -> ElementOnRaceway {
     }
 }
 
+/// Force [N] up to which the contact map of a scene reaches.
+pub(crate) fn largest_force(scene: &Scene) -> f64 {
+    let load = [scene.shaft.load, scene.housing.load].iter().map(|f| f[0].hypot(f[1])).fold(0.0, f64::max);
+    let assumed = (4.0 * 5.0 * load / scene.bearing.element_count as f64).max(1000.0);
+    scene.contact.largest_force.unwrap_or(assumed)
+}
+
 /// What the contact map of a scene covers: forces up to `contact.largest_force_n`, or else four times the static force on
 /// the most loaded element, 5 F/Z (Stribeck), and at least 1000 N. Δ counts the rings' and seats' compliance as well.
 /// An accuracy that the scene asks for is held; the usual one may be missed, in defects deeper than they are long, by what
 /// [`TOLERATED`] says.
 pub fn map_specification(scene: &Scene) -> MapSpecification {
-    let load = [scene.shaft.load, scene.housing.load].iter().map(|f| f[0].hypot(f[1])).fold(0.0, f64::max);
-    let assumed = (4.0 * 5.0 * load / scene.bearing.element_count as f64).max(1000.0);
-    let force = scene.contact.largest_force.unwrap_or(assumed);
+    let force = largest_force(scene);
     let contact = libm::pow(force / HertzConstants::of(&scene.bearing).outer, 2.0 / 3.0);
     let usual = MapSpecification::new(contact + scene.bearing.outer_compliance * force);
     MapSpecification {
@@ -188,7 +193,7 @@ pub fn map_fingerprint(scene: &Scene, surface: &Surface) -> u64 {
 }
 
 /// A map that was stored with the scene; refused when it is damaged or belongs to something else.
-pub(super) fn stored_map(scene: &Scene, surface: &Surface, bytes: &[u8]) -> Result<ContactMap, SimulationError> {
+pub(crate) fn stored_map(scene: &Scene, surface: &Surface, bytes: &[u8]) -> Result<ContactMap, SimulationError> {
     Ok(ContactMap::from_bytes(bytes, map_fingerprint(scene, surface))?)
 }
 

@@ -4,6 +4,7 @@
 //! Numbers are written bit by bit, so a state that went through bytes continues with the same bits, also in another
 //! process. The bytes carry no version and no checksum: whoever stores them adds both.
 
+use super::stepper::SMALLEST_STEP;
 use super::variables::{Causality, Kind, Variable};
 use super::{Simulation, State};
 
@@ -83,21 +84,31 @@ impl State {
 }
 
 impl Simulation {
-    /// The state in bytes that [`State::to_bytes`] made of a state of this same model; `None` if they cannot be one.
-    pub fn state_from_bytes(&self, bytes: &[u8]) -> Option<State> {
+    /// The state in bytes that [`State::to_bytes`] made of a state of this same model.
+    ///
+    /// # Errors
+    /// What about the bytes no run of this model can have left behind, in words.
+    pub fn state_from_bytes(&self, bytes: &[u8]) -> Result<State, &'static str> {
+        const SHAPE: &str = "they are not of the shape that this model's have";
         let mut state = self.save();
         let mut rest = bytes;
-        state.visit(&mut |field| {
+        let read = state.visit(&mut |field| {
             let (head, tail) = rest.split_at_checked(field.len())?;
             field.copy_from_slice(head);
             rest = tail;
             Some(())
-        })?;
-        (rest.is_empty() && self.is_sound(&state)).then_some(state)
+        });
+        if read.is_none() || !rest.is_empty() {
+            return Err(SHAPE);
+        }
+        match self.flaw(&state) {
+            Some(flaw) => Err(flaw),
+            None => Ok(state),
+        }
     }
 
-    /// Whether a state of the right shape could have come about: numbers that are finite, values that could have been set.
-    fn is_sound(&self, state: &State) -> bool {
+    /// Why a state of the right shape cannot have come about.
+    fn flaw(&self, state: &State) -> Option<&'static str> {
         let progress = &state.progress;
         let numbers = [
             &[state.time, state.cage.rest, progress.last_error][..],
@@ -108,11 +119,43 @@ impl Simulation {
             &state.values,
             state.input_rates.as_flattened(),
         ];
+        if !numbers.into_iter().flatten().all(|number| number.is_finite()) {
+            return Some("a number is not finite");
+        }
+        // A step that is rejected is at least a tenth as long afterwards, one that is taken a fifth.
+        if progress.next_step < 0.1 * SMALLEST_STEP {
+            return Some("the integration step is shorter than error control ever makes it");
+        }
+        if !(1e-4..=1.0).contains(&progress.last_error) {
+            return Some("the error of the last integration step is none that error control accepts");
+        }
+        if !progress.choice.is_possible() {
+            return Some("the choice of the integration method is none that could have been made");
+        }
+        // A sample that is overdue by ages would be made up for, period by period.
+        if self.recorder.as_ref().is_some_and(|recorder| progress.due.delay.abs() > 2.0 * recorder.period()) {
+            return Some("the next sample is due at no time at which one can be");
+        }
+        if state.cage.rest.abs() > std::f64::consts::PI || state.cage.turns.unsigned_abs() >= MOST_TURNS {
+            return Some("the cage has an angle that it cannot have");
+        }
+        let model = &self.model;
+        let paths = &progress.state[..model.element_count];
+        if paths.iter().any(|path| path.abs() > model.element_radius) {
+            return Some("an element is outside the bearing");
+        }
+        let layout = &model.layout;
+        if (0..layout.len).any(|i| !layout.is_used(i) && progress.state[i] != 0.0) {
+            return Some("a place that is no state's is not 0");
+        }
+        if (0..layout.len).any(|i| !layout.is_position(i) && progress.state[i].abs() > LARGEST_VELOCITY) {
+            return Some("a velocity is one that no part can have");
+        }
         let in_range = |variable: &Variable| {
             let (value, integer) =
                 (state.values[variable.reference as usize], state.integers[variable.reference as usize]);
             match variable.kind {
-                // What a prescribed ring has reached since it was set may be beyond what can be set.
+                // What inputs have reached since they were set may be beyond what can be set.
                 Kind::Real { min, max, .. } if variable.causality == Causality::Parameter => {
                     min.is_none_or(|min| value >= min) && max.is_none_or(|max| value <= max)
                 }
@@ -120,17 +163,15 @@ impl Simulation {
                 _ => true,
             }
         };
-        numbers.into_iter().flatten().all(|number| number.is_finite())
-            && progress.next_step > 0.0
-            && progress.choice.stable_step >= 0.0
-            // A sample that is overdue by ages would be made up for, period by period.
-            && self.recorder.as_ref().is_none_or(|recorder| progress.due.delay.abs() <= 2.0 * recorder.period())
-            && state.cage.rest.abs() <= std::f64::consts::PI
-            && state.cage.turns.unsigned_abs() < MOST_TURNS
-            && self.table.iter().all(in_range)
+        if !self.table.iter().all(in_range) {
+            return Some("a parameter is beyond its limits");
+        }
+        None
     }
 }
 
+/// Ten times the velocity [m/s] that a host may prescribe for a ring.
+const LARGEST_VELOCITY: f64 = 1e4;
 /// Turns of the cage beyond which the angle has no digits left behind the point.
 const MOST_TURNS: u64 = 1 << 50;
 

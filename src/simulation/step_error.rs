@@ -59,6 +59,17 @@ pub enum StepError {
         /// Time into the communication step [s].
         since: f64,
     },
+    /// Elements go round so fast that time does not pass between one knot of the defect and the next.
+    #[error(
+        "elements passed {count} edges of the defect at one instant, {since:.6e} s into the communication step: the cage \
+         turns too fast for any time to pass between them; check shaft.speed and its derivatives"
+    )]
+    TooFast {
+        /// Passages without any time between them.
+        count: usize,
+        /// Time into the communication step [s].
+        since: f64,
+    },
     /// More integration steps than allowed in one communication step.
     #[error(
         "{steps} integration steps (limit solver.max_steps = {limit}) did not finish the communication step: \

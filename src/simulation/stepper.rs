@@ -43,7 +43,7 @@ pub struct Control {
 }
 
 /// Smallest step [s]; the fastest real mode of a steel bearing's element lasts 1e-8 s.
-const SMALLEST_STEP: f64 = 1e-15;
+pub(super) const SMALLEST_STEP: f64 = 1e-15;
 /// Approach below which errors are no longer measured relative to it [m]: a contact of about 0.2 N.
 const SMALLEST_APPROACH: f64 = 0.1e-6;
 /// Turns an approach into a velocity [1/s]: below the rings' angular frequency on their contacts. With it the error of
@@ -127,11 +127,13 @@ impl Stepper {
         check_rings(model, drive, tau, progress)?;
         let first_count = progress.steps + progress.rejected_steps;
         let mut knot = next_knot(model, drive, tau, step, &progress.cells);
+        let mut at_once = 0;
         self.first_stage(model, drive, tau, progress);
         while tau < step {
             if let Some(at) = knot
                 && at.tau <= tau
             {
+                count_passage(model, tau, &mut at_once)?;
                 progress.cells[at.element] = at.cell;
                 knot = next_knot(model, drive, tau, step, &progress.cells);
                 self.first_stage(model, drive, tau, progress);
@@ -142,6 +144,7 @@ impl Stepper {
             for (sum, force) in impulse.iter_mut().zip(self.weighted_force) {
                 *sum += h * force;
             }
+            at_once = 0;
             tau = if h == target - tau { target } else { tau + h };
             let taken = progress.steps + progress.rejected_steps - first_count;
             if taken > control.max_steps && tau < step {
@@ -160,6 +163,7 @@ impl Stepper {
         while let Some(at) = knot
             && at.tau <= tau
         {
+            count_passage(model, tau, &mut at_once)?;
             progress.cells[at.element] = at.cell;
             knot = next_knot(model, drive, tau, step, &progress.cells);
         }
@@ -418,6 +422,16 @@ fn weight(layout: &Layout, i: usize) -> f64 {
 }
 
 /// Beyond an element's radius the rings are beside each other, and a contact that is not a number would push nothing.
+/// Counts passages of knots between which no time passes: each element can pass each knot once.
+fn count_passage(model: &Model, since: f64, count: &mut usize) -> Result<(), StepError> {
+    *count += 1;
+    let knots = model.defect.as_ref().map_or(0, |(near, _)| near.knots().len());
+    if *count > model.element_count * knots {
+        return Err(StepError::TooFast { count: *count, since });
+    }
+    Ok(())
+}
+
 fn check_rings(model: &Model, drive: &Drive, tau: f64, progress: &Progress) -> Result<(), StepError> {
     let shaft = model.shaft_state(drive, tau, &progress.state).position;
     let housing = model.housing_state(drive, tau, &progress.state).position;

@@ -10,6 +10,7 @@
 //! Explicit steps stay within h|λ| = r of the last look. Error control alone lets them swing across it, and what grows there
 //! before it is noticed is noise as large as the tolerance: in a healthy bearing several times all other errors.
 
+use super::stepper::SMALLEST_STEP;
 use crate::dynamics::jacobian::Jacobian;
 
 /// Which methods a simulation may use.
@@ -58,6 +59,17 @@ const NEAR_LIMIT: f64 = 0.5;
 const MOST_PATIENCE: u32 = 64;
 
 impl Choice {
+    /// Whether counting and deciding can have led here. What is tried beyond the next look is one step's trials, a thousand at most:
+    /// each shortens it by a tenth or more.
+    pub(super) fn is_possible(&self) -> bool {
+        self.tried < LOOK + 1000
+            && self.limited <= self.tried.max(1)
+            && self.gained >= 0.0
+            && self.wait <= MOST_PATIENCE
+            && self.patience <= MOST_PATIENCE
+            && (self.stable_step == 0.0 || self.stable_step >= SMALLEST_STEP)
+    }
+
     /// Notes a finished explicit step of length `h` [s] and how often it was tried. `landed`: something else than error
     /// control ended it. Says whether it is time to look at the Jacobian.
     pub fn explicit_step(&mut self, h: f64, tried: u32, landed: bool) -> bool {

@@ -176,3 +176,39 @@ fn damaged_short_long_and_foreign_bytes_are_refused() {
     }
     assert!(host.deserialize(&good).is_ok());
 }
+
+#[test]
+fn contents_that_no_run_leaves_behind_are_refused_with_the_reason_even_if_the_checksum_is_right() {
+    let host = Host::started("6205-healthy");
+    let good = host.serialize(host.save());
+    // Magic 8, format 4, checksum 8; then length 8, GUID 38, three bytes, three times; then time 8, started 1, the cage's turns and rest.
+    let (checked, simulation) = (20, 20 + 8 + 38 + 3 + 24);
+    let next_step = simulation + 8 + 1 + 8 + 8;
+    let gained = next_step + 3 * 8 + 1 + 4 * 4;
+    let path = gained + 8 + 4 * 8;
+    let velocity = path + 16 * 8;
+    for (place, value, reason) in [
+        (next_step, 1e-300, "integration step is shorter"),
+        (next_step, -1e-6, "integration step is shorter"),
+        (next_step, f64::NAN, "not finite"),
+        (next_step + 8, 1e30, "error of the last integration step"),
+        (next_step - 8, 7.0, "cage has an angle"),
+        (gained, -1.0, "choice of the integration method"),
+        (path, 1.0, "outside the bearing"),
+        (path + 9 * 8, 1.0, "no state's"),
+        (velocity, 1e30, "velocity"),
+        (velocity, f64::INFINITY, "not finite"),
+        (path - 8, f64::NEG_INFINITY, "not finite"),
+    ] {
+        let mut bytes = good.clone();
+        bytes[place..place + 8].copy_from_slice(&f64::to_le_bytes(value));
+        let sum = bytes[checked..]
+            .iter()
+            .fold(0xcbf2_9ce4_8422_2325_u64, |sum, byte| (sum ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3));
+        bytes[checked - 8..checked].copy_from_slice(&sum.to_le_bytes());
+        assert_eq!(host.deserialize(&bytes), Err(Status::Error), "{value} at {place}");
+        let message = host.lines().pop().unwrap().message;
+        assert!(message.contains(reason), "{reason}: {message}");
+    }
+    assert!(host.deserialize(&good).is_ok());
+}
