@@ -3,8 +3,8 @@
 //!
 //! Bits are also the same whatever the machine's instructions; kernels choose them at run time, so the rest of the program
 //! is what compiler flags can change:
-//! `for cpu in x86-64 x86-64-v3 x86-64-v4; do RUSTFLAGS="-C target-cpu=$cpu" cargo test --test exactness -- --nocapture bits; done`
-//! prints one fingerprint three times.
+//! `for cpu in x86-64 x86-64-v2 x86-64-v3 x86-64-v4 native; do RUSTFLAGS="-C target-cpu=$cpu" cargo test --release --test exactness -- --nocapture bits; done`
+//! prints one fingerprint five times.
 
 #![allow(clippy::unwrap_used)]
 

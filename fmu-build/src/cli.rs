@@ -98,6 +98,9 @@ struct Report {
     /// Two scenes and few tolerances only
     #[arg(long)]
     short: bool,
+    /// Only which method steps and what a step costs
+    #[arg(long, conflicts_with = "short")]
+    steps: bool,
     /// Folder for the page, its figures and its data [default: docs; target/report with --short]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -233,12 +236,17 @@ impl Arguments {
                 stiffness::command(&project, &model, wanted, &folder)
             }
             Command::Report(options) => {
-                let (extent, folder) = if options.short {
-                    (report::Extent::Short, project.target().join("report"))
+                let folder = if options.short {
+                    project.target().join("report")
                 } else {
-                    (report::Extent::Full, project.source().unwrap_or(Path::new(".")).join("docs"))
+                    project.source().unwrap_or(Path::new(".")).join("docs")
                 };
-                report::command(&project, extent, &options.output.unwrap_or(folder))
+                let folder = options.output.unwrap_or(folder);
+                if options.steps {
+                    return report::steps_command(&project, &folder);
+                }
+                let extent = if options.short { report::Extent::Short } else { report::Extent::Full };
+                report::command(&project, extent, &folder)
             }
             Command::Size(options) => {
                 let wanted = size::Options {

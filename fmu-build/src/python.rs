@@ -18,6 +18,7 @@ use crate::project::Project;
 const REQUIREMENTS: &str = include_str!("../python/requirements.txt");
 const SCRIPTS: &[(&str, &str)] = &[
     ("demo.py", include_str!("../python/demo.py")),
+    ("elements.py", include_str!("../python/elements.py")),
     ("host.py", include_str!("../python/host.py")),
     ("plotting.py", include_str!("../python/plotting.py")),
     ("report.py", include_str!("../python/report.py")),

@@ -2,14 +2,16 @@
 //!
 //! Rings are at rest or move as prescribed, elements keep their distance from the outer ring (u' = 0) and go round with
 //! the cage: they feel gravity, the centrifugal force and the contacts' damping at those rates, so that no acceleration
-//! is left at the start. Each element's radial balance is solved inside (its force falls monotonically with u), then the internal rings' by Newton's method on
-//! the condensed tangent with a shift that keeps a loose ring's step bounded, and a search along the step for the point
-//! at which the residual no longer pushes forward: in a convex potential that is the minimum along the line.
+//! is left at the start. Each element's radial balance is solved inside (its force falls monotonically with u), then the
+//! internal rings' by Newton's method on the elastic [tangent](super::tangent) with a shift that keeps a loose ring's step
+//! bounded, and a search along the step for the point at which the residual no longer pushes forward: in a convex
+//! potential that is the minimum along the line.
 //!
 //! An element that nothing pushes rests against the outer raceway without force.
 
-use super::drive::{Drive, Quadratic};
+use super::drive::Drive;
 use super::forces::{SMOOTH, dot};
+use super::linearized::{Bends, Instant, Linearized};
 use super::model::Model;
 use crate::numerics::linear::solve4;
 use crate::scene::Motion;
@@ -45,15 +47,16 @@ impl Model {
         state.fill(0.0);
         let mut rings = Rings::start(self, drive);
         let mut u = vec![0.0; self.element_count];
-        let mut balance = self.balance(drive, cells, &rings, &mut u);
+        let given = Given { drive, cells, still: self.instant(drive, 0.0, state) };
+        let mut balance = self.balance(&given, &rings, &mut u);
         let mut iteration = 0;
         while balance.residual() > balance.limit {
             iteration += 1;
             if iteration > ITERATIONS {
                 return Err(EquilibriumError::NotFound { residual: balance.residual(), limit: balance.limit });
             }
-            let step = self.newton_step(drive, cells, &rings, &u, &balance);
-            let Some(next) = self.along(drive, cells, &rings, &mut u, &balance, step) else {
+            let step = self.newton_step(&given, &rings, &u, &balance);
+            let Some(next) = self.along(&given, &rings, &mut u, &balance, step) else {
                 return Err(EquilibriumError::NotFound { residual: balance.residual(), limit: balance.limit });
             };
             (rings, balance) = next;
@@ -81,21 +84,27 @@ impl Model {
         u
     }
 
-    /// The path at which an element is in radial balance, looked for from `guess` on.
-    fn balanced_path(&self, cell: u32, guess: f64, radial: &Radial, at: &Start) -> f64 {
-        let force = |u: f64| self.radial_force(cell, u, radial, at);
-        let touch = if cell == SMOOTH { 0.0 } else { self.touching_path(radial.j, cell, at.cage_angle) };
-        let at_touch = force(touch).0;
+    /// Element `j` in radial balance, and its path, looked for from `guess` on.
+    fn balanced_element(&self, j: usize, cell: u32, guess: f64, at: &Instant) -> (f64, Linearized) {
+        // u' = 0. Without second derivatives of the approach the slope is that of another damping, which Newton's method bears.
+        let element = |u: f64| {
+            let element = self.linearized_at(j, cell, (u, 0.0), at, Bends::LeftOut);
+            let (force, slope) = self.radial_balance(&element);
+            (force, slope, element)
+        };
+        let touch = if cell == SMOOTH { 0.0 } else { self.touching_path(j, cell, at.cage_angle) };
+        let (at_touch, _, touching) = element(touch);
         if at_touch == 0.0 {
-            return touch;
+            return (touch, touching);
         }
         // Newton from the path found last, with the bracket that the signs give; where Newton would leave the bracket or
         // leap, halving, or walking on as long as there is no bracket.
         let (mut low, mut high) = if at_touch > 0.0 { (touch, f64::INFINITY) } else { (f64::NEG_INFINITY, touch) };
         let mut stride = 1e-6f64.copysign(at_touch);
         let mut u = if guess > low && guess < high { guess } else { touch + stride };
+        let mut found = element(u);
         for _ in 0..300 {
-            let (f, slope) = force(u);
+            let (f, slope, _) = found;
             if f > 0.0 {
                 low = u
             } else {
@@ -104,7 +113,7 @@ impl Model {
             let newton = u - f / slope;
             // A millionth of a millionth of a nanometre: the rounding of micrometre paths.
             if f == 0.0 || (newton - u).abs() < 1e-21 {
-                return u;
+                break;
             }
             let next = if newton > low && newton < high && (newton - u).abs() < LONGEST_STEP {
                 newton
@@ -115,85 +124,26 @@ impl Model {
                 u + stride
             };
             if next <= low || next >= high || stride.abs() > 1.0 {
-                return u;
+                break;
             }
             u = next;
+            found = element(u);
         }
-        u
-    }
-
-    fn start(&self, drive: &Drive) -> Start {
-        let velocity = |motion: Motion, place: &[Quadratic; 2]| {
-            if motion == Motion::Host { place.map(|q| q.rate_at(0.0)) } else { [0.0; 2] }
-        };
-        let shaft = velocity(self.shaft.motion, &drive.shaft);
-        let housing = velocity(self.housing.motion, &drive.housing);
-        let cage_angle = drive.cage_angle(0.0);
-        Start {
-            cage_angle,
-            cage: super::forces::cos_sin(cage_angle),
-            omega: drive.cage.rate_at(0.0),
-            drift: [0, 1].map(|a| housing[a] - shaft[a]),
-        }
-    }
-
-    fn radial(&self, j: usize, offset: [f64; 2], at: &Start) -> Radial {
-        let e_r = self.direction(j, at.cage);
-        let e_t = [-e_r[1], e_r[0]];
-        Radial {
-            j,
-            e_r,
-            e_t,
-            offset,
-            drift: [dot(at.drift, e_r), dot(at.drift, e_t)],
-            gravity: self.element_mass * dot(self.gravity, e_r),
-        }
-    }
-
-    /// Radial force on an element at path `u`, and the slope of its elastic part.
-    #[inline]
-    fn radial_force(&self, cell: u32, u: f64, radial: &Radial, at: &Start) -> (f64, f64) {
-        let rho = self.outer_centre_radius + u;
-        let inner = self.inner_gap(u, radial.offset, radial.e_r);
-        let rate = -(inner.n[0] * radial.drift[0] + inner.n[1] * (radial.drift[1] + rho * at.omega));
-        let body = radial.gravity + self.element_mass * rho * at.omega * at.omega;
-        let across = self.inner.elastic(inner.approach) / inner.distance;
-        let k = self.inner.elastic_stiffness(inner.approach);
-        let slope = across - (k + across) * inner.n[0] * inner.n[0];
-        let near = self.outer_approach(radial.j, cell, u, at.cage_angle, rho);
-        let outer = self.outer.force(near.value, near.by_angle * at.omega);
-        let outer_slope = self.outer.elastic_stiffness(near.value) * near.by_path * near.radial
-            + self.outer.elastic(near.value) * near.radial_by_path;
-        let force = self.inner.force(inner.approach, rate) * inner.n[0] - outer * near.radial + body;
-        (force, slope - outer_slope)
-    }
-
-    /// Contact forces on element `j` at the start's rates: u' = 0, rings at rest or as prescribed.
-    fn damped_element(&self, cell: u32, u: f64, radial: &Radial, at: &Start) -> OnElement {
-        let Radial { e_r, e_t, offset, .. } = *radial;
-        let rho = self.outer_centre_radius + u;
-        let inner = self.inner_gap(u, offset, e_r);
-        let rate = -(inner.n[0] * radial.drift[0] + inner.n[1] * (radial.drift[1] + rho * at.omega));
-        let force = self.inner.force(inner.approach, rate);
-        let near = self.outer_approach(radial.j, cell, u, at.cage_angle, rho);
-        let outer = self.outer.force(near.value, near.by_angle * at.omega);
-        OnElement {
-            inner: [0, 1].map(|a| force * (inner.n[0] * e_r[a] + inner.n[1] * e_t[a])),
-            outer: [outer * near.radial, outer * near.tangential],
-        }
+        (u, found.2)
     }
 
     /// Balances all elements for given rings and sums the forces on the rings.
-    fn balance(&self, drive: &Drive, cells: &[u32], rings: &Rings, u: &mut [f64]) -> Balance {
-        let (offset, at) = (rings.offset(), self.start(drive));
+    fn balance(&self, given: &Given, rings: &Rings, u: &mut [f64]) -> Balance {
+        let Given { drive, cells, .. } = given;
+        let at = rings.placed(&given.still);
         let mut force = [0.0; 4];
         let (mut largest, mut contact_sum) = (0.0f64, 0.0);
         for j in 0..self.element_count {
-            let radial = self.radial(j, offset, &at);
-            u[j] = self.balanced_path(cells[j], u[j], &radial, &at);
-            let (element, e_r) = (self.damped_element(cells[j], u[j], &radial, &at), radial.e_r);
+            let (path, element) = self.balanced_element(j, cells[j], u[j], &at);
+            u[j] = path;
+            let Linearized { e_r, e_t, .. } = element;
             contact_sum += dot(element.inner, element.inner).sqrt();
-            let on_housing = [0, 1].map(|a| element.outer[0] * e_r[a] - element.outer[1] * [-e_r[1], e_r[0]][a]);
+            let on_housing = [0, 1].map(|a| element.outer[0] * e_r[a] - element.outer[1] * e_t[a]);
             for a in 0..2 {
                 force[a] -= element.inner[a];
                 force[2 + a] += on_housing[a];
@@ -217,8 +167,8 @@ impl Model {
     }
 
     /// A step of the free rings from the condensed tangent: (−J + μ) step = force.
-    fn newton_step(&self, drive: &Drive, cells: &[u32], rings: &Rings, u: &[f64], balance: &Balance) -> [f64; 4] {
-        let mut matrix = self.ring_jacobian(u, cells, rings.offset(), drive.cage_angle(0.0));
+    fn newton_step(&self, given: &Given, rings: &Rings, u: &[f64], balance: &Balance) -> [f64; 4] {
+        let mut matrix = self.ring_jacobian(u, given.cells, rings.offset(), given.still.cage_angle);
         // The turning of contact forces makes a lightly held ring's tangent indefinite; its bound ΣQ/|q| takes that out.
         // The second term lets a loose ring move by the longest step, and vanishes with the residual.
         let shift = balance.contact_sum / self.outer_centre_radius + balance.residual() / LONGEST_STEP;
@@ -248,8 +198,7 @@ impl Model {
     /// Goes along a step as far as the residual pushes forward.
     fn along(
         &self,
-        drive: &Drive,
-        cells: &[u32],
+        given: &Given,
         rings: &Rings,
         u: &mut [f64],
         start: &Balance,
@@ -260,7 +209,7 @@ impl Model {
         let mut share = 1.0;
         for _ in 0..100 {
             let next = rings.moved(step, share);
-            let balance = self.balance(drive, cells, &next, u);
+            let balance = self.balance(given, &next, u);
             let push = dot4(balance.force, step);
             if balance.residual() <= balance.limit || push.abs() <= 0.5 * push_0 || (push > 0.0 && high.is_infinite()) {
                 return Some((next, balance));
@@ -295,31 +244,11 @@ impl Model {
     }
 }
 
-/// What all elements share at the start.
-struct Start {
-    cage_angle: f64,
-    cage: (f64, f64),
-    omega: f64,
-    /// Velocity of the outer ring less that of the inner [m/s].
-    drift: [f64; 2],
-}
-
-/// What stays while one element's radial balance is looked for.
-struct Radial {
-    j: usize,
-    e_r: [f64; 2],
-    e_t: [f64; 2],
-    offset: [f64; 2],
-    /// Drift of the rings, radial and tangential [m/s].
-    drift: [f64; 2],
-    /// Radial part of the element's weight [N].
-    gravity: f64,
-}
-
-/// Contact forces on one element [N]: the inner in x and y, the outer inwards and counter-clockwise.
-struct OnElement {
-    inner: [f64; 2],
-    outer: [f64; 2],
+/// What the search is given. Velocities in `still` stay; where the rings are follows in each iteration.
+struct Given<'a> {
+    drive: &'a Drive,
+    cells: &'a [u32],
+    still: Instant,
 }
 
 /// Positions of both rings during the search.
@@ -347,6 +276,14 @@ impl Rings {
 
     fn offset(&self) -> [f64; 2] {
         [self.position[2] - self.position[0], self.position[3] - self.position[1]]
+    }
+
+    /// The instant `still` with the rings where these are.
+    fn placed(&self, still: &Instant) -> Instant {
+        let mut at = *still;
+        let [x_i, y_i, x_o, y_o] = self.position;
+        (at.shaft.position, at.housing.position) = ([x_i, y_i], [x_o, y_o]);
+        at
     }
 
     fn moved(&self, step: [f64; 4], share: f64) -> Self {

@@ -9,6 +9,7 @@ pub mod equilibrium;
 pub mod equilibrium_variation;
 pub mod forces;
 pub mod jacobian;
+mod linearized;
 pub mod model;
 pub mod tangent;
 pub mod variation;

@@ -1,108 +1,76 @@
-//! Elastic tangent stiffness of the bearing, with the elements in static balance between the rings.
+//! Forces on the rings by the rings' positions, each element staying in its radial balance.
 //!
-//! For one element with q from the inner ring's centre to its own, the inner force on it is Q n and
-//! ```text
-//! G = ∂(Q n)/∂q = −k n nᵀ + (Q/|q|)(1 − n nᵀ),   k = 1.5 K √δ
-//! ```
-//! Its radial balance e_r·Q n − F_r(u) + … = 0 gives du = e_rᵀG (dx_i − dx_o)/g with g = e_rᵀ G e_r − ∂F_r/∂u, and so
-//! the ring forces depend on the rings' positions alone. Damping and inertia do not enter.
+//! Element j is in balance where R_j = f·e_r − F_r + m (g·e_r + ρ ω²) = 0. What the rings do moves it by
+//! du_j = −dR_j/(∂R_j/∂u_j), so that the forces on the rings depend on the rings alone: the arrow of all positions, its
+//! elements eliminated. At rest that is the elastic tangent stiffness of the bearing.
+//!
+//! An element that nothing touches does not answer.
 
-use super::forces::{cos_sin, dot};
+use super::forces::dot;
+use super::linearized::{Bends, ElementChange, ElementVariation, Instant, Linearized};
 use super::model::Model;
 
 /// ∂(force on inner ring, force on outer ring)/∂(position of inner ring, position of outer ring) [N/m].
 pub type RingJacobian = [[f64; 4]; 4];
 
-/// Elastic forces in one element's contacts and their derivatives.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct ElasticElement {
-    pub(super) e_r: [f64; 2],
-    pub(super) e_t: [f64; 2],
-    /// Inner contact force on the element [N].
-    pub(super) inner: [f64; 2],
-    /// ∂(inner)/∂q [N/m], symmetric.
-    pub(super) inner_by_q: [[f64; 2]; 2],
-    /// Outer contact force on the element, inwards and counter-clockwise [N].
-    pub(super) outer: [f64; 2],
-    /// ∂(outer)/∂u [N/m].
-    pub(super) outer_by_path: [f64; 2],
-}
-
-impl ElasticElement {
-    /// Radial force on the element from both contacts [N], and its derivative by u.
-    pub(super) fn radial(&self) -> (f64, f64) {
-        let g_e = times(self.inner_by_q, self.e_r);
-        (dot(self.inner, self.e_r) - self.outer[0], dot(self.e_r, g_e) - self.outer_by_path[0])
-    }
+/// Change of one element's path [m] and of the forces on the rings [N], its balance kept.
+pub(super) struct Balanced {
+    pub(super) path: f64,
+    pub(super) rings: [f64; 4],
 }
 
 impl Model {
-    /// Elastic contact forces of element `j` at path `u`, the rings' centres being `offset` (outer minus inner) apart; the
-    /// cage angle comes with its cosine and sine.
-    pub(super) fn elastic_element(
-        &self,
-        j: usize,
-        cell: u32,
-        u: f64,
-        offset: [f64; 2],
-        (cage_angle, cage): (f64, (f64, f64)),
-    ) -> ElasticElement {
-        let e_r = self.direction(j, cage);
-        let e_t = [-e_r[1], e_r[0]];
-        let rho = self.outer_centre_radius + u;
-        let gap = self.inner_gap(u, offset, e_r);
-        let n = [0, 1].map(|a| gap.n[0] * e_r[a] + gap.n[1] * e_t[a]);
-        let (delta, q) = (gap.approach, gap.distance);
-        let (force, k) = (self.inner.elastic(delta), self.inner.elastic_stiffness(delta));
-        let across = force / q;
-        let mut inner_by_q = [[0.0; 2]; 2];
+    /// Radial force R on an element [N], inertia of the turning cage and gravity included, and its derivative by u [N/m].
+    #[inline]
+    pub(super) fn radial_balance(&self, element: &Linearized) -> (f64, f64) {
+        let Linearized { e_r, rho, omega, .. } = *element;
+        let body = dot(self.gravity, e_r) + rho * omega * omega;
+        let contacts = dot(element.inner, e_r) - element.outer[0];
+        let along = radial(element, &element.change(&ElementVariation::of_path()));
+        (contacts + self.element_mass * body, along + self.element_mass * omega * omega)
+    }
+
+    /// What a change does to an element that keeps its balance, and through it to the rings.
+    pub(super) fn balanced(&self, element: &Linearized, by: &ElementVariation) -> Balanced {
+        let Linearized { e_r, e_t, rho, omega, .. } = *element;
+        let along = element.change(&ElementVariation::of_path());
+        let direct = element.change(by);
+        let stiffness = radial(element, &along) + self.element_mass * omega * omega;
+        let push = radial(element, &direct) + 2.0 * self.element_mass * rho * omega * by.cage_speed;
+        let path = if stiffness == 0.0 { 0.0 } else { -push / stiffness };
+        let outer = [0, 1].map(|i| direct.outer[i] + path * along.outer[i]);
+        let mut rings = [0.0; 4];
         for a in 0..2 {
-            for b in 0..2 {
-                inner_by_q[a][b] = -(k + across) * n[a] * n[b] + if a == b { across } else { 0.0 };
-            }
+            rings[a] = -(direct.inner[a] + path * along.inner[a]);
+            rings[2 + a] = outer[0] * e_r[a] - outer[1] * e_t[a];
         }
-        let near = self.outer_approach(j, cell, u, cage_angle, rho);
-        let (outer, k_outer) =
-            (self.outer.elastic(near.value), self.outer.elastic_stiffness(near.value) * near.by_path);
-        ElasticElement {
-            e_r,
-            e_t,
-            inner: [force * n[0], force * n[1]],
-            inner_by_q,
-            outer: [outer * near.radial, outer * near.tangential],
-            outer_by_path: [
-                k_outer * near.radial + outer * near.radial_by_path,
-                k_outer * near.tangential + outer * near.tangential_by_path,
-            ],
+        Balanced { path, rings }
+    }
+
+    /// Adds an element in balance to the Jacobian of the rings' forces.
+    pub(super) fn add_balanced(&self, element: &Linearized, jacobian: &mut RingJacobian) {
+        for axis in 0..2 {
+            let rings = self.balanced(element, &ElementVariation::of_offset(axis)).rings;
+            for i in 0..4 {
+                jacobian[i][axis] -= rings[i];
+                jacobian[i][2 + axis] += rings[i];
+            }
         }
     }
 
-    /// Elastic Jacobian of the ring forces, elements eliminated, at the element paths `u`.
+    /// Elastic Jacobian of the rings' forces at the element paths `u`, the rings' centres being `offset` (outer minus inner)
+    /// apart.
     pub fn ring_jacobian(&self, u: &[f64], cells: &[u32], offset: [f64; 2], cage_angle: f64) -> RingJacobian {
-        let mut jacobian = [[0.0; 4]; 4];
-        let cage = (cage_angle, cos_sin(cage_angle));
+        let (mut jacobian, at) = ([[0.0; 4]; 4], Instant::at_rest(cage_angle, offset));
         for j in 0..self.element_count {
-            let element = self.elastic_element(j, cells[j], u[j], offset, cage);
-            let (_, g) = element.radial();
-            let g_e = times(element.inner_by_q, element.e_r);
-            // du/dx_i = −du/dx_o; an element without contact does not answer.
-            let du = if g == 0.0 { [0.0; 2] } else { [g_e[0] / g, g_e[1] / g] };
-            for a in 0..2 {
-                let on_housing = element.outer_by_path[0] * element.e_r[a] - element.outer_by_path[1] * element.e_t[a];
-                for b in 0..2 {
-                    let shaft = element.inner_by_q[a][b] - g_e[a] * du[b];
-                    jacobian[a][b] += shaft;
-                    jacobian[a][2 + b] -= shaft;
-                    jacobian[2 + a][b] += on_housing * du[b];
-                    jacobian[2 + a][2 + b] -= on_housing * du[b];
-                }
-            }
+            self.add_balanced(&self.linearized_at(j, cells[j], (u[j], 0.0), &at, Bends::LeftOut), &mut jacobian);
         }
         jacobian
     }
 }
 
+/// Change of the radial force of both contacts [N].
 #[inline]
-pub(super) fn times(matrix: [[f64; 2]; 2], vector: [f64; 2]) -> [f64; 2] {
-    [dot(matrix[0], vector), dot(matrix[1], vector)]
+fn radial(element: &Linearized, change: &ElementChange) -> f64 {
+    dot(change.inner, element.e_r) - change.outer[0]
 }

@@ -1,23 +1,17 @@
 //! First-order change of forces and accelerations for a small change of state and inputs.
 //!
-//! An element's contacts change with everything they see; d stands for the change:
+//! An element's contacts change with everything they see by the one rule of [`super::linearized`], where
 //! ```text
-//! q   = x_o − x_i + ρ e_r            dq  = dx_o − dx_i + e_r du + ρ e_t dθ
-//! u'  = w − e_r·v_o                  du' = dw − e_r·dv_o − e_t·v_o dθ
-//! q̇   = v_o − v_i + u' e_r + ρ ω e_t   dq̇ = dv_o − dv_i + e_r du' + (u' e_t − ρ ω e_r) dθ + e_t (ω du + ρ dω)
-//! df  = G dq + D dq̇                  with G, D of `jacobian`
-//! dF  = (Q_Δ dΔ + Q_Δ̇ dΔ̇) (radial, tangential) + Q d(radial, tangential)
-//! dΔ  = Δ_u du + Δ_ψ dθ              dΔ̇ = Δ_u du' + Δ_ψ dω + (Δ_uu u' + Δ_uψ ω) du + (Δ_uψ u' + Δ_ψψ ω) dθ
+//! u' = w − e_r·v_o                  du' = dw − e_r·dv_o − e_t·v_o dθ
 //! ```
-//! With this one rule the derivative of any output follows: by an input at fixed state, by an input through the static
+//! With it the derivative of any output follows: by an input at fixed state, by an input through the static
 //! equilibrium, and by time along the motion. Derivatives are those of the branch that each contact is in; at the
 //! onset of a contact there are two.
 
 use super::drive::Drive;
-use super::forces::{RingState, SMOOTH, cos_sin, dot};
-use super::jacobian::{Bend, DIFFERENCE, Instant};
+use super::forces::{RingState, SMOOTH, dot};
+use super::linearized::{Bends, DIFFERENCE, ElementVariation, Instant, Linearized, times};
 use super::model::Model;
-use super::tangent::{ElasticElement, times};
 
 /// A small change of state and inputs.
 #[derive(Debug, Clone, Default)]
@@ -53,53 +47,6 @@ pub struct ForceChange {
     pub torque_by_acceleration: [f64; 2],
 }
 
-/// Change of one element's contact forces.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct ElementChange {
-    /// Force of the inner contact on the element, x and y [N].
-    pub(super) inner: [f64; 2],
-    /// Force of the outer contact on the element, inwards and counter-clockwise [N].
-    pub(super) outer: [f64; 2],
-    /// Amount of the outer force [N].
-    pub(super) outer_amount: f64,
-}
-
-/// Change of what one element sees.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct ElementVariation {
-    pub(super) offset: [f64; 2],
-    pub(super) drift: [f64; 2],
-    pub(super) path: f64,
-    pub(super) path_rate: f64,
-    pub(super) cage_angle: f64,
-    pub(super) cage_speed: f64,
-}
-
-/// One element's contacts as far as their changes need them.
-pub(super) struct VaryingElement {
-    pub(super) e_r: [f64; 2],
-    pub(super) e_t: [f64; 2],
-    /// Force of the inner contact on the element, x and y [N].
-    pub(super) inner: [f64; 2],
-    /// Force of the outer contact on the element, inwards and counter-clockwise [N].
-    pub(super) outer: [f64; 2],
-    pub(super) path_rate: f64,
-    pub(super) rho: f64,
-    pub(super) omega: f64,
-    by_q: [[f64; 2]; 2],
-    by_q_rate: [[f64; 2]; 2],
-    /// Direction, and its derivatives by path and angle.
-    direction: [f64; 2],
-    direction_by_path: [f64; 2],
-    direction_by_angle: [f64; 2],
-    /// Amount of the outer force per unit of direction, and its derivatives.
-    amount: f64,
-    by_path: f64,
-    by_path_rate: f64,
-    by_angle: f64,
-    by_speed: f64,
-}
-
 impl Variation {
     /// No change, with room for `count` elements.
     pub fn new(count: usize) -> Self {
@@ -114,7 +61,8 @@ impl Variation {
         self.radial_velocity.fill(0.0);
     }
 
-    fn offset(&self) -> [f64; 2] {
+    /// Of the outer ring's position less that of the inner [m].
+    pub(super) fn offset(&self) -> [f64; 2] {
         [0, 1].map(|a| self.housing.position[a] - self.shaft.position[a])
     }
 }
@@ -123,29 +71,6 @@ impl ForceChange {
     /// Room for `count` elements.
     pub fn new(count: usize) -> Self {
         Self { inner: vec![0.0; count], outer: vec![0.0; count], ..Self::default() }
-    }
-}
-
-impl VaryingElement {
-    pub(super) fn change(&self, by: &ElementVariation) -> ElementChange {
-        let Self { e_r, e_t, rho, omega, .. } = *self;
-        let turned = rho * by.cage_angle;
-        let radial = by.path_rate - rho * omega * by.cage_angle;
-        let around = self.path_rate * by.cage_angle + omega * by.path + rho * by.cage_speed;
-        let q = [0, 1].map(|a| by.offset[a] + e_r[a] * by.path + e_t[a] * turned);
-        let q_rate = [0, 1].map(|a| by.drift[a] + e_r[a] * radial + e_t[a] * around);
-        let (by_q, by_rate) = (times(self.by_q, q), times(self.by_q_rate, q_rate));
-        let amount = self.by_path * by.path
-            + self.by_path_rate * by.path_rate
-            + self.by_angle * by.cage_angle
-            + self.by_speed * by.cage_speed;
-        let turn = [0, 1].map(|a| self.direction_by_path[a] * by.path + self.direction_by_angle[a] * by.cage_angle);
-        let length = dot(self.direction, self.direction).sqrt().max(f64::MIN_POSITIVE);
-        ElementChange {
-            inner: [by_q[0] + by_rate[0], by_q[1] + by_rate[1]],
-            outer: [0, 1].map(|a| amount * self.direction[a] + self.amount * turn[a]),
-            outer_amount: amount * length + self.amount * dot(self.direction, turn) / length,
-        }
     }
 }
 
@@ -167,9 +92,10 @@ impl Model {
         change.cage_torque = 0.0;
         let moves = by.cage_angle != 0.0;
         for j in 0..z {
-            let bends = moves || by.path[j] != 0.0;
-            let element = self.varying(j, cells[j], (state[j], state[self.layout.radial_velocity + j]), &at, bends);
-            let VaryingElement { e_r, e_t, rho, omega, .. } = element;
+            let bends = if moves || by.path[j] != 0.0 { Bends::Wanted } else { Bends::LeftOut };
+            let place = (state[j], state[self.layout.radial_velocity + j]);
+            let element = self.linearized(j, cells[j], place, &at, bends);
+            let Linearized { e_r, e_t, rho, omega, .. } = element;
             let path_rate =
                 by.radial_velocity[j] - dot(by.housing.velocity, e_r) - dot(at.housing.velocity, e_t) * by.cage_angle;
             let seen = ElementVariation {
@@ -183,7 +109,7 @@ impl Model {
             let d = element.change(&seen);
             let amount = dot(element.inner, element.inner).sqrt();
             change.inner[j] = if amount > 0.0 { dot(element.inner, d.inner) / amount } else { 0.0 };
-            change.outer[j] = d.outer_amount;
+            change.outer[j] = element.outer_amount(&seen);
             let turn = by.cage_angle;
             for a in 0..2 {
                 change.shaft[a] -= d.inner[a];
@@ -203,54 +129,22 @@ impl Model {
         }
     }
 
-    /// Contacts of element `j` at path and radial velocity `(u, w)`. Second derivatives of the outer approach are worked
-    /// out only if something `bends` it: path or place.
-    pub(super) fn varying(&self, j: usize, cell: u32, (u, w): (f64, f64), at: &Instant, bends: bool) -> VaryingElement {
-        let rho = self.outer_centre_radius + u;
-        // The smooth cell leaves the outer contact out, which is worked out here.
-        let inner = self.linearized(j, SMOOTH, u, w, at);
-        let near = self.outer_approach(j, cell, u, at.cage_angle, rho);
-        let bend = if bends && cell != SMOOTH { self.bend(j, cell, u, at.cage_angle) } else { Bend::default() };
-        let (p, omega) = (inner.path_rate, at.omega);
-        let law = self.outer.with_derivatives(near.value, near.by_path * p + near.by_angle * omega);
-        let direction = [near.radial, near.tangential];
-        VaryingElement {
-            e_r: inner.e_r,
-            e_t: inner.e_t,
-            inner: inner.inner,
-            outer: direction.map(|d| law.value * d),
-            path_rate: p,
-            rho,
-            omega,
-            by_q: inner.by_q,
-            by_q_rate: inner.by_q_rate,
-            direction,
-            direction_by_path: [near.radial_by_path, near.tangential_by_path],
-            direction_by_angle: bend.direction_by_angle,
-            amount: law.value,
-            by_path: law.by_approach * near.by_path + law.by_rate * (bend.path_path * p + bend.path_angle * omega),
-            by_path_rate: law.by_rate * near.by_path,
-            by_angle: law.by_approach * near.by_angle + law.by_rate * (bend.path_angle * p + bend.angle_angle * omega),
-            by_speed: law.by_rate * near.by_angle,
-        }
-    }
-
     /// Change of the inner ring's elastic force by its own position, [`Model::ring_jacobian`]'s first block [N/m], for a
     /// small change at the cage angle of `drive` at τ = 0.
     pub fn vary_stiffness(&self, drive: &Drive, cells: &[u32], state: &[f64], by: &Variation) -> [[f64; 2]; 2] {
         let cage_angle = drive.cage_angle(0.0);
         let (shaft, housing) = (self.shaft_state(drive, 0.0, state), self.housing_state(drive, 0.0, state));
         let offset = [0, 1].map(|a| housing.position[a] - shaft.position[a]);
-        let (mut sum, cage) = ([[0.0; 2]; 2], cos_sin(cage_angle));
+        let (mut sum, at) = ([[0.0; 2]; 2], Instant::at_rest(cage_angle, offset));
         for j in 0..self.element_count {
             let (cell, u, turn) = (cells[j], state[j], by.cage_angle);
             let rho = self.outer_centre_radius + u;
-            let element = self.elastic_element(j, cell, u, offset, (cage_angle, cage));
-            let (_, radial) = element.radial();
+            let element = self.linearized_at(j, cell, (u, 0.0), &at, Bends::LeftOut);
+            let (_, radial) = self.radial_balance(&element);
             if radial == 0.0 {
                 continue;
             }
-            let ElasticElement { e_r, e_t, inner_by_q: g, .. } = element;
+            let Linearized { e_r, e_t, by_q: g, .. } = element;
             let q = by.offset();
             let q = [0, 1].map(|a| q[a] + e_r[a] * by.path[j] + rho * e_t[a] * turn);
             let dg = self.vary_inner_stiffness(u, offset, e_r, q);
@@ -299,9 +193,9 @@ impl Model {
             return if u > 0.0 { 0.75 * self.outer.contact.stiffness / u.sqrt() * by.0 } else { 0.0 };
         }
         let radial = |u: f64, angle: f64| {
-            let near = self.outer_approach(j, cell, u, angle, self.outer_centre_radius + u);
-            self.outer.elastic_stiffness(near.value) * near.by_path * near.radial
-                + self.outer.elastic(near.value) * near.radial_by_path
+            // Nothing moves and the rings' offset does not matter to the outer contact.
+            let at = Instant::at_rest(angle, [0.0; 2]);
+            self.linearized_at(j, cell, (u, 0.0), &at, Bends::LeftOut).change(&ElementVariation::of_path()).outer[0]
         };
         let mut change = 0.0;
         if by.0 != 0.0 {

@@ -1,7 +1,8 @@
 """Static equilibrium of elements and rings at one cage angle, and the condensed stiffness around it.
 
 Rings at rest or moving as given; elements carried round by the cage (centrifugal force counts), u' = 0. The contacts' damping at
-these rates belongs to the balance, so that nothing accelerates at the start. An element without a net outward push rests at u = 0. Given the rings, each element's balance falls monotonically with u, so
+these rates belongs to the balance, so that nothing accelerates at the start. An element without a net outward push rests at u = 0, or on the inner ring if
+that is near. Given the rings, each element's balance falls monotonically with u, so
 bisection finds it to rounding; Newton moves the rings.
 """
 
@@ -33,7 +34,15 @@ def element_positions(bearing, t, x_i, x_o, upper=5e-3):
             break
         low, high = np.where(outward, middle, low), np.where(outward, high, middle)
         high = np.where(loose, 0.0, high)
-    return np.where(loose, 0.0, 0.5 * (low + high))
+    u = np.where(loose, 0.0, 0.5 * (low + high))
+    # What gravity pulls inwards lies on the inner ring, if that is within reach.
+    low, high = np.full(bearing.z, -0.5e-3), np.zeros(bearing.z)
+    inward = loose & (push(high) < 0) & (push(low) > 0)
+    for _ in range(200 if np.any(inward) else 0):
+        middle = 0.5 * (low + high)
+        outward = push(np.where(inward, middle, u)) > 0
+        low, high = np.where(outward, middle, low), np.where(outward, high, middle)
+    return np.where(inward, 0.5 * (low + high), u)
 
 
 class Equilibrium:

@@ -4,7 +4,7 @@ use super::*;
 use crate::contact::near_defect::NearDefect;
 use crate::contact::rigid_path::RigidPath;
 use crate::dynamics::drive::Quadratic;
-use crate::dynamics::forces::Forces;
+use crate::dynamics::forces::{Forces, SMOOTH};
 use crate::scene::{Damping, Scene};
 
 /// A model with a defect, its rings moved as `motions` say, and something at work in everything that depends on time.

@@ -1,0 +1,53 @@
+//! The page about single steps: which method takes them, and what they cost.
+
+use std::fmt::Write;
+
+use super::choice;
+use super::elements::{self, Hosted};
+
+/// The whole page.
+pub(super) fn page(machine: &str, choices: &[choice::Row], elements: &[elements::Row], hosted: &[Hosted]) -> String {
+    let mut text = format!(
+        "# Cost of steps\n\n\
+         Written by `cargo fmu report`, and alone by `cargo fmu report --steps`; the numbers behind it are in \
+         [`data/`](data). Measured on: {machine}. Times are CPU times of one thread, the fastest of many runs.\n\n\
+         ## Choice of the method\n\n\
+         Tolerance 1e-5, communication step 0.1 ms. The three take turns. *Steps* are those tried per simulated second, an \
+         implicit one counted as the five explicit ones that it costs about: a count without noise. *Ratio*: automatic over the better of the \
+         two.\n\n\
+         | case | explicit, CPU s/s | implicit | automatic | **ratio** | explicit, steps/s | implicit | automatic | ratio | \
+         implicit steps |\n|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n"
+    );
+    for row in choices {
+        let cost = row.cost.map(|cost| format!("{cost:.4}")).join(" | ");
+        let steps = row.steps.map(|steps| format!("{steps:.0}")).join(" | ");
+        let _ = writeln!(
+            text,
+            "| {} | {cost} | **{:.2}** | {steps} | {:.2} | {:.0} % |",
+            row.what,
+            choice::Row::ratio(row.cost),
+            choice::Row::ratio(row.steps),
+            100.0 * row.implicit
+        );
+    }
+    let worst = choices.iter().map(|row| choice::Row::ratio(row.cost)).fold(0.0, f64::max);
+    let within = choices.iter().filter(|row| choice::Row::ratio(row.cost) <= 1.3).count();
+    let _ = writeln!(text, "\nWithin 1.3: {within} of {}; the largest ratio is {worst:.2}.", choices.len());
+    text += "\n## Number of elements\n\n\
+         Microseconds of one accepted step, rejected ones and landings included; 6205 at the same load for each element, and \
+         the ER16K with its spall, law `hertz`. Elements are computed eight at a time.\n\n\
+         ![Cost of a step over the number of elements](figures/elements.svg)\n\n\
+         | elements | explicit | each element | implicit | each element | explicit, spall | each element |\n\
+         |---:|---:|---:|---:|---:|---:|---:|\n";
+    for row in elements {
+        let cells = row.seconds.map(|s| format!("{:.3} | {:.4}", 1e6 * s, 1e6 * s / row.count as f64));
+        let _ = writeln!(text, "| {} | {} |", row.count, cells.join(" | "));
+    }
+    text += "\n## A communication step of 10 µs\n\n\
+         6205-healthy with both rings moved by the host, which sets position and velocity before each step.\n\n\
+         | tolerance | a communication step | integration steps in it |\n|---:|---:|---:|\n";
+    for Hosted { tolerance, seconds, steps } in hosted {
+        let _ = writeln!(text, "| {tolerance:.0e} | {:.3} µs | {steps:.2} |", 1e6 * seconds);
+    }
+    text
+}

@@ -1,0 +1,141 @@
+//! Extremes without a closed form: against equations written separately and integrated by SciPy's DOP853 at 1e-12
+//! (`tests/oracle/extremes.py`), whose forces are kept in `oracle.csv`.
+
+use crate::row::Row;
+use crate::support::Named;
+use brinell::scene::Scene;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+/// Names of the forces that are compared, in the order of `oracle.csv`.
+const NAMES: [&str; 5] =
+    ["shaft.force.x", "shaft.force.y", "housing.force.y", "element[1].force.outer", "element[2].force.inner"];
+
+struct Oracle {
+    /// Number of the communication step, and the forces at its end.
+    looks: Vec<(usize, [f64; 5])>,
+    /// Its own error over the largest force.
+    own_error: f64,
+}
+
+/// Runs a case of `cases.toml` as it is, at the default tolerance of 1e-5.
+pub fn case(what: &'static str) -> Row {
+    let case = definition(what);
+    let number = |key: &str| case[key].as_float().unwrap();
+    let (step, count, limit) = (number("step_s"), case["steps"].as_integer().unwrap() as usize, number("limit"));
+    let oracle = oracle(what);
+    let largest = oracle.looks.iter().flat_map(|(_, forces)| forces).fold(0.0f64, |m, f| m.max(f.abs()));
+
+    let mut bearing = Named::new(scene(&case));
+    for (name, value) in case.get("start").and_then(|start| start.as_table()).into_iter().flatten() {
+        bearing.set(name, value.as_float().unwrap());
+    }
+    bearing.0.initialize(0.0).unwrap();
+    let (mut worst, mut shown) = (0.0f64, (0.0f64, 0.0, ""));
+    let mut looks = oracle.looks.iter();
+    let mut next = looks.next();
+    for i in 0..count {
+        host(&mut bearing, &case, i as f64 * step);
+        bearing.run(step, 1);
+        let Some((_, expected)) = next.filter(|(at, _)| *at == i + 1) else { continue };
+        for (name, &expected) in NAMES.iter().zip(expected) {
+            let got = bearing.get(name);
+            worst = worst.max((got - expected).abs());
+            if expected.abs() > shown.0.abs() {
+                shown = (expected, got, name);
+            }
+        }
+        next = looks.next();
+    }
+    assert!(next.is_none(), "{what}: not all of the oracle's instants were reached");
+    // The oracle must know better than what it judges.
+    assert!(oracle.own_error < 0.1 * limit, "{what}: the oracle's own error is {:e}", oracle.own_error);
+    assert!(worst <= limit * largest, "{what}: forces differ by {worst:e} N of {largest:e} N");
+    Row::new(what, format!("oracle: `{}` {:.6e} N", shown.2, shown.0), format!("{:.6e} N", shown.1), &bearing)
+        .within(worst / largest, limit)
+}
+
+/// What the host does before the communication step that begins at `time`.
+fn host(bearing: &mut Named, case: &toml::Table, time: f64) {
+    if let Some(later) = case.get("later").and_then(|later| later.as_table())
+        && time > later["time_s"].as_float().unwrap() - 1e-9
+    {
+        for (name, value) in later.iter().filter(|(name, _)| *name != "time_s") {
+            bearing.set(name, value.as_float().unwrap());
+        }
+    }
+    if let Some(ramp) = case.get("ramp") {
+        let speed = bearing.reference("shaft.speed");
+        bearing.0.set_input_derivatives(&[speed], &[1], &[ramp.as_float().unwrap()]).unwrap();
+    }
+    if let Some(load) = case.get("cosine_load").and_then(|load| load.as_array()) {
+        let (load, omega) = (load[0].as_float().unwrap(), std::f64::consts::TAU * load[1].as_float().unwrap());
+        let reference = bearing.reference("shaft.load.y");
+        let (sin, cos) = (omega * time).sin_cos();
+        bearing.set("shaft.load.y", load * cos);
+        let rates = [-load * omega * sin, -load * omega * omega * cos];
+        bearing.0.set_input_derivatives(&[reference, reference], &[1, 2], &rates).unwrap();
+    }
+}
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/extremes")
+}
+
+fn definition(what: &str) -> toml::Table {
+    let text = std::fs::read_to_string(folder().join("cases.toml")).unwrap();
+    let all: toml::Table = text.parse().unwrap();
+    let cases = all["case"].as_array().unwrap();
+    let found = cases.iter().find(|case| case["what"].as_str() == Some(what));
+    found.unwrap_or_else(|| panic!("no case {what}")).as_table().unwrap().clone()
+}
+
+/// The shipped scene with what the case replaces; law `hertz`, which the oracle has.
+fn scene(case: &toml::Table) -> Scene {
+    let name = case["scene"].as_str().unwrap();
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/{name}.toml"));
+    let mut scene: toml::Table = std::fs::read_to_string(path).unwrap().parse().unwrap();
+    let mut change = |key: &str, value: Option<toml::Value>| {
+        let (table, name) = match key.split_once('.') {
+            Some((table, name)) => (scene[table].as_table_mut().unwrap(), name),
+            None => (&mut scene, key),
+        };
+        match value {
+            Some(value) => _ = table.insert(name.to_owned(), value),
+            None => assert!(table.remove(name).is_some(), "{key} is not there to be removed"),
+        }
+    };
+    for key in case.get("remove").and_then(|keys| keys.as_array()).into_iter().flatten() {
+        change(key.as_str().unwrap(), None);
+    }
+    for (key, value) in case.get("set").and_then(|keys| keys.as_table()).into_iter().flatten() {
+        change(key, Some(value.clone()));
+    }
+    change("contact.law", Some("hertz".into()));
+    Scene::from_toml(&toml::to_string(&scene).unwrap()).unwrap()
+}
+
+fn oracle(what: &str) -> Oracle {
+    let text = std::fs::read_to_string(folder().join("oracle.csv")).unwrap();
+    let mut lines = text.lines();
+    let mut head = "what,step".to_owned();
+    for name in NAMES {
+        write!(head, ",{name}").unwrap();
+    }
+    assert_eq!(lines.next(), Some(format!("{head},own_error").as_str()));
+    let mut found = Oracle { looks: Vec::new(), own_error: 0.0 };
+    for line in lines {
+        // A name with a comma in it stands in quotation marks.
+        let (name, rest) = match line.strip_prefix('"') {
+            Some(line) => line.split_once("\",").unwrap(),
+            None => line.split_once(',').unwrap(),
+        };
+        if name == what {
+            let values: Vec<f64> = rest.split(',').map(|value| value.parse().unwrap()).collect();
+            found.looks.push((values[0] as usize, [1, 2, 3, 4, 5].map(|i| values[i])));
+            found.own_error = values[6];
+        }
+    }
+    assert!(!found.looks.is_empty(), "oracle.csv lacks {what}: run tests/oracle/extremes.py");
+    found
+}

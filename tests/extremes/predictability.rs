@@ -1,0 +1,172 @@
+//! How far ahead a run with impacts can be known: elements that hang loose between the rings bounce, and every bounce
+//! makes small differences larger.
+
+use crate::support::{Named, shipped};
+use std::fmt::Write;
+use std::ops::Range;
+
+/// Simulated time [s]: three passages over the spall.
+const STOP: f64 = 0.1;
+/// Samples per second: event times are known to 1 µs.
+const RATE: f64 = 1e6;
+/// The tightest tolerance: what the others are compared with.
+const TIGHTEST: f64 = 1e-12;
+
+/// Samples of one run.
+struct Run {
+    acceleration: Vec<f64>,
+    /// One list for each element.
+    paths: Vec<Vec<f64>>,
+    outer: Vec<Vec<f64>>,
+    inner: Vec<Vec<f64>>,
+}
+
+impl Run {
+    /// `er16k-tb1` at a tolerance, element 5 (on the unloaded side) moved by `moved` [m] at the start.
+    fn new(tolerance: f64, moved: f64) -> Self {
+        let mut scene = shipped("er16k-tb1");
+        (scene.tolerance, scene.recorder_rate) = (tolerance, Some(RATE));
+        let mut bearing = Named::new(scene);
+        bearing.0.record_into("memory");
+        bearing.0.initialize(0.0).unwrap();
+        move_element(&mut bearing, 5, moved);
+        bearing.run(1e-4, (STOP / 1e-4).round() as usize);
+        let recorder = bearing.0.recorder().unwrap();
+        let table = bearing.0.table();
+        let names: Vec<&str> = recorder.references().map(|r| table[r as usize].name.as_str()).collect();
+        let samples = recorder.samples();
+        let column = |name: &str| -> Vec<f64> {
+            let index = 1 + names.iter().position(|&n| n == name).unwrap_or_else(|| panic!("{name}: {names:?}"));
+            samples.values.chunks(samples.width).map(|row| row[index]).collect()
+        };
+        let of_elements = |what: &str| (1..=9).map(|j| column(&format!("element[{j}].{what}"))).collect();
+        Self {
+            acceleration: column("housing.ay"),
+            paths: of_elements("path"),
+            outer: of_elements("force.outer"),
+            inner: of_elements("force.inner"),
+        }
+    }
+
+    /// Largest difference of any path up to and at about a time.
+    fn apart(&self, other: &Run, time: f64) -> f64 {
+        let window = window(time - 1e-3, time);
+        let pairs = self.paths.iter().zip(&other.paths);
+        pairs.fold(0.0f64, |m, (a, b)| {
+            a[window.clone()].iter().zip(&b[window.clone()]).fold(m, |m, (a, b)| m.max((a - b).abs()))
+        })
+    }
+
+    /// Contacts begun by elements up to a time.
+    fn bounces(&self, time: f64) -> usize {
+        let begun =
+            |force: &Vec<f64>| force[window(0.0, time)].windows(2).filter(|f| f[0] == 0.0 && f[1] > 0.0).count();
+        self.inner.iter().chain(&self.outer).map(begun).sum()
+    }
+
+    fn rms(&self, from: f64, to: f64) -> f64 {
+        let window = &self.acceleration[window(from, to)];
+        (window.iter().map(|a| a * a).sum::<f64>() / window.len() as f64).sqrt()
+    }
+
+    /// Rms of the acceleration's difference over that of the acceleration.
+    fn error(&self, exact: &Run, from: f64, to: f64) -> f64 {
+        let window = window(from, to);
+        let pairs = self.acceleration[window.clone()].iter().zip(&exact.acceleration[window.clone()]);
+        (pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f64>() / window.len() as f64).sqrt() / exact.rms(from, to)
+    }
+
+    /// When the outer contact of the element that enters first is lost, when it strikes again, and when the acceleration is
+    /// largest in this passage [s].
+    fn events(&self) -> [f64; 3] {
+        let outer = &self.outer[0];
+        let lost = (4e-3 * RATE) as usize + outer[(4e-3 * RATE) as usize..].iter().position(|&f| f == 0.0).unwrap();
+        let struck = lost + outer[lost..].iter().position(|&f| f > 0.0).unwrap();
+        let passage = window(4e-3, 16e-3);
+        let peak = passage.max_by(|&a, &b| self.acceleration[a].abs().total_cmp(&self.acceleration[b].abs())).unwrap();
+        [lost, struck, peak].map(|i| i as f64 / RATE)
+    }
+}
+
+fn window(from: f64, to: f64) -> Range<usize> {
+    (from * RATE) as usize..(to * RATE) as usize
+}
+
+/// By way of the state's bytes, which hold the path bit by bit.
+fn move_element(bearing: &mut Named, element: usize, by: f64) {
+    let path = bearing.0.state_vector()[element - 1];
+    let mut bytes = bearing.0.save().to_bytes();
+    let place = bytes.windows(8).position(|eight| eight == path.to_le_bytes()).unwrap();
+    bytes[place..place + 8].copy_from_slice(&(path + by).to_le_bytes());
+    let state = bearing.0.state_from_bytes(&bytes).unwrap();
+    bearing.0.restore(&state).unwrap();
+    assert_eq!(bearing.0.state_vector()[element - 1], path + by);
+}
+
+/// Times of the first table [s].
+const TIMES: [f64; 8] = [2e-3, 5e-3, 10e-3, 15e-3, 20e-3, 30e-3, 50e-3, 100e-3];
+/// Tolerances of the second.
+const TOLERANCES: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-7, 1e-9];
+/// Windows of the second [s].
+const WINDOWS: [(f64, f64); 4] = [(0.0, 10e-3), (10e-3, 20e-3), (20e-3, 30e-3), (50e-3, 100e-3)];
+
+/// How a difference of 1e-12 m grows, and what growth makes of tolerances: two tables.
+pub fn tables() -> [String; 2] {
+    let exact = Run::new(TIGHTEST, 0.0);
+    let moved = Run::new(TIGHTEST, 1e-12);
+    let mut growth = "| ms | contacts begun | largest difference of any path, m |\n|---:|---:|---:|\n".to_owned();
+    for time in TIMES {
+        writeln!(growth, "| {:.0} | {} | {:.1e} |", 1e3 * time, exact.bounces(time), moved.apart(&exact, time))
+            .unwrap();
+    }
+    let (from, to) = (5e-3, 50e-3);
+    let tenfold = (moved.apart(&exact, to) / moved.apart(&exact, from)).log10();
+    let (milliseconds, contacts) = (1e3 * (to - from) / tenfold, exact.bounces(to) as f64 / tenfold);
+    writeln!(
+        growth,
+        "\nFrom 5 to 50 ms that is ten times every {milliseconds:.1} ms, or every {contacts:.0} contacts begun by any of the elements; after it the \
+         paths differ by as much as the play lets them."
+    )
+    .unwrap();
+
+    let mut text = "| tolerance | error of `housing.ay`, 0–10 ms | 10–20 ms | 20–30 ms | 50–100 ms | its rms, 0–50 ms | 50–100 ms | \
+                    contact lost | struck again | `housing.ay` largest |\n|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n"
+        .to_owned();
+    let line = |name: String, run: &Run| {
+        let errors = WINDOWS.map(|(from, to)| format!("{:.0e}", run.error(&exact, from, to))).join(" | ");
+        let rms = [run.rms(0.0, 50e-3), run.rms(50e-3, 100e-3)].map(|a| format!("{a:.3} m/s²")).join(" | ");
+        let events = run.events().map(|t| format!("{:.3} ms", 1e3 * t)).join(" | ");
+        format!("| {name} | {errors} | {rms} | {events} |\n")
+    };
+    for tolerance in TOLERANCES {
+        text += &line(format!("{tolerance:.0e}"), &Run::new(tolerance, 0.0));
+    }
+    text += &line("1e-12, moved by 1e-12 m".to_owned(), &moved);
+    text += &line("1e-12".to_owned(), &exact);
+    [growth, text]
+}
+
+#[test]
+fn bounces_make_a_small_difference_ten_million_times_larger_in_fifty_milliseconds() {
+    let (exact, moved) = (Run::new(1e-11, 0.0), Run::new(1e-11, 1e-12));
+    // Before anything bounces the element keeps its 1e-12 m; after half the time it could have been anything between.
+    assert!(moved.apart(&exact, 5e-3) < 2e-12, "{:e}", moved.apart(&exact, 5e-3));
+    let late = moved.apart(&exact, 50e-3);
+    // The play of a loose element is some 10 µm at least, and 100 µm over the spall.
+    assert!(late > 1e-8 && late < 1.1e-4, "{late:e}");
+}
+
+#[test]
+fn events_and_rms_values_do_not_depend_on_the_tolerance() {
+    let (loose, tight) = (Run::new(1e-4, 0.0), Run::new(1e-9, 0.0));
+    for (a, b) in loose.events().into_iter().zip(tight.events()) {
+        // Two samples.
+        assert!((a - b).abs() <= 2.0 / RATE, "{a} {b}");
+    }
+    for (from, to) in [(0.0, 50e-3), (50e-3, STOP)] {
+        let (a, b) = (loose.rms(from, to), tight.rms(from, to));
+        // The loose elements' share of the acceleration is some 2 %, and uncorrelated parts add in squares.
+        assert!((a / b - 1.0).abs() < 5e-3, "{a} {b}");
+    }
+    assert!(loose.error(&tight, 50e-3, STOP) > 1e-3, "nothing was lost: the comparison shows nothing");
+}

@@ -1,0 +1,99 @@
+//! Extremes that no simulation can answer: a clear error, and no number.
+
+use crate::row::Row;
+use crate::scenes::{healthy, hosted, loaded, spalled};
+use crate::support::Named;
+use brinell::geometry::hertz_constant::HertzConstants;
+use brinell::scene::{ContactLaw, Damping, Defect, DefectShape, Scene};
+use brinell::simulation::{Method, Simulation, SimulationError};
+use std::f64::consts::FRAC_PI_2;
+
+/// A run that must not go on.
+pub fn refused(what: &'static str, wanted: &str, found: Result<(), SimulationError>, bearing: &Named) -> Row {
+    let message = found.expect_err(what).to_string();
+    assert!(message.contains(wanted), "{what}: {message}");
+    Row::new(what, "a clear error", message, bearing)
+}
+
+pub fn step_budget() -> Row {
+    let mut scene = loaded(healthy(), 5e4, Damping::HuntCrossley(5.0));
+    scene.max_steps = 1000;
+    let mut bearing = Named::started(scene);
+    bearing.0.set_method(Method::DormandPrince);
+    let found = bearing.0.step(0.01);
+    refused("50 kN, χ = 5 s/m, explicit only, solver.max_steps = 1000", "solver.max_steps", found, &bearing)
+}
+
+pub fn thrown_out() -> Row {
+    let mut scene = hosted();
+    // A hard inner ring, whose energy drives the element out through a soft outer one.
+    let hertz = HertzConstants::of(&scene.bearing);
+    (scene.bearing.hertz_inner, scene.contact.damping) = (Some(10.0 * hertz.inner), Damping::HuntCrossley(0.0));
+    let mut bearing = Named::started(scene);
+    bearing.set("shaft.x", 3.9e-3);
+    let found = bearing.0.step(0.1);
+    refused("host moves the inner ring by 3.9 mm, no damping", "has left the bearing", found, &bearing)
+}
+
+pub fn rings_apart() -> Row {
+    let mut bearing = Named::started(hosted());
+    // As far as the variable allows: through the outer ring.
+    bearing.set("shaft.x", 0.01);
+    let found = bearing.0.step(0.1);
+    refused("host moves the inner ring by 10 mm", "offset of the rings", found, &bearing)
+}
+
+pub fn not_finite() -> Row {
+    let mut bearing = Named::started(hosted());
+    let reference = bearing.reference("shaft.x");
+    bearing.0.set_input_derivatives(&[reference], &[2], &[1e300]).unwrap();
+    let found = bearing.0.step(1e-3);
+    refused("host accelerates the inner ring by 1e300 m/s²", "offset of the rings", found, &bearing)
+}
+
+pub fn too_deep() -> Row {
+    let bearing = Named::new(healthy());
+    let shape = DefectShape::Spall { length: 3e-3, depth: 5e-3, edge_slope: FRAC_PI_2 };
+    let scene = Scene { defect: Some(Defect { angle: -FRAC_PI_2, shape }), ..spalled() };
+    let found = Simulation::new(scene, None).map(|_| ());
+    refused("spall 5 mm deep, deeper than an element's radius", "depth", found, &bearing)
+}
+
+/// A contact near the defect that has no answer gives an approach that is no number; the step must fail, and not take it for
+/// no contact.
+pub fn contact_without_answer() -> Row {
+    let mut scene = spalled();
+    (scene.contact.law, scene.contact.largest_force) = (ContactLaw::Map, Some(1000.0));
+    let shape = DefectShape::Spall { length: 2e-4, depth: 2e-6, edge_slope: FRAC_PI_2 };
+    scene.defect = Some(Defect { angle: -FRAC_PI_2, shape });
+    // Element 1 enters within a millisecond, under a load that the map was not made for.
+    scene.cage.initial_angle = -FRAC_PI_2 - 1e-3 / scene.bearing.outer_raceway_radius();
+    let mut bearing = Named::started(loaded(scene, 500.0, Damping::HuntCrossley(0.5)));
+    bearing.set("shaft.load.y", -2e4);
+    let found = (0..100).try_for_each(|_| bearing.0.step(1e-4));
+    refused("a contact on the defect's edge beyond its map", "outside the range", found, &bearing)
+}
+
+#[test]
+fn a_cage_that_turns_too_fast_for_time_to_pass_between_edges_fails_at_once() {
+    let text = std::fs::read_to_string("scenes/er16k-tb1.toml").unwrap();
+    let mut scene = Scene::from_toml(&text).unwrap();
+    scene.contact.law = ContactLaw::Hertz;
+    let mut simulation = Simulation::new(scene, None).unwrap();
+    simulation.initialize(0.0).unwrap();
+    let speed = simulation.table().iter().find(|variable| variable.name == "shaft.speed").unwrap().reference;
+    // No host can set such a speed; a state in bytes can hold it. Marks are put in its place and looked for.
+    simulation.set_reals(&[speed], &[12.3456]).unwrap();
+    simulation.set_input_derivatives(&[speed], &[1], &[6.54321]).unwrap();
+    let mut bytes = simulation.save().to_bytes();
+    for (mark, value) in [(12.3456_f64, 1e200_f64), (6.54321, 1.0)] {
+        let places: Vec<usize> = (0..bytes.len() - 7).filter(|&i| bytes[i..i + 8] == mark.to_le_bytes()).collect();
+        assert_eq!(places.len(), 1);
+        bytes[places[0]..places[0] + 8].copy_from_slice(&value.to_le_bytes());
+    }
+    let state = simulation.state_from_bytes(&bytes).unwrap();
+    simulation.restore(&state).unwrap();
+    // Without a limit this step would never end: passages at one instant are no integration steps.
+    let message = simulation.step(1e-5).unwrap_err().to_string();
+    assert!(message.contains("turns too fast"), "{message}");
+}

@@ -1,0 +1,39 @@
+//! One row of `docs/stability.md`.
+
+use crate::support::Named;
+
+/// What was expected of an extreme, and what came.
+pub struct Row {
+    what: String,
+    expected: String,
+    got: String,
+    error: String,
+    steps: (u64, u64),
+}
+
+impl Row {
+    pub fn new(what: impl Into<String>, expected: impl Into<String>, got: impl Into<String>, bearing: &Named) -> Self {
+        let steps = bearing.0.step_counts();
+        Self { what: what.into(), expected: expected.into(), got: got.into(), error: "–".to_owned(), steps }
+    }
+
+    /// With the error found and the largest allowed.
+    pub fn within(self, error: f64, limit: f64) -> Self {
+        Self { error: format!("{error:.1e} of {limit:.0e}"), ..self }
+    }
+
+    fn method(&self) -> String {
+        match self.steps {
+            (0, _) => "none".to_owned(),
+            (_, 0) => "explicit".to_owned(),
+            (all, implicit) if all == implicit => "implicit".to_owned(),
+            (all, implicit) => format!("both, {:.0} % implicit", 100.0 * implicit as f64 / all as f64),
+        }
+    }
+
+    /// As a line of a Markdown table.
+    pub fn line(&self) -> String {
+        let Self { what, expected, got, error, steps } = self;
+        format!("| {what} | {expected} | {got} | {error} | {} | {} |\n", steps.0, self.method())
+    }
+}
