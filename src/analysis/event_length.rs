@@ -280,7 +280,7 @@ fn average_of(rows: &[Vec<f64>], chosen: &[usize]) -> Vec<f64> {
 }
 
 /// Approach of the most loaded element's two contacts together [m]; Q = 5F/Z holds for usual clearances (Stribeck).
-fn approach(scene: &Scene) -> Option<f64> {
+pub(super) fn approach(scene: &Scene) -> Option<f64> {
     let load = scene.shaft.load[0].hypot(scene.shaft.load[1]);
     if scene.shaft.motion != Motion::Internal || load == 0.0 {
         return None;
@@ -288,6 +288,12 @@ fn approach(scene: &Scene) -> Option<f64> {
     let force = 5.0 * load / scene.bearing.element_count as f64;
     let ratio = force / HertzConstants::of(&scene.bearing).in_series();
     Some(libm::cbrt(ratio * ratio))
+}
+
+/// Shortest length that the scene's load and clearance allow [degrees], where the load is known.
+pub(super) fn limit(scene: &Scene) -> Option<f64> {
+    let free = approach(scene)? + scene.bearing.radial_clearance.max(0.0);
+    Some(2.0 * sunk_after(&scene.bearing, free))
 }
 
 /// 1/r_e [1/m].

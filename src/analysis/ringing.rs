@@ -13,7 +13,7 @@
 
 use super::spectrum;
 use super::static_bearing::{StaticBearing, StaticError};
-use super::synthesis::{Rig, Trial};
+use super::synthesis::{self, Rig, Trial};
 use crate::scene::Scene;
 use std::f64::consts::TAU;
 
@@ -36,6 +36,11 @@ impl Ringing {
     pub fn distance(&self, other: &Self) -> f64 {
         let apart = |a: f64, b: f64| libm::log(a / b).abs();
         apart(self.after_entry, other.after_entry).max(apart(self.after_exit, other.after_exit))
+    }
+
+    /// After entry, after exit [Hz].
+    pub fn pair(self) -> [f64; 2] {
+        [self.after_entry, self.after_exit]
     }
 
     /// Whether they agree within what a few periods of ringing allow.
@@ -73,8 +78,8 @@ fn upper_frequency(scene: &Scene, stiffness: f64) -> f64 {
 ///
 /// # Errors
 /// Those of the static balance.
-pub fn critical_load(rig: &Rig<'_>, trial: Trial) -> Result<Option<f64>, StaticError> {
-    Ok(StaticBearing::new(&rig.with_spall(trial), None)?.critical_load()?.map(|critical| critical.load))
+pub fn critical_load(scene: &Scene, trial: Trial) -> Result<Option<f64>, StaticError> {
+    Ok(StaticBearing::new(&synthesis::with_spall(scene, trial), None)?.critical_load()?.map(|critical| critical.load))
 }
 
 /// Strongest frequency of a stretch of signal sampled at `rate` [Hz]; `None` when it is shorter than two of its periods.

@@ -9,21 +9,19 @@
 
 use super::error::SizingError;
 use super::event_length::{self, EventLength, Unresolved};
+use super::kind::Judged;
 use super::measured::Measured;
-use super::passages;
 use super::recording::Recording;
 use super::report::{Figure, Kind, Method, RecordingReport, Report, Verdict};
-use super::ringing::{self, Ringing};
+use super::ringing::Ringing;
 use super::spectrum::{Band, Spectrum};
 use super::statistics;
-use super::synthesis::{CUT, Maps, POINTS, Rig, Trial};
+use super::synthesis::{CUT, Maps, Rig};
 use super::waveform_length::{self, WaveformLength};
-use crate::scene::{Bearing, ContactLaw, Scene};
+use crate::scene::{Bearing, Scene};
 
 /// Coverage factor of the stated interval: 95 % of a normal distribution.
 const COVERAGE: f64 = 2.0;
-/// Difference of likeness by which one kind of spall is preferred to the other.
-const CLEARLY_LIKER: f64 = 0.02;
 /// Significance of the comb from which likeness is asked: less than the events need, for to be alike is a proof of its own. Short
 /// recordings lose many harmonics to the shaft's.
 const HEARD: f64 = 5.0;
@@ -74,6 +72,7 @@ pub fn size_with(
         reason: String::new(),
         method: None,
         critical_load_n: None,
+        critical_depth_um: None,
         recordings: sized.iter().map(Sized::report).collect(),
         figures: sized.iter().map(|s| s.figure(&scene.bearing)).collect(),
     };
@@ -92,7 +91,8 @@ pub fn size_with(
             report.uncertainty_mm = Some(COVERAGE * uncertainty * millimetres);
             report.kind = common_kind(&lengths);
             report.method = lengths.first().map(|l| l.method);
-            report.critical_load_n = sized.iter().find_map(|s| s.critical_load);
+            report.critical_load_n = sized.iter().find_map(|s| s.judged.critical_load);
+            report.critical_depth_um = sized.iter().find_map(|s| s.judged.critical_depth).map(|depth| 1e6 * depth);
             report.reason = basis(&report, &sized, scene);
         }
     }
@@ -107,9 +107,7 @@ struct Sized {
     waveform: Option<WaveformLength>,
     /// To the scene's rig, whether that was taken for the recording's or not.
     likeness: Option<f64>,
-    ringing: Option<Ringing>,
-    expected: Option<[Ringing; 2]>,
-    critical_load: Option<f64>,
+    judged: Judged,
 }
 
 /// Length of one recording [degrees].
@@ -137,41 +135,22 @@ impl Sized {
             (None, Ok(e)) => Some(((e.first + e.onset) / spacing, e.length)),
             _ => None,
         };
-        let ringing = entry.and_then(|(at, over)| measured_ringing(&measured, at, over));
-        let trial = |length: f64, depth: f64| Trial { length, depth, law: ContactLaw::Hertz };
-        let expected = rig.as_ref().zip(entry).and_then(|(rig, (_, over))| {
-            let of = |length: f64| ringing::expected(rig, trial(length, TRIAL_DEPTH), spacing).ok();
-            Some([of(over)?, of(over + spacing)?])
-        });
-        let critical_load = rig
-            .as_ref()
-            .zip(waveform.as_ref())
-            .and_then(|(rig, w)| ringing::critical_load(rig, trial(w.length, w.depth)).ok().flatten());
-        let by_ringing = kind_by_ringing(ringing, expected);
+        let judged = Judged::of(&measured, scene, rig.as_ref(), waveform.as_ref(), entry);
         let length = match (&waveform, &events) {
-            (Some(w), _) if too_uncertain(w) => {
-                Err(Unresolved::TooUncertain(w.length, COVERAGE * w.statistical.hypot(w.systematic)))
-            }
-            (Some(w), _) => Ok(Length {
-                length: w.length,
-                statistical: w.statistical,
-                systematic: w.systematic,
-                method: Method::Waveform,
-                kind: kind_by_likeness(w, spacing, by_ringing),
-            }),
+            (Some(w), _) => of_waveform(w, scene, judged.kind),
             (None, Ok(e)) => {
-                let extended = if by_ringing == Kind::Extended { spacing } else { 0.0 };
+                let extended = if judged.kind == Kind::Extended { spacing } else { 0.0 };
                 Ok(Length {
                     length: e.length + extended,
                     statistical: e.statistical,
                     systematic: e.systematic,
                     method: Method::Events,
-                    kind: by_ringing,
+                    kind: judged.kind,
                 })
             }
             (None, Err(why)) => Err(why.clone()),
         };
-        Self { measured, length, events: events.ok(), waveform, likeness, ringing, expected, critical_load }
+        Self { measured, length, events: events.ok(), waveform, likeness, judged }
     }
 
     fn report(&self) -> RecordingReport {
@@ -189,8 +168,8 @@ impl Sized {
             edges_deg: self.edges(),
             passages: self.measured.passages.starts.len(),
             likeness: self.likeness,
-            ringing_hz: self.ringing.map(pair),
-            expected_ringing_hz: self.expected.map(|e| e.map(pair)),
+            ringing_hz: self.judged.ringing.map(Ringing::pair),
+            expected_ringing_hz: self.judged.expected.map(|e| e.map(Ringing::pair)),
             reason: self.length.as_ref().err().map(ToString::to_string),
         }
     }
@@ -227,44 +206,19 @@ impl Sized {
     }
 }
 
-/// Whether the interval is wider than the length: short spalls all sound alike but for their loudness.
-fn too_uncertain(waveform: &WaveformLength) -> bool {
-    2.0 * COVERAGE * waveform.statistical.hypot(waveform.systematic) > waveform.length
-}
-
-/// Depth at which ringing is expected [m]: deep enough for free elements, which is what the two kinds differ in.
-const TRIAL_DEPTH: f64 = 1e-3;
-
-fn pair(ringing: Ringing) -> [f64; 2] {
-    [ringing.after_entry, ringing.after_exit]
-}
-
-/// Ringing between the events; half a degree after each is left to the event itself.
-fn measured_ringing(measured: &Measured, entry: f64, over: f64) -> Option<Ringing> {
-    let row = passages::average(&measured.signal_rows(entry, POINTS));
-    let rate = measured.bpfo * POINTS as f64;
-    let smooth = Spectrum::of(&row, rate).filtered(Band { low: 0.0, high: CUT });
-    let point = |degrees: f64| (degrees / measured.spacing * POINTS as f64) as usize;
-    let between = |from: f64, to: f64| ringing::strongest(smooth.get(point(from)..point(to))?, rate);
-    Some(Ringing { after_entry: between(1.0, over - 1.0)?, after_exit: between(over + 0.5, measured.spacing - 0.5)? })
-}
-
-fn kind_by_ringing(measured: Option<Ringing>, expected: Option<[Ringing; 2]>) -> Kind {
-    match (measured, expected) {
-        (Some(m), Some([line, extended])) => match (m.agrees(&line), m.agrees(&extended)) {
-            (true, false) => Kind::Line,
-            (false, true) => Kind::Extended,
-            _ => Kind::Undecided,
-        },
-        _ => Kind::Undecided,
+/// The length by likeness, unless it is shorter than what can be resolved: a guessed load, clearance or edge would make as much of it.
+fn of_waveform(waveform: &WaveformLength, scene: &Scene, kind: Kind) -> Result<Length, Unresolved> {
+    let WaveformLength { length, statistical, systematic, .. } = *waveform;
+    let uncertainty = statistical.hypot(systematic).hypot(FLOOR);
+    let limit = event_length::limit(scene);
+    if limit.is_some_and(|limit| length - COVERAGE * uncertainty < limit) {
+        return Err(Unresolved::TooShort(length, uncertainty, limit.unwrap_or_default()));
     }
-}
-
-fn kind_by_likeness(waveform: &WaveformLength, spacing: f64, by_ringing: Kind) -> Kind {
-    let [line, extended] = waveform.by_kind;
-    let kind = if waveform.length > spacing { Kind::Extended } else { Kind::Line };
-    let contradicted = by_ringing != Kind::Undecided && by_ringing != kind;
-    if (line - extended).abs() < CLEARLY_LIKER || contradicted { Kind::Undecided } else { kind }
+    // Wider than the length itself: short spalls all sound alike but for their loudness.
+    if 2.0 * COVERAGE * uncertainty > length {
+        return Err(Unresolved::TooUncertain(length, COVERAGE * uncertainty));
+    }
+    Ok(Length { length, statistical, systematic, method: Method::Waveform, kind })
 }
 
 /// Mean and standard uncertainty of lengths [degrees] of one spall; or why there is none.
@@ -296,27 +250,8 @@ fn basis(report: &Report, sized: &[Sized], scene: &Scene) -> String {
         Some(Method::Waveform) => "likeness of the averaged passage to the scene's rig".to_owned(),
         _ => "way from the entry's onset to the last blow".to_owned(),
     };
-    if let Some(Ringing { after_entry, after_exit }) = sized.iter().find_map(|s| s.ringing) {
-        text += &format!("; rings at {after_entry:.0} Hz after entry and {after_exit:.0} Hz after exit");
-        if let Some([line, extended]) = sized.iter().find_map(|s| s.expected) {
-            text += &format!(
-                " (expected: line {:.0} and {:.0} Hz, extended {:.0} and {:.0} Hz)",
-                line.after_entry, line.after_exit, extended.after_entry, extended.after_exit
-            );
-        }
-    }
-    if report.kind == Kind::Undecided {
-        text += &format!(
-            "; an extended spall, longer by one element spacing of {:.1} degrees, is not excluded",
-            360.0 / scene.bearing.element_count as f64
-        );
-    }
-    let load = scene.shaft.load[0].hypot(scene.shaft.load[1]);
-    if let Some(critical) = report.critical_load_n.filter(|&critical| load >= critical) {
-        text += &format!(
-            "; WARNING: the load of {load:.0} N is above the critical load of {critical:.0} N (at the depth that fits best): elements inside the spall carry \
-             load, and stiffness does not tell an extended from a line spall"
-        );
+    if let Some(said) = sized.iter().find(|s| s.length.is_ok()).map(|s| s.judged.said(scene)) {
+        text += &said;
     }
     let lost = sized.iter().filter(|s| s.length.is_err()).count();
     if lost > 0 {

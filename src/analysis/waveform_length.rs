@@ -1,31 +1,39 @@
 //! Spall length as the trial spall whose simulated passage is most like the measured one; see [`synthesis`].
 //!
 //! The search goes from coarse to fine: lengths in steps of a degree up to two element spacings (an extended spall looks like
-//! a line spall one spacing shorter, but for the frequency of its ringing), with the cheap contact law; the three best finer;
-//! the best with several depths and the scene's own law. A parabola through the best three lengths gives the last digits.
+//! a line spall one spacing shorter, but for the frequency of its ringing), deep and, if nothing deep is alike, with floors within the
+//! elements' reach, by the cheap contact law; from the best three a climb in length and depth; the best of these with other depths and the scene's own
+//! law. A parabola through the best three lengths gives the last digits.
 //!
 //! [`synthesis`]: super::synthesis
 
+use super::event_length;
 use super::measured::Measured;
 use super::passages;
 use super::statistics::{self, Random};
-use super::synthesis::{POINTS, Rig, Run, Trial, below_cut, best_shift, likeness};
+use super::synthesis::{POINTS, Rig, Run, Trial, below_cut, best_shift};
+use super::trial_search::{Fit, OwnLaw, Peak, Search, lengths, top};
 use crate::scene::{ContactLaw, Scene};
 
 /// Likeness from which the scene's rig is taken to be the recording's.
 pub const LIKE: f64 = 0.9;
 /// Likeness of the coarse search below which the fine one is not worth its time.
-const HOPELESS: f64 = 0.6;
-/// Depth of trial spalls [m]: where elements do not reach the floor, it does not matter.
+const HOPELESS: f64 = 0.5;
+/// Depth of the first trial spalls [m]: where elements do not reach the floor, it does not matter.
 const DEPTH: f64 = 100e-6;
-/// Other depths tried at the best length [m].
-const OTHER_DEPTHS: [f64; 4] = [25e-6, 50e-6, 200e-6, 400e-6];
+/// Shallow trials, in approaches of the most loaded element: at 3.3 of them the neighbours' squeeze brings the inner ring down to the floor of
+/// an extended spall.
+const SHALLOW: [f64; 5] = [4.4, 3.4, 2.6, 2.0, 1.5];
+/// Depths tried beside the best, as shares of it.
+const OTHER_DEPTHS: [f64; 4] = [0.5, 0.25, 2.0, 4.0];
+/// Step of the ladder [degrees]; half of it where elements stand on the floor, for likeness falls off more steeply there.
+const STEP: f64 = 1.0;
+/// Climbs from the ladder's best trials at most.
+const BEGINNINGS: usize = 4;
+/// Likeness at the top of a climb after which no other is tried.
+const UNMISTAKABLE: f64 = 0.97;
 /// Resamplings of the passages.
 const RESAMPLINGS: usize = 60;
-/// Step of the last search [degrees].
-const FINE: f64 = 0.1;
-/// Half the range in which the contact's width can shift a length [degrees].
-const WIDE: f64 = 0.8;
 
 /// Length by likeness. Angles in degrees of the outer raceway.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,27 +78,29 @@ fn search(measured: &Measured, scene: &Scene, rig: &Rig<'_>, heard: &mut NotAlik
     let target = below_cut(&passages::average(&rows), measured.bpfo);
     let search = Search { rig, target: &target };
     let spacing = measured.spacing;
-    let simple = |length: f64| Trial { length, depth: DEPTH, law: ContactLaw::Hertz };
-    let coarse: Vec<Trial> =
-        lengths(1.0, 1.95 * spacing, 1.0).filter(|l| (l / spacing - 1.0).abs() > 0.02).map(simple).collect();
-    let mut found = search.fits(&coarse, Run::Short);
+    let simple = |length: f64, depth: f64| Trial { length, depth, law: ContactLaw::Hertz };
+    let ladder = |depth: f64, step: f64| -> Vec<Trial> {
+        let all = lengths(1.0, 1.95 * spacing, step).filter(|l| (l / spacing - 1.0).abs() > 0.02);
+        all.map(|length| simple(length, depth)).collect()
+    };
+    let mut found = search.fits(&ladder(DEPTH, STEP), Run::Short);
     heard.likeness = found.first()?.likeness;
-    if heard.likeness < HOPELESS {
-        return None;
+    let mut climbed = climbs(&search, &found);
+    if climbed.first().is_none_or(|best| best.likeness < LIKE)
+        && let Some(approach) = event_length::approach(scene)
+    {
+        let shallow: Vec<Trial> = SHALLOW.iter().flat_map(|times| ladder(times * approach, 0.5 * STEP)).collect();
+        found.extend(search.fits(&shallow, Run::Short));
+        found.sort_by(|a, b| b.likeness.total_cmp(&a.likeness));
+        climbed = climbs(&search, &found);
     }
-    let mut near: Vec<f64> = Vec::new();
-    for fit in &found {
-        if near.len() < 3 && near.iter().all(|l| (l - fit.trial.length).abs() > 1.5) {
-            near.push(fit.trial.length);
-        }
-    }
-    let closer: Vec<Trial> = near.iter().flat_map(|&l| lengths((l - 0.8).max(0.3), l + 0.8, 0.2)).map(simple).collect();
-    let closer = search.fits(&closer, Run::Short);
-    let around = closer.first()?.trial.length;
-    found.extend(closer);
-    let mut peaks: Vec<Peak> = std::iter::once(DEPTH)
-        .chain(OTHER_DEPTHS)
-        .filter_map(|depth| search.peak(around, Trial { length: around, depth, law: ContactLaw::Hertz }))
+    heard.likeness = climbed.first().map_or(heard.likeness, |best| best.likeness);
+    let Trial { length: around, depth, .. } = climbed.first()?.trial;
+    found.extend(climbed);
+    let mut peaks: Vec<Peak> = [DEPTH, depth]
+        .into_iter()
+        .chain(OTHER_DEPTHS.iter().map(|share| share * depth))
+        .filter_map(|depth| search.peak(around, simple(around, depth)))
         .collect();
     let likest = peaks.iter().map(|p| p.likeness).fold(0.0, f64::max);
     // As good as the best: within half of what the best itself leaves unexplained.
@@ -126,112 +136,25 @@ fn search(measured: &Measured, scene: &Scene, rig: &Rig<'_>, heard: &mut NotAlik
     })
 }
 
-/// A trial with its passage.
-#[derive(Debug, Clone)]
-struct Fit {
-    trial: Trial,
-    likeness: f64,
-    passage: Vec<f64>,
-}
-
-struct Search<'a> {
-    rig: &'a Rig<'a>,
-    target: &'a [f64],
-}
-
-impl Search<'_> {
-    /// The top of likeness around a length.
-    fn peak(&self, around: f64, trial: Trial) -> Option<Peak> {
-        let from = (around - 3.0 * FINE).max(FINE);
-        let trials: Vec<Trial> =
-            lengths(from, around + 3.0 * FINE, FINE).map(|length| Trial { length, ..trial }).collect();
-        Peak::of(self.fits(&trials, Run::Long), self.target)
-    }
-
-    /// The same by a law that minds the contact's width and so shifts the edges, with two runs of it: a map is dear.
-    ///
-    /// How long a run by that law seems to be when measured with the cheap law's runs says how much that law errs.
-    fn with_law(&self, peak: &Peak, law: ContactLaw) -> Option<OwnLaw> {
-        // The map is the grid's law, computed beforehand.
-        let law = if law == ContactLaw::Love { ContactLaw::Map } else { law };
-        if law == ContactLaw::Hertz {
-            return None;
-        }
-        let trial = |length: f64, law: ContactLaw| Trial { length, depth: peak.depth, law };
-        let ruler: Vec<Trial> = lengths((peak.length - WIDE).max(FINE), peak.length + WIDE, FINE)
-            .map(|length| trial(length, ContactLaw::Hertz))
-            .collect();
-        let mut ruler = self.fits(&ruler, Run::Long);
-        ruler.sort_by(|a, b| a.trial.length.total_cmp(&b.trial.length));
-        let seems = top(&ruler, self.target)?.0;
-        let mut length = seems;
-        let mut passage = Vec::new();
-        for _ in 0..2 {
-            passage = self.rig.passage(trial(length, law), Run::Long).ok()?;
-            length = (length - (top(&ruler, &passage)?.0 - seems)).max(FINE);
-        }
-        Some(OwnLaw { length, likeness: likeness(self.target, &passage), passage })
-    }
-
-    /// The trials in the order of their likeness; those that cannot be simulated are left out.
-    fn fits(&self, trials: &[Trial], run: Run) -> Vec<Fit> {
-        let threads = std::thread::available_parallelism().map_or(1, |n| n.get().min(8));
-        let share = trials.len().div_ceil(threads).max(1);
-        let fit = |&trial: &Trial| {
-            let passage = self.rig.passage(trial, run).ok()?;
-            Some(Fit { trial, likeness: likeness(self.target, &passage), passage })
+/// Climbs from the best trials of a ladder that are apart, the best first; none where all are hopeless.
+fn climbs(search: &Search<'_>, found: &[Fit]) -> Vec<Fit> {
+    let mut climbed: Vec<Fit> = Vec::new();
+    let mut beginnings: Vec<&Fit> = Vec::new();
+    for fit in found.iter().filter(|fit| fit.likeness >= HOPELESS) {
+        let apart = |b: &&Fit| {
+            let ratio = libm::log(b.trial.depth / fit.trial.depth).abs();
+            (b.trial.length - fit.trial.length).abs() > 0.8 || ratio > 0.2
         };
-        let mut fits: Vec<Fit> = std::thread::scope(|scope| {
-            let parts: Vec<_> = trials
-                .chunks(share)
-                .map(|part| scope.spawn(move || part.iter().filter_map(fit).collect::<Vec<_>>()))
-                .collect();
-            parts.into_iter().flat_map(|part| part.join().unwrap_or_default()).collect()
-        });
-        fits.sort_by(|a, b| b.likeness.total_cmp(&a.likeness));
-        fits
+        if beginnings.len() == BEGINNINGS || climbed.last().is_some_and(|top| top.likeness > UNMISTAKABLE) {
+            break;
+        }
+        if beginnings.iter().all(apart) {
+            beginnings.push(fit);
+            climbed.push(search.climb(fit));
+        }
     }
-}
-
-/// The answer by the scene's own law.
-struct OwnLaw {
-    length: f64,
-    likeness: f64,
-    passage: Vec<f64>,
-}
-
-/// The top of likeness over length at one depth.
-#[derive(Debug, Clone)]
-struct Peak {
-    length: f64,
-    depth: f64,
-    likeness: f64,
-    /// In the order of length.
-    fits: Vec<Fit>,
-    top: usize,
-}
-
-impl Peak {
-    fn of(mut fits: Vec<Fit>, target: &[f64]) -> Option<Self> {
-        fits.sort_by(|a, b| a.trial.length.total_cmp(&b.trial.length));
-        let depth = fits.first()?.trial.depth;
-        let (length, likeness, top) = top(&fits, target)?;
-        Some(Self { length, depth, likeness, fits, top })
-    }
-}
-
-/// Length, likeness and index at the top of the parabola through the best three.
-fn top(fits: &[Fit], target: &[f64]) -> Option<(f64, f64, usize)> {
-    let like: Vec<f64> = fits.iter().map(|f| likeness(target, &f.passage)).collect();
-    let i = (0..like.len()).max_by(|&a, &b| like[a].total_cmp(&like[b]))?;
-    let length = fits[i].trial.length;
-    if i == 0 || i + 1 == fits.len() {
-        return Some((length, like[i], i));
-    }
-    let (a, b, c) = (like[i - 1], like[i], like[i + 1]);
-    let bend = a - 2.0 * b + c;
-    let shift = if bend < 0.0 { 0.5 * (a - c) / bend } else { 0.0 };
-    Some((length + shift * FINE, b, i))
+    climbed.sort_by(|a, b| b.likeness.total_cmp(&a.likeness));
+    climbed
 }
 
 /// The passage moved by `shift` periods, its sign that of the target.
@@ -258,9 +181,4 @@ fn bootstrap(rows: &[Vec<f64>], bpfo: f64, best: &Peak) -> f64 {
         })
         .collect();
     statistics::spread(&lengths)
-}
-
-fn lengths(from: f64, to: f64, step: f64) -> impl Iterator<Item = f64> {
-    let count = ((to - from) / step + 1e-9).floor().max(0.0) as usize;
-    (0..=count).map(move |i| from + step * i as f64)
 }
