@@ -18,7 +18,8 @@
 //! clearance by which the inner ring can follow: P(L/2) > δ + G_r. Shorter is unresolved.
 //! Where Q is unknown, s_u is the way from the entry's onset to its extreme, an upper bound that holds in any case.
 
-use super::events::{self, Blow, Entry};
+use super::entry::{self, Entry};
+use super::events::{self, Blow};
 use super::measured::Measured;
 use super::passages;
 use super::statistics::{self, Random};
@@ -234,9 +235,9 @@ impl Rows {
         let blow = events::jump_near(&level, grid.width, self.blow, reach);
         let last = events::jump_near(&level, grid.width, self.last, reach);
         let entry = if self.far {
-            events::far_entry(&signal, blow, grid.degree)?
+            entry::far_entry(&signal, blow, grid.degree)?
         } else {
-            events::entry(&signal, blow, grid.degree)?
+            entry::entry(&signal, blow, self.last - self.blow, grid.degree)?
         };
         Some((entry, (last - entry.at) / grid.degree))
     }

@@ -1,13 +1,16 @@
 //! What an engineer reads out of a scene or a recording. A leaf: nothing imports it.
 
 pub mod critical_load;
+pub mod entry;
 pub mod envelope;
 pub mod error;
 pub mod event_length;
 pub mod events;
 mod kind;
+mod linear_prediction;
 pub mod measured;
 pub mod passages;
+
 pub mod recording;
 mod recording_csv;
 mod recording_file;

@@ -109,6 +109,11 @@ pub fn circular_correlation(a: &[f64], b: &[f64]) -> Vec<f64> {
     correlation
 }
 
+/// Autocorrelation at lags 0 … `lags`; the signal goes on as zeros.
+pub fn autocorrelation(signal: &[f64], lags: usize) -> Vec<f64> {
+    (0..=lags).map(|lag| signal.iter().zip(signal.iter().skip(lag)).map(|(a, b)| a * b).sum()).collect()
+}
+
 fn forward(plan: &dyn RealToComplex<f64>, mut signal: Vec<f64>) -> Vec<Complex<f64>> {
     let mut bins = plan.make_output_vec();
     // Its only error is a wrong length, and the plan made both.

@@ -28,6 +28,11 @@ pub fn deviation(values: &[f64]) -> f64 {
     (values.iter().map(|x| (x - m) * (x - m)).sum::<f64>() / (values.len() - 1) as f64).sqrt()
 }
 
+/// Root of the mean square; 0 of nothing.
+pub fn rms(values: &[f64]) -> f64 {
+    if values.is_empty() { 0.0 } else { (values.iter().map(|x| x * x).sum::<f64>() / values.len() as f64).sqrt() }
+}
+
 /// Correlation of two series of equal length; 0 where one of them scatters by less than 0.05, for what is equal each time tells nothing.
 pub fn correlation(a: &[f64], b: &[f64]) -> f64 {
     let (mean_a, mean_b) = (mean(a), mean(b));

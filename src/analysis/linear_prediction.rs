@@ -1,0 +1,104 @@
+//! A structure's own ringing, predicted from what went before.
+//!
+//! A structure that rings answers each blow with decaying oscillations, in which every sample follows from the ones before,
+//! ```text
+//! x(i) = − Σ a(k) x(i − k) + e(i),   k = 1 … p
+//! ```
+//! The residual e holds what does not follow: the blows themselves, and noise. The a(k) come from the recording's autocorrelation by the
+//! recursion of Levinson and Durbin, whose filter is always stable. The span of p samples must stay short against the way between two
+//! blows, for the second would else be predicted from the first.
+//!
+//! In a stretch in which nothing happens e is noise, and the prediction can be carried on ([`Ringing::ahead`]): what still rings of the last
+//! passage when the next element comes is known and can be taken off. Its a(k) are those of least squares within the stretch, for decaying
+//! oscillations are no stationary process.
+
+use super::spectrum;
+
+/// Share of white noise added to the autocorrelation: keeps the recursion off rounding where the recorder's filter leaves nothing.
+const FLOOR: f64 = 1e-6;
+
+/// Share of the stretch's power added to the diagonal of the least squares: a thousandth of the amplitude is taken for noise.
+const RIDGE: f64 = 1e-6;
+
+/// The residual of a prediction from `order` samples.
+pub(super) fn residual(signal: &[f64], order: usize) -> Vec<f64> {
+    let filter = filter(&spectrum::autocorrelation(signal, order));
+    (0..signal.len()).map(|i| filter.iter().take(i + 1).enumerate().map(|(k, a)| a * signal[i - k]).sum()).collect()
+}
+
+/// How a stretch rings on.
+pub(super) struct Ringing {
+    /// −a(k), from k = 1 on.
+    weights: Vec<f64>,
+}
+
+impl Ringing {
+    /// Least squares over a stretch; `None` where it is too short for `order` unknowns.
+    pub(super) fn of(stretch: &[f64], order: usize) -> Option<Self> {
+        if stretch.len() < 3 * order {
+            return None;
+        }
+        let power = stretch.iter().map(|x| x * x).sum::<f64>();
+        let mut normal = vec![vec![0.0; order + 1]; order];
+        for i in order..stretch.len() {
+            for k in 0..order {
+                for l in 0..order {
+                    normal[k][l] += stretch[i - 1 - k] * stretch[i - 1 - l];
+                }
+                normal[k][order] += stretch[i - 1 - k] * stretch[i];
+            }
+        }
+        for (k, row) in normal.iter_mut().enumerate() {
+            row[k] += RIDGE * power + f64::MIN_POSITIVE;
+        }
+        Some(Self { weights: solve(normal) })
+    }
+
+    /// What follows `past`, if nothing happens.
+    pub(super) fn ahead(&self, past: &[f64], count: usize) -> Vec<f64> {
+        let mut all = past[past.len().saturating_sub(self.weights.len())..].to_vec();
+        let known = all.len();
+        for _ in 0..count {
+            let next = self.weights.iter().zip(all.iter().rev()).map(|(w, x)| w * x).sum();
+            all.push(next);
+        }
+        all.split_off(known)
+    }
+}
+
+/// Solves a symmetric positive system, its right side the last column, by elimination.
+fn solve(mut rows: Vec<Vec<f64>>) -> Vec<f64> {
+    let n = rows.len();
+    for k in 0..n {
+        let pivot = rows[k].clone();
+        for row in rows.iter_mut().skip(k + 1) {
+            let factor = row[k] / pivot[k];
+            for (x, y) in row.iter_mut().zip(&pivot).skip(k) {
+                *x -= factor * y;
+            }
+        }
+    }
+    let mut solution = vec![0.0; n];
+    for k in (0..n).rev() {
+        let known: f64 = (k + 1..n).map(|l| rows[k][l] * solution[l]).sum();
+        solution[k] = (rows[k][n] - known) / rows[k][k];
+    }
+    solution
+}
+
+/// 1, a(1) … a(p) of an autocorrelation at lags 0 … p.
+fn filter(correlation: &[f64]) -> Vec<f64> {
+    let mut a = vec![1.0];
+    let mut error = correlation[0] * (1.0 + FLOOR);
+    for m in 1..correlation.len() {
+        let sum: f64 = a.iter().enumerate().map(|(k, x)| x * correlation[m - k]).sum();
+        let reflection = if error > 0.0 { -sum / error } else { 0.0 };
+        a.push(0.0);
+        let before = a.clone();
+        for k in 1..=m {
+            a[k] = before[k] + reflection * before[m - k];
+        }
+        error *= 1.0 - reflection * reflection;
+    }
+    a
+}
