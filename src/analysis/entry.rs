@@ -128,7 +128,12 @@ pub fn far_entry(signal: &[f64], blow: f64, degree: f64) -> Option<Entry> {
     let limit = (6.0 * noise).max(0.4 * tallest);
     let leaves = (quiet + stretch..to).find(|&i| away(i) > limit)?;
     let extreme = (leaves..to - 1).find(|&i| away(i + 1) <= away(i))?;
-    rise(&smooth, quiet, extreme, base, noise)
+    let far = rise(&smooth, quiet, extreme, base, noise)?;
+    // It must also stand out of the ringing that the blow has left, and be where it was.
+    let end = extreme as f64 + FLANK * degree;
+    let again = entry(signal, end, blow - end, degree)?;
+    let same = (again.at - far.at).abs() < degree;
+    Some(Entry { clearness: if same { far.clearness.min(again.clearness) } else { 0.0 }, ..far })
 }
 
 /// Half the length of the blow's own flank, which begins a filter's length before its steepest point [degrees].

@@ -38,6 +38,8 @@ const CLEAR_FAR: f64 = 8.0;
 const ENOUGH_RATE: f64 = 24_000.0;
 /// Length from which blows are not close [degrees].
 const LONG: f64 = 3.0;
+/// Share of the length beyond which its 95 % interval says nothing.
+pub(super) const UNCERTAIN: f64 = 0.25;
 /// Resamplings of the passages.
 const RESAMPLINGS: usize = 60;
 
@@ -103,7 +105,7 @@ pub enum Unresolved {
     #[error("{0:.2} degrees, uncertain by {1:.2}: not surely above {2:.2}, below which an element never gets free")]
     TooShort(f64, f64, f64),
     /// Too uncertain.
-    #[error("{0:.2} degrees, uncertain by {1:.2} (95 %): more than half of it")]
+    #[error("{0:.2} degrees, uncertain by {1:.2} (95 %): more than a quarter of it")]
     TooUncertain(f64, f64),
 }
 
@@ -123,7 +125,7 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Result<EventLength, Unres
     let grid = Grid::new(measured);
     let envelopes = measured.envelope_rows(0.0, grid.points);
     let blows = events::blows(&decibels(passages::average(&envelopes)), grid.width, grid.smallest);
-    let blows = events::without_echoes(blows, &envelopes, grid.width);
+    let blows = events::without_echoes(blows, &envelopes, grid.width, grid.degree * measured.travel());
     let Some(first) = blows.first().copied() else { return Err(Unresolved::NoBlow(grid.smallest)) };
     let span = grid.span(&blows);
     if span > 0.6 * measured.spacing {
@@ -151,7 +153,9 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Result<EventLength, Unres
     let length = way + 0.5 * (unloading - rounding);
     let systematic = ((unloading * unloading + rounding * rounding) / 12.0).sqrt();
     let approach = depth_at(bearing, unloading);
-    let limit = 2.0 * sunk_after(bearing, approach + bearing.radial_clearance.max(0.0));
+    // Over the way in which a blow rises, two events are one.
+    let limit =
+        2.0 * sunk_after(bearing, approach + bearing.radial_clearance.max(0.0)) + grid.width as f64 / grid.degree;
     let uncertainty = statistical.hypot(systematic);
     if length - uncertainty < limit {
         return Err(Unresolved::TooShort(length, uncertainty, limit));
@@ -159,7 +163,7 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Result<EventLength, Unres
     if measured.rate < ENOUGH_RATE && length < LONG {
         return Err(Unresolved::LowRate(length, measured.rate, ENOUGH_RATE));
     }
-    if 2.0 * uncertainty > 0.5 * length {
+    if 2.0 * uncertainty > UNCERTAIN * length {
         return Err(Unresolved::TooUncertain(length, 2.0 * uncertainty));
     }
     let blows = blows.iter().map(|b| (b.at - first.at).rem_euclid(grid.points as f64) / grid.degree).collect();

@@ -10,10 +10,12 @@ const WEAKEST_BLOW: f64 = 0.12;
 /// A blow jumps at least by this share of the steepest blow's jump [dB]: it rises out of silence, or over a decaying blow, while an echo
 /// or a beat rises over what it is a part of.
 const LOWEST_JUMP: f64 = 0.3;
-/// A jump that no echo makes [dB].
+/// A jump that no late echo makes [dB].
 const STEEP: f64 = 8.0;
 /// Correlation of loudness over the passages from which a rise is an echo of the blow before: two edges are hit each in its own way.
 const SAME_CAUSE: f64 = 0.6;
+/// Time after which echoes have died down [s]: 1.5 m of housing at the 1 km/s of slow bending waves. Later ones do not rise by [`STEEP`].
+const DIED_DOWN: f64 = 1.5e-3;
 /// Passages below which such a correlation may be chance: 0.6 of 20 passages is three standard deviations.
 const FEWEST_TO_COMPARE: usize = 20;
 
@@ -54,10 +56,10 @@ pub fn blows(level: &[f64], width: usize, smallest: f64) -> Vec<Blow> {
     after_the_longest_silence(found, n)
 }
 
-/// The blows without echoes: rises that are loud whenever an earlier blow is loud, passage by passage, and not steep by themselves.
+/// The blows without echoes: rises that are loud whenever an earlier blow is loud, passage by passage, and that are not both late and steep.
 ///
-/// `envelopes` is one row per passage on the grid of the blows.
-pub fn without_echoes(mut blows: Vec<Blow>, envelopes: &[Vec<f64>], width: usize) -> Vec<Blow> {
+/// `envelopes` is one row per passage on the grid of the blows, `rate` its points per second.
+pub fn without_echoes(mut blows: Vec<Blow>, envelopes: &[Vec<f64>], width: usize, rate: f64) -> Vec<Blow> {
     let Some(n) = envelopes.first().map(Vec::len).filter(|_| envelopes.len() >= FEWEST_TO_COMPARE) else {
         return blows;
     };
@@ -67,8 +69,9 @@ pub fn without_echoes(mut blows: Vec<Blow>, envelopes: &[Vec<f64>], width: usize
         envelopes.iter().map(|row| libm::log(loudest(row))).collect()
     };
     let all: Vec<Vec<f64>> = blows.iter().map(loudness).collect();
-    let echo =
-        |i: usize| blows[i].jump < STEEP && (0..i).any(|j| statistics::correlation(&all[i], &all[j]) > SAME_CAUSE);
+    let loud_together = |i: usize, j: usize| statistics::correlation(&all[i], &all[j]) > SAME_CAUSE;
+    let late = |i: usize, j: usize| (blows[i].at - blows[j].at).rem_euclid(n as f64) > DIED_DOWN * rate;
+    let echo = |i: usize| (0..i).any(|j| loud_together(i, j) && !(late(i, j) && blows[i].jump >= STEEP));
     let kept: Vec<bool> = (0..blows.len()).map(|i| !echo(i)).collect();
     let mut kept = kept.into_iter();
     blows.retain(|_| kept.next().unwrap_or(true));

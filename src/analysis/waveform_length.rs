@@ -12,7 +12,7 @@ use super::measured::Measured;
 use super::passages;
 use super::statistics::{self, Random};
 use super::synthesis::{POINTS, Rig, Run, Trial, below_cut, best_shift};
-use super::trial_search::{Fit, OwnLaw, Peak, Search, lengths, top};
+use super::trial_search::{FINE, Fit, OwnLaw, Peak, Search, lengths, top};
 use crate::scene::{ContactLaw, Scene};
 
 /// Likeness from which the scene's rig is taken to be the recording's.
@@ -109,7 +109,9 @@ fn search(measured: &Measured, scene: &Scene, rig: &Rig<'_>, heard: &mut NotAlik
     let range = peaks.iter().fold((f64::MAX, f64::MIN), |(l, h), p| (l.min(p.length), h.max(p.length)));
     // The first is the usual depth, if it is as good: a depth that elements do not reach leaves no trace.
     let cheap = peaks.into_iter().next()?;
-    let own = search.with_law(&cheap, scene.contact.law);
+    // Below what can be resolved the law's last tenth of a degree decides nothing, and its map is dear.
+    let short = event_length::limit(scene).is_some_and(|limit| cheap.length + 2.0 * FINE < limit);
+    let own = if short { None } else { search.with_law(&cheap, scene.contact.law) };
     let best = own.unwrap_or_else(|| OwnLaw {
         length: cheap.length,
         likeness: cheap.likeness,

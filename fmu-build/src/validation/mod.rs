@@ -5,7 +5,9 @@
 pub mod averages;
 pub mod blind;
 pub mod events;
+pub mod made_up_rig;
 pub mod recordings;
+pub mod rigs;
 pub mod runs;
 pub mod statics;
 
@@ -36,6 +38,8 @@ pub enum Part {
     Averages,
     /// Simulated recordings, sized
     Blind,
+    /// Recordings of machines that do not exist, sized
+    Rigs,
     /// Recordings that are given, sized
     Recordings,
 }
@@ -106,6 +110,9 @@ pub fn command(project: &Project, options: &Options, docs: &Path) -> Result<()> 
     }
     if wanted(Part::Blind, "simulated recordings, sized") {
         blind::fill(project, &mut values)?;
+    }
+    if wanted(Part::Rigs, "machines that do not exist, sized") {
+        rigs::fill(&mut values)?;
     }
     if !options.recordings.is_empty() && wanted(Part::Recordings, "recordings") {
         let table = recordings::table(project, &options.recordings, options.rate)?;
