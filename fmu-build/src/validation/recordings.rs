@@ -22,6 +22,9 @@ use crate::project::Project;
 
 /// Scene of the rig.
 const SCENE: &str = "6205-spall-5deg";
+/// The other spall laid beside the recording: length at the surface [degrees], depth [m], slope of the flanks [degrees]. Its floor is 5 degrees
+/// long. Chosen so that blows and null fall where the recording has them.
+const FLANKS: [f64; 3] = [5.8, 12e-6, 4.18];
 /// Harmonics of the envelope that are drawn.
 const HARMONICS: usize = 20;
 
@@ -52,7 +55,9 @@ impl Known {
 
 /// The table of recordings and the comparison with the scene, as Markdown.
 pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
-    let mut case = Case::shipped(project, SCENE)?;
+    let case = Case::shipped(project, SCENE)?;
+    let [length, depth, slope] = FLANKS;
+    let with_flanks = case.clone().with_flanks(length, depth, slope);
     let scene = Scene { defect: None, ..case.scene.clone() };
     let maps = |scene: &Scene| contact_map::of(scene, None, project).ok().flatten();
     let read = |known: &Known| -> Result<Recording> {
@@ -94,24 +99,31 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
     }
     if !beside.is_empty() {
         text += "\n### The scene beside the recording of 5°\n\n";
-        text += "| shaft (Hz) | | onset before the first blow (°) | first to last blow (°) | null of the envelope's harmonics |\n|---:|---|---:|---:|---:|\n";
+        text += "| shaft (Hz) | | onset before the first blow (°) | first to last blow (°) | length by events (°) | null of the envelope's harmonics |\n|---:|---|---:|---:|---:|---:|\n";
         for (speed, figure, found, comb) in &beside {
-            case = case.at_speed(*speed);
-            // By its events, like the recording: a scene without sensor is no rig to compare with.
-            let recording = Recording::new("scene", blind::recorded(project, &case)?, 51_200.0, *speed)?;
-            let blind = Scene { defect: None, sensor: None, ..case.scene.clone() };
-            let report = spall_size::size_with(std::slice::from_ref(&recording), &blind, &maps, &mut |_| ())?;
-            let own = harmonics(&recording, &blind)?;
-            for (label, found, comb) in [("recording", Some(found), comb), ("scene", report.recordings.first(), &own)] {
-                let Some(found) = found else { continue };
-                let [onset, last] = [found.onset_deg.map(|onset| -onset), found.blows_deg.last().copied()].map(number);
-                writeln!(text, "| {speed} | {label} | {onset} | {last} | {} |", null(comb))?;
+            writeln!(text, "{}", beside_row(*speed, "recording", Some(found), comb))?;
+            for (label, case) in [("scene", &case), ("with flanks", &with_flanks)] {
+                let case = case.clone().at_speed(*speed);
+                // By its events, like the recording: a scene without sensor is no rig to compare with.
+                let recording = Recording::new("scene", blind::recorded(project, &case)?, 51_200.0, *speed)?;
+                let blind = Scene { defect: None, sensor: None, ..case.scene.clone() };
+                let report = spall_size::size(std::slice::from_ref(&recording), &blind)?;
+                let own = harmonics(&recording, &blind)?;
+                writeln!(text, "{}", beside_row(*speed, label, report.recordings.first(), &own))?;
+                // The figure shows the last, which is nearer.
+                let stem = format!("beside-{speed:.0}hz");
+                write_beside(project, &stem, figure, report.figures.first(), comb, &own)?;
             }
-            let stem = format!("beside-{speed:.0}hz");
-            write_beside(project, &stem, figure, report.figures.first(), comb, &own)?;
         }
     }
     Ok(text)
+}
+
+fn beside_row(speed: f64, label: &str, found: Option<&RecordingReport>, comb: &[f64]) -> String {
+    let onset = number(found.and_then(|f| f.onset_deg).map(|onset| -onset));
+    let last = number(found.and_then(|f| f.blows_deg.last().copied()));
+    let length = number(found.and_then(|f| f.length_deg));
+    format!("| {speed} | {label} | {onset} | {last} | {length} | {} |", null(comb))
 }
 
 fn row(found: &RecordingReport, nominal: f64) -> Result<String> {

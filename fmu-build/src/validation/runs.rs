@@ -6,7 +6,7 @@ use std::path::Path;
 use anyhow::{Context, Result};
 use brinell::analysis::passages;
 use brinell::geometry::kinematics;
-use brinell::scene::{ContactLaw, DefectShape, Scene};
+use brinell::scene::{ContactLaw, Defect, DefectShape, Scene};
 use brinell::simulation::Simulation;
 
 use crate::contact_map;
@@ -60,6 +60,15 @@ impl Case {
         } else if let Some(defect) = &mut self.scene.defect {
             let edge_slope = std::f64::consts::FRAC_PI_2;
             defect.shape = DefectShape::Spall { length: length.to_radians() * radius, depth, edge_slope };
+        }
+        self
+    }
+
+    /// The same with flanks instead of sharp edges: length at the surface [degrees], depth [m], slope [degrees].
+    pub fn with_flanks(mut self, length: f64, depth: f64, slope: f64) -> Self {
+        self = self.with_spall(length, depth);
+        if let Some(Defect { shape: DefectShape::Spall { edge_slope, .. }, .. }) = &mut self.scene.defect {
+            *edge_slope = slope.to_radians();
         }
         self
     }
