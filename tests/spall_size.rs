@@ -8,6 +8,7 @@ use brinell::analysis::error::SizingError;
 use brinell::analysis::recording::Recording;
 use brinell::analysis::report::{Kind, Method, Report, Verdict};
 use brinell::analysis::spall_size::size;
+use brinell::analysis::static_bearing::StaticBearing;
 use brinell::analysis::statistics::Random;
 use brinell::geometry::kinematics;
 use brinell::scene::{ContactLaw, Defect, DefectShape, Scene};
@@ -138,7 +139,7 @@ fn recordings_at_several_speeds_give_one_length_and_contradicting_ones_none() {
 
 #[test]
 fn a_healthy_bearing_and_a_spall_below_the_limit_are_unresolved() {
-    for length in [0.0, 0.4, 0.8] {
+    for length in [0.0, 0.4, 0.8, 1.2] {
         let report = sized(signal(length, 10.0, 0.05), 10.0, &scene());
         assert_eq!(report.verdict, Verdict::Unresolved, "{length}: {:?}", report.length_deg);
         assert_eq!((report.length_mm, report.uncertainty_mm), (None, None));
@@ -181,10 +182,14 @@ fn recordings_that_cannot_be_sized_are_refused_by_name_value_and_limit() {
 
 /// What the sensor of a scene with a spall of `length` degrees records.
 fn simulated(scene: &Scene, length: f64, seconds: f64) -> Vec<f64> {
+    simulated_deep(scene, length, 100e-6, seconds)
+}
+
+fn simulated_deep(scene: &Scene, length: f64, depth: f64, seconds: f64) -> Vec<f64> {
     let mut scene = scene.clone();
     let shape = DefectShape::Spall {
         length: length.to_radians() * scene.bearing.outer_raceway_radius(),
-        depth: 100e-6,
+        depth,
         edge_slope: FRAC_PI_2,
     };
     scene.defect = Some(Defect { angle: -FRAC_PI_2, shape });
@@ -205,6 +210,33 @@ fn rig(speed: f64) -> Scene {
     let mut scene = Scene::from_toml(include_str!("../scenes/er16k-tb1.toml")).unwrap();
     scene.shaft_speed = TAU * speed;
     scene
+}
+
+#[test]
+fn the_scenes_own_rig_does_not_resolve_what_is_too_short_for_an_element_to_get_free() {
+    let mut rig = rig(20.0);
+    rig.contact.law = ContactLaw::Hertz;
+    let report = sized(simulated(&rig, 1.3, 0.3), 20.0, &rig);
+    assert_eq!(report.verdict, Verdict::Unresolved, "{:?}", report.length_deg);
+    // Its likeness would give the length: the answer says what was seen, and from where on it would count.
+    assert!(report.recordings[0].likeness.unwrap() > 0.9);
+    assert!(report.reason.contains("not surely above 1.78"), "{}", report.reason);
+}
+
+#[test]
+fn the_depth_below_which_an_extended_spall_would_ring_like_a_line_spall_is_that_of_its_critical_load() {
+    let report = sized(signal(5.0, 10.0, 0.03), 10.0, &scene());
+    assert_eq!(report.kind, Kind::Undecided);
+    assert!(report.reason.contains("WARNING: were the spall shallower than"), "{}", report.reason);
+    let mut extended = scene();
+    let length = (report.length_deg.unwrap() + 40.0).to_radians() * extended.bearing.outer_raceway_radius();
+    let depth = 1e-6 * report.critical_depth_um.unwrap();
+    let shape = DefectShape::Spall { length, depth, edge_slope: FRAC_PI_2 };
+    extended.defect = Some(Defect { angle: -FRAC_PI_2, shape });
+    extended.contact.law = ContactLaw::Hertz;
+    let critical = StaticBearing::new(&extended, None).unwrap().critical_load().unwrap().unwrap();
+    // The depth is halved down to a thousandth of itself; the load goes with about its 1.5th power.
+    assert!((critical.load / 49.0 - 1.0).abs() < 2e-3, "{}", critical.load);
 }
 
 #[test]
@@ -237,4 +269,17 @@ fn a_spall_longer_than_the_spacing_is_called_extended_and_rings_as_its_stiffness
     let [after_entry, after_exit] = report.recordings[0].ringing_hz.unwrap();
     assert!((after_entry / 567.0 - 1.0).abs() < 0.02 && (after_exit / 800.0 - 1.0).abs() < 0.02);
     assert!(!report.reason.contains("WARNING"));
+}
+
+#[test]
+fn an_extended_spall_whose_floor_carries_is_sized_and_warned_about() {
+    let mut rig = rig(10.0);
+    rig.contact.law = ContactLaw::Hertz;
+    rig.shaft.load = [0.0, -600.0];
+    let report = sized(simulated_deep(&rig, 55.8, 30e-6, 0.5), 10.0, &rig);
+    assert!((report.length_deg.unwrap_or(f64::NAN) / 55.8 - 1.0).abs() < 0.03, "{}", report.reason);
+    assert_eq!(report.kind, Kind::Extended);
+    // 503 N at 30 um, 29 N per um: the depth is found within half of one.
+    assert!((report.critical_load_n.unwrap() - 503.0).abs() < 15.0, "{:?}", report.critical_load_n);
+    assert!(report.reason.contains("WARNING"), "{}", report.reason);
 }

@@ -153,9 +153,9 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Result<EventLength, Unres
     let length = way + 0.5 * (unloading - rounding);
     let systematic = ((unloading * unloading + rounding * rounding) / 12.0).sqrt();
     let approach = depth_at(bearing, unloading);
-    // Over the way in which a blow rises, two events are one.
-    let limit =
-        2.0 * sunk_after(bearing, approach + bearing.radial_clearance.max(0.0)) + grid.width as f64 / grid.degree;
+    // A jump is measured between two windows: two of them blur what lies closer.
+    let free = 2.0 * sunk_after(bearing, approach + bearing.radial_clearance.max(0.0));
+    let limit = free.hypot(2.0 * grid.width as f64 / grid.degree);
     let uncertainty = statistical.hypot(systematic);
     if length - uncertainty < limit {
         return Err(Unresolved::TooShort(length, uncertainty, limit));
