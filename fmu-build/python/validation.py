@@ -135,7 +135,7 @@ def beside():
             other.grid(False)
             other.spines["right"].set_visible(True)
             axis.axvline(0, color="black", linewidth=0.8, linestyle=":")
-            axis.set_title(f"{who}, {speed} Hz")
+            axis.set_title(f"{who if column == 0 else 'scene with flanks'}, {speed} Hz")
             if column == 0:
                 axis.set_ylabel("acceleration (of its greatest)")
                 other.set_yticklabels([])
@@ -143,7 +143,7 @@ def beside():
                 other.set_ylabel("envelope (dB)")
             if row == 0 and column == 0:
                 lines = axis.get_lines()[:1] + other.get_lines()[:1]
-                axis.legend(lines, [line.get_label() for line in lines], loc="upper right")
+                axis.legend(lines, [line.get_label() for line in lines], loc="upper left")
             if row == len(speeds) - 1:
                 axis.set_xlabel("element travel from the first blow (degrees)")
     bottom = figure.add_subplot(grid[len(speeds), :])
@@ -151,7 +151,7 @@ def beside():
     for speed, style in zip(speeds, styles * 3):
         data = read(f"beside-{speed}hz-harmonics")
         bottom.plot(data["harmonic"], data["recording"], style, color=BLUE, marker=".", label=f"recording, {speed} Hz")
-        bottom.plot(data["harmonic"], data["scene"], style, color=VERMILION, marker=".", label=f"scene, {speed} Hz")
+        bottom.plot(data["harmonic"], data["scene"], style, color=VERMILION, marker=".", label=f"with flanks, {speed} Hz")
     bottom.set_xlim(1, 20)
     bottom.set_ylim(0, None)
     bottom.set_xticks(range(1, 21))

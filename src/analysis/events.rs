@@ -65,8 +65,9 @@ pub fn without_echoes(mut blows: Vec<Blow>, envelopes: &[Vec<f64>], width: usize
     };
     let loudness = |blow: &Blow| -> Vec<f64> {
         let from = blow.at.max(0.0) as usize;
-        let loudest = |row: &Vec<f64>| (0..width).map(|k| row[(from + k) % n]).fold(f64::MIN_POSITIVE, f64::max);
-        envelopes.iter().map(|row| libm::log(loudest(row))).collect()
+        // The mean, not the peak: that depends on where between two samples a blow falls, and for two edges alike.
+        let mean = |row: &Vec<f64>| (0..width).map(|k| row[(from + k) % n]).sum::<f64>() / width as f64;
+        envelopes.iter().map(|row| libm::log(mean(row).max(f64::MIN_POSITIVE))).collect()
     };
     let all: Vec<Vec<f64>> = blows.iter().map(loudness).collect();
     let loud_together = |i: usize, j: usize| statistics::correlation(&all[i], &all[j]) > SAME_CAUSE;
