@@ -14,8 +14,8 @@ const LOWEST_JUMP: f64 = 0.3;
 const STEEP: f64 = 8.0;
 /// Correlation of loudness over the passages from which a rise is an echo of the blow before: two edges are hit each in its own way.
 const SAME_CAUSE: f64 = 0.6;
-/// Time after which echoes have died down [s]: 1.5 m of housing at the 1 km/s of slow bending waves. Later ones do not rise by [`STEEP`].
-const DIED_DOWN: f64 = 1.5e-3;
+/// Time after which echoes have died down [s]: 1 m of housing at the 1 km/s of slow bending waves. Later ones do not rise by [`STEEP`].
+const DIED_DOWN: f64 = 1e-3;
 /// Passages below which such a correlation may be chance: 0.6 of 20 passages is three standard deviations.
 const FEWEST_TO_COMPARE: usize = 20;
 
@@ -64,10 +64,14 @@ pub fn without_echoes(mut blows: Vec<Blow>, envelopes: &[Vec<f64>], width: usize
         return blows;
     };
     let loudness = |blow: &Blow| -> Vec<f64> {
-        let from = blow.at.max(0.0) as usize;
-        // The mean, not the peak: that depends on where between two samples a blow falls, and for two edges alike.
-        let mean = |row: &Vec<f64>| (0..width).map(|k| row[(from + k) % n]).sum::<f64>() / width as f64;
-        envelopes.iter().map(|row| libm::log(mean(row).max(f64::MIN_POSITIVE))).collect()
+        let from = n + blow.at.max(0.0) as usize - width / 2;
+        // The loudest window near the blow: a peak depends on where between two samples it falls, a fixed window on how well the passage is
+        // aligned, and both edges share that.
+        let loudest = |row: &Vec<f64>| {
+            let mean = |k: usize| (0..width).map(|i| row[(from + k + i) % n]).sum::<f64>() / width as f64;
+            (0..=width).map(mean).fold(f64::MIN_POSITIVE, f64::max)
+        };
+        envelopes.iter().map(|row| libm::log(loudest(row))).collect()
     };
     let all: Vec<Vec<f64>> = blows.iter().map(loudness).collect();
     let loud_together = |i: usize, j: usize| statistics::correlation(&all[i], &all[j]) > SAME_CAUSE;
