@@ -139,7 +139,7 @@ fn recordings_at_several_speeds_give_one_length_and_contradicting_ones_none() {
 
 #[test]
 fn a_healthy_bearing_and_a_spall_below_the_limit_are_unresolved() {
-    for length in [0.0, 0.4, 0.8, 1.2] {
+    for length in [0.0, 0.4, 0.8] {
         let report = sized(signal(length, 10.0, 0.05), 10.0, &scene());
         assert_eq!(report.verdict, Verdict::Unresolved, "{length}: {:?}", report.length_deg);
         assert_eq!((report.length_mm, report.uncertainty_mm), (None, None));
