@@ -73,10 +73,7 @@ fn run(scene: &Scene, law: ContactLaw, finer: bool, stop: f64) -> Result<Run, Bo
         _ => None,
     };
     let mut simulation = Simulation::new(scene, profile.as_deref())?;
-    let reference = |simulation: &Simulation, name: &str| {
-        simulation.table().iter().find(|v| v.name == name).map(|v| v.reference).ok_or(format!("no variable {name}"))
-    };
-    let references = [reference(&simulation, "element[1].force.outer")?, reference(&simulation, "housing.ay")?];
+    let references = [simulation.reference("element[1].force.outer")?, simulation.reference("housing.ay")?];
     let start = Instant::now();
     simulation.initialize(0.0)?;
     let mut run = Run { force: Vec::new(), acceleration: Vec::new(), seconds: 0.0 };

@@ -14,7 +14,7 @@ fn force(law: ContactLaw) -> Vec<f64> {
     scene.contact.cells = Some([32, 16]);
     scene.contact.map_accuracy = Some(3e-3);
     let mut simulation = Simulation::new(scene, None).unwrap();
-    let reference = simulation.table().iter().find(|v| v.name == "element[1].force.outer").unwrap().reference;
+    let reference = simulation.reference("element[1].force.outer").unwrap();
     simulation.initialize(0.0).unwrap();
     (0..(0.02 * RATE) as usize)
         .map(|_| {

@@ -194,7 +194,7 @@ fn simulated_deep(scene: &Scene, length: f64, depth: f64, seconds: f64) -> Vec<f
     };
     scene.defect = Some(Defect { angle: -FRAC_PI_2, shape });
     let mut simulation = Simulation::new(scene, None).unwrap();
-    let sensor = simulation.table().iter().position(|v| v.name == "sensor.acceleration").unwrap() as u32;
+    let sensor = simulation.reference("sensor.acceleration").unwrap();
     simulation.initialize(0.0).unwrap();
     let mut value = [0.0];
     (0..(seconds * RATE) as usize)

@@ -91,7 +91,7 @@ impl Reference {
 }
 
 fn reference_of(simulation: &Simulation, name: &str) -> u32 {
-    simulation.table().iter().position(|v| v.name == name).unwrap_or_else(|| panic!("no {name}")) as u32
+    simulation.reference(name).unwrap()
 }
 
 fn get(simulation: &mut Simulation, name: &str) -> f64 {

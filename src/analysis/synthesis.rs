@@ -89,8 +89,7 @@ impl<'a> Rig<'a> {
             scene.tolerance = scene.tolerance.max(ROUGH);
         }
         let mut simulation = Simulation::with_map(scene, None, map.as_deref())?;
-        // A rig has a sensor, or it would not have been made.
-        let sensor = simulation.table().iter().position(|v| v.name == "sensor.acceleration").unwrap_or_default() as u32;
+        let sensor = simulation.reference("sensor.acceleration").map_err(SimulationError::from)?;
         simulation.initialize(0.0)?;
         let count = (passages.end as f64 * self.rate / self.bpfo) as usize + 4;
         let mut signal = Vec::with_capacity(count);

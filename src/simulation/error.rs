@@ -58,6 +58,9 @@ pub enum VariableError {
     /// No such reference.
     #[error("value reference {0} is unknown: this model's references are 0 to {1}")]
     UnknownReference(u32, u32),
+    /// No such name.
+    #[error("this model has no variable {0}")]
+    UnknownName(String),
     /// The variable has another type.
     #[error("variable {name} (value reference {reference}) is not of type {wanted}")]
     WrongType {

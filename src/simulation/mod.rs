@@ -179,6 +179,15 @@ impl Simulation {
         &self.table
     }
 
+    /// Value reference of the variable of this name.
+    ///
+    /// # Errors
+    /// The scene has no such variable.
+    pub fn reference(&self, name: &str) -> Result<u32, VariableError> {
+        let variable = self.table.iter().find(|variable| variable.name == name);
+        variable.map(|variable| variable.reference).ok_or_else(|| VariableError::UnknownName(name.to_owned()))
+    }
+
     /// What each output depends on, in the order of the table.
     pub fn dependencies(&self) -> Vec<Dependencies> {
         dependencies::of(&self.table, &self.quantities, &self.scene)

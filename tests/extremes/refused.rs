@@ -81,7 +81,7 @@ fn a_cage_that_turns_too_fast_for_time_to_pass_between_edges_fails_at_once() {
     scene.contact.law = ContactLaw::Hertz;
     let mut simulation = Simulation::new(scene, None).unwrap();
     simulation.initialize(0.0).unwrap();
-    let speed = simulation.table().iter().find(|variable| variable.name == "shaft.speed").unwrap().reference;
+    let speed = simulation.reference("shaft.speed").unwrap();
     // No host can set such a speed; a state in bytes can hold it. Marks are put in its place and looked for.
     simulation.set_reals(&[speed], &[12.3456]).unwrap();
     simulation.set_input_derivatives(&[speed], &[1], &[6.54321]).unwrap();

@@ -37,7 +37,7 @@ impl Named {
     }
 
     pub fn reference(&self, name: &str) -> u32 {
-        self.0.table().iter().position(|v| v.name == name).unwrap_or_else(|| panic!("no variable {name}")) as u32
+        self.0.reference(name).unwrap()
     }
 
     pub fn get(&mut self, name: &str) -> f64 {

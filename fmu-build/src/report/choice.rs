@@ -93,8 +93,7 @@ pub(super) fn measure(extent: Extent, data: &Path) -> Result<Vec<Row>> {
         let mut simulation = Simulation::with_map(model.scene.clone(), profile, map.as_deref())?;
         if model.scene.shaft.motion == Motion::Host {
             // 12 µm beyond the concentric place: some hundred newtons on the lowest elements.
-            let place = simulation.table().iter().position(|v| v.name == "shaft.y").unwrap_or_default();
-            simulation.set_reals(&[place as u32], &[-12e-6])?;
+            simulation.set_reals(&[simulation.reference("shaft.y")?], &[-12e-6])?;
         }
         rows.push(compare(what, &simulation, stop)?);
     }
@@ -145,9 +144,8 @@ fn compare(what: &'static str, simulation: &Simulation, stop: f64) -> Result<Row
 /// Tried steps in explicit ones, and the share of implicit ones. Rejected steps are not counted by method: they are taken to
 /// be shared like the accepted.
 fn counted(run: &mut Simulation) -> Result<(f64, f64)> {
-    let reference = run.table().iter().position(|v| v.name == "solver.rejected_steps").unwrap_or_default() as u32;
     let mut rejected = [0];
-    run.integers(&[reference], &mut rejected)?;
+    run.integers(&[run.reference("solver.rejected_steps")?], &mut rejected)?;
     let (all, implicit) = run.step_counts();
     let share = implicit as f64 / all as f64;
     let tried = all as f64 + f64::from(rejected[0]);

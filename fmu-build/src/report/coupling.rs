@@ -137,13 +137,12 @@ fn bearing(scene: &Scene, shaft: Ring) -> Result<Simulation, SimulationError> {
     Simulation::new(scene, None)
 }
 
-fn reference(bearing: &Simulation, name: &str) -> u32 {
-    // Every name used here is in the table of the scenes made here.
-    bearing.table().iter().find(|v| v.name == name).map_or(u32::MAX, |v| v.reference)
-}
-
-fn references<const N: usize>(bearing: &Simulation, names: [&str; N]) -> [u32; N] {
-    names.map(|name| reference(bearing, name))
+fn references<const N: usize>(bearing: &Simulation, names: [&str; N]) -> Result<[u32; N], SimulationError> {
+    let mut references = [0; N];
+    for (reference, name) in references.iter_mut().zip(names) {
+        *reference = bearing.reference(name)?;
+    }
+    Ok(references)
 }
 
 impl Exact {
@@ -154,7 +153,7 @@ impl Exact {
         let mut inside = bearing(scene, ring)?;
         inside.initialize(0.0)?;
         let (load, place) =
-            (references(&inside, ["shaft.load.x", "shaft.load.y"]), references(&inside, ["shaft.x", "shaft.y"]));
+            (references(&inside, ["shaft.load.x", "shaft.load.y"])?, references(&inside, ["shaft.x", "shaft.y"])?);
         inside.set_reals(&load, &scene.shaft.load).map_err(SimulationError::from)?;
         let mut places = Vec::new();
         for i in 0..=(STOP / step).round() as usize {
@@ -212,13 +211,13 @@ impl Host {
         let ring = Ring { motion: Motion::Host, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
         let bearing = bearing(scene, ring)?;
         let mut host = Self {
-            motion: references(&bearing, ["shaft.x", "shaft.y", "shaft.vx", "shaft.vy", "shaft.ax", "shaft.ay"]),
-            force: references(&bearing, ["shaft.force.x", "shaft.force.y"]),
-            mean_force: references(&bearing, ["shaft.mean_force.x", "shaft.mean_force.y"]),
+            motion: references(&bearing, ["shaft.x", "shaft.y", "shaft.vx", "shaft.vy", "shaft.ax", "shaft.ay"])?,
+            force: references(&bearing, ["shaft.force.x", "shaft.force.y"])?,
+            mean_force: references(&bearing, ["shaft.mean_force.x", "shaft.mean_force.y"])?,
             stiffness: references(
                 &bearing,
                 ["shaft.stiffness.xx", "shaft.stiffness.xy", "shaft.stiffness.yx", "shaft.stiffness.yy"],
-            ),
+            )?,
             bearing,
             mass: exact.host_mass,
             damping: scene.shaft.damping,

@@ -100,8 +100,7 @@ fn hosted(tolerance: f64) -> Result<Hosted> {
     }
     (scene.sensor, scene.tolerance) = (None, tolerance);
     let mut simulation = Simulation::new(scene, None)?;
-    let place = ["shaft.y", "shaft.vy"]
-        .map(|name| simulation.table().iter().position(|variable| variable.name == name).unwrap_or_default() as u32);
+    let place = [simulation.reference("shaft.y")?, simulation.reference("shaft.vy")?];
     // 20 µm beyond the concentric place, some hundred newtons on the lowest elements.
     let motion = [-20e-6, 0.0];
     simulation.set_reals(&place, &motion)?;

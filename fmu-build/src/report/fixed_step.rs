@@ -152,7 +152,7 @@ mod tests {
         let mut simulation = Simulation::new(scene, None).unwrap();
         simulation.initialize(0.0).unwrap();
         // The load grows by half at the start, so that something moves.
-        let load = simulation.table().iter().position(|v| v.name == "shaft.load.y").unwrap() as u32;
+        let load = simulation.reference("shaft.load.y").unwrap();
         simulation.set_reals(&[load], &[-700.0]).unwrap();
         simulation
     }

@@ -89,11 +89,8 @@ enum Seen {
 fn cost(what: &'static str, scene: &Scene, seen: Seen, stop: f64) -> Result<Part> {
     let map = contact_map::of(scene, None, &Project::find())?;
     let mut simulation = Simulation::with_map(scene.clone(), None, map.as_deref())?;
-    let reference = |name: &str| simulation.table().iter().find(|v| v.name == name).map(|v| v.reference);
-    if scene.shaft.motion == Motion::Host
-        && let Some(place) = reference("shaft.y")
-    {
-        simulation.set_reals(&[place], &[-12e-6])?;
+    if scene.shaft.motion == Motion::Host {
+        simulation.set_reals(&[simulation.reference("shaft.y")?], &[-12e-6])?;
     }
     let references: Vec<u32> = simulation
         .table()

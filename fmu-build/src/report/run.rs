@@ -50,9 +50,8 @@ impl Subject {
         let profile = model.profile.as_ref().map(|profile| profile.text.as_str());
         let mut simulation = Simulation::with_map(scene, profile, model.map.as_deref())?;
         // 12 µm beyond the concentric place: some hundred newtons on the lowest elements.
-        let held = simulation.table().iter().find(|v| v.name == "shaft.y" && v.reference < 20).map(|v| v.reference);
-        if let Some(reference) = held.filter(|_| model.scene.shaft.motion == brinell::scene::Motion::Host) {
-            simulation.set_reals(&[reference], &[-12e-6])?;
+        if model.scene.shaft.motion == brinell::scene::Motion::Host {
+            simulation.set_reals(&[simulation.reference("shaft.y")?], &[-12e-6])?;
         }
         Ok(Self { name, simulation, stop })
     }
@@ -61,8 +60,7 @@ impl Subject {
     pub(super) fn start(&self, method: Method, tolerance: f64) -> Result<Simulation> {
         let mut simulation = self.simulation.clone();
         simulation.set_method(method);
-        let reference = reference_of(&simulation, "solver.tolerance");
-        simulation.set_reals(&[reference], &[tolerance])?;
+        simulation.set_reals(&[simulation.reference("solver.tolerance")?], &[tolerance])?;
         simulation.initialize(0.0)?;
         Ok(simulation)
     }
@@ -100,10 +98,6 @@ impl Subject {
 
 fn signal(simulation: &Simulation) -> &'static str {
     if simulation.equations().0.layout.housing.is_some() { "housing.ay" } else { "shaft.force.y" }
-}
-
-fn reference_of(simulation: &Simulation, name: &str) -> u32 {
-    simulation.table().iter().position(|variable| variable.name == name).unwrap_or_default() as u32
 }
 
 struct Columns {
