@@ -51,6 +51,8 @@ const SMALLEST_APPROACH: f64 = 0.1e-6;
 const VELOCITY_PER_APPROACH: f64 = 1e3;
 /// Shares of a step: a contact change this close to its start is not landed on, which bounds chatter.
 const CLOSEST_CHANGE: f64 = 1e-4;
+/// How far beyond the stable step one may go to land: what grows there is taken back by the next steps, or by error control.
+const STABLE_SLACK: f64 = 1.15;
 /// Inner nodes of Lobatto's quadrature with four nodes, as shares of a step; exact for polynomials of degree 5.
 const LOBATTO: [f64; 2] = [0.276_393_202_250_021_03, 0.723_606_797_749_979];
 
@@ -204,7 +206,9 @@ impl Stepper {
         let mut tried = 0;
         loop {
             let wanted = progress.choice.limited(progress.next_step);
-            let h = landing.unwrap_or(if wanted >= remaining * (1.0 - 1e-9) {
+            // One step a little beyond what is stable rather than two, where error control has no objection.
+            let reach = progress.next_step.min(STABLE_SLACK * wanted);
+            let h = landing.unwrap_or(if reach >= remaining * (1.0 - 1e-9) {
                 remaining
             } else if 2.0 * wanted > remaining {
                 // Two equal steps rather than one and a remnant.
