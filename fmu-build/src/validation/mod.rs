@@ -91,6 +91,7 @@ impl Values {
 
 /// The command. `docs` is where `validation.md` and `figures/` are.
 pub fn command(project: &Project, options: &Options, docs: &Path) -> Result<()> {
+    fs::create_dir_all(docs).with_context(|| docs.display().to_string())?;
     let mut values = Values { folder: folder(project).join("tables") };
     let wanted = |part: Part, text: &str| {
         let wanted = options.only.is_none_or(|only| only == part);
