@@ -97,8 +97,9 @@ fn search(measured: &Measured, scene: &Scene, rig: &Rig<'_>, heard: &mut NotAlik
     heard.likeness = climbed.first().map_or(heard.likeness, |best| best.likeness);
     let Trial { length: around, depth, .. } = climbed.first()?.trial;
     found.extend(climbed);
-    let mut peaks: Vec<Peak> = [DEPTH, depth]
-        .into_iter()
+    // The usual depth once only, where the climb has not left it.
+    let mut peaks: Vec<Peak> = std::iter::once(DEPTH)
+        .chain((depth != DEPTH).then_some(depth))
         .chain(OTHER_DEPTHS.iter().map(|share| share * depth))
         .filter_map(|depth| search.peak(around, simple(around, depth)))
         .collect();

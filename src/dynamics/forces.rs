@@ -90,11 +90,6 @@ impl Forces {
         }
     }
 
-    /// Largest approach of any contact [m], 0 if there is none.
-    pub fn largest_approach(&self) -> f64 {
-        self.contacts.inner_approach.iter().chain(&self.contacts.outer_approach).copied().fold(0.0, f64::max)
-    }
-
     /// Notes which contacts push: 1 for those that do, −1 for the others, the inner contacts before the outer.
     pub fn note_pushing(&self, sides: &mut [f64]) {
         let lengths = self.contacts.inner_pushing.iter().chain(&self.contacts.outer_pushing);
@@ -127,7 +122,7 @@ impl Forces {
         largest_of(most) > 0.0
     }
 
-    /// As [`Self::largest_approach`], inside a kernel.
+    /// Largest approach of any contact [m], 0 if there is none, inside a kernel.
     #[inline(always)]
     pub(crate) fn largest_approach_on<S: Wide>(&self, simd: S) -> f64 {
         let (mut most, approach) = ([0.0; QUAD], [&self.contacts.inner_approach[..], &self.contacts.outer_approach]);

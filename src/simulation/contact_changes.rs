@@ -13,11 +13,6 @@ const WIDTH_PER_TOLERANCE: f64 = 1e-2;
 const WIDTHS: [f64; 2] = [1e-9, 1e-5];
 
 impl Stepper {
-    /// Notes which contacts push where the forces were computed last.
-    pub(super) fn note_pushing(&self, progress: &mut Progress) {
-        self.forces.note_pushing(&mut progress.pushing);
-    }
-
     /// Share of the step at which the first contact changes; leaves the forces there.
     ///
     /// How far the contact that has changed most is beyond its change is continuous and changes its sign there. The

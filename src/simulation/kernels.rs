@@ -1,5 +1,6 @@
 //! What runs in wide registers within a step: all stages of a trial, and a look into the step tried last.
 
+use super::arrow::Arrow;
 use super::dormand_prince::{self, RightHandSide};
 use super::progress::Progress;
 use super::rodas;
@@ -9,7 +10,6 @@ use crate::dynamics::forces::Forces;
 use crate::dynamics::jacobian::Jacobian;
 use crate::dynamics::model::Model;
 use crate::numerics::lanes::{Kernel, Wide};
-use crate::simulation::arrow::Arrow;
 
 /// One step of length `h` from `from` with the method that is chosen, all stages, and what error control asks of it.
 pub(super) struct Trial<'a> {

@@ -233,12 +233,12 @@ impl Stepper {
                     progress.rejected_steps += 1;
                     landing = Some(share * h);
                     // The contacts that change there, by the dense output: the shorter step may end a hair before.
-                    self.note_pushing(progress);
+                    self.forces.note_pushing(&mut progress.pushing);
                     continue;
                 }
             }
             if self.changed && landing.is_none() {
-                self.note_pushing(progress);
+                self.forces.note_pushing(&mut progress.pushing);
             }
             let proposal = h * step_factor(error, progress.last_error).clamp(0.2, 5.0);
             // A step cut short to land somewhere says nothing against the step wanted before it.

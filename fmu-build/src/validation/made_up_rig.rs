@@ -12,6 +12,7 @@
 //! are added. It is no simulation of a machine, and shares with the estimator only the two formulas of sinking; nothing in it was measured.
 
 use brinell::analysis::statistics::Random;
+use brinell::analysis::statistics::rms;
 use brinell::geometry::hertz_constant::HertzConstants;
 use brinell::geometry::kinematics;
 use brinell::scene::Bearing;
@@ -249,10 +250,6 @@ fn modal(force: &[f64], modes: &[[f64; 3]], rate: f64, acceleration: bool) -> Ve
         }
     }
     sum
-}
-
-fn rms(signal: &[f64]) -> f64 {
-    (signal.iter().map(|x| x * x).sum::<f64>() / signal.len() as f64).sqrt()
 }
 
 fn normed(mut signal: Vec<f64>) -> Vec<f64> {
