@@ -8,11 +8,12 @@ from pathlib import Path
 import numpy as np
 import plotting
 from matplotlib.ticker import LogLocator, NullFormatter
-from plotting import BLUE, GREEN, ORANGE, PURPLE, VERMILION, plt
+from plotting import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION, plt
 
 data, stem = Path(sys.argv[1]), Path(sys.argv[2])
 LOOK = {
     "automatic": (BLUE, "o", "-"),
+    "phase-fitted only": (SKY, "P", "--"),
     "DP5 only": (GREEN, "s", "--"),
     "Rodas5P only": (PURPLE, "^", "--"),
     "RK4": (ORANGE, "v", ":"),

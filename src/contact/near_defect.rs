@@ -136,7 +136,7 @@ impl NearDefect {
     ///
     /// # Errors
     /// Where the law was not prepared for so large an approach, or the grid cannot be solved.
-    #[inline]
+    #[inline(always)]
     pub fn approach(&self, cell: usize, u: f64, angle: f64, rho: f64) -> Result<OuterApproach, ContactError> {
         match self {
             Self::Map(near) => Ok(OuterApproach::of(

@@ -69,7 +69,7 @@ impl RigidPath {
     }
 
     /// The path at `angle` [rad] by the polynomials of `piece`, which may be asked slightly beyond its ends.
-    #[inline]
+    #[inline(always)]
     pub fn at(&self, piece: usize, angle: f64) -> PathPoint {
         self.pieces[piece].at(angle)
     }
@@ -96,7 +96,7 @@ impl Piece {
         Self { start, per_width: 1.0 / width, cubics }
     }
 
-    #[inline]
+    #[inline(always)]
     fn at(&self, angle: f64) -> PathPoint {
         let x = (angle - self.start) * self.per_width;
         let index = (x.max(0.0) as usize).min(self.cubics.len() - 1);

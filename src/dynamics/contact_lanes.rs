@@ -12,18 +12,38 @@
 use super::forces::{Forces, Moment};
 use super::model::Model;
 use crate::contact::force_law::PUSHING_LENGTH;
-use crate::numerics::lanes::{Each, Lanes, Lists, QUAD, Wide, sum_of};
+use crate::numerics::lanes::{Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, sum_of};
+use crate::numerics::row::Row;
 use crate::scene::Damping;
 
 /// The smooth contacts of elements at one instant.
 struct Smooth<'a> {
     model: &'a Model,
     at: &'a Moment,
+    /// t/q_r is so small that |q| − q_r = t (t/q_r)/2 − … and the direction of q are series.
+    series: bool,
+    /// Time [s] by which paths are still to be moved on along their rates.
+    ahead: Option<f64>,
 }
 
-/// Lists that are read: cos, sin, whether there is an element, 1/mass, Hertz constants of both contacts, acceleration by other
-/// outer contacts, u, w.
-const FROM: usize = 9;
+/// What differs between elements, for eight of them; where there is none, all zeros.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(align(64))]
+pub(super) struct Group {
+    /// cos and sin of the element's angle ahead of element 1.
+    pub(super) cos: [f64; WIDEST],
+    pub(super) sin: [f64; WIDEST],
+    /// 1 where there is an element.
+    pub(super) present: [f64; WIDEST],
+    /// 1/mass [1/kg].
+    pub(super) per_mass: [f64; WIDEST],
+    /// Hertz constant of the inner contact [N/m^1.5].
+    pub(super) inner: [f64; WIDEST],
+    /// That of the outer contact on the smooth rigid raceway; 0 for an element that is not on it.
+    pub(super) outer: [f64; WIDEST],
+    /// Acceleration of w by an outer contact that is not on it [m/s²].
+    pub(super) other: [f64; WIDEST],
+}
 
 /// What follows for some elements.
 struct Found<S: Wide> {
@@ -36,47 +56,59 @@ struct Found<S: Wide> {
     pushing: [Lanes<S>; 2],
 }
 
+/// Offset of the rings' centres per distance of the elements' below which the series hold to rounding: their next terms are
+/// 0.4 of its sixth power.
+const SERIES: f64 = 2e-3;
+
 /// Forces on the inner ring along x and y, then on the outer, by lanes.
-type Sums = [[f64; QUAD]; 4];
+#[derive(Default)]
+struct Sums {
+    lanes: [[f64; WIDEST]; 4],
+    /// Where the next group of four belongs.
+    upper: bool,
+}
 
-/// u' and w' only.
-struct Rates<'a>(Smooth<'a>);
-
-/// u' and w', and then what is kept: both forces, the direction of q, both approaches, both lengths that tell whether a
-/// contact pushes.
-struct Everything<'a>(Smooth<'a>);
+impl Sums {
+    #[inline(always)]
+    fn add<S: Wide>(&mut self, forces: [Lanes<S>; 4]) {
+        for (lanes, force) in self.lanes.iter_mut().zip(forces) {
+            force.add_to(lanes, self.upper);
+        }
+        self.upper = S::F64_LANES == QUAD && !self.upper;
+    }
+}
 
 /// What is kept of each contact, for whoever wants to know more than the sums. Its lists are made once.
 #[derive(Debug, Clone, Default)]
 pub struct Record {
     /// Force of the inner contact Q_i of each element [N].
-    pub inner: Vec<f64>,
+    pub inner: Row,
     /// Direction of q of each element, its radial part.
-    pub normal_radial: Vec<f64>,
+    pub normal_radial: Row,
     /// Direction of q of each element, its tangential part.
-    pub normal_tangential: Vec<f64>,
+    pub normal_tangential: Row,
     /// Force of the outer contact of each element [N].
-    pub outer: Vec<f64>,
+    pub outer: Row,
     /// Outer contact force on each element, inwards [N].
-    pub outer_radial: Vec<f64>,
+    pub outer_radial: Row,
     /// Outer contact force on each element, counter-clockwise [N].
-    pub outer_tangential: Vec<f64>,
+    pub outer_tangential: Row,
     /// Approach of the inner contact [m]: negative when there is a gap.
-    pub inner_approach: Vec<f64>,
+    pub inner_approach: Row,
     /// Equivalent approach of the outer contact [m].
-    pub outer_approach: Vec<f64>,
+    pub outer_approach: Row,
     /// How clearly the inner contact pushes ([`crate::contact::force_law::ForceLaw::pushing`]) [m].
-    pub inner_pushing: Vec<f64>,
+    pub inner_pushing: Row,
     /// How clearly the outer contact pushes [m].
-    pub outer_pushing: Vec<f64>,
+    pub outer_pushing: Row,
     /// u' of each element [m/s].
-    pub path_rate: Vec<f64>,
+    pub path_rate: Row,
 }
 
 impl Record {
     /// Room for `places` elements.
     pub(super) fn new(places: usize) -> Self {
-        let zeros = || vec![0.0; places];
+        let zeros = || Row::zeros(places);
         Self {
             inner: zeros(),
             normal_radial: zeros(),
@@ -101,51 +133,58 @@ impl Model {
         &self,
         simd: S,
         at: &Moment,
-        state: &[f64],
+        (state, ahead): (&[f64], Option<f64>),
         derivative: &mut [f64],
         forces: &mut Forces,
     ) -> [f64; 4] {
-        let (count, start) = (self.element_count, self.layout.radial_velocity);
-        let (each, outer, others) = (&self.each, &forces.smooth_outer[..], &forces.other_outer[..]);
-        let from =
-            [&each.cos, &each.sin, &each.present, &each.per_mass, &each.inner, outer, others, state, &state[start..]];
-        let (path_rate, acceleration) = derivative.split_at_mut(start);
-        let (smooth, mut sums) = (Smooth { model: self, at }, [[0.0; QUAD]; 4]);
+        let start = self.layout.radial_velocity;
+        let [x, y] = at.offset;
+        let limit = SERIES * self.outer_centre_radius;
+        let series = x * x + y * y <= limit * limit;
+        let (smooth, mut sums) = (Smooth { model: self, at, series, ahead }, Sums::default());
         if RECORD {
-            let Record {
-                inner,
-                normal_radial,
-                normal_tangential,
-                outer_radial,
-                inner_approach,
-                inner_pushing,
-                outer_pushing,
-                outer,
-                outer_tangential,
-                outer_approach,
-                path_rate: kept_rate,
-            } = &mut forces.contacts;
-            outer_tangential.fill(0.0);
-            let to = [
-                &mut *path_rate,
-                acceleration,
-                inner,
-                normal_radial,
-                normal_tangential,
-                outer,
-                inner_approach,
-                inner_pushing,
-                outer_pushing,
-            ];
-            Lists { from, to }.for_each(simd, count, &Everything(smooth), &mut sums);
-            outer_radial.copy_from_slice(outer);
-            outer_approach.copy_from_slice(&state[..start]);
-            kept_rate.copy_from_slice(path_rate);
-        } else {
-            Lists { from, to: [path_rate, acceleration] }.for_each(simd, count, &Rates(smooth), &mut sums);
+            forces.contacts.outer_tangential.fill(0.0);
         }
-        let [shaft_x, shaft_y, housing_x, housing_y] = sums;
+        let Forces { groups, contacts, .. } = forces;
+        let (state, derivative) = (blocks(state), blocks_mut(derivative));
+        for (k, group) in groups.iter().enumerate() {
+            let w = start / WIDEST + k;
+            for part in 0..WIDEST / S::F64_LANES {
+                if (k * WIDEST + part * S::F64_LANES) >= self.element_count {
+                    break;
+                }
+                let of = |numbers: &[f64; WIDEST]| Lanes::part(simd, numbers, part);
+                let found = smooth.contacts((simd, of(&state[k]), of(&state[w])), group, of, &mut sums);
+                found.path_rate.put(&mut derivative[k], part);
+                found.acceleration.put(&mut derivative[w], part);
+                if RECORD {
+                    found.keep(contacts, of(&state[k]), (k, part));
+                }
+            }
+        }
+        let [shaft_x, shaft_y, housing_x, housing_y] = sums.lanes;
         [-sum_of(shaft_x), -sum_of(shaft_y), sum_of(housing_x), sum_of(housing_y)]
+    }
+}
+
+impl<S: Wide> Found<S> {
+    /// Puts what is kept into its place; the outer contact is that on the smooth raceway, at path `u`.
+    #[inline(always)]
+    fn keep(&self, contacts: &mut Record, u: Lanes<S>, (k, part): (usize, usize)) {
+        for (list, value) in [
+            (&mut contacts.inner, self.inner),
+            (&mut contacts.normal_radial, self.normal[0]),
+            (&mut contacts.normal_tangential, self.normal[1]),
+            (&mut contacts.outer, self.outer),
+            (&mut contacts.outer_radial, self.outer),
+            (&mut contacts.inner_approach, self.approach),
+            (&mut contacts.outer_approach, u),
+            (&mut contacts.inner_pushing, self.pushing[0]),
+            (&mut contacts.outer_pushing, self.pushing[1]),
+            (&mut contacts.path_rate, self.path_rate),
+        ] {
+            value.put(&mut blocks_mut(list)[k], part);
+        }
     }
 }
 
@@ -153,36 +192,52 @@ impl Smooth<'_> {
     #[inline(always)]
     fn contacts<S: Wide>(
         &self,
-        simd: S,
-        [cos, sin, present, per_mass, inner, outer, other, u, w]: [Lanes<S>; FROM],
+        (simd, u, w): (S, Lanes<S>, Lanes<S>),
+        group: &Group,
+        of: impl Fn(&[f64; WIDEST]) -> Lanes<S>,
         sums: &mut Sums,
     ) -> Found<S> {
         let (model, at) = (self.model, self.at);
+        let (cos, sin, present) = (of(&group.cos), of(&group.sin), of(&group.present));
         let (cage_cos, cage_sin) = (Lanes::splat(simd, at.cage.0), Lanes::splat(simd, at.cage.1));
         let e_r = [cage_cos * cos - cage_sin * sin, cage_sin * cos + cage_cos * sin];
-        let rho = Lanes::splat(simd, model.outer_centre_radius) + u;
         let path_rate = w - dot(simd, at.housing.velocity, e_r);
+        let u = self.ahead.map_or(u, |ahead| u + Lanes::splat(simd, ahead) * path_rate);
+        let rho = Lanes::splat(simd, model.outer_centre_radius) + u;
 
         // |q| = √((ρ+p)² + t²), written so that δ_i loses no digits to the radii's 20 mm.
         let (p, t) = (dot(simd, at.offset, e_r), dot(simd, turned(at.offset), e_r));
-        let (q_r, square) = (rho + p, t * t);
-        let distance = (q_r * q_r + square).sqrt();
-        let per_distance = Lanes::splat(simd, 1.0) / distance;
-        let delta = Lanes::splat(simd, -model.radial_clearance) - u - p - square / (distance + q_r);
-        let (n_r, n_t) = (q_r * per_distance, t * per_distance);
+        let q_r = rho + p;
+        let number = |number: f64| Lanes::splat(simd, number);
+        let (longer, n_r, n_t) = if self.series {
+            let slope = t / q_r;
+            let x = slope * slope;
+            let n_r = number(1.0) - x * (number(0.5) - number(0.375) * x);
+            (t * slope * (number(0.5) - x * (number(0.125) - number(0.0625) * x)), n_r, slope * n_r)
+        } else {
+            let square = t * t;
+            let distance = (q_r * q_r + square).sqrt();
+            let per_distance = number(1.0) / distance;
+            (square / (distance + q_r), q_r * per_distance, t * per_distance)
+        };
+        let delta = number(-model.radial_clearance) - u - p - longer;
         let along = dot(simd, turned(at.drift), e_r) + rho * Lanes::splat(simd, at.omega);
         let opening = n_r * (dot(simd, at.drift, e_r) + path_rate) + n_t * along;
 
         let law = Law { a: Lanes::splat(simd, at.damping[0]), b: Lanes::splat(simd, at.damping[1]) };
-        let inner = law.force(inner, delta, -opening);
-        let outer = law.force(outer, u, path_rate);
+        let inner = law.force(of(&group.inner), delta, -opening);
+        let outer = law.force(of(&group.outer), u, path_rate);
         let turning = rho * Lanes::splat(simd, at.omega * at.omega);
-        let acceleration = (inner * n_r - outer) * per_mass + other + (dot(simd, at.body, e_r) + turning) * present;
+        let acceleration = (inner * n_r - outer) * of(&group.per_mass)
+            + of(&group.other)
+            + (dot(simd, at.body, e_r) + turning) * present;
 
-        (inner * (n_r * e_r[0] - n_t * e_r[1])).add_to(&mut sums[0]);
-        (inner * (n_r * e_r[1] + n_t * e_r[0])).add_to(&mut sums[1]);
-        (outer * e_r[0]).add_to(&mut sums[2]);
-        (outer * e_r[1]).add_to(&mut sums[3]);
+        sums.add([
+            inner * (n_r * e_r[0] - n_t * e_r[1]),
+            inner * (n_r * e_r[1] + n_t * e_r[0]),
+            outer * e_r[0],
+            outer * e_r[1],
+        ]);
 
         let damping = model.inner.damping;
         Found {
@@ -197,27 +252,6 @@ impl Smooth<'_> {
                 law.pushing(simd, damping, u, path_rate) * present,
             ],
         }
-    }
-}
-
-impl Each<FROM, 2> for Rates<'_> {
-    type Sum = Sums;
-
-    #[inline(always)]
-    fn places<S: Wide>(&self, simd: S, from: [Lanes<S>; FROM], sums: &mut Sums) -> [Lanes<S>; 2] {
-        let found = self.0.contacts(simd, from, sums);
-        [found.path_rate, found.acceleration]
-    }
-}
-
-impl Each<FROM, 9> for Everything<'_> {
-    type Sum = Sums;
-
-    #[inline(always)]
-    fn places<S: Wide>(&self, simd: S, from: [Lanes<S>; FROM], sums: &mut Sums) -> [Lanes<S>; 9] {
-        let Found { path_rate, acceleration, inner, normal, outer, approach, pushing } =
-            self.0.contacts(simd, from, sums);
-        [path_rate, acceleration, inner, normal[0], normal[1], outer, approach, pushing[0], pushing[1]]
     }
 }
 

@@ -13,14 +13,14 @@
 //! F_r = Q(u, u') and F_t = 0. As w is the element's *absolute* radial velocity, no ring acceleration enters.
 //! The cage is kinematic: it takes up every tangential force on the elements. What it takes is the cage torque.
 
-use super::contact_lanes::Record;
-use super::drive::{Clock, Drive, Quadratic};
+use super::contact_lanes::{Group, Record};
+use super::drive::{Clock, Drive};
 use super::model::Model;
+use super::rings::{RingState, moved, ring_rates, ring_state, whole};
 use crate::contact::error::ContactError;
 use crate::contact::near_defect::OuterApproach;
-use crate::numerics::lanes::{Each, Kernel, Lanes, Lists, QUAD, Wide, dispatch, largest_of, places};
+use crate::numerics::lanes::{Each, Kernel, Lanes, Lists, QUAD, WIDEST, Wide, dispatch, largest_of, places};
 use crate::numerics::{sin_cos, wrap};
-use crate::scene::{Motion, Ring};
 
 /// Cell of an element on the smooth raceway, away from the defect.
 pub const SMOOTH: u32 = u32::MAX;
@@ -30,20 +30,16 @@ pub const SMOOTH: u32 = u32::MAX;
 pub struct Forces {
     /// Each contact; only [`Model::derivative`] fills it.
     pub contacts: Record,
-    /// Outer stiffness of the elements on the smooth rigid raceway [N/m^1.5]; 0 for the others.
-    pub(super) smooth_outer: Vec<f64>,
-    /// Acceleration of w by the other outer contacts [m/s²]; 0 for elements on the smooth rigid raceway.
-    pub(super) other_outer: Vec<f64>,
+    /// The elements, with what follows from the raceway that each is on.
+    pub(super) groups: Vec<Group>,
     /// Elements that are not on the smooth rigid raceway, with their cells.
     others: Vec<(usize, u32)>,
     /// Their outer contacts.
     other_contacts: Vec<OtherContact>,
     /// Number of elements.
     count: usize,
-    /// The bearing's force on the inner ring [N].
-    pub shaft: [f64; 2],
-    /// The bearing's force on the outer ring [N].
-    pub housing: [f64; 2],
+    /// The bearing's force on the inner ring, then on the outer [N].
+    pub rings: [f64; 4],
     /// Number of approaches near the defect that were asked for.
     pub defect_lookups: u64,
     /// Why the last contact near the defect that could not be computed could not.
@@ -57,8 +53,7 @@ impl Forces {
         Self {
             count,
             contacts: Record::new(places),
-            smooth_outer: vec![0.0; places],
-            other_outer: vec![0.0; places],
+            groups: vec![Group::default(); places / WIDEST],
             others: Vec::with_capacity(count),
             other_contacts: Vec::with_capacity(count),
             ..Self::default()
@@ -69,12 +64,11 @@ impl Forces {
     fn enter(&mut self, model: &Model, cells: &[u32]) {
         let rigid = model.outer.compliance == 0.0;
         self.others.clear();
-        self.other_outer.fill(0.0);
-        self.smooth_outer.copy_from_slice(&model.each.outer);
+        self.groups.copy_from_slice(&model.elements);
         for (j, &cell) in cells.iter().enumerate() {
             if !(rigid && cell == SMOOTH) {
                 self.others.push((j, cell));
-                self.smooth_outer[j] = 0.0;
+                self.groups[j / WIDEST].outer[j % WIDEST] = 0.0;
             }
         }
     }
@@ -90,9 +84,19 @@ impl Forces {
         }
     }
 
+    /// The bearing's force on the inner ring [N].
+    pub fn shaft(&self) -> [f64; 2] {
+        [self.rings[0], self.rings[1]]
+    }
+
+    /// The bearing's force on the outer ring [N].
+    pub fn housing(&self) -> [f64; 2] {
+        [self.rings[2], self.rings[3]]
+    }
+
     /// Notes which contacts push: 1 for those that do, −1 for the others, the inner contacts before the outer.
     pub fn note_pushing(&self, sides: &mut [f64]) {
-        let lengths = self.contacts.inner_pushing.iter().chain(&self.contacts.outer_pushing);
+        let lengths = self.contacts.inner_pushing.iter().chain(&*self.contacts.outer_pushing);
         for (side, &length) in sides.iter_mut().zip(lengths) {
             *side = if length > 0.0 { 1.0 } else { -1.0 };
         }
@@ -104,7 +108,7 @@ impl Forces {
         let (inner, outer) = sides.split_at(places);
         let mut most = f64::NEG_INFINITY;
         for (sides, lengths) in [(inner, &self.contacts.inner_pushing), (outer, &self.contacts.outer_pushing)] {
-            for (side, length) in sides.iter().zip(lengths).take(self.count) {
+            for (side, length) in sides.iter().zip(lengths.iter()).take(self.count) {
                 most = most.max(-side * length);
             }
         }
@@ -170,28 +174,7 @@ pub(super) struct InnerGap {
     pub(super) distance: f64,
 }
 
-/// Position and velocity of a ring.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct RingState {
-    /// Position [m].
-    pub position: [f64; 2],
-    /// Velocity [m/s].
-    pub velocity: [f64; 2],
-}
-
 impl Model {
-    /// Position and velocity of the inner ring, wherever they come from.
-    #[inline(always)]
-    pub fn shaft_state(&self, drive: &Drive, tau: f64, state: &[f64]) -> RingState {
-        ring_state(self.layout.shaft, self.shaft.motion, &drive.shaft, tau, state)
-    }
-
-    /// Position and velocity of the outer ring, wherever they come from.
-    #[inline(always)]
-    pub fn housing_state(&self, drive: &Drive, tau: f64, state: &[f64]) -> RingState {
-        ring_state(self.layout.housing, self.housing.motion, &drive.housing, tau, state)
-    }
-
     /// Angle [rad] of element `j` from the defect's centre, within half a turn, for a cage angle.
     #[inline]
     pub fn angle_from_defect(&self, j: usize, cage_angle: f64, defect_angle: f64) -> f64 {
@@ -213,32 +196,40 @@ impl Model {
     }
 
     /// As [`Self::derivative`] inside a kernel, for the cells that `forces` have last seen there. Each contact is kept only if
-    /// `RECORD`.
+    /// `RECORD`. With a time `ahead` [s], what counts are the positions that the velocities in `state` reach in that time from
+    /// those in `state`; contacts can then not be kept.
     #[inline(always)]
     pub(crate) fn derivative_on<S: Wide, const RECORD: bool>(
         &self,
         simd: S,
         (drive, clock): (&Drive, &Clock),
-        state: &[f64],
+        (state, ahead): (&[f64], Option<f64>),
         derivative: &mut [f64],
         forces: &mut Forces,
     ) {
-        let (at, tau) = (self.moment(drive, clock, state), clock.tau);
-        let others = if forces.others.is_empty() { [0.0; 2] } else { self.other_contacts(&at, state, forces) };
+        let (at, tau) = (self.moment(drive, clock, state, ahead), clock.tau);
+        // A copy for the call, so that the moment itself can stay in registers: what is written to memory in parts and read
+        // together soon after is read late.
+        let others = if forces.others.is_empty() {
+            [0.0; 2]
+        } else {
+            self.other_contacts::<RECORD>(&{ at }, state, ahead, forces)
+        };
         let [shaft_x, shaft_y, housing_x, housing_y] =
-            self.smooth_contacts::<S, RECORD>(simd, &at, state, derivative, forces);
+            self.smooth_contacts::<S, RECORD>(simd, &at, (state, ahead), derivative, forces);
         let (housing_x, housing_y) = (housing_x + others[0], housing_y + others[1]);
         if RECORD && !forces.others.is_empty() {
             forces.record_others();
         }
-        (forces.shaft, forces.housing) = ([shaft_x, shaft_y], [housing_x, housing_y]);
+        Lanes::of(simd, [shaft_x, shaft_y, housing_x, housing_y]).store(&mut forces.rings, 0);
         if let Some(i) = self.layout.shaft {
             let force = [drive.shaft_load[0].at(tau) + shaft_x, drive.shaft_load[1].at(tau) + shaft_y];
             ring_rates(simd, &self.shaft, self.per_mass[1], &at.shaft, force).store(derivative, i);
         }
         let mut reaction = 0.0;
         if let (Some(sensor), Some(i)) = (&self.sensor, self.layout.sensor) {
-            let (y, v) = (state[i], state[i + 1]);
+            let v = state[i + 1];
+            let y = moved(state[i], v, ahead);
             reaction = sensor.stiffness * (y - at.housing.position[1]) + sensor.damping * (v - at.housing.velocity[1]);
             whole(simd, [v, 0.0, 0.0, 0.0], [0.0, -reaction * self.per_mass[3], 0.0, 0.0]).store(derivative, i);
         }
@@ -250,9 +241,10 @@ impl Model {
     }
 
     #[inline(always)]
-    fn moment(&self, drive: &Drive, clock: &Clock, state: &[f64]) -> Moment {
-        let shaft = self.shaft_state(drive, clock.tau, state);
-        let housing = self.housing_state(drive, clock.tau, state);
+    fn moment(&self, drive: &Drive, clock: &Clock, state: &[f64], ahead: Option<f64>) -> Moment {
+        let tau = clock.tau;
+        let shaft = ring_state(self.layout.shaft, self.shaft.motion, &drive.shaft, tau, (state, ahead));
+        let housing = ring_state(self.layout.housing, self.housing.motion, &drive.housing, tau, (state, ahead));
         let (omega, v) = (clock.cage_speed, housing.velocity);
         Moment {
             cage: clock.cage,
@@ -271,15 +263,21 @@ impl Model {
     ///
     /// They come first, so that what they add to an element's acceleration is long written when all elements' are read.
     #[inline(never)]
-    fn other_contacts(&self, at: &Moment, state: &[f64], forces: &mut Forces) -> [f64; 2] {
+    fn other_contacts<const RECORD: bool>(
+        &self,
+        at: &Moment,
+        state: &[f64],
+        ahead: Option<f64>,
+        forces: &mut Forces,
+    ) -> [f64; 2] {
         let (compliant, start) = (self.outer.compliance != 0.0, self.layout.radial_velocity);
         let mut on_housing = [0.0; 2];
-        let Forces { others, other_contacts, other_outer, defect_lookups, unsolved, .. } = forces;
+        let Forces { others, other_contacts, groups, defect_lookups, unsolved, .. } = forces;
         other_contacts.clear();
         for &(j, cell) in others.iter() {
             let e_r = self.direction(j, at.cage);
-            let u = state[j];
             let path_rate = state[start + j] - dot(at.housing.velocity, e_r);
+            let u = moved(state[j], path_rate, ahead);
             let near = self.near_defect(j, cell, u, at.cage_angle, self.outer_centre_radius + u);
             *defect_lookups += u64::from(near.is_some());
             let near = near.unwrap_or_else(|| Ok(OuterApproach::smooth(u))).unwrap_or_else(|error| {
@@ -291,9 +289,12 @@ impl Model {
                 if compliant { self.outer.of_contact(near.value, rate) } else { (near.value, rate) };
             let outer = self.outer.contact.force(part, part_rate);
             let (f_r, f_t) = (outer * near.radial, outer * near.tangential);
-            other_outer[j] = -f_r * self.per_mass[0];
+            groups[j / WIDEST].other[j % WIDEST] = -f_r * self.per_mass[0];
             for axis in 0..2 {
                 on_housing[axis] += f_r * e_r[axis] - f_t * [-e_r[1], e_r[0]][axis];
+            }
+            if !RECORD {
+                continue;
             }
             let magnitude = outer * (near.radial * near.radial + near.tangential * near.tangential).sqrt();
             other_contacts.push(OtherContact {
@@ -319,7 +320,9 @@ impl Model {
     }
 
     /// Approach of element `j` to the outer raceway in a cell of the defect; `None` on the smooth raceway.
-    #[inline]
+    ///
+    /// Inlined, so that what its caller does not use is not worked out.
+    #[inline(always)]
     pub(super) fn near_defect(
         &self,
         j: usize,
@@ -419,34 +422,7 @@ impl Kernel for Derivative<'_> {
     #[inline(always)]
     fn run<S: Wide>(self, simd: S) {
         let Self { model, drive, clock, state, derivative, forces } = self;
-        model.derivative_on::<S, true>(simd, (drive, &clock), state, derivative, forces);
-    }
-}
-
-/// Velocity and acceleration of a ring on its support, `force` [N] being all else that acts on it.
-#[inline(always)]
-fn ring_rates<S: Wide>(simd: S, ring: &Ring, per_mass: f64, state: &RingState, force: [f64; 2]) -> Lanes<S::Quad> {
-    let (x, v) = (state.position, state.velocity);
-    let along = [0, 1].map(|a| per_mass * (force[a] - ring.damping * v[a] - ring.stiffness * x[a]));
-    whole(simd, [v[0], v[1], 0.0, 0.0], [0.0, 0.0, along[0], along[1]])
-}
-
-/// The sum of two quadruples, written at once: the compiler would write one that is put together in two halves, and reading
-/// them together soon after would have to wait.
-#[inline(always)]
-fn whole<S: Wide>(simd: S, one: [f64; QUAD], other: [f64; QUAD]) -> Lanes<S::Quad> {
-    Lanes::of(simd, one) + Lanes::of(simd, other)
-}
-
-#[inline(always)]
-fn ring_state(place: Option<usize>, motion: Motion, prescribed: &[Quadratic; 2], tau: f64, state: &[f64]) -> RingState {
-    match (place, motion) {
-        (Some(i), _) => RingState { position: [state[i], state[i + 1]], velocity: [state[i + 2], state[i + 3]] },
-        (None, Motion::Host) => RingState {
-            position: [prescribed[0].at(tau), prescribed[1].at(tau)],
-            velocity: [prescribed[0].rate_at(tau), prescribed[1].rate_at(tau)],
-        },
-        _ => RingState::default(),
+        model.derivative_on::<S, true>(simd, (drive, &clock), (state, None), derivative, forces);
     }
 }
 

@@ -91,9 +91,14 @@ impl Jacobian {
             // λ² = by_velocity λ + by_position
             let half = 0.5 * by_velocity;
             let square = half * half + by_position;
-            let root = if square >= 0.0 { half.abs() + square.sqrt() } else { (-by_position).sqrt() };
+            // Two real eigenvalues, or a pair of magnitude √(−by_position).
+            let (root, damping) = if square >= 0.0 {
+                (half.abs() + square.sqrt(), 1.0)
+            } else {
+                ((-by_position).sqrt(), -half / (-by_position).sqrt())
+            };
             if root > fastest.0 {
-                fastest = (root, (-half / root).clamp(0.0, 1.0));
+                fastest = (root, damping.clamp(0.0, 1.0));
             }
         };
         for block in &self.elements {

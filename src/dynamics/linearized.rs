@@ -26,8 +26,9 @@
 //! it is elastic: G is symmetric, and no damping enters.
 
 use super::drive::{Drive, Quadratic};
-use super::forces::{RingState, SMOOTH, cos_sin, dot};
+use super::forces::{SMOOTH, cos_sin, dot};
 use super::model::Model;
+use super::rings::RingState;
 use crate::contact::near_defect::OuterApproach;
 use crate::scene::Motion;
 

@@ -5,12 +5,13 @@
 //! part to a multiple of four, so that they are treated several at a time. u is the roller path (ρ − (R_o − r), ρ the distance of the element's centre from the
 //! *outer ring's* centre), w the radial component of the element's absolute velocity.
 
+use super::contact_lanes::Group;
 use crate::contact::compliant::CompliantContact;
 use crate::contact::force_law::ForceLaw;
 use crate::contact::near_defect::NearDefect;
 use crate::geometry::hertz_constant::HertzConstants;
 use crate::geometry::kinematics::cage_ratio;
-use crate::numerics::lanes::{Cut, QUAD, places};
+use crate::numerics::lanes::{Cut, QUAD, WIDEST, places};
 use crate::numerics::sin_cos;
 use crate::scene::{Motion, Ring, Scene, Sensor};
 use std::f64::consts::TAU;
@@ -48,23 +49,8 @@ pub struct Model {
     pub cage_ratio: f64,
     /// Places of the state vector.
     pub layout: Layout,
-    /// What differs from element to element.
-    pub(super) each: EachElement,
-}
-
-/// What differs from element to element, a list each; beyond the last element there is none: all zeros.
-#[derive(Debug, Clone)]
-pub(super) struct EachElement {
-    /// cos and sin of the element's angle ahead of element 1.
-    pub(super) cos: Vec<f64>,
-    pub(super) sin: Vec<f64>,
-    /// 1 where there is an element.
-    pub(super) present: Vec<f64>,
-    /// 1/mass [1/kg].
-    pub(super) per_mass: Vec<f64>,
-    /// Hertz constants [N/m^1.5].
-    pub(super) inner: Vec<f64>,
-    pub(super) outer: Vec<f64>,
+    /// What differs from element to element, eight at a time.
+    pub(super) elements: Vec<Group>,
 }
 
 /// Where a state is found.
@@ -178,7 +164,7 @@ impl Model {
             defect: near_defect.zip(scene.defect.as_ref().map(|d| d.angle)),
             cage_ratio: cage_ratio(bearing, scene.cage.slip),
             layout: Layout::new(scene),
-            each: EachElement::new(bearing.element_count, 1.0 / bearing.mass_of_element(), hertz),
+            elements: groups(bearing.element_count, 1.0 / bearing.mass_of_element(), hertz),
         }
     }
 
@@ -197,24 +183,19 @@ impl Model {
     /// Radial direction of element `j` for cos and sin of the cage angle.
     #[inline]
     pub(super) fn direction(&self, j: usize, cage: (f64, f64)) -> [f64; 2] {
-        let (cos, sin) = (self.each.cos[j], self.each.sin[j]);
+        let (cos, sin) = (self.elements[j / WIDEST].cos[j % WIDEST], self.elements[j / WIDEST].sin[j % WIDEST]);
         [cage.0 * cos - cage.1 * sin, cage.1 * cos + cage.0 * sin]
     }
 }
 
-impl EachElement {
-    fn new(count: usize, per_mass: f64, hertz: HertzConstants) -> Self {
-        let list = |of: &dyn Fn(usize) -> f64| {
-            (0..places(count)).map(|j| if j < count { of(j) } else { 0.0 }).collect::<Vec<f64>>()
-        };
-        let angle = |j: usize| j as f64 * TAU / count as f64;
-        Self {
-            cos: list(&|j| sin_cos(angle(j)).1),
-            sin: list(&|j| sin_cos(angle(j)).0),
-            present: list(&|_| 1.0),
-            per_mass: list(&|_| per_mass),
-            inner: list(&|_| hertz.inner),
-            outer: list(&|_| hertz.outer),
-        }
+/// Elements, eight at a time.
+fn groups(count: usize, per_mass: f64, hertz: HertzConstants) -> Vec<Group> {
+    let mut groups = vec![Group::default(); places(count) / WIDEST];
+    for j in 0..count {
+        let (sin, cos) = sin_cos(j as f64 * TAU / count as f64);
+        let (group, i) = (&mut groups[j / WIDEST], j % WIDEST);
+        (group.cos[i], group.sin[i], group.present[i]) = (cos, sin, 1.0);
+        (group.per_mass[i], group.inner[i], group.outer[i]) = (per_mass, hertz.inner, hertz.outer);
     }
+    groups
 }

@@ -9,9 +9,10 @@
 //! onset of a contact there are two.
 
 use super::drive::Drive;
-use super::forces::{RingState, SMOOTH, dot};
+use super::forces::{SMOOTH, dot};
 use super::linearized::{Bends, DIFFERENCE, ElementVariation, Instant, Linearized, times};
 use super::model::Model;
+use super::rings::RingState;
 
 /// A small change of state and inputs.
 #[derive(Debug, Clone, Default)]

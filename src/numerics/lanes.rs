@@ -2,7 +2,7 @@
 //!
 //! A kernel is compiled for AVX-512, for AVX2 and for what every machine has; which one runs is found out at run time.
 //! Additions, products, quotients and square roots are rounded one by one, never fused, so the width changes no bit, as
-//! long as sums over lanes have a fixed order: they are sums of four lanes, groups of four in ascending order.
+//! long as sums over lanes have a fixed order: they are sums of eight lanes, to which a machine with four adds its groups in turn.
 //!
 //! Lists of numbers have a multiple of [`WIDEST`] places. Those beyond the last number are zeros and must stay so: a machine
 //! with fewer lanes leaves out what it need not look at.
@@ -20,6 +20,30 @@ pub fn places(count: usize) -> usize {
     count.next_multiple_of(WIDEST)
 }
 
+/// Whole blocks of eight numbers.
+#[inline(always)]
+pub fn blocks(list: &[f64]) -> &[[f64; WIDEST]] {
+    list.as_chunks().0
+}
+
+/// Whole blocks of eight numbers.
+#[inline(always)]
+pub fn blocks_mut(list: &mut [f64]) -> &mut [[f64; WIDEST]] {
+    list.as_chunks_mut().0
+}
+
+/// Whole blocks of four numbers.
+#[inline(always)]
+pub fn quads(list: &[f64]) -> &[[f64; QUAD]] {
+    list.as_chunks().0
+}
+
+/// Whole blocks of four numbers.
+#[inline(always)]
+pub fn quads_mut(list: &mut [f64]) -> &mut [[f64; QUAD]] {
+    list.as_chunks_mut().0
+}
+
 /// An instruction set that has registers of four numbers, or of a multiple.
 pub trait Wide: Simd {
     /// The same machine with four lanes.
@@ -27,6 +51,9 @@ pub trait Wide: Simd {
 
     /// The same machine with four lanes.
     fn quad(self) -> Self::Quad;
+
+    /// Runs a kernel as a function of its own, not as a part of the caller.
+    fn apart<K: Kernel>(self, kernel: K) -> K::Output;
 
     /// Four numbers in one register.
     fn four(self, numbers: [f64; QUAD]) -> <Self::Quad as Simd>::f64s;
@@ -37,8 +64,8 @@ pub trait Wide: Simd {
     /// The smaller of two numbers in each lane; `value` where either is no number.
     fn smaller(self, value: Self::f64s, limit: Self::f64s) -> Self::f64s;
 
-    /// Adds to `sum` all groups of four in `value`, in ascending order.
-    fn add_quads(self, sum: [f64; QUAD], value: Self::f64s) -> [f64; QUAD];
+    /// Adds to `sum`; four numbers to its upper or lower half.
+    fn add_lanes(self, sum: [f64; WIDEST], value: Self::f64s, upper: bool) -> [f64; WIDEST];
 
     /// The largest of `most` and of all groups of four in `value`.
     fn largest_quads(self, most: [f64; QUAD], value: Self::f64s) -> [f64; QUAD];
@@ -50,6 +77,11 @@ impl Wide for Scalar256b {
     #[inline(always)]
     fn quad(self) -> Self {
         self
+    }
+
+    #[inline(never)]
+    fn apart<K: Kernel>(self, kernel: K) -> K::Output {
+        kernel.run(self)
     }
 
     #[inline(always)]
@@ -73,8 +105,10 @@ impl Wide for Scalar256b {
     }
 
     #[inline(always)]
-    fn add_quads(self, sum: [f64; QUAD], value: Self::f64s) -> [f64; QUAD] {
-        pulp::cast(self.add_f64s(pulp::cast(sum), value))
+    fn add_lanes(self, sum: [f64; WIDEST], value: Self::f64s, upper: bool) -> [f64; WIDEST] {
+        let mut halves: [Self::f64s; 2] = pulp::cast(sum);
+        halves[usize::from(upper)] = self.add_f64s(halves[usize::from(upper)], value);
+        pulp::cast(halves)
     }
 }
 
@@ -93,21 +127,24 @@ pub trait Kernel {
 /// Runs a kernel with the widest registers of this machine.
 #[inline]
 pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
-    struct On<S, K>(S, K);
-    impl<S: Wide, K: Kernel> NullaryFnOnce for On<S, K> {
-        type Output = K::Output;
-
-        #[inline(always)]
-        fn call(self) -> K::Output {
-            self.1.run(self.0)
-        }
-    }
     match Arch::new() {
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
         Arch::V4(simd) => simd.vectorize(On(simd, kernel)),
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
         Arch::V3(simd) => simd.vectorize(On(simd, kernel)),
         _ => kernel.run(Scalar256b),
+    }
+}
+
+/// A kernel with the registers that it runs on.
+struct On<S, K>(S, K);
+
+impl<S: Wide, K: Kernel> NullaryFnOnce for On<S, K> {
+    type Output = K::Output;
+
+    #[inline(always)]
+    fn call(self) -> K::Output {
+        self.1.run(self.0)
     }
 }
 
@@ -217,7 +254,7 @@ impl Cut {
 
 /// What comes after place `start` of each list.
 #[inline(always)]
-fn after<const I: usize>(lists: [&[f64]; I], start: usize) -> [&[f64]; I] {
+pub fn after<const I: usize>(lists: [&[f64]; I], start: usize) -> [&[f64]; I] {
     let mut rest: [&[f64]; I] = [&[]; I];
     for (rest, list) in rest.iter_mut().zip(lists) {
         *rest = &list[start..];
@@ -240,6 +277,18 @@ impl<S: Wide> Lanes<S> {
     #[inline(always)]
     pub fn of(simd: S, numbers: [f64; QUAD]) -> Lanes<S::Quad> {
         Lanes(simd.quad(), simd.four(numbers))
+    }
+
+    /// Those of eight numbers that belong to one part of them, in parts of as many as there are lanes.
+    #[inline(always)]
+    pub fn part(simd: S, numbers: &[f64; WIDEST], part: usize) -> Self {
+        Self(simd, S::as_simd_f64s(numbers).0[part])
+    }
+
+    /// Puts the numbers in their part of eight.
+    #[inline(always)]
+    pub fn put(self, numbers: &mut [f64; WIDEST], part: usize) {
+        S::as_mut_simd_f64s(numbers).0[part] = self.1;
     }
 
     /// Puts the numbers at place `at` of a list.
@@ -278,10 +327,10 @@ impl<S: Wide> Lanes<S> {
         Self(self.0, self.0.smaller(self.1, limit.1))
     }
 
-    /// Adds all groups of four to `sum`, in ascending order.
+    /// Adds to `sum`, by lanes. Groups of four go to its lower and upper half in turn, which whoever calls keeps count of.
     #[inline(always)]
-    pub fn add_to(self, sum: &mut [f64; QUAD]) {
-        *sum = self.0.add_quads(*sum, self.1);
+    pub fn add_to(self, sum: &mut [f64; WIDEST], upper: bool) {
+        *sum = self.0.add_lanes(*sum, self.1, upper);
     }
 
     /// Puts the largest of all groups of four and of `most` into `most`.
@@ -318,10 +367,11 @@ impl<S: Simd> Neg for Lanes<S> {
     }
 }
 
-/// Sum of four lanes.
+/// Sum of all lanes.
 #[inline(always)]
-pub fn sum_of(lanes: [f64; QUAD]) -> f64 {
-    (lanes[0] + lanes[1]) + (lanes[2] + lanes[3])
+pub fn sum_of(lanes: [f64; WIDEST]) -> f64 {
+    let four: [f64; QUAD] = std::array::from_fn(|i| lanes[i] + lanes[i + QUAD]);
+    (four[0] + four[2]) + (four[1] + four[3])
 }
 
 /// The largest of four lanes.
@@ -339,13 +389,14 @@ mod tests {
     struct Everything;
 
     impl Each<1, 1> for Everything {
-        type Sum = [f64; QUAD];
+        type Sum = ([f64; WIDEST], bool);
 
         #[inline(always)]
-        fn places<S: Wide>(&self, simd: S, [x]: [Lanes<S>; 1], sum: &mut [f64; QUAD]) -> [Lanes<S>; 1] {
+        fn places<S: Wide>(&self, simd: S, [x]: [Lanes<S>; 1], sum: &mut Self::Sum) -> [Lanes<S>; 1] {
             let one = Lanes::splat(simd, 1.0);
             let y = ((x * x + one).sqrt() - x.or_zero() / (x.abs() + one)).at_most(-x + one);
-            y.add_to(sum);
+            y.add_to(&mut sum.0, sum.1);
+            sum.1 = S::F64_LANES == QUAD && !sum.1;
             [y]
         }
     }
@@ -353,13 +404,13 @@ mod tests {
     struct OnList<'a>(&'a [f64], &'a mut [f64]);
 
     impl Kernel for OnList<'_> {
-        type Output = [f64; QUAD];
+        type Output = f64;
 
         #[inline(always)]
-        fn run<S: Wide>(self, simd: S) -> [f64; QUAD] {
-            let (mut sum, count) = ([0.0; QUAD], self.0.len());
+        fn run<S: Wide>(self, simd: S) -> f64 {
+            let (mut sum, count) = (([0.0; WIDEST], false), self.0.len());
             Lists { from: [self.0], to: [self.1] }.for_each(simd, count, &Everything, &mut sum);
-            sum
+            sum_of(sum.0)
         }
     }
 
@@ -369,7 +420,7 @@ mod tests {
             let x: Vec<f64> = (0..count).map(|i| (i as f64 - 5.3) * 0.77).collect();
             let (mut wide, mut narrow) = (vec![0.0; count], vec![0.0; count]);
             let sums = [dispatch(OnList(&x, &mut wide)), OnList(&x, &mut narrow).run(Scalar256b)];
-            assert_eq!(sums[0].map(f64::to_bits), sums[1].map(f64::to_bits));
+            assert_eq!(sums[0].to_bits(), sums[1].to_bits());
             for i in 0..count {
                 let expected = ((x[i] * x[i] + 1.0).sqrt() - x[i].max(0.0) / (x[i].abs() + 1.0)).min(-x[i] + 1.0);
                 assert_eq!((wide[i].to_bits(), narrow[i].to_bits()), (expected.to_bits(), expected.to_bits()));

@@ -7,6 +7,7 @@ pub mod elliptic;
 pub mod lanes;
 pub mod linear;
 mod power;
+pub mod row;
 #[cfg(test)]
 pub(crate) mod trees;
 mod trigonometry;

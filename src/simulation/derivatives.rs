@@ -17,7 +17,7 @@ use super::values::{out_of_range, wrong_type};
 use super::variables::Causality;
 use super::{Simulation, SimulationError, VariableError};
 use crate::dynamics::drive::Drive;
-use crate::dynamics::forces::RingState;
+use crate::dynamics::rings::RingState;
 use crate::dynamics::variation::{ForceChange, Variation};
 use crate::scene::Motion;
 

@@ -3,10 +3,8 @@
 //! Coefficients: Dormand and Prince (1980); dense output: Hairer, Nørsett and Wanner, *Solving Ordinary Differential
 //! Equations I*, II.6. The last stage of a step is the first of the next.
 
-use crate::numerics::lanes::{Cut, Each, Lanes, QUAD, Wide, largest_of};
-
-/// Index of the stage at the end of a step.
-pub const LAST: usize = 6;
+use super::explicit::{Explicit, LAST, RightHandSide, combine, row};
+use crate::numerics::lanes::{Each, Lanes, Wide};
 
 /// Nodes c.
 pub const NODES: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
@@ -36,126 +34,47 @@ const DENSE: [f64; 7] = [
     69997945.0 / 29380423.0,
 ];
 
-/// Room for the stages of a step, made once. States are cut as [`Cut`] says.
-#[derive(Debug, Clone, Default)]
-pub struct DormandPrince {
-    /// Stage derivatives; the first is that at the start of the step.
-    pub stages: [Vec<f64>; 7],
-    /// State at the end of the step tried last.
-    pub end: Vec<f64>,
-    trial: Vec<f64>,
-    cut: Cut,
-}
-
-impl DormandPrince {
-    /// Room for states that are cut in this way.
-    pub fn new(cut: Cut) -> Self {
-        let zeros = || vec![0.0; cut.len()];
-        Self { stages: std::array::from_fn(|_| zeros()), end: zeros(), trial: zeros(), cut }
-    }
-
-    /// Tries a step of length `h` from `state`; the first stage must be there.
-    #[inline(always)]
-    pub fn try_step<S: Wide>(&mut self, simd: S, state: &[f64], h: f64, right_hand_side: &mut impl RightHandSide) {
-        let Self { stages, end, trial, cut } = self;
-        for stage in 1..LAST {
-            let (done, rest) = stages.split_at_mut(stage);
-            match stage {
-                1 => cut.for_each(simd, [state, &done[0]], trial, &Combine::<1>(h), &mut ()),
-                2 => cut.for_each(simd, [state, &done[0], &done[1]], trial, &Combine::<2>(h), &mut ()),
-                3 => cut.for_each(simd, [state, &done[0], &done[1], &done[2]], trial, &Combine::<3>(h), &mut ()),
-                4 => cut.for_each(
-                    simd,
-                    [state, &done[0], &done[1], &done[2], &done[3]],
-                    trial,
-                    &Combine::<4>(h),
-                    &mut (),
-                ),
-                _ => cut.for_each(
-                    simd,
-                    [state, &done[0], &done[1], &done[2], &done[3], &done[4]],
-                    trial,
-                    &Combine::<5>(h),
-                    &mut (),
-                ),
+/// Tries a step of length `h` from `state`; the first stage must be there.
+#[inline(always)]
+pub fn try_step<S: Wide>(
+    simd: S,
+    room: &mut Explicit,
+    state: &[f64],
+    h: f64,
+    right_hand_side: &mut impl RightHandSide,
+) {
+    let Explicit { stages, end, trial, positions, cut } = room;
+    let cut = (*cut, &positions[..]);
+    let rows = (row(STAGES[1]), row(STAGES[2]), row(STAGES[3]), row(STAGES[4]), row(STAGES[5]));
+    for stage in 1..LAST {
+        let (done, rest) = stages.split_at_mut(stage);
+        match stage {
+            1 => combine(simd, cut, (state, [&done[0]]), (h, &rows.0, &rows.0), trial),
+            2 => combine(simd, cut, (state, [&done[0], &done[1]]), (h, &rows.1, &rows.1), trial),
+            3 => combine(simd, cut, (state, [&done[0], &done[1], &done[2]]), (h, &rows.2, &rows.2), trial),
+            4 => {
+                let from = (state, [&done[0][..], &done[1], &done[2], &done[3]]);
+                combine(simd, cut, from, (h, &rows.3, &rows.3), trial);
             }
-            right_hand_side.evaluate(simd, stage, trial, &mut rest[0]);
-        }
-        let (done, rest) = stages.split_at_mut(LAST);
-        cut.for_each(
-            simd,
-            [state, &done[0], &done[1], &done[2], &done[3], &done[4], &done[5]],
-            end,
-            &Combine::<6>(h),
-            &mut (),
-        );
-        right_hand_side.evaluate(simd, LAST, end, &mut rest[0]);
-    }
-
-    /// Largest magnitude of the error estimate of the step tried last, each component times its weight; infinite as soon
-    /// as one is no finite number.
-    #[inline(always)]
-    pub fn error<S: Wide>(&self, simd: S, h: f64, weights: &[f64]) -> f64 {
-        let mut found = Found { largest: [0.0; QUAD], poison: [0.0; QUAD] };
-        let [first, _, rest @ ..] = &self.stages;
-        let [b, c, d, e, f] = rest;
-        self.cut.look(simd, [weights, first, b, c, d, e, f], &Errors, &mut found);
-        if found.poison == [0.0; QUAD] { h * largest_of(found.largest) } else { f64::INFINITY }
-    }
-
-    /// Error estimate of component `i` of the step tried last.
-    pub fn error_of(&self, i: usize, h: f64) -> f64 {
-        let mut sum = 0.0;
-        for (stage, weight) in self.stages.iter().zip(ERROR) {
-            sum += weight * stage[i];
-        }
-        h * sum
-    }
-
-    /// State at share `share` of the step tried last, into `out`.
-    #[inline(always)]
-    pub fn dense<S: Wide>(&self, simd: S, state: &[f64], h: f64, share: f64, out: &mut [f64]) {
-        let [first, _, b, c, d, e, last] = &self.stages;
-        self.cut.for_each(simd, [state, &self.end, first, b, c, d, e, last], out, &Dense { h, share }, &mut ());
-    }
-
-    /// Makes the last stage of the step tried last the first of the next.
-    pub fn carry_over(&mut self) {
-        self.stages.swap(0, 6);
-    }
-}
-
-/// What the method integrates.
-pub trait RightHandSide {
-    /// Puts the derivative of `state` at the node of a stage into `out`. Asked for stages 1 to [`LAST`], the last one at
-    /// the end of the step. To be marked `inline(always)`.
-    fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: &[f64], out: &mut [f64]);
-}
-
-/// The argument of one stage, for a step of this length: state and all stages before it.
-struct Combine<const STAGE: usize>(f64);
-
-macro_rules! combine {
-    ($($stage:literal: $count:literal),*) => {$(
-        impl Each<$count, 1> for Combine<$stage> {
-            type Sum = ();
-
-            #[inline(always)]
-            fn places<S: Wide>(&self, simd: S, from: [Lanes<S>; $count], (): &mut ()) -> [Lanes<S>; 1] {
-                // The stage that was worked out last comes last: all else is ready while it is waited for.
-                let mut sum = from[0];
-                for (&weight, &stage) in STAGES[$stage].iter().zip(&from[1..]) {
-                    if weight != 0.0 {
-                        sum = sum + Lanes::splat(simd, self.0 * weight) * stage;
-                    }
-                }
-                [sum]
+            _ => {
+                let from = (state, [&done[0][..], &done[1], &done[2], &done[3], &done[4]]);
+                combine(simd, cut, from, (h, &rows.4, &rows.4), trial);
             }
         }
-    )*};
+        right_hand_side.evaluate(simd, stage, (trial, None), &mut rest[0]);
+    }
+    let [a, b, c, d, e, f, last] = stages;
+    let weights = STAGES[LAST];
+    combine(simd, cut, (state, [&a[..], b, c, d, e, f]), (h, &weights, &weights), end);
+    right_hand_side.evaluate(simd, LAST, (end, None), last);
 }
 
-combine!(1: 2, 2: 3, 3: 4, 4: 5, 5: 6, 6: 7);
+/// State at share `share` of the step tried last, into `out`.
+#[inline(always)]
+pub fn dense<S: Wide>(simd: S, room: &Explicit, state: &[f64], (h, share): (f64, f64), out: &mut [f64]) {
+    let [first, _, b, c, d, e, last] = &room.stages;
+    room.cut.for_each(simd, [state, &room.end, first, b, c, d, e, last], out, &Dense { h, share }, &mut ());
+}
 
 /// The state at a share of a step of this length: from those at its ends and all stages but the second, whose weight is 0.
 struct Dense {
@@ -181,34 +100,11 @@ impl Each<8, 1> for Dense {
     }
 }
 
-/// Weighted errors.
-struct Errors;
-
-struct Found {
-    largest: [f64; QUAD],
-    /// 0 times every error: 0, unless one is no finite number.
-    poison: [f64; QUAD],
-}
-
-impl Each<7, 0> for Errors {
-    type Sum = Found;
-
-    #[inline(always)]
-    fn places<S: Wide>(&self, simd: S, [weight, first, rest @ ..]: [Lanes<S>; 7], found: &mut Found) -> [Lanes<S>; 0] {
-        let mut sum = Lanes::splat(simd, ERROR[0]) * first;
-        for (k, stage) in rest.into_iter().enumerate() {
-            sum = sum + Lanes::splat(simd, ERROR[k + 2]) * stage;
-        }
-        let error = (weight * sum).abs();
-        (Lanes::splat(simd, 0.0) * error).add_to(&mut found.poison);
-        error.largest_to(&mut found.largest);
-        []
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::lanes::Cut;
+    use crate::numerics::row::Row;
     use crate::numerics::trees;
     use pulp::Scalar256b;
 
@@ -221,24 +117,24 @@ mod tests {
     struct From(f64, f64);
 
     impl RightHandSide for From {
-        fn evaluate<S: Wide>(&mut self, _: S, stage: usize, state: &[f64], out: &mut [f64]) {
+        fn evaluate<S: Wide>(&mut self, _: S, stage: usize, (state, _): (&[f64], Option<f64>), out: &mut [f64]) {
             right_hand_side(self.0 + NODES[stage] * self.1, state, out);
         }
     }
 
-    fn step(method: &mut DormandPrince, tau: f64, state: &[f64], h: f64) {
-        method.try_step(Scalar256b, state, h, &mut From(tau, h));
+    fn step(method: &mut Explicit, tau: f64, state: &[f64], h: f64) {
+        try_step(Scalar256b, method, state, h, &mut From(tau, h));
     }
 
     fn integrate(count: usize) -> Vec<f64> {
-        let mut method = DormandPrince::new(Cut { count: 0, rest: 4 });
+        let mut method = Explicit::new(Cut { count: 0, rest: 4 }, Row::zeros(4));
         let mut state = vec![1.0, 0.0, 1.0, 0.0];
         let h = 1.0 / count as f64;
         for i in 0..count {
             let tau = i as f64 * h;
             let mut first = vec![0.0; 4];
             right_hand_side(tau, &state, &mut first);
-            method.stages[0] = first;
+            method.stages[0].copy_from_slice(&first);
             step(&mut method, tau, &state, h);
             state.copy_from_slice(&method.end);
         }
@@ -289,17 +185,17 @@ mod tests {
     fn dense_output_is_of_order_four() {
         // One step from the exact state: its dense output is wrong by O(h⁵). Largest error over the step's shares.
         let error = |h: f64| {
-            let mut method = DormandPrince::new(Cut { count: 0, rest: 4 });
+            let mut method = Explicit::new(Cut { count: 0, rest: 4 }, Row::zeros(4));
             let state = vec![0.0, 0.0, 1.0, 0.0];
             let mut first = vec![0.0; 4];
             right_hand_side(0.0, &state, &mut first);
-            method.stages[0] = first;
+            method.stages[0].copy_from_slice(&first);
             step(&mut method, 0.0, &state, h);
             let mut found = vec![0.0; 4];
             (1..20)
                 .map(|i| {
                     let share = i as f64 / 20.0;
-                    method.dense(Scalar256b, &state, h, share, &mut found);
+                    dense(Scalar256b, &method, &state, (h, share), &mut found);
                     (found[1] - 0.5 * (2.0 * share * h).sin()).abs()
                 })
                 .fold(0.0, f64::max)

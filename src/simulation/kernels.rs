@@ -1,10 +1,12 @@
 //! What runs in wide registers within a step: all stages of a trial, and a look into the step tried last.
 
 use super::arrow::Arrow;
-use super::dormand_prince::{self, RightHandSide};
+use super::dormand_prince;
+use super::explicit::{LAST, Pair, RightHandSide};
 use super::progress::Progress;
 use super::rodas;
-use super::stepper::{Stepper, ring_forces};
+use super::stepper::Stepper;
+use crate::dynamics::between::Known;
 use crate::dynamics::drive::{Clock, Drive};
 use crate::dynamics::forces::Forces;
 use crate::dynamics::jacobian::Jacobian;
@@ -32,7 +34,7 @@ impl Kernel for Trial<'_> {
         } else {
             explicit(simd, stepper, (model, drive), (from, h), progress);
         }
-        stepper.last_force = ring_forces(&stepper.forces);
+        stepper.last_force = stepper.forces.rings;
         stepper.largest_approach = stepper.forces.largest_approach_on(simd);
         stepper.changed = stepper.forces.pushing_differs_on(simd, &progress.pushing);
     }
@@ -46,12 +48,29 @@ fn explicit<S: Wide>(
     (from, h): (f64, f64),
     progress: &Progress,
 ) {
-    let sum = stepper.first_force.map(|force| dormand_prince::STAGES[dormand_prince::LAST][0] * force);
-    let nodes: [f64; dormand_prince::LAST] = std::array::from_fn(|i| dormand_prince::NODES[i] * h);
-    let mut stages = Stages { model, drive, clocks: drive.clocks(from, nodes), forces: &mut stepper.forces, sum };
-    stepper.explicit.try_step(simd, &progress.state, h, &mut stages);
+    match stepper.pair {
+        Pair::DormandPrince => explicit_step(simd, Pair::DormandPrince, stepper, (model, drive), (from, h), progress),
+        Pair::PhaseFitted => explicit_step(simd, Pair::PhaseFitted, stepper, (model, drive), (from, h), progress),
+    }
+}
+
+/// Inlined for each method of its own.
+#[inline(always)]
+fn explicit_step<S: Wide>(
+    simd: S,
+    pair: Pair,
+    stepper: &mut Stepper,
+    (model, drive): (&Model, &Drive),
+    (from, h): (f64, f64),
+    progress: &Progress,
+) {
+    let weights = pair.weights();
+    let sum = stepper.first_force.map(|force| weights[0] * force);
+    let clocks = drive.clocks(from, pair.nodes().map(|node| node * h));
+    let mut stages = Stages { model, drive, clocks, weights, forces: &mut stepper.forces, sum };
+    stepper.explicit.try_step(simd, pair, &progress.state, h, &mut stages);
     stepper.weighted_force = stages.sum;
-    stepper.largest_error = stepper.explicit.error(simd, h, &stepper.weights);
+    stepper.largest_error = stepper.explicit.error(simd, pair, h, &stepper.weights);
 }
 
 #[inline(always)]
@@ -69,7 +88,7 @@ fn implicit<S: Wide>(
     implicit.try_step(simd, &progress.state, (first, by_time), h, &mut system);
     *largest_error = implicit.largest_error(weights);
     let at = (drive, &clocks[rodas::NODES.len() - 1]);
-    model.derivative_on::<S, true>(simd, at, &implicit.end, last, forces);
+    model.derivative_on::<S, true>(simd, at, (&implicit.end, None), last, forces);
 }
 
 /// The state at a share of the step tried last, its derivative, and each contact there.
@@ -89,14 +108,19 @@ impl Kernel for Look<'_> {
     #[inline(always)]
     fn run<S: Wide>(self, simd: S) {
         let Self { stepper, model, drive, from, h, share, progress } = self;
-        let Stepper { explicit, implicit, forces, dense, scratch, .. } = stepper;
-        if progress.choice.implicit {
-            implicit.dense(simd, &progress.state, share, dense);
-        } else {
-            explicit.dense(simd, &progress.state, h, share, dense);
-        }
+        let Stepper { explicit, implicit, forces, dense, scratch, pair, .. } = stepper;
         let clock = drive.clock(from + share * h);
-        model.derivative_on::<S, true>(simd, (drive, &clock), dense, scratch, forces);
+        match pair {
+            _ if progress.choice.implicit => implicit.dense(simd, &progress.state, share, dense),
+            Pair::DormandPrince => dormand_prince::dense(simd, explicit, &progress.state, (h, share), dense),
+            Pair::PhaseFitted => {
+                let start = Known { clock: drive.clock(from), state: &progress.state, derivative: &explicit.stages[0] };
+                let end =
+                    Known { clock: drive.clock(from + h), state: &explicit.end, derivative: &explicit.stages[LAST] };
+                model.between(drive, [start, end], (h, share), &clock, dense);
+            }
+        }
+        model.derivative_on::<S, true>(simd, (drive, &clock), (dense, None), scratch, forces);
     }
 }
 
@@ -114,7 +138,7 @@ impl rodas::System for System<'_> {
     #[inline(always)]
     fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: &[f64], out: &mut [f64]) {
         let at = (self.drive, &self.clocks[stage]);
-        self.model.derivative_on::<S, false>(simd, at, state, out, self.forces);
+        self.model.derivative_on::<S, false>(simd, at, (state, None), out, self.forces);
     }
 
     fn solve(&self, b: &mut [f64]) {
@@ -126,8 +150,10 @@ impl rodas::System for System<'_> {
 struct Stages<'a> {
     model: &'a Model,
     drive: &'a Drive,
-    /// Those of the first five stages; the last two are at the same time.
-    clocks: [Clock; dormand_prince::LAST],
+    /// Those of the first stages; the last two are at the same time.
+    clocks: [Clock; LAST],
+    /// Weights of the stages.
+    weights: [f64; LAST],
     forces: &'a mut Forces,
     /// Sum of weight × ring force.
     sum: [f64; 4],
@@ -135,15 +161,67 @@ struct Stages<'a> {
 
 impl RightHandSide for Stages<'_> {
     #[inline(always)]
-    fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: &[f64], out: &mut [f64]) {
-        let at = (self.drive, &self.clocks[stage.min(dormand_prince::LAST - 1)]);
+    fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: (&[f64], Option<f64>), out: &mut [f64]) {
+        let at = (self.drive, &self.clocks[stage.min(LAST - 1)]);
         let forces = &mut *self.forces;
-        if stage == dormand_prince::LAST {
-            return self.model.derivative_on::<S, true>(simd, at, state, out, forces);
+        let (state, ahead) = state;
+        let evaluation = Evaluation { model: self.model, at, state, out, forces: &mut *forces };
+        match ahead {
+            None if stage == LAST => return simd.apart(AtEnd(evaluation)),
+            None => simd.apart(AtStage(evaluation)),
+            Some(ahead) => simd.apart(AheadOf(evaluation, ahead)),
         }
-        self.model.derivative_on::<S, false>(simd, at, state, out, forces);
-        for (sum, force) in self.sum.iter_mut().zip(ring_forces(forces)) {
-            *sum += dormand_prince::STAGES[dormand_prince::LAST][stage] * force;
+        for (sum, force) in self.sum.iter_mut().zip(forces.rings) {
+            *sum += self.weights[stage] * force;
         }
+    }
+}
+
+/// One evaluation of the right-hand side. Each is a function of its own: a step that has all of its stages written out is
+/// longer than what a processor keeps decoded.
+struct Evaluation<'a> {
+    model: &'a Model,
+    at: (&'a Drive, &'a Clock),
+    state: &'a [f64],
+    out: &'a mut [f64],
+    forces: &'a mut Forces,
+}
+
+/// At the end of a step, each contact kept.
+struct AtEnd<'a>(Evaluation<'a>);
+
+/// At a stage.
+struct AtStage<'a>(Evaluation<'a>);
+
+/// At a stage with positions that are still to be moved on by a time [s].
+struct AheadOf<'a>(Evaluation<'a>, f64);
+
+impl Kernel for AtEnd<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Wide>(self, simd: S) {
+        let Evaluation { model, at, state, out, forces } = self.0;
+        model.derivative_on::<S, true>(simd, at, (state, None), out, forces);
+    }
+}
+
+impl Kernel for AtStage<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Wide>(self, simd: S) {
+        let Evaluation { model, at, state, out, forces } = self.0;
+        model.derivative_on::<S, false>(simd, at, (state, None), out, forces);
+    }
+}
+
+impl Kernel for AheadOf<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Wide>(self, simd: S) {
+        let Evaluation { model, at, state, out, forces } = self.0;
+        model.derivative_on::<S, false>(simd, at, (state, Some(self.1)), out, forces);
     }
 }

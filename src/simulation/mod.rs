@@ -10,10 +10,12 @@ pub mod derivatives;
 pub mod dormand_prince;
 mod driving;
 pub mod error;
+pub mod explicit;
 pub mod guid;
 mod kernels;
 mod knots;
 pub mod outputs;
+pub mod phase_fitted;
 pub mod progress;
 pub mod recorder;
 pub mod rodas;
@@ -346,7 +348,7 @@ impl Simulation {
         self.model.equilibrium(&drive, &progress.cells, &mut progress.state)?;
         self.model.derivative(&drive, 0.0, &progress.cells, &progress.state, &mut self.derivative, &mut self.forces);
         self.forces.note_pushing(&mut progress.pushing);
-        let (shaft, housing) = (self.forces.shaft, self.forces.housing);
+        let (shaft, housing) = (self.forces.shaft(), self.forces.housing());
         progress.mean_force = [shaft[0], shaft[1], housing[0], housing[1]];
         self.equilibrium_is_stale = false;
         Ok(())

@@ -3,8 +3,9 @@
 use super::table::{Quantity, RingName};
 use super::{Simulation, SimulationError};
 use crate::dynamics::drive::Drive;
-use crate::dynamics::forces::{Forces, RingState};
+use crate::dynamics::forces::Forces;
 use crate::dynamics::model::Model;
+use crate::dynamics::rings::RingState;
 
 /// All that the outputs of one instant are computed from.
 #[derive(Debug)]
@@ -56,7 +57,7 @@ impl<'a> Instant<'a> {
             Quantity::Position(ring, axis) => self.ring[place(ring)].position[axis],
             Quantity::Velocity(ring, axis) => self.ring[place(ring)].velocity[axis],
             Quantity::Acceleration(ring, axis) => self.acceleration[place(ring)][axis],
-            Quantity::Force(ring, axis) => [self.forces.shaft, self.forces.housing][place(ring)][axis],
+            Quantity::Force(ring, axis) => [self.forces.shaft(), self.forces.housing()][place(ring)][axis],
             Quantity::SensorAcceleration => self.sensor,
             Quantity::CageAngle => self.cage_angle,
             Quantity::CageSpeed => self.drive.cage.rate_at(self.tau),

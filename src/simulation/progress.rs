@@ -4,6 +4,7 @@ use super::recorder::Due;
 use super::switching::Choice;
 use crate::dynamics::forces::SMOOTH;
 use crate::numerics::lanes::places;
+use crate::numerics::row::Row;
 
 /// Step tried first [s]: far below the period of an element on its contacts, and grown at once if that was too timid.
 const FIRST_STEP: f64 = 1e-6;
@@ -12,12 +13,12 @@ const FIRST_STEP: f64 = 1e-6;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Progress {
     /// State vector, as [`crate::dynamics::model::Layout`] lays it out.
-    pub state: Vec<f64>,
+    pub state: Row,
     /// Cell of the defect in which each element is.
     pub cells: Vec<u32>,
     /// 1 where a contact pushes and −1 where it does not, the inner ones and then the outer; each list filled up to a
     /// multiple of eight.
-    pub pushing: Vec<f64>,
+    pub pushing: Row,
     /// Step that error control would like next [s].
     pub next_step: f64,
     /// Error of the last accepted step, per tolerance.
@@ -42,9 +43,9 @@ impl Progress {
     /// A state at rest in `len` places for `count` elements.
     pub fn new(len: usize, count: usize) -> Self {
         Self {
-            state: vec![0.0; len],
+            state: Row::zeros(len),
             cells: vec![SMOOTH; count],
-            pushing: vec![-1.0; 2 * places(count)],
+            pushing: Row::from_fn(2 * places(count), |_| -1.0),
             next_step: FIRST_STEP,
             last_error: 1.0,
             choice: Choice::default(),

@@ -12,6 +12,7 @@
 //! J and ∂f/∂t must be exact for the order to hold. At the onset of a contact they jump; steps end there.
 
 use crate::numerics::lanes::{Cut, Each, Lanes, Wide};
+use crate::numerics::row::Row;
 
 /// γ
 pub const GAMMA: f64 = 0.21193756319429014;
@@ -104,18 +105,18 @@ pub const DENSE: [[f64; 8]; 3] = [
 /// Room for the stages of a step, made once.
 #[derive(Debug, Clone, Default)]
 pub struct Rodas {
-    stages: [Vec<f64>; 8],
+    stages: [Row; 8],
     /// State at the end of the step tried last.
-    pub end: Vec<f64>,
-    trial: Vec<f64>,
-    slope: Vec<f64>,
+    pub end: Row,
+    trial: Row,
+    slope: Row,
     cut: Cut,
 }
 
 impl Rodas {
     /// Room for states that are cut in this way.
     pub fn new(cut: Cut) -> Self {
-        let zeros = || vec![0.0; cut.len()];
+        let zeros = || Row::zeros(cut.len());
         Self { stages: std::array::from_fn(|_| zeros()), end: zeros(), trial: zeros(), slope: zeros(), cut }
     }
 

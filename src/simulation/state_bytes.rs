@@ -25,7 +25,7 @@ impl State {
     /// Number of bytes of [`to_bytes`](Self::to_bytes).
     pub fn byte_count(&self) -> usize {
         let progress = &self.progress;
-        let fixed = 8 + 1 + 8 + 8 + 2 * 8 + (1 + 4 * 4 + 2 * 8) + 4 * 8 + 4 * 8 + 2 * 8;
+        let fixed = 8 + 1 + 8 + 8 + 2 * 8 + (1 + 4 * 4 + 2 * 8 + 1) + 4 * 8 + 4 * 8 + 2 * 8;
         let real = progress.state.len() + self.values.len() + 2 * self.input_rates.len();
         fixed + 8 * real + 4 * (progress.cells.len() + self.integers.len()) + progress.pushing.len()
     }
@@ -50,6 +50,7 @@ impl State {
         }
         real(&mut choice.gained, field)?;
         real(&mut choice.stable_step, field)?;
+        flag(&mut choice.damped, field)?;
         let lists = [&mut progress.mean_force[..], &mut progress.state, &mut self.values];
         for value in lists.into_iter().flatten().chain(self.input_rates.as_flattened_mut()) {
             real(value, field)?;
@@ -62,7 +63,7 @@ impl State {
             field(&mut bytes)?;
             *integer = i32::from_le_bytes(bytes);
         }
-        for side in &mut progress.pushing {
+        for side in progress.pushing.iter_mut() {
             let mut pushes = *side > 0.0;
             flag(&mut pushes, field)?;
             *side = if pushes { 1.0 } else { -1.0 };

@@ -7,13 +7,13 @@
 //! Knots are whole numbers (the cell of each element), never recognised by comparing times, so a restored state
 //! continues with the same bits. Contact changes are located on the dense output.
 //!
-//! Two methods step, one at a time ([`super::switching`]); error control and landing are the same for both.
+//! Three methods step, one at a time ([`super::switching`]); error control and landing are the same for all.
 //!
 //! The error of a step is measured against the largest approach in any contact, because that is what forces follow
 //! from: 1e-5 of a path of 1 mm would be more than a loaded contact's whole approach.
 
 use super::arrow::Arrow;
-use super::dormand_prince::DormandPrince;
+use super::explicit::{Explicit, Pair};
 use super::kernels::{Look, Trial};
 use super::knots::next_knot;
 use super::outputs::Instant;
@@ -29,6 +29,7 @@ use crate::dynamics::jacobian::Jacobian;
 use crate::dynamics::model::{Layout, Model};
 use crate::numerics::lanes::dispatch;
 use crate::numerics::rough_power;
+use crate::numerics::row::Row;
 use crate::scene::Motion;
 
 /// How exactly, how long and by which method to step.
@@ -53,6 +54,10 @@ const VELOCITY_PER_APPROACH: f64 = 1e3;
 const CLOSEST_CHANGE: f64 = 1e-4;
 /// How far beyond the stable step one may go to land: what grows there is taken back by the next steps, or by error control.
 const STABLE_SLACK: f64 = 1.15;
+/// How much longer than wanted steps may be to be one fewer.
+const EQUAL_SLACK: f64 = 1.03;
+/// Share of the wanted step below which a step has been cut short.
+const CUT: f64 = 0.8;
 /// Inner nodes of Lobatto's quadrature with four nodes, as shares of a step; exact for polynomials of degree 5.
 const LOBATTO: [f64; 2] = [0.276_393_202_250_021_03, 0.723_606_797_749_979];
 
@@ -60,23 +65,25 @@ const LOBATTO: [f64; 2] = [0.276_393_202_250_021_03, 0.723_606_797_749_979];
 #[derive(Debug, Clone)]
 pub struct Stepper {
     /// Also keeps the derivatives at start (first stage) and end (last stage) of a step, whichever method takes it.
-    pub(super) explicit: DormandPrince,
+    pub(super) explicit: Explicit,
+    /// Which explicit method steps.
+    pub(super) pair: Pair,
     pub(super) implicit: Rodas,
     pub(super) jacobian: Jacobian,
     /// ∂f/∂t at the start of the step.
-    pub(super) by_time: Vec<f64>,
+    pub(super) by_time: Row,
     /// Jacobian and `by_time` belong to the start of the step.
     pub(super) linearized: bool,
     pub(super) arrow: Arrow,
     pub(super) forces: Forces,
-    pub(super) dense: Vec<f64>,
-    pub(super) scratch: Vec<f64>,
+    pub(super) dense: Row,
+    pub(super) scratch: Row,
     /// Sum over the stages of the step tried last of weight × ring force.
     pub(super) weighted_force: [f64; 4],
     pub(super) first_force: [f64; 4],
     pub(super) last_force: [f64; 4],
     /// Turns errors of all states into lengths; 0 where there is no state.
-    pub(super) weights: Vec<f64>,
+    pub(super) weights: Row,
     /// Largest error of the step tried last [m], infinite as soon as one state's is not finite.
     pub(super) largest_error: f64,
     /// Largest approach of any contact at its end [m].
@@ -89,20 +96,22 @@ impl Stepper {
     /// Workspaces for a model.
     pub fn new(model: &Model) -> Self {
         let len = model.layout.len;
+        let positions = Row::from_fn(len, |i| f64::from(u8::from(model.layout.is_position(i))));
         Self {
-            explicit: DormandPrince::new(model.layout.cut()),
+            explicit: Explicit::new(model.layout.cut(), positions),
+            pair: Pair::default(),
             implicit: Rodas::new(model.layout.cut()),
             jacobian: Jacobian::new(model),
-            by_time: vec![0.0; len],
+            by_time: Row::zeros(len),
             linearized: false,
             arrow: Arrow::new(model.element_count),
             forces: Forces::new(model.element_count),
-            dense: vec![0.0; len],
-            scratch: vec![0.0; len],
+            dense: Row::zeros(len),
+            scratch: Row::zeros(len),
             weighted_force: [0.0; 4],
             first_force: [0.0; 4],
             last_force: [0.0; 4],
-            weights: (0..len).map(|i| weight(&model.layout, i)).collect(),
+            weights: Row::from_fn(len, |i| weight(&model.layout, i)),
             largest_error: 0.0,
             largest_approach: 0.0,
             changed: false,
@@ -123,7 +132,7 @@ impl Stepper {
         let mut impulse = [0.0; 4];
         match control.method {
             Method::Automatic => {}
-            Method::DormandPrince => progress.choice.implicit = false,
+            Method::DormandPrince | Method::PhaseFitted => progress.choice.implicit = false,
             Method::Rodas => progress.choice.implicit = true,
         }
         check_rings(model, drive, tau, progress)?;
@@ -131,6 +140,11 @@ impl Stepper {
         let mut knot = next_knot(model, drive, tau, step, &progress.cells);
         let mut at_once = 0;
         self.first_stage(model, drive, tau, progress);
+        if progress.choice.stable_step == 0.0 && control.method != Method::Rodas {
+            self.linearize(model, drive, tau, progress);
+            progress.choice.look_first(&self.jacobian, control.method, control.tolerance);
+        }
+        self.pair = control.method.pair(control.tolerance, progress.choice.damped);
         while tau < step {
             if let Some(at) = knot
                 && at.tau <= tau
@@ -185,7 +199,7 @@ impl Stepper {
     /// Derivative at the start of the next step.
     fn first_stage(&mut self, model: &Model, drive: &Drive, tau: f64, progress: &Progress) {
         model.derivative(drive, tau, &progress.cells, &progress.state, &mut self.explicit.stages[0], &mut self.forces);
-        self.first_force = ring_forces(&self.forces);
+        self.first_force = self.forces.rings;
         self.linearized = false;
     }
 
@@ -210,18 +224,17 @@ impl Stepper {
             let reach = progress.next_step.min(STABLE_SLACK * wanted);
             let h = landing.unwrap_or(if reach >= remaining * (1.0 - 1e-9) {
                 remaining
-            } else if 2.0 * wanted > remaining {
-                // Two equal steps rather than one and a remnant.
-                0.5 * remaining
             } else {
-                wanted
+                // Equal steps rather than a remnant, and one fewer where that makes them hardly longer.
+                remaining / (remaining / (EQUAL_SLACK * wanted)).ceil()
             });
             tried += 1;
             self.try_step(model, drive, from, h, progress);
             let error = self.error(control.tolerance);
             if !(error <= 1.0) {
                 progress.rejected_steps += 1;
-                let factor = if error.is_finite() { step_factor(error, 1.0).clamp(0.1, 0.9) } else { 0.1 };
+                let factor =
+                    if error.is_finite() { self.step_factor(error, 1.0, progress).clamp(0.1, 0.9) } else { 0.1 };
                 progress.next_step = h * factor;
                 landing = None;
                 self.check_step(model, drive, (from, h), error, progress)?;
@@ -240,16 +253,16 @@ impl Stepper {
             if self.changed && landing.is_none() {
                 self.forces.note_pushing(&mut progress.pushing);
             }
-            let proposal = h * step_factor(error, progress.last_error).clamp(0.2, 5.0);
+            let proposal = h * self.step_factor(error, progress.last_error, progress).clamp(0.2, 5.0);
             // A step cut short to land somewhere says nothing against the step wanted before it.
-            let cut = h < wanted;
+            let cut = h < CUT * wanted;
             progress.next_step = if cut { proposal.max(wanted) } else { proposal };
             progress.last_error = error.max(1e-4);
             if let Some(recorder) = recorder {
                 self.record(model, drive, (from, h), progress, recorder);
             }
             self.accept(model, drive, (from, h), progress)?;
-            self.choose(model, drive, control.method, (from, h), (tried, cut), progress);
+            self.choose(model, drive, control, (from, h), (tried, cut), progress);
             return Ok(h);
         }
     }
@@ -335,19 +348,21 @@ impl Stepper {
         &mut self,
         model: &Model,
         drive: &Drive,
-        method: Method,
+        control: Control,
         (from, h): (f64, f64),
         (tried, cut): (u32, bool),
         progress: &mut Progress,
     ) {
-        if method != Method::Automatic {
-            return;
-        }
         if progress.choice.implicit {
-            progress.choice.implicit_step(h, tried, &self.jacobian);
+            if control.method == Method::Rodas {
+                return;
+            }
+            progress.choice.implicit_step(h, tried, &self.jacobian, control.method, control.tolerance);
+            self.pair = control.method.pair(control.tolerance, progress.choice.damped);
         } else if progress.choice.explicit_step(h, tried, cut) {
             self.linearize(model, drive, from + h, progress);
-            progress.choice.look_explicit(&self.jacobian);
+            progress.choice.look_explicit(&self.jacobian, control.method, control.tolerance);
+            self.pair = control.method.pair(control.tolerance, progress.choice.damped);
         }
     }
 
@@ -391,7 +406,7 @@ impl Stepper {
         }
         for share in LOBATTO {
             self.look(model, drive, (from, h), share, progress);
-            for (sum, force) in self.weighted_force.iter_mut().zip(ring_forces(&self.forces)) {
+            for (sum, force) in self.weighted_force.iter_mut().zip(self.forces.rings) {
                 *sum += 5.0 / 12.0 * force;
             }
         }
@@ -402,10 +417,20 @@ impl Stepper {
         self.largest_error / (tolerance * (self.largest_approach + SMALLEST_APPROACH))
     }
 
+    /// Factor from this step to the next for an error per tolerance: a proportional–integral controller (Hairer and
+    /// Wanner, *Solving Ordinary Differential Equations II*, IV.2) with the exponents usual for an estimate of this order.
+    fn step_factor(&self, error: f64, last_error: f64, progress: &Progress) -> f64 {
+        let [now, before] = match self.pair {
+            Pair::PhaseFitted if !progress.choice.implicit => [-0.21, 0.05],
+            _ => [-0.17, 0.04],
+        };
+        0.9 * rough_power(error.max(1e-10), now) * rough_power(last_error, before)
+    }
+
     /// Name of the state with the largest error in the step tried last, whose length was `h`.
     fn worst(&self, model: &Model, h: f64, implicit: bool) -> String {
         let error = |i: usize| {
-            let error = if implicit { self.implicit.error(i) } else { self.explicit.error_of(i, h) };
+            let error = if implicit { self.implicit.error(i) } else { self.explicit.error_of(self.pair, i, h) };
             (self.weights[i] * error).abs()
         };
         // What is no number is the worst, the first of them.
@@ -445,14 +470,4 @@ fn check_rings(model: &Model, drive: &Drive, tau: f64, progress: &Progress) -> R
         return Ok(());
     }
     Err(StepError::RingsApart { offset: (x * x + y * y).sqrt(), limit, since: tau })
-}
-
-pub(super) fn ring_forces(forces: &Forces) -> [f64; 4] {
-    [forces.shaft[0], forces.shaft[1], forces.housing[0], forces.housing[1]]
-}
-
-/// Factor from this step to the next for an error per tolerance: a proportional–integral controller (Hairer and
-/// Wanner, *Solving Ordinary Differential Equations II*, IV.2) with the exponents usual for order 5(4).
-fn step_factor(error: f64, last_error: f64) -> f64 {
-    0.9 * rough_power(error.max(1e-10), -0.17) * rough_power(last_error, 0.04)
 }

@@ -1,15 +1,19 @@
-//! The choice between the explicit and the implicit method, on measured stiffness, without a clock.
+//! The choice between the explicit methods and the implicit one, on measured stiffness, without a clock.
 //!
-//! Both cost a known number of right-hand sides a step, so the better one is known as soon as the steps are. The explicit
+//! All cost a known number of right-hand sides a step, so the best one is known as soon as the steps are. An explicit
 //! method can be *stable* up to h|λ| = r only, λ the fastest eigenvalue ([`Jacobian::fastest`]) and r the reach of its
 //! stability region in that direction. While it steps, its mean h|λ|/r is looked at now and then: near 1 it is stability
 //! that limits the step, and the implicit method is tried. While that steps, each of its steps stands for
 //! max(1, h|λ|/r) explicit ones; when these would be cheaper, or have not become dearer within the first few steps,
 //! the explicit method comes back and the next trial waits twice as long.
 //!
+//! Of the two explicit methods it is the phase-fitted one that steps where the tolerance is loose enough for its order and
+//! the fastest motion is not so strongly damped that Dormand–Prince's reaches as far.
+//!
 //! Explicit steps stay within h|λ| = r of the last look. Error control alone lets them swing across it, and what grows there
 //! before it is noticed is noise as large as the tolerance: in a healthy bearing several times all other errors.
 
+use super::explicit::Pair;
 use super::stepper::SMALLEST_STEP;
 use crate::dynamics::jacobian::Jacobian;
 
@@ -19,10 +23,28 @@ pub enum Method {
     /// Whichever is cheaper at the moment.
     #[default]
     Automatic,
-    /// The explicit one only: Dormand–Prince 5(4).
+    /// One explicit one only: Dormand–Prince 5(4).
     DormandPrince,
+    /// The other explicit one only: the phase-fitted pair of order 4(3).
+    PhaseFitted,
     /// The linearly implicit one only: Rodas5P.
     Rodas,
+}
+
+/// Tolerance from which on the order of the phase-fitted method is enough: at 1e-7 it takes more time than Dormand–Prince's for
+/// the same error.
+const LOOSE: f64 = 1e-6;
+
+impl Method {
+    /// The explicit method for a tolerance; `damped`: the last look found the fastest motion strongly damped.
+    pub(super) fn pair(self, tolerance: f64, damped: bool) -> Pair {
+        match self {
+            Self::DormandPrince => Pair::DormandPrince,
+            Self::PhaseFitted => Pair::PhaseFitted,
+            _ if tolerance >= LOOSE && !damped => Pair::PhaseFitted,
+            _ => Pair::DormandPrince,
+        }
+    }
 }
 
 /// What the choice depends on; part of the state.
@@ -42,6 +64,8 @@ pub struct Choice {
     pub patience: u32,
     /// Longest explicit step that is stable by the fastest eigenvalue of the last look [s]; 0 before the first.
     pub stable_step: f64,
+    /// The fastest motion was then so strongly damped that the phase-fitted method does not pay.
+    pub damped: bool,
 }
 
 /// Steps between two looks of the explicit method: one Jacobian in 200 right-hand sides.
@@ -79,18 +103,28 @@ impl Choice {
         self.tried >= LOOK
     }
 
-    /// Decides after a row of explicit steps.
-    pub fn look_explicit(&mut self, jacobian: &Jacobian) {
+    /// Looks before the first step: a start at rest excites nothing, and error control alone would let steps grow far beyond
+    /// what is stable before it notices.
+    pub fn look_first(&mut self, jacobian: &Jacobian, method: Method, tolerance: f64) {
+        self.damped = is_damped(jacobian);
+        self.stable_step = 1.0 / rate_of_steps(jacobian, method.pair(tolerance, self.damped));
+    }
+
+    /// Decides after a row of explicit steps, between what there is to choose from.
+    pub fn look_explicit(&mut self, jacobian: &Jacobian, method: Method, tolerance: f64) {
         let mean = self.gained / f64::from(self.tried);
-        let stiff = mean * rate_of_steps(jacobian) > NEAR_LIMIT;
+        let stiff = mean * rate_of_steps(jacobian, method.pair(tolerance, self.damped)) > NEAR_LIMIT;
         // Where most steps land on something, longer ones are of no use.
         let useful = f64::from(self.limited) > (1.0 - 1.0 / COST) * f64::from(self.tried);
-        let again = stiff && useful && self.wait == 0;
-        if stiff && useful && self.wait > 0 {
+        let pays = stiff && useful && method == Method::Automatic;
+        let again = pays && self.wait == 0;
+        if pays && self.wait > 0 {
             self.wait -= 1;
         }
-        let stable_step = 1.0 / rate_of_steps(jacobian);
-        *self = Self { implicit: again, wait: self.wait, patience: self.patience, stable_step, ..Self::default() };
+        let damped = is_damped(jacobian);
+        let stable_step = 1.0 / rate_of_steps(jacobian, method.pair(tolerance, damped));
+        let (wait, patience) = (self.wait, self.patience);
+        *self = Self { implicit: again, wait, patience, stable_step, damped, ..Self::default() };
     }
 
     /// `step` [s], or the longest stable one if that is shorter and the explicit method steps.
@@ -98,23 +132,27 @@ impl Choice {
         if self.implicit || self.stable_step == 0.0 { step } else { step.min(self.stable_step) }
     }
 
-    /// Notes a finished implicit step of length `h` [s] and how often it was tried; decides now and then.
-    pub fn implicit_step(&mut self, h: f64, tried: u32, jacobian: &Jacobian) {
+    /// Notes a finished implicit step of length `h` [s] and how often it was tried; decides now and then, between what there is
+    /// to choose from.
+    pub fn implicit_step(&mut self, h: f64, tried: u32, jacobian: &Jacobian, method: Method, tolerance: f64) {
         let trial = self.limited == 0;
+        let damped = is_damped(jacobian);
+        let pair = method.pair(tolerance, damped);
         self.tried += tried;
-        self.gained += (h * rate_of_steps(jacobian)).max(1.0);
+        self.gained += (h * rate_of_steps(jacobian, pair)).max(1.0);
         if self.tried < if trial { TRIAL } else { IMPLICIT_LOOK } {
             return;
         }
         let pays = self.gained > COST * f64::from(self.tried);
         // `limited` marks that the trial is over.
-        let stable_step = 1.0 / rate_of_steps(jacobian);
+        let stable_step = 1.0 / rate_of_steps(jacobian, pair);
         let next = Self {
             implicit: pays,
             limited: 1,
             wait: self.wait,
             patience: self.patience,
             stable_step,
+            damped,
             ..Self::default()
         };
         *self = if pays {
@@ -128,41 +166,110 @@ impl Choice {
     }
 }
 
-/// Explicit steps per second that stability asks for.
-fn rate_of_steps(jacobian: &Jacobian) -> f64 {
+/// Steps per second that the stability of an explicit method asks for.
+fn rate_of_steps(jacobian: &Jacobian, pair: Pair) -> f64 {
     let (fastest, damping) = jacobian.fastest();
-    fastest / reach(damping)
+    fastest / reach(pair, damping)
 }
 
-/// Reach of the explicit method's stability region along an eigenvalue of damping ratio `damping`: 3.2 where damping is strong;
-/// 2 near the imaginary one, beyond which amplitudes grow by more than 3 % a step.
-fn reach(damping: f64) -> f64 {
-    2.0 + 4.0 * damping.min(0.3)
+/// Whether the fastest motion is so strongly damped that the phase-fitted method does not pay: its step costs a tenth more.
+fn is_damped(jacobian: &Jacobian) -> bool {
+    let (_, damping) = jacobian.fastest();
+    reach(Pair::PhaseFitted, damping) < 1.1 * reach(Pair::DormandPrince, damping)
 }
+
+/// Reach of a method's stability region along an eigenvalue of damping ratio `damping`. Near the imaginary axis
+/// Dormand–Prince's is taken where amplitudes grow by 3 % a step: what moves fastest hardly ever is the least damped.
+fn reach(pair: Pair, damping: f64) -> f64 {
+    match pair {
+        Pair::DormandPrince => 2.0 + 4.0 * damping.min(0.3),
+        Pair::PhaseFitted => {
+            let above =
+                PHASE_FITTED_REACH.partition_point(|&(at, _)| at <= damping).clamp(1, PHASE_FITTED_REACH.len() - 1);
+            let ((a, reach_a), (b, reach_b)) = (PHASE_FITTED_REACH[above - 1], PHASE_FITTED_REACH[above]);
+            reach_a + (reach_b - reach_a) * (damping - a) / (b - a)
+        }
+    }
+}
+
+/// Damping ratios and the phase-fitted method's reach there, a straight line between them: within the stability region.
+const PHASE_FITTED_REACH: [(f64, f64); 12] = [
+    (0.0, 3.0),
+    (0.015, 3.0),
+    (0.02, 3.6),
+    (0.05, 4.05),
+    (0.45, 4.1),
+    (0.56, 4.3),
+    (0.6, 4.1),
+    (0.7, 3.4),
+    (0.8, 3.15),
+    (0.97, 2.95),
+    (0.985, 2.2),
+    (1.0, 2.15),
+];
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::simulation::phase_fitted;
+
+    /// Largest factor of amplitude in one step with h|λ| = radius and this damping ratio.
+    fn amplification(pair: Pair, radius: f64, damping: f64) -> f64 {
+        match pair {
+            // 1 + z + z²/2 + z³/6 + z⁴/24 + z⁵/120 + z⁶/600, the stability function of Dormand–Prince 5(4).
+            Pair::DormandPrince => {
+                let (re, im) = (-radius * damping, radius * (1.0 - damping * damping).sqrt());
+                let mut sum = (0.0, 0.0);
+                for c in [1.0 / 600.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0] {
+                    sum = (sum.0 * re - sum.1 * im + c, sum.0 * im + sum.1 * re);
+                }
+                f64::hypot(sum.0, sum.1)
+            }
+            // x'' = −r² x − 2 ζ r x' with a step of 1, from both unit states.
+            Pair::PhaseFitted => {
+                let column = |x: f64, v: f64| {
+                    let (mut rates, mut forces) = ([0.0; 5], [0.0; 5]);
+                    for i in 0..5 {
+                        rates[i] = v + (0..i).map(|j| phase_fitted::VELOCITIES[i][j] * forces[j]).sum::<f64>();
+                        let x = x + (0..=i).map(|j| phase_fitted::POSITIONS[i][j] * rates[j]).sum::<f64>();
+                        forces[i] = -radius * radius * x - 2.0 * damping * radius * rates[i];
+                    }
+                    let weighted = |of: [f64; 5]| of.iter().zip(phase_fitted::WEIGHTS).map(|(k, b)| k * b).sum::<f64>();
+                    (x + weighted(rates), v + weighted(forces))
+                };
+                let ((a, c), (b, d)) = (column(1.0, 0.0), column(0.0, 1.0));
+                let (half, product) = (0.5 * (a + d), a * d - b * c);
+                let square = half * half - product;
+                if square < 0.0 { product.sqrt() } else { half.abs() + square.sqrt() }
+            }
+        }
+    }
 
     #[test]
     fn the_reach_lies_within_the_stability_region() {
-        // 1 + z + z²/2 + z³/6 + z⁴/24 + z⁵/120 + z⁶/600, the stability function of Dormand–Prince 5(4).
-        let amplification = |radius: f64, damping: f64| {
-            let (re, im) = (-radius * damping, radius * (1.0 - damping * damping).sqrt());
-            let mut sum = (0.0, 0.0);
-            for c in [1.0 / 600.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0] {
-                sum = (sum.0 * re - sum.1 * im + c, sum.0 * im + sum.1 * re);
-            }
-            f64::hypot(sum.0, sum.1)
-        };
-        for i in 0..=100 {
-            let damping = i as f64 / 100.0;
-            for k in 1..=20 {
-                let share = k as f64 / 20.0;
-                assert!(amplification(share * reach(damping), damping) < 1.04, "{damping} {share}");
+        for (pair, growth) in [(Pair::DormandPrince, 1.04), (Pair::PhaseFitted, 1.008)] {
+            for i in 0..=200 {
+                let damping = i as f64 / 200.0;
+                for k in 1..=40 {
+                    let radius = k as f64 / 40.0 * reach(pair, damping);
+                    let found = amplification(pair, radius, damping);
+                    assert!(found < growth, "{pair:?}: {found} at {radius}, damping {damping}");
+                }
             }
         }
-        assert!(amplification(3.35, 1.0) > 1.0 && amplification(2.4, 0.0) > 1.1);
+        assert!(
+            amplification(Pair::DormandPrince, 3.35, 1.0) > 1.0 && amplification(Pair::DormandPrince, 2.4, 0.0) > 1.1
+        );
+        assert!(amplification(Pair::PhaseFitted, 3.0, 1.0) > 1.3 && amplification(Pair::PhaseFitted, 3.8, 0.0) > 1.1);
+    }
+
+    #[test]
+    fn the_phase_fitted_method_steps_where_the_tolerance_is_loose_and_damping_is_not_strong() {
+        let pair = |tolerance, damped| Method::Automatic.pair(tolerance, damped);
+        assert_eq!([pair(1e-3, false), pair(1e-6, false)], [Pair::PhaseFitted; 2]);
+        assert_eq!([pair(1e-7, false), pair(1e-3, true)], [Pair::DormandPrince; 2]);
+        let reaches = |damping| reach(Pair::PhaseFitted, damping) / reach(Pair::DormandPrince, damping);
+        assert!(reaches(0.1) > 1.6 && reaches(0.6) > 1.2 && reaches(1.0) < 0.7);
     }
 
     #[test]
@@ -171,7 +278,7 @@ mod tests {
         let mut choice = Choice { implicit: true, patience: 2, ..Choice::default() };
         for _ in 0..TRIAL {
             assert!(choice.implicit);
-            choice.implicit_step(1e-3, 1, &slow);
+            choice.implicit_step(1e-3, 1, &slow, Method::Automatic, 1e-9);
         }
         assert!(!choice.implicit);
         assert_eq!((choice.wait, choice.patience), (4, 4));
@@ -182,10 +289,10 @@ mod tests {
         let fast = Jacobian::with_fastest(1e8);
         let mut choice = Choice::default();
         while !choice.explicit_step(3e-8, 1, false) {}
-        choice.look_explicit(&fast);
+        choice.look_explicit(&fast, Method::Automatic, 1e-9);
         assert!(choice.implicit);
         for _ in 0..100 {
-            choice.implicit_step(1e-6, 1, &fast);
+            choice.implicit_step(1e-6, 1, &fast, Method::Automatic, 1e-9);
         }
         assert!(choice.implicit);
     }
@@ -196,8 +303,8 @@ mod tests {
         let mut choice = Choice::default();
         assert_eq!(choice.limited(1.0), 1.0);
         while !choice.explicit_step(1e-9, 1, false) {}
-        choice.look_explicit(&fast);
-        let limit = 1.0 / rate_of_steps(&fast);
+        choice.look_explicit(&fast, Method::Automatic, 1e-9);
+        let limit = 1.0 / rate_of_steps(&fast, Pair::DormandPrince);
         assert_eq!((choice.limited(1.0), choice.limited(0.5 * limit)), (limit, 0.5 * limit));
         assert_eq!(Choice { implicit: true, ..choice }.limited(1.0), 1.0);
     }
@@ -207,7 +314,7 @@ mod tests {
         let fast = Jacobian::with_fastest(1e8);
         let mut choice = Choice::default();
         while !choice.explicit_step(3e-8, 1, true) {}
-        choice.look_explicit(&fast);
+        choice.look_explicit(&fast, Method::Automatic, 1e-9);
         assert!(!choice.implicit);
     }
 }

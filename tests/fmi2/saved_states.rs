@@ -185,7 +185,7 @@ fn contents_that_no_run_leaves_behind_are_refused_with_the_reason_even_if_the_ch
     let (checked, simulation) = (20, 20 + 8 + 38 + 3 + 24);
     let next_step = simulation + 8 + 1 + 8 + 8;
     let gained = next_step + 3 * 8 + 1 + 4 * 4;
-    let path = gained + 2 * 8 + 4 * 8;
+    let path = gained + 2 * 8 + 1 + 4 * 8;
     let velocity = path + 16 * 8;
     for (place, value, reason) in [
         (next_step, 1e-300, "integration step is shorter"),

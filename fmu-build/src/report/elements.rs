@@ -47,9 +47,9 @@ pub(super) fn measure(extent: Extent, data: &Path) -> Result<(Vec<Row>, Vec<Host
         let healthy = with_elements("6205-healthy", count)?;
         let spalled = with_elements("er16k-tb1", count)?;
         let seconds = [
-            of_a_step(&healthy, Method::DormandPrince)?,
+            of_a_step(&healthy, Method::PhaseFitted)?,
             of_a_step(&healthy, Method::Rodas)?,
-            of_a_step(&spalled, Method::DormandPrince)?,
+            of_a_step(&spalled, Method::PhaseFitted)?,
         ];
         rows.push(Row { count, seconds });
     }

@@ -75,7 +75,7 @@ impl FixedRun {
         let z = self.model.element_count;
         let acceleration = match self.model.layout.housing {
             Some(housing) => self.slopes[0][housing + 3],
-            None => self.forces.shaft[1],
+            None => self.forces.shaft()[1],
         };
         signals.acceleration.push(acceleration);
         signals.paths.extend(&self.state[..z]);

@@ -69,8 +69,12 @@ pub(super) struct Integration {
     pub(super) stop: f64,
 }
 
-const METHODS: [(&str, Method); 3] =
-    [("automatic", Method::Automatic), ("DP5 only", Method::DormandPrince), ("Rodas5P only", Method::Rodas)];
+const METHODS: [(&str, Method); 4] = [
+    ("automatic", Method::Automatic),
+    ("phase-fitted only", Method::PhaseFitted),
+    ("DP5 only", Method::DormandPrince),
+    ("Rodas5P only", Method::Rodas),
+];
 
 /// Measures and writes `integration.csv`.
 pub(super) fn measure(python: &Python, extent: Extent, data: &Path) -> Result<Integration> {

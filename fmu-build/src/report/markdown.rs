@@ -10,7 +10,7 @@ use super::leaving_out::Part;
 
 /// Errors of the acceleration at which costs are compared.
 const LEVELS: [f64; 3] = [1e-2, 1e-3, 1e-5];
-const METHODS: [&str; 5] = ["automatic", "DP5 only", "Rodas5P only", "RK4", "Verlet"];
+const METHODS: [&str; 6] = ["automatic", "phase-fitted only", "DP5 only", "Rodas5P only", "RK4", "Verlet"];
 
 /// The whole page.
 pub(super) fn page(

@@ -105,7 +105,7 @@ pub(crate) const DAMPINGS: [Damping; 3] =
 
 /// Which contacts push, which are derivatives' branches.
 fn branch(forces: &Forces) -> Vec<bool> {
-    forces.contacts.inner_pushing.iter().chain(&forces.contacts.outer_pushing).map(|&p| p > 0.0).collect()
+    forces.contacts.inner_pushing.iter().chain(forces.contacts.outer_pushing.iter()).map(|&p| p > 0.0).collect()
 }
 
 #[test]

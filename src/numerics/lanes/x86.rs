@@ -1,10 +1,15 @@
 //! AVX2 and AVX-512. The machine's own maximum and minimum give their second operand where either is no number.
 
-use super::{QUAD, Wide};
+use super::{Kernel, On, QUAD, WIDEST, Wide};
 use pulp::x86::{V3, V4};
 use pulp::{Simd, cast};
 
 impl Wide for V3 {
+    #[inline(always)]
+    fn apart<K: Kernel>(self, kernel: K) -> K::Output {
+        self.vectorize(On(self, kernel))
+    }
+
     type Quad = Self;
 
     #[inline(always)]
@@ -33,12 +38,19 @@ impl Wide for V3 {
     }
 
     #[inline(always)]
-    fn add_quads(self, sum: [f64; QUAD], value: Self::f64s) -> [f64; QUAD] {
-        cast(self.add_f64s(cast(sum), value))
+    fn add_lanes(self, sum: [f64; WIDEST], value: Self::f64s, upper: bool) -> [f64; WIDEST] {
+        let mut halves: [Self::f64s; 2] = cast(sum);
+        halves[usize::from(upper)] = self.add_f64s(halves[usize::from(upper)], value);
+        cast(halves)
     }
 }
 
 impl Wide for V4 {
+    #[inline(always)]
+    fn apart<K: Kernel>(self, kernel: K) -> K::Output {
+        self.vectorize(On(self, kernel))
+    }
+
     type Quad = V3;
 
     #[inline(always)]
@@ -68,8 +80,7 @@ impl Wide for V4 {
     }
 
     #[inline(always)]
-    fn add_quads(self, sum: [f64; QUAD], value: Self::f64s) -> [f64; QUAD] {
-        let [low, high]: [<V3 as Simd>::f64s; 2] = cast(value);
-        self.quad().add_quads(self.quad().add_quads(sum, low), high)
+    fn add_lanes(self, sum: [f64; WIDEST], value: Self::f64s, _: bool) -> [f64; WIDEST] {
+        cast(self.add_f64s(cast(sum), value))
     }
 }

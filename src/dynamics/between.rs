@@ -1,0 +1,118 @@
+//! Motion between two instants at which state and derivative are known.
+//!
+//! Every position follows the polynomial of degree five that has its value, rate and second derivative at both ends
+//! (Hermite); its error is of order h⁶. Velocities are that polynomial's derivative. An element's w is not the rate of its
+//! path u: with e_r, e_t turning at the cage speed ω and the outer ring moving at v_o,
+//! ```text
+//! u' = w − e_r·v_o,   u'' = w' − e_r·v_o' − ω e_t·v_o
+//! ```
+
+use super::drive::{Clock, Drive};
+use super::forces::dot;
+use super::model::Model;
+use crate::scene::Motion;
+
+/// What is known at one instant.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Known<'a> {
+    pub(crate) clock: Clock,
+    pub(crate) state: &'a [f64],
+    pub(crate) derivative: &'a [f64],
+}
+
+impl Model {
+    /// State at `share` of the time `h` [s] from the first to the second instant, where the cage is as `clock` says, into
+    /// `out`.
+    #[inline(always)]
+    pub(crate) fn between(
+        &self,
+        drive: &Drive,
+        ends: [Known; 2],
+        (h, share): (f64, f64),
+        clock: &Clock,
+        out: &mut [f64],
+    ) {
+        let layout = &self.layout;
+        let basis = Basis::new(h, share);
+        let value = |i: usize| ends.map(|end| end.state[i]);
+        let rate = |i: usize| ends.map(|end| end.derivative[i]);
+        for (place, count) in [(layout.shaft, 2), (layout.housing, 2), (layout.sensor, 1)] {
+            let Some(start) = place else { continue };
+            for i in start..start + count {
+                (out[i], out[i + count]) = basis.at(value(i), rate(i), rate(i + count));
+            }
+        }
+        let housing = ends.map(|end| self.housing_state(drive, end.clock.tau, end.state).velocity);
+        let acceleration = ends.map(|end| self.housing_acceleration(drive, end.derivative));
+        let velocity = self.housing_state(drive, clock.tau, out).velocity;
+        let w = layout.radial_velocity;
+        for j in 0..self.element_count {
+            let bend = [0, 1].map(|k| {
+                let (e_r, clock) = (self.direction(j, ends[k].clock.cage), &ends[k].clock);
+                let e_t = [-e_r[1], e_r[0]];
+                ends[k].derivative[w + j] - dot(e_r, acceleration[k]) - clock.cage_speed * dot(e_t, housing[k])
+            });
+            let (path, path_rate) = basis.at(value(j), rate(j), bend);
+            out[j] = path;
+            out[w + j] = path_rate + dot(self.direction(j, clock.cage), velocity);
+        }
+    }
+
+    /// Acceleration of the outer ring [m/s²], wherever it comes from.
+    fn housing_acceleration(&self, drive: &Drive, derivative: &[f64]) -> [f64; 2] {
+        match (self.layout.housing, self.housing.motion) {
+            (Some(i), _) => [derivative[i + 2], derivative[i + 3]],
+            (None, Motion::Host) => drive.housing.map(|place| place.0[2]),
+            _ => [0.0; 2],
+        }
+    }
+}
+
+/// Hermite's polynomials of degree five at a share of a step of this length.
+struct Basis {
+    h: f64,
+    share: f64,
+}
+
+impl Basis {
+    fn new(h: f64, share: f64) -> Self {
+        Self { h, share }
+    }
+
+    /// Value and rate from the values, rates and second derivatives at both ends.
+    #[inline(always)]
+    fn at(&self, [x, end]: [f64; 2], rates: [f64; 2], bends: [f64; 2]) -> (f64, f64) {
+        let (h, s) = (self.h, self.share);
+        let [rate, end_rate] = rates.map(|rate| h * rate);
+        let [bend, end_bend] = bends.map(|bend| h * h * bend);
+        let difference = end - x - rate - 0.5 * bend;
+        let turn = end_rate - rate - bend;
+        let change = end_bend - bend;
+        let [third, fourth, fifth] = [
+            10.0 * difference - 4.0 * turn + 0.5 * change,
+            -15.0 * difference + 7.0 * turn - change,
+            6.0 * difference - 3.0 * turn + 0.5 * change,
+        ];
+        let value = x + s * (rate + s * (0.5 * bend + s * (third + s * (fourth + s * fifth))));
+        let slope = rate + s * (bend + s * (3.0 * third + s * (4.0 * fourth + s * 5.0 * fifth)));
+        (value, slope / h)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_polynomial_of_degree_five_comes_out_as_it_is() {
+        let x = |t: f64| 1.0 + t * (2.0 + t * (-3.0 + t * (0.5 + t * (4.0 - t))));
+        let rate = |t: f64| 2.0 + t * (-6.0 + t * (1.5 + t * (16.0 - 5.0 * t)));
+        let bend = |t: f64| -6.0 + t * (3.0 + t * (48.0 - 20.0 * t));
+        let h = 0.7;
+        for share in [0.0, 0.2, 0.5, 0.9, 1.0] {
+            let ends = [0.0, h];
+            let (value, slope) = Basis::new(h, share).at(ends.map(x), ends.map(rate), ends.map(bend));
+            assert!((value - x(share * h)).abs() < 1e-14 && (slope - rate(share * h)).abs() < 1e-13, "{share}");
+        }
+    }
+}

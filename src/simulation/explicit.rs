@@ -1,0 +1,204 @@
+//! What the explicit methods share: room for the stages of a step, error estimates, and what is asked of the equations.
+
+use super::{dormand_prince, phase_fitted};
+use crate::numerics::lanes::{Cut, Each, Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, largest_of, quads, quads_mut};
+use crate::numerics::row::Row;
+
+/// Where the derivative at the end of a step is kept; with either method it is the first stage of the next.
+pub const LAST: usize = 6;
+
+/// The explicit methods.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Pair {
+    /// [`dormand_prince`]: order 5(4), for any tolerance.
+    #[default]
+    DormandPrince,
+    /// [`phase_fitted`]: order 4(3), with longer steps where something oscillates.
+    PhaseFitted,
+}
+
+impl Pair {
+    /// Nodes c: those of the first five stages, and others up to the end of the step.
+    pub fn nodes(self) -> [f64; LAST] {
+        match self {
+            Self::DormandPrince => std::array::from_fn(|i| dormand_prince::NODES[i]),
+            Self::PhaseFitted => phase_fitted::NODES,
+        }
+    }
+
+    /// Weights b of the stages.
+    pub fn weights(self) -> [f64; LAST] {
+        match self {
+            Self::DormandPrince => dormand_prince::STAGES[LAST],
+            Self::PhaseFitted => phase_fitted::WEIGHTS,
+        }
+    }
+
+    /// Stages that the error estimate is made of, with their weights.
+    #[inline(always)]
+    fn error(self) -> [(usize, f64); 6] {
+        match self {
+            Self::DormandPrince => [0, 2, 3, 4, 5, 6].map(|i| (i, dormand_prince::ERROR[i])),
+            Self::PhaseFitted => [0, 1, 2, 3, 4, 6].map(|i| (i, phase_fitted::ERROR[i])),
+        }
+    }
+}
+
+/// Room for the stages of a step, made once. States are cut as [`Cut`] says.
+#[derive(Debug, Clone, Default)]
+pub struct Explicit {
+    /// Stage derivatives; the first is that at the start of the step, that at [`LAST`] at its end.
+    pub stages: [Row; 7],
+    /// State at the end of the step tried last.
+    pub end: Row,
+    pub(super) trial: Row,
+    /// 1 where a state is a position, 0 elsewhere.
+    pub(super) positions: Row,
+    pub(super) cut: Cut,
+}
+
+impl Explicit {
+    /// Room for states that are cut in this way; 1 in `positions` where a state is a position.
+    pub fn new(cut: Cut, positions: Row) -> Self {
+        let zeros = || Row::zeros(cut.len());
+        Self { stages: std::array::from_fn(|_| zeros()), end: zeros(), trial: zeros(), positions, cut }
+    }
+
+    /// Tries a step of length `h` from `state`; the first stage must be there.
+    #[inline(always)]
+    pub fn try_step<S: Wide>(
+        &mut self,
+        simd: S,
+        pair: Pair,
+        state: &[f64],
+        h: f64,
+        right_hand_side: &mut impl RightHandSide,
+    ) {
+        match pair {
+            Pair::DormandPrince => dormand_prince::try_step(simd, self, state, h, right_hand_side),
+            Pair::PhaseFitted => phase_fitted::try_step(simd, self, state, h, right_hand_side),
+        }
+    }
+
+    /// Largest magnitude of the error estimate of the step tried last, each component times its weight; infinite as soon
+    /// as one is no finite number.
+    #[inline(always)]
+    pub fn error<S: Wide>(&self, simd: S, pair: Pair, h: f64, weights: &[f64]) -> f64 {
+        let mut found = Found { largest: [0.0; QUAD], poison: [0.0; WIDEST] };
+        let parts = pair.error();
+        let [a, b, c, d, e, f] = parts.map(|(stage, _)| &self.stages[stage][..]);
+        self.cut.look(simd, [weights, a, b, c, d, e, f], &Errors(parts.map(|(_, weight)| weight)), &mut found);
+        if found.poison == [0.0; WIDEST] { h * largest_of(found.largest) } else { f64::INFINITY }
+    }
+
+    /// Error estimate of component `i` of the step tried last.
+    pub fn error_of(&self, pair: Pair, i: usize, h: f64) -> f64 {
+        let mut sum = 0.0;
+        for (stage, weight) in pair.error() {
+            sum += weight * self.stages[stage][i];
+        }
+        h * sum
+    }
+
+    /// Makes the derivative at the end of the step tried last the first stage of the next.
+    pub fn carry_over(&mut self) {
+        self.stages.swap(0, LAST);
+    }
+}
+
+/// Puts `state` + h Σ weight × stage into `to`; a row of weights for positions and one for velocities, of as many as there are
+/// stages. The stage that was worked out last is to come last: all else is ready while it is waited for.
+#[inline(always)]
+pub(super) fn combine<S: Wide, const N: usize>(
+    simd: S,
+    (cut, kinds): (Cut, &[f64]),
+    (state, stages): (&[f64], [&[f64]; N]),
+    (h, positions, velocities): (f64, &[f64; N], &[f64; N]),
+    to: &mut [f64],
+) {
+    let (half, whole) = (cut.second() / WIDEST, cut.third() / WIDEST);
+    let mut lists = [&blocks(state)[..whole]; N];
+    for (list, stage) in lists.iter_mut().zip(stages) {
+        *list = &blocks(stage)[..whole];
+    }
+    let (state_blocks, to_blocks) = (&blocks(state)[..whole], &mut blocks_mut(to)[..whole]);
+    for (row, start) in [(positions, 0), (velocities, half)] {
+        let mut weights = [Lanes::splat(simd, 0.0); N];
+        for (weight, of_row) in weights.iter_mut().zip(row) {
+            *weight = Lanes::splat(simd, h * of_row);
+        }
+        for k in start..start + half {
+            for part in 0..WIDEST / S::F64_LANES {
+                let mut sum = Lanes::part(simd, &state_blocks[k], part);
+                for n in 0..N {
+                    if row[n] != 0.0 {
+                        sum = sum + weights[n] * Lanes::part(simd, &lists[n][k], part);
+                    }
+                }
+                sum.put(&mut to_blocks[k], part);
+            }
+        }
+    }
+    let third = cut.third();
+    let (quad, state, to) = (simd.quad(), quads(&state[third..]), quads_mut(&mut to[third..]));
+    let kinds = &quads(&kinds[third..])[..to.len()];
+    let mut lists = [&state[..to.len()]; N];
+    for (list, stage) in lists.iter_mut().zip(stages) {
+        *list = &quads(&stage[third..])[..to.len()];
+    }
+    for (k, to) in to.iter_mut().enumerate() {
+        let kind = Lanes::<S>::of(simd, kinds[k]);
+        let mut sum = Lanes::<S>::of(simd, state[k]);
+        for n in 0..N {
+            if positions[n] == velocities[n] {
+                if positions[n] != 0.0 {
+                    sum = sum + Lanes::splat(quad, h * positions[n]) * Lanes::<S>::of(simd, lists[n][k]);
+                }
+                continue;
+            }
+            let more = Lanes::splat(quad, h * (positions[n] - velocities[n]));
+            let weight = Lanes::splat(quad, h * velocities[n]) + kind * more;
+            sum = sum + weight * Lanes::<S>::of(simd, lists[n][k]);
+        }
+        sum.store(to, 0);
+    }
+}
+
+/// The first of a row.
+#[inline(always)]
+pub(super) fn row<const N: usize, const ALL: usize>(row: [f64; ALL]) -> [f64; N] {
+    std::array::from_fn(|i| row[i])
+}
+
+/// What the methods integrate.
+pub trait RightHandSide {
+    /// Puts the derivative of `state` at the node of a stage into `out`. With a time `ahead`, what counts are the positions
+    /// that the velocities in `state` reach in that time from those in `state`. Asked for stages 1 to [`LAST`], the last one
+    /// at the end of the step and without `ahead`. To be marked `inline(always)`.
+    fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: (&[f64], Option<f64>), out: &mut [f64]);
+}
+
+/// Weighted errors, with the weights of the stages.
+struct Errors([f64; 6]);
+
+struct Found {
+    largest: [f64; QUAD],
+    /// 0 times every error: 0, unless one is no finite number.
+    poison: [f64; WIDEST],
+}
+
+impl Each<7, 0> for Errors {
+    type Sum = Found;
+
+    #[inline(always)]
+    fn places<S: Wide>(&self, simd: S, [weight, stages @ ..]: [Lanes<S>; 7], found: &mut Found) -> [Lanes<S>; 0] {
+        let mut sum = Lanes::splat(simd, self.0[0]) * stages[0];
+        for (stage, part) in stages.into_iter().zip(self.0).skip(1) {
+            sum = sum + Lanes::splat(simd, part) * stage;
+        }
+        let error = (weight * sum).abs();
+        (Lanes::splat(simd, 0.0) * error).add_to(&mut found.poison, false);
+        error.largest_to(&mut found.largest);
+        []
+    }
+}
