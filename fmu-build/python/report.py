@@ -43,13 +43,15 @@ for axis, (scene, methods) in zip(axes.flat, scenes.items()):
     axis.set_xlim(0.01, 100)
     axis.set_ylim(1e-10, 3.0)
     axis.axhline(1.0, color="black", linewidth=0.7)
+handles, labels = axes[0, 0].get_legend_handles_labels()
 for axis in axes.flat[len(scenes):]:
-    axis.set_visible(False)
+    axis.set_axis_off()
+# Beside the panels where a place is left, or it would cover points.
+(axes[-1, -1] if len(scenes) < rows * columns else axes[0, -1]).legend(handles, labels, loc="center")
 for axis in axes[:, 0]:
     axis.set_ylabel("acceleration error (rms / rms)")
 for axis in axes[-1]:
     axis.set_xlabel("CPU seconds per simulated second")
-axes[0, -1].legend(loc="lower right")
 plotting.save(figure, stem)
 
 # Co-simulation: one row of panels for each scene, one panel for each mass.
