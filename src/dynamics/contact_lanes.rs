@@ -20,7 +20,7 @@ use crate::scene::Damping;
 struct Smooth<'a> {
     model: &'a Model,
     at: &'a Moment,
-    /// t/q_r is so small that |q| − q_r = t (t/q_r)/2 − … and the direction of q are series.
+    /// The rings are so nearly concentric that |q| − q_r = t (t/q_r)/2 − … and the direction of q are series in t/q_r.
     series: bool,
     /// Time [s] by which paths are still to be moved on along their rates.
     ahead: Option<f64>,

@@ -28,7 +28,7 @@ pub const SMOOTH: u32 = u32::MAX;
 /// What the right-hand side found on its way. Its lists are made once.
 #[derive(Debug, Clone, Default)]
 pub struct Forces {
-    /// Each contact; only [`Model::derivative`] fills it.
+    /// Each contact, where the right-hand side was asked to keep them.
     pub contacts: Record,
     /// The elements, with what follows from the raceway that each is on.
     pub(super) groups: Vec<Group>,

@@ -18,7 +18,7 @@ pub enum Pair {
 }
 
 impl Pair {
-    /// Nodes c: those of the first five stages, and others up to the end of the step.
+    /// Nodes c up to the end of the step; where one method has a stage less, its last is the end.
     pub fn nodes(self) -> [f64; LAST] {
         match self {
             Self::DormandPrince => std::array::from_fn(|i| dormand_prince::NODES[i]),

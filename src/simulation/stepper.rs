@@ -156,6 +156,7 @@ impl Stepper {
                 continue;
             }
             let target = knot.map_or(step, |k| k.tau.min(step));
+            let by = (progress.choice.implicit, self.pair);
             let h = self.accepted_step(model, drive, control, (tau, target), progress, recorder.as_deref_mut())?;
             for (sum, force) in impulse.iter_mut().zip(self.weighted_force) {
                 *sum += h * force;
@@ -171,7 +172,7 @@ impl Stepper {
                     limit: control.max_steps,
                     since: tau,
                     step: progress.next_step,
-                    component: self.worst(model, h, progress.choice.implicit),
+                    component: self.worst(model, h, by),
                 });
             }
         }
@@ -305,7 +306,7 @@ impl Stepper {
             // Rings that the host has moved apart say more than what follows from it.
             check_rings(model, drive, since + h, progress)?;
         }
-        let component = self.worst(model, h, progress.choice.implicit);
+        let component = self.worst(model, h, (progress.choice.implicit, self.pair));
         Err(if error.is_finite() {
             StepError::Underflow { step, limit, since, component }
         } else {
@@ -428,9 +429,9 @@ impl Stepper {
     }
 
     /// Name of the state with the largest error in the step tried last, whose length was `h`.
-    fn worst(&self, model: &Model, h: f64, implicit: bool) -> String {
+    fn worst(&self, model: &Model, h: f64, (implicit, pair): (bool, Pair)) -> String {
         let error = |i: usize| {
-            let error = if implicit { self.implicit.error(i) } else { self.explicit.error_of(self.pair, i, h) };
+            let error = if implicit { self.implicit.error(i) } else { self.explicit.error_of(pair, i, h) };
             (self.weights[i] * error).abs()
         };
         // What is no number is the worst, the first of them.
@@ -450,7 +451,6 @@ fn weight(layout: &Layout, i: usize) -> f64 {
     }
 }
 
-/// Beyond an element's radius the rings are beside each other, and a contact that is not a number would push nothing.
 /// Counts passages of knots between which no time passes: each element can pass each knot once.
 fn count_passage(model: &Model, since: f64, count: &mut usize) -> Result<(), StepError> {
     *count += 1;
@@ -461,6 +461,7 @@ fn count_passage(model: &Model, since: f64, count: &mut usize) -> Result<(), Ste
     Ok(())
 }
 
+/// Beyond an element's radius the rings are beside each other, and a contact that is not a number would push nothing.
 fn check_rings(model: &Model, drive: &Drive, tau: f64, progress: &Progress) -> Result<(), StepError> {
     let shaft = model.shaft_state(drive, tau, &progress.state).position;
     let housing = model.housing_state(drive, tau, &progress.state).position;

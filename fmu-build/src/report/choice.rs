@@ -1,6 +1,6 @@
 //! Whether the automatic choice of the method costs more than the best of its methods alone.
 //!
-//! Shipped scenes, and stiff ones made of them: light elements, strong damping, high load. The three take turns, and of each
+//! Shipped scenes, and stiff ones made of them: light elements, strong damping, high load. The methods take turns, and of each
 //! the fastest run counts, so that what else the machine does falls on all alike. Beside the CPU time stands a count without
 //! noise: steps tried, an implicit one as so many explicit ones as it costs.
 
