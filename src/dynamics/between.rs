@@ -10,7 +10,6 @@
 use super::drive::{Clock, Drive};
 use super::forces::dot;
 use super::model::Model;
-use crate::scene::Motion;
 
 /// What is known at one instant.
 #[derive(Debug, Clone, Copy)]
@@ -43,7 +42,7 @@ impl Model {
             }
         }
         let housing = ends.map(|end| self.housing_state(drive, end.clock.tau, end.state).velocity);
-        let acceleration = ends.map(|end| self.housing_acceleration(drive, end.derivative));
+        let acceleration = ends.map(|end| self.ring_accelerations(drive, end.derivative)[1]);
         let velocity = self.housing_state(drive, clock.tau, out).velocity;
         let w = layout.radial_velocity;
         for j in 0..self.element_count {
@@ -55,15 +54,6 @@ impl Model {
             let (path, path_rate) = basis.at(value(j), rate(j), bend);
             out[j] = path;
             out[w + j] = path_rate + dot(self.direction(j, clock.cage), velocity);
-        }
-    }
-
-    /// Acceleration of the outer ring [m/s²], wherever it comes from.
-    fn housing_acceleration(&self, drive: &Drive, derivative: &[f64]) -> [f64; 2] {
-        match (self.layout.housing, self.housing.motion) {
-            (Some(i), _) => [derivative[i + 2], derivative[i + 3]],
-            (None, Motion::Host) => drive.housing.map(|place| place.0[2]),
-            _ => [0.0; 2],
         }
     }
 }
@@ -104,7 +94,7 @@ mod tests {
     use super::*;
     use crate::dynamics::forces::Forces;
     use crate::dynamics::jacobian::tests::{lively, moving};
-    use crate::scene::Damping;
+    use crate::scene::{Damping, Motion};
 
     /// The state after `time`, by many classical Runge–Kutta steps.
     fn integrated(model: &Model, drive: &Drive, (state, cells): (&[f64], &[u32]), time: f64) -> Vec<f64> {

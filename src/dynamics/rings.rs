@@ -26,6 +26,13 @@ impl Model {
     pub fn housing_state(&self, drive: &Drive, tau: f64, state: &[f64]) -> RingState {
         ring_state(self.layout.housing, self.housing.motion, &drive.housing, tau, (state, None))
     }
+
+    /// Accelerations of the inner and the outer ring [m/s²], wherever they come from.
+    pub fn ring_accelerations(&self, drive: &Drive, derivative: &[f64]) -> [[f64; 2]; 2] {
+        [(self.layout.shaft, &drive.shaft), (self.layout.housing, &drive.housing)].map(|(place, prescribed)| {
+            place.map_or(prescribed.map(|q| q.0[2]), |i| [derivative[i + 2], derivative[i + 3]])
+        })
+    }
 }
 
 /// Velocity and acceleration of a ring on its support, `force` [N] being all else that acts on it.

@@ -108,6 +108,9 @@ impl Explicit {
 
 /// Puts `state` + h Σ weight × stage into `to`; a row of weights for positions and one for velocities, of as many as there are
 /// stages. The stage that was worked out last is to come last: all else is ready while it is waited for.
+///
+/// Each method writes its stages out one by one, so that weights are constants there: looked up by the stage's number, they cost
+/// a step 5 to 8 % more.
 #[inline(always)]
 pub(super) fn combine<S: Wide, const N: usize>(
     simd: S,

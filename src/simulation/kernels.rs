@@ -165,11 +165,11 @@ impl RightHandSide for Stages<'_> {
         let at = (self.drive, &self.clocks[stage.min(LAST - 1)]);
         let forces = &mut *self.forces;
         let (state, ahead) = state;
-        let evaluation = Evaluation { model: self.model, at, state, out, forces: &mut *forces };
+        let at_stage = (self.model, at, state);
         match ahead {
-            None if stage == LAST => return simd.apart(AtEnd(evaluation)),
-            None => simd.apart(AtStage(evaluation)),
-            Some(ahead) => simd.apart(AheadOf(evaluation, ahead)),
+            None if stage == LAST => return simd.apart(Evaluation::<true, false>(at_stage, 0.0, out, forces)),
+            None => simd.apart(Evaluation::<false, false>(at_stage, 0.0, out, &mut *forces)),
+            Some(ahead) => simd.apart(Evaluation::<false, true>(at_stage, ahead, out, &mut *forces)),
         }
         for (sum, force) in self.sum.iter_mut().zip(forces.rings) {
             *sum += self.weights[stage] * force;
@@ -177,51 +177,22 @@ impl RightHandSide for Stages<'_> {
     }
 }
 
-/// One evaluation of the right-hand side. Each is a function of its own: a step that has all of its stages written out is
-/// longer than what a processor keeps decoded.
-struct Evaluation<'a> {
-    model: &'a Model,
-    at: (&'a Drive, &'a Clock),
-    state: &'a [f64],
-    out: &'a mut [f64],
-    forces: &'a mut Forces,
-}
+/// One evaluation of the right-hand side, each contact kept if `RECORD`; if `AHEAD`, with positions that are still to be moved on
+/// by a time [s]. Each is a function of its own: a step that has all of its stages written out is longer than what a
+/// processor keeps decoded.
+struct Evaluation<'a, const RECORD: bool, const AHEAD: bool>(
+    (&'a Model, (&'a Drive, &'a Clock), &'a [f64]),
+    f64,
+    &'a mut [f64],
+    &'a mut Forces,
+);
 
-/// At the end of a step, each contact kept.
-struct AtEnd<'a>(Evaluation<'a>);
-
-/// At a stage.
-struct AtStage<'a>(Evaluation<'a>);
-
-/// At a stage with positions that are still to be moved on by a time [s].
-struct AheadOf<'a>(Evaluation<'a>, f64);
-
-impl Kernel for AtEnd<'_> {
+impl<const RECORD: bool, const AHEAD: bool> Kernel for Evaluation<'_, RECORD, AHEAD> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Wide>(self, simd: S) {
-        let Evaluation { model, at, state, out, forces } = self.0;
-        model.derivative_on::<S, true>(simd, at, (state, None), out, forces);
-    }
-}
-
-impl Kernel for AtStage<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S: Wide>(self, simd: S) {
-        let Evaluation { model, at, state, out, forces } = self.0;
-        model.derivative_on::<S, false>(simd, at, (state, None), out, forces);
-    }
-}
-
-impl Kernel for AheadOf<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S: Wide>(self, simd: S) {
-        let Evaluation { model, at, state, out, forces } = self.0;
-        model.derivative_on::<S, false>(simd, at, (state, Some(self.1)), out, forces);
+        let Self((model, at, state), ahead, out, forces) = self;
+        model.derivative_on::<S, RECORD>(simd, at, (state, AHEAD.then_some(ahead)), out, forces);
     }
 }

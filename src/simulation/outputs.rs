@@ -31,18 +31,11 @@ impl<'a> Instant<'a> {
         forces: &'a Forces,
         cage_start: f64,
     ) -> Self {
-        let acceleration = |place: Option<usize>, prescribed: [f64; 2]| {
-            place.map_or(prescribed, |i| [derivative[i + 2], derivative[i + 3]])
-        };
-        let acceleration = [
-            acceleration(model.layout.shaft, drive.shaft.map(|q| q.0[2])),
-            acceleration(model.layout.housing, drive.housing.map(|q| q.0[2])),
-        ];
         Self {
             state,
             forces,
             ring: [model.shaft_state(drive, tau, state), model.housing_state(drive, tau, state)],
-            acceleration,
+            acceleration: model.ring_accelerations(drive, derivative),
             sensor: model.layout.sensor.map_or(0.0, |i| derivative[i + 1]),
             cage_angle: cage_start + drive.cage.at(tau),
             model,

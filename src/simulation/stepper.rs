@@ -359,12 +359,11 @@ impl Stepper {
                 return;
             }
             progress.choice.implicit_step(h, tried, &self.jacobian, control.method, control.tolerance);
-            self.pair = control.method.pair(control.tolerance, progress.choice.damped);
         } else if progress.choice.explicit_step(h, tried, cut) {
             self.linearize(model, drive, from + h, progress);
             progress.choice.look_explicit(&self.jacobian, control.method, control.tolerance);
-            self.pair = control.method.pair(control.tolerance, progress.choice.damped);
         }
+        self.pair = control.method.pair(control.tolerance, progress.choice.damped);
     }
 
     fn linearize(&mut self, model: &Model, drive: &Drive, tau: f64, progress: &Progress) {
