@@ -1,16 +1,34 @@
 //! What tests of the model share: scenes written in a few lines, and named access to variables.
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used)] // each test program uses a part of this
 
-use brinell::scene::Scene;
-use brinell::simulation::Simulation;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, OnceLock};
+
+use brinell::contact::map_build::Sequential;
+use brinell::scene::{ContactLaw, Scene};
+use brinell::simulation::{Simulation, setup};
+use brinell::surface::Surface;
 
 /// A scene file that ships with the project, with the contact law that needs no map: these tests are of what moves.
 pub fn shipped(name: &str) -> Scene {
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(format!("{name}.toml"));
-    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
-    let mut scene = Scene::from_toml(&text).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let mut scene = shipped_as_it_is(name);
     scene.contact.law = brinell::scene::ContactLaw::Hertz;
     scene
+}
+
+/// A scene file that ships with the project.
+pub fn shipped_as_it_is(name: &str) -> Scene {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(format!("{name}.toml"));
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    Scene::from_toml(&text).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+/// FNV-1a of the bits of numbers.
+pub fn fingerprint(bits: impl Iterator<Item = u64>) -> u64 {
+    bits.flat_map(u64::to_le_bytes)
+        .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
 }
 
 /// Text of the profile file that a shipped scene names, if it names one.
@@ -20,13 +38,54 @@ pub fn profile_of(scene: &Scene) -> Option<String> {
     Some(std::fs::read_to_string(path).unwrap())
 }
 
+/// Maps of this process, by the fingerprint of what they depend on.
+static MAPS: Mutex<BTreeMap<u64, Arc<OnceLock<Vec<u8>>>>> = Mutex::new(BTreeMap::new());
+
+/// The contact map of a scene, computed once for all test programs and kept in the target folder.
+///
+/// The file's name carries a fingerprint of the sources that compute maps, so none outlives a change of them.
+pub fn map_of(scene: &Scene, profile: Option<&str>) -> Option<Vec<u8>> {
+    let defect = scene.defect.as_ref().filter(|_| scene.contact.law == ContactLaw::Map)?;
+    let surface = Surface::load(&defect.shape, profile, &scene.bearing).unwrap();
+    let wanted = setup::map_fingerprint(scene, &surface);
+    let map = Arc::clone(MAPS.lock().unwrap().entry(wanted).or_default());
+    let bytes = map.get_or_init(|| {
+        let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{wanted:016x}-{:016x}.map", map_sources()));
+        fs::read(&file).unwrap_or_else(|_| {
+            let map = setup::build_map(scene, &surface, &mut Sequential(|_, _| {})).unwrap().unwrap();
+            let partial = file.with_extension(format!("{}.part", std::process::id()));
+            fs::write(&partial, map.to_bytes()).unwrap();
+            fs::rename(&partial, &file).unwrap();
+            map.to_bytes()
+        })
+    });
+    Some(bytes.clone())
+}
+
+/// Fingerprint of the sources on which the bits of a map depend.
+fn map_sources() -> u64 {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut files: Vec<PathBuf> = ["numerics", "geometry", "surface", "contact"]
+        .iter()
+        .flat_map(|layer| files_below(&source.join(layer)))
+        .collect();
+    files.sort();
+    fingerprint(files.iter().flat_map(|file| fs::read(file).unwrap()).map(u64::from))
+}
+
+fn files_below(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    entries.flat_map(|path| if path.is_dir() { files_below(&path) } else { vec![path] }).collect()
+}
+
 /// A simulation with access by name.
 pub struct Named(pub Simulation);
 
 impl Named {
     pub fn new(scene: Scene) -> Self {
         let profile = profile_of(&scene);
-        Self(Simulation::new(scene, profile.as_deref()).unwrap())
+        let map = map_of(&scene, profile.as_deref());
+        Self(Simulation::with_map(scene, profile.as_deref(), map.as_deref()).unwrap())
     }
 
     /// Set up and initialized at time 0.
