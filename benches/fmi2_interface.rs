@@ -7,11 +7,11 @@
 // A benchmark stops at the first surprise.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-use brinell::fmi2::*;
 use brinell::scene::Scene;
 use brinell::simulation::Simulation;
 use brinell::simulation::guid::guid;
 use brinell::simulation::variables::{Causality, Kind};
+use brinell_fmi::fmi2::*;
 use libloading::{Library, Symbol};
 use std::ffi::CString;
 use std::hint::black_box;

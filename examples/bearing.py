@@ -78,7 +78,7 @@ def executable():
     if "BRINELL_FMU" in os.environ:
         return program()
     target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
-    return [str(target / "release" / ("fmu-build.exe" if os.name == "nt" else "fmu-build"))]
+    return [str(target / "release" / ("brinell-studies.exe" if os.name == "nt" else "brinell-studies"))]
 
 
 def build(scenes, folder):

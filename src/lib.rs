@@ -1,16 +1,13 @@
-//! Brinell turns a rolling bearing with a real surface defect into an FMI 2.0 co-simulation unit.
+//! The physics of a rolling bearing with a real surface defect.
 //!
 //! Data flows one way through the modules, and a module imports only from those above it:
-//! `numerics → scene → geometry → surface → contact → dynamics → simulation → recording → fmi2`.
-//! `analysis` is a leaf: it may import everything but `fmi2`, and nothing imports it.
+//! `numerics → scene → geometry → surface → contact → dynamics → simulation → recording`.
 
 // Units in brackets, as in `[m]`, are no links.
 #![allow(rustdoc::broken_intra_doc_links)]
 
-pub mod analysis;
 pub mod contact;
 pub mod dynamics;
-pub mod fmi2;
 pub mod geometry;
 pub mod numerics;
 pub mod recording;

@@ -30,7 +30,7 @@ fn rust_files(folder: &Path, found: &mut Vec<PathBuf>) {
 /// Names of all tests, with the file that each is in.
 fn tests() -> BTreeMap<String, String> {
     let mut files = Vec::new();
-    for folder in ["src", "tests", "fmu-build/src", "fmu-build/tests"] {
+    for folder in ["src", "crates", "tests", "fmu-build/src", "fmu-build/tests"] {
         rust_files(&root().join(folder), &mut files);
     }
     let mut tests = BTreeMap::new();

@@ -11,7 +11,7 @@ mod counting;
 #[allow(dead_code)]
 mod host;
 
-use brinell::fmi2::*;
+use brinell_fmi::fmi2::*;
 use counting::allocations;
 use host::Host;
 

@@ -8,7 +8,7 @@
 #[path = "fmi2/library.rs"]
 mod library;
 
-use brinell::fmi2::*;
+use brinell_fmi::fmi2::*;
 use libloading::Library;
 use library::{Api, Scene, library};
 use object::Object;

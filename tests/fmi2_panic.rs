@@ -9,7 +9,7 @@
 #[allow(dead_code)]
 mod library;
 
-use brinell::fmi2::*;
+use brinell_fmi::fmi2::*;
 use libloading::Library;
 use library::{Api, Scene, library};
 

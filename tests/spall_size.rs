@@ -4,15 +4,15 @@
 // What a test calls may end it like the test itself.
 #![allow(clippy::unwrap_used)]
 
-use brinell::analysis::error::SizingError;
-use brinell::analysis::recording::Recording;
-use brinell::analysis::report::{Kind, Method, Report, Verdict};
-use brinell::analysis::spall_size::size;
-use brinell::analysis::static_bearing::StaticBearing;
-use brinell::analysis::statistics::Random;
 use brinell::geometry::kinematics;
 use brinell::scene::{ContactLaw, Defect, DefectShape, Scene};
 use brinell::simulation::Simulation;
+use brinell_analysis::error::SizingError;
+use brinell_analysis::recording::Recording;
+use brinell_analysis::report::{Kind, Method, Report, Verdict};
+use brinell_analysis::spall_size::size;
+use brinell_analysis::static_bearing::StaticBearing;
+use brinell_analysis::statistics::Random;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 const RATE: f64 = 51_200.0;

@@ -3,10 +3,10 @@
 
 mod support;
 
-use brinell::analysis::critical_load::CriticalLoad;
-use brinell::analysis::static_bearing::{Balance, StaticBearing, StaticError};
-use brinell::analysis::stiffness::{min_mean_max, sweep};
 use brinell::scene::{DefectShape, Scene};
+use brinell_analysis::critical_load::CriticalLoad;
+use brinell_analysis::static_bearing::{Balance, StaticBearing, StaticError};
+use brinell_analysis::stiffness::{min_mean_max, sweep};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 use support::{profile_of, shipped};

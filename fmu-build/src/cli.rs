@@ -1,24 +1,25 @@
 //! The commands: what a user types, and the order of work behind each.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::Result;
-use brinell::analysis::recording::Speed;
+use brinell_analysis::recording::Speed;
 use clap::{Args, Parser, Subcommand};
 
 use crate::library::{self, Library};
-use crate::{check, demo, fmu, model::Model, project::Project, report, run, size, stiffness, validation};
+use crate::{check, demo, fmu, model::Model, project::Project, run, size, stiffness};
 
 /// Rolling bearings with a real surface defect as FMI 2.0 co-simulation units.
 #[derive(Debug, Parser)]
-#[command(name = "cargo fmu", bin_name = "cargo fmu", version, max_term_width = 100)]
+#[command(name = "brinell", version, max_term_width = 100)]
 pub struct Arguments {
     #[command(subcommand)]
     command: Command,
 }
 
+/// What a user can ask for.
 #[derive(Debug, Subcommand)]
-enum Command {
+pub enum Command {
     /// Builds the FMU of each scene
     Build(Build),
     /// Simulates a scene without a host and writes CSV and figure
@@ -27,18 +28,15 @@ enum Command {
     Check(Check),
     /// Static stiffness, load distribution and critical load over the cage angle: CSV, figure and summary
     Stiffness(Stiffness),
-    /// Error against run time, measured on this machine: Markdown, CSV and figures
-    Report(Report),
     /// Length of a spall from recordings of one bearing, or why there is none: JSON on standard output, figures
     Size(Size),
-    /// Computes every claim of the paper anew: docs/validation.md and its figures
-    Validate(Validate),
     /// Builds the FMU of a spalled 6205 bearing, drives it with fmpy and draws what happens
     Demo(Demo),
 }
 
+/// Options of `build`.
 #[derive(Debug, Args)]
-struct Build {
+pub struct Build {
     /// Scene files (TOML)
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<PathBuf>,
@@ -49,8 +47,9 @@ struct Build {
     library: LibraryChoice,
 }
 
+/// Options of `run`.
 #[derive(Debug, Args)]
-struct Run {
+pub struct Run {
     /// Scene file (TOML)
     scene: PathBuf,
     /// Stop time in seconds [default: the scene's]
@@ -67,15 +66,17 @@ struct Run {
     no_figure: bool,
 }
 
+/// Options of `check`.
 #[derive(Debug, Args)]
-struct Check {
+pub struct Check {
     /// The FMU
     #[arg(value_name = "FILE.fmu")]
     fmu: PathBuf,
 }
 
+/// Options of `stiffness`.
 #[derive(Debug, Args)]
-struct Stiffness {
+pub struct Stiffness {
     /// Scene file (TOML)
     scene: PathBuf,
     /// Load in newtons along the scene's load [default: the scene's]
@@ -93,22 +94,10 @@ struct Stiffness {
     no_figure: bool,
 }
 
-#[derive(Debug, Args)]
-struct Report {
-    /// Two scenes and few tolerances only
-    #[arg(long)]
-    short: bool,
-    /// Only which method steps and what a step costs
-    #[arg(long, conflicts_with = "short")]
-    steps: bool,
-    /// Folder for the page, its figures and its data [default: docs; target/report with --short]
-    #[arg(short, long, value_name = "DIR")]
-    output: Option<PathBuf>,
-}
-
+/// Options of `size`.
 #[derive(Debug, Args)]
 #[command(group = clap::ArgGroup::new("shaft").required(true))]
-struct Size {
+pub struct Size {
     /// Recordings of one bearing: .csv, .txt, .npy or .wav
     #[arg(required = true, value_name = "RECORDING")]
     recordings: Vec<PathBuf>,
@@ -153,28 +142,9 @@ impl Size {
     }
 }
 
+/// Options of `demo`.
 #[derive(Debug, Args)]
-struct Validate {
-    /// Recordings to be sized, as FILE@HZ=DEGREES with the shaft's speed and the nominal length, 0 if healthy; without them the
-    /// table of recordings stays as it was
-    #[arg(value_name = "RECORDING")]
-    recordings: Vec<String>,
-    /// Sampling rate of the recordings in hertz
-    #[arg(long, value_name = "HZ", default_value_t = 51_200.0)]
-    rate: f64,
-    /// Compute this part alone; the other tables are those of the last run
-    #[arg(long, value_enum, value_name = "PART")]
-    only: Option<validation::Part>,
-    /// Folder for validation.md and figures [default: docs]
-    #[arg(short, long, value_name = "DIR")]
-    output: Option<PathBuf>,
-    /// Leave the figures out; no Python is needed then
-    #[arg(long)]
-    no_figure: bool,
-}
-
-#[derive(Debug, Args)]
-struct Demo {
+pub struct Demo {
     /// Folder for CSV and figure [default: target/demo]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -202,12 +172,18 @@ impl From<LibraryChoice> for library::Choice {
 impl Arguments {
     /// Does what was asked. An error is one line for the user.
     pub fn execute(self) -> Result<()> {
-        let project = Project::find();
-        match self.command {
+        self.command.execute(&Project::find())
+    }
+}
+
+impl Command {
+    /// Does what was asked. An error is one line for the user.
+    pub fn execute(self, project: &Project) -> Result<()> {
+        match self {
             Command::Build(build) => {
                 // Scenes first: a typing error should not wait for a compiler.
                 let models = build.scenes.iter().map(|path| Model::read(path)).collect::<Result<Vec<_>>>()?;
-                let library = Library::obtain(&project, &build.library.into())?;
+                let library = Library::obtain(project, &build.library.into())?;
                 for line in library.describe() {
                     println!("{line}");
                 }
@@ -222,9 +198,9 @@ impl Arguments {
                 let model = Model::read(&options.scene)?;
                 let grid = run::Grid::new(&model.scene.experiment, options.stop, options.step)?;
                 let folder = options.output.unwrap_or_else(|| project.target().join("run"));
-                run::command(&project, model, grid, &folder, !options.no_figure)
+                run::command(project, model, grid, &folder, !options.no_figure)
             }
-            Command::Check(options) => check::command(&project, &options.fmu),
+            Command::Check(options) => check::command(project, &options.fmu),
             Command::Stiffness(options) => {
                 let model = Model::read(&options.scene)?;
                 let folder = options.output.unwrap_or_else(|| project.target().join("stiffness"));
@@ -233,20 +209,7 @@ impl Arguments {
                     points: options.points.map(|count| count as usize),
                     figure: !options.no_figure,
                 };
-                stiffness::command(&project, &model, wanted, &folder)
-            }
-            Command::Report(options) => {
-                let folder = if options.short {
-                    project.target().join("report")
-                } else {
-                    project.source().unwrap_or(Path::new(".")).join("docs")
-                };
-                let folder = options.output.unwrap_or(folder);
-                if options.steps {
-                    return report::steps_command(&project, &folder);
-                }
-                let extent = if options.short { report::Extent::Short } else { report::Extent::Full };
-                report::command(&project, extent, &folder)
+                stiffness::command(project, &model, wanted, &folder)
             }
             Command::Size(options) => {
                 let wanted = size::Options {
@@ -256,22 +219,11 @@ impl Arguments {
                     figure: !options.no_figure,
                 };
                 let folder = options.output.unwrap_or_else(|| project.target().join("size"));
-                size::command(&project, &options.scene, &options.recordings, &wanted, &folder)
-            }
-            Command::Validate(options) => {
-                let known = options.recordings.iter().map(|text| validation::recordings::Known::parse(text));
-                let wanted = validation::Options {
-                    recordings: known.collect::<Result<_>>()?,
-                    rate: options.rate,
-                    only: options.only,
-                    figures: !options.no_figure,
-                };
-                let docs = project.source().unwrap_or(Path::new("")).join("docs");
-                validation::command(&project, &wanted, &options.output.unwrap_or(docs))
+                size::command(project, &options.scene, &options.recordings, &wanted, &folder)
             }
             Command::Demo(options) => {
                 let folder = options.output.unwrap_or_else(|| project.target().join("demo"));
-                demo::command(&project, &options.library.into(), &folder)
+                demo::command(project, &options.library.into(), &folder)
             }
         }
     }

@@ -101,7 +101,7 @@ fn build(project: &Project, source: &Path, target: Target, host: Target, zig: Op
     let mut command = Command::new(&cargo);
     command
         .current_dir(source)
-        .args(["build", "--lib", "--package", "brinell", "--profile", "fmu-library", "--target", target.triple])
+        .args(["build", "--lib", "--package", "brinell-fmi", "--profile", "fmu-library", "--target", target.triple])
         .args(["--locked", "--message-format", "json-render-diagnostics"])
         .env("CARGO_ENCODED_RUSTFLAGS", flags(source))
         .stderr(Stdio::inherit());
@@ -124,7 +124,7 @@ fn build(project: &Project, source: &Path, target: Target, host: Target, zig: Op
         .lines()
         .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
         .find_map(|message| artifact(&message, target));
-    found.context("cargo built no dynamic library of the package brinell")
+    found.context("cargo built no dynamic library of the package brinell-fmi")
 }
 
 /// The compiler's flags: the user's, and names in place of this machine's folders.
@@ -151,7 +151,7 @@ fn flags(source: &Path) -> OsString {
 
 /// Path of the dynamic library, when a message of cargo announces it.
 fn artifact(message: &serde_json::Value, target: Target) -> Option<PathBuf> {
-    if message["reason"] != "compiler-artifact" || message["target"]["name"] != "brinell" {
+    if message["reason"] != "compiler-artifact" || message["target"]["name"] != "brinell_fmi" {
         return None;
     }
     let files = message["filenames"].as_array()?.iter().filter_map(|file| file.as_str());
@@ -160,7 +160,7 @@ fn artifact(message: &serde_json::Value, target: Target) -> Option<PathBuf> {
 
 fn beside_this_program() -> Result<PathBuf> {
     let program = env::current_exe()?;
-    let name = format!("{}brinell{}", env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX);
+    let name = format!("{}brinell_fmi{}", env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX);
     let path = program.with_file_name(name);
     if !path.is_file() {
         bail!("no model library: neither Brinell's source nor {} is there; name one with --library", path.display());

@@ -1,4 +1,4 @@
-//! The command `cargo fmu`: see [`fmu_build::cli`].
+//! The program `brinell`: see [`fmu_build::cli`].
 
 use std::process::ExitCode;
 

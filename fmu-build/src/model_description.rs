@@ -8,7 +8,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 
-use brinell::fmi2::Category;
+use brinell::simulation::log_category::Category;
 use brinell::simulation::variables::{Causality, Dependencies, Kind, Unit, Variability, Variable};
 use quick_xml::events::{BytesDecl, Event};
 use quick_xml::writer::Writer;

@@ -7,10 +7,10 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
-use brinell::analysis::recording::{Recording, Source, Speed};
-use brinell::analysis::report::{Figure, RecordingReport, Report};
-use brinell::analysis::spall_size;
 use brinell::scene::Scene;
+use brinell_analysis::recording::{Recording, Source, Speed};
+use brinell_analysis::report::{Figure, RecordingReport, Report};
+use brinell_analysis::spall_size;
 
 use crate::contact_map;
 use crate::csv;

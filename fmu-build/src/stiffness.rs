@@ -6,10 +6,10 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
-use brinell::analysis::critical_load::{Bottom, CriticalLoad};
-use brinell::analysis::static_bearing::{Balance, StaticBearing, StaticError};
-use brinell::analysis::stiffness::{min_mean_max, sweep};
 use brinell::scene::ContactLaw;
+use brinell_analysis::critical_load::{Bottom, CriticalLoad};
+use brinell_analysis::static_bearing::{Balance, StaticBearing, StaticError};
+use brinell_analysis::stiffness::{min_mean_max, sweep};
 
 use crate::contact_map;
 use crate::csv;

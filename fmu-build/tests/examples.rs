@@ -42,7 +42,7 @@ fn python() -> &'static Python {
         for scene in ["er16k-tb1", "er16k-tb1-hosted-shaft"] {
             common::fmu_of(scene, &folder);
         }
-        python.with_variable("BRINELL_FMU", env!("CARGO_BIN_EXE_fmu-build"))
+        python.with_variable("BRINELL_FMU", env!("CARGO_BIN_EXE_brinell"))
     })
 }
 

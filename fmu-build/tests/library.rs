@@ -60,6 +60,7 @@ fn two_builds_in_two_folders_give_equal_bytes() {
     for part in [
         "Cargo.toml",
         "Cargo.lock",
+        "crates",
         "src",
         "benches",
         "tests",

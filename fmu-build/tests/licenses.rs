@@ -42,7 +42,7 @@ fn needed(metadata: &Value) -> Vec<&Value> {
         list.as_array().unwrap().iter().map(|item| (item["id"].as_str().unwrap(), item)).collect()
     };
     let (packages, nodes) = (by_id("packages"), by_id("nodes"));
-    let root = packages.values().find(|package| package["name"] == "brinell").unwrap()["id"].as_str().unwrap();
+    let root = packages.values().find(|package| package["name"] == "brinell-fmi").unwrap()["id"].as_str().unwrap();
     let (mut found, mut open) = (BTreeSet::new(), vec![root]);
     while let Some(id) = open.pop() {
         for dependency in nodes[id]["deps"].as_array().unwrap() {

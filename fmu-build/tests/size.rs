@@ -34,7 +34,7 @@ fn csv(folder: &Path, name: &str, columns: &[(&str, Vec<f64>)]) -> PathBuf {
 
 fn size(folder: &Path, recording: &Path, more: &[&str]) -> Output {
     let scene = common::root().join("scenes/6205-healthy.toml");
-    Command::new(env!("CARGO_BIN_EXE_fmu-build"))
+    Command::new(env!("CARGO_BIN_EXE_brinell"))
         .arg("size")
         .arg(recording)
         .arg("--scene")

@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 use std::ptr;
 
 use arbitrary::{Arbitrary, Unstructured};
-use brinell::fmi2::*;
+use brinell_fmi::fmi2::*;
 use brinell_fuzz::{Resources, get, start};
 use libfuzzer_sys::fuzz_target;
 

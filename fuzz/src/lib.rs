@@ -7,7 +7,7 @@ use std::ffi::CString;
 use std::path::PathBuf;
 use std::{fs, ptr};
 
-use brinell::fmi2::*;
+use brinell_fmi::fmi2::*;
 use brinell::scene::Scene;
 use brinell::simulation::Simulation;
 use brinell::simulation::guid::guid;

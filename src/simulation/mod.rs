@@ -14,6 +14,7 @@ pub mod explicit;
 pub mod guid;
 mod kernels;
 mod knots;
+pub mod log_category;
 pub mod outputs;
 pub mod phase_fitted;
 pub mod progress;

@@ -147,7 +147,7 @@ fn element_on_raceway(scene: &Scene) -> ElementOnRaceway {
 }
 
 /// Force [N] up to which the contact map of a scene reaches.
-pub(crate) fn largest_force(scene: &Scene) -> f64 {
+pub fn largest_force(scene: &Scene) -> f64 {
     let load = [scene.shaft.load, scene.housing.load].iter().map(|f| f[0].hypot(f[1])).fold(0.0, f64::max);
     let assumed = (4.0 * 5.0 * load / scene.bearing.element_count as f64).max(1000.0);
     scene.contact.largest_force.unwrap_or(assumed)
@@ -193,7 +193,7 @@ pub fn map_fingerprint(scene: &Scene, surface: &Surface) -> u64 {
 }
 
 /// A map that was stored with the scene; refused when it is damaged or belongs to something else.
-pub(crate) fn stored_map(scene: &Scene, surface: &Surface, bytes: &[u8]) -> Result<ContactMap, SimulationError> {
+pub fn stored_map(scene: &Scene, surface: &Surface, bytes: &[u8]) -> Result<ContactMap, SimulationError> {
     Ok(ContactMap::from_bytes(bytes, map_fingerprint(scene, surface))?)
 }
 
@@ -214,7 +214,7 @@ fn near_love(scene: &Scene, surface: &Surface) -> Result<NearDefect, SimulationE
 }
 
 /// The equations' parameters, with what the contact law needs near the defect.
-pub(crate) fn build_model(
+pub fn build_model(
     scene: &Scene,
     surface: Option<&Surface>,
     map: Option<&Arc<ContactMap>>,

@@ -1,8 +1,8 @@
 //! Derivatives: what the functions give is what a host finds by differences.
 
 use crate::host::Host;
-use brinell::fmi2::*;
 use brinell::simulation::variables::{Causality, Dependencies, Kind, Unit, Variable};
+use brinell_fmi::fmi2::*;
 use std::ptr;
 
 /// All that may move: rings inside, one ring or both from the host, sound, spalled, spalled and compliant.

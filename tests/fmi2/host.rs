@@ -4,8 +4,8 @@
 //! arguments that Brinell passes. On the platforms that the tests run on (System V x86-64, AArch64 Linux, Windows
 //! x64) variable arguments arrive where fixed ones do, so this is harmless; on Apple's AArch64 it is not.
 
-use brinell::fmi2::*;
 use brinell::simulation::guid::guid;
+use brinell_fmi::fmi2::*;
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_void};
 use std::path::{Path, PathBuf};

@@ -1,7 +1,7 @@
 //! Hosts that break the rules: whatever they do, nothing crashes, and no NaN leaves under OK.
 
 use crate::host::{Host, logger};
-use brinell::fmi2::*;
+use brinell_fmi::fmi2::*;
 use proptest::prelude::*;
 use std::ptr;
 

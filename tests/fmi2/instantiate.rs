@@ -1,7 +1,7 @@
 //! Instances: what makes one, what is refused, and handles.
 
 use crate::host::{Call, FORBIDDEN_CALLS, Host, Line, Resources, logger};
-use brinell::fmi2::*;
+use brinell_fmi::fmi2::*;
 use std::ffi::{CStr, c_void};
 use std::{fs, ptr};
 

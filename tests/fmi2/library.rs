@@ -1,7 +1,7 @@
 //! The compiled library as a host loads it.
 
-use brinell::fmi2::*;
 use brinell::simulation::guid::guid;
+use brinell_fmi::fmi2::*;
 use libloading::{Library, Symbol};
 use std::ffi::{CStr, CString};
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use std::{env, fs, ptr};
 /// The library that was built along with this test.
 pub(crate) fn library() -> PathBuf {
     let test = env::current_exe().unwrap();
-    test.with_file_name(format!("{}brinell{}", env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX))
+    test.with_file_name(format!("{}brinell_fmi{}", env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX))
 }
 
 type Instantiate = unsafe extern "C" fn(

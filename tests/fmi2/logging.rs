@@ -1,7 +1,7 @@
 //! The host's logger.
 
 use crate::host::{Host, Resources};
-use brinell::fmi2::*;
+use brinell_fmi::fmi2::*;
 use std::ffi::CString;
 use std::ptr;
 

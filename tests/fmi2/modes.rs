@@ -1,7 +1,7 @@
 //! In which mode each function may be called.
 
 use crate::host::Host;
-use brinell::fmi2::*;
+use brinell_fmi::fmi2::*;
 use std::ptr;
 
 type Probe = (&'static str, &'static str, fn(&Host) -> Status);

@@ -1,7 +1,7 @@
 //! A bug inside Brinell must not take the host down. Tests are built with the feature `panic-on-demand`.
 
 use crate::host::Host;
-use brinell::fmi2::*;
+use brinell_fmi::fmi2::*;
 
 #[test]
 fn a_panic_fails_its_own_instance_and_no_other() {

@@ -1,7 +1,7 @@
 //! A state that goes through bytes into another process continues there with the same bits.
 
 use crate::host::{Host, Resources, bits};
-use brinell::fmi2::*;
+use brinell_fmi::fmi2::*;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};

@@ -1,7 +1,7 @@
 //! Saving, restoring and serializing the state of an instance.
 
 use crate::host::{Host, bits};
-use brinell::fmi2::*;
+use brinell_fmi::fmi2::*;
 use std::ptr;
 
 const SCENES: [&str; 3] = ["er16k-tb1", "6205-hosted", "6205-epps"];

@@ -1,7 +1,7 @@
 //! Time: experiments, communication points, steps, and what is told about them.
 
 use crate::host::{Host, Resources};
-use brinell::fmi2::*;
+use brinell_fmi::fmi2::*;
 use std::ffi::CStr;
 use std::ptr;
 

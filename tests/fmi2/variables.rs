@@ -1,8 +1,8 @@
 //! Reading and setting variables.
 
 use crate::host::Host;
-use brinell::fmi2::*;
 use brinell::simulation::variables::{Causality, Kind, Variable};
+use brinell_fmi::fmi2::*;
 use std::ptr;
 
 const SCENES: [&str; 3] = ["er16k-tb1", "6205-hosted", "6205-epps"];

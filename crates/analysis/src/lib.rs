@@ -1,0 +1,30 @@
+//! What an engineer reads out of a bearing's scene or a recording: stiffness, critical load, the length of a spall.
+
+// Units in brackets, as in `[m]`, are no links.
+#![allow(rustdoc::broken_intra_doc_links)]
+
+pub mod critical_load;
+pub mod entry;
+pub mod envelope;
+pub mod error;
+pub mod event_length;
+pub mod events;
+mod kind;
+mod linear_prediction;
+pub mod measured;
+pub mod passages;
+
+pub mod recording;
+mod recording_csv;
+mod recording_file;
+mod recording_npy;
+pub mod report;
+pub mod ringing;
+pub mod spall_size;
+pub mod spectrum;
+pub mod static_bearing;
+pub mod statistics;
+pub mod stiffness;
+pub mod synthesis;
+mod trial_search;
+pub mod waveform_length;

@@ -1,0 +1,305 @@
+//! A bearing in static balance: load distribution and tangent stiffness at one cage angle, the outer ring held.
+//!
+//! The inner ring takes a given load; rings translate, nothing moves, and neither gravity nor centrifugal force acts on
+//! the elements, so that what comes out belongs to the bearing and its load alone. Supports of the rings are left out for
+//! the same reason. Elements are in balance between the rings and answer when the inner ring is displaced:
+//! ```text
+//! K = −dF/dx,   F the elements' force on the inner ring at the position x          (2 × 2, symmetric)
+//! along the load e:   held  e·K e          transverse position held
+//!                     free  1/(e·K⁻¹ e)    no transverse force
+//! ```
+//! Both agree where the loaded elements lie symmetrically about the load. K is a tangent: it belongs to small changes of
+//! load, and jumps where an element begins to carry.
+//!
+//! The load zone is the arc of smooth raceway on which the displaced inner ring squeezes: |ψ| < ψ_l from the direction of
+//! its displacement, cos ψ_l = G_r/|x|. It says where a healthy bearing's elements carry, with any number of them.
+
+use brinell::contact::map::ContactMap;
+use brinell::dynamics::drive::{Drive, Quadratic};
+use brinell::dynamics::equilibrium::EquilibriumError;
+use brinell::dynamics::forces::Forces;
+use brinell::dynamics::model::Model;
+use brinell::numerics::wrap;
+use brinell::scene::{Motion, Ring, Scene, SceneError};
+use brinell::simulation::SimulationError;
+use brinell::simulation::setup::{build_model, largest_force, stored_map};
+use brinell::surface::{Surface, SurfaceError};
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+/// Why a static study cannot be done.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum StaticError {
+    /// The scene is impossible.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The defect's profile cannot be used.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
+    /// The scene cannot be set up.
+    #[error(transparent)]
+    SetUp(#[from] SimulationError),
+    /// No balance was found.
+    #[error("cage angle {cage_angle_deg} degrees, load {load:?} N: {cause}")]
+    Equilibrium {
+        /// Cage angle [°].
+        cage_angle_deg: f64,
+        /// Load [N].
+        load: [f64; 2],
+        /// The reason.
+        cause: EquilibriumError,
+    },
+    /// A load of nothing has no direction.
+    #[error("the load on the bearing is {load:?} N: it must be finite and not 0; give shaft.load_n, or a load")]
+    NoLoad {
+        /// Load [N].
+        load: [f64; 2],
+    },
+    /// A healthy bearing was asked for its defect.
+    #[error("the scene has no defect: a critical load belongs to one")]
+    NoDefect,
+    /// The defect has no place into which an element sinks.
+    #[error("elements sink {depth_um} um into this defect: it must be above 0 to have a critical load")]
+    NoDepth {
+        /// Greatest depth of their path [µm].
+        depth_um: f64,
+    },
+}
+
+/// A bearing under static load, its outer ring held.
+#[derive(Debug, Clone)]
+pub struct StaticBearing {
+    pub(super) model: Model,
+    /// The scene without what does not act here.
+    scene: Scene,
+    surface: Option<Surface>,
+    load: [f64; 2],
+    /// First and last angle of the defect [rad] from its centre.
+    extent: Option<[f64; 2]>,
+}
+
+/// One element in balance.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct LoadedElement {
+    /// Its angle [rad], counter-clockwise from +x, in [−π, π].
+    pub angle: f64,
+    /// Its path u [m].
+    pub path: f64,
+    /// Force of the inner contact [N].
+    pub inner_force: f64,
+    /// Force of the outer contact [N].
+    pub outer_force: f64,
+    /// Approach of the inner contact [m]; of an element without load, minus its gap.
+    pub inner_approach: f64,
+    /// Whether its centre is within the length of the defect.
+    pub in_defect: bool,
+}
+
+/// The balance at one cage angle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Balance {
+    /// Angle of element 1 [rad].
+    pub cage_angle: f64,
+    /// Load on the inner ring [N].
+    pub load: [f64; 2],
+    /// Position of the inner ring [m].
+    pub displacement: [f64; 2],
+    /// K [N/m].
+    pub stiffness: [[f64; 2]; 2],
+    /// Half-angle of the load zone ψ_l [rad].
+    pub load_zone: f64,
+    /// All elements, from element 1.
+    pub elements: Vec<LoadedElement>,
+}
+
+impl StaticBearing {
+    /// Sets up the bearing of a scene. `profile` is the text of the defect's profile file, when the scene names one.
+    ///
+    /// # Errors
+    /// Whatever is wrong with scene or profile, or a contact law that this defect cannot have.
+    pub fn new(scene: &Scene, profile: Option<&str>) -> Result<Self, StaticError> {
+        Self::with_map(scene, profile, None)
+    }
+
+    /// As [`new`](Self::new), with the bytes of the contact map that was stored for the scene. Without it, law `map` computes the map
+    /// on one core.
+    ///
+    /// # Errors
+    /// Those of `new`; a map that is damaged or belongs to something else.
+    pub fn with_map(scene: &Scene, profile: Option<&str>, map: Option<&[u8]>) -> Result<Self, StaticError> {
+        scene.check()?;
+        let surface =
+            scene.defect.as_ref().map(|defect| Surface::load(&defect.shape, profile, &scene.bearing)).transpose()?;
+        let map = match (&surface, map) {
+            (Some(surface), Some(bytes)) => Some(Arc::new(stored_map(scene, surface, bytes)?)),
+            _ => None,
+        };
+        let load = load_on_bearing(scene);
+        let still = Ring { motion: Motion::Fixed, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
+        let mut held = scene.clone();
+        // The load goes another way; the map is to reach as far as the scene's.
+        held.contact.largest_force = Some(largest_force(scene));
+        held.gravity = [0.0; 2];
+        held.shaft = Ring { motion: Motion::Internal, mass: 1.0, ..still };
+        held.housing = still;
+        held.sensor = None;
+        Ok(Self { load, ..Self::with_surface(held, surface, map.as_ref())? })
+    }
+
+    fn with_surface(
+        scene: Scene,
+        surface: Option<Surface>,
+        map: Option<&Arc<ContactMap>>,
+    ) -> Result<Self, StaticError> {
+        let radius = scene.bearing.outer_raceway_radius();
+        let model = build_model(&scene, surface.as_ref(), map)?;
+        let extent = surface.as_ref().map(Surface::extent).map(|(first, last)| [first / radius, last / radius]);
+        Ok(Self { model, extent, surface, scene, load: [0.0; 2] })
+    }
+
+    /// The scene's load on the bearing [N]: that on the inner ring, or, where there is none, against that on the outer.
+    pub fn load(&self) -> [f64; 2] {
+        self.load
+    }
+
+    /// Number of elements Z.
+    pub fn element_count(&self) -> usize {
+        self.model.element_count
+    }
+
+    /// The spacing of the elements [rad]. Everything repeats with it.
+    pub fn spacing(&self) -> f64 {
+        TAU / self.model.element_count as f64
+    }
+
+    /// The balance with element 1 at `cage_angle` [rad] under `load` [N] on the inner ring.
+    ///
+    /// # Errors
+    /// A load that is 0 or not finite; no equilibrium found.
+    pub fn balance(&self, cage_angle: f64, load: [f64; 2]) -> Result<Balance, StaticError> {
+        if !(load.iter().all(|f| f.is_finite()) && load != [0.0; 2]) {
+            return Err(StaticError::NoLoad { load });
+        }
+        let model = &self.model;
+        let drive = Drive { cage_start: cage_angle, shaft_load: load.map(Quadratic::constant), ..Drive::default() };
+        let cells: Vec<u32> = (0..model.element_count).map(|j| model.cell_at(j, cage_angle)).collect();
+        let mut state = vec![0.0; model.layout.len];
+        model.equilibrium(&drive, &cells, &mut state).map_err(|cause| StaticError::Equilibrium {
+            cage_angle_deg: cage_angle.to_degrees(),
+            load,
+            cause,
+        })?;
+        let mut forces = Forces::new(model.element_count);
+        model.derivative(&drive, 0.0, &cells, &state, &mut vec![0.0; state.len()], &mut forces);
+        let displacement = model.shaft_state(&drive, 0.0, &state).position;
+        let paths = &state[..model.element_count];
+        let jacobian = model.ring_jacobian(paths, &cells, displacement.map(|x| -x), cage_angle);
+        let elements = (0..model.element_count).map(|j| LoadedElement {
+            angle: wrap(cage_angle + model.element_offset(j)),
+            path: paths[j],
+            inner_force: forces.contacts.inner[j],
+            outer_force: forces.contacts.outer[j],
+            inner_approach: forces.contacts.inner_approach[j],
+            in_defect: self.is_in_defect(j, cage_angle),
+        });
+        Ok(Balance {
+            cage_angle,
+            load,
+            displacement,
+            stiffness: [0, 1].map(|a| [0, 1].map(|b| -jacobian[a][b])),
+            load_zone: load_zone(model.radial_clearance, displacement),
+            elements: elements.collect(),
+        })
+    }
+
+    /// The same bearing under another load on the inner ring [N].
+    pub fn with_load(&self, load: [f64; 2]) -> Self {
+        Self { load, ..self.clone() }
+    }
+
+    /// The same bearing with another radial clearance [m]; the raceways' radii, and with them the Hertz constants, stay:
+    /// they would change by as little as the clearance is against them.
+    pub fn with_clearance(&self, clearance: f64) -> Self {
+        let mut other = self.clone();
+        other.model.radial_clearance = clearance;
+        other
+    }
+
+    /// The same bearing with another compliance in series with each outer contact [m/N].
+    pub fn with_outer_compliance(&self, compliance: f64) -> Self {
+        let mut other = self.clone();
+        other.model.outer.compliance = compliance;
+        other
+    }
+
+    /// The same bearing with every depth of its defect multiplied by a factor.
+    ///
+    /// # Errors
+    /// No defect; a defect that becomes deeper than an element's radius.
+    pub fn with_depth_times(&self, factor: f64) -> Result<Self, StaticError> {
+        let surface = self.surface.as_ref().ok_or(StaticError::NoDefect)?.scaled(factor, &self.scene.bearing)?;
+        let mut other = Self::with_surface(self.scene.clone(), Some(surface), None)?;
+        other.load = self.load;
+        Ok(other.with_clearance(self.model.radial_clearance).with_outer_compliance(self.model.outer.compliance))
+    }
+
+    /// First and last angle of the defect [rad] from its centre, and the angle of its centre.
+    pub(super) fn extent(&self) -> Option<([f64; 2], f64)> {
+        self.extent.zip(self.model.defect.as_ref().map(|(_, centre)| *centre))
+    }
+
+    /// Length of the defect along the raceway [rad]; `None` without one.
+    pub fn defect_length(&self) -> Option<f64> {
+        self.extent.map(|[first, last]| last - first)
+    }
+
+    fn is_in_defect(&self, j: usize, cage_angle: f64) -> bool {
+        self.extent().is_some_and(|([first, last], centre)| {
+            let angle = self.model.angle_from_defect(j, cage_angle, centre);
+            angle >= first && angle <= last
+        })
+    }
+}
+
+impl Balance {
+    /// Unit vector along the load.
+    pub fn load_direction(&self) -> [f64; 2] {
+        let [x, y] = self.load;
+        let length = (x * x + y * y).sqrt();
+        [x / length, y / length]
+    }
+
+    /// Stiffness along the load with the transverse position held, e·K e [N/m].
+    pub fn held_stiffness(&self) -> f64 {
+        let [x, y] = self.load_direction();
+        let [[xx, xy], [yx, yy]] = self.stiffness;
+        x * (xx * x + xy * y) + y * (yx * x + yy * y)
+    }
+
+    /// Stiffness along the load without transverse force, 1/(e·K⁻¹ e) [N/m]; 0 where nothing holds the ring sideways.
+    pub fn free_stiffness(&self) -> f64 {
+        let [x, y] = self.load_direction();
+        let [[xx, xy], [yx, yy]] = self.stiffness;
+        // e·adj(K) e is the transverse stiffness.
+        let transverse = x * (yy * x - xy * y) + y * (xx * y - yx * x);
+        if transverse > 0.0 { (xx * yy - xy * yx) / transverse } else { 0.0 }
+    }
+
+    /// Numbers of the elements that carry load, from 0.
+    pub fn loaded(&self) -> impl Iterator<Item = usize> {
+        self.elements.iter().enumerate().filter(|(_, element)| element.inner_force > 0.0).map(|(j, _)| j)
+    }
+}
+
+fn load_on_bearing(scene: &Scene) -> [f64; 2] {
+    if scene.shaft.load != [0.0; 2] { scene.shaft.load } else { scene.housing.load.map(|f| 0.0 - f) }
+}
+
+fn load_zone(clearance: f64, displacement: [f64; 2]) -> f64 {
+    let [x, y] = displacement;
+    let length = (x * x + y * y).sqrt();
+    if length <= clearance.abs() {
+        return if clearance > 0.0 { 0.0 } else { PI };
+    }
+    libm::acos(clearance / length)
+}

@@ -1,0 +1,163 @@
+//! The search among trial spalls for the one whose simulated passage is most like a measured one.
+//!
+//! Likeness has one top per spall but many lower ones beside it (a period of ringing off), so that a ladder of lengths comes first. From
+//! the best rungs the search climbs in length and depth together: where elements reach the floor, a micrometre of depth moves their
+//! strikes as much as a tenth of a degree of length does, and neither is found without the other.
+
+use super::synthesis::{Rig, Run, Trial, likeness};
+use brinell::scene::ContactLaw;
+
+/// Step of the last search [degrees].
+pub(super) const FINE: f64 = 0.1;
+/// Half the range in which the contact's width can shift a length [degrees].
+const WIDE: f64 = 0.8;
+/// First steps of a climb, in length [degrees] and as a ratio of depths.
+const FIRST_STEPS: (f64, f64) = (0.4, 1.25);
+/// Times the steps are halved: to a twentieth of a degree and 3 % of the depth.
+const HALVINGS: usize = 3;
+/// Steps after which a climb is given up; usual ones take fewer than ten.
+const MOST_STEPS: usize = 24;
+
+/// A trial with its passage.
+#[derive(Debug, Clone)]
+pub(super) struct Fit {
+    pub(super) trial: Trial,
+    pub(super) likeness: f64,
+    pub(super) passage: Vec<f64>,
+}
+
+/// A rig, and the measured passage that its trials are compared with.
+pub(super) struct Search<'a> {
+    pub(super) rig: &'a Rig<'a>,
+    pub(super) target: &'a [f64],
+}
+
+impl Search<'_> {
+    /// Climbs from a trial to the nearest top of likeness over length and depth.
+    pub(super) fn climb(&self, from: &Fit) -> Fit {
+        let mut best = from.clone();
+        let (mut by_length, mut by_depth) = FIRST_STEPS;
+        let mut halvings = 0;
+        for _ in 0..MOST_STEPS {
+            let around = [-1.0, 0.0, 1.0].into_iter().flat_map(|l| [1.0 / by_depth, 1.0, by_depth].map(|d| (l, d)));
+            let trials: Vec<Trial> = around
+                .filter(|&step| step != (0.0, 1.0))
+                .map(|(l, d)| Trial {
+                    length: (best.trial.length + l * by_length).max(FINE),
+                    depth: best.trial.depth * d,
+                    ..best.trial
+                })
+                .collect();
+            let next = self.fits(&trials, Run::Short).into_iter().next();
+            if let Some(next) = next.filter(|next| next.likeness > best.likeness) {
+                best = next;
+            } else if halvings < HALVINGS {
+                halvings += 1;
+                by_length *= 0.5;
+                by_depth = by_depth.sqrt();
+            } else {
+                break;
+            }
+        }
+        best
+    }
+
+    /// The top of likeness around a length.
+    pub(super) fn peak(&self, around: f64, trial: Trial) -> Option<Peak> {
+        let from = (around - 3.0 * FINE).max(FINE);
+        let trials: Vec<Trial> =
+            lengths(from, around + 3.0 * FINE, FINE).map(|length| Trial { length, ..trial }).collect();
+        Peak::of(self.fits(&trials, Run::Long), self.target)
+    }
+
+    /// The same by a law that minds the contact's width and so shifts the edges, with two runs of it: a map is dear.
+    ///
+    /// How long a run by that law seems to be when measured with the cheap law's runs says how much that law errs.
+    pub(super) fn with_law(&self, peak: &Peak, law: ContactLaw) -> Option<OwnLaw> {
+        // The map is the grid's law, computed beforehand.
+        let law = if law == ContactLaw::Love { ContactLaw::Map } else { law };
+        if law == ContactLaw::Hertz {
+            return None;
+        }
+        let trial = |length: f64, law: ContactLaw| Trial { length, depth: peak.depth, law };
+        let ruler: Vec<Trial> = lengths((peak.length - WIDE).max(FINE), peak.length + WIDE, FINE)
+            .map(|length| trial(length, ContactLaw::Hertz))
+            .collect();
+        let mut ruler = self.fits(&ruler, Run::Long);
+        ruler.sort_by(|a, b| a.trial.length.total_cmp(&b.trial.length));
+        let seems = top(&ruler, self.target)?.0;
+        let mut length = seems;
+        let mut passage = Vec::new();
+        for _ in 0..2 {
+            passage = self.rig.passage(trial(length, law), Run::Long).ok()?;
+            length = (length - (top(&ruler, &passage)?.0 - seems)).max(FINE);
+        }
+        Some(OwnLaw { length, likeness: likeness(self.target, &passage), passage })
+    }
+
+    /// The trials in the order of their likeness; those that cannot be simulated are left out.
+    pub(super) fn fits(&self, trials: &[Trial], run: Run) -> Vec<Fit> {
+        let threads = std::thread::available_parallelism().map_or(1, |n| n.get().min(8));
+        let share = trials.len().div_ceil(threads).max(1);
+        let fit = |&trial: &Trial| {
+            let passage = self.rig.passage(trial, run).ok()?;
+            Some(Fit { trial, likeness: likeness(self.target, &passage), passage })
+        };
+        let mut fits: Vec<Fit> = std::thread::scope(|scope| {
+            let parts: Vec<_> = trials
+                .chunks(share)
+                .map(|part| scope.spawn(move || part.iter().filter_map(fit).collect::<Vec<_>>()))
+                .collect();
+            parts.into_iter().flat_map(|part| part.join().unwrap_or_default()).collect()
+        });
+        fits.sort_by(|a, b| b.likeness.total_cmp(&a.likeness));
+        fits
+    }
+}
+
+/// The answer by the scene's own law.
+pub(super) struct OwnLaw {
+    pub(super) length: f64,
+    pub(super) likeness: f64,
+    pub(super) passage: Vec<f64>,
+}
+
+/// The top of likeness over length at one depth.
+#[derive(Debug, Clone)]
+pub(super) struct Peak {
+    pub(super) length: f64,
+    pub(super) depth: f64,
+    pub(super) likeness: f64,
+    /// In the order of length.
+    pub(super) fits: Vec<Fit>,
+    pub(super) top: usize,
+}
+
+impl Peak {
+    fn of(mut fits: Vec<Fit>, target: &[f64]) -> Option<Self> {
+        fits.sort_by(|a, b| a.trial.length.total_cmp(&b.trial.length));
+        let depth = fits.first()?.trial.depth;
+        let (length, likeness, top) = top(&fits, target)?;
+        Some(Self { length, depth, likeness, fits, top })
+    }
+}
+
+/// Length, likeness and index at the top of the parabola through the best three.
+pub(super) fn top(fits: &[Fit], target: &[f64]) -> Option<(f64, f64, usize)> {
+    let like: Vec<f64> = fits.iter().map(|f| likeness(target, &f.passage)).collect();
+    let i = (0..like.len()).max_by(|&a, &b| like[a].total_cmp(&like[b]))?;
+    let length = fits[i].trial.length;
+    if i == 0 || i + 1 == fits.len() {
+        return Some((length, like[i], i));
+    }
+    let (a, b, c) = (like[i - 1], like[i], like[i + 1]);
+    let bend = a - 2.0 * b + c;
+    let shift = if bend < 0.0 { 0.5 * (a - c) / bend } else { 0.0 };
+    Some((length + shift * FINE, b, i))
+}
+
+/// Lengths from one to another [degrees].
+pub(super) fn lengths(from: f64, to: f64, step: f64) -> impl Iterator<Item = f64> {
+    let count = ((to - from) / step + 1e-9).floor().max(0.0) as usize;
+    (0..=count).map(move |i| from + step * i as f64)
+}

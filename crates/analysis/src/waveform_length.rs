@@ -1,0 +1,187 @@
+//! Spall length as the trial spall whose simulated passage is most like the measured one; see [`synthesis`].
+//!
+//! The search goes from coarse to fine: lengths in steps of a degree up to two element spacings (an extended spall looks like
+//! a line spall one spacing shorter, but for the frequency of its ringing), deep and, if nothing deep is alike, with floors within the
+//! elements' reach, by the cheap contact law; from the best three a climb in length and depth; the best of these with other depths and the scene's own
+//! law. A parabola through the best three lengths gives the last digits.
+//!
+//! [`synthesis`]: super::synthesis
+
+use super::event_length;
+use super::measured::Measured;
+use super::passages;
+use super::statistics::{self, Random};
+use super::synthesis::{POINTS, Rig, Run, Trial, below_cut, best_shift};
+use super::trial_search::{FINE, Fit, OwnLaw, Peak, Search, lengths, top};
+use brinell::scene::{ContactLaw, Scene};
+
+/// Likeness from which the scene's rig is taken to be the recording's.
+pub const LIKE: f64 = 0.9;
+/// Likeness of the coarse search below which the fine one is not worth its time.
+const HOPELESS: f64 = 0.5;
+/// Depth of the first trial spalls [m]: where elements do not reach the floor, it does not matter.
+const DEPTH: f64 = 100e-6;
+/// Shallow trials, in approaches of the most loaded element: at 3.3 of them the neighbours' squeeze brings the inner ring down to the floor of
+/// an extended spall.
+const SHALLOW: [f64; 5] = [4.4, 3.4, 2.6, 2.0, 1.5];
+/// Depths tried beside the best, as shares of it.
+const OTHER_DEPTHS: [f64; 4] = [0.5, 0.25, 2.0, 4.0];
+/// Step of the ladder [degrees]; half of it where elements stand on the floor, for likeness falls off more steeply there.
+const STEP: f64 = 1.0;
+/// Climbs from the ladder's best trials at most.
+const BEGINNINGS: usize = 4;
+/// Likeness at the top of a climb after which no other is tried.
+const UNMISTAKABLE: f64 = 0.97;
+/// Resamplings of the passages.
+const RESAMPLINGS: usize = 60;
+
+/// Length by likeness. Angles in degrees of the outer raceway.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WaveformLength {
+    /// Length.
+    pub length: f64,
+    /// Depth of the best trial [m].
+    pub depth: f64,
+    /// Standard uncertainty from the scatter of passages.
+    pub statistical: f64,
+    /// Standard uncertainty from depths that fit as well.
+    pub systematic: f64,
+    /// Likeness of the best trial.
+    pub likeness: f64,
+    /// Largest likeness of a trial that is a line spall, and of one that is extended.
+    pub by_kind: [f64; 2],
+    /// Where in a period an entry begins [share of it].
+    pub entry: f64,
+    /// The most alike passage, moved over the measured one and turned its way: [`POINTS`] points from the period's start, norm 1.
+    pub model: Vec<f64>,
+}
+
+/// A rig that is not the recording's.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NotAlike {
+    /// Likeness of the best trial; 0 where none could be simulated.
+    pub likeness: f64,
+}
+
+/// Sizes the recording by the scene's rig.
+///
+/// # Errors
+/// A rig that cannot be simulated, or sounds different.
+pub fn estimate(measured: &Measured, scene: &Scene, rig: &Rig<'_>) -> Result<WaveformLength, NotAlike> {
+    let mut heard = NotAlike { likeness: 0.0 };
+    let found = search(measured, scene, rig, &mut heard);
+    found.ok_or(heard)
+}
+
+fn search(measured: &Measured, scene: &Scene, rig: &Rig<'_>, heard: &mut NotAlike) -> Option<WaveformLength> {
+    let rows = measured.signal_rows(0.0, POINTS);
+    let target = below_cut(&passages::average(&rows), measured.bpfo);
+    let search = Search { rig, target: &target };
+    let spacing = measured.spacing;
+    let simple = |length: f64, depth: f64| Trial { length, depth, law: ContactLaw::Hertz };
+    let ladder = |depth: f64, step: f64| -> Vec<Trial> {
+        let all = lengths(1.0, 1.95 * spacing, step).filter(|l| (l / spacing - 1.0).abs() > 0.02);
+        all.map(|length| simple(length, depth)).collect()
+    };
+    let mut found = search.fits(&ladder(DEPTH, STEP), Run::Short);
+    heard.likeness = found.first()?.likeness;
+    let mut climbed = climbs(&search, &found);
+    if climbed.first().is_none_or(|best| best.likeness < LIKE)
+        && let Some(approach) = event_length::approach(scene)
+    {
+        let shallow: Vec<Trial> = SHALLOW.iter().flat_map(|times| ladder(times * approach, 0.5 * STEP)).collect();
+        found.extend(search.fits(&shallow, Run::Short));
+        found.sort_by(|a, b| b.likeness.total_cmp(&a.likeness));
+        climbed = climbs(&search, &found);
+    }
+    heard.likeness = climbed.first().map_or(heard.likeness, |best| best.likeness);
+    let Trial { length: around, depth, .. } = climbed.first()?.trial;
+    found.extend(climbed);
+    // The usual depth once only, where the climb has not left it.
+    let mut peaks: Vec<Peak> = std::iter::once(DEPTH)
+        .chain((depth != DEPTH).then_some(depth))
+        .chain(OTHER_DEPTHS.iter().map(|share| share * depth))
+        .filter_map(|depth| search.peak(around, simple(around, depth)))
+        .collect();
+    let likest = peaks.iter().map(|p| p.likeness).fold(0.0, f64::max);
+    // As good as the best: within half of what the best itself leaves unexplained.
+    let limit = likest - 0.5 * (1.0 - likest).max(1e-3);
+    peaks.retain(|p| p.likeness >= limit);
+    let range = peaks.iter().fold((f64::MAX, f64::MIN), |(l, h), p| (l.min(p.length), h.max(p.length)));
+    // The first is the usual depth, if it is as good: a depth that elements do not reach leaves no trace.
+    let cheap = peaks.into_iter().next()?;
+    // Below what can be resolved the law's last tenth of a degree decides nothing, and its map is dear.
+    let short = event_length::limit(scene).is_some_and(|limit| cheap.length + 2.0 * FINE < limit);
+    let own = if short { None } else { search.with_law(&cheap, scene.contact.law) };
+    let best = own.unwrap_or_else(|| OwnLaw {
+        length: cheap.length,
+        likeness: cheap.likeness,
+        passage: cheap.fits[cheap.top].passage.clone(),
+    });
+    heard.likeness = best.likeness;
+    if best.likeness < LIKE {
+        return None;
+    }
+    let of_kind = |extended: bool| {
+        let all = found.iter().filter(|f| (f.trial.length > spacing) == extended);
+        all.map(|f| f.likeness).fold(if (best.length > spacing) == extended { best.likeness } else { 0.0 }, f64::max)
+    };
+    let (shift, _) = best_shift(&target, &best.passage);
+    Some(WaveformLength {
+        length: best.length,
+        depth: cheap.depth,
+        statistical: bootstrap(&rows, measured.bpfo, &cheap),
+        systematic: 0.5 * (range.1 - range.0) / 3f64.sqrt(),
+        likeness: best.likeness,
+        by_kind: [of_kind(false), of_kind(true)],
+        entry: (shift - 0.5 * best.length / spacing).rem_euclid(1.0),
+        model: moved_over(&target, &best.passage, shift),
+    })
+}
+
+/// Climbs from the best trials of a ladder that are apart, the best first; none where all are hopeless.
+fn climbs(search: &Search<'_>, found: &[Fit]) -> Vec<Fit> {
+    let mut climbed: Vec<Fit> = Vec::new();
+    let mut beginnings: Vec<&Fit> = Vec::new();
+    for fit in found.iter().filter(|fit| fit.likeness >= HOPELESS) {
+        let apart = |b: &&Fit| {
+            let ratio = libm::log(b.trial.depth / fit.trial.depth).abs();
+            (b.trial.length - fit.trial.length).abs() > 0.8 || ratio > 0.2
+        };
+        if beginnings.len() == BEGINNINGS || climbed.last().is_some_and(|top| top.likeness > UNMISTAKABLE) {
+            break;
+        }
+        if beginnings.iter().all(apart) {
+            beginnings.push(fit);
+            climbed.push(search.climb(fit));
+        }
+    }
+    climbed.sort_by(|a, b| b.likeness.total_cmp(&a.likeness));
+    climbed
+}
+
+/// The passage moved by `shift` periods, its sign that of the target.
+fn moved_over(target: &[f64], passage: &[f64], shift: f64) -> Vec<f64> {
+    let n = passage.len();
+    let by = (shift * n as f64).round() as usize;
+    let mut moved: Vec<f64> = (0..n).map(|i| passage[(i + 2 * n - by) % n]).collect();
+    let product: f64 = moved.iter().zip(target).map(|(a, b)| a * b).sum();
+    moved.iter_mut().for_each(|x| *x *= product.signum());
+    moved
+}
+
+fn bootstrap(rows: &[Vec<f64>], bpfo: f64, best: &Peak) -> f64 {
+    let mut random = Random::new(rows.len() as u64);
+    let lengths: Vec<f64> = (0..RESAMPLINGS)
+        .filter_map(|_| {
+            let mut sum = vec![0.0; POINTS];
+            for _ in 0..rows.len() {
+                for (s, x) in sum.iter_mut().zip(&rows[random.below(rows.len())]) {
+                    *s += x;
+                }
+            }
+            top(&best.fits, &below_cut(&sum, bpfo)).map(|(length, _, _)| length)
+        })
+        .collect();
+    statistics::spread(&lengths)
+}

@@ -1,0 +1,125 @@
+//! What can go wrong in a call: the status that the host gets, and the line that tells its user what to do.
+//!
+//! `fmi2Error` condemns the instance until it is reset or restored. `fmi2Discard` is kept for what a host can put right
+//! by itself: a value outside its variable's range, a status that is not known here, a derivative that does not exist.
+
+use super::blob::BlobError;
+use super::clock::ClockError;
+use super::state::{Mode, Modes};
+use super::types::{Status, StatusKind};
+use brinell::recording::RecordingError;
+use brinell::simulation::{SimulationError, VariableError};
+
+/// What went wrong in a call.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum Failure {
+    /// The function may not be called in this mode.
+    #[error("not allowed in mode \"{mode}\", only in: {allowed}")]
+    OutOfMode {
+        /// Mode of the instance.
+        mode: Mode,
+        /// Modes in which it is allowed.
+        allowed: Modes,
+    },
+    /// A null pointer where there must be none.
+    #[error("argument {0} is NULL")]
+    NullPointer(&'static str),
+    /// A pointer that no array of this type can have.
+    #[error("argument {0} is not aligned for its type")]
+    Misaligned(&'static str),
+    /// An array longer than any that makes sense.
+    #[error("argument {name} has {count} elements, at most {limit} are accepted")]
+    TooLong {
+        /// The argument.
+        name: &'static str,
+        /// Its length.
+        count: usize,
+        /// Longest accepted.
+        limit: usize,
+    },
+    /// An array to be written lies over one to be read.
+    #[error("input and output arrays overlap")]
+    Overlap,
+    /// A string that is not UTF-8.
+    #[error("argument {0} is not UTF-8")]
+    NotUtf8(&'static str),
+    /// Initialization without an experiment.
+    #[error("call fmi2SetupExperiment first")]
+    NotSetUp,
+    /// A tolerance that is none.
+    #[error("tolerance {0}: it must be finite and above 0")]
+    Tolerance(f64),
+    /// A time or a step that is refused.
+    #[error(transparent)]
+    Clock(#[from] ClockError),
+    /// A variable was addressed wrongly or given an impossible value.
+    #[error(transparent)]
+    Variable(#[from] VariableError),
+    /// The model could not do what was asked.
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
+    /// A recording that cannot be written.
+    #[error(transparent)]
+    Recording(#[from] RecordingError),
+    /// A result that is not a number, or infinite.
+    #[error("variable {name} is {value}; it is not handed out. Check the inputs and the step size")]
+    NotFinite {
+        /// Its name.
+        name: String,
+        /// Its value.
+        value: f64,
+    },
+    /// A handle of a state that this instance did not give out, or that was freed.
+    #[error(
+        "the FMU state is not one of this instance's: initialise the variable to NULL before fmi2GetFMUstate, \
+         and take a state to another instance through fmi2SerializeFMUstate"
+    )]
+    UnknownState,
+    /// Bytes that are not a state of this model.
+    #[error(transparent)]
+    Blob(#[from] BlobError),
+    /// A buffer of another size than the state needs.
+    #[error("size {given}: the serialized state has {needed} bytes, see fmi2SerializedFMUstateSize")]
+    Size {
+        /// Size given.
+        given: usize,
+        /// Size needed.
+        needed: usize,
+    },
+    /// A status that cannot be asked for here.
+    #[error("status kind {0} is not known to this function")]
+    UnknownStatus(StatusKind),
+    /// Logging categories that do not exist.
+    #[error("unknown category \"{0}\"; the known ones among the others are set")]
+    UnknownCategory(String),
+    /// A bug in Brinell.
+    #[error("internal error: {0}. Please report it")]
+    Panic(String),
+}
+
+impl Failure {
+    /// The status that the host gets.
+    pub(super) fn status(&self) -> Status {
+        match self {
+            Failure::UnknownCategory(_) => Status::Warning,
+            Failure::UnknownStatus(_)
+            | Failure::Variable(VariableError::OutOfRange { .. })
+            | Failure::Simulation(
+                SimulationError::NoDerivative | SimulationError::Variable(VariableError::OutOfRange { .. }),
+            ) => Status::Discard,
+            _ => Status::Error,
+        }
+    }
+
+    /// What the host can do after this.
+    pub(super) fn advice(&self) -> &'static str {
+        match self.status() {
+            Status::Warning => "",
+            Status::Discard => " Nothing was changed; the run can go on.",
+            _ => {
+                " The instance is in error: call fmi2Reset, restore a saved state with fmi2SetFMUstate, \
+                 or call fmi2FreeInstance."
+            }
+        }
+    }
+}

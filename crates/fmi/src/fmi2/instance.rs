@@ -1,0 +1,156 @@
+//! One instance: the model, where it is in time, in which mode, and how it talks to the host.
+
+use std::ffi::{CString, c_char};
+
+use super::clock::Clock;
+use super::failure::Failure;
+use super::logger::{Logger, c_string};
+use super::resources::Model;
+use super::snapshots::{Snapshot, Snapshots};
+use super::state::Mode;
+use super::types::{FmuState, Status, ValueReference};
+use brinell::recording::Recording;
+use brinell::simulation::{Simulation, VariableError};
+
+/// One instance of the FMU.
+#[derive(Debug)]
+pub(super) struct Instance {
+    /// Mode, which decides what may be called.
+    pub(super) mode: Mode,
+    /// Where the experiment begins, is, and ends; `None` before `fmi2SetupExperiment`.
+    pub(super) clock: Option<Clock>,
+    /// Status of the last `fmi2DoStep`.
+    pub(super) last_step: Status,
+    /// Whether a panic has left the simulation in an unknown condition.
+    pub(super) damaged: bool,
+    /// The bearing.
+    pub(super) simulation: Simulation,
+    /// The way to the host's logger.
+    pub(super) logger: Logger,
+    /// What the resources describe.
+    pub(super) model: Model,
+    /// States that the host has saved.
+    pub(super) snapshots: Snapshots,
+    /// The file that the recorder's samples go to.
+    recording: Option<Recording>,
+    /// Strings handed out last, which stay valid until the next call of `fmi2GetString`.
+    texts: Vec<CString>,
+}
+
+impl Instance {
+    /// A fresh instance of a model and the simulation that was set up for it.
+    pub(super) fn new(model: Model, simulation: Simulation, logger: Logger) -> Self {
+        Self {
+            mode: Mode::Instantiated,
+            clock: None,
+            last_step: Status::Ok,
+            damaged: false,
+            simulation,
+            logger,
+            model,
+            snapshots: Snapshots::default(),
+            recording: None,
+            texts: Vec::new(),
+        }
+    }
+
+    /// Back to where [`new`](Self::new) left it. Saved states and logging stay.
+    pub(super) fn reset(&mut self) -> Result<(), Failure> {
+        self.finish_recording()?;
+        self.recording = None;
+        self.rebuild()?;
+        self.mode = Mode::Instantiated;
+        self.clock = None;
+        self.last_step = Status::Ok;
+        Ok(())
+    }
+
+    /// Finds the static equilibrium and begins the recording, if there is to be one.
+    pub(super) fn initialize(&mut self, start: f64) -> Result<(), Failure> {
+        self.simulation.initialize(start)?;
+        self.recording = Recording::begin(&self.simulation, self.logger.instance_name())?;
+        Ok(())
+    }
+
+    /// Takes a step of the model.
+    pub(super) fn step(&mut self, step: f64) -> Result<(), Failure> {
+        self.simulation.step(step)?;
+        if let Some(recording) = &mut self.recording {
+            recording.keep_up(&mut self.simulation)?;
+        }
+        Ok(())
+    }
+
+    /// Stores what the recorder still holds.
+    pub(super) fn finish_recording(&mut self) -> Result<(), Failure> {
+        match &mut self.recording {
+            Some(recording) => Ok(recording.store(&mut self.simulation)?),
+            None => Ok(()),
+        }
+    }
+
+    fn rebuild(&mut self) -> Result<(), Failure> {
+        self.simulation = self.model.build()?;
+        self.damaged = false;
+        Ok(())
+    }
+
+    /// Saves everything that the instance's future depends on: over the state behind `handle`, or anew if it is null.
+    pub(super) fn save(&mut self, handle: FmuState) -> Result<FmuState, Failure> {
+        let Self { mode, clock, last_step, ref simulation, .. } = *self;
+        self.snapshots.put(handle, |old| match old {
+            Some(old) => {
+                simulation.save_into(&mut old.simulation);
+                (old.mode, old.clock, old.last_step) = (mode, clock, last_step);
+                None
+            }
+            None => Some(Snapshot { mode, clock, last_step, simulation: simulation.save() }),
+        })
+    }
+
+    /// Puts a saved state back. A simulation that a panic has damaged is set up anew first.
+    pub(super) fn restore(&mut self, handle: FmuState) -> Result<(), Failure> {
+        if self.damaged {
+            let folder = self.simulation.recorder().map(|recorder| recorder.folder().to_owned());
+            self.rebuild()?;
+            self.simulation.record_into(folder.as_deref().unwrap_or_default());
+        }
+        let snapshot = self.snapshots.get(handle)?;
+        self.simulation.restore(&snapshot.simulation)?;
+        self.mode = snapshot.mode;
+        self.clock = snapshot.clock;
+        self.last_step = snapshot.last_step;
+        Ok(())
+    }
+
+    /// The error that says why a variable is not what a call takes it for.
+    pub(super) fn wrong_type(&self, reference: ValueReference, wanted: &'static str) -> VariableError {
+        let table = self.simulation.table();
+        match table.get(reference as usize) {
+            Some(variable) => VariableError::WrongType { name: variable.name.clone(), reference, wanted },
+            None => VariableError::UnknownReference(reference, table.len() as u32),
+        }
+    }
+
+    /// Refuses results that are not finite.
+    #[inline]
+    pub(super) fn finite(&self, references: &[ValueReference], values: &[f64]) -> Result<(), Failure> {
+        // 0·x is 0 for what is finite and NaN otherwise, and so is the sum: no branch in the loop.
+        if values.iter().map(|value| 0.0 * value).sum::<f64>() == 0.0 {
+            return Ok(());
+        }
+        let index = values.iter().position(|value| !value.is_finite()).unwrap_or_default();
+        let name = references
+            .get(index)
+            .and_then(|reference| self.simulation.table().get(*reference as usize))
+            .map(|variable| variable.name.clone())
+            .unwrap_or_default();
+        Err(Failure::NotFinite { name, value: values.get(index).copied().unwrap_or(f64::NAN) })
+    }
+
+    /// Keeps strings alive for the host and hands out their addresses.
+    pub(super) fn keep(&mut self, texts: Vec<String>) -> impl Iterator<Item = *const c_char> {
+        self.texts = texts.into_iter().map(c_string).collect();
+        self.texts.iter().map(|text| text.as_ptr())
+    }
+}

@@ -1,0 +1,105 @@
+//! The FMU's `resources/` directory: `scene.toml`, the profile that the scene names, and the contact map `map.bin`.
+//!
+//! The one place in the FMU that reads files, and only in `fmi2Instantiate`.
+
+use std::ffi::CStr;
+use std::path::{Component, Path, PathBuf};
+use std::{fs, io};
+
+use super::uri::{self, UriError};
+use brinell::scene::{DefectShape, Scene, SceneError};
+use brinell::simulation::guid::guid;
+use brinell::simulation::{Simulation, SimulationError};
+
+/// Why the model could not be read or set up.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum ResourceError {
+    /// The location names no path.
+    #[error(transparent)]
+    Uri(#[from] UriError),
+    /// A file that cannot be read.
+    #[error("resource {path}: {source}")]
+    Unreadable {
+        /// Its path.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// A profile that does not lie in the directory.
+    #[error("profile \"{0}\": it must be the name of a file beside scene.toml")]
+    OutsideResources(String),
+    /// A scene that is refused.
+    #[error("resource {path}: {source}")]
+    Scene {
+        /// Path of the scene.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: SceneError,
+    },
+    /// A scene that cannot be set up.
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
+}
+
+/// What the resources describe. Kept by the instance, so that a reset starts from nothing.
+#[derive(Debug)]
+pub(super) struct Model {
+    scene: Scene,
+    profile: Option<String>,
+    map: Option<Vec<u8>>,
+    /// The GUID that belongs to these resources.
+    pub(super) guid: String,
+}
+
+impl Model {
+    /// Reads the resources at a location given as a URI.
+    pub(super) fn load(location: &CStr) -> Result<Self, ResourceError> {
+        let directory = uri::path(location.to_bytes())?;
+        let path = directory.join("scene.toml");
+        let text = read(&path)?;
+        let scene = Scene::from_toml(&text).map_err(|source| ResourceError::Scene { path, source })?;
+        let profile = match scene.defect.as_ref().map(|defect| &defect.shape) {
+            Some(DefectShape::Profile(name)) => Some(read(&beside(&directory, name)?)?),
+            _ => None,
+        };
+        let map = match directory.join("map.bin") {
+            file if file.exists() => {
+                Some(fs::read(&file).map_err(|source| ResourceError::Unreadable { path: file, source })?)
+            }
+            _ => None,
+        };
+        let guid = guid(&text, profile.as_deref());
+        Ok(Self { scene, profile, map, guid })
+    }
+
+    /// Sets up a simulation of the model with all variables at their start values.
+    pub(super) fn build(&self) -> Result<Simulation, SimulationError> {
+        Simulation::with_map(self.scene.clone(), self.profile.as_deref(), self.map.as_deref())
+    }
+}
+
+/// The path of a file in the directory, given by its bare name.
+fn beside(directory: &Path, name: &str) -> Result<PathBuf, ResourceError> {
+    let mut components = Path::new(name).components();
+    match (components.next(), components.next()) {
+        (Some(Component::Normal(_)), None) => Ok(directory.join(name)),
+        _ => Err(ResourceError::OutsideResources(name.to_owned())),
+    }
+}
+
+fn read(path: &Path) -> Result<String, ResourceError> {
+    fs::read_to_string(path).map_err(|source| ResourceError::Unreadable { path: path.to_owned(), source })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_profile_outside_the_resources_is_refused() {
+        for name in ["../a.csv", "/a.csv", "b/a.csv", "", "."] {
+            assert!(matches!(beside(Path::new("/r"), name), Err(ResourceError::OutsideResources(_))), "{name}");
+        }
+        assert_eq!(beside(Path::new("/r"), "a.csv").unwrap(), Path::new("/r/a.csv"));
+    }
+}

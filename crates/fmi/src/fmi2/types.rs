@@ -1,0 +1,91 @@
+//! The C types of the standard's headers `fmi2TypesPlatform.h` and `fmi2FunctionTypes.h` (FMI 2.0.x, platform
+//! "default").
+//!
+//! What a host hands in as an enumeration or a Boolean is a plain C integer here: an out-of-range value must be a
+//! number that can be refused, not undefined behaviour.
+
+use libc::{c_char, c_int, c_uint, c_void};
+
+/// `fmi2Component`: handle of an instance.
+pub type Component = *mut c_void;
+/// `fmi2ComponentEnvironment`: the host's own pointer, handed back in callbacks.
+pub type ComponentEnvironment = *mut c_void;
+/// `fmi2FMUstate`: handle of a saved state.
+pub type FmuState = *mut c_void;
+/// `fmi2ValueReference`.
+pub type ValueReference = c_uint;
+/// `fmi2Real`.
+pub type Real = f64;
+/// `fmi2Integer`.
+pub type Integer = c_int;
+/// `fmi2Boolean`: [`FALSE`] or [`TRUE`]; every other value counts as true.
+pub type Boolean = c_int;
+/// `fmi2String`: UTF-8, ended by a NUL.
+pub type FmiString = *const c_char;
+/// `fmi2Byte`.
+pub type Byte = c_char;
+/// `fmi2Type`.
+pub type FmuType = c_int;
+/// `fmi2StatusKind`.
+pub type StatusKind = c_int;
+
+/// `fmi2False`.
+pub const FALSE: Boolean = 0;
+/// `fmi2True`.
+pub const TRUE: Boolean = 1;
+
+/// `fmi2CoSimulation`; the other type, model exchange, is 0.
+pub const CO_SIMULATION: FmuType = 1;
+
+/// `fmi2DoStepStatus`.
+pub const DO_STEP_STATUS: StatusKind = 0;
+/// `fmi2PendingStatus`.
+pub const PENDING_STATUS: StatusKind = 1;
+/// `fmi2LastSuccessfulTime`.
+pub const LAST_SUCCESSFUL_TIME: StatusKind = 2;
+/// `fmi2Terminated`.
+pub const TERMINATED: StatusKind = 3;
+
+/// `fmi2Status`. Brinell returns the first four only: a fatal error would condemn the host's other instances, and
+/// no step is ever pending.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Status {
+    /// All well.
+    Ok = 0,
+    /// Not quite right, but the computation goes on.
+    Warning = 1,
+    /// Nothing was done; the computation may go on.
+    Discard = 2,
+    /// This instance is of no use until it is reset or a saved state is restored.
+    Error = 3,
+    /// All instances are of no use.
+    Fatal = 4,
+    /// The step is still running.
+    Pending = 5,
+}
+
+/// `fmi2CallbackLogger`: environment, instance name, status, category, format, arguments of the format.
+pub type LoggerCallback = unsafe extern "C" fn(ComponentEnvironment, FmiString, Status, FmiString, FmiString, ...);
+/// `fmi2CallbackAllocateMemory`; never called.
+pub type AllocateMemoryCallback = unsafe extern "C" fn(usize, usize) -> *mut c_void;
+/// `fmi2CallbackFreeMemory`; never called.
+pub type FreeMemoryCallback = unsafe extern "C" fn(*mut c_void);
+/// `fmi2StepFinished`; never called.
+pub type StepFinishedCallback = unsafe extern "C" fn(ComponentEnvironment, Status);
+
+/// `fmi2CallbackFunctions`. Only the logger is required.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct CallbackFunctions {
+    /// Receives messages.
+    pub logger: Option<LoggerCallback>,
+    /// Never called, may be NULL.
+    pub allocate_memory: Option<AllocateMemoryCallback>,
+    /// Never called, may be NULL.
+    pub free_memory: Option<FreeMemoryCallback>,
+    /// Never called, may be NULL.
+    pub step_finished: Option<StepFinishedCallback>,
+    /// Handed back to the logger.
+    pub component_environment: ComponentEnvironment,
+}

@@ -1,0 +1,152 @@
+//! The command `validate`: every claim of the paper beside what comes out here, into `docs/validation.md` and its figures.
+//!
+//! The prose stands in `assets/validation.md`; `{{name}}` in it is a table that is computed. Data go to `target/validation`.
+
+pub mod averages;
+pub mod blind;
+pub mod events;
+pub mod made_up_rig;
+pub mod recordings;
+pub mod rigs;
+pub mod runs;
+pub mod statics;
+
+use std::fs::{self, File};
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use brinell::scene::ContactLaw;
+
+use fmu_build::csv;
+use fmu_build::project::Project;
+use fmu_build::python::Python;
+use recordings::Known;
+
+const TEMPLATE: &str = include_str!("../../assets/validation.md");
+/// The laws that are laid beside each other.
+pub const LAWS: [ContactLaw; 2] = [ContactLaw::Map, ContactLaw::Hertz];
+
+/// What can be computed by itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Part {
+    /// Static stiffness and critical loads
+    Statics,
+    /// Single passages: four events, Epps
+    Events,
+    /// Averaged passages, their frequencies and spectrograms
+    Averages,
+    /// Simulated recordings, sized
+    Blind,
+    /// Recordings of machines that do not exist, sized
+    Rigs,
+    /// Recordings that are given, sized
+    Recordings,
+}
+
+/// What the user says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// Recordings to size and to lay beside their scene.
+    pub recordings: Vec<Known>,
+    /// Their sampling rate [Hz].
+    pub rate: f64,
+    /// The one part to compute; the others' tables are taken from the last run.
+    pub only: Option<Part>,
+    /// Whether to draw.
+    pub figures: bool,
+}
+
+/// The tables by their names in the template, kept beside the data.
+#[derive(Debug, Clone)]
+pub struct Values {
+    folder: PathBuf,
+}
+
+impl Values {
+    /// Sets the table of a name.
+    pub fn set(&mut self, name: &str, text: String) -> Result<()> {
+        fs::create_dir_all(&self.folder).with_context(|| self.folder.display().to_string())?;
+        let path = self.path(name);
+        fs::write(&path, text).with_context(|| path.display().to_string())
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(format!("{name}.md"))
+    }
+
+    /// The template with all its tables; one that was never computed says so.
+    fn filled(&self, template: &str) -> String {
+        let mut parts = template.split("{{");
+        let mut text = parts.next().unwrap_or_default().to_owned();
+        for part in parts {
+            let (name, rest) = part.split_once("}}").unwrap_or(("", part));
+            let table = fs::read_to_string(self.path(name)).unwrap_or_else(|_| "not computed yet".to_owned());
+            text += table.trim_end();
+            text += rest;
+        }
+        text
+    }
+}
+
+/// The command. `docs` is where `validation.md` and `figures/` are.
+pub fn command(project: &Project, options: &Options, docs: &Path) -> Result<()> {
+    fs::create_dir_all(docs).with_context(|| docs.display().to_string())?;
+    let mut values = Values { folder: folder(project).join("tables") };
+    let wanted = |part: Part, text: &str| {
+        let wanted = options.only.is_none_or(|only| only == part);
+        if wanted {
+            eprintln!("validate: {text}");
+        }
+        wanted
+    };
+    if wanted(Part::Statics, "static stiffness and critical loads") {
+        statics::fill(project, &mut values)?;
+    }
+    if wanted(Part::Events, "single passages") {
+        events::fill(project, &mut values)?;
+    }
+    if wanted(Part::Averages, "averaged passages") {
+        averages::fill(project, &mut values)?;
+    }
+    if wanted(Part::Blind, "simulated recordings, sized") {
+        blind::fill(project, &mut values)?;
+    }
+    if wanted(Part::Rigs, "machines that do not exist, sized") {
+        rigs::fill(&mut values)?;
+    }
+    if !options.recordings.is_empty() && wanted(Part::Recordings, "recordings") {
+        let table = recordings::table(project, &options.recordings, options.rate)?;
+        let path = recordings::kept(docs);
+        fs::write(&path, table).with_context(|| path.display().to_string())?;
+    }
+    values.set("recordings", recordings::last(docs))?;
+    let path = docs.join("validation.md");
+    fs::write(&path, values.filled(TEMPLATE)).with_context(|| path.display().to_string())?;
+    println!("{}", path.display());
+    if options.figures {
+        let python = Python::prepare(project)?;
+        let figures = docs.join("figures");
+        fs::create_dir_all(&figures).with_context(|| figures.display().to_string())?;
+        print!("{}", python.run("validation.py", [folder(project), figures])?);
+    }
+    Ok(())
+}
+
+fn folder(project: &Project) -> PathBuf {
+    project.target().join("validation")
+}
+
+/// Columns of equal length into `target/validation/<name>.csv`.
+fn write_csv(project: &Project, name: &str, names: &[(String, &str)], columns: &[Vec<f64>]) -> Result<()> {
+    let folder = folder(project);
+    fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
+    let path = folder.join(format!("{name}.csv"));
+    let mut out = BufWriter::new(File::create(&path).with_context(|| path.display().to_string())?);
+    csv::header(&mut out, names.iter().map(|(name, unit)| (name.as_str(), *unit)))?;
+    let rows = columns.iter().map(Vec::len).min().unwrap_or(0);
+    for i in 0..rows {
+        csv::row(&mut out, columns.iter().map(|column| column[i]))?;
+    }
+    out.flush().with_context(|| path.display().to_string())
+}
