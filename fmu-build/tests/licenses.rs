@@ -53,7 +53,8 @@ fn needed(metadata: &Value) -> Vec<&Value> {
             }
         }
     }
-    let mut found: Vec<_> = found.into_iter().map(|id| packages[id]).collect();
+    // What comes from nowhere else is ours.
+    let mut found: Vec<_> = found.into_iter().map(|id| packages[id]).filter(|p| !p["source"].is_null()).collect();
     found.sort_by_key(|package| (package["name"].as_str().unwrap(), package["version"].as_str().unwrap()));
     found
 }
