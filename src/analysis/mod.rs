@@ -1,5 +1,6 @@
 //! What an engineer reads out of a scene or a recording. A leaf: nothing imports it.
 
+mod continuity;
 pub mod critical_load;
 pub mod entry;
 pub mod envelope;
@@ -9,14 +10,15 @@ pub mod events;
 mod kind;
 mod linear_prediction;
 pub mod measured;
+mod npy_header;
 pub mod passages;
-
 pub mod recording;
 mod recording_csv;
 mod recording_file;
 mod recording_npy;
 pub mod report;
 pub mod ringing;
+pub mod sampling_times;
 pub mod spall_size;
 pub mod spectrum;
 pub mod static_bearing;
