@@ -1,5 +1,6 @@
 //! What a recording can be refused for. Each message names the quantity, its value and the limit.
 
+use super::sampling_times::Uneven;
 use std::path::PathBuf;
 
 /// A recording that cannot be read or cannot be sized, whatever the bearing's state.
@@ -20,6 +21,16 @@ pub enum SizingError {
         path: PathBuf,
         /// What is wrong, and what would be right.
         why: String,
+    },
+    /// The column that counts time or samples is uneven.
+    #[error("{path}: {column}: {why}")]
+    Times {
+        /// The file.
+        path: PathBuf,
+        /// Heading of the column, or its number.
+        column: String,
+        /// What is wrong.
+        why: Box<Uneven>,
     },
     /// No recordings were given.
     #[error("0 recordings: at least 1 is needed")]
@@ -55,6 +66,22 @@ pub enum SizingError {
         count: usize,
         /// Their value.
         value: f64,
+    },
+    /// Squares of the samples would overflow or vanish.
+    #[error(
+        "{name}: samples from {low:e} to {high:e}: they must differ by {lowest:e} at least and stay within ±{highest:e}; choose another unit"
+    )]
+    Magnitude {
+        /// The recording.
+        name: String,
+        /// Smallest sample.
+        low: f64,
+        /// Largest sample.
+        high: f64,
+        /// Smallest range.
+        lowest: f64,
+        /// Largest magnitude.
+        highest: f64,
     },
     /// The signal sits at its limits.
     #[error("{name}: {percent:.2} % of the samples sit in runs at the extreme value {value}: clipped; limit {limit} %")]
@@ -135,7 +162,7 @@ pub enum SizingError {
         limit: f64,
     },
     /// The rate contradicts the file.
-    #[error("{name}: sampling rate {given} Hz, but the file states {stated} Hz: they may differ by {limit} %")]
+    #[error("{name}: sampling rate {given} Hz, but the file states {stated:.3} Hz: they may differ by {limit} %")]
     OtherRate {
         /// The recording.
         name: String,

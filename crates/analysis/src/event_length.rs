@@ -18,6 +18,7 @@
 //! clearance by which the inner ring can follow: P(L/2) > δ + G_r. Shorter is unresolved.
 //! Where Q is unknown, s_u is the way from the entry's onset to its extreme, an upper bound that holds in any case.
 
+use super::continuity::Break;
 use super::entry::{self, Entry};
 use super::events::{self, Blow};
 use super::measured::Measured;
@@ -82,6 +83,17 @@ pub enum Unresolved {
          close from an echo"
     )]
     LowRate(f64, f64, f64),
+    /// A piece is missing.
+    #[error(
+        "the passages after about {0:.2} s are shifted by {1:.1} degrees against those before: is a piece of the recording missing, or did \
+         the cage skid? Cut the recording there"
+    )]
+    Broken(f64, f64),
+    /// More than one passage in a period.
+    #[error(
+        "the same passes {0} times in each ball pass period: are rate and speed right, or are there several spalls?"
+    )]
+    SeveralTimes(usize),
     /// No blow stands out.
     #[error("no blow stands out of the averaged passages: largest jump of the envelope below {0:.1} dB")]
     NoBlow(f64),
@@ -121,6 +133,13 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Result<EventLength, Unres
             Some(other) => Unresolved::OtherPattern(comb.significance, limit, other.frequency, other.significance),
             None => Unresolved::NoPattern(comb.significance, limit),
         });
+    }
+    if let Some(Break { passage, shift }) = measured.broken {
+        let at = measured.passages.starts[passage.min(measured.passages.starts.len() - 1)] / measured.rate;
+        return Err(Unresolved::Broken(at, shift * measured.spacing));
+    }
+    if let Some(times) = measured.times_a_period {
+        return Err(Unresolved::SeveralTimes(times));
     }
     let grid = Grid::new(measured);
     let envelopes = measured.envelope_rows(0.0, grid.points);

@@ -3,6 +3,7 @@
 // Units in brackets, as in `[m]`, are no links.
 #![allow(rustdoc::broken_intra_doc_links)]
 
+mod continuity;
 pub mod critical_load;
 pub mod entry;
 pub mod envelope;
@@ -12,14 +13,15 @@ pub mod events;
 mod kind;
 mod linear_prediction;
 pub mod measured;
+mod npy_header;
 pub mod passages;
-
 pub mod recording;
 mod recording_csv;
 mod recording_file;
 mod recording_npy;
 pub mod report;
 pub mod ringing;
+pub mod sampling_times;
 pub mod spall_size;
 pub mod spectrum;
 pub mod static_bearing;

@@ -1,5 +1,6 @@
 //! A recording prepared for sizing: its ball pass frequency, and its passages laid over each other.
 
+use super::continuity::{self, Break};
 use super::envelope::{self, Comb};
 use super::error::SizingError;
 use super::linear_prediction;
@@ -36,6 +37,10 @@ pub struct Measured {
     pub passages: Passages,
     /// Sampling rate [Hz].
     pub rate: f64,
+    /// Where passages are shifted against those before, as behind a missing piece.
+    pub(super) broken: Option<Break>,
+    /// How many times the same passes within a ball pass period, if it is more than once.
+    pub(super) times_a_period: Option<usize>,
     signal: Vec<f64>,
     /// High-frequency envelope of what the structure's ringing does not explain.
     envelope: Vec<f64>,
@@ -72,9 +77,12 @@ impl Measured {
         let passages = passages.refined(recording.samples(), &high);
         high.iter_mut().for_each(|x| *x = x.max(0.0).sqrt());
         let bpfo = rate / passages.period;
+        let rows = passages::cut(&high, &passages.starts, passages.period, passages::GRID);
         Ok(Self {
             name,
             bpfo,
+            broken: continuity::find_break(&rows),
+            times_a_period: continuity::times_a_period(&rows),
             slip: 1.0 - bpfo / nominal,
             spacing: 360.0 / bearing.element_count as f64,
             signal: recording.samples().to_vec(),

@@ -12,7 +12,7 @@ use super::spectrum;
 use super::statistics;
 
 /// Points per element spacing at which shifts are sought; parabolas refine them.
-const GRID: usize = 400;
+pub(super) const GRID: usize = 400;
 /// Largest distance of a passage from its neighbours' [grid points].
 const NEAR: isize = 20;
 /// Largest shift when they are known already [grid points].

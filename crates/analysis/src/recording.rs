@@ -7,12 +7,22 @@
 
 use super::error::SizingError;
 use super::recording_file::Table;
+use super::statistics;
 use std::path::Path;
 
+/// Smallest range and largest magnitude of a signal: sums of squares stay numbers.
+const SMALLEST: f64 = 1e-100;
+const LARGEST: f64 = 1e100;
 /// Share of samples in runs at an extreme from which a signal counts as clipped [%].
 const CLIPPED_PERCENT: f64 = 0.1;
 /// Equal samples in a row at the extreme that count as a run: two can be chance in a coarse signal.
 const CLIPPED_RUN: usize = 3;
+/// Samples that are only nearly equal, because noise was added to what was clipped: within this share of the range from the extreme,
+/// with second differences of at most that share of the usual ones, so many times in a row. On the crest of a loud hum the
+/// signal goes on as lively as elsewhere.
+const NEARLY: f64 = 0.01;
+const STILL: f64 = 0.1;
+const STILL_RUN: usize = 3;
 
 /// Where the shaft's speed comes from. Columns are chosen by name, or by number from 1.
 #[derive(Debug, Clone, PartialEq)]
@@ -133,7 +143,16 @@ impl Recording {
     /// A file that cannot be read or understood, a rate that contradicts the file's own, and those of [`new`](Self::new),
     /// [`with_tachometer`](Self::with_tachometer) and [`with_speeds`](Self::with_speeds).
     pub fn read(path: &Path, source: &Source) -> Result<Self, SizingError> {
-        let table = Table::read(path)?;
+        let bytes = std::fs::read(path).map_err(|source| SizingError::File { path: path.to_owned(), source })?;
+        Self::of_file(path, &bytes, source)
+    }
+
+    /// The same from what the file holds; its path says by its ending what that is.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn of_file(path: &Path, bytes: &[u8], source: &Source) -> Result<Self, SizingError> {
+        let table = Table::read(path, bytes)?;
         let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
         let refuse = |why: String| SizingError::Format { path: path.to_owned(), why };
         let rate = match (source.rate, table.rate) {
@@ -223,8 +242,17 @@ fn check_samples(name: &str, samples: &[f64]) -> Result<(), SizingError> {
     if low == high {
         return Err(SizingError::Constant { name, count: samples.len(), value: low });
     }
+    if high - low < SMALLEST || low < -LARGEST || high > LARGEST {
+        return Err(SizingError::Magnitude { name, low, high, lowest: SMALLEST, highest: LARGEST });
+    }
+    let bends: Vec<f64> = samples.windows(3).map(|w| (w[0] - 2.0 * w[1] + w[2]).abs()).collect();
+    let still = STILL * statistics::median(&bends);
     for value in [low, high] {
-        let percent = 100.0 * in_runs_at(samples, value) as f64 / samples.len() as f64;
+        let near = |w: &[f64]| w.iter().all(|x| (x - value).abs() <= NEARLY * (high - low));
+        let kept: Vec<bool> = samples.windows(3).zip(&bends).map(|(w, &bend)| bend <= still && near(w)).collect();
+        let runs = kept.chunk_by(|a, b| a == b).filter(|run| run[0] && run.len() >= STILL_RUN);
+        let nearly: usize = runs.map(|run| run.len() + 2).sum();
+        let percent = 100.0 * in_runs_at(samples, value).max(nearly) as f64 / samples.len() as f64;
         if percent > CLIPPED_PERCENT {
             return Err(SizingError::Clipped { name, percent, value, limit: CLIPPED_PERCENT });
         }

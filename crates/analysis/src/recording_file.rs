@@ -2,12 +2,43 @@
 //!
 //! Text ([`recording_csv`](super::recording_csv)), NumPy ([`recording_npy`](super::recording_npy)) and WAV, which goes through
 //! `hound`. Columns are chosen by name or by number from 1. Left to itself, the signal is the column whose name begins with
-//! `sensor.acceleration`, else with `acc`, `vib` or `signal`, else the only one, else, where columns have no names, the first that
-//! is no time. Time is a column whose name begins with `time` or `t` alone, or an unnamed first column beside others that rises evenly.
+//! `sensor.acceleration`, else with `acc`, `vib` or `signal`, else the only one that does not count time or samples, else, where
+//! columns have no names, the first of those.
+//!
+//! Time is a column that is called so, or has a unit of time and rises, or an unnamed first column beside others that rises
+//! like time. It must be even ([`sampling_times`](super::sampling_times)). A column of any other name that ticks from sample to
+//! sample, as counters and angles do, must have no holes.
 
 use super::error::SizingError;
+use super::sampling_times::{self, Clock, Uneven};
 use super::{recording_csv, recording_npy};
 use std::path::Path;
+
+/// Names of time.
+const TIME: [&str; 9] = ["t", "time", "times", "timestamp", "zeit", "temps", "tiempo", "tempo", "tijd"];
+/// What LabVIEW calls it.
+const LABVIEW_TIME: &str = "x_value";
+/// Units of time in seconds. The one before last is a micro sign in a coding that is not known.
+const TIME_UNITS: [(&str, f64); 16] = [
+    ("s", 1.0),
+    ("sec", 1.0),
+    ("second", 1.0),
+    ("seconds", 1.0),
+    ("ms", 1e-3),
+    ("msec", 1e-3),
+    ("milliseconds", 1e-3),
+    ("us", 1e-6),
+    ("usec", 1e-6),
+    ("microseconds", 1e-6),
+    ("\u{b5}s", 1e-6),
+    ("\u{3bc}s", 1e-6),
+    ("ns", 1e-9),
+    ("min", 60.0),
+    ("\u{fffd}s", 1e-6),
+    ("h", 3600.0),
+];
+/// Most columns that a message lists.
+const LISTED: usize = 100;
 
 /// What a file holds.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,38 +46,51 @@ pub(super) struct Table {
     /// Headings; empty where the file has none.
     names: Vec<String>,
     columns: Vec<Vec<f64>>,
-    time: Option<usize>,
+    /// Whether each column counts time or samples.
+    clocks: Vec<bool>,
     /// Sampling rate [Hz], where the file states it.
     pub(super) rate: Option<f64>,
 }
 
 impl Table {
-    /// Reads a file.
-    pub(super) fn read(path: &Path) -> Result<Self, SizingError> {
+    /// Reads what a file of this path holds.
+    ///
+    /// # Errors
+    /// Bytes that are not what the path's ending says, times that are not even.
+    pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<Self, SizingError> {
         let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
         let refuse = |why: String| SizingError::Format { path: path.to_owned(), why };
-        let bytes = || std::fs::read(path).map_err(|source| SizingError::File { path: path.to_owned(), source });
-        match ending.as_str() {
-            "csv" | "txt" => recording_csv::columns(&String::from_utf8_lossy(&bytes()?))
-                .map(|(names, columns)| Self::new(names, columns))
-                .map_err(refuse),
-            "npy" => recording_npy::columns(&bytes()?).map(|columns| Self::new(Vec::new(), columns)).map_err(refuse),
-            "wav" => wav(&bytes()?).map_err(refuse),
-            _ => Err(refuse(format!("ending '{ending}': recordings are .csv, .txt, .npy or .wav"))),
-        }
+        let (names, columns) = match ending.as_str() {
+            "csv" | "txt" => recording_csv::columns(&String::from_utf8_lossy(bytes)).map_err(refuse)?,
+            "npy" => recording_npy::columns(bytes).map_err(refuse)?,
+            "wav" => return wav(bytes).map_err(refuse),
+            _ => return Err(refuse(format!("ending '{ending}': recordings are .csv, .txt, .npy or .wav"))),
+        };
+        Self::new(names, columns).map_err(|(column, why)| SizingError::Times {
+            path: path.to_owned(),
+            column,
+            why: Box::new(why),
+        })
     }
 
-    fn new(names: Vec<String>, columns: Vec<Vec<f64>>) -> Self {
-        let time = if names.is_empty() {
-            (columns.len() > 1 && rises_evenly(&columns[0])).then_some(0)
-        } else {
-            names.iter().map(|name| bare(name)).position(|name| name == "t" || name.starts_with("time"))
-        };
-        let rate = time.and_then(|time| rate_of(&columns[time])).map(|rate| {
-            let in_milliseconds = names.get(time.unwrap_or_default()).is_some_and(|name| name.contains("ms"));
-            if in_milliseconds { 1e3 * rate } else { rate }
-        });
-        Self { names, columns, time, rate }
+    /// # Errors
+    /// Which column is uneven, and how.
+    fn new(names: Vec<String>, columns: Vec<Vec<f64>>) -> Result<Self, (String, Uneven)> {
+        let called = |i: usize| names.get(i).cloned().unwrap_or_else(|| format!("column {}", i + 1));
+        let time = time_column(&names, &columns);
+        let mut clocks = vec![false; columns.len()];
+        let mut rate = None;
+        for (i, column) in columns.iter().enumerate() {
+            if let Some((_, unit)) = time.filter(|&(time, _)| time == i) {
+                Clock::new(column, unit).and_then(|clock| clock.check()).map_err(|why| (called(i), why))?;
+                rate = sampling_times::mean_rate(column).map(|rate| rate / seconds(unit).unwrap_or(1.0));
+                clocks[i] = true;
+            } else if let Some(clock) = Clock::hidden_in(column) {
+                clock.check_for_holes().map_err(|why| (called(i), why))?;
+                clocks[i] = true;
+            }
+        }
+        Ok(Self { names, columns, clocks, rate })
     }
 
     /// The column of this name or number; without either, the one that is a signal by itself.
@@ -56,7 +100,7 @@ impl Table {
         }
         let begins = |with: &str| self.names.iter().position(|name| bare(name).starts_with(with));
         let by_name = ["sensor.acceleration", "acc", "vib", "signal"].into_iter().find_map(begins);
-        let mut others = (0..self.columns.len()).filter(|&i| Some(i) != self.time);
+        let mut others = (0..self.columns.len()).filter(|&i| !self.clocks[i] || self.columns.len() == 1);
         let found = by_name.or_else(|| {
             let first = others.next();
             if self.names.is_empty() || others.next().is_none() { first } else { None }
@@ -80,10 +124,37 @@ impl Table {
     fn listed(&self) -> String {
         match (&self.names[..], self.columns.len()) {
             ([], count) => format!("{count} columns without names"),
-            (names, count) if count > 12 => format!("{count} columns from {}", names[..12].join(", ")),
+            (names, count) if count > LISTED => format!("{count} columns from {}", names[..LISTED].join(", ")),
             (names, _) => format!("columns {}", names.join(", ")),
         }
     }
+}
+
+/// Which column is time, and its unit.
+fn time_column<'a>(names: &'a [String], columns: &[Vec<f64>]) -> Option<(usize, &'a str)> {
+    let rises = |i: usize| sampling_times::rises(&columns[i]);
+    if names.is_empty() {
+        // One that counts samples does not tell the rate.
+        return (columns.len() > 1 && rises(0) && !sampling_times::counts(&columns[0])).then_some((0, "s"));
+    }
+    let called: Vec<(usize, &str)> =
+        names.iter().enumerate().filter_map(|(i, name)| Some((i, unit_of_time(name)?))).collect();
+    let by_name = called.iter().find(|&&(i, _)| rises(i)).or(called.first()).copied();
+    by_name.or_else(|| {
+        // Some programs write units alone above the numbers.
+        let mut units = names.iter().enumerate().map(|(i, name)| (i, unit(name).unwrap_or(name)));
+        units.find(|&(i, unit)| seconds(unit).is_some() && rises(i))
+    })
+}
+
+/// The unit of a column that is called time; none if it is not, or is not in a unit of time.
+fn unit_of_time(name: &str) -> Option<&str> {
+    let bare = bare(name);
+    let words: Vec<&str> = bare.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
+    let (first, last) = (words.first()?, words.last()?);
+    let called = [first, last].into_iter().any(|word| TIME.contains(word)) || bare == LABVIEW_TIME;
+    let unit = unit(name).or_else(|| TIME_UNITS.iter().find(|(unit, _)| unit == last).map(|(unit, _)| *unit));
+    (called && unit.is_none_or(|unit| seconds(unit).is_some())).then(|| unit.unwrap_or("s"))
 }
 
 /// A heading without its unit, in small letters.
@@ -91,16 +162,16 @@ fn bare(name: &str) -> String {
     name.split(['[', '(']).next().unwrap_or_default().trim().to_lowercase()
 }
 
-fn rate_of(time: &[f64]) -> Option<f64> {
-    let span = time.last()? - time.first()?;
-    let rate = (time.len() - 1) as f64 / span;
-    (rate.is_finite() && rate > 0.0).then_some(rate)
+/// What stands in brackets.
+fn unit(name: &str) -> Option<&str> {
+    let (_, rest) = name.split_once(['[', '('])?;
+    Some(rest.split([']', ')']).next().unwrap_or_default().trim())
 }
 
-/// Whether every step is the mean step within half of it: printed times are rounded.
-fn rises_evenly(column: &[f64]) -> bool {
-    let Some(rate) = rate_of(column) else { return false };
-    column.windows(2).all(|pair| ((pair[1] - pair[0]) * rate - 1.0).abs() < 0.5)
+/// A unit of time in seconds.
+fn seconds(unit: &str) -> Option<f64> {
+    let unit = unit.to_lowercase();
+    TIME_UNITS.iter().find(|(name, _)| *name == unit).map(|(_, seconds)| *seconds)
 }
 
 fn wav(bytes: &[u8]) -> Result<Table, String> {
@@ -111,7 +182,8 @@ fn wav(bytes: &[u8]) -> Result<Table, String> {
         hound::SampleFormat::Int => reader.samples::<i32>().map(|s| s.map(f64::from)).collect(),
     };
     let columns = deinterleaved(&samples.map_err(|e| e.to_string())?, spec.channels as usize);
-    Ok(Table { names: Vec::new(), columns, time: None, rate: Some(f64::from(spec.sample_rate)) })
+    let clocks = vec![false; columns.len()];
+    Ok(Table { names: Vec::new(), columns, clocks, rate: Some(f64::from(spec.sample_rate)) })
 }
 
 /// Channels out of samples that take turns.
@@ -125,7 +197,7 @@ mod tests {
 
     fn csv(text: &str) -> Table {
         let (names, columns) = recording_csv::columns(text).unwrap();
-        Table::new(names, columns)
+        Table::new(names, columns).unwrap()
     }
 
     #[test]

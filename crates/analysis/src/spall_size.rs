@@ -124,7 +124,8 @@ impl Sized {
     fn of(measured: Measured, scene: &Scene, maps: Maps<'_>) -> Self {
         let events = event_length::estimate(&measured, scene);
         let rig = Rig::new(scene, measured.bpfo, maps);
-        let heard = rig.as_ref().filter(|_| measured.comb.significance >= HEARD);
+        let once = measured.broken.is_none() && measured.times_a_period.is_none();
+        let heard = rig.as_ref().filter(|_| measured.comb.significance >= HEARD && once);
         let heard = heard.map(|rig| waveform_length::estimate(&measured, scene, rig));
         let likeness = heard.as_ref().map(|heard| heard.as_ref().map_or_else(|other| other.likeness, |w| w.likeness));
         let waveform = heard.and_then(Result::ok);
