@@ -1,0 +1,202 @@
+//! A scene and what its host does, as plain numbers in the units of the scene file's keys.
+//!
+//! The simulation gets it as the text of a scene file and by setting inputs; the oracle reads the numbers themselves.
+
+mod random;
+mod shape;
+
+pub use random::{PHASE, fastest, random};
+
+use std::fmt::Write;
+
+#[derive(Debug, Clone)]
+pub struct Case {
+    pub gravity: [f64; 2],
+    pub count: usize,
+    pub diameter_mm: f64,
+    pub pitch_mm: f64,
+    pub grooves: Grooves,
+    pub clearance_um: f64,
+    pub modulus_gpa: f64,
+    pub poisson: f64,
+    pub density: Option<f64>,
+    pub mass_g: Option<f64>,
+    /// Hertz constants that override the computed ones, inner and outer [N/m^1.5].
+    pub hertz: [Option<f64>; 2],
+    pub compliance: f64,
+    pub damping: Damping,
+    pub law: &'static str,
+    pub slip: f64,
+    pub cage_deg: f64,
+    pub defect: Option<Defect>,
+    /// Shaft, housing.
+    pub rings: [Ring; 2],
+    pub speed_hz: f64,
+    /// Mass, stiffness, damping.
+    pub sensor: Option<[f64; 3]>,
+    pub tolerance: f64,
+    pub steps: Vec<Step>,
+}
+
+#[derive(Debug, Clone, Copy)]
+pub enum Grooves {
+    /// Their diameter [mm].
+    Equal(f64),
+    /// Conformities of the inner and the outer.
+    Each(f64, f64),
+}
+
+#[derive(Debug, Clone, Copy)]
+pub enum Damping {
+    HuntCrossley(f64),
+    Proportional(f64),
+}
+
+#[derive(Debug, Clone)]
+pub struct Defect {
+    pub angle_deg: f64,
+    pub shape: Shape,
+}
+
+#[derive(Debug, Clone)]
+pub enum Shape {
+    Spall {
+        length: Length,
+        depth_um: f64,
+        slope_deg: f64,
+    },
+    /// Arc [mm] and depth [µm].
+    Trace(Vec<(f64, f64)>),
+}
+
+#[derive(Debug, Clone, Copy)]
+pub enum Length {
+    Degrees(f64),
+    Millimetres(f64),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Motion {
+    Host,
+    Internal,
+    Fixed,
+}
+
+#[derive(Debug, Clone, Copy)]
+pub struct Ring {
+    pub motion: Motion,
+    pub load: [f64; 2],
+    pub mass: f64,
+    pub damping: f64,
+    pub stiffness: f64,
+}
+
+/// A communication step.
+#[derive(Debug, Clone, Copy)]
+pub struct Step {
+    pub length: f64,
+    /// What the host sets before it; without, everything stays where it is.
+    pub host: Option<Host>,
+}
+
+/// Inputs with their derivatives.
+#[derive(Debug, Clone, Copy)]
+pub struct Host {
+    /// Speed of the shaft [rad/s] and its derivative.
+    pub speed: [f64; 2],
+    /// Of shaft and housing, along x and y: load, or place, with its first and second derivative [N or m, s].
+    pub rings: [[[f64; 3]; 2]; 2],
+}
+
+impl Motion {
+    fn key(self) -> &'static str {
+        match self {
+            Self::Host => "host",
+            Self::Internal => "internal",
+            Self::Fixed => "fixed",
+        }
+    }
+}
+
+impl Case {
+    /// Text of the scene file.
+    pub fn toml(&self) -> String {
+        let mut text = format!("name = \"adversary\"\ngravity_m_s2 = {:?}\n[bearing]\n", self.gravity);
+        let mut put = |key: &str, value: f64| writeln!(text, "{key} = {value:?}").unwrap();
+        put("element_diameter_mm", self.diameter_mm);
+        put("pitch_diameter_mm", self.pitch_mm);
+        match self.grooves {
+            Grooves::Equal(diameter) => put("groove_diameter_mm", diameter),
+            Grooves::Each(inner, outer) => {
+                put("conformity_inner", inner);
+                put("conformity_outer", outer);
+            }
+        }
+        put("radial_clearance_um", self.clearance_um);
+        put("youngs_modulus_gpa", self.modulus_gpa);
+        put("poissons_ratio", self.poisson);
+        put("outer_compliance_m_n", self.compliance);
+        let keys = ["density_kg_m3", "element_mass_g", "hertz_inner_n_m1_5", "hertz_outer_n_m1_5"];
+        for (key, value) in keys.into_iter().zip([self.density, self.mass_g, self.hertz[0], self.hertz[1]]) {
+            if let Some(value) = value {
+                put(key, value);
+            }
+        }
+        writeln!(text, "element_count = {}\n[contact]\nlaw = \"{}\"", self.count, self.law).unwrap();
+        match self.damping {
+            Damping::HuntCrossley(chi) => writeln!(text, "damping = \"hunt-crossley\"\ndamping_chi_s_m = {chi:?}"),
+            Damping::Proportional(tau) => writeln!(text, "damping = \"proportional\"\ndamping_tau_s = {tau:?}"),
+        }
+        .unwrap();
+        writeln!(text, "[cage]\nslip = {:?}\ninitial_angle_deg = {:?}", self.slip, self.cage_deg).unwrap();
+        self.write_defect(&mut text);
+        self.write_rings(&mut text);
+        writeln!(text, "[solver]\ntolerance = {:?}", self.tolerance).unwrap();
+        text
+    }
+
+    fn write_defect(&self, text: &mut String) {
+        let Some(defect) = &self.defect else { return };
+        writeln!(text, "[defect]\nangle_deg = {:?}", defect.angle_deg).unwrap();
+        match &defect.shape {
+            Shape::Spall { length, depth_um, slope_deg } => {
+                match length {
+                    Length::Degrees(degrees) => writeln!(text, "length_deg = {degrees:?}").unwrap(),
+                    Length::Millimetres(length) => writeln!(text, "length_mm = {length:?}").unwrap(),
+                }
+                writeln!(text, "depth_um = {depth_um:?}\nedge_slope_deg = {slope_deg:?}").unwrap();
+            }
+            Shape::Trace(_) => writeln!(text, "profile = \"trace.csv\"").unwrap(),
+        }
+    }
+
+    fn write_rings(&self, text: &mut String) {
+        for (name, ring) in ["shaft", "housing"].into_iter().zip(&self.rings) {
+            writeln!(text, "[{name}]\nmotion = \"{}\"", ring.motion.key()).unwrap();
+            if name == "shaft" {
+                writeln!(text, "speed_hz = {:?}", self.speed_hz).unwrap();
+            }
+            if ring.motion == Motion::Internal {
+                let Ring { load, mass, damping, stiffness, .. } = ring;
+                writeln!(text, "load_n = {load:?}\nmass_kg = {mass:?}").unwrap();
+                writeln!(text, "damping_n_s_m = {damping:?}\nstiffness_n_m = {stiffness:?}").unwrap();
+            }
+        }
+        if let Some([mass, stiffness, damping]) = self.sensor {
+            writeln!(text, "[sensor]\nmass_kg = {mass:?}\nstiffness_n_m = {stiffness:?}").unwrap();
+            writeln!(text, "damping_n_s_m = {damping:?}").unwrap();
+        }
+    }
+
+    /// Text of the profile file.
+    pub fn profile(&self) -> Option<String> {
+        let Shape::Trace(points) = &self.defect.as_ref()?.shape else { return None };
+        let lines: String = points.iter().map(|(arc, depth)| format!("{arc},{depth}\n")).collect();
+        Some(format!("arc_mm,depth_um\n{lines}"))
+    }
+
+    /// Length of the whole run [s].
+    pub fn duration(&self) -> f64 {
+        self.steps.iter().map(|step| step.length).sum()
+    }
+}

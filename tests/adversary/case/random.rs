@@ -1,0 +1,321 @@
+//! Random scenes over the whole space of keys, and what a host may do with them.
+//!
+//! Quantities are drawn against each other: a load by the approach that it causes, a support by the contacts' stiffness, a speed
+//! by how far it turns the cage in the time that can be computed. Otherwise most scenes would be either rigid or broken.
+
+use super::shape::{self, Around};
+use super::{Case, Damping, Defect, Grooves, Host, Motion, Ring, Step};
+use crate::draw::Draw;
+use crate::oracle::Bearing;
+use std::f64::consts::{PI, TAU};
+
+/// What is counted.
+#[derive(Debug, Clone, Default)]
+pub struct Kind {
+    pub defect: &'static str,
+    pub motion: &'static str,
+    pub speed: &'static str,
+}
+
+/// Element contacts' time steps that an oracle's run may take.
+const WORK: f64 = 3e5;
+/// Phase of the fastest motion in one step of the oracle.
+pub const PHASE: f64 = 0.03;
+
+/// A bearing while it is drawn.
+struct Scale {
+    r: f64,
+    raceway: f64,
+    approach: f64,
+    /// Tangent stiffness of the two contacts in series and of both beside each other [N/m].
+    stiffness: f64,
+    mass: f64,
+    /// Angular frequency of an element between its raceways [rad/s].
+    omega: f64,
+}
+
+pub fn random(draw: &mut Draw) -> (Kind, Case) {
+    let mut case = bearing(draw);
+    let scale = loads_and_damping(draw, &mut case);
+    rings(draw, &mut case, &scale);
+    let mut kind = Kind { defect: "no defect", motion: motion_name(&case), speed: "" };
+    if draw.chance(0.8) {
+        let around = Around { r: scale.r, raceway: scale.raceway, approach: scale.approach };
+        let (name, shape) = shape::random(draw, &around);
+        kind.defect = name;
+        case.defect = Some(Defect { angle_deg: draw.between(-180.0, 180.0), shape });
+    }
+    case.cage_deg = draw.between(-180.0, 180.0);
+    let time = time(&case, &scale) * draw.between(0.3, 1.0);
+    kind.speed = motion(draw, &mut case, &scale, time);
+    (kind, case)
+}
+
+fn bearing(draw: &mut Draw) -> Case {
+    let count = match draw.below(10) {
+        0 => 1 + draw.below(3),
+        1 => 30 + draw.below(31),
+        _ => 3 + draw.below(20),
+    };
+    let diameter_mm = if draw.chance(0.9) { draw.log(1.0, 60.0) } else { draw.log(0.05, 1000.0) };
+    let clearance = match draw.below(6) {
+        0 => 0.0,
+        1 => -draw.between(0.0, 0.0075),
+        2 => draw.log(1e-3, 1.0 / 3.0),
+        _ => draw.log(1e-5, 3e-3),
+    } * diameter_mm;
+    // Elements do not overlap, and the inner raceway has a radius.
+    let chord = if count > 1 { diameter_mm / (PI / count as f64).sin() } else { 0.0 };
+    let smallest = chord.max(1.3 * (diameter_mm + clearance));
+    let conformity = |draw: &mut Draw| match draw.below(10) {
+        0 => draw.log(0.5001, 0.505),
+        1 => draw.log(0.6, 20.0),
+        _ => draw.between(0.505, 0.56),
+    };
+    let grooves = if draw.chance(0.5) {
+        Grooves::Equal(conformity(draw) * 2.0 * diameter_mm)
+    } else {
+        Grooves::Each(conformity(draw), conformity(draw))
+    };
+    let usual = draw.chance(0.5);
+    let density = if usual { 7800.0 } else { draw.log(500.0, 2e4) };
+    let mass_g = draw.chance(0.2).then(|| density * PI / 6.0 * diameter_mm.powi(3) * 1e-6 * draw.log(0.1, 10.0));
+    Case {
+        gravity: match draw.below(4) {
+            0 => [0.0; 2],
+            1 => {
+                let size = draw.log(0.1, 1e3);
+                draw.vector(size)
+            }
+            _ => [0.0, -9.81],
+        },
+        count,
+        diameter_mm,
+        pitch_mm: smallest * if draw.chance(0.5) { draw.between(1.001, 1.3) } else { draw.log(1.001, 5.0) },
+        grooves,
+        clearance_um: clearance * 1e3,
+        modulus_gpa: if usual { 207.0 } else { draw.log(1.0, 1000.0) },
+        poisson: if usual { 0.3 } else { draw.between(-0.5, 0.49) },
+        density: (mass_g.is_none() || draw.chance(0.5)).then_some(density),
+        mass_g,
+        hertz: [0, 1].map(|_| draw.chance(0.1).then(|| draw.log(1e8, 1e11))),
+        compliance: 0.0,
+        damping: Damping::HuntCrossley(0.5),
+        law: "hertz",
+        slip: if draw.chance(0.7) { 0.0 } else { draw.between(0.0, 1.0) },
+        cage_deg: 0.0,
+        defect: None,
+        rings: [Ring { motion: Motion::Fixed, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 }; 2],
+        speed_hz: 0.0,
+        sensor: None,
+        tolerance: draw.pick(&[1e-5, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9]),
+        steps: Vec::new(),
+    }
+}
+
+fn loads_and_damping(draw: &mut Draw, case: &mut Case) -> Scale {
+    let r = case.diameter_mm * 0.5e-3;
+    let approach = r * draw.log(1e-5, 4e-3);
+    let bearing = Bearing::new(case);
+    let [k_i, k_o] = bearing.stiffness.map(|k| 1.5 * k * (0.5 * approach).sqrt());
+    let stiffness = k_i * k_o / (k_i + k_o);
+    let omega = ((k_i + k_o) / bearing.mass).sqrt();
+    case.compliance = if draw.chance(0.7) { 0.0 } else { draw.log(1e-3, 10.0) / k_o };
+    case.damping = if draw.chance(0.6) {
+        // Up to where the damper's rate is ten times the element's frequency.
+        let strong = 10.0 * bearing.mass * omega / (k_i * approach);
+        Damping::HuntCrossley(if draw.chance(0.15) { 0.0 } else { draw.log(1e-3, 1.0) * strong.min(100.0) })
+    } else {
+        Damping::Proportional(if draw.chance(0.15) { 0.0 } else { (draw.log(1e-3, 3.0) / omega).min(1.0) })
+    };
+    Scale { r, raceway: bearing.rho_0 + r, approach, stiffness, mass: bearing.mass, omega }
+}
+
+/// What moves the rings, and with what.
+fn rings(draw: &mut Draw, case: &mut Case, scale: &Scale) {
+    use Motion::{Fixed, Host, Internal};
+    let motions =
+        [(Internal, Internal), (Internal, Fixed), (Host, Internal), (Internal, Host), (Host, Host), (Host, Fixed)];
+    let (shaft, housing) = draw.pick(&motions);
+    let force = scale.stiffness * scale.approach / 1.5 * (case.count as f64 / 5.0).max(1.0);
+    for (which, motion) in [shaft, housing].into_iter().enumerate() {
+        let mut ring = Ring { motion, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
+        if motion == Internal {
+            if which == 0 || draw.chance(0.3) {
+                let size = if draw.chance(0.1) { 0.0 } else { force * draw.log(0.1, 1.0) };
+                ring.load = draw.vector(size);
+            }
+            ring.mass = scale.mass * draw.log(2.0, 1e5);
+            // A ring is held, if by nothing else than the other one.
+            let held = which == 1 || housing != Internal && draw.chance(0.3) || draw.chance(0.2);
+            if held {
+                ring.stiffness = scale.stiffness * draw.log(1e-3, 10.0);
+            }
+            let critical = 2.0 * ((ring.stiffness + scale.stiffness) * ring.mass).sqrt();
+            ring.damping = if draw.chance(0.2) { 0.0 } else { critical * draw.log(1e-3, 2.0) };
+        }
+        case.rings[which] = ring;
+    }
+    if housing != Fixed && draw.chance(0.4) {
+        let mass = scale.mass * draw.log(1.0, 1e3);
+        let frequency = scale.omega * draw.log(0.01, 1.0);
+        let stiffness = mass * frequency * frequency;
+        case.sensor = Some([mass, stiffness, 2.0 * mass * frequency * draw.log(1e-3, 0.5)]);
+    }
+}
+
+fn motion_name(case: &Case) -> &'static str {
+    match case.rings.map(|ring| ring.motion) {
+        [Motion::Internal, Motion::Internal] => "both internal",
+        [Motion::Internal, Motion::Fixed] => "shaft internal, housing fixed",
+        [Motion::Internal, Motion::Host] => "shaft internal, housing hosted",
+        [Motion::Host, Motion::Internal] => "shaft hosted, housing internal",
+        [Motion::Host, Motion::Host] => "both hosted",
+        _ => "shaft hosted, housing fixed",
+    }
+}
+
+/// Largest angular frequency or rate of decay [1/s] of a case under its loads.
+pub fn fastest(case: &Case, approach: [f64; 2]) -> f64 {
+    let bearing = Bearing::new(case);
+    let (mut stiff, mut damped) = (0.0, 0.0);
+    for side in 0..2 {
+        let root = bearing.stiffness[side] * approach[side].max(0.0).sqrt();
+        let k = 1.5 * root;
+        stiff += k;
+        damped += match case.damping {
+            Damping::HuntCrossley(chi) => chi * root * approach[side].max(0.0),
+            Damping::Proportional(tau) => tau * k,
+        };
+    }
+    let loaded = (case.count as f64 / 3.0).max(1.0);
+    let mut rate = (stiff / bearing.mass).sqrt() + damped / bearing.mass;
+    for ring in case.rings.iter().filter(|ring| ring.motion == Motion::Internal) {
+        let own = ((ring.stiffness + loaded * stiff) / ring.mass).sqrt() + (ring.damping + loaded * damped) / ring.mass;
+        rate = f64::max(rate, own);
+    }
+    if let Some([mass, stiffness, damping]) = case.sensor {
+        let mass = if case.rings[1].motion == Motion::Internal { mass.min(case.rings[1].mass) } else { mass };
+        rate = rate.max((stiffness / mass).sqrt() + damping / mass);
+    }
+    rate
+}
+
+/// Time [s] that an oracle of the usual step can go through.
+fn time(case: &Case, scale: &Scale) -> f64 {
+    let rate = fastest(case, [scale.approach; 2]);
+    WORK / case.count as f64 * PHASE / rate
+}
+
+/// Speeds, steps and inputs for a run of so many seconds.
+fn motion(draw: &mut Draw, case: &mut Case, scale: &Scale, time: f64) -> &'static str {
+    let cage_ratio = Bearing::new(case).ratio.max(1e-6);
+    // As far as the defect is long, or a part of it.
+    let length = case.defect.as_ref().map_or(scale.r, |defect| match &defect.shape {
+        super::Shape::Trace(points) => points[points.len() - 1].0 * 1e-3 - points[0].0 * 1e-3,
+        super::Shape::Spall { length: super::Length::Millimetres(length), .. } => length * 1e-3,
+        super::Shape::Spall { length: super::Length::Degrees(degrees), .. } => degrees.to_radians() * scale.raceway,
+    });
+    let travel = length / scale.raceway * draw.log(0.05, 3.0);
+    let size = (travel / time / cage_ratio).min(0.9 * TAU * 1e4).min(9e4) * draw.sign();
+    // One element near one end of the defect, on its way in.
+    if let Some(defect) = &case.defect
+        && draw.chance(0.8)
+    {
+        let half = (0.5 * length / scale.raceway).min(PI);
+        let at = -size.signum() * half * draw.between(0.0, 1.3);
+        let element = draw.below(case.count) as f64 * 360.0 / case.count as f64;
+        case.cage_deg = defect.angle_deg + at.to_degrees() - element;
+    }
+    let standing = draw.chance(0.05);
+    case.speed_hz = if standing { 0.0 } else { size / TAU };
+    let count = 2 + draw.below(12);
+    // Short steps first: bounces let nobody say much about the last.
+    let shares: Vec<f64> = (0..count).map(|i| draw.log(0.05, 1.0) * (0.1 + i as f64)).collect();
+    let whole: f64 = shares.iter().sum();
+    let lengths: Vec<f64> = shares.into_iter().map(|share| time * share / whole).collect();
+    let way = if standing { "standing" } else { draw.pick(&["steady", "steady", "ramp", "reversal", "jumps"]) };
+    let mut inputs = Inputs::new(draw, case, scale, time);
+    for (i, length) in lengths.into_iter().enumerate() {
+        let silent = i > 0 && draw.chance(0.2);
+        let speed = case.speed_hz * TAU;
+        let host = inputs.next(draw, way, speed, length);
+        case.steps.push(Step { length, host: (!silent).then_some(host) });
+    }
+    way
+}
+
+/// What the host feeds.
+struct Inputs {
+    internal: [bool; 2],
+    /// Around which a ring's input moves, how far, and how fast [1/s].
+    middle: [[f64; 2]; 2],
+    swing: [[f64; 2]; 2],
+    rate: f64,
+    phase: f64,
+    time: f64,
+    speed: f64,
+}
+
+impl Inputs {
+    fn new(draw: &mut Draw, case: &Case, scale: &Scale, time: f64) -> Self {
+        let internal = case.rings.map(|ring| ring.motion == Motion::Internal);
+        let half = 0.5 * case.clearance_um * 1e-6;
+        let push = half + 1.5 * scale.approach * draw.between(0.1, 1.0);
+        let mut middle = [[0.0; 2]; 2];
+        let mut swing = [[0.0; 2]; 2];
+        let moves = draw.chance(0.7);
+        for which in 0..2 {
+            middle[which] = if internal[which] {
+                case.rings[which].load
+            } else if case.rings[which].motion == Motion::Host {
+                let size = push.min(9e-3) * if internal[1 - which] { draw.unit() } else { 0.5 };
+                draw.vector(size)
+            } else {
+                [0.0; 2]
+            };
+            let size = middle[which][0].hypot(middle[which][1]);
+            let part = if internal[which] { size } else { scale.approach.min(5e-4) };
+            let size = if moves { part * draw.log(0.01, 1.0) } else { 0.0 };
+            swing[which] = draw.vector(size);
+        }
+        if case.rings.iter().all(|ring| ring.motion != Motion::Internal) {
+            // Both rings are moved or held: let them press somewhere.
+            let size = push.min(9e-3);
+            middle[0] = draw.vector(size);
+            middle[1] = [0.0; 2];
+        }
+        let rate = draw.log(0.3, 30.0) / time;
+        Self { internal, middle, swing, rate, phase: draw.between(0.0, TAU), time: 0.0, speed: case.speed_hz * TAU }
+    }
+
+    /// What is set before a step of this length.
+    fn next(&mut self, draw: &mut Draw, way: &str, start: f64, length: f64) -> Host {
+        let slope = match way {
+            "ramp" => start * draw.between(-0.5, 0.5) / length,
+            // Stands still somewhere within the step, or has not quite by its end.
+            "reversal" => -self.speed / length * draw.between(0.5, 3.0),
+            _ => 0.0,
+        };
+        if way == "jumps" && draw.chance(0.5) {
+            self.speed = start * draw.between(-1.0, 1.0);
+        }
+        let speed = [self.speed, slope];
+        self.speed = (self.speed + slope * length).clamp(-1e5, 1e5);
+        let angle = self.rate * self.time + self.phase;
+        let (sin, cos) = angle.sin_cos();
+        let jump = draw.chance(0.2);
+        let rings = [0, 1].map(|which| {
+            [0, 1].map(|a| {
+                let swing = self.swing[which][a];
+                let [value, first, second] =
+                    [swing * sin, self.rate * swing * cos, -self.rate * self.rate * swing * sin];
+                let held = jump && self.internal[which];
+                let value = self.middle[which][a] + value;
+                if held { [value, 0.0, 0.0] } else { [value, first, second] }
+            })
+        });
+        self.time += length;
+        Host { speed, rings }
+    }
+}

@@ -1,0 +1,166 @@
+//! A static balance, looked for from many sides: whether a scene that the simulation refuses to start has one.
+//!
+//! For rings in given places each element is balanced by halving; then the free rings go downhill in the square of the force on
+//! them (Levenberg and Marquardt, with difference quotients).
+
+use super::envelope::Feature;
+use super::{Acting, Bearing, ELEMENTS, Outside};
+use crate::case::{Case, Motion};
+use std::f64::consts::TAU;
+
+struct Search<'a> {
+    bearing: &'a Bearing,
+    outside: Outside,
+    features: Vec<Feature>,
+    /// Places in the state vector of what is free.
+    free: Vec<usize>,
+    acting: Acting,
+}
+
+/// Largest net force [N] that is left on a free ring or an element at the best balance found, and the largest force in play.
+pub fn best(bearing: &Bearing, case: &Case) -> (f64, f64) {
+    let run = super::run::Run::new(bearing, vec![0.0; bearing.len()], case.steps[0].host.as_ref(), (1.0, 0));
+    let free = (0..2).filter(|&which| case.rings[which].motion == Motion::Internal);
+    let free = free.flat_map(|which| [4 * which, 4 * which + 1]).collect();
+    // At the start the host's derivatives of loads and speed are not at work yet.
+    let mut outside = run.outside;
+    outside.cage[2] = 0.0;
+    let mut search = Search { bearing, outside, features: run.features, free, acting: Acting::default() };
+    let mut best = (f64::INFINITY, 0.0);
+    let soft = case.rings.iter().filter(|ring| ring.motion == Motion::Internal && ring.stiffness > 0.0);
+    let sag = soft.map(|ring| ring.load[0].hypot(ring.load[1]) / ring.stiffness).fold(0.0, f64::max);
+    let play = 0.5 * bearing.clearance.max(0.0) + 1e-3 * bearing.r;
+    for size in [0.0, play, 2.0 * play, sag] {
+        for direction in 0..if size == 0.0 { 1 } else { 8 } {
+            let (sin, cos) = (TAU * f64::from(direction) / 8.0).sin_cos();
+            let found = search.from([size * cos, size * sin]);
+            if found.0 < best.0 {
+                best = found;
+            }
+            if best.0 <= 1e-9 * best.1 {
+                return best;
+            }
+        }
+    }
+    best
+}
+
+impl Search<'_> {
+    /// Downhill from the shaft in one place.
+    fn from(&mut self, shaft: [f64; 2]) -> (f64, f64) {
+        let mut y = vec![0.0; self.bearing.len()];
+        for (a, place) in shaft.into_iter().enumerate() {
+            if self.free.contains(&a) {
+                y[a] = place;
+            }
+        }
+        let (mut force, mut largest) = self.force(&mut y);
+        let square = |force: &[f64]| force.iter().map(|f| f * f).sum::<f64>();
+        let mut damping = 1e-3;
+        for _ in 0..200 {
+            if square(&force[..self.free.len()]).sqrt() <= 1e-11 * largest {
+                break;
+            }
+            let jacobian = self.jacobian(&y, &force);
+            let Some(step) = marquardt(&jacobian, &force[..self.free.len()], damping) else { break };
+            let mut next = y.clone();
+            for (&i, step) in self.free.iter().zip(&step) {
+                next[i] += step.clamp(-self.bearing.r, self.bearing.r);
+            }
+            let (next_force, next_largest) = self.force(&mut next);
+            if square(&next_force) < square(&force) {
+                (y, force, largest) = (next, next_force, next_largest);
+                damping *= 0.2;
+            } else {
+                damping *= 5.0;
+                if damping > 1e12 {
+                    break;
+                }
+            }
+        }
+        (force.iter().fold(0.0f64, |m, f| m.max(f.abs())), largest)
+    }
+
+    fn jacobian(&mut self, y: &[f64], force: &[f64]) -> Vec<Vec<f64>> {
+        let h = 1e-7 * self.bearing.r;
+        let free = self.free.clone();
+        free.iter()
+            .map(|&i| {
+                let mut moved = y.to_vec();
+                moved[i] += h;
+                let (there, _) = self.force(&mut moved);
+                there[..free.len()].iter().zip(force).map(|(a, b)| (a - b) / h).collect()
+            })
+            .collect()
+    }
+
+    /// Balances the elements; force on what is free and then on the worst element, and the largest force.
+    fn force(&mut self, y: &mut [f64]) -> (Vec<f64>, f64) {
+        let (bearing, count) = (self.bearing, self.bearing.count);
+        // All elements are halved together: none feels another. Outwards the raceway wins.
+        let (mut low, mut high) = (vec![-2.0 * bearing.r; count], vec![bearing.r; count]);
+        let mut along = vec![0.0; count];
+        for _ in 0..110 {
+            for j in 0..count {
+                y[ELEMENTS + 2 * j] = 0.5 * (low[j] + high[j]);
+            }
+            self.along(y, &mut along);
+            for j in 0..count {
+                if along[j] > 0.0 { low[j] = y[ELEMENTS + 2 * j] } else { high[j] = y[ELEMENTS + 2 * j] }
+            }
+        }
+        let worst = along.iter().fold(0.0f64, |m, f| m.max(f.abs()));
+        let mut found = Vec::new();
+        let mut largest = self.acting.contacts.iter().flatten().fold(0.0f64, |m, contact| m.max(contact.force));
+        for &i in &self.free {
+            let (which, a) = (i / 4, i % 4);
+            let ring = &bearing.rings[which];
+            let load = self.outside.rings[which][a][0];
+            found.push(load + self.acting.rings[which][a] - ring.stiffness * y[i]);
+            largest = largest.max(load.abs()).max((ring.stiffness * y[i]).abs());
+        }
+        found.push(worst);
+        (found, largest)
+    }
+
+    /// Net radial force on each element.
+    fn along(&mut self, y: &[f64], along: &mut [f64]) {
+        let mut rates = vec![0.0; y.len()];
+        self.bearing.rates(&self.outside, 0.0, (y, &self.features), &mut rates, &mut self.acting);
+        let carried = self.acting.accelerations[1];
+        for (j, along) in along.iter_mut().enumerate() {
+            let (sin, cos) = (self.outside.cage[0] + TAU * j as f64 / self.bearing.count as f64).sin_cos();
+            *along = self.bearing.mass * (rates[ELEMENTS + 2 * j + 1] + carried[0] * cos + carried[1] * sin);
+        }
+    }
+}
+
+/// The step against `force`; columns of the Jacobian are those of its lists.
+fn marquardt(jacobian: &[Vec<f64>], force: &[f64], damping: f64) -> Option<Vec<f64>> {
+    let n = jacobian.len();
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let mut rows: Vec<Vec<f64>> = (0..n)
+        .map(|i| {
+            let mut row: Vec<f64> = (0..n).map(|k| dot(&jacobian[i], &jacobian[k])).collect();
+            row[i] += damping * row[i] + 1e-300;
+            row.push(-dot(&jacobian[i], force));
+            row
+        })
+        .collect();
+    for i in 0..n {
+        let pivot = (i..n).max_by(|&a, &b| rows[a][i].abs().total_cmp(&rows[b][i].abs()))?;
+        rows.swap(i, pivot);
+        if rows[i][i] == 0.0 {
+            return None;
+        }
+        for k in 0..n {
+            if k != i {
+                let share = rows[k][i] / rows[i][i];
+                for c in i..=n {
+                    rows[k][c] -= share * rows[i][c];
+                }
+            }
+        }
+    }
+    Some((0..n).map(|i| rows[i][n] / rows[i][i]).collect())
+}

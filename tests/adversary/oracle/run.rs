@@ -1,0 +1,358 @@
+//! Classical Runge–Kutta steps of one length, cut where an element comes to touch another feature and where a contact begins or
+//! ceases to push. After such a change of contact the steps begin small and double, because a force sets in as δ^1.5 or √δ.
+
+use super::envelope::Feature;
+use super::{Acting, Bearing, ELEMENTS, Outside, SENSOR, quadratic};
+use crate::case::{Case, Host, Motion};
+use std::f64::consts::{PI, TAU};
+
+/// Why a run ended early.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stop {
+    /// More steps than allowed.
+    Budget,
+    /// An element or a ring has left the bearing, at this time [s].
+    Left(f64),
+}
+
+/// What a signal is measured in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    Force,
+    Length,
+    Velocity,
+    /// Of the shaft, the housing, the sensor.
+    Acceleration(usize),
+    Angle,
+    Torque,
+}
+
+/// Names of the signals that are compared, as the variables are called.
+pub fn signals(case: &Case) -> Vec<(String, Kind)> {
+    let mut found = Vec::new();
+    let mut pair = |name: &str, kind: Kind| {
+        found.extend(["x", "y"].map(|axis| (name.replace('*', axis), kind)));
+    };
+    for (which, name) in ["shaft", "housing"].into_iter().enumerate() {
+        pair(&format!("{name}.force.*"), Kind::Force);
+        match case.rings[which].motion {
+            Motion::Internal => {
+                pair(&format!("{name}.*"), Kind::Length);
+                pair(&format!("{name}.v*"), Kind::Velocity);
+                pair(&format!("{name}.a*"), Kind::Acceleration(which));
+            }
+            Motion::Host => pair(&format!("{name}.mean_force.*"), Kind::Force),
+            Motion::Fixed => {}
+        }
+    }
+    if case.sensor.is_some() {
+        found.push(("sensor.acceleration".to_owned(), Kind::Acceleration(2)));
+    }
+    found.push(("cage.angle".to_owned(), Kind::Angle));
+    found.push(("cage.torque".to_owned(), Kind::Torque));
+    for j in 1..=case.count {
+        found.push((format!("element[{j}].path"), Kind::Length));
+        found.push((format!("element[{j}].force.inner"), Kind::Force));
+        found.push((format!("element[{j}].force.outer"), Kind::Force));
+    }
+    found
+}
+
+/// One run of the oracle.
+pub struct Run<'a> {
+    bearing: &'a Bearing,
+    pub y: Vec<f64>,
+    pub outside: Outside,
+    pub acting: Acting,
+    pub features: Vec<Feature>,
+    /// Largest approach in any inner and any outer contact so far [m].
+    pub largest: [f64; 2],
+    h: f64,
+    left: usize,
+    time: f64,
+    stages: [Vec<f64>; 5],
+}
+
+impl<'a> Run<'a> {
+    /// From a state, with steps of length `h` [s], `budget` of them at most.
+    pub fn new(bearing: &'a Bearing, y: Vec<f64>, host: Option<&Host>, (h, budget): (f64, usize)) -> Self {
+        let loads = [0, 1].map(|which| bearing.rings[which].load.map(|load| [load, 0.0, 0.0]));
+        let speed = [bearing.speed, 0.0];
+        let Host { speed, rings } = *host.unwrap_or(&Host { speed, rings: loads });
+        let cage = [bearing.cage_start, bearing.ratio * speed[0], bearing.ratio * speed[1]];
+        let len = bearing.len();
+        let mut run = Self {
+            bearing,
+            y,
+            outside: Outside { cage, rings },
+            acting: Acting::default(),
+            features: vec![Feature::Raceway; bearing.count],
+            largest: [0.0; 2],
+            h,
+            left: budget,
+            time: 0.0,
+            stages: std::array::from_fn(|_| vec![0.0; len]),
+        };
+        run.feel(0.0, 0.0);
+        run
+    }
+
+    /// What the elements touch at an angle of the cage, and what then acts at time `t` into the step.
+    pub fn feel(&mut self, t: f64, features_at: f64) {
+        let cage = quadratic(self.outside.cage, features_at)[0];
+        for j in 0..self.bearing.count {
+            self.features[j] = match &self.bearing.defect {
+                Some((envelope, _)) => envelope.feature(self.bearing.from_defect(j, cage)),
+                None => Feature::Raceway,
+            };
+        }
+        self.evaluate(t);
+    }
+
+    /// Derivative of the present state into stage 0, and what acts.
+    fn evaluate(&mut self, t: f64) {
+        let Self { bearing, y, outside, acting, features, stages, .. } = self;
+        bearing.rates(outside, t, (y, features), &mut stages[0], acting);
+        for contacts in &acting.contacts {
+            for side in 0..2 {
+                self.largest[side] = self.largest[side].max(contacts[side].approach);
+            }
+        }
+    }
+
+    /// The present derivative.
+    pub fn rates(&self) -> &[f64] {
+        &self.stages[0]
+    }
+
+    /// Acceleration with which the host carries element `j` outwards [m/s²]: no balance counts it.
+    pub fn carried(&self, j: usize) -> f64 {
+        if self.bearing.rings[1].motion != Motion::Host {
+            return 0.0;
+        }
+        let (sin, cos) = (self.outside.cage[0] + TAU * j as f64 / self.bearing.count as f64).sin_cos();
+        self.acting.accelerations[1][0] * cos + self.acting.accelerations[1][1] * sin
+    }
+
+    /// The host's doing before a step.
+    fn host(&mut self, host: Option<&Host>) {
+        let before = self.outside.rings[1];
+        match host {
+            Some(host) => {
+                let cage = self.outside.cage[0];
+                self.outside.cage = [cage, self.bearing.ratio * host.speed[0], self.bearing.ratio * host.speed[1]];
+                self.outside.rings = host.rings;
+            }
+            None => {
+                self.outside.cage[2] = 0.0;
+                for which in 0..2 {
+                    for a in 0..2 {
+                        if self.bearing.rings[which].motion == Motion::Internal {
+                            self.outside.rings[which][a] = [self.outside.rings[which][a][0], 0.0, 0.0];
+                        }
+                    }
+                }
+            }
+        }
+        if self.bearing.rings[1].motion == Motion::Host {
+            let jump = [0, 1].map(|a| self.outside.rings[1][a][1] - before[a][1]);
+            for j in 0..self.bearing.count {
+                let (sin, cos) = (self.outside.cage[0] + TAU * j as f64 / self.bearing.count as f64).sin_cos();
+                self.y[ELEMENTS + 2 * j + 1] -= jump[0] * cos + jump[1] * sin;
+            }
+        }
+    }
+
+    /// Takes a communication step; the signals at its end.
+    pub fn step(&mut self, length: f64, host: Option<&Host>) -> Result<Vec<f64>, Stop> {
+        self.host(host);
+        let impulses = ELEMENTS + 2 * self.bearing.count;
+        self.y[impulses..].fill(0.0);
+        let mut from = 0.0;
+        for to in self.passages(length) {
+            self.feel(from, 0.5 * (from + to));
+            self.smooth(from, to)?;
+            from = to;
+        }
+        self.time += length;
+        self.outside.cage = quadratic(self.outside.cage, length);
+        self.outside.rings = self.outside.rings.map(|ring| ring.map(|c| quadratic(c, length)));
+        Ok(self.values(length))
+    }
+
+    /// Times within a step at which an element comes to touch another feature, ascending, and its end.
+    fn passages(&self, length: f64) -> Vec<f64> {
+        let mut times = vec![length];
+        let Some((envelope, _)) = &self.bearing.defect else { return times };
+        let cage = self.outside.cage;
+        // The cage turns one way before and after it reverses.
+        let reversal = -cage[1] / cage[2];
+        let turn = if reversal > 0.0 && reversal < length { reversal } else { 0.0 };
+        for (from, to) in [(0.0, turn), (turn, length)] {
+            if to <= from {
+                continue;
+            }
+            let ends = [from, to].map(|t| quadratic(cage, t)[0] - cage[0]);
+            let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+            for j in 0..self.bearing.count {
+                let start = self.bearing.from_defect(j, cage[0]);
+                for change in &envelope.changes {
+                    let mut angle = change - start;
+                    angle += TAU * ((low - angle) / TAU).ceil();
+                    while angle < high {
+                        times.push(self.when(angle, (from, to)));
+                        angle += TAU;
+                    }
+                }
+            }
+        }
+        times.retain(|&t| t > 0.0 && t <= length);
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        times
+    }
+
+    /// When the cage has turned by an angle, within times between which it turns one way.
+    fn when(&self, angle: f64, (mut low, mut high): (f64, f64)) -> f64 {
+        let turned = |t: f64| quadratic(self.outside.cage, t)[0] - self.outside.cage[0] - angle;
+        let rising = turned(high) > turned(low);
+        for _ in 0..200 {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                break;
+            }
+            if (turned(middle) < 0.0) == rising { low = middle } else { high = middle }
+        }
+        high
+    }
+
+    /// Integrates between two passages.
+    fn smooth(&mut self, from: f64, to: f64) -> Result<(), Stop> {
+        let (mut t, mut since) = (from, f64::INFINITY);
+        while t < to {
+            if self.left == 0 {
+                return Err(Stop::Budget);
+            }
+            let wanted = self.h.min((self.h / 1024.0).max(since));
+            let remaining = to - t;
+            let count = (remaining / wanted).ceil();
+            let h = if count <= 1.0 { remaining } else { (remaining / count).min(wanted) };
+            let (start, pushing) = (self.y.clone(), self.pushing());
+            let slope = self.stages[0].clone();
+            self.runge_kutta(&start, &slope, t, h);
+            self.evaluate(t + h);
+            if self.pushing() == pushing {
+                t = if count <= 1.0 { to } else { t + h };
+                since += h;
+            } else {
+                let share = self.first_change(&start, &slope, &pushing, t, h);
+                self.runge_kutta(&start, &slope, t, share * h);
+                t = if share == 1.0 && count <= 1.0 { to } else { t + share * h };
+                self.evaluate(t);
+                since = 0.0;
+            }
+            self.check(t)?;
+        }
+        Ok(())
+    }
+
+    fn pushing(&self) -> Vec<[bool; 2]> {
+        self.acting.contacts.iter().map(|contacts| contacts.map(|contact| contact.pushes)).collect()
+    }
+
+    /// Share of a step by which the first contact has just changed. What is left of the step behind the change is a thousandth, and
+    /// the force begins there with its power of 1.5.
+    fn first_change(&mut self, start: &[f64], slope: &[f64], pushing: &[[bool; 2]], t: f64, h: f64) -> f64 {
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..10 {
+            let middle = 0.5 * (low + high);
+            self.runge_kutta(start, slope, t, middle * h);
+            self.evaluate(t + middle * h);
+            if self.pushing() == pushing { low = middle } else { high = middle }
+        }
+        high
+    }
+
+    /// One step from `start`, where the derivative is `slope`, into the state.
+    fn runge_kutta(&mut self, start: &[f64], slope: &[f64], t: f64, h: f64) {
+        let Self { bearing, y, outside, acting, features, stages, .. } = self;
+        self.left = self.left.saturating_sub(1);
+        let [_, k2, k3, k4, at] = stages;
+        let mut stage = |share: f64, k: &[f64], out: &mut [f64]| {
+            for (at, (y, k)) in at.iter_mut().zip(start.iter().zip(k)) {
+                *at = y + share * h * k;
+            }
+            bearing.rates(outside, t + share * h, (at, features), out, acting);
+        };
+        stage(0.5, slope, k2);
+        stage(0.5, k2, k3);
+        stage(1.0, k3, k4);
+        for i in 0..y.len() {
+            y[i] = start[i] + h / 6.0 * (slope[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]);
+        }
+    }
+
+    /// The limits beyond which the simulation is to give up.
+    fn check(&self, t: f64) -> Result<(), Stop> {
+        let place = |which: usize, a: usize| match self.bearing.rings[which].motion {
+            Motion::Internal => self.y[4 * which + a],
+            Motion::Host => quadratic(self.outside.rings[which][a], t)[0],
+            Motion::Fixed => 0.0,
+        };
+        let offset = (place(1, 0) - place(0, 0)).hypot(place(1, 1) - place(0, 1));
+        let far = (0..self.bearing.count).any(|j| !(self.y[ELEMENTS + 2 * j].abs() <= self.bearing.r));
+        if far || !(offset <= self.bearing.r) { Err(Stop::Left(self.time + t)) } else { Ok(()) }
+    }
+
+    /// The signals now, after a communication step of this length, in the order of [`signals`].
+    pub fn values(&self, length: f64) -> Vec<f64> {
+        let mut found = Vec::new();
+        let impulses = &self.y[ELEMENTS + 2 * self.bearing.count..];
+        for which in 0..2 {
+            found.extend(self.acting.rings[which]);
+            match self.bearing.rings[which].motion {
+                Motion::Internal => {
+                    found.extend(&self.y[4 * which..4 * which + 4]);
+                    found.extend(self.acting.accelerations[which]);
+                }
+                Motion::Host if length == 0.0 => found.extend(self.acting.rings[which]),
+                Motion::Host => found.extend([0, 1].map(|a| impulses[2 * which + a] / length)),
+                Motion::Fixed => {}
+            }
+        }
+        if self.bearing.sensor.is_some() {
+            found.push(self.acting.sensor);
+        }
+        found.extend([self.outside.cage[0], self.acting.torque]);
+        for j in 0..self.bearing.count {
+            let [inner, outer] = self.acting.contacts[j];
+            found.extend([self.y[ELEMENTS + 2 * j], inner.force, outer.force]);
+        }
+        found
+    }
+
+    /// The state with positions and velocities moved by so much, up and down in turn.
+    pub fn moved(bearing: &Bearing, y: &[f64], position: f64, velocity: f64) -> Vec<f64> {
+        let mut moved = y.to_vec();
+        let mut up = position;
+        for (which, ring) in bearing.rings.iter().enumerate().filter(|(_, ring)| ring.motion == Motion::Internal) {
+            for a in 0..2 {
+                // A ring whose velocity changes in a step: 1e-12 kg have no business here.
+                debug_assert!(ring.mass > 0.0);
+                moved[4 * which + a] += up;
+                moved[4 * which + 2 + a] -= up / position * velocity;
+                up = -up;
+            }
+        }
+        if bearing.sensor.is_some() {
+            moved[SENSOR] += position;
+        }
+        for j in 0..bearing.count {
+            // No two neighbours, nor opposite ones, alike.
+            let part = ((j as f64 + 0.5) * PI * 0.618).sin();
+            moved[ELEMENTS + 2 * j] += position * part;
+            moved[ELEMENTS + 2 * j + 1] += velocity * part;
+        }
+        moved
+    }
+}
