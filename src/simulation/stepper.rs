@@ -15,7 +15,7 @@
 use super::arrow::Arrow;
 use super::explicit::{Explicit, Pair};
 use super::kernels::{Look, Trial};
-use super::knots::next_knot;
+use super::knots::{Leg, next_knot};
 use super::outputs::Instant;
 use super::progress::Progress;
 use super::recorder::Recorder;
@@ -137,7 +137,7 @@ impl Stepper {
         }
         check_rings(model, drive, tau, progress)?;
         let first_count = progress.steps + progress.rejected_steps;
-        let mut knot = next_knot(model, drive, tau, step, &progress.cells);
+        let mut knot = next_knot(model, drive, (tau, Leg::Out), step, &progress.cells);
         let mut at_once = 0;
         self.first_stage(model, drive, tau, progress);
         if progress.choice.stable_step == 0.0 && control.method != Method::Rodas {
@@ -151,7 +151,7 @@ impl Stepper {
             {
                 count_passage(model, tau, &mut at_once)?;
                 progress.cells[at.element] = at.cell;
-                knot = next_knot(model, drive, tau, step, &progress.cells);
+                knot = next_knot(model, drive, (tau, at.leg), step, &progress.cells);
                 self.first_stage(model, drive, tau, progress);
                 continue;
             }
@@ -182,7 +182,7 @@ impl Stepper {
         {
             count_passage(model, tau, &mut at_once)?;
             progress.cells[at.element] = at.cell;
-            knot = next_knot(model, drive, tau, step, &progress.cells);
+            knot = next_knot(model, drive, (tau, at.leg), step, &progress.cells);
         }
         if let Some(recorder) = recorder {
             recorder.end(&mut progress.due, step);
