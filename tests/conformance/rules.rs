@@ -136,14 +136,21 @@ pub(crate) const RULES: &[(&str, &str, &[Evidence])] = &[
     (
         "Steps",
         "Any positive step is taken and ends exactly where the host computes it.",
-        &[T("the_shortest_positive_step_is_taken"), T("a_step_ends_exactly_where_the_host_computes_it")],
+        &[
+            T("the_shortest_positive_step_is_taken"),
+            T("a_step_shorter_than_time_can_show_is_taken"),
+            T("a_step_ends_exactly_where_the_host_computes_it"),
+        ],
     ),
     (
         "Steps",
-        "A communication point that is off by accumulated rounding is accepted, a wrong one is an error.",
+        "A communication point that is off by accumulated rounding is accepted, a wrong one is an error, however late \
+         in a run.",
         &[
             T("a_wrong_communication_point_is_an_error_and_a_rounded_one_is_not"),
-            T("a_million_added_steps_are_accepted_and_end_on_the_stop_time"),
+            T("a_step_left_out_or_done_twice_is_an_error_however_late"),
+            T("ten_million_added_steps_are_accepted_and_end_on_the_stop_time"),
+            T("a_host_that_multiplies_is_met_from_any_start_with_any_step"),
         ],
     ),
     (
@@ -156,6 +163,7 @@ pub(crate) const RULES: &[(&str, &str, &[Evidence])] = &[
         "A step past a defined stop time is an error, rounding aside; without one there is no end.",
         &[
             T("a_step_past_the_stop_time_is_an_error_and_one_that_ends_there_is_not"),
+            T("a_whole_step_past_a_late_stop_time_is_an_error"),
             T("without_a_stop_time_there_is_no_end"),
         ],
     ),
@@ -279,6 +287,7 @@ pub(crate) const RULES: &[(&str, &str, &[Evidence])] = &[
             T("an_input_follows_its_derivative_inside_the_step"),
         ],
     ),
+            T("a_motion_is_the_same_in_whichever_variables_it_is_told"),
     (
         "Derivatives",
         "Derivatives of outputs by time, order 1, are what short steps show.",

@@ -102,6 +102,64 @@ fn a_step_past_the_stop_time_is_an_error_and_one_that_ends_there_is_not() {
 }
 
 #[test]
+fn a_step_left_out_or_done_twice_is_an_error_however_late() {
+    // 1.7e9 s: a host whose time is that of Unix.
+    for start in [-1e3, 0.0, 1e3, 1e5, 1e6, 1e7, 1.7e9] {
+        for off in [1e-4, -1e-4, 5e-5, -5e-5, -0.9, 0.9] {
+            let host = Host::of("6205-healthy");
+            assert_eq!(host.setup(None, start, None), Status::Ok);
+            assert_eq!((host.enter(), host.exit()), (Status::Ok, Status::Ok));
+            assert_eq!(host.step(start, 1e-4), Status::Ok);
+            let point = start + 1e-4;
+            assert_eq!(host.step(point + off, 1e-4), Status::Error, "{off} s off at {start} s");
+            assert!(host.lines().last().unwrap().message.contains("communication point"));
+            // The host itself adds and multiplies.
+            assert_eq!(host.reset(), Status::Ok);
+            assert_eq!(host.setup(None, start, None), Status::Ok);
+            assert_eq!((host.enter(), host.exit()), (Status::Ok, Status::Ok));
+            for n in 0..5 {
+                assert_eq!(host.step(start + f64::from(n) * 1e-4, 1e-4), Status::Ok, "{:?}", host.lines());
+            }
+        }
+    }
+}
+
+#[test]
+fn a_whole_step_past_a_late_stop_time_is_an_error() {
+    for start in [1e5, 1e7, 1.7e9] {
+        let host = Host::of("6205-healthy");
+        let stop = start + 1e-3;
+        assert_eq!(host.setup(None, start, Some(stop)), Status::Ok);
+        assert_eq!((host.enter(), host.exit()), (Status::Ok, Status::Ok));
+        let mut time = start;
+        for _ in 0..10 {
+            assert_eq!(host.step(time, 1e-4), Status::Ok, "{:?}", host.lines());
+            time += 1e-4;
+        }
+        assert_eq!(host.step(time, 1e-4), Status::Error, "{start}");
+        assert!(host.lines().last().unwrap().message.contains("stop time"));
+    }
+}
+
+#[test]
+fn a_step_shorter_than_time_can_show_is_taken() {
+    let host = Host::of("6205-healthy");
+    assert_eq!(host.setup(None, 1.7e9, None), Status::Ok);
+    assert_eq!((host.enter(), host.exit()), (Status::Ok, Status::Ok));
+    let angle = host.reference("cage.angle");
+    let before = host.get(&[angle, host.reference("cage.speed")]).unwrap();
+    // Numbers at Unix time are 2.4e-7 s apart: most of these steps do not move it, but the cage.
+    for n in 0..100 {
+        assert_eq!(host.step(1.7e9 + f64::from(n) * 1e-8, 1e-8), Status::Ok, "{:?}", host.lines());
+    }
+    let turned = host.get(&[angle]).unwrap()[0] - before[0];
+    // Rounding of a hundred sums of an angle of 1.6.
+    assert!((turned - 1e-6 * before[1]).abs() < 1e-13, "{turned}");
+    // What a double at that time can tell apart is told apart.
+    assert_eq!(host.step(1.7e9 + 1e-5, 1e-8), Status::Error);
+}
+
+#[test]
 fn without_a_stop_time_there_is_no_end() {
     let host = Host::of("6205-healthy");
     // NaN goes with "not defined" and must not be looked at.

@@ -31,13 +31,11 @@ pub unsafe extern "C" fn fmi2DoStep(
         // Stands if the step fails or panics.
         instance.last_step = Status::Error;
         let clock = instance.clock.as_ref().ok_or(Failure::NotSetUp)?;
-        let end = clock.end_of_step(currentCommunicationPoint, communicationStepSize)?;
+        let after = clock.after(currentCommunicationPoint, communicationStepSize)?;
         #[cfg(feature = "panic-on-demand")]
         instance.logger.panic_on_demand();
         instance.step(communicationStepSize)?;
-        if let Some(clock) = &mut instance.clock {
-            clock.time = end;
-        }
+        instance.clock = Some(after);
         instance.last_step = Status::Ok;
         Ok(())
     })

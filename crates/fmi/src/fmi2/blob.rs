@@ -2,7 +2,7 @@
 //! byte order or not: everything is little-endian.
 //!
 //! ```text
-//! "Brinell\0" | format u32 | checksum u64 | length u64 | GUID 38 | mode u8 | last step u8 | clock u8 + 3 f64 | ...
+//! "Brinell\0" | format u32 | checksum u64 | length u64 | GUID 38 | mode u8 | last step u8 | clock u8 + 4 f64 | ...
 //!                                         \_____________ covered by the checksum, with the simulation's state after it
 //! ```
 //! `length` is that of the whole blob. The checksum is 64-bit FNV-1a: each of its steps is a bijection of the running value, so a blob
@@ -16,7 +16,7 @@ use brinell::simulation::Simulation;
 
 const MAGIC: &[u8; 8] = b"Brinell\0";
 /// Raised whenever the layout, here or in the simulation's state, changes.
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 const GUID_LENGTH: usize = 38;
 const CHECKED_FROM: usize = 8 + 4 + 8;
 
@@ -72,13 +72,13 @@ pub(super) fn encode(snapshot: &Snapshot, guid: &str) -> Vec<u8> {
     bytes.extend_from_slice(&guid_field(guid));
     bytes.push(snapshot.mode as u8);
     bytes.push(snapshot.last_step as u8);
-    let (present, [start, stop, time]) = match snapshot.clock {
-        None => (0, [0.0; 3]),
-        Some(Clock { start, stop: None, time }) => (1, [start, 0.0, time]),
-        Some(Clock { start, stop: Some(stop), time }) => (2, [start, stop, time]),
+    let (present, times) = match snapshot.clock {
+        None => (0, [0.0; 4]),
+        Some(Clock { start, stop: None, time, last }) => (1, [start, 0.0, time, last]),
+        Some(Clock { start, stop: Some(stop), time, last }) => (2, [start, stop, time, last]),
     };
     bytes.push(present);
-    for value in [start, stop, time] {
+    for value in times {
         bytes.extend_from_slice(&value.to_le_bytes());
     }
     bytes.extend_from_slice(&simulation);
@@ -126,21 +126,22 @@ fn contents(mut rest: &[u8], simulation: &Simulation) -> Result<Snapshot, &'stat
 fn instance_part(rest: &mut &[u8]) -> Option<(Mode, Status, Option<Clock>)> {
     let [mode, last_step, clock] = take(rest)?;
     let mut value = || Some(f64::from_le_bytes(take(rest)?));
-    let (start, stop, time) = (value()?, value()?, value()?);
+    let (start, stop, time, last) = (value()?, value()?, value()?, value()?);
     let last_step = [Status::Ok, Status::Warning, Status::Discard, Status::Error]
         .into_iter()
         .find(|status| *status as u8 == last_step)?;
+    let possible = start.is_finite() && time.is_finite() && last.is_finite() && last >= 0.0;
     let clock = match clock {
         0 => None,
-        1 if start.is_finite() && time.is_finite() => Some(Clock { start, stop: None, time }),
-        2 if start.is_finite() && time.is_finite() && stop > start => Some(Clock { start, stop: Some(stop), time }),
+        1 if possible => Some(Clock { start, stop: None, time, last }),
+        2 if possible && stop > start => Some(Clock { start, stop: Some(stop), time, last }),
         _ => return None,
     };
     Some((Mode::from_number(mode)?, last_step, clock))
 }
 
 fn encoded_length(simulation: usize) -> usize {
-    CHECKED_FROM + 8 + GUID_LENGTH + 3 + 3 * 8 + simulation
+    CHECKED_FROM + 8 + GUID_LENGTH + 3 + 4 * 8 + simulation
 }
 
 fn guid_field(guid: &str) -> [u8; GUID_LENGTH] {

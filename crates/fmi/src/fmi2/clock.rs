@@ -1,11 +1,24 @@
 //! Communication points: where the host says it is, against where the instance is.
 //!
-//! A host may add up its steps or multiply them, so its communication points carry rounding: `n` additions at time
-//! `t` are off by at most `n·ε·t/2`, 1e-10 relative after a million steps. [`ROUNDING`] allows ten times that. The
-//! instance adopts the host's point, so rounding never accumulates between the two.
+//! The instance adopts the host's point, so rounding never accumulates between the two. A host that adds its steps meets
+//! the instance to the bit; one that multiplies, `start + n·step`, is off by the rounding of this point, of the last one
+//! and of the instance's own sum, 3.5 ε of the largest time in them at most: [`ROUNDINGS`]. A host that changes between
+//! adding and multiplying brings the rounding of all its additions: `n` of them at time `t` are off by at most
+//! `n·ε·t/2`, 1e-10 of `t` after a million. Ten times that passes ([`ADDED`]), but no more than a hundredth of a step
+//! ([`OF_STEP`]), which additions reach after nine million steps at the earliest: a step that was left out or done twice
+//! is a hundred times as far off, however late it is.
+//!
+//! Where a step is below 400 ε of the time, 0.15 ms at Unix time, a hundredth of it is less than the roundings of the
+//! time, and these decide. A step of a few ε itself, 1.5 µs at Unix time, is taken all the same: its length is exact,
+//! and the last step of a run may well be what rounding has left. Whether such a step was left out is nothing that
+//! times could show.
 
-/// Largest relative difference that passes for the host's rounding.
-pub(super) const ROUNDING: f64 = 1e-9;
+/// Largest difference that the rounding of a multiplying host makes, in ε of the largest time.
+const ROUNDINGS: f64 = 4.0;
+/// Largest difference that passes for the rounding of many additions, per time.
+const ADDED: f64 = 1e-9;
+/// The same per step, of the last one and the one to come the shorter.
+const OF_STEP: f64 = 1e-2;
 
 /// Time of an instance [s].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,6 +29,8 @@ pub(super) struct Clock {
     pub(super) stop: Option<f64>,
     /// The communication point reached [s].
     pub(super) time: f64,
+    /// The step that led there [s]; 0 before the first.
+    pub(super) last: f64,
 }
 
 /// Why an experiment or a step is refused.
@@ -65,17 +80,18 @@ impl Clock {
         }
         match stop {
             Some(stop) if !(stop.is_finite() && stop > start) => Err(ClockError::Stop { stop, start }),
-            _ => Ok(Self { start, stop, time: start }),
+            _ => Ok(Self { start, stop, time: start, last: 0.0 }),
         }
     }
 
-    /// The time at the end of a step that the host asks for.
+    /// The clock at the end of a step that the host asks for.
     #[inline]
-    pub(super) fn end_of_step(&self, point: f64, step: f64) -> Result<f64, ClockError> {
+    pub(super) fn after(&self, point: f64, step: f64) -> Result<Self, ClockError> {
         if !(step > 0.0 && step.is_finite()) {
             return Err(ClockError::Step(step));
         }
-        let allowed = ROUNDING * self.time.abs().max(step);
+        let shortest = if self.last > 0.0 { step.min(self.last) } else { step };
+        let allowed = self.allowed(step, shortest);
         let difference = (point - self.time).abs();
         if difference > allowed || difference.is_nan() {
             return Err(ClockError::Point { point, time: self.time, allowed });
@@ -85,11 +101,15 @@ impl Clock {
             return Err(ClockError::Step(step));
         }
         match self.stop {
-            Some(stop) if end > stop + ROUNDING * stop.abs().max(step) => {
-                Err(ClockError::PastStop { point, step, stop })
-            }
-            _ => Ok(end),
+            Some(stop) if end > stop + self.allowed(step, step) => Err(ClockError::PastStop { point, step, stop }),
+            _ => Ok(Self { time: end, last: step, ..*self }),
         }
+    }
+
+    /// Difference [s] that passes for a host's rounding around a step, next to which the `shortest` step lies.
+    fn allowed(&self, step: f64, shortest: f64) -> f64 {
+        let largest = self.time.abs().max(self.start.abs()).max(step);
+        (ROUNDINGS * f64::EPSILON * largest).max((ADDED * largest).min(OF_STEP * shortest))
     }
 }
 
@@ -97,24 +117,82 @@ impl Clock {
 mod tests {
     use super::*;
 
+    /// A clock that has come to `time` by a step.
+    fn at(time: f64, last: f64) -> Clock {
+        Clock { start: 0.0, stop: None, time, last }
+    }
+
     #[test]
-    fn a_million_added_steps_are_accepted_and_end_on_the_stop_time() {
-        let mut clock = Clock::new(0.0, Some(100.0)).unwrap();
-        let step = 1e-4;
-        let mut added = 0.0;
-        for n in 0..1_000_000 {
-            // The host multiplies on odd steps and adds on even ones.
-            let point = if n % 2 == 0 { added } else { f64::from(n) * step };
-            clock.time = clock.end_of_step(point, step).unwrap();
-            added += step;
+    fn ten_million_added_steps_are_accepted_and_end_on_the_stop_time() {
+        for (step, count) in [(1e-4, 1_000_000), (0.1, 1_000_000), (1e-5, 10_000_000)] {
+            let mut clock = Clock::new(0.0, Some(f64::from(count) * step)).unwrap();
+            let mut added = 0.0;
+            for n in 0..count {
+                // The host multiplies on odd steps and adds on even ones.
+                let point = if n % 2 == 0 { added } else { f64::from(n) * step };
+                clock = clock.after(point, step).unwrap();
+                added += step;
+            }
         }
     }
 
     #[test]
-    fn a_point_that_is_one_step_off_is_refused() {
-        let clock = Clock { start: 0.0, stop: None, time: 1000.0 };
-        for point in [1000.0 - 1e-5, 1000.0 + 1e-5, 0.0, f64::NAN, f64::INFINITY] {
-            assert!(matches!(clock.end_of_step(point, 1e-5), Err(ClockError::Point { .. })), "{point}");
+    fn a_host_that_multiplies_is_met_from_any_start_with_any_step() {
+        for start in [-1.7e9, -1e3, -0.37, 0.0, 1e5, 1.7e9] {
+            // Down to steps that do not move so late a time, and through 0.
+            for step in [0.3, 1e-2, 1e-4 / 3.0, 1e-6, 1e-8] {
+                let mut clock = Clock::new(start, None).unwrap();
+                for n in 0..100_000 {
+                    clock = clock.after(start + f64::from(n) * step, step).unwrap();
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_host_that_adds_is_met_exactly() {
+        let (mut clock, mut time) = (Clock::new(1.7e9, None).unwrap(), 1.7e9);
+        for n in 0..100_000 {
+            let step = 1e-4 + 1e-9 * f64::from(n);
+            clock = clock.after(time, step).unwrap();
+            time += step;
+            assert_eq!(clock.time.to_bits(), time.to_bits());
+        }
+    }
+
+    #[test]
+    fn a_point_that_is_off_by_a_tenth_of_a_step_is_refused_however_late() {
+        for time in [0.0, 1.0, 1e3, 1e5, 1e6, 1e7] {
+            for off in [1e-5, -1e-5, 1e-4, -1e-4, -0.9, -time, f64::NAN, f64::INFINITY] {
+                if off != 0.0 {
+                    let found = at(time, 1e-4).after(time + off, 1e-4);
+                    assert!(matches!(found, Err(ClockError::Point { .. })), "{off} at {time}");
+                }
+            }
+        }
+        // At Unix time a tenth of 100 µs is 42 numbers away.
+        for off in [1e-5, -1e-5, -1e-4, -0.9, -1.7e9] {
+            assert!(at(1.7e9, 1e-4).after(1.7e9 + off, 1e-4).is_err(), "{off}");
+        }
+    }
+
+    #[test]
+    fn a_short_step_done_twice_before_a_long_one_is_refused() {
+        assert!(at(1e4, 1e-6).after(1e4 - 1e-6, 1e-3).is_err());
+        assert!(at(1e4, 1e-3).after(1e4 + 1e-6, 1e-6).is_err());
+        assert!(at(1e4, 1e-6).after(1e4, 1e-3).is_ok());
+    }
+
+    #[test]
+    fn a_step_past_the_stop_time_is_refused_however_late_and_rounding_is_not() {
+        for stop in [1.0, 1e5, 1e7, 1.7e9] {
+            let clock = Clock { start: 0.0, stop: Some(stop), time: stop, last: 1e-4 };
+            assert!(matches!(clock.after(stop, 1e-4), Err(ClockError::PastStop { .. })), "{stop}");
+            assert!(matches!(clock.after(stop, 1e-5), Err(ClockError::PastStop { .. })), "{stop}");
+            // What one rounding has left of the run.
+            assert!(clock.after(stop, f64::EPSILON * stop).is_ok());
+            let before = Clock { time: stop - 1e-4, ..clock };
+            assert!(before.after(stop - 1e-4, 1e-4 + 2.0 * f64::EPSILON * stop).is_ok());
         }
     }
 
@@ -122,9 +200,9 @@ mod tests {
     fn a_step_must_be_finite_and_above_zero() {
         let clock = Clock::new(0.0, None).unwrap();
         for step in [0.0, -0.0, -1e-3, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            assert!(matches!(clock.end_of_step(0.0, step), Err(ClockError::Step(_))), "{step}");
+            assert!(matches!(clock.after(0.0, step), Err(ClockError::Step(_))), "{step}");
         }
-        assert!(clock.end_of_step(0.0, f64::MIN_POSITIVE).is_ok());
+        assert!(clock.after(0.0, f64::MIN_POSITIVE).is_ok());
     }
 
     #[test]
