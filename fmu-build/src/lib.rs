@@ -25,3 +25,4 @@ pub mod stiffness;
 pub mod target;
 pub mod units;
 pub mod validation;
+pub mod whole_file;
