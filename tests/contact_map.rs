@@ -164,6 +164,7 @@ fn a_trace_coarser_than_the_cells_is_refused_and_a_polygon_is_not() {
     let refused = LoveContact::new(ER16K, &trace, LARGEST, resolution).unwrap_err();
     assert!(matches!(refused, ContactError::TooCoarse { step_um, .. } if (step_um - 100.0).abs() < 1e-6), "{refused}");
     assert!(refused.to_string().contains("100.00 um apart along the raceway"), "{refused}");
+    assert!(!refused.to_string().contains("  "), "blanks in a row: {refused}");
     let corners = vec![(-0.5e-3, 0.0), (-0.4e-3, 40e-6), (0.4e-3, 40e-6), (0.5e-3, 0.0)];
     let polygon = Surface::Profile(Profile::from_points(corners).unwrap());
     assert!(LoveContact::new(ER16K, &polygon, LARGEST, resolution).is_ok());

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use brinell::contact::error::ContactError;
 use brinell::contact::map::ContactMap;
 use brinell::contact::map_build::Runner;
@@ -16,6 +16,7 @@ use brinell::surface::Surface;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::project::Project;
+use crate::whole_file;
 
 /// The bytes of a scene's contact map, `None` where its law or its healthy raceway needs none.
 pub fn of(scene: &Scene, profile: Option<&str>, project: &Project) -> Result<Option<Vec<u8>>> {
@@ -41,13 +42,7 @@ pub fn of(scene: &Scene, profile: Option<&str>, project: &Project) -> Result<Opt
         );
     }
     let bytes = map.to_bytes();
-    if let Some(folder) = file.parent() {
-        fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
-    }
-    // Under another name first: a reader beside us never sees half a map.
-    let partial = file.with_extension(format!("{}.part", std::process::id()));
-    fs::write(&partial, &bytes).with_context(|| partial.display().to_string())?;
-    fs::rename(&partial, &file).with_context(|| file.display().to_string())?;
+    whole_file::write(&file, &bytes)?;
     Ok(Some(bytes))
 }
 

@@ -1,6 +1,5 @@
 //! The demonstration: a ball rolls over an etched spall, computed by an FMU that fmpy steps through the C interface.
 
-use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result};
@@ -13,6 +12,7 @@ use crate::library::{Choice, Library};
 use crate::model::Model;
 use crate::project::Project;
 use crate::python::Python;
+use crate::whole_file;
 
 const SCENE: &str = "scenes/6205-epps.toml";
 /// Spacing of the profile that is drawn, and how far it goes beyond the defect [m].
@@ -30,11 +30,10 @@ pub fn command(project: &Project, library: &Choice, folder: &Path) -> Result<()>
     for line in library.describe() {
         println!("{line}");
     }
-    fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
     let path = fmu::write(&model, &library, folder)?;
     println!("{}", path.display());
     let raceway = folder.join("raceway.csv");
-    fs::write(&raceway, raceway_csv(&model)?).with_context(|| raceway.display().to_string())?;
+    whole_file::write(&raceway, raceway_csv(&model)?)?;
     let radius = model.scene.bearing.outer_raceway_radius().to_string();
     print!("{}", python.run("demo.py", [path.as_os_str(), raceway.as_os_str(), radius.as_ref()])?);
     Ok(())

@@ -1,6 +1,5 @@
 //! What an FMU of a scene holds, and where in it.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
@@ -10,6 +9,7 @@ use crate::documentation;
 use crate::library::Library;
 use crate::model::Model;
 use crate::model_description::{self, CAPABILITIES};
+use crate::whole_file;
 
 const ICON: &[u8] = include_bytes!("../assets/model.png");
 const LICENSE: &str = "Brinell is licensed under either of\n\n\
@@ -45,7 +45,6 @@ pub fn pack(model: &Model, library: &Library) -> Result<Vec<u8>> {
 pub fn write(model: &Model, library: &Library, folder: &Path) -> Result<PathBuf> {
     let path = folder.join(format!("{}.fmu", model.scene.name));
     let bytes = pack(model, library).with_context(|| path.display().to_string())?;
-    fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
-    fs::write(&path, bytes).with_context(|| path.display().to_string())?;
+    whole_file::write(&path, bytes)?;
     Ok(path)
 }

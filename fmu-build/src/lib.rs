@@ -23,3 +23,4 @@ pub mod slave;
 pub mod stiffness;
 pub mod target;
 pub mod units;
+pub mod whole_file;

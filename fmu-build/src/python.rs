@@ -14,6 +14,7 @@ use std::process::{Command, Output};
 use anyhow::{Context, Result, bail};
 
 use crate::project::Project;
+use crate::whole_file;
 
 const REQUIREMENTS: &str = include_str!("../python/requirements.txt");
 const SCRIPTS: &[(&str, &str)] = &[
@@ -68,7 +69,7 @@ impl Python {
             remove(&stamp, |path| fs::remove_file(path))?;
             remove(&environment, |path| fs::remove_dir_all(path))?;
             make(&system, &environment, &python.interpreter, &folder, requirements)?;
-            fs::write(&stamp, requirements).with_context(|| stamp.display().to_string())?;
+            whole_file::write(&stamp, requirements)?;
         }
         fs::create_dir_all(&python.scripts).with_context(|| python.scripts.display().to_string())?;
         for &(name, text) in SCRIPTS {
@@ -143,7 +144,7 @@ fn make(system: &Path, environment: &Path, interpreter: &Path, folder: &Path, re
         );
     }
     let list = folder.join("requirements.txt");
-    fs::write(&list, requirements).with_context(|| list.display().to_string())?;
+    whole_file::write(&list, requirements)?;
     let output = Command::new(interpreter)
         .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--only-binary", ":all:", "-r"])
         .arg(&list)
@@ -172,7 +173,6 @@ fn write_if_new(path: &Path, text: &str) -> Result<()> {
     if fs::read_to_string(path).is_ok_and(|there| there == text) {
         return Ok(());
     }
-    // Another process may be reading the old text: replace the file, do not rewrite it.
-    let fresh = path.with_extension("new");
-    fs::write(&fresh, text).and_then(|()| fs::rename(&fresh, path)).with_context(|| path.display().to_string())
+    // Another process that reads the old text goes on with it.
+    whole_file::write(path, text)
 }

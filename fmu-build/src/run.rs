@@ -1,7 +1,6 @@
 //! A run without a host: the simulation is stepped directly, with its inputs at their start values.
 
-use std::fs::{self, File};
-use std::io::{BufWriter, Write};
+use std::io::Write;
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
@@ -15,6 +14,7 @@ use crate::model::Model;
 use crate::project::Project;
 use crate::python::Python;
 use crate::units;
+use crate::whole_file;
 
 /// Equal communication steps from 0 on.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -116,19 +116,19 @@ fn read(
 pub fn command(project: &Project, model: Model, grid: Grid, folder: &Path, figure: bool) -> Result<()> {
     let mut simulation = model.simulation;
     let columns = Columns::new(simulation.table());
-    fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
-    simulation.record_into(&folder.to_string_lossy());
+    // The recording grows in a folder of its own, so that it too is whole before it takes the place of an earlier one.
+    let growing = whole_file::folder_in(folder)?;
+    simulation.record_into(&growing.path().to_string_lossy());
     simulation.initialize(0.0).context("initial equilibrium")?;
     let mut recording = Recording::begin(&simulation, &model.scene.name)?;
     let path = folder.join(format!("{}.csv", model.scene.name));
-    let file = File::create(&path).with_context(|| path.display().to_string())?;
-    let mut out = BufWriter::new(file);
-    write(&mut simulation, &columns, grid, &mut out, recording.as_mut())?;
-    out.flush().with_context(|| path.display().to_string())?;
+    whole_file::write_with(&path, |mut out| {
+        write(&mut simulation, &columns, grid, &mut out, recording.as_mut())?;
+        Ok(recording.as_mut().map_or(Ok(()), |recording| recording.store(&mut simulation))?)
+    })?;
     println!("{}", path.display());
-    if let Some(recording) = &mut recording {
-        recording.store(&mut simulation)?;
-        println!("{}", recording.path().display());
+    if let Some(file) = recording.map(|recording| recording.path().to_owned()) {
+        println!("{}", whole_file::take_out(&file, folder)?.display());
     }
     if figure {
         let python = Python::prepare(project)?;

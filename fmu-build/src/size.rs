@@ -2,8 +2,8 @@
 //!
 //! Standard output carries the JSON and nothing else; what happens meanwhile goes to standard error.
 
-use std::fs::{self, File};
-use std::io::{BufWriter, Write};
+use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
@@ -16,6 +16,7 @@ use crate::contact_map;
 use crate::csv;
 use crate::project::Project;
 use crate::python::Python;
+use crate::whole_file;
 
 /// What the user says.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,7 +83,6 @@ fn line(done: &RecordingReport) -> String {
 
 /// Averaged passages as CSV and what was found in them as JSON; gives the files' stems.
 fn write(report: &Report, folder: &Path) -> Result<Vec<PathBuf>> {
-    fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
     let mut stems: Vec<PathBuf> = Vec::new();
     for (figure, recording) in report.figures.iter().zip(&report.recordings) {
         let name = Path::new(&figure.name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -95,15 +95,11 @@ fn write(report: &Report, folder: &Path) -> Result<Vec<PathBuf>> {
             }
             stem = folder.join(format!("{name}-size-{count}"));
         }
-        let path = with_ending(&stem, ".csv");
-        let mut out = BufWriter::new(File::create(&path).with_context(|| path.display().to_string())?);
-        write_passage(&mut out, figure)?;
-        out.flush()?;
-        let path = with_ending(&stem, ".json");
+        whole_file::write_with(&with_ending(&stem, ".csv"), |mut out| write_passage(&mut out, figure))?;
         let mut found = serde_json::to_value(recording)?;
         found["critical_load_n"] = serde_json::json!(report.critical_load_n);
         found["kind"] = serde_json::json!(report.kind);
-        fs::write(&path, serde_json::to_string_pretty(&found)? + "\n").with_context(|| path.display().to_string())?;
+        whole_file::write(&with_ending(&stem, ".json"), serde_json::to_string_pretty(&found)? + "\n")?;
         stems.push(stem);
     }
     Ok(stems)

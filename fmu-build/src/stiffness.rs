@@ -1,12 +1,11 @@
 //! The command `stiffness`: static stiffness, load distribution and critical load of a scene, as CSV, figure and summary.
 
 use std::f64::consts::PI;
-use std::fs::{self, File};
-use std::io::{BufWriter, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
-use brinell::scene::ContactLaw;
+use anyhow::{Result, bail};
+use brinell::scene::{Bearing, ContactLaw};
 use brinell_analysis::critical_load::{Bottom, CriticalLoad};
 use brinell_analysis::static_bearing::{Balance, StaticBearing, StaticError};
 use brinell_analysis::stiffness::{min_mean_max, sweep};
@@ -16,6 +15,7 @@ use crate::csv;
 use crate::model::Model;
 use crate::project::Project;
 use crate::python::Python;
+use crate::whole_file;
 
 /// What the user says.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,28 +60,19 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
     let first = middle - 0.5 * bearing.spacing();
     let balances = sweep(&bearing, first, options.points.unwrap_or_else(|| enough_points(&bearing)))?;
 
-    fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
     let stem = folder.join(&model.scene.name);
     let path = beside(&stem, "-stiffness.csv");
-    let mut out = create(&path)?;
-    write_sweep(&mut out, &bearing, &healthy, &balances)?;
-    out.flush()?;
+    whole_file::write_with(&path, |mut out| write_sweep(&mut out, &bearing, &healthy, &balances))?;
     println!("{}", path.display());
     let mut paths = vec![path];
 
     let critical = if bottom.is_some() { bearing.critical_load()? } else { None };
     if let (Some(bottom), Some(critical)) = (&bottom, &critical) {
         let path = beside(&stem, "-critical-load.csv");
-        let mut out = create(&path)?;
-        write_variations(
-            &mut out,
-            &varied,
-            bottom,
-            critical,
-            model.scene.bearing.radial_clearance,
-            model.scene.bearing.outer_compliance,
-        )?;
-        out.flush()?;
+        let Bearing { radial_clearance, outer_compliance, .. } = model.scene.bearing;
+        whole_file::write_with(&path, |mut out| {
+            write_variations(&mut out, &varied, bottom, critical, radial_clearance, outer_compliance)
+        })?;
         println!("{}", path.display());
         paths.push(path);
     }
@@ -260,8 +251,4 @@ fn beside(stem: &Path, end: &str) -> PathBuf {
     let mut name = stem.as_os_str().to_owned();
     name.push(end);
     name.into()
-}
-
-fn create(path: &Path) -> Result<BufWriter<File>> {
-    Ok(BufWriter::new(File::create(path).with_context(|| path.display().to_string())?))
 }

@@ -15,6 +15,7 @@ use anyhow::{Context, Result, bail};
 
 use crate::project::Project;
 use crate::python::Python;
+use crate::whole_file;
 
 /// The oldest glibc that a library linked by zig runs with: the oldest that Rust supports.
 pub const OLDEST_GLIBC: (u32, u32) = (2, 17);
@@ -142,7 +143,7 @@ impl Zig {
         if fs::read_to_string(&script).is_ok_and(|there| there == text) {
             return Ok(script);
         }
-        fs::write(&script, text).with_context(about)?;
+        whole_file::write(&script, text)?;
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt;

@@ -1,5 +1,6 @@
 //! What can be wrong with a scene. Each message gives the quantity with its key in the scene file, its value and the limit.
 
+use super::key_fault::KeyFault;
 use std::fmt;
 
 /// A scene that cannot be read or cannot exist.
@@ -7,9 +8,12 @@ use std::fmt;
 /// Values are shown in the unit of the key, so that a reader finds in the file what the message speaks of.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SceneError {
-    /// Broken TOML, an unknown or missing key, or a value of the wrong type.
+    /// Broken TOML, or a value of the wrong type. The message holds the parser's; it is no source that would be shown again.
     #[error("scene file: {0}")]
-    Toml(#[from] toml::de::Error),
+    Toml(toml::de::Error),
+    /// Keys that are unknown, missing, or ask for what is not modelled, in the order of their lines.
+    #[error("scene file: {}", super::key_fault::list(.0))]
+    Keys(Vec<KeyFault>),
     /// Two keys that exclude each other.
     #[error("scene file: {first} and {second} exclude each other: give only one")]
     Both {

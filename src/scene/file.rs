@@ -27,6 +27,8 @@
 //! | `recorder` | none |
 //! | `experiment.stop_s`, `.step_s` | 0.5, 1e-4 |
 
+mod keys;
+mod not_modelled;
 mod rings;
 
 use super::error::SceneError;
@@ -39,10 +41,11 @@ impl Scene {
     /// Reads the text of a scene file and checks it.
     ///
     /// # Errors
-    /// Broken TOML, unknown, missing or contradicting keys, and every value that [`Scene::check`] refuses.
+    /// Broken TOML, unknown and missing keys, all of them at once; contradicting keys, and every value that
+    /// [`Scene::check`] refuses.
     pub fn from_toml(text: &str) -> Result<Self, SceneError> {
-        let file: SceneFile = toml::from_str(text)?;
-        let scene = file.into_scene()?;
+        let read = toml::from_str(text).map_err(SceneError::Toml).and_then(SceneFile::into_scene);
+        let scene = read.map_err(|error| keys::all_faults(text, error))?;
         scene.check()?;
         Ok(scene)
     }

@@ -5,9 +5,11 @@
 mod check;
 mod error;
 mod file;
+mod key_fault;
 mod quantity;
 
 pub use error::{Bound, Limits, SceneError};
+pub use key_fault::{Hint, KeyFault};
 
 use serde::Deserialize;
 

@@ -139,7 +139,11 @@ impl Simulation {
         if value >= min && value <= max { Ok(()) } else { Err(out_of_range(variable, value, min, max)) }
     }
 
-    pub(super) fn variable(&self, reference: u32) -> Result<&Variable, VariableError> {
+    /// The variable of a reference.
+    ///
+    /// # Errors
+    /// [`VariableError::UnknownReference`].
+    pub(crate) fn variable(&self, reference: u32) -> Result<&Variable, VariableError> {
         self.table
             .get(reference as usize)
             .ok_or_else(|| VariableError::UnknownReference(reference, self.table.len() as u32 - 1))

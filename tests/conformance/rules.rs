@@ -287,7 +287,7 @@ pub(crate) const RULES: &[(&str, &str, &[Evidence])] = &[
             T("an_input_follows_its_derivative_inside_the_step"),
         ],
     ),
-            T("a_motion_is_the_same_in_whichever_variables_it_is_told"),
+    T("a_motion_is_the_same_in_whichever_variables_it_is_told"),
     (
         "Derivatives",
         "Derivatives of outputs by time, order 1, are what short steps show.",

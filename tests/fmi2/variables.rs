@@ -110,12 +110,16 @@ fn unknown_references_and_wrong_types_are_errors_that_say_so() {
     let mut flag = 0;
     let value = c"x".as_ptr();
     // SAFETY: one element each.
-    let calls: [(&str, &dyn Fn() -> Status); 10] = unsafe {
+    let unknown: &str = &format!("is unknown: this model's references are 0 to {}", count - 1);
+    let calls: [(&str, &dyn Fn() -> Status); 13] = unsafe {
         [
-            ("unknown", &|| host.get(&[count]).unwrap_err()),
-            ("unknown", &|| host.get(&[speed, u32::MAX]).unwrap_err()),
-            ("unknown", &|| host.set(&[count], &[0.0])),
-            ("unknown", &|| host.set_integers(&[count], &[0])),
+            (unknown, &|| host.get(&[count]).unwrap_err()),
+            (unknown, &|| host.get(&[speed, u32::MAX]).unwrap_err()),
+            (unknown, &|| host.get_integers(&[count]).unwrap_err()),
+            (unknown, &|| host.set(&[count], &[0.0])),
+            (unknown, &|| host.set_integers(&[count], &[0])),
+            (unknown, &|| fmi2GetBoolean(host.c, &raw const count, 1, (&raw const flag).cast_mut())),
+            (unknown, &|| fmi2GetString(host.c, &raw const count, 1, (&raw const text).cast_mut())),
             ("not of type Real", &|| host.get(&[steps]).unwrap_err()),
             ("not of type Integer", &|| host.get_integers(&[speed]).unwrap_err()),
             ("not of type Boolean", &|| fmi2GetBoolean(host.c, &raw const speed, 1, (&raw const flag).cast_mut())),

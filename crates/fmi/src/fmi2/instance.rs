@@ -125,10 +125,9 @@ impl Instance {
 
     /// The error that says why a variable is not what a call takes it for.
     pub(super) fn wrong_type(&self, reference: ValueReference, wanted: &'static str) -> VariableError {
-        let table = self.simulation.table();
-        match table.get(reference as usize) {
-            Some(variable) => VariableError::WrongType { name: variable.name.clone(), reference, wanted },
-            None => VariableError::UnknownReference(reference, table.len() as u32),
+        match self.simulation.variable(reference) {
+            Ok(variable) => VariableError::WrongType { name: variable.name.clone(), reference, wanted },
+            Err(unknown) => unknown,
         }
     }
 

@@ -4,12 +4,10 @@
 //! the fastest run counts, so that what else the machine does falls on all alike. Beside the CPU time stands a count without
 //! noise: steps tried, an implicit one as so many explicit ones as it costs.
 
-use std::fs::File;
-use std::io::{BufWriter, Write};
 use std::path::Path;
 use std::time::Duration;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use brinell::scene::{ContactLaw, Damping, Motion, Scene};
 use brinell::simulation::{Method, Simulation};
 use cpu_time::ThreadTime;
@@ -20,6 +18,7 @@ use super::run::STEP;
 use fmu_build::contact_map;
 use fmu_build::model::Model;
 use fmu_build::project::Project;
+use fmu_build::whole_file;
 
 /// Explicit steps that an implicit one costs: what the choice itself assumes.
 const EXPLICIT_STEPS: f64 = 5.0;
@@ -98,17 +97,18 @@ pub(super) fn measure(extent: Extent, data: &Path) -> Result<Vec<Row>> {
         rows.push(compare(what, &simulation, stop)?);
     }
     let path = data.join("method-choice.csv");
-    let mut out = BufWriter::new(File::create(&path).with_context(|| path.display().to_string())?);
-    writeln!(
-        out,
-        "what,phase_fitted_cpu_s_per_s,dormand_prince_cpu_s_per_s,implicit_cpu_s_per_s,automatic_cpu_s_per_s,\
-         phase_fitted_steps_per_s,dormand_prince_steps_per_s,implicit_steps_per_s,automatic_steps_per_s,implicit_share"
-    )?;
-    for Row { what, cost, steps, implicit } in &rows {
-        let numbers = cost.iter().chain(steps).map(|value| format!("{value:.4e}")).collect::<Vec<_>>().join(",");
-        writeln!(out, "\"{what}\",{numbers},{implicit:.3}")?;
-    }
-    out.flush()?;
+    whole_file::write_with(&path, |out| {
+        writeln!(
+            out,
+            "what,phase_fitted_cpu_s_per_s,dormand_prince_cpu_s_per_s,implicit_cpu_s_per_s,automatic_cpu_s_per_s,\
+             phase_fitted_steps_per_s,dormand_prince_steps_per_s,implicit_steps_per_s,automatic_steps_per_s,implicit_share"
+        )?;
+        for Row { what, cost, steps, implicit } in &rows {
+            let numbers = cost.iter().chain(steps).map(|value| format!("{value:.4e}")).collect::<Vec<_>>().join(",");
+            writeln!(out, "\"{what}\",{numbers},{implicit:.3}")?;
+        }
+        Ok(())
+    })?;
     Ok(rows)
 }
 

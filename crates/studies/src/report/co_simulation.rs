@@ -1,7 +1,6 @@
 //! Error and stability of co-simulation against the communication step, and what a step costs beside it.
 
-use std::fs::{self, File};
-use std::io::{BufWriter, Write};
+use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result};
@@ -10,6 +9,7 @@ use brinell::scene::Scene;
 use super::Extent;
 use super::coupling::{MASSES, Row, STEPS, study};
 use super::integration::scene_file;
+use fmu_build::whole_file;
 
 /// The scenes studied: without and with impacts.
 const SCENES: [&str; 2] = ["6205-healthy", "er16k-tb1"];
@@ -34,14 +34,15 @@ pub(super) fn measure(extent: Extent, data: &Path) -> Result<Vec<Coupled>> {
         found.push(Coupled { scene, rows, steps: steps.clone() });
     }
     let path = data.join("co-simulation.csv");
-    let mut out = BufWriter::new(File::create(&path).with_context(|| path.display().to_string())?);
-    writeln!(out, "scene,host_mass_kg,coupling,step_s,error")?;
-    for Coupled { scene, rows, .. } in &found {
-        for Row { host_mass, coupling, step, error } in rows {
-            let error = error.map_or("unstable".to_owned(), |error| format!("{error:.2e}"));
-            writeln!(out, "{scene},{host_mass},{},{step:e},{error}", coupling.name())?;
+    whole_file::write_with(&path, |out| {
+        writeln!(out, "scene,host_mass_kg,coupling,step_s,error")?;
+        for Coupled { scene, rows, .. } in &found {
+            for Row { host_mass, coupling, step, error } in rows {
+                let error = error.map_or("unstable".to_owned(), |error| format!("{error:.2e}"));
+                writeln!(out, "{scene},{host_mass},{},{step:e},{error}", coupling.name())?;
+            }
         }
-    }
-    out.flush()?;
+        Ok(())
+    })?;
     Ok(found)
 }

@@ -4,11 +4,9 @@
 //! with their own grid; each grid is two, half a row apart. Errors are relative to the smooth contact's force at 10 µm.
 
 use std::f64::consts::FRAC_PI_2;
-use std::fs::File;
-use std::io::{BufWriter, Write};
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use brinell::contact::error::ContactError;
 use brinell::contact::love::LoveContact;
 use brinell::contact::map_build::{MapSpecification, Sequential};
@@ -19,6 +17,7 @@ use cpu_time::ThreadTime;
 
 use super::Extent;
 use super::machine::fastest;
+use fmu_build::whole_file;
 
 /// Largest approach [m].
 const LARGEST: f64 = 10e-6;
@@ -145,15 +144,19 @@ fn of_map(surface: &Surface, accuracy: f64) -> Result<Row> {
 }
 
 fn write(path: &Path, rows: &[Row]) -> Result<()> {
-    let mut out = BufWriter::new(File::create(path).with_context(|| path.display().to_string())?);
-    writeln!(
-        out,
-        "law,columns,rows,nodes,max_normal,rms_normal,max_tangential,rms_tangential,seconds_per_contact,seconds_to_prepare"
-    )?;
-    for Row { law, cells, nodes, error: [a, b, c, d], seconds, prepare } in rows {
-        let nodes = nodes.map_or(String::new(), |nodes| nodes.to_string());
-        let Resolution { columns, rows } = cells;
-        writeln!(out, "{law},{columns},{rows},{nodes},{a:.1e},{b:.1e},{c:.1e},{d:.1e},{seconds:.2e},{prepare:.2e}")?;
-    }
-    Ok(out.flush()?)
+    whole_file::write_with(path, |out| {
+        writeln!(
+            out,
+            "law,columns,rows,nodes,max_normal,rms_normal,max_tangential,rms_tangential,seconds_per_contact,seconds_to_prepare"
+        )?;
+        for Row { law, cells, nodes, error: [a, b, c, d], seconds, prepare } in rows {
+            let nodes = nodes.map_or(String::new(), |nodes| nodes.to_string());
+            let Resolution { columns, rows } = cells;
+            writeln!(
+                out,
+                "{law},{columns},{rows},{nodes},{a:.1e},{b:.1e},{c:.1e},{d:.1e},{seconds:.2e},{prepare:.2e}"
+            )?;
+        }
+        Ok(())
+    })
 }

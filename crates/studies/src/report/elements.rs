@@ -3,11 +3,9 @@
 //! Elements couple to the rings only, so the cost should be a share of each element and one of the rings: O(Z). Elements are
 //! computed eight at a time, which shows below that.
 
-use std::fs::File;
-use std::io::{BufWriter, Write};
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use brinell::scene::{ContactLaw, Motion, Ring, Scene};
 use brinell::simulation::{Method, Simulation};
 
@@ -15,6 +13,7 @@ use super::Extent;
 use super::integration::scene_file;
 use super::machine::fastest;
 use fmu_build::model::Model;
+use fmu_build::whole_file;
 
 /// Numbers of elements.
 const COUNTS: [usize; 10] = [3, 5, 8, 9, 16, 25, 32, 50, 75, 100];
@@ -54,12 +53,13 @@ pub(super) fn measure(extent: Extent, data: &Path) -> Result<(Vec<Row>, Vec<Host
         rows.push(Row { count, seconds });
     }
     let path = data.join("elements.csv");
-    let mut out = BufWriter::new(File::create(&path).with_context(|| path.display().to_string())?);
-    writeln!(out, "elements,explicit_s_per_step,implicit_s_per_step,explicit_with_spall_s_per_step")?;
-    for Row { count, seconds: [explicit, implicit, spalled] } in &rows {
-        writeln!(out, "{count},{explicit:.4e},{implicit:.4e},{spalled:.4e}")?;
-    }
-    out.flush()?;
+    whole_file::write_with(&path, |out| {
+        writeln!(out, "elements,explicit_s_per_step,implicit_s_per_step,explicit_with_spall_s_per_step")?;
+        for Row { count, seconds: [explicit, implicit, spalled] } in &rows {
+            writeln!(out, "{count},{explicit:.4e},{implicit:.4e},{spalled:.4e}")?;
+        }
+        Ok(())
+    })?;
     Ok((rows, [1e-3, 1e-5].into_iter().map(hosted).collect::<Result<_>>()?))
 }
 

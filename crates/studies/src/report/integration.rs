@@ -4,8 +4,7 @@
 //! two ways: against the other method of the pair, and, where `tests/oracle` has the same equations, against SciPy's
 //! DOP853 there.
 
-use std::fs::{self, File};
-use std::io::{BufWriter, Write};
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
@@ -19,6 +18,7 @@ use super::machine::fastest;
 use super::run::{Deviation, RATE, Signals, Subject};
 use fmu_build::model::Model;
 use fmu_build::python::Python;
+use fmu_build::whole_file;
 
 /// Simulated time [s]: long enough for an element to pass the spall of the ER16K, short enough for elements that bounce
 /// freely not to have lost all memory of the start.
@@ -245,28 +245,28 @@ pub(super) fn scene_file(name: &str) -> PathBuf {
 }
 
 fn write(path: &Path, rows: &[Row]) -> Result<()> {
-    let file = File::create(path).with_context(|| path.display().to_string())?;
-    let mut out = BufWriter::new(file);
-    writeln!(
-        out,
-        "scene,method,setting,cpu_s_per_s,steps_per_s,implicit_share,acceleration_rms,acceleration_max,path_rms_m,path_max_m"
-    )?;
-    for row in rows {
-        let d = row.deviation;
+    whole_file::write_with(path, |out| {
         writeln!(
             out,
-            "{},{},{:e},{:.4e},{:.4e},{:.3},{:.2e},{:.2e},{:.2e},{:.2e}",
-            row.scene,
-            row.method,
-            row.setting,
-            row.cost,
-            row.steps,
-            row.implicit,
-            d.acceleration_rms,
-            d.acceleration_max,
-            d.path_rms,
-            d.path_max
+            "scene,method,setting,cpu_s_per_s,steps_per_s,implicit_share,acceleration_rms,acceleration_max,path_rms_m,path_max_m"
         )?;
-    }
-    Ok(out.flush()?)
+        for row in rows {
+            let d = row.deviation;
+            writeln!(
+                out,
+                "{},{},{:e},{:.4e},{:.4e},{:.3},{:.2e},{:.2e},{:.2e},{:.2e}",
+                row.scene,
+                row.method,
+                row.setting,
+                row.cost,
+                row.steps,
+                row.implicit,
+                d.acceleration_rms,
+                d.acceleration_max,
+                d.path_rms,
+                d.path_max
+            )?;
+        }
+        Ok(())
+    })
 }

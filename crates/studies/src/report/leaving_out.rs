@@ -1,10 +1,8 @@
 //! What each part of a scene costs: from the barest bearing upwards, one part more at a time.
 
-use std::fs::File;
-use std::io::{BufWriter, Write};
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use brinell::scene::{ContactLaw, Defect, DefectShape, Motion, Ring, Scene, Sensor};
 use brinell::simulation::Simulation;
 
@@ -14,6 +12,7 @@ use super::machine::fastest;
 use fmu_build::contact_map;
 use fmu_build::model::Model;
 use fmu_build::project::Project;
+use fmu_build::whole_file;
 
 /// Communication step [s].
 const STEP: f64 = 1e-4;
@@ -138,13 +137,13 @@ fn cost(what: &'static str, scene: &Scene, seen: Seen, stop: f64) -> Result<Part
 }
 
 fn write(path: &Path, parts: &[Part]) -> Result<()> {
-    let file = File::create(path).with_context(|| path.display().to_string())?;
-    let mut out = BufWriter::new(file);
-    writeln!(out, "what,states,variables,cpu_s_per_s,steps_per_s,contacts_near_defect_per_s")?;
-    for part in parts {
-        let what = part.what.trim();
-        let Part { states, variables, cost, steps, lookups, .. } = part;
-        writeln!(out, "\"{what}\",{states},{variables},{cost:.4e},{steps:.4e},{lookups:.4e}")?;
-    }
-    Ok(out.flush()?)
+    whole_file::write_with(path, |out| {
+        writeln!(out, "what,states,variables,cpu_s_per_s,steps_per_s,contacts_near_defect_per_s")?;
+        for part in parts {
+            let what = part.what.trim();
+            let Part { states, variables, cost, steps, lookups, .. } = part;
+            writeln!(out, "\"{what}\",{states},{variables},{cost:.4e},{steps:.4e},{lookups:.4e}")?;
+        }
+        Ok(())
+    })
 }

@@ -32,6 +32,7 @@ use anyhow::{Context, Result};
 
 use fmu_build::project::Project;
 use fmu_build::python::Python;
+use fmu_build::whole_file;
 
 /// How much of the report to make.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,7 +56,7 @@ pub fn command(project: &Project, extent: Extent, folder: &Path) -> Result<()> {
     print!("{}", python.run("report.py", [data.as_os_str(), stem.as_os_str()])?);
     let text = markdown::page(&machine::description(), &contacts, &integration, &coupled, &parts);
     let path = folder.join("error-vs-run-time.md");
-    fs::write(&path, text).with_context(|| path.display().to_string())?;
+    whole_file::write(&path, text)?;
     println!("{}", path.display());
     Ok(())
 }
@@ -71,8 +72,7 @@ fn steps(python: &Python, extent: Extent, folder: &Path) -> Result<()> {
     let (elements, hosted) = elements::measure(extent, &data)?;
     print!("{}", python.run("elements.py", [data.as_os_str(), figures.join("elements").as_os_str()])?);
     let path = folder.join("cost-of-steps.md");
-    fs::write(&path, steps_page::page(&machine::description(), &choices, &elements, &hosted))
-        .with_context(|| path.display().to_string())?;
+    whole_file::write(&path, steps_page::page(&machine::description(), &choices, &elements, &hosted))?;
     println!("{}", path.display());
     Ok(())
 }

@@ -11,8 +11,7 @@ pub mod rigs;
 pub mod runs;
 pub mod statics;
 
-use std::fs::{self, File};
-use std::io::{BufWriter, Write};
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
@@ -21,6 +20,7 @@ use brinell::scene::ContactLaw;
 use fmu_build::csv;
 use fmu_build::project::Project;
 use fmu_build::python::Python;
+use fmu_build::whole_file;
 use recordings::Known;
 
 const TEMPLATE: &str = include_str!("../../assets/validation.md");
@@ -66,9 +66,7 @@ pub struct Values {
 impl Values {
     /// Sets the table of a name.
     pub fn set(&mut self, name: &str, text: String) -> Result<()> {
-        fs::create_dir_all(&self.folder).with_context(|| self.folder.display().to_string())?;
-        let path = self.path(name);
-        fs::write(&path, text).with_context(|| path.display().to_string())
+        whole_file::write(&self.path(name), text)
     }
 
     fn path(&self, name: &str) -> PathBuf {
@@ -118,11 +116,11 @@ pub fn command(project: &Project, options: &Options, docs: &Path) -> Result<()> 
     if !options.recordings.is_empty() && wanted(Part::Recordings, "recordings") {
         let table = recordings::table(project, &options.recordings, options.rate)?;
         let path = recordings::kept(docs);
-        fs::write(&path, table).with_context(|| path.display().to_string())?;
+        whole_file::write(&path, table)?;
     }
     values.set("recordings", recordings::last(docs))?;
     let path = docs.join("validation.md");
-    fs::write(&path, values.filled(TEMPLATE)).with_context(|| path.display().to_string())?;
+    whole_file::write(&path, values.filled(TEMPLATE))?;
     println!("{}", path.display());
     if options.figures {
         let python = Python::prepare(project)?;
@@ -139,14 +137,12 @@ fn folder(project: &Project) -> PathBuf {
 
 /// Columns of equal length into `target/validation/<name>.csv`.
 fn write_csv(project: &Project, name: &str, names: &[(String, &str)], columns: &[Vec<f64>]) -> Result<()> {
-    let folder = folder(project);
-    fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
-    let path = folder.join(format!("{name}.csv"));
-    let mut out = BufWriter::new(File::create(&path).with_context(|| path.display().to_string())?);
-    csv::header(&mut out, names.iter().map(|(name, unit)| (name.as_str(), *unit)))?;
-    let rows = columns.iter().map(Vec::len).min().unwrap_or(0);
-    for i in 0..rows {
-        csv::row(&mut out, columns.iter().map(|column| column[i]))?;
-    }
-    out.flush().with_context(|| path.display().to_string())
+    whole_file::write_with(&folder(project).join(format!("{name}.csv")), |mut out| {
+        csv::header(&mut out, names.iter().map(|(name, unit)| (name.as_str(), *unit)))?;
+        let rows = columns.iter().map(Vec::len).min().unwrap_or(0);
+        for i in 0..rows {
+            csv::row(&mut out, columns.iter().map(|column| column[i]))?;
+        }
+        Ok(())
+    })
 }

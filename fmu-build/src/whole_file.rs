@@ -1,0 +1,139 @@
+//! Files that are whole or not there. A disk that fills up, or a run that fails, leaves a file of the same name as it was.
+//!
+//! Everything is written into a temporary file in the same folder, which takes the name when its last byte is on the disk. It
+//! is removed on the way out of every failure.
+
+use std::fs::{self, Permissions};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use tempfile::{NamedTempFile, TempDir};
+
+/// Why a file was not written; the file of that name is what it was before.
+#[derive(Debug, thiserror::Error)]
+#[error(
+    "{path} was not written, and what was there before is unchanged: see whether its disk is full and who may write there, or \
+     choose another folder"
+)]
+pub struct NotWritten {
+    path: String,
+    /// What the system says.
+    source: io::Error,
+}
+
+/// Writes a file of these bytes.
+pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> Result<()> {
+    write_with(path, |out| Ok(out.write_all(bytes.as_ref())?))
+}
+
+/// Writes a file by `fill`. Where the folder is missing it is made.
+///
+/// # Errors
+/// Of `fill`, as they are; what the system says of writing, with the path and what to do.
+pub fn write_with(path: &Path, fill: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
+    let failed = |source: io::Error| NotWritten { path: path.display().to_string(), source };
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
+    let mut out = BufWriter::new(beside(path, folder).map_err(failed)?);
+    if let Err(error) = fill(&mut out) {
+        // Only what went wrong with writing is the disk's.
+        return Err(match error.downcast::<io::Error>() {
+            Ok(source) => failed(source).into(),
+            Err(other) => other,
+        });
+    }
+    let file = out.into_inner().map_err(|error| failed(error.into_error()))?;
+    // Some file systems tell only now that they are full.
+    file.as_file().sync_all().map_err(failed)?;
+    file.persist(path).map_err(|error| failed(error.error))?;
+    Ok(())
+}
+
+/// A folder for files that grow, in `folder`, which is made where it is missing. It is removed with all that is still in it.
+pub fn folder_in(folder: &Path) -> Result<TempDir> {
+    fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
+    tempfile::Builder::new().suffix(".part").tempdir_in(folder).with_context(|| folder.display().to_string())
+}
+
+/// Moves a file that is whole into `folder`, in place of one of its name, and gives its path there.
+pub fn take_out(file: &Path, folder: &Path) -> Result<PathBuf> {
+    let path = folder.join(file.file_name().unwrap_or_default());
+    match fs::rename(file, &path) {
+        Ok(()) => Ok(path),
+        Err(source) => Err(NotWritten { path: path.display().to_string(), source }.into()),
+    }
+}
+
+/// A temporary file that is removed unless it is given a name.
+fn beside(path: &Path, folder: &Path) -> io::Result<NamedTempFile> {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(".");
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(&name).suffix(".part");
+    #[cfg(unix)]
+    {
+        // As any file that a program makes: the user's mask takes away from this.
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(folder)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name());
+        entries.map(|name| name.to_string_lossy().into_owned()).collect()
+    }
+
+    #[test]
+    fn a_file_whose_filling_fails_stays_as_it_was_and_nothing_is_left_beside_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("signals.csv");
+        write(&path, "earlier").unwrap();
+        let full = write_with(&path, |out| {
+            out.write_all(&[b'1'; 100_000])?;
+            Err(io::Error::from(io::ErrorKind::StorageFull).into())
+        });
+        let said = format!("{:#}", full.unwrap_err());
+        assert!(said.contains("signals.csv was not written") && said.contains("no storage space"), "{said}");
+        let other = write_with(&path, |out| {
+            out.write_all(b"half")?;
+            anyhow::bail!("element 3 was thrown out")
+        });
+        // What is none of the disk's doing is not blamed on it.
+        assert_eq!(format!("{:#}", other.unwrap_err()), "element 3 was thrown out");
+        assert_eq!(fs::read_to_string(&path).unwrap(), "earlier");
+        assert_eq!(names(folder.path()), ["signals.csv"]);
+    }
+
+    #[test]
+    fn a_folder_that_is_missing_is_made_and_one_that_cannot_be_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a/b/page.md");
+        write(&path, "whole").unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "whole");
+        let said = format!("{:#}", write(&path.join("c.md"), "").unwrap_err());
+        assert!(said.contains("page.md"), "{said}");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_file_may_be_read_by_whom_the_users_mask_lets() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        let (ours, plain) = (folder.path().join("ours"), folder.path().join("plain"));
+        write(&ours, "").unwrap();
+        fs::write(&plain, "").unwrap();
+        let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode();
+        assert_eq!(mode(&ours), mode(&plain));
+    }
+}

@@ -1,0 +1,270 @@
+//! What is wrong with the keys of a scene file, all of it at once. Asked only of a file that was refused; values are not
+//! looked at.
+
+use super::super::key_fault::{Hint, KeyFault};
+use super::not_modelled::{DEFECTS, instead_of};
+use super::rings::{HousingTable, SensorTable, ShaftTable};
+use super::{
+    BearingTable, CageTable, ContactTable, DefectTable, ExperimentTable, RecorderTable, SceneError, SceneFile,
+    SolverTable,
+};
+use serde::Deserialize;
+use serde::de::{Deserializer, Visitor};
+use std::fmt;
+use toml::de::{DeTable, DeValue};
+
+type Keys = &'static [&'static str];
+
+/// Keys that a table cannot be without. The file itself is the table without a name.
+const NEEDED: [(&str, Keys); 6] = [
+    ("", &["name", "bearing", "shaft", "housing"]),
+    ("bearing", &["element_count", "element_diameter_mm", "pitch_diameter_mm", "youngs_modulus_gpa", "poissons_ratio"]),
+    ("defect", &["angle_deg"]),
+    ("shaft", &["motion", "speed_hz"]),
+    ("housing", &["motion"]),
+    ("recorder", &["rate_hz"]),
+];
+
+/// Table, two keys of which one is needed, and keys that go without both.
+const ALTERNATIVES: [(&str, [&str; 2], Keys); 4] = [
+    ("bearing", ["groove_diameter_mm", "conformity_inner"], &["conformity_outer"]),
+    ("bearing", ["density_kg_m3", "element_mass_g"], &[]),
+    ("defect", ["length_deg", "length_mm"], &["profile"]),
+    ("defect", ["depth_um", "profile"], &[]),
+];
+
+/// All tables and the keys that each takes, as the tables themselves say.
+fn tables() -> [(&'static str, Keys); 11] {
+    [
+        ("", fields::<SceneFile>()),
+        ("bearing", fields::<BearingTable>()),
+        ("contact", fields::<ContactTable>()),
+        ("cage", fields::<CageTable>()),
+        ("defect", fields::<DefectTable>()),
+        ("shaft", fields::<ShaftTable>()),
+        ("housing", fields::<HousingTable>()),
+        ("sensor", fields::<SensorTable>()),
+        ("solver", fields::<SolverTable>()),
+        ("recorder", fields::<RecorderTable>()),
+        ("experiment", fields::<ExperimentTable>()),
+    ]
+}
+
+/// The error for a file that was refused with `error`: all faults of its keys, where it was refused for one of them.
+pub(super) fn all_faults(text: &str, error: SceneError) -> SceneError {
+    if !matches!(error, SceneError::Toml(_) | SceneError::Neither { .. } | SceneError::Missing { .. }) {
+        return error;
+    }
+    match DeTable::parse(text).map(|file| faults(text, file.get_ref())) {
+        Ok(faults) if !faults.is_empty() => SceneError::Keys(faults),
+        _ => error,
+    }
+}
+
+fn faults(text: &str, file: &DeTable<'_>) -> Vec<KeyFault> {
+    let breaks: Vec<usize> = text.match_indices('\n').map(|(at, _)| at).collect();
+    let mut faults = Vec::new();
+    for (name, keys) in tables() {
+        if name.is_empty() {
+            faults.extend(of_table(&breaks, (name, keys), 0, file));
+        } else if let Some(value) = file.get(name) {
+            let line = line_of(&breaks, value.span().start);
+            match value.get_ref() {
+                DeValue::Table(table) => faults.extend(of_table(&breaks, (name, keys), line, table)),
+                DeValue::Array(_) if name == "defect" => {
+                    faults.push(KeyFault::NotModelled { line, key: "[[defect]]".to_owned(), only: DEFECTS });
+                }
+                // Of the wrong type, which is no matter of keys.
+                _ => {}
+            }
+        }
+    }
+    faults.sort_by_key(KeyFault::line);
+    faults
+}
+
+/// Faults of a table whose head stands in `line`; lines end at `breaks`.
+fn of_table(breaks: &[usize], (name, keys): (&str, Keys), line: usize, table: &DeTable<'_>) -> Vec<KeyFault> {
+    let mut faults = Vec::new();
+    // What is there under another spelling is not missing as well.
+    let mut there: Vec<&str> = table.keys().map(|key| key.get_ref().as_ref()).collect();
+    for (key, value) in table.iter().filter(|(key, _)| !keys.contains(&key.get_ref().as_ref())) {
+        let (line, key) = (line_of(breaks, key.span().start), key.get_ref());
+        let shown = path(name, key, matches!(value.get_ref(), DeValue::Table(_) | DeValue::Array(_)));
+        faults.push(match instead_of(name, key) {
+            Some(only) => KeyFault::NotModelled { line, key: shown, only },
+            None => KeyFault::Unknown { line, key: shown, hint: hint(name, keys, key) },
+        });
+        there.extend(nearest(keys, key));
+    }
+    for key in needed(name).iter().filter(|key| !there.contains(key)) {
+        // Of the file itself all but the name are tables.
+        let is_table = name.is_empty() && *key != "name";
+        let with = if is_table { needed(key) } else { &[] };
+        faults.push(KeyFault::Missing { line, key: path(name, key, is_table), with });
+    }
+    for (_, two, instead) in ALTERNATIVES.iter().filter(|(table, ..)| *table == name) {
+        if !two.iter().chain(*instead).any(|key| there.contains(key)) {
+            faults.push(KeyFault::Neither { line, keys: two.map(|key| path(name, key, false)) });
+        }
+    }
+    faults
+}
+
+fn needed(table: &str) -> Keys {
+    NEEDED.iter().find(|(name, _)| *name == table).map_or(&[], |(_, keys)| keys)
+}
+
+/// A key with its table, as it is shown; a table in brackets.
+fn path(table: &str, key: &str, is_table: bool) -> String {
+    let path = if table.is_empty() { key.to_owned() } else { format!("{table}.{key}") };
+    if is_table { format!("[{path}]") } else { path }
+}
+
+/// Line of a place in a text with these line breaks, from 1.
+fn line_of(breaks: &[usize], at: usize) -> usize {
+    1 + breaks.partition_point(|&end| end < at)
+}
+
+fn hint(table: &str, keys: Keys, key: &str) -> Hint {
+    let elsewhere = tables().into_iter().find(|(name, keys)| *name != table && keys.contains(&key));
+    match (elsewhere, nearest(keys, key)) {
+        (Some((other, _)), _) if !other.is_empty() => Hint::BelongsTo(other),
+        (_, Some(near)) => Hint::DidYouMean(near),
+        _ => Hint::Takes(keys),
+    }
+}
+
+/// The key that is spelt most like this one: without its unit, or a third of the letters off.
+fn nearest(keys: Keys, key: &str) -> Option<&'static str> {
+    let key = key.to_lowercase().replace('-', "_");
+    let away = |other: &str| if other.starts_with(&key) { 1 } else { distance(other, &key) };
+    let nearest = keys.iter().copied().min_by_key(|other| away(other))?;
+    (away(nearest) <= (key.chars().count() / 3).max(1)).then_some(nearest)
+}
+
+/// Letters to be put in, left out or exchanged to make one word of the other (Levenshtein).
+fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, from) in a.chars().enumerate() {
+        let mut aslant = row[0];
+        row[0] = i + 1;
+        for (j, to) in b.iter().enumerate() {
+            let exchanged = aslant + usize::from(from != *to);
+            aslant = row[j + 1];
+            row[j + 1] = exchanged.min(row[j] + 1).min(aslant + 1);
+        }
+    }
+    row[b.len()]
+}
+
+/// The keys that a table takes.
+fn fields<'a, T: Deserialize<'a>>() -> Keys {
+    T::deserialize(Ask).err().map_or(&[], |Fields(keys)| keys)
+}
+
+/// Gives the names of the fields that a structure asks for, as its error.
+struct Ask;
+
+#[derive(Debug)]
+struct Fields(Keys);
+
+impl fmt::Display for Fields {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0.join(", "))
+    }
+}
+
+impl std::error::Error for Fields {}
+
+impl serde::de::Error for Fields {
+    fn custom<T: fmt::Display>(_: T) -> Self {
+        Self(&[])
+    }
+}
+
+impl<'de> Deserializer<'de> for Ask {
+    type Error = Fields;
+
+    fn deserialize_struct<V: Visitor<'de>>(self, _: &'static str, fields: Keys, _: V) -> Result<V::Value, Fields> {
+        Err(Fields(fields))
+    }
+
+    fn deserialize_any<V: Visitor<'de>>(self, _: V) -> Result<V::Value, Fields> {
+        Err(Fields(&[]))
+    }
+
+    serde::forward_to_deserialize_any! {
+        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf option unit unit_struct
+        newtype_struct seq tuple tuple_struct map enum identifier ignored_any
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_say_themselves_which_keys_they_cannot_be_without() {
+        // serde names the first that is missing; the files below lack one each.
+        let lines =
+            |table: &str| needed(table).iter().map(|key| format!("{key} = {}\n", value_of(key))).collect::<Vec<_>>();
+        for (table, keys) in tables().into_iter().filter(|(table, _)| !table.is_empty()) {
+            let whole = lines(table);
+            let refused = |text: &str| refusal(table, text);
+            assert_eq!(refused(&whole.concat()), None, "[{table}] asks for more than is listed");
+            for (i, key) in needed(table).iter().enumerate() {
+                assert!(keys.contains(key), "[{table}] has no {key}");
+                let without: String =
+                    whole.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, line)| line.as_str()).collect();
+                let why = refused(&without).unwrap_or_default();
+                assert!(why.contains(&format!("missing field `{key}`")), "[{table}] without {key}: {why}");
+            }
+        }
+    }
+
+    fn value_of(key: &str) -> &'static str {
+        match key {
+            "element_count" => "9",
+            "motion" => "\"internal\"",
+            _ => "1.0",
+        }
+    }
+
+    fn refusal(table: &str, text: &str) -> Option<String> {
+        fn of<T: for<'a> Deserialize<'a>>(text: &str) -> Option<String> {
+            toml::from_str::<T>(text).err().map(|error| error.message().to_owned())
+        }
+        match table {
+            "bearing" => of::<BearingTable>(text),
+            "contact" => of::<ContactTable>(text),
+            "cage" => of::<CageTable>(text),
+            "defect" => of::<DefectTable>(text),
+            "shaft" => of::<ShaftTable>(text),
+            "housing" => of::<HousingTable>(text),
+            "sensor" => of::<SensorTable>(text),
+            "solver" => of::<SolverTable>(text),
+            "recorder" => of::<RecorderTable>(text),
+            _ => of::<ExperimentTable>(text),
+        }
+    }
+
+    #[test]
+    fn every_table_of_the_file_says_its_keys() {
+        let tables = tables();
+        assert!(tables.iter().all(|(name, keys)| !keys.is_empty() || name.is_empty()), "{tables:?}");
+        for key in tables[0].1.iter().filter(|key| !["name", "description", "gravity_m_s2"].contains(key)) {
+            assert!(tables.iter().any(|(table, _)| table == key), "[{key}] is not looked at");
+        }
+    }
+
+    #[test]
+    fn words_are_as_far_apart_as_letters_change() {
+        for (a, b, expected) in [("slip", "slip", 0), ("slip", "slipp", 1), ("solver", "solwer", 1), ("", "abc", 3)] {
+            assert_eq!((distance(a, b), distance(b, a)), (expected, expected), "{a} {b}");
+        }
+        assert_eq!(nearest(&["depth_um", "length_deg"], "depth"), Some("depth_um"));
+        assert_eq!(nearest(&["depth_um", "length_deg"], "colour"), None);
+    }
+}

@@ -1,0 +1,67 @@
+//! Keys that ask for what the model does not have: an answer better than "unknown".
+
+/// Names of keys or tables that ask for one thing.
+struct Asked {
+    /// Tables in which they are looked for; the empty name is the file itself.
+    tables: &'static [&'static str],
+    /// Whole names.
+    names: &'static [&'static str],
+    /// Parts of names.
+    parts: &'static [&'static str],
+    /// What is modelled instead.
+    only: &'static str,
+}
+
+/// What is said to several defects, or to one elsewhere.
+pub(super) const DEFECTS: &str =
+    "defects on the outer raceway only, so far: one table [defect], without a key for the raceway";
+const BALLS: &str = "rolling elements are balls, so far; rollers with their line contacts are not";
+const PLANE: &str = "the rings move in one plane, so far: no axial load, no contact angle, no tilt";
+const DRY: &str = "contacts without lubricant and friction, so far";
+
+const ASKED: [Asked; 5] = [
+    Asked { tables: &[""], names: &[], parts: &["defect", "spall", "race"], only: DEFECTS },
+    Asked {
+        tables: &["defect"],
+        names: &["on", "side", "where", "location", "position", "ring", "surface", "part", "element", "ball"],
+        parts: &["race", "inner", "outer", "defect", "spall"],
+        only: DEFECTS,
+    },
+    Asked {
+        tables: &["", "bearing"],
+        names: &[
+            "element",
+            "elements",
+            "rolling_element",
+            "rolling_elements",
+            "element_type",
+            "element_kind",
+            "type",
+            "kind",
+        ],
+        parts: &["roller", "needle", "element_shape", "element_length"],
+        only: BALLS,
+    },
+    Asked {
+        tables: &["", "bearing", "shaft", "housing"],
+        names: &[],
+        parts: &["axial", "thrust", "contact_angle", "tilt", "misalign"],
+        only: PLANE,
+    },
+    Asked {
+        tables: &["", "bearing", "contact", "cage"],
+        names: &["oil"],
+        parts: &["lubric", "viscosity", "film", "grease", "friction"],
+        only: DRY,
+    },
+];
+
+/// What is modelled instead of what this key of this table asks for; `None` if it asks for nothing known.
+pub(super) fn instead_of(table: &str, key: &str) -> Option<&'static str> {
+    let key = key.to_lowercase().replace('-', "_");
+    let asks = |asked: &&Asked| {
+        let named = asked.names.contains(&key.as_str()) || asked.parts.iter().any(|part| key.contains(part));
+        asked.tables.contains(&table) && named
+    };
+    ASKED.iter().find(asks).map(|asked| asked.only)
+}
