@@ -42,7 +42,7 @@ impl Model {
             }
         }
         let housing = ends.map(|end| self.housing_state(drive, end.clock.tau, end.state).velocity);
-        let acceleration = ends.map(|end| self.ring_accelerations(drive, end.derivative)[1]);
+        let acceleration = ends.map(|end| self.ring_accelerations(drive, end.clock.tau, end.derivative)[1]);
         let velocity = self.housing_state(drive, clock.tau, out).velocity;
         let w = layout.radial_velocity;
         for j in 0..self.element_count {

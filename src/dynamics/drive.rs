@@ -1,7 +1,7 @@
 //! What acts on the bearing from outside during one communication step, as polynomials of the time τ since its start.
 //!
-//! A prescribed ring moves as x + vτ + ½aτ², loads and shaft speed as their value and derivatives say. Nothing here
-//! depends on absolute time, so the millionth step is as exact as the first.
+//! A prescribed ring moves as x + vτ + ½aτ² + ⅙jτ³, loads and shaft speed as their value and derivatives say. Nothing
+//! here depends on absolute time, so the millionth step is as exact as the first.
 
 use crate::numerics::{sin_cos, wrap};
 
@@ -25,6 +25,30 @@ impl Quadratic {
     #[inline]
     pub fn rate_at(&self, tau: f64) -> f64 {
         self.0[1] + tau * self.0[2]
+    }
+}
+
+/// c₀ + c₁τ + ½c₂τ² + ⅙c₃τ³
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Cubic(pub [f64; 4]);
+
+impl Cubic {
+    /// Value at `tau`.
+    #[inline]
+    pub fn at(&self, tau: f64) -> f64 {
+        self.0[0] + tau * (self.0[1] + 0.5 * tau * (self.0[2] + tau * (1.0 / 3.0) * self.0[3]))
+    }
+
+    /// First derivative at `tau`.
+    #[inline]
+    pub fn rate_at(&self, tau: f64) -> f64 {
+        self.0[1] + tau * (self.0[2] + 0.5 * tau * self.0[3])
+    }
+
+    /// Second derivative at `tau`.
+    #[inline]
+    pub fn second_at(&self, tau: f64) -> f64 {
+        self.0[2] + tau * self.0[3]
     }
 }
 
@@ -64,9 +88,9 @@ pub struct Drive {
     /// Cage angle since the start [rad], with its value 0, its speed and its acceleration.
     pub cage: Quadratic,
     /// Prescribed position of the inner ring [m], x and y; zero when it is not prescribed.
-    pub shaft: [Quadratic; 2],
+    pub shaft: [Cubic; 2],
     /// Prescribed position of the outer ring [m].
-    pub housing: [Quadratic; 2],
+    pub housing: [Cubic; 2],
     /// External load on the inner ring [N].
     pub shaft_load: [Quadratic; 2],
     /// External load on the outer ring [N].
@@ -88,7 +112,8 @@ impl Drive {
         Clock { tau, cage: (cos, sin), cage_angle, cage_speed: self.cage.rate_at(tau) }
     }
 
-    /// Where the cage is at some instants after `from`, worked out together: direction at `from`, turned by a small angle.
+    /// Where the cage is at some instants after `from`, worked out together: direction at `from`, turned by a small
+    /// angle.
     #[inline(always)]
     pub(crate) fn clocks<const N: usize>(&self, from: f64, after: [f64; N]) -> [Clock; N] {
         let start = self.clock(from);

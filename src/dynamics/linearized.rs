@@ -25,7 +25,7 @@
 //! Derivatives are those of the branch that each contact is in; at the onset of a contact there are two. At rest all of
 //! it is elastic: G is symmetric, and no damping enters.
 
-use super::drive::{Drive, Quadratic};
+use super::drive::{Cubic, Drive};
 use super::forces::{SMOOTH, cos_sin, dot};
 use super::model::Model;
 use super::rings::RingState;
@@ -191,8 +191,12 @@ impl Model {
     /// What elements share at `tau`.
     pub(super) fn instant(&self, drive: &Drive, tau: f64, state: &[f64]) -> Instant {
         let cage_angle = drive.cage_angle(tau);
-        let moves = |motion: Motion, place: &[Quadratic; 2]| {
-            if motion == Motion::Host { [place.map(|q| q.rate_at(tau)), place.map(|q| q.0[2])] } else { [[0.0; 2]; 2] }
+        let moves = |motion: Motion, place: &[Cubic; 2]| {
+            if motion == Motion::Host {
+                [place.map(|q| q.rate_at(tau)), place.map(|q| q.second_at(tau))]
+            } else {
+                [[0.0; 2]; 2]
+            }
         };
         Instant {
             cage: cos_sin(cage_angle),

@@ -1,6 +1,6 @@
 //! Where a ring is, wherever that comes from, and how forces accelerate it.
 
-use super::drive::{Drive, Quadratic};
+use super::drive::{Cubic, Drive};
 use super::model::Model;
 use crate::numerics::lanes::{Lanes, QUAD, Wide};
 use crate::scene::{Motion, Ring};
@@ -27,10 +27,10 @@ impl Model {
         ring_state(self.layout.housing, self.housing.motion, &drive.housing, tau, (state, None))
     }
 
-    /// Accelerations of the inner and the outer ring [m/s²], wherever they come from.
-    pub fn ring_accelerations(&self, drive: &Drive, derivative: &[f64]) -> [[f64; 2]; 2] {
+    /// Accelerations of the inner and the outer ring at `tau` [m/s²], wherever they come from.
+    pub fn ring_accelerations(&self, drive: &Drive, tau: f64, derivative: &[f64]) -> [[f64; 2]; 2] {
         [(self.layout.shaft, &drive.shaft), (self.layout.housing, &drive.housing)].map(|(place, prescribed)| {
-            place.map_or(prescribed.map(|q| q.0[2]), |i| [derivative[i + 2], derivative[i + 3]])
+            place.map_or(prescribed.map(|place| place.second_at(tau)), |i| [derivative[i + 2], derivative[i + 3]])
         })
     }
 }
@@ -60,7 +60,7 @@ pub(super) fn whole<S: Wide>(simd: S, one: [f64; QUAD], other: [f64; QUAD]) -> L
 pub(super) fn ring_state(
     place: Option<usize>,
     motion: Motion,
-    prescribed: &[Quadratic; 2],
+    prescribed: &[Cubic; 2],
     tau: f64,
     (state, ahead): (&[f64], Option<f64>),
 ) -> RingState {

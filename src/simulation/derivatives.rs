@@ -200,14 +200,17 @@ impl Simulation {
                     velocity: [self.derivative[i + 2], self.derivative[i + 3]],
                 },
                 // Zero for a fixed ring.
-                None => {
-                    RingState { position: prescribed.map(|q| q.rate_at(0.0)), velocity: prescribed.map(|q| q.0[2]) }
-                }
+                None => RingState {
+                    position: prescribed.map(|q| q.rate_at(0.0)),
+                    velocity: prescribed.map(|q| q.second_at(0.0)),
+                },
             };
         }
         if let Some(i) = layout.sensor {
             change.sensor = [self.derivative[i], self.derivative[i + 1]];
         }
+        // Those of internal rings follow from the forces' change.
+        change.accelerations = [&drive.shaft, &drive.housing].map(|prescribed| prescribed.map(|q| q.0[3]));
         for (axis, load) in drive.shaft_load.iter().chain(&drive.housing_load).enumerate() {
             change.loads[axis] = load.rate_at(0.0);
         }

@@ -1,38 +1,52 @@
 //! What acts on the bearing from outside: from input variables and their derivatives to polynomials of time, and back.
 
 use super::Simulation;
-use super::setup;
-use crate::dynamics::drive::{Drive, Quadratic};
+use super::setup::{Inputs, RingInputs};
+use super::table::Quantity;
+use crate::dynamics::drive::{Cubic, Drive, Quadratic};
+
+/// Highest order of the derivatives by time that act where a quantity is an input, and how its description says so.
+/// What would make a higher polynomial than [`Drive`] has is refused: the cage's angle is a quadratic, so that the
+/// instants at which elements pass knots are roots of one.
+pub(super) fn derivatives(input: Quantity) -> (i32, &'static str) {
+    match input {
+        Quantity::Position(..) => (2, "derivatives of orders 1 and 2 act, in place of velocity and acceleration"),
+        Quantity::Velocity(..) => (2, "derivatives of orders 1 and 2 act, in place of acceleration and its derivative"),
+        Quantity::Load(..) => (2, "derivatives of orders 1 and 2 act"),
+        _ => (1, "derivative of order 1 acts"),
+    }
+}
 
 impl Simulation {
     /// Where every external influence is during the next step.
+    ///
+    /// Each coefficient of a ring's motion comes from the derivative of the lowest variable that gives it: the velocity
+    /// from the position's, or else from the input; the acceleration from the position's, the velocity's, or the input.
     pub(super) fn drive(&self, stepping: bool) -> Drive {
-        let rates = |index: usize| if stepping { self.input_rates[index] } else { [0.0; 2] };
         let value = |index: Option<usize>| index.map_or(0.0, |i| self.values[i]);
-        let load = |index: Option<usize>| {
-            index.map_or(Quadratic::default(), |i| Quadratic([self.values[i], rates(i)[0], rates(i)[1]]))
+        let given = |index: Option<usize>, order: usize| {
+            index.filter(|_| stepping).and_then(|i| self.input_rates[i][order - 1])
         };
-        let place = |ring: &setup::RingInputs, axis: usize| {
-            let Some(position) = ring.position[axis] else { return Quadratic::default() };
-            let given = rates(position);
-            if given != [0.0; 2] {
-                return Quadratic([self.values[position], given[0], given[1]]);
-            }
-            let acceleration = ring.velocity[axis].map_or(0.0, |i| rates(i)[0]) + value(ring.acceleration[axis]);
-            Quadratic([self.values[position], value(ring.velocity[axis]), acceleration])
+        let rate = |index: Option<usize>, order: usize| given(index, order).unwrap_or(0.0);
+        let load = |index: Option<usize>| Quadratic([value(index), rate(index, 1), rate(index, 2)]);
+        let place = |ring: &RingInputs, axis: usize| {
+            let (x, v, a) = (ring.position[axis], ring.velocity[axis], ring.acceleration[axis]);
+            Cubic([
+                value(x),
+                given(x, 1).unwrap_or(value(v)),
+                given(x, 2).or(given(v, 1)).unwrap_or(value(a)),
+                given(v, 2).unwrap_or(rate(a, 1)),
+            ])
         };
-        let speed = self.inputs.speed;
+        let Inputs { speed, shaft, housing, .. } = self.inputs;
+        let cage_ratio = self.model.cage_ratio;
         Drive {
             cage_start: self.state.cage.rest,
-            cage: Quadratic([
-                0.0,
-                self.model.cage_ratio * value(speed),
-                self.model.cage_ratio * speed.map_or(0.0, |i| rates(i)[0]),
-            ]),
-            shaft: [place(&self.inputs.shaft, 0), place(&self.inputs.shaft, 1)],
-            housing: [place(&self.inputs.housing, 0), place(&self.inputs.housing, 1)],
-            shaft_load: [load(self.inputs.shaft.load[0]), load(self.inputs.shaft.load[1])],
-            housing_load: [load(self.inputs.housing.load[0]), load(self.inputs.housing.load[1])],
+            cage: Quadratic([0.0, cage_ratio * value(speed), cage_ratio * rate(speed, 1)]),
+            shaft: [place(&shaft, 0), place(&shaft, 1)],
+            housing: [place(&housing, 0), place(&housing, 1)],
+            shaft_load: shaft.load.map(load),
+            housing_load: housing.load.map(load),
         }
     }
 
@@ -57,11 +71,10 @@ impl Simulation {
                 }
             }
         }
-        if let Some(i) = self.inputs.speed {
-            self.values[i] += self.input_rates[i][0] * step;
+        let Inputs { speed, shaft, housing, .. } = self.inputs;
+        for i in shaft.acceleration.into_iter().chain(housing.acceleration).chain([speed]).flatten() {
+            self.values[i] += self.input_rates[i][0].unwrap_or(0.0) * step;
         }
-        for rates in &mut self.input_rates {
-            *rates = [0.0; 2];
-        }
+        self.input_rates.fill([None; 2]);
     }
 }

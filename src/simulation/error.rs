@@ -91,13 +91,25 @@ pub enum VariableError {
         /// Largest value allowed.
         max: f64,
     },
-    /// Derivatives are taken of inputs only, of order 1 or 2.
-    #[error("derivative of order {order} of {name}: only orders 1 and 2 of real inputs can be set")]
+    /// Derivatives are taken of inputs only, and their orders begin at 1.
+    #[error(
+        "derivative of order {order} of {name}: only real inputs have derivatives that can be set, of order 1 and above"
+    )]
     Derivative {
         /// Its name.
         name: String,
         /// Order asked for.
         order: i32,
+    },
+    /// A derivative that the motion within a step has no use for.
+    #[error("derivative of order {order} of {name} would have no effect: orders up to {highest} act")]
+    UnusedDerivative {
+        /// Its name.
+        name: String,
+        /// Order given.
+        order: i32,
+        /// Highest order that acts.
+        highest: i32,
     },
     /// Derivatives are given of real outputs.
     #[error("derivative of {name}: it is no output")]

@@ -1,10 +1,12 @@
-//! Knots: the instants at which an element enters another cell of the defect, found from whole cells, never by comparing times.
+//! Knots: the instants at which an element enters another cell of the defect, found from whole cells, never by
+//! comparing times.
 //!
-//! The cage angle is a quadratic of time within a communication step, so the cage turns back at most once, and before and
-//! after that it goes one way only. Which of these two *legs* it is on is, like a cell, no question of times: the way back
-//! begins with the first passage that only it can make. On a leg an element meets the knot ahead of its cell and no other.
-//! The knot that it has just passed, from which rounding leaves it at an angle of about 0, therefore neither fires
-//! again nor is missed when the cage comes back; and a knot on which the cage turns is passed both ways or not at all.
+//! The cage angle is a quadratic of time within a communication step, so the cage turns back at most once, and before
+//! and after that it goes one way only. Which of these two *legs* it is on is, like a cell, no question of times: the
+//! way back begins with the first passage that only it can make. On a leg an element meets the knot ahead of its cell
+//! and no other. The knot that it has just passed, from which rounding leaves it at an angle of about 0, therefore
+//! neither fires again nor is missed when the cage comes back; and a knot on which the cage turns is passed both ways
+//! or not at all.
 
 use crate::dynamics::drive::Drive;
 use crate::dynamics::forces::SMOOTH;
@@ -87,11 +89,12 @@ fn around(angle: f64) -> f64 {
     if within > TAU - 1e-9 { 0.0 } else { within }
 }
 
-/// Time until speed·t + ½ acceleration·t² reaches `angle` ≥ 0 on its way forward, infinite if never. Where it begins by moving
-/// backward that is when it comes back, also for an angle of 0.
+/// Time until speed·t + ½ acceleration·t² reaches `angle` ≥ 0 on its way forward, infinite if never. Where it begins by
+/// moving backward that is when it comes back, also for an angle of 0.
 fn passage(speed: f64, acceleration: f64, angle: f64) -> f64 {
     let root = (speed * speed + 2.0 * acceleration * angle).sqrt();
-    // Of the two forms of the same root the one in which nothing cancels. No root is no number, and then neither is the time.
+    // Of the two forms of the same root the one in which nothing cancels. No root is no number, and then neither is the
+    // time.
     if speed > 0.0 {
         2.0 * angle / (speed + root)
     } else if acceleration > 0.0 {

@@ -66,8 +66,8 @@ pub struct Simulation {
     /// Values of the table, by index; integers live in `integers`.
     values: Vec<f64>,
     integers: Vec<i32>,
-    /// First and second derivatives of inputs for the next step, by index.
-    input_rates: Vec<[f64; 2]>,
+    /// First and second derivatives of inputs for the next step, where the host has given any, by index.
+    input_rates: Vec<[Option<f64>; 2]>,
     model: Model,
     stepper: Stepper,
     /// `None` where the scene has no recorder.
@@ -97,7 +97,7 @@ pub struct State {
     /// Inputs and parameters, by index; outputs are left at what they were.
     values: Vec<f64>,
     integers: Vec<i32>,
-    input_rates: Vec<[f64; 2]>,
+    input_rates: Vec<[Option<f64>; 2]>,
 }
 
 impl State {
@@ -141,9 +141,10 @@ impl Simulation {
         } && surface.is_some();
         let model = setup::build_model(&scene, surface.as_ref().filter(|_| !model_is_stale), map.as_ref())?;
         let progress = Progress::new(model.layout.len, model.element_count);
-        let input_rates = vec![[0.0; 2]; table.len()];
+        let inputs = Inputs::new(&quantities, table.iter().take_while(|v| v.causality == Causality::Input).count());
+        let input_rates = vec![[None; 2]; inputs.count];
         Ok(Self {
-            inputs: Inputs::new(&quantities, table.iter().take_while(|v| v.causality == Causality::Input).count()),
+            inputs,
             stepper: Stepper::new(&model),
             recorder: scene.recorder_rate.map(|rate| Recorder::new(rate, &table, &quantities)),
             method: Method::Automatic,

@@ -35,7 +35,7 @@ impl<'a> Instant<'a> {
             state,
             forces,
             ring: [model.shaft_state(drive, tau, state), model.housing_state(drive, tau, state)],
-            acceleration: model.ring_accelerations(drive, derivative),
+            acceleration: model.ring_accelerations(drive, tau, derivative),
             sensor: model.layout.sensor.map_or(0.0, |i| derivative[i + 1]),
             cage_angle: cage_start + drive.cage.at(tau),
             model,

@@ -26,8 +26,9 @@ impl State {
     pub fn byte_count(&self) -> usize {
         let progress = &self.progress;
         let fixed = 8 + 1 + 8 + 8 + 2 * 8 + (1 + 4 * 4 + 2 * 8 + 1) + 4 * 8 + 4 * 8 + 2 * 8;
-        let real = progress.state.len() + self.values.len() + 2 * self.input_rates.len();
-        fixed + 8 * real + 4 * (progress.cells.len() + self.integers.len()) + progress.pushing.len()
+        let real = progress.state.len() + self.values.len();
+        let rates = self.input_rates.as_flattened().len();
+        fixed + 8 * real + 9 * rates + 4 * (progress.cells.len() + self.integers.len()) + progress.pushing.len()
     }
 
     /// Shows every field as bytes to `field`, and takes what `field` has made of them. `None` as soon as `field`
@@ -52,8 +53,14 @@ impl State {
         real(&mut choice.stable_step, field)?;
         flag(&mut choice.damped, field)?;
         let lists = [&mut progress.mean_force[..], &mut progress.state, &mut self.values];
-        for value in lists.into_iter().flatten().chain(self.input_rates.as_flattened_mut()) {
+        for value in lists.into_iter().flatten() {
             real(value, field)?;
+        }
+        for rate in self.input_rates.as_flattened_mut() {
+            let (mut given, mut value) = (rate.is_some(), rate.unwrap_or(0.0));
+            flag(&mut given, field)?;
+            real(&mut value, field)?;
+            *rate = given.then_some(value);
         }
         for cell in &mut progress.cells {
             count32(cell, field)?;
@@ -118,9 +125,9 @@ impl Simulation {
             &progress.mean_force,
             &progress.state,
             &state.values,
-            state.input_rates.as_flattened(),
         ];
-        if !numbers.into_iter().flatten().all(|number| number.is_finite()) {
+        let rates = state.input_rates.as_flattened().iter().flatten();
+        if !numbers.into_iter().flatten().chain(rates).all(|number| number.is_finite()) {
             return Some("a number is not finite");
         }
         // A step that is rejected is at least a tenth as long afterwards, one that is taken a fifth.

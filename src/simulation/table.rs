@@ -2,6 +2,7 @@
 //!
 //! Inputs come first, then outputs, then parameters. A variable's index is its FMI value reference.
 
+use super::driving::derivatives;
 use super::variables::{Causality, Kind, Unit, Variability, Variable};
 use crate::scene::{Damping, Motion, Scene};
 
@@ -366,7 +367,8 @@ impl Builder<'_> {
 
     fn input(&mut self, name: &str, text: &str, quantity: Quantity, unit: Unit, start: f64, range: (f64, f64)) {
         let kind = Kind::Real { unit, start: Some(start), min: Some(-range.0), max: Some(range.0), nominal: range.1 };
-        self.push(name, text, kind, (Causality::Input, Variability::Continuous), quantity);
+        let text = [text, "; ", derivatives(quantity).1].concat();
+        self.push(name, &text, kind, (Causality::Input, Variability::Continuous), quantity);
     }
 
     fn output(&mut self, name: &str, text: &str, quantity: Quantity, unit: Unit, nominal: f64) {

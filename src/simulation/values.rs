@@ -2,6 +2,7 @@
 
 use super::Simulation;
 use super::access;
+use super::driving;
 use super::error::{SimulationError, VariableError};
 use super::variables::{Causality, Kind, Variable};
 
@@ -89,10 +90,11 @@ impl Simulation {
         Ok(())
     }
 
-    /// Derivatives of order 1 or 2 of real inputs, for the next step only; all or none.
+    /// Derivatives of real inputs by time, for the next step only; all or none. A variable's description says which
+    /// orders act; others are refused.
     ///
-    /// The derivative of order 1 of a velocity is the same as the acceleration input; a position already moves with its
-    /// velocity and acceleration inputs, and a derivative given for it takes their place.
+    /// A derivative takes the place of the input that would say the same: that of a position of its velocity, that of a
+    /// velocity of its acceleration. One that is 0 does so, too.
     pub fn set_input_derivatives(
         &mut self,
         references: &[u32],
@@ -101,15 +103,20 @@ impl Simulation {
     ) -> Result<(), VariableError> {
         for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
             let variable = self.variable(reference)?;
-            if variable.causality != Causality::Input || !(1..=2).contains(&order) {
-                return Err(VariableError::Derivative { name: variable.name.clone(), order });
+            let name = || variable.name.clone();
+            if variable.causality != Causality::Input || order < 1 {
+                return Err(VariableError::Derivative { name: name(), order });
+            }
+            let (highest, _) = driving::derivatives(self.quantities[reference as usize]);
+            if order > highest {
+                return Err(VariableError::UnusedDerivative { name: name(), order, highest });
             }
             if !value.is_finite() {
                 return Err(out_of_range(variable, value, f64::MIN, f64::MAX));
             }
         }
         for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
-            self.input_rates[reference as usize][order as usize - 1] = value;
+            self.input_rates[reference as usize][order as usize - 1] = Some(value);
         }
         Ok(())
     }

@@ -281,13 +281,15 @@ pub(crate) const RULES: &[(&str, &str, &[Evidence])] = &[
     ),
     (
         "Derivatives",
-        "Derivatives of inputs of order 1 and 2 act inside the step.",
+        "Derivatives of inputs act inside the step, in the orders that the input's description names; others are \
+         discarded with a log line.",
         &[
-            T("derivatives_of_inputs_are_taken_and_other_ones_refused"),
+            T("every_input_takes_the_orders_that_its_description_names_and_no_others"),
+            T("every_order_that_is_taken_acts"),
             T("an_input_follows_its_derivative_inside_the_step"),
+            T("a_motion_is_the_same_in_whichever_variables_it_is_told"),
         ],
     ),
-    T("a_motion_is_the_same_in_whichever_variables_it_is_told"),
     (
         "Derivatives",
         "Derivatives of outputs by time, order 1, are what short steps show.",

@@ -8,6 +8,7 @@
 mod derivatives;
 mod host;
 mod hostile;
+mod input_derivatives;
 mod instantiate;
 mod logging;
 mod modes;

@@ -219,39 +219,3 @@ fn misaligned_overlapping_and_absurdly_long_arrays_are_refused() {
         assert_eq!(host.restore(state), Status::Ok);
     }
 }
-
-#[test]
-fn derivatives_of_inputs_are_taken_and_other_ones_refused() {
-    let host = Host::started("6205-hosted");
-    let state = host.save();
-    let set = |reference: u32, order: i32, value: f64| {
-        // SAFETY: one element each.
-        unsafe { fmi2SetRealInputDerivatives(host.c, &raw const reference, 1, &raw const order, &raw const value) }
-    };
-    let speed = host.reference("shaft.speed");
-    assert_eq!(set(speed, 1, 3.0), Status::Ok);
-    for (reference, order, value) in
-        [(speed, 0, 1.0), (speed, 3, 1.0), (host.reference("shaft.force.y"), 1, 1.0), (u32::MAX, 1, 1.0)]
-    {
-        assert_eq!(set(reference, order, value), Status::Error);
-        assert_eq!(host.restore(state), Status::Ok);
-    }
-    assert_eq!(set(speed, 1, f64::NAN), Status::Discard);
-}
-
-#[test]
-fn an_input_follows_its_derivative_inside_the_step() {
-    let host = Host::started("6205-hosted");
-    let (speed, angle) = (host.reference("shaft.speed"), host.reference("cage.angle"));
-    let before = host.get(&[speed, angle, host.reference("cage.speed")]).unwrap();
-    let (order, rate) = (1, 1000.0);
-    // SAFETY: one element each.
-    let status = unsafe { fmi2SetRealInputDerivatives(host.c, &raw const speed, 1, &raw const order, &raw const rate) };
-    assert_eq!(status, Status::Ok);
-    assert_eq!(host.step(0.0, 1e-2), Status::Ok);
-    let turned = host.get(&[angle]).unwrap()[0] - before[1];
-    let cage_ratio = before[2] / before[0];
-    let expected = cage_ratio * (before[0] * 1e-2 + 0.5 * rate * 1e-4);
-    // 1e-12: rounding of a few operations on numbers of order one.
-    assert!((turned - expected).abs() < 1e-12, "{turned} {expected}");
-}

@@ -3,7 +3,7 @@
 use super::*;
 use crate::contact::near_defect::NearDefect;
 use crate::contact::rigid_path::RigidPath;
-use crate::dynamics::drive::Quadratic;
+use crate::dynamics::drive::{Cubic, Quadratic};
 use crate::dynamics::forces::{Forces, SMOOTH};
 use crate::scene::{Damping, Scene};
 
@@ -18,7 +18,7 @@ pub(crate) fn lively(motions: [Motion; 2], damping: Damping, cage_angle: f64) ->
     let profile = [(-2.7e-3, 0.0), (-2.6e-3, 1e-4), (2.0e-3, 1e-4), (2.7e-3, 0.0)];
     let (radius, raceway) = (0.5 * scene.bearing.element_diameter, scene.bearing.outer_raceway_radius());
     let model = Model::new(&scene, Some(NearDefect::Hertz(RigidPath::new(&profile, radius, raceway))));
-    let place = |start: f64| [Quadratic([start, 2e-3, -3.0]), Quadratic([-start, -1e-3, 5.0])];
+    let place = |start: f64| [Cubic([start, 2e-3, -3.0, 4e4]), Cubic([-start, -1e-3, 5.0, -7e4])];
     let load = |start: f64| [Quadratic([start, 2e4, 1e6]), Quadratic([-900.0, -4e4, 2e6])];
     let drive = Drive {
         cage_start: cage_angle,

@@ -1,7 +1,8 @@
 //! What can go wrong in a call: the status that the host gets, and the line that tells its user what to do.
 //!
 //! `fmi2Error` condemns the instance until it is reset or restored. `fmi2Discard` is kept for what a host can put right
-//! by itself: a value outside its variable's range, a status that is not known here, a derivative that does not exist.
+//! by itself: a value outside its variable's range, a status that is not known here, a derivative that does not exist
+//! or would have no effect.
 
 use super::blob::BlobError;
 use super::clock::ClockError;
@@ -103,7 +104,7 @@ impl Failure {
         match self {
             Failure::UnknownCategory(_) => Status::Warning,
             Failure::UnknownStatus(_)
-            | Failure::Variable(VariableError::OutOfRange { .. })
+            | Failure::Variable(VariableError::OutOfRange { .. } | VariableError::UnusedDerivative { .. })
             | Failure::Simulation(
                 SimulationError::NoDerivative | SimulationError::Variable(VariableError::OutOfRange { .. }),
             ) => Status::Discard,
