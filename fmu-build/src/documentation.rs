@@ -59,7 +59,7 @@ pub fn write(model: &Model) -> String {
     page.push_str("<h2>Equations</h2>\n");
     page.push_str(EQUATIONS);
     page.push_str("<h2>Variables</h2>\n");
-    for kind in [Causality::Input, Causality::Parameter, Causality::Output] {
+    for kind in [Causality::Input, Causality::Parameter, Causality::Output, Causality::Local] {
         variables(&mut page, model.simulation.table(), kind);
     }
     page.push_str("<h2>What is not modelled</h2>\n<ul>\n");
@@ -171,8 +171,10 @@ fn variables(page: &mut String, table: &[Variable], kind: Causality) {
         Causality::Input => "Inputs",
         Causality::Parameter => "Parameters, fixed after initialization",
         Causality::Output => "Outputs",
+        Causality::Local => "Counters, local",
     };
-    let start = if kind == Causality::Output { "" } else { "<th>Start</th>" };
+    let computed = matches!(kind, Causality::Output | Causality::Local);
+    let start = if computed { "" } else { "<th>Start</th>" };
     line(
         page,
         format_args!(
@@ -190,9 +192,9 @@ fn variables(page: &mut String, table: &[Variable], kind: Causality) {
             }
             Kind::Text { start } => ("", Some(start.clone())),
         };
-        let start = match kind {
-            Causality::Output => String::new(),
-            _ => format!("<td class=\"n\">{}</td>", escape(start.unwrap_or_default())),
+        let start = match computed {
+            true => String::new(),
+            false => format!("<td class=\"n\">{}</td>", escape(start.unwrap_or_default())),
         };
         line(
             page,

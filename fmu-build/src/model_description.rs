@@ -174,7 +174,7 @@ fn scalar_variable(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
     // The standard forbids `initial` for inputs: theirs is exact.
     match variable.causality {
         Causality::Parameter => attributes.push(("initial", "exact".into())),
-        Causality::Output => attributes.push(("initial", "calculated".into())),
+        Causality::Output | Causality::Local => attributes.push(("initial", "calculated".into())),
         Causality::Input => {}
     }
     let (kind, values) = typed(&variable.kind);
@@ -243,6 +243,7 @@ pub fn causality(causality: Causality) -> &'static str {
         Causality::Parameter => "parameter",
         Causality::Input => "input",
         Causality::Output => "output",
+        Causality::Local => "local",
     }
 }
 

@@ -53,7 +53,7 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// Inputs and outputs of the table, reals first.
+    /// All of the table but parameters, reals first.
     pub fn new(table: &[Variable]) -> Self {
         let mut columns = Self { names: Vec::new(), reals: Vec::new(), integers: Vec::new() };
         let mut counters = Vec::new();

@@ -10,6 +10,15 @@ use super::{
 const MAGIC: &[u8; 8] = b"BRNL-MAP";
 const VERSION: u32 = 2;
 
+/// Length of what precedes the numbers: magic, version and fingerprint.
+pub const HEAD: usize = 8 + 4 + 8;
+/// Length of what follows them: the checksum.
+pub const TAIL: usize = 8;
+
+fn refused(reason: &str) -> ContactError {
+    ContactError::MapRefused { reason: reason.to_owned() }
+}
+
 /// FNV-1a, 64 bits: guards against damage and mix-ups, not against malice.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Fingerprint(u64);
@@ -97,7 +106,27 @@ impl ContactMap {
     /// # Errors
     /// [`ContactError::MapRefused`] for a file that is damaged, of another version, or made from other inputs.
     pub fn from_bytes(bytes: &[u8], fingerprint: u64) -> Result<Self, ContactError> {
-        let refused = |reason: &str| ContactError::MapRefused { reason: reason.to_owned() };
+        let map = Self::decode(bytes)?;
+        map.check_fingerprint(fingerprint)?;
+        Ok(map)
+    }
+
+    /// Refuses a map that was not made from the inputs with this fingerprint.
+    ///
+    /// # Errors
+    /// [`ContactError::MapRefused`] for a map made from other inputs.
+    pub fn check_fingerprint(&self, wanted: u64) -> Result<(), ContactError> {
+        if self.fingerprint == wanted {
+            return Ok(());
+        }
+        Err(refused("it was made for another defect, bearing, load range, accuracy or version"))
+    }
+
+    /// Reads a map, whatever it was made from.
+    ///
+    /// # Errors
+    /// [`ContactError::MapRefused`] for a file that is damaged or of another version.
+    pub fn decode(bytes: &[u8]) -> Result<Self, ContactError> {
         let Some((body, sum)) = bytes.split_last_chunk::<8>() else { return Err(refused("the file is too short")) };
         let Some(rest) = body.strip_prefix(MAGIC) else { return Err(refused("the file is not a contact map")) };
         let Some((version, rest)) = rest.split_first_chunk::<4>() else { return Err(refused("the file is too short")) };
@@ -109,10 +138,9 @@ impl ContactMap {
             return Err(refused("the checksum does not fit, the file is damaged"));
         }
         let Some((own, rest)) = rest.split_first_chunk::<8>() else { return Err(refused("the file is too short")) };
-        if u64::from_le_bytes(*own) != fingerprint {
-            return Err(refused("it was made for another defect, bearing, load range, accuracy or version"));
-        }
-        read(rest, fingerprint).filter(consistent).ok_or_else(|| refused("its contents contradict each other"))
+        read(rest, u64::from_le_bytes(*own))
+            .filter(consistent)
+            .ok_or_else(|| refused("its contents contradict each other"))
     }
 }
 

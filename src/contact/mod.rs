@@ -16,7 +16,7 @@ pub mod love;
 pub mod map;
 pub mod map_build;
 mod map_cells;
-mod map_format;
+pub mod map_format;
 pub mod map_plan;
 pub mod near_defect;
 pub mod raceway_grid;

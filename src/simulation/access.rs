@@ -35,7 +35,7 @@ impl Access {
             Causality::Input => INPUT,
             Causality::Parameter => PARAMETER,
             Causality::Output if matches!(quantity, Quantity::Stiffness(..)) => OUTPUT | STIFFNESS,
-            Causality::Output => OUTPUT,
+            Causality::Output | Causality::Local => OUTPUT,
         };
         Self { min: min.unwrap_or(f64::MIN), max: max.unwrap_or(f64::MAX), class }
     }

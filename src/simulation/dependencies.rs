@@ -5,19 +5,19 @@
 //! motion that is given; but rings are at rest whatever the inputs are, and what only matters in motion does not enter.
 
 use super::table::{Quantity as Q, RingName};
-use super::variables::{Causality, Dependencies, Kind, Variable};
+use super::variables::{Causality, Dependencies, Variable};
 use crate::scene::{Motion, Scene};
 
 /// The dependencies of all outputs, in the order of the table.
 pub(super) fn of(table: &[Variable], quantities: &[Q], scene: &Scene) -> Vec<Dependencies> {
     let rows = || table.iter().zip(quantities);
-    let knowns: Vec<_> = rows().filter(|(variable, _)| variable.causality != Causality::Output).collect();
+    let known = |variable: &Variable| matches!(variable.causality, Causality::Input | Causality::Parameter);
+    let knowns: Vec<_> = rows().filter(|(variable, _)| known(variable)).collect();
     let defect = scene.defect.is_some();
     let sensor_follows_input = scene.housing.motion == Motion::Host;
     rows()
         .filter(|(variable, _)| variable.causality == Causality::Output)
         .map(|(variable, &output)| {
-            let real = matches!(variable.kind, Kind::Real { .. });
             let listed = |depends: &dyn Fn(&Variable, Q) -> bool| {
                 knowns.iter().filter(|(known, quantity)| depends(known, **quantity)).map(|(v, _)| v.reference).collect()
             };
@@ -26,7 +26,7 @@ pub(super) fn of(table: &[Variable], quantities: &[Q], scene: &Scene) -> Vec<Dep
                 direct: listed(&|known, quantity| {
                     known.causality == Causality::Input && follows(output, quantity, defect, sensor_follows_input)
                 }),
-                initial: listed(&|_, quantity| real && starts_from(output, quantity)),
+                initial: listed(&|_, quantity| starts_from(output, quantity)),
             }
         })
         .collect()

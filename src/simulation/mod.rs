@@ -55,13 +55,14 @@ use variables::{Causality, Dependencies, Kind, Variable};
 /// [`step`](Self::step). Reading outputs before `initialize` computes the static equilibrium of the values set so far.
 #[derive(Debug, Clone)]
 pub struct Simulation {
-    scene: Scene,
-    surface: Option<Surface>,
+    scene: Arc<Scene>,
+    surface: Option<Arc<Surface>>,
     /// The contact map stored with the scene.
     map: Option<Arc<ContactMap>>,
-    table: Vec<Variable>,
-    quantities: Vec<Quantity>,
-    access: Vec<Access>,
+    /// Shared by clones, as what follows from the table is.
+    table: Arc<[Variable]>,
+    quantities: Arc<[Quantity]>,
+    access: Arc<[Access]>,
     inputs: Inputs,
     /// Values of the table, by index; integers live in `integers`.
     values: Vec<f64>,
@@ -78,6 +79,7 @@ pub struct Simulation {
     change: Change,
     /// The outer ring's acceleration when outputs were computed last [m/s²].
     present_acceleration: [f64; 2],
+    /// Without the variables, which are in `values`, `integers` and `input_rates` while the simulation runs.
     state: State,
     /// Parameters have been set since the model was built.
     model_is_stale: bool,
@@ -123,16 +125,30 @@ impl Simulation {
     /// # Errors
     /// An impossible scene or profile; a map that is damaged or belongs to something else.
     pub fn with_map(scene: Scene, profile: Option<&str>, map: Option<&[u8]>) -> Result<Self, SimulationError> {
+        // Without a defect there is nothing to look up.
+        let map = map.filter(|_| scene.defect.is_some()).map(ContactMap::decode).transpose()?;
+        Self::with_shared_map(scene, profile, map.map(Arc::new))
+    }
+
+    /// As [`with_map`](Self::with_map), with a map that others may use as well.
+    ///
+    /// # Errors
+    /// As [`with_map`](Self::with_map).
+    pub fn with_shared_map(
+        scene: Scene,
+        profile: Option<&str>,
+        map: Option<Arc<ContactMap>>,
+    ) -> Result<Self, SimulationError> {
         scene.check()?;
         let surface =
             scene.defect.as_ref().map(|defect| Surface::load(&defect.shape, profile, &scene.bearing)).transpose()?;
         let (table, quantities): (Vec<_>, Vec<_>) = table::rows(&scene).into_iter().unzip();
         let access = table.iter().zip(&quantities).map(|(row, &quantity)| Access::new(row, quantity)).collect();
         let (values, integers) = setup::start_values(&table);
-        let map = match (&surface, map) {
-            (Some(surface), Some(bytes)) => Some(Arc::new(setup::stored_map(&scene, surface, bytes)?)),
-            _ => None,
-        };
+        let map = map.filter(|_| surface.is_some());
+        if let (Some(surface), Some(map)) = (&surface, &map) {
+            map.check_fingerprint(setup::map_fingerprint(&scene, surface))?;
+        }
         // What takes long is left to the initialization: the host may change parameters before it.
         let model_is_stale = match scene.contact.law {
             ContactLaw::Hertz => false,
@@ -157,16 +173,16 @@ impl Simulation {
                 started: false,
                 cage: CageAngle::new(scene.cage.initial_angle),
                 progress,
-                values: values.clone(),
-                integers: integers.clone(),
-                input_rates: input_rates.clone(),
+                values: Vec::new(),
+                integers: Vec::new(),
+                input_rates: Vec::new(),
             },
-            scene,
-            surface,
+            scene: Arc::new(scene),
+            surface: surface.map(Arc::new),
             map,
-            table,
+            table: table.into(),
             access,
-            quantities,
+            quantities: quantities.into(),
             values,
             integers,
             input_rates,
@@ -294,9 +310,12 @@ impl Simulation {
 
     /// Takes the state.
     pub fn save(&self) -> State {
-        let mut state = self.state.clone();
-        self.save_into(&mut state);
-        state
+        State {
+            values: self.values.clone(),
+            integers: self.integers.clone(),
+            input_rates: self.input_rates.clone(),
+            ..self.state.clone()
+        }
     }
 
     /// Takes the state over one taken earlier of this same model; allocates nothing.
@@ -363,7 +382,7 @@ impl Simulation {
             return Ok(());
         }
         let scene = setup::with_parameters(&self.scene, &self.quantities, &self.values, &self.integers)?;
-        self.model = setup::build_model(&scene, self.surface.as_ref(), self.map.as_ref())?;
+        self.model = setup::build_model(&scene, self.surface.as_deref(), self.map.as_ref())?;
         self.model_is_stale = false;
         Ok(())
     }

@@ -144,7 +144,7 @@ impl Simulation {
             let housing = self.model.housing_state(&drive, 0.0, &progress.state);
             let offset = [0, 1].map(|a| housing.position[a] - shaft.position[a]);
             let jacobian = self.model.ring_jacobian(&progress.state, &progress.cells, offset, drive.cage_angle(0.0));
-            for (value, quantity) in self.values.iter_mut().zip(&self.quantities) {
+            for (value, quantity) in self.values.iter_mut().zip(self.quantities.iter()) {
                 if let Quantity::Stiffness(row, column) = *quantity {
                     *value = -jacobian[row][column];
                 }

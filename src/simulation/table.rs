@@ -382,7 +382,8 @@ impl Builder<'_> {
     }
 
     fn counter(&mut self, name: &str, text: &str, quantity: Quantity) {
-        self.push(name, text, Kind::Integer, (Causality::Output, Variability::Discrete), quantity);
+        // Not an output: there are masters that read every output as a real number.
+        self.push(name, text, Kind::Integer, (Causality::Local, Variability::Discrete), quantity);
     }
 
     fn parameter(

@@ -47,7 +47,7 @@ impl Simulation {
             let variable = self.variable(reference)?;
             let Kind::Enumeration { items, .. } = variable.kind else {
                 if variable.kind == Kind::Integer {
-                    return Err(not_settable(variable, "it is an output"));
+                    return Err(not_settable(variable, COMPUTED));
                 }
                 return Err(wrong_type(variable, "Integer"));
             };
@@ -79,7 +79,7 @@ impl Simulation {
             if !matches!(variable.kind, Kind::Integer | Kind::Enumeration { .. }) {
                 return Err(wrong_type(variable, "Integer").into());
             }
-            outputs |= variable.causality == Causality::Output;
+            outputs |= variable.kind == Kind::Integer;
         }
         if outputs && self.outputs_are_stale {
             self.refresh()?;
@@ -136,7 +136,7 @@ impl Simulation {
         let variable = self.variable(reference)?;
         let Kind::Real { min, max, .. } = variable.kind else { return Err(wrong_type(variable, "Real")) };
         match variable.causality {
-            Causality::Output => return Err(not_settable(variable, "it is an output")),
+            Causality::Output | Causality::Local => return Err(not_settable(variable, COMPUTED)),
             Causality::Parameter if self.state.started => {
                 return Err(not_settable(variable, "parameters are fixed after initialization"));
             }
@@ -162,6 +162,9 @@ impl Simulation {
         self.equilibrium_is_stale = true;
     }
 }
+
+/// Why what is no input and no parameter cannot be set.
+const COMPUTED: &str = "it is computed";
 
 pub(super) fn wrong_type(variable: &Variable, wanted: &'static str) -> VariableError {
     VariableError::WrongType { name: variable.name.clone(), reference: variable.reference, wanted }

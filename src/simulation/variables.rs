@@ -72,8 +72,10 @@ pub enum Causality {
     Parameter,
     /// Set by the host at communication points.
     Input,
-    /// Computed.
+    /// Computed: a signal that can be connected.
     Output,
+    /// Computed: to be looked at only.
+    Local,
 }
 
 /// FMI variability, as far as Brinell uses it.

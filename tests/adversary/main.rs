@@ -1,12 +1,20 @@
 //! The adversary: random scenes, recordings, calls and symmetries that look for a silent wrong number.
 //!
-//! A failure prints its seed. `BRINELL_SEED=7 cargo test --test adversary NAME` replays it; `BRINELL_SCENES=10000` makes every
-//! random test that long, beginning with `BRINELL_SEED` if both are given.
-
+//! A failure prints its seed, and each case that was found is kept as a test of its own where it belongs.
+//! `BRINELL_SEED=7 cargo test --test adversary NAME` replays a seed; `BRINELL_SCENES=10000` makes every test of random scenes that
+//! long, beginning with `BRINELL_SEED` if both are given.
+//!
+//! `unsafe` is what a C interface is called with.
+#![allow(unsafe_code)]
+// What helpers unwrap is the test's own set-up.
 #![allow(clippy::unwrap_used, clippy::expect_used, unreachable_pub)]
 
 mod case;
 mod draw;
+#[path = "../fmi2/host.rs"]
+#[allow(dead_code)]
+mod host;
+mod misuse;
 mod oracle;
 mod recordings;
 mod scenes;

@@ -16,10 +16,11 @@ use Evidence::{Measured as M, Not as N, Test as T};
 pub(crate) const RULES: &[(&str, &str, &[Evidence])] = &[
     (
         "Binary",
-        "The 34 functions of the standard are exported and nothing else.",
+        "The 34 functions of co-simulation are exported, the 10 of model exchange as errors, and nothing else.",
         &[
-            T("exactly_the_functions_of_a_co_simulation_unit_are_exported"),
-            T("objdump_finds_no_newer_symbol_and_34_functions"),
+            T("exactly_the_functions_of_the_standard_are_exported"),
+            T("objdump_finds_no_newer_symbol_and_44_functions"),
+            T("the_functions_of_model_exchange_are_errors_that_name_the_right_one"),
         ],
     ),
     (

@@ -9,6 +9,7 @@ use brinell_fmi::fmi2::*;
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_void};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::{fs, ptr};
 
@@ -97,10 +98,15 @@ impl Resources {
 
     /// The same in a directory whose name the test chooses.
     pub(crate) fn named(scene: &str, name: &str) -> Self {
+        Self::edited(scene, name, |text| text)
+    }
+
+    /// The same with a change to the scene's text.
+    pub(crate) fn edited(scene: &str, name: &str, edit: impl FnOnce(String) -> String) -> Self {
         let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
         let text = fs::read_to_string(scenes.join(format!("{scene}.toml"))).unwrap();
         // The interface is tested with the law that needs no contact map; computing one takes seconds.
-        let text = text.replace("law = \"map\"", "law = \"hertz\"");
+        let text = edit(text.replace("law = \"map\"", "law = \"hertz\""));
         let profile =
             text.lines().find_map(|line| Some(line.strip_prefix("profile = \"")?.split('"').next()?.to_owned()));
         let profile = profile.map(|file| (fs::read_to_string(scenes.join(&file)).unwrap(), file));
@@ -171,7 +177,7 @@ impl Call<'_> {
 pub(crate) struct Host {
     pub(crate) c: Component,
     pub(crate) log: Box<Log>,
-    pub(crate) resources: Resources,
+    pub(crate) resources: Arc<Resources>,
 }
 
 impl Host {
@@ -185,8 +191,9 @@ impl Host {
         Self::with(Resources::of(scene), name, true)
     }
 
-    /// An instance of given resources.
-    pub(crate) fn with(resources: Resources, name: &str, logging: bool) -> Self {
+    /// An instance of given resources, which others may share.
+    pub(crate) fn with(resources: impl Into<Arc<Resources>>, name: &str, logging: bool) -> Self {
+        let resources = resources.into();
         let (guid, location) = (resources.guid.clone(), resources.uri());
         let call = Call {
             name: Some(name),

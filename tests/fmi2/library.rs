@@ -56,7 +56,14 @@ impl<'l> Api<'l> {
 
     /// An instance at its first communication point.
     pub(crate) fn start(&self, name: &CStr, scene: &Scene) -> Component {
-        // SAFETY: every call is one that the standard allows, with good pointers. The logger ignores what it gets; on
+        let c = self.create(name, scene);
+        self.begin(c);
+        c
+    }
+
+    /// An instance.
+    pub(crate) fn create(&self, name: &CStr, scene: &Scene) -> Component {
+        // SAFETY: the call is one that the standard allows, with good pointers. The logger ignores what it gets; on
         // the platforms tested, leaving arguments out of a C function does no harm.
         unsafe {
             let callbacks = CallbackFunctions {
@@ -70,15 +77,24 @@ impl<'l> Api<'l> {
             let callbacks = &raw const callbacks;
             let c = (self.instantiate)(name.as_ptr(), CO_SIMULATION, guid, location, callbacks, FALSE, TRUE);
             assert!(!c.is_null());
+            c
+        }
+    }
+
+    /// Brings a new instance to its first communication point.
+    pub(crate) fn begin(&self, c: Component) {
+        // SAFETY: any handle may be passed.
+        unsafe {
             assert_eq!((self.setup)(c, FALSE, 0.0, 0.0, FALSE, 0.0), Status::Ok);
             assert_eq!((self.enter)(c), Status::Ok);
             assert_eq!((self.exit)(c), Status::Ok);
-            c
         }
     }
 }
 
 type Ignore = unsafe extern "C" fn(ComponentEnvironment, FmiString, Status, FmiString, FmiString);
+
+const TEXT: &str = include_str!("../../scenes/er16k-tb1.toml");
 
 /// An unpacked scene, deleted when dropped.
 pub(crate) struct Scene {
@@ -88,14 +104,25 @@ pub(crate) struct Scene {
 }
 
 impl Scene {
+    /// With the law that needs no contact map.
     pub(crate) fn new(name: &str) -> Self {
+        Self::of(name, &TEXT.replace("law = \"map\"", "law = \"hertz\""), None)
+    }
+
+    /// As it is shipped, with its contact map.
+    pub(crate) fn with_map(name: &str, map: &[u8]) -> Self {
+        Self::of(name, TEXT, Some(map))
+    }
+
+    fn of(name: &str, text: &str, map: Option<&[u8]>) -> Self {
         let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}-{}", std::process::id()));
         fs::create_dir_all(&directory).unwrap();
-        // The law that needs no contact map: computing one takes seconds.
-        let text = include_str!("../../scenes/er16k-tb1.toml").replace("law = \"map\"", "law = \"hertz\"");
-        fs::write(directory.join("scene.toml"), &text).unwrap();
+        fs::write(directory.join("scene.toml"), text).unwrap();
+        if let Some(map) = map {
+            fs::write(directory.join("map.bin"), map).unwrap();
+        }
         let location = CString::new(format!("file://{}", directory.to_str().unwrap())).unwrap();
-        Self { directory, guid: CString::new(guid(&text, None)).unwrap(), location }
+        Self { directory, guid: CString::new(guid(text, None)).unwrap(), location }
     }
 }
 

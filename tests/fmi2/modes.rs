@@ -159,3 +159,35 @@ fn cancelling_a_step_is_an_error_that_says_why() {
     assert_eq!(unsafe { fmi2CancelStep(host.c) }, Status::Error);
     assert!(host.lines().last().unwrap().message.contains("no step runs in the background"));
 }
+
+#[test]
+fn the_functions_of_model_exchange_are_errors_that_name_the_right_one() {
+    // SAFETY of all the blocks: the arguments are not looked at.
+    let probes: [Probe; 10] = [
+        ("fmi2EnterEventMode", "", |h| unsafe { fmi2EnterEventMode(h.c) }),
+        ("fmi2NewDiscreteStates", "", |h| unsafe { fmi2NewDiscreteStates(h.c, ptr::null_mut()) }),
+        ("fmi2EnterContinuousTimeMode", "", |h| unsafe { fmi2EnterContinuousTimeMode(h.c) }),
+        ("fmi2CompletedIntegratorStep", "", |h| unsafe {
+            fmi2CompletedIntegratorStep(h.c, TRUE, ptr::null_mut(), ptr::null_mut())
+        }),
+        ("fmi2SetTime", "", |h| unsafe { fmi2SetTime(h.c, 0.0) }),
+        ("fmi2SetContinuousStates", "", |h| unsafe { fmi2SetContinuousStates(h.c, ptr::null(), 3) }),
+        ("fmi2GetDerivatives", "", |h| unsafe { fmi2GetDerivatives(h.c, ptr::null_mut(), 3) }),
+        ("fmi2GetEventIndicators", "", |h| unsafe { fmi2GetEventIndicators(h.c, ptr::null_mut(), 0) }),
+        ("fmi2GetContinuousStates", "", |h| unsafe { fmi2GetContinuousStates(h.c, ptr::null_mut(), 3) }),
+        ("fmi2GetNominalsOfContinuousStates", "", |h| unsafe {
+            fmi2GetNominalsOfContinuousStates(h.c, ptr::null_mut(), 3)
+        }),
+    ];
+    let host = Host::started("6205-healthy");
+    let state = host.save();
+    for (name, _, probe) in probes {
+        host.lines();
+        assert_eq!(probe(&host), Status::Error, "{name}");
+        let line = host.lines().pop().unwrap();
+        assert!(line.message.starts_with(name) && line.message.contains("fmi2DoStep"), "{line:?}");
+        assert_eq!(host.restore(state), Status::Ok);
+    }
+    // SAFETY: a handle that is none.
+    assert_eq!(unsafe { fmi2SetTime(ptr::null_mut(), 0.0) }, Status::Error);
+}

@@ -93,6 +93,53 @@ fn a_freed_state_is_null_and_cannot_be_used_again() {
 }
 
 #[test]
+fn a_state_passed_where_its_address_belongs_is_freed_with_a_warning_or_refused() {
+    let (host, other) = (Host::started("er16k-tb1"), Host::started("er16k-tb1"));
+    let (keep, state, foreign) = (host.save(), host.save(), other.save());
+    // SAFETY: what is tested: handles, which are no addresses, are not followed.
+    unsafe {
+        // As the program fmusim does it.
+        assert_eq!(fmi2FreeFMUstate(host.c, state.cast()), Status::Warning);
+        let line = host.lines().pop().unwrap();
+        assert!(line.status == Status::Warning && line.message.contains("it is freed"), "{line:?}");
+        // The run goes on.
+        run(&host, 0, 2);
+        for wrong in [state, foreign] {
+            assert_eq!(fmi2FreeFMUstate(host.c, wrong.cast()), Status::Error);
+            assert_eq!(host.restore(keep), Status::Ok);
+        }
+        let bytes = host.serialize(keep);
+        assert_eq!(fmi2GetFMUstate(host.c, keep.cast()), Status::Error);
+        assert!(host.lines().pop().unwrap().message.contains("not the address"));
+        let (bytes, size) = (bytes.as_ptr().cast(), bytes.len());
+        assert_eq!(fmi2DeSerializeFMUstate(host.c, bytes, size, keep.cast()), Status::Error);
+        assert_eq!(host.restore(keep), Status::Ok);
+    }
+    assert_eq!(other.restore(foreign), Status::Ok);
+}
+
+#[test]
+fn bytes_that_lie_over_the_handle_they_are_to_give_are_refused() {
+    let host = Host::started("er16k-tb1");
+    let state = host.save();
+    let good = host.serialize(state);
+    let mut words = vec![0u64; good.len().div_ceil(8)];
+    for (word, bytes) in words.iter_mut().zip(good.chunks(8)) {
+        let mut eight = [0; 8];
+        eight[..bytes.len()].copy_from_slice(bytes);
+        *word = u64::from_ne_bytes(eight);
+    }
+    // A word of zeros, which would pass for a handle that is NULL.
+    let zero = words.iter().position(|word| *word == 0).unwrap();
+    let before = words.clone();
+    let base = words.as_mut_ptr();
+    // SAFETY: as many bytes as said, with the handle among them, which is what is tested.
+    let status = unsafe { fmi2DeSerializeFMUstate(host.c, base.cast(), good.len(), base.add(zero).cast()) };
+    assert_eq!((status, words), (Status::Error, before));
+    assert!(host.lines().pop().unwrap().message.contains("overlap"));
+}
+
+#[test]
 fn null_invented_and_foreign_states_are_errors() {
     let (host, other) = (Host::started("er16k-tb1"), Host::started("er16k-tb1"));
     let (own, foreign) = (host.save(), other.save());

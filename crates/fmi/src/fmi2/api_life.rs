@@ -12,10 +12,10 @@ use super::failure::Failure;
 use super::handles;
 use super::instance::Instance;
 use super::logger::Logger;
-use super::resources::{Model, ResourceError};
+use super::resources::{self, ResourceError};
+use super::shared_models::SharedModel;
 use super::state::{self, Mode};
 use super::types::{Boolean, CO_SIMULATION, CallbackFunctions, Component, FALSE, FmiString, FmuType, Real, Status};
-use brinell::simulation::Simulation;
 use brinell::simulation::variables::Kind;
 
 /// Name by which the tolerance of the time integration is found in the variable table.
@@ -87,9 +87,9 @@ pub unsafe extern "C" fn fmi2Instantiate(
         let shown: CString = name.unwrap_or(c"(unnamed)").to_owned();
         let logger = Logger::new(&callbacks, shown, loggingOn != FALSE)?;
         let refused = match prepare(name.is_some(), fmuType, guid, location) {
-            Ok((model, simulation)) => {
+            Ok(model) => {
                 logger.line(Status::Ok, || "fmi2Instantiate: instantiated.".to_owned());
-                match handles::insert(Box::new(Instance::new(model, simulation, logger))) {
+                match handles::insert(Box::new(Instance::new(model, logger))) {
                     Ok(component) => return Some(component),
                     Err(instance) => (Refusal::TooMany, instance.logger),
                 }
@@ -126,7 +126,7 @@ fn prepare(
     fmu_type: FmuType,
     guid: Option<&CStr>,
     location: Option<&CStr>,
-) -> Result<(Model, Simulation), Refusal> {
+) -> Result<SharedModel, Refusal> {
     if !named {
         return Err(Refusal::Name);
     }
@@ -134,12 +134,11 @@ fn prepare(
         return Err(Refusal::Type(fmu_type));
     }
     let guid = guid.ok_or(Refusal::NoGuid)?;
-    let model = Model::load(location.ok_or(Refusal::NoResources)?)?;
-    if guid.to_bytes() != model.guid.as_bytes() {
-        return Err(Refusal::Guid { given: guid.to_string_lossy().into_owned(), own: model.guid });
+    let model = resources::load(location.ok_or(Refusal::NoResources)?)?;
+    if guid.to_bytes() != model.guid().as_bytes() {
+        return Err(Refusal::Guid { given: guid.to_string_lossy().into_owned(), own: model.guid().to_owned() });
     }
-    let simulation = model.build().map_err(ResourceError::Simulation)?;
-    Ok((model, simulation))
+    Ok(model)
 }
 
 /// `fmi2FreeInstance`: ends an instance and frees its saved states. NULL and dead handles are ignored.

@@ -4,10 +4,11 @@
 
 use std::ptr;
 
-use super::arguments::{array, array_mut, place, store};
+use super::arguments::{array, disjoint, place_of_state, store, store_all};
 use super::blob;
 use super::boundary;
 use super::failure::Failure;
+use super::snapshots;
 use super::state;
 use super::types::{Byte, Component, FmuState, Status};
 
@@ -20,7 +21,7 @@ pub unsafe extern "C" fn fmi2GetFMUstate(c: Component, FMUstate: *mut FmuState) 
     boundary::call(c, &state::GET_FMU_STATE, |instance| {
         // SAFETY: this function's contract; null and misaligned pointers are refused. The handle itself may be any
         // value.
-        let handle = unsafe { place("FMUstate", FMUstate)? };
+        let handle = unsafe { place_of_state(FMUstate)? };
         *handle = instance.save(*handle)?;
         Ok(())
     })
@@ -35,7 +36,8 @@ pub unsafe extern "C" fn fmi2SetFMUstate(c: Component, FMUstate: FmuState) -> St
     boundary::call(c, &state::SET_FMU_STATE, |instance| instance.restore(FMUstate))
 }
 
-/// `fmi2FreeFMUstate`: frees a saved state and sets its handle to NULL. NULL is ignored.
+/// `fmi2FreeFMUstate`: frees a saved state and sets its handle to NULL. NULL is ignored. A host that passes the state
+/// instead of its address, as fmusim (the program in C) does, is warned and has it freed.
 ///
 /// # Safety
 /// `FMUstate` is null or points to a handle.
@@ -45,8 +47,12 @@ pub unsafe extern "C" fn fmi2FreeFMUstate(c: Component, FMUstate: *mut FmuState)
         if FMUstate.is_null() {
             return Ok(());
         }
+        if snapshots::is_handle(FMUstate.addr()) {
+            instance.snapshots.free(FMUstate.cast())?;
+            return Err(Failure::FreedByValue);
+        }
         // SAFETY: this function's contract; misaligned pointers are refused. The handle itself may be any value.
-        let handle = unsafe { place("FMUstate", FMUstate)? };
+        let handle = unsafe { place_of_state(FMUstate)? };
         if !handle.is_null() {
             instance.snapshots.free(*handle)?;
             *handle = ptr::null_mut();
@@ -80,14 +86,12 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
     size: usize,
 ) -> Status {
     boundary::call(c, &state::SERIALIZE_FMU_STATE, |instance| {
-        let bytes = blob::encode(instance.snapshots.get(FMUstate)?, &instance.model.guid);
+        let bytes = blob::encode(instance.snapshots.get(FMUstate)?, instance.model.guid());
         if size != bytes.len() {
             return Err(Failure::Size { given: size, needed: bytes.len() });
         }
-        // SAFETY: this function's contract; null is refused. A byte is valid whatever its bits.
-        let target = unsafe { array_mut("serializedState", serializedState.cast::<u8>(), size)? };
-        target.copy_from_slice(&bytes);
-        Ok(())
+        // SAFETY: this function's contract; null is refused.
+        unsafe { store_all("serializedState", serializedState.cast::<u8>(), &bytes) }
     })
 }
 
@@ -103,12 +107,13 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     FMUstate: *mut FmuState,
 ) -> Status {
     boundary::call(c, &state::DESERIALIZE_FMU_STATE, |instance| {
-        // SAFETY: this function's contract; null and misaligned pointers are refused. The handle itself may be any
-        // value.
-        let handle = unsafe { place("FMUstate", FMUstate)? };
+        disjoint(serializedState, size, FMUstate, 1)?;
+        // SAFETY: this function's contract; null, misaligned and overlapping pointers are refused. The handle itself may be
+        // any value.
+        let handle = unsafe { place_of_state(FMUstate)? };
         // SAFETY: as above.
         let bytes = unsafe { array("serializedState", serializedState.cast::<u8>(), size)? };
-        let snapshot = blob::decode(bytes, &instance.model.guid, &instance.simulation)?;
+        let snapshot = blob::decode(bytes, instance.model.guid(), &instance.simulation)?;
         *handle = instance.snapshots.put(*handle, |_| Some(snapshot))?;
         Ok(())
     })

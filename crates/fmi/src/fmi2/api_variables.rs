@@ -4,7 +4,7 @@
 
 #![allow(non_snake_case)]
 
-use super::arguments::{array, array_mut, disjoint, string};
+use super::arguments::{array, array_mut, disjoint, store_all, string};
 use super::boundary;
 use super::failure::Failure;
 use super::state;
@@ -78,12 +78,11 @@ pub unsafe extern "C" fn fmi2GetString(
     boundary::call(c, &state::GET_STRING, |instance| {
         disjoint(vr, nvr, value, nvr)?;
         // SAFETY: this function's contract; null, misaligned and overlapping arrays are refused.
-        let (references, values) = unsafe { (array("vr", vr, nvr)?, array_mut("value", value, nvr)?) };
+        let references = unsafe { array("vr", vr, nvr)? };
         let texts = instance.simulation.strings(references)?;
-        for (value, text) in values.iter_mut().zip(instance.keep(texts)) {
-            *value = text;
-        }
-        Ok(())
+        let texts: Vec<_> = instance.keep(texts).collect();
+        // SAFETY: as above.
+        unsafe { store_all("value", value, &texts) }
     })
 }
 

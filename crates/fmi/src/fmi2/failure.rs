@@ -28,6 +28,12 @@ pub(super) enum Failure {
     /// A pointer that no array of this type can have.
     #[error("argument {0} is not aligned for its type")]
     Misaligned(&'static str),
+    /// A saved state where its address belongs.
+    #[error("argument {0} is a state, not the address of one")]
+    NotAnAddress(&'static str),
+    /// A saved state where its address belongs, in the one function that can do without.
+    #[error("the state itself was passed, not its address; it is freed")]
+    FreedByValue,
     /// An array longer than any that makes sense.
     #[error("argument {name} has {count} elements, at most {limit} are accepted")]
     TooLong {
@@ -44,6 +50,9 @@ pub(super) enum Failure {
     /// A string that is not UTF-8.
     #[error("argument {0} is not UTF-8")]
     NotUtf8(&'static str),
+    /// A function of the other kind of FMU.
+    #[error("this FMU is for co-simulation: step it with fmi2DoStep")]
+    ModelExchange,
     /// Initialization without an experiment.
     #[error("call fmi2SetupExperiment first")]
     NotSetUp,
@@ -102,7 +111,7 @@ impl Failure {
     /// The status that the host gets.
     pub(super) fn status(&self) -> Status {
         match self {
-            Failure::UnknownCategory(_) => Status::Warning,
+            Failure::UnknownCategory(_) | Failure::FreedByValue => Status::Warning,
             Failure::UnknownStatus(_)
             | Failure::Variable(VariableError::OutOfRange { .. } | VariableError::UnusedDerivative { .. })
             | Failure::Simulation(

@@ -78,6 +78,12 @@ impl Drop for Borrowed {
     }
 }
 
+/// A host may use an instance from one thread after another: nothing in it may depend on the thread.
+const _: () = {
+    const fn wanders<T: Send>() {}
+    wanders::<Instance>();
+};
+
 /// Gives an instance a handle. Hands it back when all slots are taken.
 pub(super) fn insert(instance: Box<Instance>) -> Result<Component, Box<Instance>> {
     let start = HINT.load(Ordering::Relaxed);

@@ -5,7 +5,7 @@ use std::ffi::{CString, c_char};
 use super::clock::Clock;
 use super::failure::Failure;
 use super::logger::{Logger, c_string};
-use super::resources::Model;
+use super::shared_models::SharedModel;
 use super::snapshots::{Snapshot, Snapshots};
 use super::state::Mode;
 use super::types::{FmuState, Status, ValueReference};
@@ -28,7 +28,7 @@ pub(super) struct Instance {
     /// The way to the host's logger.
     pub(super) logger: Logger,
     /// What the resources describe.
-    pub(super) model: Model,
+    pub(super) model: SharedModel,
     /// States that the host has saved.
     pub(super) snapshots: Snapshots,
     /// The file that the recorder's samples go to.
@@ -38,14 +38,14 @@ pub(super) struct Instance {
 }
 
 impl Instance {
-    /// A fresh instance of a model and the simulation that was set up for it.
-    pub(super) fn new(model: Model, simulation: Simulation, logger: Logger) -> Self {
+    /// A fresh instance of a model.
+    pub(super) fn new(model: SharedModel, logger: Logger) -> Self {
         Self {
             mode: Mode::Instantiated,
             clock: None,
             last_step: Status::Ok,
             damaged: false,
-            simulation,
+            simulation: model.simulation(),
             logger,
             model,
             snapshots: Snapshots::default(),
@@ -58,7 +58,7 @@ impl Instance {
     pub(super) fn reset(&mut self) -> Result<(), Failure> {
         self.finish_recording()?;
         self.recording = None;
-        self.rebuild()?;
+        self.rebuild();
         self.mode = Mode::Instantiated;
         self.clock = None;
         self.last_step = Status::Ok;
@@ -89,10 +89,9 @@ impl Instance {
         }
     }
 
-    fn rebuild(&mut self) -> Result<(), Failure> {
-        self.simulation = self.model.build()?;
+    fn rebuild(&mut self) {
+        self.simulation = self.model.simulation();
         self.damaged = false;
-        Ok(())
     }
 
     /// Saves everything that the instance's future depends on: over the state behind `handle`, or anew if it is null.
@@ -112,7 +111,7 @@ impl Instance {
     pub(super) fn restore(&mut self, handle: FmuState) -> Result<(), Failure> {
         if self.damaged {
             let folder = self.simulation.recorder().map(|recorder| recorder.folder().to_owned());
-            self.rebuild()?;
+            self.rebuild();
             self.simulation.record_into(folder.as_deref().unwrap_or_default());
         }
         let snapshot = self.snapshots.get(handle)?;

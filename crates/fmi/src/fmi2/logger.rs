@@ -30,6 +30,10 @@ pub(super) struct Logger {
     switched_on: u8,
 }
 
+// SAFETY: the environment is the host's. It is handed back to the host's own logger, in calls on this instance only, and a host that
+// makes those from one thread after another (FMI 2.0 allows it) expects its logger there.
+unsafe impl Send for Logger {}
+
 impl Logger {
     /// The instance's name.
     pub(super) fn instance_name(&self) -> &str {

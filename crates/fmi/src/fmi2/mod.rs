@@ -1,6 +1,7 @@
 //! The FMI 2.0 co-simulation C interface: how a host sees a [`Simulation`](brinell::simulation::Simulation).
 //!
-//! The 34 functions of a co-simulation FMU are exported, and nothing else. Each is one call into [`boundary`], which
+//! The 34 functions of a co-simulation FMU are exported, and the 10 of model exchange, which only say that they are not provided: some
+//! importers look all 44 up before they load an FMU of either kind. Nothing else is exported. Each is one call into [`boundary`], which
 //! finds the instance behind the handle, checks that the call is allowed in the instance's mode, catches a panic,
 //! logs what went wrong and fails that instance alone. The rest of the module is what the boundary leans on:
 //!
@@ -13,6 +14,7 @@
 //! | `failure` | what can go wrong, with which status and which advice |
 //! | `logger` | the host's logger and its categories |
 //! | `uri`, `resources` | where the scene lies, and how it is read |
+//! | `shared_models` | the models read, one for all instances that have the same resources |
 //! | `clock` | communication points and steps |
 //! | `instance` | one instance: model, clock, mode |
 //! | `snapshots`, `blob` | saved states as handles and as bytes |
@@ -25,6 +27,7 @@
 
 mod api_derivatives;
 mod api_life;
+mod api_model_exchange;
 mod api_state;
 mod api_step;
 mod api_variables;
@@ -37,6 +40,7 @@ mod handles;
 mod instance;
 mod logger;
 mod resources;
+mod shared_models;
 mod snapshots;
 mod state;
 mod types;
@@ -44,6 +48,7 @@ mod uri;
 
 pub use api_derivatives::*;
 pub use api_life::*;
+pub use api_model_exchange::*;
 pub use api_state::*;
 pub use api_step::*;
 pub use api_variables::*;

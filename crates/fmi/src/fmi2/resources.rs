@@ -6,6 +6,7 @@ use std::ffi::CStr;
 use std::path::{Component, Path, PathBuf};
 use std::{fs, io};
 
+use super::shared_models::SharedModel;
 use super::uri::{self, UriError};
 use brinell::scene::{DefectShape, Scene, SceneError};
 use brinell::simulation::guid::guid;
@@ -41,41 +42,25 @@ pub(super) enum ResourceError {
     Simulation(#[from] SimulationError),
 }
 
-/// What the resources describe. Kept by the instance, so that a reset starts from nothing.
-#[derive(Debug)]
-pub(super) struct Model {
-    scene: Scene,
-    profile: Option<String>,
-    map: Option<Vec<u8>>,
-    /// The GUID that belongs to these resources.
-    pub(super) guid: String,
+impl ResourceError {
+    pub(super) fn unreadable(path: &Path, source: io::Error) -> Self {
+        Self::Unreadable { path: path.to_owned(), source }
+    }
 }
 
-impl Model {
-    /// Reads the resources at a location given as a URI.
-    pub(super) fn load(location: &CStr) -> Result<Self, ResourceError> {
-        let directory = uri::path(location.to_bytes())?;
-        let path = directory.join("scene.toml");
-        let text = read(&path)?;
-        let scene = Scene::from_toml(&text).map_err(|source| ResourceError::Scene { path, source })?;
-        let profile = match scene.defect.as_ref().map(|defect| &defect.shape) {
-            Some(DefectShape::Profile(name)) => Some(read(&beside(&directory, name)?)?),
-            _ => None,
-        };
-        let map = match directory.join("map.bin") {
-            file if file.exists() => {
-                Some(fs::read(&file).map_err(|source| ResourceError::Unreadable { path: file, source })?)
-            }
-            _ => None,
-        };
-        let guid = guid(&text, profile.as_deref());
-        Ok(Self { scene, profile, map, guid })
-    }
-
-    /// Sets up a simulation of the model with all variables at their start values.
-    pub(super) fn build(&self) -> Result<Simulation, SimulationError> {
-        Simulation::with_map(self.scene.clone(), self.profile.as_deref(), self.map.as_deref())
-    }
+/// The model that the resources at a location given as a URI describe.
+pub(super) fn load(location: &CStr) -> Result<SharedModel, ResourceError> {
+    let directory = uri::path(location.to_bytes())?;
+    let path = directory.join("scene.toml");
+    let text = read(&path)?;
+    let scene = Scene::from_toml(&text).map_err(|source| ResourceError::Scene { path, source })?;
+    let profile = match scene.defect.as_ref().map(|defect| &defect.shape) {
+        Some(DefectShape::Profile(name)) => Some(read(&beside(&directory, name)?)?),
+        _ => None,
+    };
+    let guid = guid(&text, profile.as_deref());
+    let set_up = |map| Simulation::with_shared_map(scene, profile.as_deref(), map);
+    SharedModel::obtain(guid, &directory.join("map.bin"), set_up)
 }
 
 /// The path of a file in the directory, given by its bare name.
@@ -88,7 +73,7 @@ fn beside(directory: &Path, name: &str) -> Result<PathBuf, ResourceError> {
 }
 
 fn read(path: &Path) -> Result<String, ResourceError> {
-    fs::read_to_string(path).map_err(|source| ResourceError::Unreadable { path: path.to_owned(), source })
+    fs::read_to_string(path).map_err(|cause| ResourceError::unreadable(path, cause))
 }
 
 #[cfg(test)]

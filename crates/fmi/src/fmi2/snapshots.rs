@@ -1,7 +1,7 @@
 //! Saved states (`fmi2FMUstate`): the instance owns them, the host holds handles.
 //!
 //! As with instances, a handle is a number and not an address, so a stale, foreign or uninitialised one is refused
-//! without being dereferenced. Numbers are never used twice in a process. A state that its host forgets to free goes
+//! without being dereferenced. Two thousand million states are saved before a number comes again. A state that its host forgets to free goes
 //! with its instance; the memory of a freed one serves the next.
 
 use std::ptr;
@@ -27,10 +27,19 @@ pub(super) struct Snapshot {
 }
 
 /// ```text
-/// handle:  serial number (40 bits) | index (20 bits) | 1000
+/// handle:  00000000 | 1 | serial number (31 bits) | index (20 bits) | 1000
 /// ```
+/// No memory of a host has an address with bit 55 set and none above it, tagged pointers included: processors keep it for
+/// their kernels' half. So a handle that is passed where its address belongs is told from an address.
 const INDEX_BITS: u32 = 20;
+const SERIAL_BITS: u32 = 31;
 const TAG: u64 = 8;
+const MARK: u64 = 1 << 55;
+
+/// Whether this is the number of a handle, living or not, and hence no address.
+pub(super) fn is_handle(address: usize) -> bool {
+    address as u64 & !(MARK - 1) == MARK
+}
 
 static SERIAL: AtomicU64 = AtomicU64::new(1);
 
@@ -92,8 +101,8 @@ impl Snapshots {
                 return Err(Failure::TooLong { name: "FMUstate", count: limit + 1, limit });
             }
         };
-        let serial = SERIAL.fetch_add(1, Ordering::Relaxed);
-        let handle = serial << (INDEX_BITS + 4) | (index as u64) << 4 | TAG;
+        let serial = SERIAL.fetch_add(1, Ordering::Relaxed) % (1 << SERIAL_BITS);
+        let handle = MARK | serial << (INDEX_BITS + 4) | (index as u64) << 4 | TAG;
         match self.entries.get_mut(index) {
             Some(old) => {
                 old.rewrite(write);

@@ -92,7 +92,8 @@ const fn modes<const N: usize>(list: [Mode; N]) -> Modes {
 
 use Mode::{Error, Initialization, Instantiated, StepComplete, Terminated};
 
-const ALWAYS: Modes = modes([Instantiated, Initialization, StepComplete, Terminated, Error]);
+/// Every mode.
+pub(super) const ALWAYS: Modes = modes([Instantiated, Initialization, StepComplete, Terminated, Error]);
 const BEFORE: Modes = modes([Instantiated]);
 const READ: Modes = modes([Initialization, StepComplete, Terminated, Error]);
 const READ_RESULT: Modes = modes([StepComplete, Terminated, Error]);

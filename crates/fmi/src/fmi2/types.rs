@@ -46,6 +46,13 @@ pub const LAST_SUCCESSFUL_TIME: StatusKind = 2;
 /// `fmi2Terminated`.
 pub const TERMINATED: StatusKind = 3;
 
+/// `fmi2EventInfo`; never touched, for it belongs to model exchange.
+#[repr(C)]
+#[derive(Debug)]
+pub struct EventInfo {
+    _opaque: [u8; 0],
+}
+
 /// `fmi2Status`. Brinell returns the first four only: a fatal error would condemn the host's other instances, and
 /// no step is ever pending.
 #[repr(C)]

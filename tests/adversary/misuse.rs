@@ -1,0 +1,251 @@
+//! Misuse of the C interface: random walks over all 34 functions and all states, several instances at once, from several threads.
+//!
+//! Arguments are good, or wrong in every way that the standard lets a callee notice: state, count, null, misaligned and overlapping arrays,
+//! references and types, values, times, handles that are freed, invented or another's, bytes that are cut, flipped or another model's,
+//! folders that are shared, full or none. After each call:
+//!
+//! - the status is one that a model of the standard allows, which knows nothing of Brinell's code;
+//! - an error has one line in the log that begins with the function, what is switched off is silent;
+//! - no number that is not finite is given under OK;
+//! - a twin that takes only the calls which succeeded gives equal bits, in variables, states and recordings;
+//! - after an error reading, restoring, resetting and freeing go on, and a reset gives a usable instance.
+//!
+//! Instances are dealt out to the threads anew in each round, so each is used by one thread at a time and wanders between them. A walk is a
+//! function of its seed. `BRINELL_WALK_SEED` is the first seed, `BRINELL_WALK_COUNT` the number of walks, and
+//! `BRINELL_WALK_SECONDS` goes on until so many have passed, as in
+//! `BRINELL_WALK_SECONDS=3600 cargo test --release --test adversary misuse -- --nocapture`.
+
+mod chance;
+mod disk;
+mod life;
+mod stage;
+mod standard;
+mod states;
+mod steps;
+mod tally;
+mod values;
+mod walker;
+
+use crate::host::FORBIDDEN_CALLS;
+use brinell_fmi::fmi2::Status;
+use chance::Chance;
+use stage::{FullDisk, Places, Stage, stages};
+use standard::TABLE;
+use std::env;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
+use tally::Tally;
+use walker::{State, Strangers, Walker};
+
+/// A call: who makes it, with what luck, whether with good arguments, and what others have.
+type Call = fn(&mut Walker, &mut Chance, bool, &Strangers);
+
+const CALLS: [(&str, Call); 34] = [
+    ("fmi2GetTypesPlatform", life::platform),
+    ("fmi2GetVersion", life::version),
+    ("fmi2SetDebugLogging", life::debug_logging),
+    ("fmi2Instantiate", life::instantiate),
+    ("fmi2FreeInstance", life::free),
+    ("fmi2SetupExperiment", life::setup),
+    ("fmi2EnterInitializationMode", life::enter),
+    ("fmi2ExitInitializationMode", life::exit),
+    ("fmi2Terminate", life::terminate),
+    ("fmi2Reset", life::reset),
+    ("fmi2GetReal", values::get_real),
+    ("fmi2GetInteger", values::get_integer),
+    ("fmi2GetBoolean", values::get_boolean),
+    ("fmi2GetString", values::get_string),
+    ("fmi2SetReal", values::set_real),
+    ("fmi2SetInteger", values::set_integer),
+    ("fmi2SetBoolean", values::set_boolean),
+    ("fmi2SetString", values::set_string),
+    ("fmi2GetFMUstate", states::get_state),
+    ("fmi2SetFMUstate", states::set_state),
+    ("fmi2FreeFMUstate", states::free_state),
+    ("fmi2SerializedFMUstateSize", states::state_size),
+    ("fmi2SerializeFMUstate", states::serialize),
+    ("fmi2DeSerializeFMUstate", states::deserialize),
+    ("fmi2GetDirectionalDerivative", steps::directional),
+    ("fmi2SetRealInputDerivatives", steps::input_derivatives),
+    ("fmi2GetRealOutputDerivatives", steps::output_derivatives),
+    ("fmi2DoStep", steps::do_step),
+    ("fmi2CancelStep", life::cancel),
+    ("fmi2GetStatus", steps::status),
+    ("fmi2GetRealStatus", steps::real_status),
+    ("fmi2GetIntegerStatus", steps::integer_status),
+    ("fmi2GetBooleanStatus", steps::boolean_status),
+    ("fmi2GetStringStatus", steps::string_status),
+];
+
+const INSTANCES: usize = 6;
+const THREADS: usize = 3;
+const ROUNDS: usize = 8;
+/// Calls that each instance gets in a round.
+const CALLS_A_ROUND: usize = 40;
+
+/// What a host that knows the standard would do next.
+fn sensible(w: &Walker, chance: &mut Chance) -> Call {
+    let calls: &[Call] = match w.model.state {
+        State::Instantiated if w.model.clock.is_none() => {
+            &[life::setup, life::setup, values::set_real, values::set_string]
+        }
+        State::Instantiated => &[life::enter, life::enter, values::set_real, values::set_string],
+        State::Initialization => &[life::exit, life::exit, values::set_real, values::get_real, values::set_string],
+        State::StepComplete => &[
+            steps::do_step,
+            steps::do_step,
+            steps::do_step,
+            steps::do_step,
+            values::set_real,
+            values::get_real,
+            steps::input_derivatives,
+            states::get_state,
+            states::set_state,
+            life::terminate,
+        ],
+        State::Terminated => {
+            &[life::reset, states::set_state, values::get_real, steps::real_status, steps::output_derivatives]
+        }
+        State::Error => &[life::reset, states::set_state],
+    };
+    *chance.pick(calls)
+}
+
+/// One call of one instance; an instance that it has freed is replaced.
+fn call(w: &mut Walker, chance: &mut Chance, others: &Strangers) {
+    if chance.one_in(3) {
+        let (_, call) = CALLS[chance.below(CALLS.len())];
+        call(w, chance, false, others);
+    } else {
+        let (call, kind) = (sensible(w, chance), !chance.one_in(8));
+        call(w, chance, kind, others);
+    }
+    if chance.one_in(12) && !w.gone {
+        w.compare();
+    }
+}
+
+/// After everything: a reset gives an instance that steps like a new one.
+fn finish(w: &mut Walker, chance: &mut Chance) {
+    let nobody = Strangers::default();
+    life::reset(w, chance, true, &nobody);
+    for call in [life::setup, life::enter, life::exit, steps::do_step] {
+        call(w, chance, true, &nobody);
+    }
+    w.require(w.model.state == State::StepComplete, || "after a reset no step could be taken".to_owned());
+    w.compare();
+    life::free(w, chance, true, &nobody);
+}
+
+/// A round in one thread.
+fn round(walkers: &mut [Walker], seed: u64, others: &Strangers) {
+    let mut chance = Chance::new(seed);
+    for _ in 0..CALLS_A_ROUND * walkers.len() {
+        let index = chance.below(walkers.len());
+        let w = &mut walkers[index];
+        call(w, &mut chance, others);
+        if w.gone {
+            let next = Walker::new(w.stage, w.places, w.number + 1000, w.seed, &mut chance);
+            let old = std::mem::replace(w, next);
+            w.tally.add(&old.tally);
+        }
+    }
+}
+
+fn walk(stages: &[Stage], seed: u64, full: FullDisk) -> Tally {
+    let mut chance = Chance::new(seed);
+    let places = Places::new(seed, full);
+    let mut others = Strangers::default();
+    let new = |number| Walker::new(&stages[number as usize % stages.len()], &places, number, seed, &mut chance);
+    let mut walkers: Vec<Walker> = (0..INSTANCES as u64).map(new).collect();
+    for _ in 0..ROUNDS {
+        others.blobs = walkers.iter().filter_map(|w| states::publish(w, &mut chance)).collect();
+        others.states = walkers.iter().flat_map(|w| &w.saved).map(|saved| saved.handle.addr()).collect();
+        let components: Vec<usize> = walkers.iter().map(|w| w.subject.c.addr()).collect();
+        for place in (1..walkers.len()).rev() {
+            walkers.swap(place, chance.below(place + 1));
+        }
+        let around = &others;
+        let seeds: Vec<u64> = (0..THREADS).map(|_| chance.number()).collect();
+        std::thread::scope(|scope| {
+            let parts = walkers.chunks_mut(INSTANCES / THREADS).zip(seeds);
+            let threads: Vec<_> = parts.map(|(part, seed)| scope.spawn(move || round(part, seed, around))).collect();
+            for thread in threads {
+                thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            }
+        });
+        // States of an instance that is gone are strangers for ever.
+        let gone = |c: &usize| walkers.iter().all(|w| w.subject.c.addr() != *c);
+        others.dead.extend(components.into_iter().filter(gone));
+    }
+    let mut sum = Tally::default();
+    for walker in &mut walkers {
+        finish(walker, &mut chance);
+        sum.add(&walker.tally);
+    }
+    sum
+}
+
+fn number(name: &str) -> Option<u64> {
+    env::var(name).ok().map(|text| text.parse().unwrap_or_else(|_| panic!("{name} is no whole number: {text}")))
+}
+
+/// Walks of the seeds that the environment asks for. One that finds something does not keep the others from being taken.
+fn walks(count: u64, full: impl Fn(&mut Chance) -> FullDisk) -> Tally {
+    let first = number("BRINELL_WALK_SEED").unwrap_or(1);
+    let count = number("BRINELL_WALK_COUNT").unwrap_or(count);
+    let long = number("BRINELL_WALK_SECONDS").map(Duration::from_secs);
+    let (stages, start, mut sum) = (stages(), Instant::now(), Tally::default());
+    let mut found = Vec::new();
+    let mut seed = first;
+    while long.map_or(seed < first + count, |long| start.elapsed() < long) {
+        let full = full(&mut Chance::new(seed));
+        match catch_unwind(AssertUnwindSafe(|| walk(&stages, seed, full))) {
+            Ok(tally) => sum.add(&tally),
+            Err(panic) => {
+                let words = panic.downcast_ref::<String>().map_or("a panic without words", String::as_str);
+                found.push(format!("seed {seed}: {}", words.lines().next().unwrap_or_default()));
+            }
+        }
+        seed += 1;
+    }
+    println!("seeds {first} to {}: {sum}", seed - 1);
+    let list = found.join("\n");
+    assert!(found.is_empty(), "{} walks; one alone: BRINELL_WALK_SEED=… BRINELL_WALK_COUNT=1\n{list}", found.len());
+    sum
+}
+
+#[test]
+fn the_calls_are_those_of_the_standards_table() {
+    assert_eq!(CALLS.map(|(name, _)| name), TABLE.map(|(name, _)| name));
+}
+
+#[test]
+fn any_sequence_of_calls_has_the_statuses_of_the_standard_and_leaves_what_succeeded_untouched() {
+    let sum = walks(16, |_| FullDisk::None);
+    let gaps = sum.gaps();
+    // Each function has been called in each state, and each status has come.
+    assert!(gaps.is_empty(), "{gaps:?}");
+    assert!(sum.statuses.iter().all(|count| *count > 0) && sum.comparisons > 0 && sum.recordings > 0, "{sum}");
+    assert_eq!(FORBIDDEN_CALLS.load(Ordering::Relaxed), 0);
+}
+
+#[test]
+fn on_a_full_disk_calls_fail_with_an_error_and_a_reset_always_works() {
+    if let Err(reason) = disk::run_on_a_small_disk("misuse::on_the_small_disk") {
+        println!("no small disk can be made here ({reason}); /dev/full takes its place");
+        if !std::path::Path::new("/dev/full").exists() {
+            println!("skipped: there is no /dev/full either");
+            return;
+        }
+        walks(6, |_| FullDisk::Device);
+    }
+}
+
+#[test]
+#[ignore = "started by the test above, in a process that has a small disk"]
+fn on_the_small_disk() {
+    let sum = walks(6, |chance| if chance.one_in(4) { FullDisk::Device } else { disk::nearly_full(chance) });
+    assert!(sum.statuses[Status::Error as usize] > 0, "{sum}");
+}

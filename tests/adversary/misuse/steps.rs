@@ -1,0 +1,309 @@
+//! Calls that step through time, say how a step went, and tell how inputs and outputs go on.
+
+use super::chance::Chance;
+use super::stage::is_real;
+use super::standard::{DISCARD, ERROR, OK};
+use super::walker::{Folder, State, Strangers, Walker};
+use brinell::simulation::variables::Causality;
+use brinell_fmi::fmi2::*;
+use std::ffi::CStr;
+use std::ptr;
+
+/// A step that a sensible host might take from `time`: long against the rounding of the time, short against a run.
+fn step_size(time: f64, chance: &mut Chance) -> f64 {
+    if time.abs() > 1e4 { chance.between(2e-5, 1e-4) } else { chance.decades(1e-6, 1e-4) }
+}
+
+pub(super) fn do_step(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Strangers) {
+    let (time, stop) = w.model.clock.unwrap_or((0.0, None));
+    let mut step = step_size(time, chance);
+    let (mut point, mut wrong) = (time, false);
+    if !kind {
+        wrong = true;
+        match chance.below(12) {
+            // Skipped, repeated, half a step off, a second back.
+            0 => point = time + step,
+            1 => point = time - step,
+            2 => point = time + 0.5 * step,
+            3 => point = time - 0.5 * step,
+            4 => point = time - 0.9,
+            5 => point = *chance.pick(&[f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX]),
+            6 => step = *chance.pick(&[0.0, -0.0, -1e-5, f64::NAN, f64::INFINITY, f64::NEG_INFINITY]),
+            // A host's rounding.
+            7 => (point, wrong) = (time.next_up(), false),
+            8 => (point, wrong) = (time.next_down(), false),
+            _ => wrong = false,
+        }
+    }
+    let end = point + step;
+    let mut verdict = if wrong { ERROR } else { OK };
+    if let Some(stop) = stop.filter(|_| !wrong) {
+        let beyond = end - stop;
+        if beyond > 0.4 * step {
+            verdict = ERROR;
+        } else if beyond > 0.0 {
+            // Perhaps a host's rounding.
+            verdict = OK.or(ERROR);
+        }
+    }
+    if verdict == OK {
+        verdict = w.unless_wild(if w.recording && w.folder == Folder::Full { OK.or(ERROR) } else { OK });
+    }
+    let expected = w.expect("fmi2DoStep", verdict);
+    let looks = !w.model.rates.is_empty() && w.model.state == State::StepComplete;
+    let before = if looks { read_inputs(w) } else { None };
+    let repeatable = Boolean::from(chance.one_in(2));
+    // SAFETY: no pointers but the handle.
+    let status = unsafe { fmi2DoStep(w.subject.c, point, step, repeatable) };
+    let done = w.judge("fmi2DoStep", expected, status, || format!("{point:?}, {step:?}"));
+    if w.model.state == State::Error {
+        w.model.last_step = Status::Error;
+    }
+    if done {
+        w.follow(|twin| twin.step(point, step));
+        w.model.clock = Some((end, stop));
+        w.model.last_step = Status::Ok;
+        if let Some(before) = before {
+            inputs_follow_their_derivatives(w, &before, step);
+        }
+        w.model.rates.clear();
+    } else if verdict != ERROR {
+        // A step that failed half-way has left samples behind.
+        w.recording = false;
+    }
+}
+
+fn read_inputs(w: &mut Walker) -> Option<Vec<(u32, f64)>> {
+    let inputs = w.stage.reals(Some(Causality::Input));
+    let values = w.subject.get(&inputs);
+    w.subject.lines();
+    Some(inputs.into_iter().zip(values.ok()?).collect())
+}
+
+/// A derivative that was accepted has moved its input: x + x′h + x″h²/2. What the host leaves out of a ring's motion is taken
+/// from its velocity and acceleration.
+fn inputs_follow_their_derivatives(w: &mut Walker, before: &[(u32, f64)], h: f64) {
+    let after = read_inputs(w).unwrap();
+    let value = |name: &str| {
+        let of = |(reference, _): &&(u32, f64)| w.stage.variable(*reference).name == name;
+        before.iter().find(of).map_or(0.0, |(_, value)| *value)
+    };
+    for (reference, rates) in &w.model.rates {
+        let name = w.stage.variable(*reference).name.as_str();
+        // "shaft.vy" goes on as "shaft.ay" says, unless its derivative is given.
+        let (ring, letters) = name.split_once('.').unwrap();
+        let motion = letters.strip_prefix('v').map(|axis| value(&format!("{ring}.a{axis}")));
+        let position = matches!(letters, "x" | "y");
+        if position && (rates[0].is_none() || rates[1].is_none()) {
+            continue;
+        }
+        let (first, second) = (rates[0].or(motion).unwrap_or(0.0), rates[1].unwrap_or(0.0));
+        let of = |list: &[(u32, f64)]| list.iter().find(|(r, _)| r == reference).unwrap().1;
+        let (start, end) = (of(before), of(&after));
+        // A position's derivative takes its velocity along, whose own is then no matter.
+        let overridden = letters.strip_prefix('v').is_some_and(|axis| {
+            let position = format!("{ring}.{axis}");
+            w.model.rates.keys().any(|other| w.stage.variable(*other).name == position)
+        });
+        let moved = start + first * h + 0.5 * second * h * h;
+        // Rounding of a few operations.
+        let margin = 1e-12 * (start.abs() + (first * h).abs() + (second * h * h).abs());
+        let right = overridden || (end - moved).abs() <= margin;
+        w.require(right, || {
+            format!("{name} went from {start:?} to {end:?}, not {moved:?}: derivatives {rates:?}, step {h:?}")
+        });
+    }
+}
+
+pub(super) fn input_derivatives(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Strangers) {
+    let inputs = w.stage.reals(Some(Causality::Input));
+    let mut reference = *chance.pick(&inputs);
+    let mut order = if kind { 1 } else { 1 + chance.below(2) as i32 };
+    let size = match (w.stage.variable(reference).name.rsplit_once('.').unwrap().1, order) {
+        ("speed", 1) => 1e3,
+        ("speed", _) => 1e6,
+        // Positions move by some micrometres, velocities by millimetres a second, loads by some newtons.
+        ("x" | "y", 1) if w.stage.variable(reference).name.contains("load") => 1e4,
+        ("x" | "y", _) if w.stage.variable(reference).name.contains("load") => 1e7,
+        ("x" | "y", 1) => 1e-3,
+        ("x" | "y", _) | ("vx" | "vy", 1) => 1.0,
+        ("vx" | "vy", _) | ("ax" | "ay", 1) => 1e3,
+        _ => 1e6,
+    };
+    let mut value = chance.between(-size, size);
+    let (mut verdict, mut turns_wild, mut count) = (OK, false, 1);
+    // Only these must be taken; the others may be refused, if not used.
+    let name = &w.stage.variable(reference).name;
+    if order == 2 || name.contains(".a") || name.contains(".v") {
+        verdict = OK.or(ERROR);
+    }
+    match if kind { 9 } else { chance.below(9) } {
+        0 => (value, verdict) = (*chance.pick(&[f64::NAN, f64::INFINITY, f64::NEG_INFINITY]), verdict.or(DISCARD)),
+        1 => (order, verdict) = (*chance.pick(&[0, -1, 3, i32::MAX, i32::MIN]), ERROR),
+        2 => (reference, verdict) = (w.stage.unknown(chance), ERROR),
+        3 => {
+            let others = w.stage.references(|v| v.causality != Causality::Input);
+            (reference, verdict) = (*chance.pick(&others), ERROR);
+        }
+        4 => (count, verdict) = (usize::MAX, ERROR),
+        5 => (value, turns_wild) = (value * chance.decades(1.0, 1e12), true),
+        6 => (count, verdict) = (0, OK),
+        _ => {}
+    }
+    let null = !kind && chance.one_in(12);
+    let orders = if null { ptr::null() } else { &raw const order };
+    if null && count > 0 {
+        verdict = ERROR;
+    }
+    let finite = value.is_finite();
+    let expected = w.expect("fmi2SetRealInputDerivatives", if finite || null { verdict } else { DISCARD.or(ERROR) });
+    let set = |host: &crate::host::Host| {
+        // SAFETY: one element each, or arguments that are to be refused.
+        unsafe { fmi2SetRealInputDerivatives(host.c, &raw const reference, count, orders, &raw const value) }
+    };
+    let status = set(&w.subject);
+    let call = || format!("{reference}, {count}, order {order}, {value:?}");
+    if w.judge("fmi2SetRealInputDerivatives", expected, status, call) && count == 1 {
+        w.follow(set);
+        w.model.wild |= turns_wild;
+        w.model.rates.entry(reference).or_default()[order as usize - 1] = Some(value);
+    }
+}
+
+pub(super) fn output_derivatives(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Strangers) {
+    let outputs = w.stage.reals(Some(Causality::Output));
+    let mut list: Vec<u32> = (0..chance.below(6)).map(|_| *chance.pick(&outputs)).collect();
+    let mut orders = vec![1; list.len()];
+    let mut verdict = OK.or(DISCARD);
+    if !kind && !list.is_empty() {
+        match chance.below(5) {
+            0 => (orders[0], verdict) = (*chance.pick(&[0, 2, -1, i32::MAX]), ERROR),
+            1 => (list[0], verdict) = (w.stage.unknown(chance), ERROR),
+            2 => (list[0], verdict) = (*chance.pick(&w.stage.references(|v| !outputs.contains(&v.reference))), ERROR),
+            _ => {}
+        }
+    }
+    let expected = w.expect("fmi2GetRealOutputDerivatives", w.unless_wild(verdict));
+    let mut values = vec![f64::NAN; list.len()];
+    let (vr, value) = (list.as_ptr(), values.as_mut_ptr());
+    // SAFETY: the arrays are as long as said.
+    let status = unsafe { fmi2GetRealOutputDerivatives(w.subject.c, vr, list.len(), orders.as_ptr(), value) };
+    w.judge("fmi2GetRealOutputDerivatives", expected, status, || format!("{list:?}, {orders:?}"));
+    let fine = status != Status::Ok || values.iter().all(|value| value.is_finite());
+    w.require(fine, || format!("not finite under OK: {values:?}"));
+}
+
+pub(super) fn directional(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Strangers) {
+    let outputs = w.stage.reals(Some(Causality::Output));
+    let inputs = w.stage.reals(Some(Causality::Input));
+    let mut unknowns: Vec<u32> = (0..chance.below(6)).map(|_| *chance.pick(&outputs)).collect();
+    let mut knowns: Vec<u32> = (0..chance.below(4)).map(|_| *chance.pick(&inputs)).collect();
+    let mut seed: Vec<f64> = knowns.iter().map(|_| chance.between(-1.0, 1.0)).collect();
+    let mut verdict = OK.or(DISCARD);
+    match if kind { 9 } else { chance.below(6) } {
+        0 if !unknowns.is_empty() => (unknowns[0], verdict) = (w.stage.unknown(chance), ERROR),
+        1 if !knowns.is_empty() => {
+            let others = w.stage.references(|v| !is_real(v) || v.causality == Causality::Output);
+            (knowns[0], verdict) = (*chance.pick(&others), ERROR);
+        }
+        2 if !seed.is_empty() => {
+            seed[0] = *chance.pick(&[f64::NAN, f64::INFINITY, f64::MAX, 1e300]);
+            verdict = OK.or(DISCARD).or(ERROR);
+        }
+        _ => {}
+    }
+    let expected = w.expect("fmi2GetDirectionalDerivative", w.unless_wild(verdict));
+    let mut values = vec![f64::NAN; unknowns.len()];
+    let (u, k) = (unknowns.as_ptr(), knowns.as_ptr());
+    // SAFETY: the arrays are as long as said.
+    let status = unsafe {
+        fmi2GetDirectionalDerivative(
+            w.subject.c,
+            u,
+            unknowns.len(),
+            k,
+            knowns.len(),
+            seed.as_ptr(),
+            values.as_mut_ptr(),
+        )
+    };
+    w.judge("fmi2GetDirectionalDerivative", expected, status, || format!("{unknowns:?}, {knowns:?}, {seed:?}"));
+    let fine = status != Status::Ok || values.iter().all(|value| value.is_finite());
+    w.require(fine, || format!("not finite under OK: {values:?}"));
+}
+
+/// A kind of status: the one that a function knows, another one, or no kind at all.
+fn status_kind(chance: &mut Chance, kind: bool, known: StatusKind) -> StatusKind {
+    if kind || chance.one_in(2) { known } else { *chance.pick(&[0, 1, 2, 3, 4, -1, i32::MAX, i32::MIN]) }
+}
+
+pub(super) fn status(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Strangers) {
+    let asked = status_kind(chance, kind, DO_STEP_STATUS);
+    let mut value = Status::Fatal;
+    let null = !kind && chance.one_in(4);
+    let place = if null { ptr::null_mut() } else { &raw mut value };
+    let verdict = if asked != DO_STEP_STATUS {
+        DISCARD
+    } else if null {
+        ERROR
+    } else {
+        OK
+    };
+    let expected = w.expect("fmi2GetStatus", verdict);
+    // SAFETY: a place for one value, or NULL.
+    let status = unsafe { fmi2GetStatus(w.subject.c, asked, place) };
+    let done = w.judge("fmi2GetStatus", expected, status, || format!("{asked}, NULL {null}"));
+    w.require(!done || value == w.model.last_step, || format!("{value:?}"));
+}
+
+pub(super) fn real_status(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Strangers) {
+    let asked = status_kind(chance, kind, LAST_SUCCESSFUL_TIME);
+    let mut value = f64::NAN;
+    let null = !kind && chance.one_in(4);
+    let place = if null { ptr::null_mut() } else { &raw mut value };
+    let verdict = if asked != LAST_SUCCESSFUL_TIME {
+        DISCARD
+    } else if null {
+        ERROR
+    } else {
+        OK
+    };
+    let expected = w.expect("fmi2GetRealStatus", verdict);
+    // SAFETY: a place for one value, or NULL.
+    let status = unsafe { fmi2GetRealStatus(w.subject.c, asked, place) };
+    let done = w.judge("fmi2GetRealStatus", expected, status, || format!("{asked}, NULL {null}"));
+    // The step has landed exactly where the host computes its end.
+    let time = w.model.clock.map(|(time, _)| time);
+    w.require(!done || Some(value) == time, || format!("{value:?} and not {time:?}"));
+}
+
+pub(super) fn integer_status(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Strangers) {
+    let asked = status_kind(chance, kind, DO_STEP_STATUS);
+    let mut value = 77;
+    let expected = w.expect("fmi2GetIntegerStatus", DISCARD);
+    // SAFETY: a place for one value.
+    let status = unsafe { fmi2GetIntegerStatus(w.subject.c, asked, &raw mut value) };
+    w.judge("fmi2GetIntegerStatus", expected, status, || format!("{asked}"));
+    w.require(value == 77, || format!("{value}"));
+}
+
+pub(super) fn boolean_status(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Strangers) {
+    let asked = status_kind(chance, kind, TERMINATED);
+    let mut value = 77;
+    let expected = w.expect("fmi2GetBooleanStatus", if asked == TERMINATED { OK } else { DISCARD });
+    // SAFETY: a place for one value.
+    let status = unsafe { fmi2GetBooleanStatus(w.subject.c, asked, &raw mut value) };
+    let done = w.judge("fmi2GetBooleanStatus", expected, status, || format!("{asked}"));
+    w.require(value == if done { FALSE } else { 77 }, || format!("{value}"));
+}
+
+pub(super) fn string_status(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Strangers) {
+    let asked = status_kind(chance, kind, PENDING_STATUS);
+    let mut value: FmiString = ptr::null();
+    let expected = w.expect("fmi2GetStringStatus", if asked == PENDING_STATUS { OK } else { DISCARD });
+    // SAFETY: a place for one value.
+    let status = unsafe { fmi2GetStringStatus(w.subject.c, asked, &raw mut value) };
+    let done = w.judge("fmi2GetStringStatus", expected, status, || format!("{asked}"));
+    // SAFETY: what is given under OK is a string that ends in NUL.
+    w.require(!done || unsafe { CStr::from_ptr(value) } == c"no step is pending", || "text".to_owned());
+}

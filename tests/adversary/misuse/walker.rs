@@ -1,0 +1,268 @@
+//! One instance that is misused, beside a twin that takes only the calls that succeeded, and a model of what the standard says about it.
+
+use super::chance::Chance;
+use super::stage::{Places, Stage};
+use super::standard::{self, Statuses};
+use super::tally::Tally;
+use crate::host::{Host, Line, bits};
+use brinell_fmi::fmi2::*;
+use std::collections::{BTreeMap, VecDeque};
+use std::fs;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+pub(super) use super::standard::State;
+
+/// What the standard and the calls so far say about an instance. It is saved and restored with the instance's state.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Model {
+    pub(super) state: State,
+    /// Time and stop time, once an experiment is set up.
+    pub(super) clock: Option<(f64, Option<f64>)>,
+    /// A value has been set that no sensible host sets: what is computed from it may be an error.
+    pub(super) wild: bool,
+    /// Derivatives of inputs, of order 1 and 2, for the next step.
+    pub(super) rates: BTreeMap<u32, [Option<f64>; 2]>,
+    pub(super) last_step: Status,
+}
+
+impl Model {
+    fn new() -> Self {
+        Self { state: State::Instantiated, clock: None, wild: false, rates: BTreeMap::new(), last_step: Status::Ok }
+    }
+}
+
+/// A saved state of the instance, and the twin's of the same moment if the twin was there.
+pub(super) struct Saved {
+    pub(super) handle: FmuState,
+    pub(super) twin: Option<FmuState>,
+    pub(super) model: Model,
+}
+
+/// A state as bytes, for others to take.
+#[derive(Clone)]
+pub(super) struct Blob {
+    pub(super) scene: &'static str,
+    pub(super) bytes: Arc<Vec<u8>>,
+    pub(super) model: Model,
+    /// The twin was there, so the bytes are those of a run that broke no rule.
+    pub(super) sound: bool,
+}
+
+/// What the others have: handles that are not one's own, and states as bytes.
+#[derive(Default, Clone)]
+pub(super) struct Strangers {
+    pub(super) states: Vec<usize>,
+    pub(super) blobs: Vec<Blob>,
+    pub(super) dead: Vec<usize>,
+}
+
+/// Where an instance has been told to record.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Folder {
+    None,
+    Shared,
+    Full,
+    Blocked,
+}
+
+pub(super) struct Walker<'w> {
+    pub(super) stage: &'w Stage,
+    pub(super) places: &'w Places,
+    pub(super) number: u64,
+    name: String,
+    pub(super) subject: Host,
+    pub(super) twin: Host,
+    pub(super) model: Model,
+    /// The twin stands where the instance stands. It is left behind by an error.
+    pub(super) together: bool,
+    pub(super) saved: Vec<Saved>,
+    /// Handles of states that were freed.
+    pub(super) freed: Vec<FmuState>,
+    pub(super) folder: Folder,
+    /// A recording was begun and nothing has failed since.
+    pub(super) recording: bool,
+    /// Other instances may have the same name, or one that makes the same name of a file.
+    pub(super) name_is_shared: bool,
+    /// Categories that are on: their bits are those of the statuses.
+    pub(super) categories: u8,
+    pub(super) tally: Tally,
+    /// The instance was freed: another one takes the walker's place.
+    pub(super) gone: bool,
+    pub(super) seed: u64,
+    history: VecDeque<String>,
+}
+
+// SAFETY: each walker, and with it the two instances and their logs, is used by one thread at a time.
+unsafe impl Send for Walker<'_> {}
+
+/// Bits of all categories in [`Walker::categories`].
+pub(super) const ALL_CATEGORIES: u8 = 0b1111;
+
+impl<'w> Walker<'w> {
+    pub(super) fn new(stage: &'w Stage, places: &'w Places, number: u64, seed: u64, chance: &mut Chance) -> Self {
+        let name_is_shared = chance.one_in(3);
+        let name = match (name_is_shared, chance.below(3)) {
+            (true, 0) => "left bearing".to_owned(),
+            (true, 1) => "left/bearing".to_owned(),
+            (true, _) => "100 %s %n".to_owned(),
+            (false, _) => format!("walker {number}"),
+        };
+        places.prepare(&name);
+        let logging = !chance.one_in(4);
+        let subject = Host::with(Arc::clone(&stage.resources), &name, logging);
+        subject.lines();
+        Self {
+            stage,
+            places,
+            number,
+            subject,
+            twin: Host::with(Arc::clone(&stage.resources), "twin", false),
+            model: Model::new(),
+            together: true,
+            saved: Vec::new(),
+            freed: Vec::new(),
+            folder: Folder::None,
+            recording: false,
+            name_is_shared,
+            categories: if logging { ALL_CATEGORIES } else { 0 },
+            tally: Tally { instances: 2, ..Tally::default() },
+            gone: false,
+            history: VecDeque::from([format!("fmi2Instantiate({name:?}, logging {logging})")]),
+            name,
+            seed,
+        }
+    }
+
+    /// Statuses that a call may have: those given where the function is allowed, an error elsewhere.
+    pub(super) fn expect(&self, function: &str, where_allowed: Statuses) -> Statuses {
+        if standard::allows(function, self.model.state) { where_allowed } else { standard::ERROR }
+    }
+
+    /// With an error beside the statuses given, if values are such that it may fail.
+    pub(super) fn unless_wild(&self, statuses: Statuses) -> Statuses {
+        if self.model.wild || self.model.state == State::Error { statuses.or(standard::ERROR) } else { statuses }
+    }
+
+    /// Looks at the status and the log of a call. True if the call has had its effect.
+    pub(super) fn judge(
+        &mut self,
+        function: &'static str,
+        expected: Statuses,
+        status: Status,
+        call: impl FnOnce() -> String,
+    ) -> bool {
+        let state = self.model.state;
+        self.tally.count(function, state, status);
+        self.remember(format!("{function}({}) in {state:?}: {status:?}", call()));
+        self.require(expected.has(status), || format!("{status:?} is not what was expected, {expected:?}"));
+        let lines = self.subject.lines();
+        self.look_at(function, status, &lines);
+        if status >= Status::Error {
+            (self.model.state, self.together) = (State::Error, false);
+        }
+        status <= Status::Warning
+    }
+
+    /// A status other than OK has one line that begins with the function; what is switched off is silent.
+    fn look_at(&self, function: &str, status: Status, lines: &[Line]) {
+        for line in lines {
+            let category = match line.status {
+                Status::Ok => "logEvents",
+                Status::Warning => "logStatusWarning",
+                Status::Discard => "logStatusDiscard",
+                _ => "logStatusError",
+            };
+            let proper = line.category == category && line.format == "%s" && line.message.starts_with(function);
+            self.require(proper, || format!("{line:?}"));
+            self.require(self.categories & 1 << line.status as u8 != 0, || format!("switched off: {line:?}"));
+        }
+        let of = |status: Status| lines.iter().filter(|line| line.status == status).count();
+        let wanted = usize::from(self.categories & 1 << status as u8 != 0);
+        if status != Status::Ok {
+            self.require(of(status) == wanted, || format!("{wanted} lines expected: {lines:?}"));
+        }
+        // A reset says what was lost with a recording.
+        let loses = function == "fmi2Reset" && self.folder != Folder::None;
+        self.require(loses || lines.iter().all(|line| line.status <= status), || {
+            format!("worse than the status: {lines:?}")
+        });
+    }
+
+    /// Lets the twin do what the instance did, if it stands where the instance stood.
+    pub(super) fn follow(&mut self, act: impl FnOnce(&Host) -> Status) {
+        if self.together {
+            let status = act(&self.twin);
+            self.require(status <= Status::Warning, || format!("the twin got {status:?}"));
+        }
+    }
+
+    /// Compares everything that can be read, bit by bit; then the states as bytes.
+    pub(super) fn compare(&mut self) {
+        let readable = standard::allows("fmi2GetReal", self.model.state) && self.model.state != State::Error;
+        if !self.together || !readable {
+            return;
+        }
+        let (reals, integers) = (self.stage.reals(None), self.stage.integers());
+        let read = |host: &Host| {
+            let reals = host.get(&reals);
+            reals.and_then(|reals| Ok((bits(&reals), host.get_integers(&integers)?)))
+        };
+        let (ours, twins) = (read(&self.subject), read(&self.twin));
+        self.subject.lines();
+        self.require(ours == twins, || format!("the twin differs: {ours:x?} {twins:x?}"));
+        if ours.is_err() {
+            self.require(self.model.wild, || "what a sensible host has set cannot be read".to_owned());
+            (self.model.state, self.together) = (State::Error, false);
+            return;
+        }
+        let bytes = |host: &Host| {
+            let state = host.save();
+            let bytes = host.serialize(state);
+            assert_eq!(host.free(state), Status::Ok);
+            bytes
+        };
+        let (ours, twins) = (bytes(&self.subject), bytes(&self.twin));
+        let place = ours.iter().zip(&twins).position(|(a, b)| a != b);
+        self.require(ours == twins, || format!("the twin's state differs at byte {place:?} of {}", ours.len()));
+        self.tally.comparisons += 1;
+    }
+
+    /// The recording, once it is finished, is the twin's byte for byte.
+    pub(super) fn compare_recordings(&mut self) {
+        if !(self.recording && self.together && self.folder == Folder::Shared) {
+            return;
+        }
+        let files = |folder: PathBuf| -> Vec<Vec<u8>> {
+            let entries = fs::read_dir(folder).map(|entries| entries.flatten().collect()).unwrap_or_else(|_| vec![]);
+            entries.iter().filter_map(|entry| fs::read(entry.path()).ok()).collect()
+        };
+        let (ours, twins) = (files(self.places.shared()), files(self.places.own(self.number)));
+        self.require(!twins.is_empty(), || "the twin has recorded nothing".to_owned());
+        for twin in &twins {
+            self.require(ours.contains(twin), || format!("no recording is the twin's, of {} bytes", twin.len()));
+        }
+        self.tally.recordings += 1;
+    }
+
+    /// After `fmi2Reset`: as a new instance, but for saved states and logging.
+    pub(super) fn start_over(&mut self) {
+        self.model = Model::new();
+        (self.together, self.recording, self.folder) = (true, false, Folder::None);
+    }
+
+    pub(super) fn remember(&mut self, call: String) {
+        if self.history.len() == 60 {
+            self.history.pop_front();
+        }
+        self.history.push_back(call);
+    }
+
+    pub(super) fn require(&self, holds: bool, what: impl FnOnce() -> String) {
+        if !holds {
+            let calls: Vec<_> = self.history.iter().map(String::as_str).collect();
+            let (seed, scene, name) = (self.seed, self.stage.name, &self.name);
+            panic!("{}\nseed {seed}, {scene}, instance {name:?}, last calls:\n{}", what(), calls.join("\n"));
+        }
+    }
+}
