@@ -17,7 +17,7 @@ fn limited(bytes: usize, arguments: &[&str]) -> Output {
     // A write beyond the limit is then an error and no signal. The shell counts blocks of 512 bytes.
     let script = "trap '' XFSZ; ulimit -f $0; exec \"$@\"";
     let mut command = Command::new("sh");
-    command.args(["-c", script, &(bytes / 512).to_string(), env!("CARGO_BIN_EXE_fmu-build")]).args(arguments);
+    command.args(["-c", script, &(bytes / 512).to_string(), env!("CARGO_BIN_EXE_brinell")]).args(arguments);
     command.output().unwrap()
 }
 

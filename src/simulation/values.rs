@@ -150,7 +150,7 @@ impl Simulation {
     ///
     /// # Errors
     /// [`VariableError::UnknownReference`].
-    pub(crate) fn variable(&self, reference: u32) -> Result<&Variable, VariableError> {
+    pub fn variable(&self, reference: u32) -> Result<&Variable, VariableError> {
         self.table
             .get(reference as usize)
             .ok_or_else(|| VariableError::UnknownReference(reference, self.table.len() as u32 - 1))
