@@ -69,9 +69,16 @@ impl Roller {
 
     /// Where the path begins, and its stretches of one touched feature each, as (end angle, feature).
     ///
-    /// The paths over two points cross once, for they are equal circles seen from one side. So the touched point moves in one direction
-    /// only, a feature once left is never touched again, and between two angles with the same feature there is no other. The raceway on
-    /// either side of the profile is the one exception: the search begins with an angle inside the profile.
+    /// A point keeps the centre outside a circle of radius r about it, and the path follows the arcs that face the
+    /// ring's centre. With q where the circles about points p₁ and p₂ meet, an arc faces that centre where q·(q − p) <
+    /// 0. If both circles faced it with both arcs at both their meeting points, the midpoint's ± t about p₁ and p₂, the
+    /// sum of the four conditions would be 4 t² < 0. So the paths over two points cross once at most, whatever their
+    /// depths; the one at the lower angle comes first, the touched point moves in one direction only, and between two
+    /// angles with the same feature there is no other. The raceway on either side of the profile is the one exception:
+    /// the search begins with an angle inside the profile.
+    ///
+    /// Along a straight piece, R linear in φ, the raceway's curvature is at most 1.09/R, less than the element's 1/r:
+    /// it is touched at one point at most.
     pub(super) fn stretches(&self) -> (f64, Vec<(f64, Feature)>) {
         let (first, last) = self.extent();
         let mut found = Vec::new();
@@ -109,7 +116,6 @@ impl Roller {
         if angle <= first || angle >= last {
             best.0 = 0.0;
         }
-        // Outwards from the nearest vertex, until even the shallowest point there is too far to be touched.
         let nearest = self.vertices.partition_point(|v| v.0 < angle);
         // The straight piece above the centre first: its ends may be far away.
         if let Some(below) = nearest.checked_sub(1)
@@ -118,7 +124,9 @@ impl Roller {
         {
             best = (path, Feature::Stretch(below));
         }
-        let mut consider = |index: usize| -> bool {
+        // Then outwards on either side, a vertex and the piece that leads on from it, until even the shallowest point
+        // there is too far to be touched.
+        let mut consider = |index: usize, beyond: Option<usize>| -> bool {
             let (phi, radius) = self.vertices[index];
             if self.lower_bound(phi - angle) > best.0 {
                 return false;
@@ -129,23 +137,25 @@ impl Roller {
             {
                 best = (path, Feature::Vertex(index));
             }
-            if let Some(path) = self.stretch(index, angle)
+            if let Some(beyond) = beyond
+                && let Some(path) = self.stretch(beyond, angle)
                 && path <= best.0
             {
-                best = (path, Feature::Stretch(index));
+                best = (path, Feature::Stretch(beyond));
             }
             true
         };
-        (nearest..self.vertices.len()).take_while(|&i| consider(i)).count();
-        (0..nearest).rev().take_while(|&i| consider(i)).count();
+        (nearest..self.vertices.len()).take_while(|&i| consider(i, Some(i))).count();
+        (0..nearest).rev().take_while(|&i| consider(i, i.checked_sub(1))).count();
         best.1
     }
 
-    /// A bound from below of the path over a point at angular distance `d`: chord term of the circle, minus what rises.
+    /// A bound from below of the path over a point at angular distance `d` and beyond.
     fn lower_bound(&self, d: f64) -> f64 {
-        // ρ(d) − (R−r) ≥ ½ R (R−r)/r d² for the point of a raceway of radius R; 10 % less covers other radii.
-        let gap = self.raceway_radius - self.element_radius;
-        0.45 * self.raceway_radius * gap / self.element_radius * d * d + self.shallowest
+        // The path rises with the point's radius, and for one at radius R_s it is at least ½ R_s (R_s−r)/r d² + R_s −
+        // R; a tenth less is clear of rounding.
+        let radius = self.raceway_radius + self.shallowest;
+        0.45 * radius * (radius - self.element_radius) / self.element_radius * d * d + self.shallowest
     }
 
     fn vertex(&self, index: usize, angle: f64) -> Option<f64> {
@@ -153,11 +163,12 @@ impl Roller {
         self.centre(radius, phi - angle).map(|rho| rho - (self.raceway_radius - self.element_radius))
     }
 
-    /// ρ of the centre over the point at radius `radius` and angular distance `d`; `None` beyond the element's reach.
+    /// ρ of the centre over the point at radius `radius` and angular distance `d`; `None` beyond the element's reach,
+    /// the far side of the ring included.
     fn centre(&self, radius: f64, d: f64) -> Option<f64> {
         let (sin, cos) = sin_cos(d);
         let square = self.element_radius * self.element_radius - radius * radius * sin * sin;
-        (square > 0.0).then(|| radius * cos - square.sqrt())
+        (square > 0.0 && cos > 0.0).then(|| radius * cos - square.sqrt())
     }
 
     /// The path over the straight piece after vertex `index`, if the element touches its inside.
@@ -187,7 +198,7 @@ impl Roller {
             let radius = self.radius_on(index, phi);
             let (sin, cos) = sin_cos(phi - angle);
             let square = self.element_radius * self.element_radius - radius * radius * sin * sin;
-            if square <= 0.0 {
+            if square <= 0.0 || cos <= 0.0 {
                 return if phi < angle { f64::NEG_INFINITY } else { f64::INFINITY };
             }
             slope * cos - radius * sin + (radius * slope * sin * sin + radius * radius * sin * cos) / square.sqrt()
@@ -239,7 +250,8 @@ mod tests {
             seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             (seed >> 33) as f64 / (1u64 << 31) as f64
         };
-        // Depths of 3, 30 and 200 µm between points 2 to 40 µm apart: walls as steep as 89°, some raised above the raceway.
+        // Depths of 3, 30 and 200 µm between points 2 to 40 µm apart: walls as steep as 89°, some raised above the
+        // raceway.
         for depth in [3e-6, 30e-6, 200e-6] {
             for _ in 0..5 {
                 let mut arc = 0.0;
