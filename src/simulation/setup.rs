@@ -225,7 +225,7 @@ pub(crate) fn build_model(
                 profile.points(),
                 0.5 * scene.bearing.element_diameter,
                 scene.bearing.outer_raceway_radius(),
-            ))),
+            )?)),
             (ContactLaw::Hertz, Surface::Topography(_)) => {
                 Err(SimulationError::LawNotAvailable { law: scene.contact.law })
             }
