@@ -101,6 +101,11 @@ fn a_trace_deeper_than_an_elements_radius_is_refused() {
 }
 
 #[test]
+fn a_trace_whose_rims_rise_by_an_elements_radius_above_its_floor_is_refused() {
+    refused("arc_mm,depth_um\n0,0\n1,-2000\n1.5,2000\n2,0\n", &["it is 4000.000 um", "below 3970.000 um"]);
+}
+
+#[test]
 fn a_topography_with_a_hole_is_refused_with_its_place() {
     let text = "arc_mm,axial_mm,depth_um\n0,0,1\n0,1,1\n0.5,0,1\n";
     refused(text, &["no depth at arc_mm = 0.5, axial_mm = 1", "3 points", "2 by 2", "needs 4"]);

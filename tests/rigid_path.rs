@@ -45,7 +45,7 @@ struct Case {
 
 impl Case {
     fn new(element: f64, raceway: f64, points: Points) -> Self {
-        Self { path: RigidPath::new(&points, element, raceway), element, raceway, points }
+        Self { path: RigidPath::new(&points, element, raceway).unwrap(), element, raceway, points }
     }
 
     /// The same seen in a mirror.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use brinell::scene::{ContactLaw, Damping, DefectShape, Motion, Ring, Scene};
+use brinell::scene::{Damping, DefectShape, Motion, Ring, Scene};
 use brinell::simulation::variables::{Causality, Kind, Variable};
 use quick_xml::escape::escape;
 
@@ -82,11 +82,7 @@ pub fn write(model: &Model) -> String {
 
 fn facts(page: &mut String, scene: &Scene) {
     let bearing = &scene.bearing;
-    let law = match scene.contact.law {
-        ContactLaw::Hertz => "Hertz on the rigid path of the element's centre",
-        ContactLaw::Map => "Love's half-space, from a map computed beforehand",
-        ContactLaw::Love => "Love's half-space, solved in the step",
-    };
+    let (_, law) = scene.contact.law.described();
     let damping = match scene.contact.damping {
         Damping::HuntCrossley(chi) => format!("Hunt and Crossley, χ = {chi} s/m"),
         Damping::Proportional(tau) => format!("proportional to stiffness, τ = {tau} s"),

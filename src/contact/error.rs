@@ -31,6 +31,23 @@ pub enum ContactError {
         /// Length or width of a cell [µm].
         cell_um: f64,
     },
+    /// A defect whose two ends are so close together, the long way round the raceway, that one contact feels both.
+    #[error(
+        "defect: it is {length_mm:.4} mm long, it must be below {limit_mm:.4} mm: elements feel it to {reach_mm:.4} mm \
+         beyond either end, {why}, and the outer raceway is only {circumference_mm:.4} mm around"
+    )]
+    EndsMeet {
+        /// Length along the raceway [mm].
+        length_mm: f64,
+        /// Length from which on the two ends are felt at once [mm].
+        limit_mm: f64,
+        /// Distance beyond its ends within which elements feel the defect, the larger of both [mm].
+        reach_mm: f64,
+        /// What makes them feel it there.
+        why: &'static str,
+        /// Circumference of the outer raceway [mm].
+        circumference_mm: f64,
+    },
     /// An array has the wrong length.
     #[error("{quantity} has {length} values, {expected} are needed")]
     WrongLength {

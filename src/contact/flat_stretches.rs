@@ -2,9 +2,39 @@
 
 use crate::surface::Surface;
 
+use super::error::ContactError;
 use super::raceway_grid::ElementOnRaceway;
+use std::f64::consts::TAU;
 
-/// Distance [m] along the raceway within which the element comes lower than `depth` [m]; a little more than the circles'.
+/// Smooth raceway that must be left between what elements feel of a defect's two ends [rad]: knots closer together than
+/// 1e-9 rad are one.
+const SMALLEST_GAP: f64 = 1e-8;
+
+/// Refuses a defect of this `extent` (first and last arc [m]) that elements feel between the arcs `felt` [m], for the
+/// reason `why`, if that is the whole raceway: laws near the defect know what is beyond one of its ends, not what is
+/// beyond both.
+pub(super) fn check_ends(
+    extent: (f64, f64),
+    felt: (f64, f64),
+    raceway_radius: f64,
+    why: &'static str,
+) -> Result<(), ContactError> {
+    let (length, span) = (extent.1 - extent.0, felt.1 - felt.0);
+    let limit = (TAU - SMALLEST_GAP) * raceway_radius;
+    if span < limit {
+        return Ok(());
+    }
+    Err(ContactError::EndsMeet {
+        length_mm: length * 1e3,
+        limit_mm: (limit - (span - length)) * 1e3,
+        reach_mm: (extent.0 - felt.0).max(felt.1 - extent.1) * 1e3,
+        why,
+        circumference_mm: TAU * raceway_radius * 1e3,
+    })
+}
+
+/// Distance [m] along the raceway within which the element comes lower than `depth` [m]; a little more than the
+/// circles'.
 pub(super) fn reach(element: ElementOnRaceway, depth: f64) -> f64 {
     (2.0 * depth.max(0.0) / element.curvatures()[0]).sqrt()
 }
@@ -27,9 +57,5 @@ pub(super) fn flats(surface: &Surface) -> Vec<(f64, f64, f64)> {
 
 /// Smallest depth [m], of the highest rim; 0 without one.
 pub(super) fn shallowest(surface: &Surface) -> f64 {
-    let depths: Box<dyn Iterator<Item = f64>> = match surface {
-        Surface::Profile(profile) => Box::new(profile.points().iter().map(|&(_, depth)| depth)),
-        Surface::Topography(topography) => Box::new(topography.grid().2.iter().copied()),
-    };
-    depths.fold(0.0, f64::min)
+    surface.depths().fold(0.0, f64::min)
 }

@@ -145,7 +145,7 @@ impl ContactMap {
         match self.stretches.get(stretch) {
             Some(Stretch::Patch(patch)) => match patch.lookup(u, s) {
                 Some(approach) if approach.value <= CONTINUED * self.largest_approach => Ok(approach),
-                _ => Err(self.out_of_range(u)),
+                beyond => Err(self.out_of_range(beyond.map_or(u, |approach| approach.value))),
             },
             Some(Stretch::Flat(depth)) => Ok(EquivalentApproach::flat(u, *depth)),
             None => Ok(EquivalentApproach::flat(u, 0.0)),
@@ -153,10 +153,10 @@ impl ContactMap {
     }
 
     #[cold]
-    fn out_of_range(&self, u: f64) -> ContactError {
+    fn out_of_range(&self, approach: f64) -> ContactError {
         ContactError::OutOfRange {
-            quantity: "radial path in the contact map",
-            value: u,
+            quantity: "equivalent approach in the contact map",
+            value: approach,
             lower: f64::NEG_INFINITY,
             upper: CONTINUED * self.largest_approach,
         }

@@ -10,7 +10,7 @@ use crate::surface::Surface;
 
 use super::{
     error::ContactError,
-    flat_stretches::{flats, reach, shallowest},
+    flat_stretches::{check_ends, flats, reach, shallowest},
     love::LoveContact,
     map::{Accuracy, ContactMap, Patch, Stretch, Strip},
     map_build::{MapSpecification, Runner},
@@ -84,7 +84,8 @@ impl MapPlan {
     /// Plans the coarsest nodes.
     ///
     /// # Errors
-    /// [`ContactError::BadInput`] for impossible inputs.
+    /// [`ContactError::BadInput`] for impossible inputs, [`ContactError::EndsMeet`] for a defect around the whole
+    /// raceway.
     pub fn new(
         surface: &Surface,
         element: ElementOnRaceway,
@@ -103,6 +104,11 @@ impl MapPlan {
         let fingerprint = ContactMap::fingerprint_of(surface, element, specification);
         let mut plan = Self { specification, fingerprint, contact, patches: Vec::new() };
         plan.patches = plan.patches_for(surface, element);
+        if let (Some(first), Some(last)) = (plan.patches.first(), plan.patches.last()) {
+            let felt = (first.start, last.end());
+            let why = "where contacts of the largest force (contact.largest_force_n) reach it";
+            check_ends(surface.extent(), felt, element.raceway_radius, why)?;
+        }
         Ok(plan)
     }
 

@@ -14,6 +14,7 @@
 //! the contact a point, so this is invalid within one contact half-width of a spall's edge, where it overstates the
 //! force by about 15 %, and it ignores the profile across the raceway.
 
+use super::error::ContactError;
 use super::rigid_roller::{Feature, Roller};
 
 /// Path of a rigid element over a profile, as pieces between knots.
@@ -51,8 +52,12 @@ impl RigidPath {
     /// of radius `raceway_radius` whose depth is 0 elsewhere.
     ///
     /// Depths must be below the element's radius; the surface layer sees to that.
-    pub fn new(points: &[(f64, f64)], element_radius: f64, raceway_radius: f64) -> Self {
+    ///
+    /// # Errors
+    /// [`ContactError::EndsMeet`] where rims at both ends lift the element at once.
+    pub fn new(points: &[(f64, f64)], element_radius: f64, raceway_radius: f64) -> Result<Self, ContactError> {
         let roller = Roller::new(points, element_radius, raceway_radius);
+        roller.check_ends()?;
         let (first, stretches) = roller.stretches();
         let mut knots = vec![first];
         let mut pieces = Vec::with_capacity(stretches.len());
@@ -60,7 +65,7 @@ impl RigidPath {
             pieces.push(Piece::new(&roller, feature, knots[knots.len() - 1], end));
             knots.push(end);
         }
-        Self { knots, pieces }
+        Ok(Self { knots, pieces })
     }
 
     /// Ascending knots [rad] from the defect's centre. Outside the first and last the path is 0.
@@ -112,6 +117,7 @@ impl Piece {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
 
     const R: f64 = 3.97e-3;
@@ -119,7 +125,7 @@ mod tests {
 
     fn spall(length: f64, depth: f64) -> RigidPath {
         let half = 0.5 * length;
-        RigidPath::new(&[(-half, 0.0), (-half, depth), (half, depth), (half, 0.0)], R, R_O)
+        RigidPath::new(&[(-half, 0.0), (-half, depth), (half, depth), (half, 0.0)], R, R_O).unwrap()
     }
 
     /// P = min(depth, R_o cos d − √(r² − R_o² sin² d) − (R_o − r)) at angle d past an edge.
@@ -159,7 +165,7 @@ mod tests {
     #[test]
     fn a_ball_wider_than_the_spall_never_reaches_its_floor() {
         // 0.8 mm on a 6205: the drop is 16.8 µm with a cusp in the middle, whatever the depth.
-        let path = RigidPath::new(&[(-4e-4, 0.0), (-4e-4, 1e-3), (4e-4, 1e-3), (4e-4, 0.0)], R, 23.49e-3);
+        let path = RigidPath::new(&[(-4e-4, 0.0), (-4e-4, 1e-3), (4e-4, 1e-3), (4e-4, 0.0)], R, 23.49e-3).unwrap();
         assert_eq!(path.knots().len(), 3);
         let cusp = path.at(0, 0.0);
         // The source prints three digits.
@@ -169,7 +175,7 @@ mod tests {
 
     #[test]
     fn a_raised_rim_lifts_the_element_before_it_gets_there() {
-        let path = RigidPath::new(&[(0.0, 0.0), (1e-4, -2e-6), (2e-4, 0.0)], R, R_O);
+        let path = RigidPath::new(&[(0.0, 0.0), (1e-4, -2e-6), (2e-4, 0.0)], R, R_O).unwrap();
         let top = value(&path, 1e-4 / R_O);
         assert!((top.path + 2e-6).abs() < 1e-12, "on the rim: {}", top.path);
         assert!(path.knots()[0] < -1e-5 / R_O);
@@ -186,7 +192,7 @@ mod tests {
                 (i as f64 * 20e-6, if i == 0 || i == 59 { 0.0 } else { 3e-6 * share })
             })
             .collect();
-        let path = RigidPath::new(&points, R, R_O);
+        let path = RigidPath::new(&points, R, R_O).unwrap();
         let height = |arc: f64| {
             let i = points.partition_point(|p| p.0 <= arc);
             if i == 0 || i == points.len() {

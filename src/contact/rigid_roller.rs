@@ -2,6 +2,8 @@
 //!
 //! Equations and limits are those of `rigid_path`, which makes a table of what is found here.
 
+use super::error::ContactError;
+use super::flat_stretches::check_ends;
 use crate::numerics::sin_cos;
 
 /// What the element touches.
@@ -42,10 +44,20 @@ impl Roller {
         Self { element_radius, raceway_radius, vertices, shallowest }
     }
 
+    /// First and last angle of the profile.
+    fn ends(&self) -> (f64, f64) {
+        (self.vertices.first().map_or(0.0, |v| v.0), self.vertices.last().map_or(0.0, |v| v.0))
+    }
+
+    /// Refuses a profile around the whole raceway.
+    pub(super) fn check_ends(&self) -> Result<(), ContactError> {
+        let arcs = |(first, last)| (first * self.raceway_radius, last * self.raceway_radius);
+        check_ends(arcs(self.ends()), arcs(self.extent()), self.raceway_radius, "where raised rims may lift them")
+    }
+
     /// Angles between which the path may differ from 0: the profile, and beyond it what a raised rim touches.
     fn extent(&self) -> (f64, f64) {
-        let first = self.vertices.first().map_or(0.0, |v| v.0);
-        let last = self.vertices.last().map_or(0.0, |v| v.0);
+        let (first, last) = self.ends();
         let gap = self.raceway_radius - self.element_radius;
         // A rim that rises by e lifts the element over √(2 e r R/(R−r)) on either side; 1 % more to be clear of it.
         let reach = (2.0 * -self.shallowest * self.element_radius * self.raceway_radius / gap).sqrt()
@@ -69,13 +81,12 @@ impl Roller {
 
     /// Where the path begins, and its stretches of one touched feature each, as (end angle, feature).
     ///
-    /// A point keeps the centre outside a circle of radius r about it, and the path follows the arcs that face the
-    /// ring's centre. With q where the circles about points p₁ and p₂ meet, an arc faces that centre where q·(q − p) <
-    /// 0. If both circles faced it with both arcs at both their meeting points, the midpoint's ± t about p₁ and p₂, the
-    /// sum of the four conditions would be 4 t² < 0. So the paths over two points cross once at most, whatever their
-    /// depths; the one at the lower angle comes first, the touched point moves in one direction only, and between two
-    /// angles with the same feature there is no other. The raceway on either side of the profile is the one exception:
-    /// the search begins with an angle inside the profile.
+    /// A point p keeps the centre q outside the circle of radius r about it, of which the path follows the arc that
+    /// faces the ring's centre: q·(q − p) < 0. The circles about two points with the middle m meet at m + t and m − t,
+    /// with t across p₁p₂. If the paths crossed at both, the four conditions would hold, and their sum is 4 t² < 0. So
+    /// the paths over two points cross once at most, whatever their depths; the one at the lower angle comes first, the
+    /// touched point moves in one direction only, and between two angles with the same feature there is no other. The
+    /// raceway on either side of the profile is the one exception: the search begins with an angle inside the profile.
     ///
     /// Along a straight piece, R linear in φ, the raceway's curvature is at most 1.09/R, less than the element's 1/r:
     /// it is touched at one point at most.
@@ -112,7 +123,7 @@ impl Roller {
     /// The feature that the element touches with its centre at `angle`.
     fn touched(&self, angle: f64) -> Feature {
         let mut best = (f64::INFINITY, Feature::Raceway);
-        let (first, last) = (self.vertices[0].0, self.vertices[self.vertices.len() - 1].0);
+        let (first, last) = self.ends();
         if angle <= first || angle >= last {
             best.0 = 0.0;
         }

@@ -13,6 +13,7 @@ use super::drive::Drive;
 use super::forces::{SMOOTH, dot};
 use super::linearized::{Bends, Instant, Linearized};
 use super::model::Model;
+use crate::contact::error::ContactError;
 use crate::numerics::linear::solve4;
 use crate::scene::Motion;
 
@@ -30,12 +31,31 @@ pub enum EquilibriumError {
         /// Largest force allowed [N].
         limit: f64,
     },
+    /// An element ends where the contact law near the defect has no answer any more.
+    #[error(
+        "no static equilibrium: element {element}, {angle_deg:.4} degrees from the defect's centre, finds no balance, \
+         {residual:.3e} N are left: {cause}"
+    )]
+    Contact {
+        /// Number of the element, from 1.
+        element: usize,
+        /// Its angle from the defect's centre [°].
+        angle_deg: f64,
+        /// Force left on it [N].
+        residual: f64,
+        /// Why there is no answer.
+        cause: ContactError,
+    },
 }
 
 /// Share of the largest force in play that may remain as residual: a few roundings of a sum of Z forces.
 const RESIDUAL: f64 = 1e-12;
 /// Residual that counts as none [N], for bearings without load: rounding of positions times contact stiffness.
 const SMALLEST_RESIDUAL: f64 = 1e-12;
+/// Share of the largest force beyond which an element is not in balance: its own search ends a thousand times below.
+const UNBALANCED: f64 = 1e-6;
+/// How far from where a search ended a contact law is asked for an answer [m]: far above the rounding of paths.
+const FURTHER: f64 = 1e-15;
 /// Longest step of a ring between two iterations [m].
 const LONGEST_STEP: f64 = 50e-6;
 const ITERATIONS: usize = 500;
@@ -52,15 +72,18 @@ impl Model {
         let mut iteration = 0;
         while balance.residual() > balance.limit {
             iteration += 1;
-            if iteration > ITERATIONS {
-                return Err(EquilibriumError::NotFound { residual: balance.residual(), limit: balance.limit });
-            }
             let step = self.newton_step(&given, &rings, &u, &balance);
-            let Some(next) = self.along(&given, &rings, &mut u, &balance, step) else {
+            let next = self.along(&given, &rings, &mut u, &balance, step).filter(|_| iteration <= ITERATIONS);
+            let Some(next) = next else {
+                // A step that cannot be taken may end where a contact has no answer.
+                let tried = rings.moved(step, 1.0);
+                self.balance(&given, &tried, &mut u);
+                self.check_contacts(&given, &tried, &u)?;
                 return Err(EquilibriumError::NotFound { residual: balance.residual(), limit: balance.limit });
             };
             (rings, balance) = next;
         }
+        self.check_contacts(&given, &rings, &u)?;
         self.write(drive, &rings, &u, state);
         Ok(())
     }
@@ -130,6 +153,25 @@ impl Model {
             found = element(u);
         }
         (u, found.2)
+    }
+
+    /// Refuses elements whose balance lies where the contact law near the defect has no answer: their search ends
+    /// there.
+    fn check_contacts(&self, given: &Given, rings: &Rings, u: &[f64]) -> Result<(), EquilibriumError> {
+        let at = rings.placed(&given.still);
+        for (j, (&cell, &u)) in given.cells.iter().zip(u).enumerate() {
+            let further = self.near_defect(j, cell, u + FURTHER, at.cage_angle, self.outer_centre_radius + u);
+            let Some(Err(cause)) = further else { continue };
+            // The search may have ended on the far side, where all is no number.
+            let element = self.linearized_at(j, cell, (u - FURTHER, 0.0), &at, Bends::LeftOut);
+            let residual = self.radial_balance(&element).0;
+            if !(residual.abs() <= UNBALANCED * dot(element.inner, element.inner).sqrt()) {
+                let centre = self.defect.as_ref().map_or(0.0, |defect| defect.1);
+                let angle_deg = self.angle_from_defect(j, at.cage_angle, centre).to_degrees();
+                return Err(EquilibriumError::Contact { element: j + 1, angle_deg, residual, cause });
+            }
+        }
+        Ok(())
     }
 
     /// Balances all elements for given rings and sums the forces on the rings.

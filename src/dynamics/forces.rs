@@ -42,8 +42,21 @@ pub struct Forces {
     pub rings: [f64; 4],
     /// Number of approaches near the defect that were asked for.
     pub defect_lookups: u64,
-    /// Why the last contact near the defect that could not be computed could not.
-    pub unsolved: Option<ContactError>,
+    /// The last contact near the defect that could not be computed, of an element whose place is a number.
+    pub unsolved: Option<UnsolvedContact>,
+}
+
+/// A contact near the defect that could not be computed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UnsolvedContact {
+    /// The element, from 0.
+    pub element: usize,
+    /// Its angle from the defect's centre [rad].
+    pub angle: f64,
+    /// Position of the outer ring's centre seen from the inner's [m].
+    pub offset: [f64; 2],
+    /// Why.
+    pub cause: ContactError,
 }
 
 impl Clone for Forces {
@@ -296,8 +309,12 @@ impl Model {
             let u = moved(state[j], path_rate, ahead);
             let near = self.near_defect(j, cell, u, at.cage_angle, self.outer_centre_radius + u);
             *defect_lookups += u64::from(near.is_some());
-            let near = near.unwrap_or_else(|| Ok(OuterApproach::smooth(u))).unwrap_or_else(|error| {
-                *unsolved = Some(error);
+            let near = near.unwrap_or_else(|| Ok(OuterApproach::smooth(u))).unwrap_or_else(|cause| {
+                // What is no number here has its cause elsewhere.
+                if (u + at.cage_angle).is_finite() {
+                    let angle = self.defect.as_ref().map_or(0.0, |d| self.angle_from_defect(j, at.cage_angle, d.1));
+                    *unsolved = Some(UnsolvedContact { element: j, angle, offset: at.offset, cause });
+                }
                 OuterApproach::unsolved()
             });
             let rate = near.by_path * path_rate + near.by_angle * at.omega;

@@ -134,6 +134,30 @@ pub enum ContactLaw {
     Love,
 }
 
+impl ContactLaw {
+    /// All laws. The variable `contact.law` numbers them from 1 in this order.
+    pub const ALL: [Self; 3] = [Self::Hertz, Self::Map, Self::Love];
+
+    /// Its number in the variable `contact.law`.
+    pub fn number(self) -> i32 {
+        Self::ALL.iter().take_while(|&&law| law != self).count() as i32 + 1
+    }
+
+    /// The law of a number, if it is one's.
+    pub fn numbered(number: i32) -> Option<Self> {
+        Self::ALL.into_iter().find(|law| law.number() == number)
+    }
+
+    /// Its name in a scene file, and what it is.
+    pub const fn described(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Hertz => ("hertz", "Hertz on the rigid path of the element's centre"),
+            Self::Map => ("map", "Love's half-space through a potential computed beforehand"),
+            Self::Love => ("love", "Love's half-space solved on a grid inside the step"),
+        }
+    }
+}
+
 /// Contact damping; never pulls.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Damping {

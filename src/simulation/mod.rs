@@ -11,6 +11,7 @@ pub mod dormand_prince;
 mod driving;
 pub mod error;
 pub mod explicit;
+mod failing;
 pub mod guid;
 mod kernels;
 mod knots;
@@ -296,12 +297,10 @@ impl Simulation {
         if let Some(recorder) = &mut recorder {
             recorder.begin(self.state.time, self.state.cage.total());
         }
-        self.stepper.advance(&self.model, &drive, control, step, &mut self.state.progress, recorder).map_err(
-            |cause| match self.stepper.unsolved_contact() {
-                Some(error) => SimulationError::Contact(error),
-                None => SimulationError::Step { time: self.state.time, cause },
-            },
-        )?;
+        let time = self.state.time;
+        self.stepper
+            .advance(&self.model, &drive, control, step, &mut self.state.progress, recorder)
+            .map_err(|cause| SimulationError::Step { time, cause })?;
         self.state.cage = self.state.cage.advanced(drive.cage.at(step));
         self.state.time += step;
         self.follow_prescribed_motion(&drive, step);
@@ -369,6 +368,7 @@ impl Simulation {
             progress.cells[j] = self.model.cell_at(j, cage_angle);
         }
         self.model.equilibrium(&drive, &progress.cells, &mut progress.state)?;
+        self.model.forget_contacts();
         self.model.derivative(&drive, 0.0, &progress.cells, &progress.state, &mut self.derivative, &mut self.forces);
         self.forces.note_pushing(&mut progress.pushing);
         let (shaft, housing) = (self.forces.shaft(), self.forces.housing());

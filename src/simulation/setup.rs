@@ -101,11 +101,8 @@ pub(super) fn with_parameters(
                 }
             }
             Quantity::ContactLaw => {
-                changed.contact.law = match integer {
-                    1 => ContactLaw::Hertz,
-                    2 => ContactLaw::Map,
-                    _ => ContactLaw::Love,
-                }
+                // Other numbers were refused when they were set.
+                changed.contact.law = ContactLaw::numbered(integer).unwrap_or(changed.contact.law);
             }
             Quantity::CageSlip => changed.cage.slip = value,
             Quantity::CageInitialAngle => changed.cage.initial_angle = value,
@@ -225,7 +222,7 @@ pub fn build_model(
                 profile.points(),
                 0.5 * scene.bearing.element_diameter,
                 scene.bearing.outer_raceway_radius(),
-            ))),
+            )?)),
             (ContactLaw::Hertz, Surface::Topography(_)) => {
                 Err(SimulationError::LawNotAvailable { law: scene.contact.law })
             }

@@ -1,5 +1,7 @@
 //! Why a communication step could not be finished. Every message says where, when, how much, and what to try.
 
+use crate::contact::error::ContactError;
+
 /// Why a communication step could not be finished; the state stays that of the last accepted integration step.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StepError {
@@ -20,16 +22,38 @@ pub enum StepError {
     },
     /// A state or its derivative is infinite or not a number, however short the step.
     #[error(
-        "{component} is no longer a finite number {since:.6e} s into the communication step, however short the \
-         integration step ({step:.1e} s): look for an extreme input or parameter"
+        "{component} leaves all bounds {since:.6e} s into the communication step, however short the integration step \
+         ({step:.1e} s): it was {value:.6e} and changes by {rate:.1e} a second, in SI units; look for an extreme input or \
+         parameter"
     )]
     NotFinite {
-        /// The state.
+        /// What changes fastest, by the measure of error control.
         component: String,
+        /// Its last value [SI unit].
+        value: f64,
+        /// Its rate [SI unit per second].
+        rate: f64,
         /// Shortest step tried [s].
         step: f64,
         /// Time into the communication step [s].
         since: f64,
+    },
+    /// The contact law has no answer for a contact near the defect, however short the step.
+    #[error(
+        "element {element}, {angle_deg:.4} degrees from the defect's centre, {since:.6e} s into the communication step: \
+         {cause}. The outer ring's centre is at ({:.3e}, {:.3e}) m from the inner's", offset[0], offset[1]
+    )]
+    Contact {
+        /// Number of the element, from 1.
+        element: usize,
+        /// Its angle from the defect's centre [°].
+        angle_deg: f64,
+        /// Position of the outer ring's centre seen from the inner's [m].
+        offset: [f64; 2],
+        /// Time into the communication step [s].
+        since: f64,
+        /// Why there is no answer.
+        cause: ContactError,
     },
     /// An element left the space between the rings.
     #[error(
@@ -49,9 +73,14 @@ pub enum StepError {
     /// The rings' centres are further apart than any bearing's can be.
     #[error(
         "offset of the rings' centres {offset:.3e} m (limit: an element's radius, {limit:.3e} m) {since:.6e} s into the \
-         communication step; check prescribed positions, velocities and accelerations, loads and support stiffness"
+         communication step: shaft at ({:.3e}, {:.3e}) m, housing at ({:.3e}, {:.3e}) m; check prescribed positions, \
+         velocities and accelerations, loads and support stiffness", shaft[0], shaft[1], housing[0], housing[1]
     )]
     RingsApart {
+        /// Position of the inner ring's centre [m].
+        shaft: [f64; 2],
+        /// Position of the outer ring's centre [m].
+        housing: [f64; 2],
         /// Distance of the rings' centres [m].
         offset: f64,
         /// Largest distance [m].

@@ -14,6 +14,7 @@
 
 use super::arrow::Arrow;
 use super::explicit::{Explicit, Pair};
+use super::failing::check_rings;
 use super::kernels::{Look, Trial};
 use super::knots::{Leg, next_knot};
 use super::outputs::Instant;
@@ -22,7 +23,6 @@ use super::recorder::Recorder;
 use super::rodas::{self, Rodas};
 use super::step_error::StepError;
 use super::switching::Method;
-use crate::contact::error::ContactError;
 use crate::dynamics::drive::Drive;
 use crate::dynamics::forces::Forces;
 use crate::dynamics::jacobian::Jacobian;
@@ -192,11 +192,6 @@ impl Stepper {
         Ok(())
     }
 
-    /// Why a contact near the defect could not be computed, if that is what made a step fail.
-    pub fn unsolved_contact(&mut self) -> Option<ContactError> {
-        self.forces.unsolved.take()
-    }
-
     /// Derivative at the start of the next step.
     fn first_stage(&mut self, model: &Model, drive: &Drive, tau: f64, progress: &Progress) {
         model.derivative(drive, tau, &progress.cells, &progress.state, &mut self.explicit.stages[0], &mut self.forces);
@@ -286,32 +281,6 @@ impl Stepper {
         }
         // What the recorder looks up is not the solver's work.
         self.forces.defect_lookups = lookups;
-    }
-
-    /// Whether a step shorter than the one of length `h` that failed is still worth trying.
-    fn check_step(
-        &self,
-        model: &Model,
-        drive: &Drive,
-        (since, h): (f64, f64),
-        error: f64,
-        progress: &Progress,
-    ) -> Result<(), StepError> {
-        // A step must move time: late in a long communication step its last digit is the limit.
-        let (step, limit) = (progress.next_step, SMALLEST_STEP.max(4.0 * f64::EPSILON * since));
-        if step >= limit {
-            return Ok(());
-        }
-        if !error.is_finite() {
-            // Rings that the host has moved apart say more than what follows from it.
-            check_rings(model, drive, since + h, progress)?;
-        }
-        let component = self.worst(model, h, (progress.choice.implicit, self.pair));
-        Err(if error.is_finite() {
-            StepError::Underflow { step, limit, since, component }
-        } else {
-            StepError::NotFinite { component, step, since }
-        })
     }
 
     fn accept(
@@ -426,19 +395,6 @@ impl Stepper {
         };
         0.9 * rough_power(error.max(1e-10), now) * rough_power(last_error, before)
     }
-
-    /// Name of the state with the largest error in the step tried last, whose length was `h`.
-    fn worst(&self, model: &Model, h: f64, (implicit, pair): (bool, Pair)) -> String {
-        let error = |i: usize| {
-            let error = if implicit { self.implicit.error(i) } else { self.explicit.error_of(pair, i, h) };
-            (self.weights[i] * error).abs()
-        };
-        // What is no number is the worst, the first of them.
-        let worse = |i: usize, than: usize| error(i) > error(than) || error(i).is_nan() && !error(than).is_nan();
-        let states = (0..model.layout.len).filter(|&i| model.layout.is_used(i));
-        let worst = states.fold(0, |worst, i| if worse(i, worst) { i } else { worst });
-        model.layout.name(worst)
-    }
 }
 
 /// Weight that turns the error of state `i` into a length.
@@ -458,16 +414,4 @@ fn count_passage(model: &Model, since: f64, count: &mut usize) -> Result<(), Ste
         return Err(StepError::TooFast { count: *count, since });
     }
     Ok(())
-}
-
-/// Beyond an element's radius the rings are beside each other, and a contact that is not a number would push nothing.
-fn check_rings(model: &Model, drive: &Drive, tau: f64, progress: &Progress) -> Result<(), StepError> {
-    let shaft = model.shaft_state(drive, tau, &progress.state).position;
-    let housing = model.housing_state(drive, tau, &progress.state).position;
-    let (x, y) = (housing[0] - shaft[0], housing[1] - shaft[1]);
-    let limit = model.element_radius;
-    if x * x + y * y <= limit * limit {
-        return Ok(());
-    }
-    Err(StepError::RingsApart { offset: (x * x + y * y).sqrt(), limit, since: tau })
 }

@@ -4,7 +4,7 @@
 
 use super::driving::derivatives;
 use super::variables::{Causality, Kind, Unit, Variability, Variable};
-use crate::scene::{Damping, Motion, Scene};
+use crate::scene::{ContactLaw, Damping, Motion, Scene};
 
 /// One of the two rings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,11 +55,10 @@ pub enum Quantity {
 use Quantity as Q;
 
 /// Items of the enumeration type of `contact.law`, the first having value 1.
-pub const CONTACT_LAWS: &[(&str, &str)] = &[
-    ("hertz", "Hertz on the rigid path of the element's centre"),
-    ("map", "Love's half-space through a potential computed beforehand"),
-    ("love", "Love's half-space solved on a grid inside the step"),
-];
+pub const CONTACT_LAWS: &[(&str, &str)] = &{
+    let laws = ContactLaw::ALL;
+    [laws[0].described(), laws[1].described(), laws[2].described()]
+};
 
 /// The table of a scene, with what each variable stands for.
 pub fn rows(scene: &Scene) -> Vec<(Variable, Quantity)> {
@@ -290,7 +289,7 @@ impl Builder<'_> {
         self.push(
             "contact.law",
             "Law of the outer contact near the defect",
-            Kind::Enumeration { type_name: "ContactLaw", items: CONTACT_LAWS, start: scene.contact.law as i32 + 1 },
+            Kind::Enumeration { type_name: "ContactLaw", items: CONTACT_LAWS, start: scene.contact.law.number() },
             (Causality::Parameter, Variability::Fixed),
             Q::ContactLaw,
         );

@@ -96,6 +96,14 @@ impl Surface {
         }
     }
 
+    /// Depths [m] of all points.
+    pub(crate) fn depths(&self) -> Box<dyn Iterator<Item = f64> + '_> {
+        match self {
+            Self::Profile(profile) => Box::new(profile.points().iter().map(|&(_, depth)| depth)),
+            Self::Topography(topography) => Box::new(topography.grid().2.iter().copied()),
+        }
+    }
+
     /// Refuses a surface that is not possible on a raceway of this circumference [m] under elements of this radius [m].
     fn check_fits(&self, circumference: f64, element_radius: f64) -> Result<(), SurfaceError> {
         let (first, last) = self.extent();
@@ -112,6 +120,11 @@ impl Surface {
                 depth_um: depth * 1e6,
                 limit_um: element_radius * 1e6,
             });
+        }
+        let (shallowest, deepest) = self.depths().fold((0.0_f64, 0.0_f64), |(low, high), h| (low.min(h), high.max(h)));
+        if deepest - shallowest >= element_radius {
+            let (height_um, limit_um) = ((deepest - shallowest) * 1e6, element_radius * 1e6);
+            return Err(SurfaceError::TooRugged { height_um, limit_um });
         }
         Ok(())
     }

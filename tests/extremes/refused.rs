@@ -4,7 +4,7 @@ use crate::row::Row;
 use crate::scenes::{healthy, hosted, loaded, spalled};
 use crate::support::Named;
 use brinell::geometry::hertz_constant::HertzConstants;
-use brinell::scene::{ContactLaw, Damping, Defect, DefectShape, Scene};
+use brinell::scene::{ContactLaw, Damping, Defect, DefectShape, Motion, Scene};
 use brinell::simulation::{Method, Simulation, SimulationError};
 use std::f64::consts::FRAC_PI_2;
 
@@ -71,7 +71,59 @@ pub fn contact_without_answer() -> Row {
     let mut bearing = Named::started(loaded(scene, 500.0, Damping::HuntCrossley(0.5)));
     bearing.set("shaft.load.y", -2e4);
     let found = (0..100).try_for_each(|_| bearing.0.step(1e-4));
-    refused("a contact on the defect's edge beyond its map", "outside the range", found, &bearing)
+    let message = found.clone().expect_err("beyond the map").to_string();
+    let named = ["element 1, -", "degrees from the defect's centre", "The outer ring's centre is at ("];
+    assert!(named.iter().all(|part| message.contains(part)) && !message.contains("NaN"), "{message}");
+    refused("a contact on the defect's edge beyond its map", "equivalent approach in the contact map", found, &bearing)
+}
+
+/// The same, of elements that are there before the first step.
+#[test]
+fn an_equilibrium_beyond_the_contact_map_is_refused() {
+    let mut scene = spalled();
+    (scene.contact.law, scene.contact.largest_force) = (ContactLaw::Map, Some(1000.0));
+    let shape = DefectShape::Spall { length: 2e-4, depth: 2e-6, edge_slope: FRAC_PI_2 };
+    scene.defect = Some(Defect { angle: -FRAC_PI_2, shape });
+    scene.cage.initial_angle = -FRAC_PI_2;
+    let loaded = loaded(scene, 500.0, Damping::HuntCrossley(0.5));
+    let mut hosted = loaded.clone();
+    (hosted.shaft.motion, hosted.shaft.load) = (Motion::Host, [0.0; 2]);
+    for (scene, name, value) in [(loaded, "shaft.load.y", -2e4), (hosted, "shaft.y", -1e-4)] {
+        let mut bearing = Named::new(scene);
+        bearing.set(name, value);
+        let message = bearing.0.initialize(0.0).unwrap_err().to_string();
+        let named = ["element 1, ", "finds no balance", "equivalent approach in the contact map", "largest_force_n"];
+        assert!(named.iter().all(|part| message.contains(part)) && !message.contains("NaN"), "{name}: {message}");
+    }
+}
+
+/// What runs away is named with its last value, and not what follows from it.
+#[test]
+fn a_ring_driven_beyond_all_numbers_is_named_with_its_last_place() {
+    // Near a defect under law `map`, where the contacts are no numbers then.
+    let mut scene = spalled();
+    (scene.contact.law, scene.contact.largest_force) = (ContactLaw::Map, Some(1000.0));
+    let shape = DefectShape::Spall { length: 2e-4, depth: 2e-6, edge_slope: FRAC_PI_2 };
+    scene.defect = Some(Defect { angle: -FRAC_PI_2, shape });
+    (scene.cage.initial_angle, scene.shaft_speed) = (-FRAC_PI_2, 0.0);
+    let error = |motion: Motion, name: &str, order: i32, value: f64| {
+        let mut scene = scene.clone();
+        scene.shaft.motion = motion;
+        if motion == Motion::Host {
+            scene.shaft.load = [0.0; 2];
+        }
+        let mut bearing = Named::started(scene);
+        let reference = bearing.reference(name);
+        bearing.0.set_input_derivatives(&[reference], &[order], &[value]).unwrap();
+        bearing.0.step(1e-3).unwrap_err().to_string()
+    };
+    let cases = [
+        (error(Motion::Host, "shaft.x", 2, 1e300), "e269, 0.000e0) m, housing at ("),
+        (error(Motion::Internal, "shaft.load.y", 1, 1e300), "shaft.vy leaves all bounds 0.000000e0 s"),
+    ];
+    for (message, wanted) in cases {
+        assert!(message.contains(wanted) && !message.contains("NaN"), "{wanted}: {message}");
+    }
 }
 
 #[test]

@@ -17,7 +17,7 @@ pub(crate) fn lively(motions: [Motion; 2], damping: Damping, cage_angle: f64) ->
     }
     let profile = [(-2.7e-3, 0.0), (-2.6e-3, 1e-4), (2.0e-3, 1e-4), (2.7e-3, 0.0)];
     let (radius, raceway) = (0.5 * scene.bearing.element_diameter, scene.bearing.outer_raceway_radius());
-    let model = Model::new(&scene, Some(NearDefect::Hertz(RigidPath::new(&profile, radius, raceway))));
+    let model = Model::new(&scene, Some(NearDefect::Hertz(RigidPath::new(&profile, radius, raceway).unwrap())));
     let place = |start: f64| [Cubic([start, 2e-3, -3.0, 4e4]), Cubic([-start, -1e-3, 5.0, -7e4])];
     let load = |start: f64| [Quadratic([start, 2e4, 1e6]), Quadratic([-900.0, -4e4, 2e6])];
     let drive = Drive {
