@@ -134,7 +134,7 @@ fn knots(scene: &Scene) -> Vec<f64> {
     let profile = Profile::spall(length, depth, edge_slope);
     let bearing = &scene.bearing;
     let (element, raceway) = (0.5 * bearing.element_diameter, bearing.outer_raceway_radius());
-    RigidPath::new(profile.points(), element, raceway).knots().to_vec()
+    RigidPath::new(profile.points(), element, raceway).unwrap().knots().to_vec()
 }
 
 proptest! {
