@@ -16,7 +16,7 @@ use super::arrow::Arrow;
 use super::explicit::{Explicit, Pair};
 use super::kernels::{Look, Trial};
 use super::knots::next_knot;
-use super::outputs::Instant;
+use super::outputs::Outputs;
 use super::progress::Progress;
 use super::recorder::Recorder;
 use super::rodas::{self, Rodas};
@@ -281,8 +281,8 @@ impl Stepper {
         while let Some(tau) = recorder.due_before(&progress.due, from + h) {
             self.look(model, drive, (from, h), (tau - from).max(0.0) / h, progress);
             let Self { dense, scratch, forces, .. } = self;
-            let instant = Instant::new(model, (drive, tau), (dense, scratch), forces, recorder.cage_angle());
-            recorder.take(&mut progress.due, &instant);
+            let outputs = Outputs::new(model, (drive, tau), (dense, scratch), forces, recorder.cage_angle());
+            recorder.take(&mut progress.due, &outputs);
         }
         // What the recorder looks up is not the solver's work.
         self.forces.defect_lookups = lookups;
@@ -464,10 +464,9 @@ fn count_passage(model: &Model, since: f64, count: &mut usize) -> Result<(), Ste
 fn check_rings(model: &Model, drive: &Drive, tau: f64, progress: &Progress) -> Result<(), StepError> {
     let shaft = model.shaft_state(drive, tau, &progress.state).position;
     let housing = model.housing_state(drive, tau, &progress.state).position;
-    let (x, y) = (housing[0] - shaft[0], housing[1] - shaft[1]);
-    let limit = model.element_radius;
-    if x * x + y * y <= limit * limit {
+    let (offset, limit) = ((housing - shaft).norm(), model.element_radius);
+    if offset <= limit {
         return Ok(());
     }
-    Err(StepError::RingsApart { offset: (x * x + y * y).sqrt(), limit, since: tau })
+    Err(StepError::RingsApart { offset, limit, since: tau })
 }
