@@ -145,14 +145,28 @@ fn make(system: &Path, environment: &Path, interpreter: &Path, folder: &Path, re
     }
     let list = folder.join("requirements.txt");
     whole_file::write(&list, requirements)?;
-    let output = Command::new(interpreter)
-        .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--only-binary", ":all:", "-r"])
-        .arg(&list)
-        .output()?;
+    // uv unpacks the same wheels in a tenth of pip's time; where it cannot be had or fails, pip itself says why.
+    if pip(interpreter, &["uv".as_ref()])?.status.success() && uv(interpreter, &list)?.status.success() {
+        return Ok(());
+    }
+    let output = pip(interpreter, &["-r".as_ref(), list.as_os_str()])?;
     if !output.status.success() {
         bail!("pip could not install the Python packages; is the package index reachable? It said: {}", said(&output));
     }
     Ok(())
+}
+
+fn pip(interpreter: &Path, what: &[&OsStr]) -> Result<Output> {
+    let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--only-binary", ":all:"];
+    Ok(Command::new(interpreter).args(install).args(what).output()?)
+}
+
+fn uv(interpreter: &Path, list: &Path) -> Result<Output> {
+    let install = ["-m", "uv", "pip", "install", "--quiet", "--only-binary", ":all:", "--python"];
+    // The system's certificates, as pip takes them.
+    let mut command = Command::new(interpreter);
+    command.args(install).arg(interpreter).arg("-r").arg(list).env("UV_NATIVE_TLS", "1");
+    Ok(command.output()?)
 }
 
 /// The end of what a program said, on one line: an FMU logs to the one stream, Python raises on the other.

@@ -4,14 +4,108 @@
 //! ```text
 //! Hunt–Crossley   Q = K δ^1.5 · max(0, 1 + χ δ̇)
 //! proportional    Q = max(0, K δ^1.5 + 1.5 τ K δ^0.5 δ̇)
+//! both            Q = K √δ max(0, δ + (a δ + b) δ̇),   a = χ, b = 0   or   a = 0, b = 1.5 τ
 //! ```
 //! Both vanish continuously at δ = 0. Hunt–Crossley is very stiff at high load: χ = 5 s/m at 50 kN gives an eigenvalue
 //! of 1e8 /s for a 2 g element.
+//!
+//! [`DampedLaw`] is the common form, for one contact or for several side by side in a register; [`ForceLaw`] is one contact with
+//! its stiffness, and knows derivatives too.
 
+use std::ops::{Add, Mul, Sub};
+
+use crate::numerics::lanes::{Lanes, Wide};
 use crate::scene::Damping;
 
 /// Turns the dimensionless factor of Hunt and Crossley's damping into a length of an approach's magnitude [m].
-pub(crate) const PUSHING_LENGTH: f64 = 1e-6;
+const PUSHING_LENGTH: f64 = 1e-6;
+
+/// A number, or several of them side by side.
+pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+    /// √x
+    fn sqrt(self) -> Self;
+    /// 0 for a negative value. What is no number stays so: a force of zero would hide it.
+    fn or_zero(self) -> Self;
+    /// The smaller of two.
+    fn at_most(self, limit: Self) -> Self;
+}
+
+impl Number for f64 {
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+
+    #[inline(always)]
+    fn or_zero(self) -> Self {
+        if self < 0.0 { 0.0 } else { self }
+    }
+
+    #[inline(always)]
+    fn at_most(self, limit: Self) -> Self {
+        self.min(limit)
+    }
+}
+
+impl<S: Wide> Number for Lanes<S> {
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Lanes::sqrt(self)
+    }
+
+    #[inline(always)]
+    fn or_zero(self) -> Self {
+        Lanes::or_zero(self)
+    }
+
+    #[inline(always)]
+    fn at_most(self, limit: Self) -> Self {
+        Lanes::at_most(self, limit)
+    }
+}
+
+/// How contacts are damped, whatever their stiffness; for single numbers or for lanes.
+#[derive(Debug, Clone, Copy)]
+pub struct DampedLaw<T> {
+    damping: Damping,
+    /// a [s/m] and b [s].
+    a: T,
+    b: T,
+    one: T,
+    zero: T,
+    pushing_length: T,
+}
+
+impl<T: Number> DampedLaw<T> {
+    /// `splat` makes a `T` of a number.
+    #[inline(always)]
+    pub fn new(damping: Damping, splat: impl Fn(f64) -> T) -> Self {
+        let (a, b) = match damping {
+            Damping::HuntCrossley(chi) => (chi, 0.0),
+            Damping::Proportional(tau) => (0.0, 1.5 * tau),
+        };
+        let [a, b, one, zero, pushing_length] = [a, b, 1.0, 0.0, PUSHING_LENGTH].map(splat);
+        Self { damping, a, b, one, zero, pushing_length }
+    }
+
+    /// Force [N] of a contact of Hertz's constant `stiffness` [N/m^1.5] at approach `delta` [m] and its rate [m/s].
+    #[inline(always)]
+    pub fn force(&self, stiffness: T, delta: T, rate: T) -> T {
+        let delta = delta.or_zero();
+        stiffness * delta.sqrt() * (delta + (self.a * delta + self.b) * rate).or_zero()
+    }
+
+    /// A length [m] that is positive while the contact pushes and negative while it does not.
+    ///
+    /// It is continuous in both arguments, so that the moment of change can be located as its root.
+    #[inline(always)]
+    pub fn pushing(&self, delta: T, rate: T) -> T {
+        match self.damping {
+            Damping::HuntCrossley(_) => delta.at_most(self.pushing_length * (self.one + self.a * rate)),
+            Damping::Proportional(_) => delta + (self.b * rate).at_most(self.zero),
+        }
+    }
+}
 
 /// Force and its derivatives with respect to approach and rate of approach.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -37,34 +131,25 @@ impl ForceLaw {
     /// Elastic force [N] at approach `delta` [m].
     #[inline]
     pub fn elastic(&self, delta: f64) -> f64 {
-        let delta = or_zero(delta);
+        let delta = delta.or_zero();
         self.stiffness * delta * delta.sqrt()
     }
 
     /// Elastic tangent stiffness [N/m] at approach `delta` [m].
     #[inline]
     pub fn elastic_stiffness(&self, delta: f64) -> f64 {
-        1.5 * self.stiffness * or_zero(delta).sqrt()
+        1.5 * self.stiffness * delta.or_zero().sqrt()
     }
 
     /// Force [N] at approach `delta` [m] and its rate [m/s].
     #[inline]
     pub fn force(&self, delta: f64, rate: f64) -> f64 {
-        let delta = or_zero(delta);
-        let root = self.stiffness * delta.sqrt();
-        match self.damping {
-            Damping::HuntCrossley(chi) => root * delta * or_zero(1.0 + chi * rate),
-            Damping::Proportional(tau) => root * or_zero(delta + 1.5 * tau * rate),
-        }
+        self.damped().force(self.stiffness, delta, rate)
     }
 
-    /// a and b with which both damping laws are Q = K √δ max(0, δ + (a δ + b) δ̇), a in s/m and b in s.
-    #[inline]
-    pub fn damping_weights(&self) -> [f64; 2] {
-        match self.damping {
-            Damping::HuntCrossley(chi) => [chi, 0.0],
-            Damping::Proportional(tau) => [0.0, 1.5 * tau],
-        }
+    #[inline(always)]
+    fn damped(&self) -> DampedLaw<f64> {
+        DampedLaw::new(self.damping, |number| number)
     }
 
     /// Force with its derivatives.
@@ -87,22 +172,11 @@ impl ForceLaw {
         }
     }
 
-    /// A length [m] that is positive while the contact pushes and negative while it does not.
-    ///
-    /// It is continuous in both arguments, so that the moment of change can be located as its root.
+    /// As [`DampedLaw::pushing`].
     #[inline]
     pub fn pushing(&self, delta: f64, rate: f64) -> f64 {
-        match self.damping {
-            Damping::HuntCrossley(chi) => delta.min(PUSHING_LENGTH * (1.0 + chi * rate)),
-            Damping::Proportional(tau) => delta + (1.5 * tau * rate).min(0.0),
-        }
+        self.damped().pushing(delta, rate)
     }
-}
-
-/// 0 for a negative value. What is no number stays so: a force of zero would hide it.
-#[inline]
-fn or_zero(value: f64) -> f64 {
-    if value < 0.0 { 0.0 } else { value }
 }
 
 #[cfg(test)]

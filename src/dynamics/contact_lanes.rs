@@ -3,23 +3,24 @@
 //! The equations are those of [`super::forces`], in the same grouping. An element near the defect, and every element of
 //! a bearing whose outer raceway yields, has outer stiffness 0 here; its outer contact has been worked out before.
 //!
-//! Both damping laws are one expression without a branch:
-//! ```text
-//! Q = K √δ max(0, δ + (a δ + b) δ̇),   a = χ, b = 0 (Hunt–Crossley)   a = 0, b = 1.5 τ (proportional)
-//! ```
 //! A place without an element has stiffness 0 and no derivative.
 
-use super::forces::{Forces, Moment};
+use super::forces::Forces;
+use super::kinematics::{Kinematics, Stage};
 use super::model::Model;
-use crate::contact::force_law::PUSHING_LENGTH;
+use crate::contact::force_law::DampedLaw;
 use crate::numerics::lanes::{Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, sum_of};
+use crate::numerics::plane::{Vector, turned};
 use crate::numerics::row::Row;
-use crate::scene::Damping;
 
 /// The smooth contacts of elements at one instant.
 struct Smooth<'a> {
     model: &'a Model,
-    at: &'a Moment,
+    now: &'a Kinematics,
+    offset: Vector,
+    drift: Vector,
+    /// Acceleration of an element by gravity, and that of its w as the outer ring moves along the raceway [m/s²].
+    body: Vector,
     /// The rings are so nearly concentric that |q| − q_r = t (t/q_r)/2 − … and the direction of q are series in t/q_r.
     series: bool,
     /// Time [s] by which paths are still to be moved on along their rates.
@@ -132,21 +133,24 @@ impl Model {
     pub(super) fn smooth_contacts<S: Wide, const RECORD: bool>(
         &self,
         simd: S,
-        at: &Moment,
-        (state, ahead): (&[f64], Option<f64>),
+        now: &Kinematics,
+        stage: &Stage,
         derivative: &mut [f64],
         forces: &mut Forces,
     ) -> [f64; 4] {
         let start = self.layout.radial_velocity;
-        let [x, y] = at.offset;
+        let (offset, v, omega) = (now.offset(), now.housing.velocity, now.cage.speed);
         let limit = SERIES * self.outer_centre_radius;
-        let series = x * x + y * y <= limit * limit;
-        let (smooth, mut sums) = (Smooth { model: self, at, series, ahead }, Sums::default());
+        let series = offset.dot(&offset) <= limit * limit;
+        let body = Vector::new(self.gravity.x + omega * v.y, self.gravity.y - omega * v.x);
+        let drift = now.drift();
+        let smooth = Smooth { model: self, now, offset, drift, body, series, ahead: stage.ahead };
+        let mut sums = Sums::default();
         if RECORD {
             forces.contacts.outer_tangential.fill(0.0);
         }
         let Forces { groups, contacts, .. } = forces;
-        let (state, derivative) = (blocks(state), blocks_mut(derivative));
+        let (state, derivative) = (blocks(stage.state), blocks_mut(derivative));
         for (k, group) in groups.iter().enumerate() {
             let w = start / WIDEST + k;
             for part in 0..WIDEST / S::F64_LANES {
@@ -197,16 +201,16 @@ impl Smooth<'_> {
         of: impl Fn(&[f64; WIDEST]) -> Lanes<S>,
         sums: &mut Sums,
     ) -> Found<S> {
-        let (model, at) = (self.model, self.at);
+        let (model, now) = (self.model, self.now);
         let (cos, sin, present) = (of(&group.cos), of(&group.sin), of(&group.present));
-        let (cage_cos, cage_sin) = (Lanes::splat(simd, at.cage.0), Lanes::splat(simd, at.cage.1));
+        let (cage_cos, cage_sin) = (Lanes::splat(simd, now.cage.direction.x), Lanes::splat(simd, now.cage.direction.y));
         let e_r = [cage_cos * cos - cage_sin * sin, cage_sin * cos + cage_cos * sin];
-        let path_rate = w - dot(simd, at.housing.velocity, e_r);
+        let path_rate = w - dot(simd, now.housing.velocity, e_r);
         let u = self.ahead.map_or(u, |ahead| u + Lanes::splat(simd, ahead) * path_rate);
         let rho = Lanes::splat(simd, model.outer_centre_radius) + u;
 
         // |q| = √((ρ+p)² + t²), written so that δ_i loses no digits to the radii's 20 mm.
-        let (p, t) = (dot(simd, at.offset, e_r), dot(simd, turned(at.offset), e_r));
+        let (p, t) = (dot(simd, self.offset, e_r), dot(simd, -turned(self.offset), e_r));
         let q_r = rho + p;
         let number = |number: f64| Lanes::splat(simd, number);
         let (longer, n_r, n_t) = if self.series {
@@ -221,16 +225,16 @@ impl Smooth<'_> {
             (square / (distance + q_r), q_r * per_distance, t * per_distance)
         };
         let delta = number(-model.radial_clearance) - u - p - longer;
-        let along = dot(simd, turned(at.drift), e_r) + rho * Lanes::splat(simd, at.omega);
-        let opening = n_r * (dot(simd, at.drift, e_r) + path_rate) + n_t * along;
+        let along = dot(simd, -turned(self.drift), e_r) + rho * Lanes::splat(simd, now.cage.speed);
+        let opening = n_r * (dot(simd, self.drift, e_r) + path_rate) + n_t * along;
 
-        let law = Law { a: Lanes::splat(simd, at.damping[0]), b: Lanes::splat(simd, at.damping[1]) };
+        let law = DampedLaw::new(model.inner.damping, number);
         let inner = law.force(of(&group.inner), delta, -opening);
         let outer = law.force(of(&group.outer), u, path_rate);
-        let turning = rho * Lanes::splat(simd, at.omega * at.omega);
+        let turning = rho * Lanes::splat(simd, now.cage.speed * now.cage.speed);
         let acceleration = (inner * n_r - outer) * of(&group.per_mass)
             + of(&group.other)
-            + (dot(simd, at.body, e_r) + turning) * present;
+            + (dot(simd, self.body, e_r) + turning) * present;
 
         sums.add([
             inner * (n_r * e_r[0] - n_t * e_r[1]),
@@ -239,7 +243,6 @@ impl Smooth<'_> {
             outer * e_r[1],
         ]);
 
-        let damping = model.inner.damping;
         Found {
             path_rate: path_rate * present,
             acceleration,
@@ -247,46 +250,13 @@ impl Smooth<'_> {
             normal: [n_r, n_t],
             outer,
             approach: delta * present,
-            pushing: [
-                law.pushing(simd, damping, delta, -opening) * present,
-                law.pushing(simd, damping, u, path_rate) * present,
-            ],
+            pushing: [law.pushing(delta, -opening) * present, law.pushing(u, path_rate) * present],
         }
     }
 }
 
 /// a·e with the same vector for all lanes.
 #[inline(always)]
-fn dot<S: Wide>(simd: S, a: [f64; 2], e: [Lanes<S>; 2]) -> Lanes<S> {
-    Lanes::splat(simd, a[0]) * e[0] + Lanes::splat(simd, a[1]) * e[1]
-}
-
-/// A vector whose component along e_r is that of `a` along e_t.
-#[inline(always)]
-fn turned(a: [f64; 2]) -> [f64; 2] {
-    [a[1], -a[0]]
-}
-
-/// a and b of the damping law in all lanes.
-struct Law<S: Wide> {
-    a: Lanes<S>,
-    b: Lanes<S>,
-}
-
-impl<S: Wide> Law<S> {
-    #[inline(always)]
-    fn force(&self, stiffness: Lanes<S>, delta: Lanes<S>, rate: Lanes<S>) -> Lanes<S> {
-        let delta = delta.or_zero();
-        stiffness * delta.sqrt() * (delta + (self.a * delta + self.b) * rate).or_zero()
-    }
-
-    #[inline(always)]
-    fn pushing(&self, simd: S, damping: Damping, delta: Lanes<S>, rate: Lanes<S>) -> Lanes<S> {
-        match damping {
-            Damping::HuntCrossley(_) => {
-                delta.at_most(Lanes::splat(simd, PUSHING_LENGTH) * (Lanes::splat(simd, 1.0) + self.a * rate))
-            }
-            Damping::Proportional(_) => delta + (self.b * rate).at_most(Lanes::splat(simd, 0.0)),
-        }
-    }
+fn dot<S: Wide>(simd: S, a: Vector, e: [Lanes<S>; 2]) -> Lanes<S> {
+    Lanes::splat(simd, a.x) * e[0] + Lanes::splat(simd, a.y) * e[1]
 }

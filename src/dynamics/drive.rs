@@ -3,7 +3,7 @@
 //! A prescribed ring moves as x + vτ + ½aτ² + ⅙jτ³, loads and shaft speed as their value and derivatives say. Nothing
 //! here depends on absolute time, so the millionth step is as exact as the first.
 
-use crate::numerics::{sin_cos, wrap};
+use crate::numerics::wrap;
 
 /// c₀ + c₁τ + ½c₂τ²
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -103,82 +103,11 @@ impl Drive {
     pub fn cage_angle(&self, tau: f64) -> f64 {
         self.cage_start + self.cage.at(tau)
     }
-
-    /// Where the cage is at `tau`.
-    #[inline]
-    pub fn clock(&self, tau: f64) -> Clock {
-        let cage_angle = self.cage_angle(tau);
-        let (sin, cos) = sin_cos(cage_angle);
-        Clock { tau, cage: (cos, sin), cage_angle, cage_speed: self.cage.rate_at(tau) }
-    }
-
-    /// Where the cage is at some instants after `from`, worked out together: direction at `from`, turned by a small
-    /// angle.
-    #[inline(always)]
-    pub(crate) fn clocks<const N: usize>(&self, from: f64, after: [f64; N]) -> [Clock; N] {
-        let start = self.clock(from);
-        let (speed, acceleration) = (start.cage_speed, self.cage.0[2]);
-        let mut turned = [0.0; N];
-        for (angle, after) in turned.iter_mut().zip(after) {
-            *angle = after * (speed + 0.5 * after * acceleration);
-        }
-        if !turned.iter().all(|angle| angle.abs() <= SMALL_ANGLE) {
-            return after.map(|after| self.clock(from + after));
-        }
-        let mut clocks = [start; N];
-        for ((clock, after), x) in clocks.iter_mut().zip(after).zip(turned) {
-            let square = x * x;
-            let sin = x * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0 - square * (1.0 / 5040.0))));
-            let less = square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0 - square * (1.0 / 40_320.0))));
-            let (cos_0, sin_0) = start.cage;
-            clock.tau = from + after;
-            clock.cage = (cos_0 - (cos_0 * less + sin_0 * sin), sin_0 - (sin_0 * less - cos_0 * sin));
-            clock.cage_angle = start.cage_angle + x;
-            clock.cage_speed = speed + after * acceleration;
-        }
-        clocks
-    }
-}
-
-/// Angle up to which the series of [`Drive::clocks`] hold to rounding [rad]: 0.03¹⁰/10! is 2e-22.
-const SMALL_ANGLE: f64 = 0.03;
-
-/// An instant, and where the cage is then.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Clock {
-    /// Time since the communication point [s].
-    pub tau: f64,
-    /// cos and sin of the cage angle.
-    pub cage: (f64, f64),
-    /// Cage angle [rad], within one turn at the communication point.
-    pub cage_angle: f64,
-    /// Cage speed [rad/s].
-    pub cage_speed: f64,
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn clocks_worked_out_together_are_those_worked_out_alone() {
-        for (speed, acceleration) in [(100.0, 0.0), (-3000.0, 1e7), (0.0, 0.0), (1e4, -1e9)] {
-            for from in [0.0, 3e-4] {
-                let drive = Drive { cage_start: 2.5, cage: Quadratic([0.0, speed, acceleration]), ..Drive::default() };
-                let after = [0.0, 1e-7, 3e-6, 1e-5];
-                for (together, after) in drive.clocks(from, after).into_iter().zip(after) {
-                    let alone = drive.clock(from + after);
-                    // A rounding or two of numbers up to 1, and of the angle.
-                    let angle = 4.0 * f64::EPSILON * (1.0 + alone.cage_angle.abs());
-                    assert!((together.cage.0 - alone.cage.0).abs() < angle, "{together:?} {alone:?}");
-                    assert!((together.cage.1 - alone.cage.1).abs() < angle, "{together:?} {alone:?}");
-                    assert!((together.cage_angle - alone.cage_angle).abs() < angle);
-                    let speed = 4.0 * f64::EPSILON * (alone.cage_speed.abs() + 1e7 * 3e-4 + 1.0);
-                    assert!((together.cage_speed - alone.cage_speed).abs() < speed.max(1e-9));
-                }
-            }
-        }
-    }
 
     #[test]
     fn a_minute_of_small_advances_keeps_the_cage_angle() {

@@ -9,13 +9,14 @@
 //!
 //! An element that nothing pushes rests against the outer raceway without force.
 
-use super::drive::Drive;
-use super::forces::{SMOOTH, dot};
-use super::linearized::{Bends, Instant, Linearized};
+use super::drive::{Drive, Quadratic};
+use super::forces::SMOOTH;
+use super::kinematics::Kinematics;
+use super::linearized::{Bends, Linearized};
 use super::model::Model;
+use super::tangent::{Rings, stacked};
 use crate::contact::error::ContactError;
-use crate::numerics::linear::solve4;
-use crate::scene::Motion;
+use crate::numerics::plane::Vector;
 
 /// Why no equilibrium was found.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -65,26 +66,26 @@ impl Model {
     /// prescribed rings that carry the elements along.
     pub fn equilibrium(&self, drive: &Drive, cells: &[u32], state: &mut [f64]) -> Result<(), EquilibriumError> {
         state.fill(0.0);
-        let mut rings = Rings::start(self, drive);
         let mut u = vec![0.0; self.element_count];
-        let given = Given { drive, cells, still: self.instant(drive, 0.0, state) };
-        let mut balance = self.balance(&given, &rings, &mut u);
+        let given = Given { drive, cells, still: self.kinematics(drive, 0.0, state) };
+        let mut rings = stacked(given.still.shaft.position, given.still.housing.position);
+        let mut balance = self.balance(&given, rings, &mut u);
         let mut iteration = 0;
         while balance.residual() > balance.limit {
             iteration += 1;
-            let step = self.newton_step(&given, &rings, &u, &balance);
-            let next = self.along(&given, &rings, &mut u, &balance, step).filter(|_| iteration <= ITERATIONS);
+            let step = self.newton_step(&given, rings, &u, &balance);
+            let next = self.along(&given, rings, &mut u, &balance, step).filter(|_| iteration <= ITERATIONS);
             let Some(next) = next else {
                 // A step that cannot be taken may end where a contact has no answer.
-                let tried = rings.moved(step, 1.0);
-                self.balance(&given, &tried, &mut u);
-                self.check_contacts(&given, &tried, &u)?;
+                let tried = rings + step;
+                self.balance(&given, tried, &mut u);
+                self.check_contacts(&given, tried, &u)?;
                 return Err(EquilibriumError::NotFound { residual: balance.residual(), limit: balance.limit });
             };
             (rings, balance) = next;
         }
-        self.check_contacts(&given, &rings, &u)?;
-        self.write(drive, &rings, &u, state);
+        self.check_contacts(&given, rings, &u)?;
+        self.write(drive, rings, &u, state);
         Ok(())
     }
 
@@ -108,14 +109,14 @@ impl Model {
     }
 
     /// Element `j` in radial balance, and its path, looked for from `guess` on.
-    fn balanced_element(&self, j: usize, cell: u32, guess: f64, at: &Instant) -> (f64, Linearized) {
+    fn balanced_element(&self, j: usize, cell: u32, guess: f64, now: &Kinematics) -> (f64, Linearized) {
         // u' = 0. Without second derivatives of the approach the slope is that of another damping, which Newton's method bears.
         let element = |u: f64| {
-            let element = self.linearized_at(j, cell, (u, 0.0), at, Bends::LeftOut);
+            let element = self.linearized_at(j, cell, (u, 0.0), now, Bends::LeftOut);
             let (force, slope) = self.radial_balance(&element);
             (force, slope, element)
         };
-        let touch = if cell == SMOOTH { 0.0 } else { self.touching_path(j, cell, at.cage_angle) };
+        let touch = if cell == SMOOTH { 0.0 } else { self.touching_path(j, cell, now.cage.angle) };
         let (at_touch, _, touching) = element(touch);
         if at_touch == 0.0 {
             return (touch, touching);
@@ -157,17 +158,17 @@ impl Model {
 
     /// Refuses elements whose balance lies where the contact law near the defect has no answer: their search ends
     /// there.
-    fn check_contacts(&self, given: &Given, rings: &Rings, u: &[f64]) -> Result<(), EquilibriumError> {
-        let at = rings.placed(&given.still);
+    fn check_contacts(&self, given: &Given, rings: Rings, u: &[f64]) -> Result<(), EquilibriumError> {
+        let now = given.placed(rings);
         for (j, (&cell, &u)) in given.cells.iter().zip(u).enumerate() {
-            let further = self.near_defect(j, cell, u + FURTHER, at.cage_angle, self.outer_centre_radius + u);
+            let further = self.near_defect(j, cell, u + FURTHER, now.cage.angle, self.outer_centre_radius + u);
             let Some(Err(cause)) = further else { continue };
             // The search may have ended on the far side, where all is no number.
-            let element = self.linearized_at(j, cell, (u - FURTHER, 0.0), &at, Bends::LeftOut);
+            let element = self.linearized_at(j, cell, (u - FURTHER, 0.0), &now, Bends::LeftOut);
             let residual = self.radial_balance(&element).0;
-            if !(residual.abs() <= UNBALANCED * dot(element.inner, element.inner).sqrt()) {
+            if !(residual.abs() <= UNBALANCED * element.inner.norm()) {
                 let centre = self.defect.as_ref().map_or(0.0, |defect| defect.1);
-                let angle_deg = self.angle_from_defect(j, at.cage_angle, centre).to_degrees();
+                let angle_deg = self.angle_from_defect(j, now.cage.angle, centre).to_degrees();
                 return Err(EquilibriumError::Contact { element: j + 1, angle_deg, residual, cause });
             }
         }
@@ -175,84 +176,59 @@ impl Model {
     }
 
     /// Balances all elements for given rings and sums the forces on the rings.
-    fn balance(&self, given: &Given, rings: &Rings, u: &mut [f64]) -> Balance {
+    fn balance(&self, given: &Given, rings: Rings, u: &mut [f64]) -> Balance {
         let Given { drive, cells, .. } = given;
-        let at = rings.placed(&given.still);
-        let mut force = [0.0; 4];
-        let (mut largest, mut contact_sum) = (0.0f64, 0.0);
+        let now = given.placed(rings);
+        let (mut force, mut largest, mut contact_sum) = (Rings::zeros(), 0.0f64, 0.0);
         for j in 0..self.element_count {
-            let (path, element) = self.balanced_element(j, cells[j], u[j], &at);
+            let (path, element) = self.balanced_element(j, cells[j], u[j], &now);
             u[j] = path;
-            let Linearized { e_r, e_t, .. } = element;
-            contact_sum += dot(element.inner, element.inner).sqrt();
-            let on_housing = [0, 1].map(|a| element.outer[0] * e_r[a] - element.outer[1] * e_t[a]);
-            for a in 0..2 {
-                force[a] -= element.inner[a];
-                force[2 + a] += on_housing[a];
-                largest = largest.max(element.inner[a].abs()).max(element.outer[a].abs());
-            }
+            contact_sum += element.inner.norm();
+            force += stacked(-element.inner, element.on_housing());
+            largest = largest.max(element.inner.amax()).max(element.outer.amax());
         }
-        for a in 0..2 {
-            let loads = [drive.shaft_load[a].at(0.0), drive.housing_load[a].at(0.0)];
-            let supports = [self.shaft.stiffness * rings.position[a], self.housing.stiffness * rings.position[2 + a]];
-            for ring in 0..2 {
-                force[2 * ring + a] += loads[ring] - supports[ring];
-                largest = largest.max(loads[ring].abs()).max(supports[ring].abs());
-            }
-        }
-        for (f, free) in force.iter_mut().zip(rings.free) {
-            if !free {
-                *f = 0.0;
-            }
-        }
-        Balance { force, contact_sum, limit: RESIDUAL * largest + SMALLEST_RESIDUAL }
+        let load = |axis: &Quadratic| axis.at(0.0);
+        let loads = Rings::from_iterator(drive.shaft_load.iter().chain(&drive.housing_load).map(load));
+        let supports = Rings::from_fn(|i, _| self.supports.rings()[i / 2].stiffness * rings[i]);
+        force += loads - supports;
+        largest = largest.max(loads.amax()).max(supports.amax());
+        Balance { force: self.free_rings(force), contact_sum, limit: RESIDUAL * largest + SMALLEST_RESIDUAL }
     }
 
     /// A step of the free rings from the condensed tangent: (−J + μ) step = force.
-    fn newton_step(&self, given: &Given, rings: &Rings, u: &[f64], balance: &Balance) -> [f64; 4] {
-        let mut matrix = self.ring_jacobian(u, given.cells, rings.offset(), given.still.cage_angle);
+    fn newton_step(&self, given: &Given, rings: Rings, u: &[f64], balance: &Balance) -> Rings {
+        let jacobian = self.ring_jacobian(u, given.cells, given.placed(rings).offset(), given.still.cage.angle);
         // The turning of contact forces makes a lightly held ring's tangent indefinite; its bound ΣQ/|q| takes that out.
         // The second term lets a loose ring move by the longest step, and vanishes with the residual.
         let shift = balance.contact_sum / self.outer_centre_radius + balance.residual() / LONGEST_STEP;
-        for (i, row) in matrix.iter_mut().enumerate() {
-            let support = if i < 2 { self.shaft.stiffness } else { self.housing.stiffness };
-            for (k, value) in row.iter_mut().enumerate() {
-                let on_diagonal = if i == k { support + shift } else { 0.0 };
-                *value = if rings.free[i] && rings.free[k] {
-                    on_diagonal - *value
-                } else if i == k {
-                    1.0
-                } else {
-                    0.0
-                };
-            }
-        }
-        let mut step = solve4(matrix, balance.force);
-        let length = step.iter().fold(0.0f64, |m, s| m.max(s.abs()));
-        if !length.is_finite() || dot4(step, balance.force) <= 0.0 {
-            step = balance.force.map(|f| f / balance.residual() * LONGEST_STEP);
+        let solved = self.free_rings_matrix(&jacobian, shift).lu().solve(&balance.force);
+        let step = solved.unwrap_or_else(|| Rings::repeat(f64::NAN));
+        let length = step.amax();
+        if !length.is_finite() || step.dot(&balance.force) <= 0.0 {
+            balance.force / balance.residual() * LONGEST_STEP
         } else if length > LONGEST_STEP {
-            step = step.map(|s| s * (LONGEST_STEP / length));
+            step * (LONGEST_STEP / length)
+        } else {
+            step
         }
-        step
     }
 
     /// Goes along a step as far as the residual pushes forward.
     fn along(
         &self,
         given: &Given,
-        rings: &Rings,
+        rings: Rings,
         u: &mut [f64],
         start: &Balance,
-        step: [f64; 4],
+        step: Rings,
     ) -> Option<(Rings, Balance)> {
-        let push_0 = dot4(start.force, step);
+        let push_0 = start.force.dot(&step);
         let (mut low, mut high) = (0.0, f64::INFINITY);
         let mut share = 1.0;
         for _ in 0..100 {
-            let next = rings.moved(step, share);
-            let balance = self.balance(given, &next, u);
-            let push = dot4(balance.force, step);
+            let next = rings + step * share;
+            let balance = self.balance(given, next, u);
+            let push = balance.force.dot(&step);
             if balance.residual() <= balance.limit || push.abs() <= 0.5 * push_0 || (push > 0.0 && high.is_infinite()) {
                 return Some((next, balance));
             }
@@ -266,22 +242,21 @@ impl Model {
         None
     }
 
-    fn write(&self, drive: &Drive, rings: &Rings, u: &[f64], state: &mut [f64]) {
+    fn write(&self, drive: &Drive, rings: Rings, u: &[f64], state: &mut [f64]) {
         let w = self.layout.radial_velocity;
         state[..self.element_count].copy_from_slice(u);
         for (place, first) in [(self.layout.shaft, 0), (self.layout.housing, 2)] {
             if let Some(i) = place {
-                state[i..i + 2].copy_from_slice(&rings.position[first..first + 2]);
+                state[i..i + 2].copy_from_slice(&rings.as_slice()[first..first + 2]);
             }
         }
         // At rest against the outer ring: u' = 0.
-        let housing = self.housing_state(drive, 0.0, state);
-        let cage = super::forces::cos_sin(drive.cage_angle(0.0));
+        let Kinematics { cage, housing, .. } = self.kinematics(drive, 0.0, state);
         for j in 0..self.element_count {
-            state[w + j] = dot(housing.velocity, self.direction(j, cage));
+            state[w + j] = housing.velocity.dot(&self.direction(j, cage.direction));
         }
         if let Some(i) = self.layout.sensor {
-            (state[i], state[i + 1]) = (housing.position[1], housing.velocity[1]);
+            (state[i], state[i + 1]) = (housing.position.y, housing.velocity.y);
         }
     }
 }
@@ -290,56 +265,21 @@ impl Model {
 struct Given<'a> {
     drive: &'a Drive,
     cells: &'a [u32],
-    still: Instant,
+    still: Kinematics,
 }
 
-/// Positions of both rings during the search.
-#[derive(Debug, Clone, Copy)]
-struct Rings {
-    position: [f64; 4],
-    free: [bool; 4],
-}
-
-impl Rings {
-    fn start(model: &Model, drive: &Drive) -> Self {
-        let prescribed = |motion: Motion, value: f64| if motion == Motion::Host { value } else { 0.0 };
-        let (shaft, housing) = (model.shaft.motion, model.housing.motion);
-        let free = |motion: Motion| motion == Motion::Internal;
-        Self {
-            position: [
-                prescribed(shaft, drive.shaft[0].at(0.0)),
-                prescribed(shaft, drive.shaft[1].at(0.0)),
-                prescribed(housing, drive.housing[0].at(0.0)),
-                prescribed(housing, drive.housing[1].at(0.0)),
-            ],
-            free: [free(shaft), free(shaft), free(housing), free(housing)],
-        }
-    }
-
-    fn offset(&self) -> [f64; 2] {
-        [self.position[2] - self.position[0], self.position[3] - self.position[1]]
-    }
-
-    /// The instant `still` with the rings where these are.
-    fn placed(&self, still: &Instant) -> Instant {
-        let mut at = *still;
-        let [x_i, y_i, x_o, y_o] = self.position;
-        (at.shaft.position, at.housing.position) = ([x_i, y_i], [x_o, y_o]);
-        at
-    }
-
-    fn moved(&self, step: [f64; 4], share: f64) -> Self {
-        let mut moved = *self;
-        for (position, step) in moved.position.iter_mut().zip(step) {
-            *position += share * step;
-        }
-        moved
+impl Given<'_> {
+    /// The instant `still` with the rings there.
+    fn placed(&self, rings: Rings) -> Kinematics {
+        let mut now = self.still;
+        (now.shaft.position, now.housing.position) = (Vector::new(rings[0], rings[1]), Vector::new(rings[2], rings[3]));
+        now
     }
 }
 
 /// Net force on the free rings.
 struct Balance {
-    force: [f64; 4],
+    force: Rings,
     /// Σ|Q_i| [N]
     contact_sum: f64,
     limit: f64,
@@ -347,10 +287,6 @@ struct Balance {
 
 impl Balance {
     fn residual(&self) -> f64 {
-        self.force.iter().fold(0.0, |m, f| m.max(f.abs()))
+        self.force.amax()
     }
-}
-
-fn dot4(a: [f64; 4], b: [f64; 4]) -> f64 {
-    (0..4).map(|i| a[i] * b[i]).sum()
 }

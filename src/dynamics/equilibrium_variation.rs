@@ -8,12 +8,12 @@
 //! equilibrium of their own; their derivative does not exist.
 
 use super::drive::Drive;
-use super::forces::dot;
-use super::linearized::{Bends, ElementVariation, Instant, Linearized};
+use super::kinematics::Kinematics;
+use super::linearized::{Bends, ElementVariation, Linearized};
 use super::model::Model;
+use super::tangent::{RingJacobian, Rings};
 use super::variation::Variation;
-use crate::numerics::linear::solve4;
-use crate::scene::Motion;
+use crate::numerics::plane::Vector;
 
 impl Model {
     /// Completes a change of inputs at the equilibrium `state` by what it does to rings and elements. `by` comes with the
@@ -24,56 +24,38 @@ impl Model {
         drive: &Drive,
         cells: &[u32],
         state: &[f64],
-        loads: [f64; 4],
+        loads: Rings,
         by: &mut Variation,
     ) -> Option<()> {
-        let at = self.instant(drive, 0.0, state);
+        let now = self.kinematics(drive, 0.0, state);
         let given = ElementVariation {
             offset: by.offset(),
-            drift: [0, 1].map(|a| by.housing.velocity[a] - by.shaft.velocity[a]),
+            drift: by.drift(),
             cage_speed: by.cage_speed,
             ..ElementVariation::default()
         };
-        let (mut jacobian, mut force) = ([[0.0; 4]; 4], loads);
+        let (mut jacobian, mut force) = (RingJacobian::zeros(), loads);
         for j in 0..self.element_count {
-            let element = self.at_start(j, cells[j], state, &at);
+            let element = self.at_start(j, cells[j], state, &now);
             self.add_balanced(&element, &mut jacobian);
-            let rings = self.balanced(&element, &given).rings;
-            for i in 0..4 {
-                force[i] += rings[i];
-            }
+            force += self.balanced(&element, &given).rings;
         }
-        let mut matrix = [[0.0; 4]; 4];
-        let rings = [&self.shaft, &self.shaft, &self.housing, &self.housing];
-        let free = rings.map(|ring| ring.motion == Motion::Internal);
-        for i in 0..4 {
-            if free[i] {
-                for k in (0..4).filter(|&k| free[k]) {
-                    matrix[i][k] = -jacobian[i][k];
-                }
-                matrix[i][i] += rings[i].stiffness;
-            } else {
-                (matrix[i][i], force[i]) = (1.0, 0.0);
-            }
-        }
-        let moved = solve4(matrix, force);
+        let moved = self.free_rings_matrix(&jacobian, 0.0).lu().solve(&self.free_rings(force))?;
         if moved.iter().any(|value| !value.is_finite()) {
             return None;
         }
-        for a in 0..2 {
-            by.shaft.position[a] += moved[a];
-            by.housing.position[a] += moved[2 + a];
-        }
+        by.shaft.position += Vector::new(moved[0], moved[1]);
+        by.housing.position += Vector::new(moved[2], moved[3]);
         let whole = ElementVariation { offset: by.offset(), ..given };
         for j in 0..self.element_count {
-            let element = self.at_start(j, cells[j], state, &at);
+            let element = self.at_start(j, cells[j], state, &now);
             by.path[j] = self.balanced(&element, &whole).path;
-            by.radial_velocity[j] = dot(by.housing.velocity, element.e_r);
+            by.radial_velocity[j] = by.housing.velocity.dot(&element.e_r);
         }
         Some(())
     }
 
-    fn at_start(&self, j: usize, cell: u32, state: &[f64], at: &Instant) -> Linearized {
-        self.linearized(j, cell, (state[j], state[self.layout.radial_velocity + j]), at, Bends::Wanted)
+    fn at_start(&self, j: usize, cell: u32, state: &[f64], now: &Kinematics) -> Linearized {
+        self.linearized(j, cell, (state[j], state[self.layout.radial_velocity + j]), now, Bends::Wanted)
     }
 }

@@ -14,13 +14,14 @@
 //! The cage is kinematic: it takes up every tangential force on the elements. What it takes is the cage torque.
 
 use super::contact_lanes::{Group, Record};
-use super::drive::{Clock, Drive};
+use super::drive::Drive;
+use super::kinematics::{Kinematics, Stage, moved};
 use super::model::Model;
-use super::rings::{RingState, moved, ring_rates, ring_state, whole};
 use crate::contact::error::ContactError;
 use crate::contact::near_defect::OuterApproach;
 use crate::numerics::lanes::{Each, Kernel, Lanes, Lists, QUAD, WIDEST, Wide, dispatch, largest_of, places};
-use crate::numerics::{sin_cos, wrap};
+use crate::numerics::plane::{Vector, turned};
+use crate::numerics::wrap;
 
 /// Cell of an element on the smooth raceway, away from the defect.
 pub const SMOOTH: u32 = u32::MAX;
@@ -114,13 +115,13 @@ impl Forces {
     }
 
     /// The bearing's force on the inner ring [N].
-    pub fn shaft(&self) -> [f64; 2] {
-        [self.rings[0], self.rings[1]]
+    pub fn shaft(&self) -> Vector {
+        Vector::new(self.rings[0], self.rings[1])
     }
 
     /// The bearing's force on the outer ring [N].
-    pub fn housing(&self) -> [f64; 2] {
-        [self.rings[2], self.rings[3]]
+    pub fn housing(&self) -> Vector {
+        Vector::new(self.rings[2], self.rings[3])
     }
 
     /// Notes which contacts push: 1 for those that do, −1 for the others, the inner contacts before the outer.
@@ -174,31 +175,13 @@ struct OtherContact {
     force: [f64; 3],
 }
 
-/// What all elements see of rings and cage at one instant.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Moment {
-    /// cos and sin of the cage angle.
-    pub(super) cage: (f64, f64),
-    pub(super) cage_angle: f64,
-    pub(super) omega: f64,
-    pub(super) shaft: RingState,
-    pub(super) housing: RingState,
-    /// Position and velocity of the outer ring's centre seen from the inner's.
-    pub(super) offset: [f64; 2],
-    pub(super) drift: [f64; 2],
-    /// Acceleration of an element by gravity, and that of its w as the outer ring moves along the raceway [m/s²].
-    pub(super) body: [f64; 2],
-    /// a and b of the damping law ([`crate::contact::force_law::ForceLaw::damping_weights`]).
-    pub(super) damping: [f64; 2],
-}
-
 /// An element seen from the inner ring's centre.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct InnerGap {
     /// δ_i [m]
     pub(super) approach: f64,
     /// n = q/|q|, radial and tangential.
-    pub(super) n: [f64; 2],
+    pub(super) n: Vector,
     /// |q| [m]
     pub(super) distance: f64,
 }
@@ -221,70 +204,51 @@ impl Model {
         forces: &mut Forces,
     ) {
         forces.enter(self, cells);
-        dispatch(Derivative { model: self, drive, clock: drive.clock(tau), state, derivative, forces });
+        let stage = Stage { drive, cage: &drive.cage_at(tau), state, ahead: None };
+        dispatch(Derivative { model: self, stage, derivative, forces });
     }
 
     /// As [`Self::derivative`] inside a kernel, for the cells that `forces` have last seen there. Each contact is kept only if
-    /// `RECORD`. With a time `ahead` [s], what counts are the positions that the velocities in `state` reach in that time from
-    /// those in `state`; contacts can then not be kept.
+    /// `RECORD`, which takes a stage whose positions are not still to be moved on.
     #[inline(always)]
     pub(crate) fn derivative_on<S: Wide, const RECORD: bool>(
         &self,
         simd: S,
-        (drive, clock): (&Drive, &Clock),
-        (state, ahead): (&[f64], Option<f64>),
+        stage: &Stage,
         derivative: &mut [f64],
         forces: &mut Forces,
     ) {
-        let (at, tau) = (self.moment(drive, clock, state, ahead), clock.tau);
-        // A copy for the call, so that the moment itself can stay in registers: what is written to memory in parts and read
-        // together soon after is read late.
+        let Stage { drive, cage, state, ahead } = *stage;
+        let (now, tau) = (self.kinematics_of(stage), cage.tau);
+        // A copy for the call, so that what is known of the instant can stay in registers: what is written to memory in parts
+        // and read together soon after is read late.
         let others = if forces.others.is_empty() {
-            [0.0; 2]
+            Vector::zeros()
         } else {
-            self.other_contacts::<RECORD>(&{ at }, state, ahead, forces)
+            self.other_contacts::<RECORD>(&{ now }, state, ahead, forces)
         };
         let [shaft_x, shaft_y, housing_x, housing_y] =
-            self.smooth_contacts::<S, RECORD>(simd, &at, (state, ahead), derivative, forces);
-        let (housing_x, housing_y) = (housing_x + others[0], housing_y + others[1]);
+            self.smooth_contacts::<S, RECORD>(simd, &now, stage, derivative, forces);
+        let (housing_x, housing_y) = (housing_x + others.x, housing_y + others.y);
         if RECORD && !forces.others.is_empty() {
             forces.record_others();
         }
         Lanes::of(simd, [shaft_x, shaft_y, housing_x, housing_y]).store(&mut forces.rings, 0);
+        let supports = &self.supports;
         if let Some(i) = self.layout.shaft {
-            let force = [drive.shaft_load[0].at(tau) + shaft_x, drive.shaft_load[1].at(tau) + shaft_y];
-            ring_rates(simd, &self.shaft, self.per_mass[1], &at.shaft, force).store(derivative, i);
+            let force = Vector::new(drive.shaft_load[0].at(tau) + shaft_x, drive.shaft_load[1].at(tau) + shaft_y);
+            supports.shaft.ring_rates(simd, &now.shaft, force).store(derivative, i);
         }
         let mut reaction = 0.0;
-        if let (Some(sensor), Some(i)) = (&self.sensor, self.layout.sensor) {
+        if let Some(i) = self.layout.sensor {
             let v = state[i + 1];
-            let y = moved(state[i], v, ahead);
-            reaction = sensor.stiffness * (y - at.housing.position[1]) + sensor.damping * (v - at.housing.velocity[1]);
-            whole(simd, [v, 0.0, 0.0, 0.0], [0.0, -reaction * self.per_mass[3], 0.0, 0.0]).store(derivative, i);
+            reaction = supports.sensor_force(moved(state[i], v, ahead), v, &now.housing);
+            supports.sensor_rates(simd, v, reaction).store(derivative, i);
         }
         if let Some(i) = self.layout.housing {
-            let force =
-                [drive.housing_load[0].at(tau) + housing_x, drive.housing_load[1].at(tau) + (housing_y + reaction)];
-            ring_rates(simd, &self.housing, self.per_mass[2], &at.housing, force).store(derivative, i);
-        }
-    }
-
-    #[inline(always)]
-    fn moment(&self, drive: &Drive, clock: &Clock, state: &[f64], ahead: Option<f64>) -> Moment {
-        let tau = clock.tau;
-        let shaft = ring_state(self.layout.shaft, self.shaft.motion, &drive.shaft, tau, (state, ahead));
-        let housing = ring_state(self.layout.housing, self.housing.motion, &drive.housing, tau, (state, ahead));
-        let (omega, v) = (clock.cage_speed, housing.velocity);
-        Moment {
-            cage: clock.cage,
-            cage_angle: clock.cage_angle,
-            omega,
-            shaft,
-            housing,
-            offset: [0, 1].map(|a| housing.position[a] - shaft.position[a]),
-            drift: [0, 1].map(|a| housing.velocity[a] - shaft.velocity[a]),
-            body: [self.gravity[0] + omega * v[1], self.gravity[1] - omega * v[0]],
-            damping: self.inner.damping_weights(),
+            let load = &drive.housing_load;
+            let force = Vector::new(load[0].at(tau) + housing_x, load[1].at(tau) + (housing_y + reaction));
+            supports.housing.ring_rates(simd, &now.housing, force).store(derivative, i);
         }
     }
 
@@ -294,38 +258,36 @@ impl Model {
     #[inline(never)]
     fn other_contacts<const RECORD: bool>(
         &self,
-        at: &Moment,
+        now: &Kinematics,
         state: &[f64],
         ahead: Option<f64>,
         forces: &mut Forces,
-    ) -> [f64; 2] {
+    ) -> Vector {
         let (compliant, start) = (self.outer.compliance != 0.0, self.layout.radial_velocity);
-        let mut on_housing = [0.0; 2];
+        let mut on_housing = Vector::zeros();
         let Forces { others, other_contacts, groups, defect_lookups, unsolved, .. } = forces;
         other_contacts.clear();
         for &(j, cell) in others.iter() {
-            let e_r = self.direction(j, at.cage);
-            let path_rate = state[start + j] - dot(at.housing.velocity, e_r);
+            let e_r = self.direction(j, now.cage.direction);
+            let path_rate = state[start + j] - now.housing.velocity.dot(&e_r);
             let u = moved(state[j], path_rate, ahead);
-            let near = self.near_defect(j, cell, u, at.cage_angle, self.outer_centre_radius + u);
+            let near = self.near_defect(j, cell, u, now.cage.angle, self.outer_centre_radius + u);
             *defect_lookups += u64::from(near.is_some());
             let near = near.unwrap_or_else(|| Ok(OuterApproach::smooth(u))).unwrap_or_else(|cause| {
                 // What is no number here has its cause elsewhere.
-                if (u + at.cage_angle).is_finite() {
-                    let angle = self.defect.as_ref().map_or(0.0, |d| self.angle_from_defect(j, at.cage_angle, d.1));
-                    *unsolved = Some(UnsolvedContact { element: j, angle, offset: at.offset, cause });
+                if (u + now.cage.angle).is_finite() {
+                    let angle = self.defect.as_ref().map_or(0.0, |d| self.angle_from_defect(j, now.cage.angle, d.1));
+                    *unsolved = Some(UnsolvedContact { element: j, angle, offset: now.offset().into(), cause });
                 }
                 OuterApproach::unsolved()
             });
-            let rate = near.by_path * path_rate + near.by_angle * at.omega;
+            let rate = near.by_path * path_rate + near.by_angle * now.cage.speed;
             let (part, part_rate) =
                 if compliant { self.outer.of_contact(near.value, rate) } else { (near.value, rate) };
             let outer = self.outer.contact.force(part, part_rate);
             let (f_r, f_t) = (outer * near.radial, outer * near.tangential);
-            groups[j / WIDEST].other[j % WIDEST] = -f_r * self.per_mass[0];
-            for axis in 0..2 {
-                on_housing[axis] += f_r * e_r[axis] - f_t * [-e_r[1], e_r[0]][axis];
-            }
+            groups[j / WIDEST].other[j % WIDEST] = -f_r * self.inverse_element_mass;
+            on_housing += e_r * f_r - turned(e_r) * f_t;
             if !RECORD {
                 continue;
             }
@@ -343,13 +305,13 @@ impl Model {
     /// Where an element at path `u` in direction `e_r` is seen from the inner ring, whose centre is `offset` before the
     /// outer ring's.
     #[inline]
-    pub(super) fn inner_gap(&self, u: f64, offset: [f64; 2], e_r: [f64; 2]) -> InnerGap {
+    pub(super) fn inner_gap(&self, u: f64, offset: Vector, e_r: Vector) -> InnerGap {
         // |q| = √((ρ+p)² + t²), written so that δ_i loses no digits to the radii's 20 mm.
-        let (p, t) = (dot(offset, e_r), e_r[0] * offset[1] - e_r[1] * offset[0]);
+        let (p, t) = (offset.dot(&e_r), offset.dot(&turned(e_r)));
         let q_r = self.outer_centre_radius + u + p;
         let distance = (q_r * q_r + t * t).sqrt();
         let approach = -self.radial_clearance - u - p - t * t / (distance + q_r);
-        InnerGap { approach, n: [q_r / distance, t / distance], distance }
+        InnerGap { approach, n: Vector::new(q_r / distance, t / distance), distance }
     }
 
     /// Approach of element `j` to the outer raceway in a cell of the defect; `None` on the smooth raceway.
@@ -395,18 +357,17 @@ impl Model {
     ///
     /// The kinematic cage forces each element to the tangential acceleration a_o·e_t + 2 u' ω + ρ ω'; what contacts and
     /// gravity do not supply, it does. `acceleration` is the outer ring's [m/s²].
-    pub fn cage_torque(&self, drive: &Drive, tau: f64, state: &[f64], acceleration: [f64; 2], forces: &Forces) -> f64 {
-        let (omega, alpha) = (drive.cage.rate_at(tau), drive.cage.0[2]);
-        let cage = cos_sin(drive.cage_angle(tau));
+    pub fn cage_torque(&self, drive: &Drive, tau: f64, state: &[f64], acceleration: Vector, forces: &Forces) -> f64 {
+        let cage = drive.cage_at(tau);
         (0..self.element_count)
             .map(|j| {
-                let e_r = self.direction(j, cage);
-                let e_t = [-e_r[1], e_r[0]];
+                let e_t = turned(self.direction(j, cage.direction));
                 let rho = self.outer_centre_radius + state[j];
                 let contacts = &forces.contacts;
-                let inertia = dot(acceleration, e_t) + 2.0 * contacts.path_rate[j] * omega + rho * alpha;
+                let inertia =
+                    acceleration.dot(&e_t) + 2.0 * contacts.path_rate[j] * cage.speed + rho * cage.acceleration;
                 let contacts = contacts.inner[j] * contacts.normal_tangential[j] + contacts.outer_tangential[j];
-                rho * (contacts + self.element_mass * (dot(self.gravity, e_t) - inertia))
+                rho * (contacts + self.element_mass * (self.gravity.dot(&e_t) - inertia))
             })
             .sum()
     }
@@ -442,9 +403,7 @@ impl Each<2, 0> for Largest {
 /// The whole right-hand side.
 struct Derivative<'a> {
     model: &'a Model,
-    drive: &'a Drive,
-    clock: Clock,
-    state: &'a [f64],
+    stage: Stage<'a>,
     derivative: &'a mut [f64],
     forces: &'a mut Forces,
 }
@@ -454,18 +413,7 @@ impl Kernel for Derivative<'_> {
 
     #[inline(always)]
     fn run<S: Wide>(self, simd: S) {
-        let Self { model, drive, clock, state, derivative, forces } = self;
-        model.derivative_on::<S, true>(simd, (drive, &clock), (state, None), derivative, forces);
+        let Self { model, stage, derivative, forces } = self;
+        model.derivative_on::<S, true>(simd, &stage, derivative, forces);
     }
-}
-
-#[inline(always)]
-pub(super) fn cos_sin(angle: f64) -> (f64, f64) {
-    let (sin, cos) = sin_cos(angle);
-    (cos, sin)
-}
-
-#[inline]
-pub(super) fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
 }

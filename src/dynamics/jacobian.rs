@@ -14,33 +14,33 @@
 //! The derivatives are those of the branch that the state is in; at the onset of a contact there are two.
 
 use super::drive::Drive;
-use super::forces::dot;
-use super::linearized::{Bends, ElementVariation, Instant, Linearized, times};
+use super::kinematics::{Kinematics, RingState, prescribed_rate};
+use super::linearized::{Bends, ElementVariation, Linearized};
 use super::model::{Layout, Model};
+use super::supports::{BODIES, Bodies, BodyMatrix};
+use super::tangent::{Rings, stacked};
+use crate::numerics::plane::Vector;
 use crate::scene::Motion;
 
-/// Bodies beside the elements that have a velocity: inner ring x, y, outer ring x, y, sensor.
-pub const BODIES: usize = 5;
-
 /// Rows and columns of one element.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ElementBlock {
     /// Radial direction; ∂u'/∂v_o is its negative, ∂u'/∂w is 1.
-    pub e_r: [f64; 2],
+    pub e_r: Vector,
     /// ∂w'/∂u [1/s²]
     pub by_path: f64,
     /// ∂w'/∂w [1/s]
     pub by_velocity: f64,
     /// ∂w'/∂x_o = −∂w'/∂x_i [1/s²]
-    pub by_offset: [f64; 2],
+    pub by_offset: Vector,
     /// ∂w'/∂v_i [1/s]
-    pub by_shaft_velocity: [f64; 2],
+    pub by_shaft_velocity: Vector,
     /// ∂w'/∂v_o [1/s]
-    pub by_housing_velocity: [f64; 2],
+    pub by_housing_velocity: Vector,
     /// ∂(v_i', v_o')/∂u [1/s²]
-    pub rings_by_path: [f64; 4],
+    pub rings_by_path: Rings,
     /// ∂(v_i', v_o')/∂w [1/s]
-    pub rings_by_velocity: [f64; 4],
+    pub rings_by_velocity: Rings,
 }
 
 /// The Jacobian in its blocks.
@@ -49,9 +49,9 @@ pub struct Jacobian {
     /// The elements' blocks.
     pub elements: Vec<ElementBlock>,
     /// Accelerations of the bodies by their positions [1/s²].
-    pub by_position: [[f64; BODIES]; BODIES],
+    pub by_position: BodyMatrix,
     /// Accelerations of the bodies by their velocities [1/s].
-    pub by_velocity: [[f64; BODIES]; BODIES],
+    pub by_velocity: BodyMatrix,
     /// Where position and velocity of each body stand in the state; `None` for a body without state, whose rows and
     /// columns count for nothing.
     pub places: [Option<(usize, usize)>; BODIES],
@@ -64,8 +64,8 @@ impl Jacobian {
     pub fn new(model: &Model) -> Self {
         Self {
             elements: vec![ElementBlock::default(); model.element_count],
-            by_position: [[0.0; BODIES]; BODIES],
-            by_velocity: [[0.0; BODIES]; BODIES],
+            by_position: BodyMatrix::zeros(),
+            by_velocity: BodyMatrix::zeros(),
             places: places(&model.layout),
             radial_velocity: model.layout.radial_velocity,
         }
@@ -76,8 +76,8 @@ impl Jacobian {
     pub fn with_fastest(rate: f64) -> Self {
         Self {
             elements: vec![ElementBlock { by_velocity: -rate, ..ElementBlock::default() }],
-            by_position: [[0.0; BODIES]; BODIES],
-            by_velocity: [[0.0; BODIES]; BODIES],
+            by_position: BodyMatrix::zeros(),
+            by_velocity: BodyMatrix::zeros(),
             places: [None; BODIES],
             radial_velocity: 1,
         }
@@ -105,10 +105,35 @@ impl Jacobian {
             consider(block.by_path, block.by_velocity);
         }
         for i in (0..BODIES).filter(|&i| self.places[i].is_some()) {
-            consider(self.by_position[i][i], self.by_velocity[i][i]);
+            consider(self.by_position[(i, i)], self.by_velocity[(i, i)]);
         }
         fastest
     }
+}
+
+impl Default for ElementBlock {
+    fn default() -> Self {
+        let (none, rings) = (Vector::zeros(), Rings::zeros());
+        Self {
+            e_r: none,
+            by_path: 0.0,
+            by_velocity: 0.0,
+            by_offset: none,
+            by_shaft_velocity: none,
+            by_housing_velocity: none,
+            rings_by_path: rings,
+            rings_by_velocity: rings,
+        }
+    }
+}
+
+/// What all elements share while the Jacobian is put together.
+struct Shared {
+    now: Kinematics,
+    /// Prescribed velocity and acceleration of each ring, the inner first; zero where the state has them.
+    prescribed: [RingState; 2],
+    /// 1/mass of the rings' coordinates [1/kg].
+    inverse_masses: Rings,
 }
 
 impl Model {
@@ -123,112 +148,110 @@ impl Model {
         by_time: &mut [f64],
     ) {
         let start = self.layout.radial_velocity;
-        let at = self.instant(drive, tau, state);
-        let per_mass = 1.0 / self.element_mass;
-        let per_ring =
-            [&self.shaft, &self.housing].map(|r| if r.motion == Motion::Internal { 1.0 / r.mass } else { 0.0 });
-        self.support(drive, tau, &at, per_ring, jacobian, by_time);
+        let host = |motion: Motion, place| {
+            if motion == Motion::Host { prescribed_rate(place, tau) } else { RingState::default() }
+        };
+        let shared = Shared {
+            now: self.kinematics(drive, tau, state),
+            prescribed: [host(self.shaft.motion, &drive.shaft), host(self.housing.motion, &drive.housing)],
+            inverse_masses: self.supports.inverse_masses().fixed_rows::<4>(0).into(),
+        };
+        self.add_supports(drive, tau, &shared, jacobian, by_time);
         for j in 0..self.element_count {
-            let (u, w) = (state[j], state[start + j]);
-            let element = self.linearized(j, cells[j], (u, w), &at, Bends::Wanted);
-            let Linearized { e_r, e_t, rho, omega, by_q, by_q_rate, .. } = &element;
-            let (rho, omega) = (*rho, *omega);
+            let element = self.linearized(j, cells[j], (state[j], state[start + j]), &shared.now, Bends::Wanted);
+            self.add_element(j, &element, &shared, jacobian);
+            self.add_element_by_time(j, &element, &shared, &jacobian.places, by_time);
+        }
+    }
 
-            let swing = times(*by_q_rate, *e_t);
-            let by_path = element.change(&ElementVariation::of_path());
-            let by_rate = element.change(&ElementVariation::of_path_rate());
-            let path_rate_by_time = -omega * dot(at.housing.velocity, *e_t) - dot(at.housing_moves[1], *e_r);
-            let with_time = element.change(&ElementVariation {
-                offset: [0, 1].map(|a| at.housing_moves[0][a] - at.shaft_moves[0][a]),
-                drift: [0, 1].map(|a| at.housing_moves[1][a] - at.shaft_moves[1][a]),
-                path: 0.0,
-                path_rate: path_rate_by_time,
-                cage_angle: omega,
-                cage_speed: at.alpha,
-            });
-            // e_rᵀ G and e_rᵀ D: D is symmetric, G with damping is not.
-            let row = |m: &[[f64; 2]; 2]| [0, 1].map(|b| e_r[0] * m[0][b] + e_r[1] * m[1][b]);
-            let (row_g, row_d) = (row(by_q), row(by_q_rate));
-            let across = dot(row_d, *e_t);
+    /// One element's block, and its part of the bodies'.
+    fn add_element(&self, j: usize, element: &Linearized, shared: &Shared, jacobian: &mut Jacobian) {
+        let Linearized { e_r, e_t, omega, by_q, by_q_rate, .. } = *element;
+        let per_mass = self.inverse_element_mass;
+        let by_path = element.change(&ElementVariation::of_path());
+        let by_rate = element.change(&ElementVariation::of_path_rate());
+        // e_rᵀ G and e_rᵀ D: D is symmetric, G with damping is not.
+        let (row_g, row_d) = (by_q.tr_mul(&e_r), by_q_rate.tr_mul(&e_r));
+        let on_rings = |shaft: Vector, housing: Vector| shared.inverse_masses.component_mul(&stacked(shaft, housing));
+        jacobian.elements[j] = ElementBlock {
+            e_r,
+            by_path: by_path.radial(element) * per_mass + omega * omega,
+            by_velocity: by_rate.radial(element) * per_mass,
+            by_offset: row_g * per_mass,
+            by_shaft_velocity: -row_d * per_mass,
+            by_housing_velocity: (e_t * row_d.dot(&e_t) + e_r * by_rate.outer.x) * per_mass + e_t * omega,
+            rings_by_path: on_rings(-by_path.inner, by_path.on_housing(element)),
+            rings_by_velocity: on_rings(-by_rate.inner, by_rate.on_housing(element)),
+        };
+        let of_shaft = shared.inverse_masses[0];
+        let (g, d, swing) = (by_q * of_shaft, by_q_rate * of_shaft, by_q_rate * e_t * of_shaft * e_t.transpose());
+        let on_housing = by_rate.on_housing(element) * shared.inverse_masses[2] * e_r.transpose();
+        let (position, velocity) = (&mut jacobian.by_position, &mut jacobian.by_velocity);
+        let mut corner = position.fixed_view_mut::<2, 2>(0, 0);
+        corner += g;
+        let mut corner = position.fixed_view_mut::<2, 2>(0, 2);
+        corner -= g;
+        let mut corner = velocity.fixed_view_mut::<2, 2>(0, 0);
+        corner += d;
+        let mut corner = velocity.fixed_view_mut::<2, 2>(0, 2);
+        corner -= swing;
+        let mut corner = velocity.fixed_view_mut::<2, 2>(2, 2);
+        corner -= on_housing;
+    }
 
-            let block = &mut jacobian.elements[j];
-            block.e_r = *e_r;
-            block.by_path = (dot(by_path.inner, *e_r) - by_path.outer[0]) * per_mass + omega * omega;
-            block.by_velocity = (dot(by_rate.inner, *e_r) - by_rate.outer[0]) * per_mass;
-            for a in 0..2 {
-                block.by_offset[a] = row_g[a] * per_mass;
-                block.by_shaft_velocity[a] = -row_d[a] * per_mass;
-                block.by_housing_velocity[a] =
-                    (across * e_t[a] + by_rate.outer[0] * e_r[a]) * per_mass + omega * e_t[a];
-                let on_housing = |f: [f64; 2]| per_ring[1] * (f[0] * e_r[a] - f[1] * e_t[a]);
-                block.rings_by_path[a] = -per_ring[0] * by_path.inner[a];
-                block.rings_by_velocity[a] = -per_ring[0] * by_rate.inner[a];
-                block.rings_by_path[2 + a] = on_housing(by_path.outer);
-                block.rings_by_velocity[2 + a] = on_housing(by_rate.outer);
-                for b in 0..2 {
-                    let (g, d) = (per_ring[0] * by_q[a][b], per_ring[0] * by_q_rate[a][b]);
-                    jacobian.by_position[a][b] += g;
-                    jacobian.by_position[a][2 + b] -= g;
-                    jacobian.by_velocity[a][b] += d;
-                    jacobian.by_velocity[a][2 + b] -= per_ring[0] * swing[a] * e_t[b];
-                    jacobian.by_velocity[2 + a][2 + b] -= on_housing(by_rate.outer) * e_r[b];
-                }
-            }
-
-            let along = dot(at.housing.velocity, *e_t);
-            by_time[j] = path_rate_by_time;
-            by_time[start + j] = (dot(with_time.inner, *e_r) + omega * dot(element.inner, *e_t) - with_time.outer[0])
-                * per_mass
-                + omega * dot(self.gravity, *e_t)
-                + at.alpha * (along + 2.0 * rho * omega)
-                + omega * (dot(at.housing_moves[1], *e_t) - omega * dot(at.housing.velocity, *e_r));
-            let (outer, outer_by_time) = (element.outer, with_time.outer);
-            for a in 0..2 {
-                if let Some((_, place)) = jacobian.places[a] {
-                    by_time[place] -= per_ring[0] * with_time.inner[a];
-                }
-                if let Some((_, place)) = jacobian.places[2 + a] {
-                    by_time[place] += per_ring[1]
-                        * ((outer_by_time[0] + omega * outer[1]) * e_r[a]
-                            + (omega * outer[0] - outer_by_time[1]) * e_t[a]);
-                }
+    /// One element's part of the derivative by time.
+    fn add_element_by_time(
+        &self,
+        j: usize,
+        element: &Linearized,
+        shared: &Shared,
+        places: &[Option<(usize, usize)>; BODIES],
+        by_time: &mut [f64],
+    ) {
+        let Linearized { e_r, e_t, rho, omega, .. } = *element;
+        let (now, [shaft, housing]) = (&shared.now, &shared.prescribed);
+        let (v, alpha) = (now.housing.velocity, now.cage.acceleration);
+        let path_rate = -omega * v.dot(&e_t) - housing.velocity.dot(&e_r);
+        let with_time = element.change(&ElementVariation {
+            offset: housing.position - shaft.position,
+            drift: housing.velocity - shaft.velocity,
+            path: 0.0,
+            path_rate,
+            cage_angle: omega,
+            cage_speed: alpha,
+        });
+        by_time[j] = path_rate;
+        by_time[self.layout.radial_velocity + j] = (with_time.inner.dot(&e_r) + omega * element.inner.dot(&e_t)
+            - with_time.outer.x)
+            * self.inverse_element_mass
+            + omega * self.gravity.dot(&e_t)
+            + alpha * (v.dot(&e_t) + 2.0 * rho * omega)
+            + omega * (housing.velocity.dot(&e_t) - omega * v.dot(&e_r));
+        let turning = e_r * (omega * element.outer.y) + e_t * (omega * element.outer.x);
+        let force = stacked(-with_time.inner, with_time.on_housing(element) + turning);
+        for i in 0..4 {
+            if let Some((_, place)) = places[i] {
+                by_time[place] += shared.inverse_masses[i] * force[i];
             }
         }
     }
 
     /// Starts `jacobian` and `by_time` with what does not come from contacts: supports, sensor, loads.
-    fn support(
-        &self,
-        drive: &Drive,
-        tau: f64,
-        at: &Instant,
-        per_ring: [f64; 2],
-        jacobian: &mut Jacobian,
-        by_time: &mut [f64],
-    ) {
-        (jacobian.by_position, jacobian.by_velocity) = ([[0.0; BODIES]; BODIES], [[0.0; BODIES]; BODIES]);
+    fn add_supports(&self, drive: &Drive, tau: f64, shared: &Shared, jacobian: &mut Jacobian, by_time: &mut [f64]) {
+        [jacobian.by_position, jacobian.by_velocity] = self.supports.accelerations_by_motion();
         by_time[2 * self.layout.radial_velocity..].fill(0.0);
-        for (ring, support, load) in [(0, &self.shaft, &drive.shaft_load), (1, &self.housing, &drive.housing_load)] {
-            for axis in 0..2 {
-                let i = 2 * ring + axis;
-                jacobian.by_position[i][i] = -support.stiffness * per_ring[ring];
-                jacobian.by_velocity[i][i] = -support.damping * per_ring[ring];
-                if let Some((_, place)) = jacobian.places[i] {
-                    by_time[place] = per_ring[ring] * load[axis].rate_at(tau);
-                }
+        // Prescribed rings move the sensor; on the rings themselves nothing but their loads depends on time.
+        let [shaft, housing] = &shared.prescribed;
+        let moves = Kinematics { cage: shared.now.cage, shaft: *shaft, housing: *housing };
+        let [velocity, acceleration] = moves.bodies(0.0, 0.0);
+        let loads = drive.shaft_load.iter().chain(&drive.housing_load).map(|load| load.rate_at(tau)).chain([0.0]);
+        let forces = self.supports.forces(&velocity, &acceleration) + Bodies::from_iterator(loads);
+        let rates = forces.component_mul(&self.supports.inverse_masses());
+        for (place, rate) in jacobian.places.iter().zip(&rates) {
+            if let Some((_, velocity)) = *place {
+                by_time[velocity] = *rate;
             }
         }
-        let (Some(sensor), Some((_, place))) = (&self.sensor, jacobian.places[4]) else { return };
-        for (matrix, value) in
-            [(&mut jacobian.by_position, sensor.stiffness), (&mut jacobian.by_velocity, sensor.damping)]
-        {
-            matrix[3][3] -= value * per_ring[1];
-            matrix[3][4] += value * per_ring[1];
-            matrix[4][3] += value / sensor.mass;
-            matrix[4][4] -= value / sensor.mass;
-        }
-        let [velocity, acceleration] = at.housing_moves;
-        by_time[place] = (sensor.stiffness * velocity[1] + sensor.damping * acceleration[1]) / sensor.mass;
     }
 }
 

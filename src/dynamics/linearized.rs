@@ -25,29 +25,14 @@
 //! Derivatives are those of the branch that each contact is in; at the onset of a contact there are two. At rest all of
 //! it is elastic: G is symmetric, and no damping enters.
 
-use super::drive::{Cubic, Drive};
-use super::forces::{SMOOTH, cos_sin, dot};
+use super::forces::SMOOTH;
+use super::kinematics::Kinematics;
 use super::model::Model;
-use super::rings::RingState;
 use crate::contact::near_defect::OuterApproach;
-use crate::scene::Motion;
+use crate::numerics::plane::{Matrix, Vector, turned};
 
 /// How far apart along path and raceway the approach near the defect is looked at for its second derivatives [m].
 pub(super) const DIFFERENCE: f64 = 1e-9;
-
-/// What all elements share at one instant.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Instant {
-    pub(super) cage: (f64, f64),
-    pub(super) cage_angle: f64,
-    pub(super) omega: f64,
-    pub(super) alpha: f64,
-    pub(super) shaft: RingState,
-    pub(super) housing: RingState,
-    /// Prescribed velocity and acceleration of the rings; zero where the state has them.
-    pub(super) shaft_moves: [[f64; 2]; 2],
-    pub(super) housing_moves: [[f64; 2]; 2],
-}
 
 /// Whether second derivatives of the outer approach are wanted, which the change of path or place needs while something
 /// moves; each costs four more looks at the defect.
@@ -62,21 +47,21 @@ pub(super) enum Bends {
 /// One element's contacts to first order. Vectors are in x and y unless they say otherwise.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Linearized {
-    pub(super) e_r: [f64; 2],
-    pub(super) e_t: [f64; 2],
+    pub(super) e_r: Vector,
+    pub(super) e_t: Vector,
     pub(super) rho: f64,
     pub(super) omega: f64,
     pub(super) path_rate: f64,
     /// Force of the inner contact on the element [N], and its derivatives G, D.
-    pub(super) inner: [f64; 2],
-    pub(super) by_q: [[f64; 2]; 2],
-    pub(super) by_q_rate: [[f64; 2]; 2],
+    pub(super) inner: Vector,
+    pub(super) by_q: Matrix,
+    pub(super) by_q_rate: Matrix,
     /// Force of the outer contact on the element, inwards and counter-clockwise [N].
-    pub(super) outer: [f64; 2],
+    pub(super) outer: Vector,
     /// Direction of the outer force, inwards and counter-clockwise, and its derivatives by path and angle.
-    direction: [f64; 2],
-    direction_by_path: [f64; 2],
-    direction_by_angle: [f64; 2],
+    direction: Vector,
+    direction_by_path: Vector,
+    direction_by_angle: Vector,
     /// Outer force per unit of direction, and its derivatives by u, u', cage angle and cage speed.
     amount: f64,
     by_path: f64,
@@ -89,9 +74,9 @@ pub(super) struct Linearized {
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ElementVariation {
     /// Of the outer ring's position less that of the inner.
-    pub(super) offset: [f64; 2],
+    pub(super) offset: Vector,
     /// Of the outer ring's velocity less that of the inner.
-    pub(super) drift: [f64; 2],
+    pub(super) drift: Vector,
     pub(super) path: f64,
     pub(super) path_rate: f64,
     pub(super) cage_angle: f64,
@@ -101,8 +86,8 @@ pub(super) struct ElementVariation {
 /// Change of one element's contact forces, in the directions of [`Linearized::inner`] and [`Linearized::outer`].
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ElementChange {
-    pub(super) inner: [f64; 2],
-    pub(super) outer: [f64; 2],
+    pub(super) inner: Vector,
+    pub(super) outer: Vector,
 }
 
 /// Second derivatives of an approach, and of its direction by the angle.
@@ -111,23 +96,19 @@ struct Bend {
     path_path: f64,
     path_angle: f64,
     angle_angle: f64,
-    direction_by_angle: [f64; 2],
+    direction_by_angle: Vector,
 }
 
-impl Instant {
-    /// Nothing moves; the outer ring's centre is `offset` from the inner's.
-    pub(super) fn at_rest(cage_angle: f64, offset: [f64; 2]) -> Self {
-        let housing = RingState { position: offset, ..RingState::default() };
-        Self {
-            cage: cos_sin(cage_angle),
-            cage_angle,
-            omega: 0.0,
-            alpha: 0.0,
-            shaft: RingState::default(),
-            housing,
-            shaft_moves: [[0.0; 2]; 2],
-            housing_moves: [[0.0; 2]; 2],
-        }
+impl ElementChange {
+    /// Change of the force on the outer ring while the element's directions stay.
+    pub(super) fn on_housing(&self, element: &Linearized) -> Vector {
+        element.e_r * self.outer.x - element.e_t * self.outer.y
+    }
+
+    /// Change of the radial force of both contacts on the element [N].
+    #[inline]
+    pub(super) fn radial(&self, element: &Linearized) -> f64 {
+        self.inner.dot(&element.e_r) - self.outer.x
     }
 }
 
@@ -144,7 +125,7 @@ impl ElementVariation {
 
     /// Of the rings' offset along one axis alone.
     pub(super) fn of_offset(axis: usize) -> Self {
-        let mut offset = [0.0; 2];
+        let mut offset = Vector::zeros();
         offset[axis] = 1.0;
         Self { offset, ..Self::default() }
     }
@@ -158,62 +139,51 @@ impl Linearized {
         let turned = rho * by.cage_angle;
         let radial = by.path_rate - rho * omega * by.cage_angle;
         let around = self.path_rate * by.cage_angle + omega * by.path + rho * by.cage_speed;
-        let q = [0, 1].map(|a| by.offset[a] + e_r[a] * by.path + e_t[a] * turned);
-        let q_rate = [0, 1].map(|a| by.drift[a] + e_r[a] * radial + e_t[a] * around);
-        let (by_q, by_rate) = (times(self.by_q, q), times(self.by_q_rate, q_rate));
+        let q = by.offset + e_r * by.path + e_t * turned;
+        let q_rate = by.drift + e_r * radial + e_t * around;
         let (amount, turn) = self.outer_change(by);
         ElementChange {
-            inner: [by_q[0] + by_rate[0], by_q[1] + by_rate[1]],
-            outer: [0, 1].map(|a| amount * self.direction[a] + self.amount * turn[a]),
+            inner: self.by_q * q + self.by_q_rate * q_rate,
+            outer: self.direction * amount + turn * self.amount,
         }
+    }
+
+    /// Force on the outer ring [N].
+    pub(super) fn on_housing(&self) -> Vector {
+        self.e_r * self.outer.x - self.e_t * self.outer.y
     }
 
     /// The change of the outer force's magnitude [N].
     pub(super) fn outer_amount(&self, by: &ElementVariation) -> f64 {
         let (amount, turn) = self.outer_change(by);
-        let length = dot(self.direction, self.direction).sqrt().max(f64::MIN_POSITIVE);
-        amount * length + self.amount * dot(self.direction, turn) / length
+        let length = self.direction.norm().max(f64::MIN_POSITIVE);
+        amount * length + self.amount * self.direction.dot(&turn) / length
     }
 
     /// Change of the outer force per unit of direction, and of the direction.
     #[inline]
-    fn outer_change(&self, by: &ElementVariation) -> (f64, [f64; 2]) {
+    fn outer_change(&self, by: &ElementVariation) -> (f64, Vector) {
         let amount = self.by_path * by.path
             + self.by_path_rate * by.path_rate
             + self.by_angle * by.cage_angle
             + self.by_speed * by.cage_speed;
-        let turn = [0, 1].map(|a| self.direction_by_path[a] * by.path + self.direction_by_angle[a] * by.cage_angle);
+        let turn = self.direction_by_path * by.path + self.direction_by_angle * by.cage_angle;
         (amount, turn)
     }
 }
 
 impl Model {
-    /// What elements share at `tau`.
-    pub(super) fn instant(&self, drive: &Drive, tau: f64, state: &[f64]) -> Instant {
-        let cage_angle = drive.cage_angle(tau);
-        let moves = |motion: Motion, place: &[Cubic; 2]| {
-            if motion == Motion::Host {
-                [place.map(|q| q.rate_at(tau)), place.map(|q| q.second_at(tau))]
-            } else {
-                [[0.0; 2]; 2]
-            }
-        };
-        Instant {
-            cage: cos_sin(cage_angle),
-            cage_angle,
-            omega: drive.cage.rate_at(tau),
-            alpha: drive.cage.0[2],
-            shaft: self.shaft_state(drive, tau, state),
-            housing: self.housing_state(drive, tau, state),
-            shaft_moves: moves(self.shaft.motion, &drive.shaft),
-            housing_moves: moves(self.housing.motion, &drive.housing),
-        }
-    }
-
     /// Element `j` at path `u` and absolute radial velocity `w`.
-    pub(super) fn linearized(&self, j: usize, cell: u32, (u, w): (f64, f64), at: &Instant, bends: Bends) -> Linearized {
-        let path_rate = w - dot(at.housing.velocity, self.direction(j, at.cage));
-        self.linearized_at(j, cell, (u, path_rate), at, bends)
+    pub(super) fn linearized(
+        &self,
+        j: usize,
+        cell: u32,
+        (u, w): (f64, f64),
+        now: &Kinematics,
+        bends: Bends,
+    ) -> Linearized {
+        let path_rate = w - now.housing.velocity.dot(&self.direction(j, now.cage.direction));
+        self.linearized_at(j, cell, (u, path_rate), now, bends)
     }
 
     /// Element `j` at path and path rate `(u, u')`.
@@ -222,49 +192,42 @@ impl Model {
         j: usize,
         cell: u32,
         (u, path_rate): (f64, f64),
-        at: &Instant,
+        now: &Kinematics,
         bends: Bends,
     ) -> Linearized {
-        let e_r = self.direction(j, at.cage);
-        let e_t = [-e_r[1], e_r[0]];
-        let (rho, omega) = (self.outer_centre_radius + u, at.omega);
+        let e_r = self.direction(j, now.cage.direction);
+        let e_t = turned(e_r);
+        let (rho, omega) = (self.outer_centre_radius + u, now.cage.speed);
 
-        let offset = [0, 1].map(|a| at.housing.position[a] - at.shaft.position[a]);
-        let gap = self.inner_gap(u, offset, e_r);
-        let n = [0, 1].map(|a| gap.n[0] * e_r[a] + gap.n[1] * e_t[a]);
-        let q_rate =
-            [0, 1].map(|a| at.housing.velocity[a] - at.shaft.velocity[a] + path_rate * e_r[a] + rho * omega * e_t[a]);
-        let rate = -dot(n, q_rate);
+        let gap = self.inner_gap(u, now.offset(), e_r);
+        let n = e_r * gap.n.x + e_t * gap.n.y;
+        let q_rate = now.drift() + e_r * path_rate + e_t * (rho * omega);
+        let rate = -n.dot(&q_rate);
         let force = self.inner.with_derivatives(gap.approach, rate);
         // P q̇/|q| and Q/|q|
-        let turn = [0, 1].map(|a| (q_rate[a] + rate * n[a]) / gap.distance);
+        let turn = (q_rate + n * rate) / gap.distance;
         let across = force.value / gap.distance;
-        let (mut by_q, mut by_q_rate) = ([[0.0; 2]; 2], [[0.0; 2]; 2]);
-        for a in 0..2 {
-            for b in 0..2 {
-                let diagonal = if a == b { across } else { 0.0 };
-                by_q[a][b] = diagonal - n[a] * ((force.by_approach + across) * n[b] + force.by_rate * turn[b]);
-                by_q_rate[a][b] = -force.by_rate * n[a] * n[b];
-            }
-        }
+        let by_q = Matrix::from_diagonal_element(across)
+            - n * (n * (force.by_approach + across) + turn * force.by_rate).transpose();
+        let by_q_rate = n * n.transpose() * -force.by_rate;
 
         let bent = bends == Bends::Wanted && cell != SMOOTH;
-        let bend = if bent { self.bend(j, cell, u, at.cage_angle) } else { Bend::default() };
-        let near = self.outer_approach(j, cell, u, at.cage_angle, rho);
+        let bend = if bent { self.bend(j, cell, u, now.cage.angle) } else { Bend::default() };
+        let near = self.outer_approach(j, cell, u, now.cage.angle, rho);
         let law = self.outer.with_derivatives(near.value, near.by_path * path_rate + near.by_angle * omega);
-        let direction = [near.radial, near.tangential];
+        let direction = Vector::new(near.radial, near.tangential);
         Linearized {
             e_r,
             e_t,
             rho,
             omega,
             path_rate,
-            inner: n.map(|n| force.value * n),
+            inner: n * force.value,
             by_q,
             by_q_rate,
-            outer: direction.map(|d| law.value * d),
+            outer: direction * law.value,
             direction,
-            direction_by_path: [near.radial_by_path, near.tangential_by_path],
+            direction_by_path: Vector::new(near.radial_by_path, near.tangential_by_path),
             direction_by_angle: bend.direction_by_angle,
             amount: law.value,
             by_path: law.by_approach * near.by_path
@@ -288,12 +251,7 @@ impl Model {
             path_path: by_path(|near| near.by_path),
             path_angle: by_path(|near| near.by_angle),
             angle_angle: by_angle(|near| near.by_angle),
-            direction_by_angle: [by_angle(|near| near.radial), by_angle(|near| near.tangential)],
+            direction_by_angle: Vector::new(by_angle(|near| near.radial), by_angle(|near| near.tangential)),
         }
     }
-}
-
-#[inline]
-pub(super) fn times(matrix: [[f64; 2]; 2], vector: [f64; 2]) -> [f64; 2] {
-    [dot(matrix[0], vector), dot(matrix[1], vector)]
 }

@@ -6,14 +6,16 @@
 //! *outer ring's* centre), w the radial component of the element's absolute velocity.
 
 use super::contact_lanes::Group;
+use super::supports::Supports;
 use crate::contact::compliant::CompliantContact;
 use crate::contact::force_law::ForceLaw;
 use crate::contact::near_defect::NearDefect;
 use crate::geometry::hertz_constant::HertzConstants;
 use crate::geometry::kinematics::cage_ratio;
 use crate::numerics::lanes::{Cut, QUAD, WIDEST, places};
+use crate::numerics::plane::Vector;
 use crate::numerics::sin_cos;
-use crate::scene::{Motion, Ring, Scene, Sensor};
+use crate::scene::{Motion, Ring, Scene};
 use std::f64::consts::TAU;
 
 /// Parameters of the equations of motion.
@@ -23,8 +25,8 @@ pub struct Model {
     pub element_count: usize,
     /// Mass of one element [kg].
     pub element_mass: f64,
-    /// 1/mass of one element, the inner ring, the outer ring, the sensor [1/kg]; 0 where a ring or sensor has none.
-    pub(super) per_mass: [f64; 4],
+    /// 1/mass of one element [1/kg].
+    pub(super) inverse_element_mass: f64,
     /// Radius of one element [m].
     pub element_radius: f64,
     /// R_o − r [m], the distance ρ of an element that touches the smooth outer raceway.
@@ -36,13 +38,13 @@ pub struct Model {
     /// Contact with the outer raceway, which may yield.
     pub outer: CompliantContact,
     /// Gravity on the elements [m/s²].
-    pub gravity: [f64; 2],
+    pub gravity: Vector,
     /// The inner ring.
     pub shaft: Ring,
     /// The outer ring.
     pub housing: Ring,
-    /// The accelerometer.
-    pub sensor: Option<Sensor>,
+    /// What holds rings and sensor.
+    pub supports: Supports,
     /// The raceway near the defect, and the angle of its centre [rad].
     pub defect: Option<(NearDefect, f64)>,
     /// Cage speed per shaft speed.
@@ -145,22 +147,16 @@ impl Model {
         Self {
             element_count: bearing.element_count,
             element_mass: bearing.mass_of_element(),
-            per_mass: [
-                bearing.mass_of_element(),
-                scene.shaft.mass,
-                scene.housing.mass,
-                scene.sensor.map_or(0.0, |sensor| sensor.mass),
-            ]
-            .map(|mass| if mass > 0.0 { 1.0 / mass } else { 0.0 }),
+            inverse_element_mass: 1.0 / bearing.mass_of_element(),
             element_radius,
             outer_centre_radius: bearing.outer_raceway_radius() - element_radius,
             radial_clearance: bearing.radial_clearance,
             inner: law(hertz.inner),
             outer: CompliantContact { contact: law(hertz.outer), compliance: bearing.outer_compliance },
-            gravity: scene.gravity,
+            gravity: scene.gravity.into(),
             shaft: scene.shaft,
             housing: scene.housing,
-            sensor: scene.sensor,
+            supports: Supports::new(scene),
             defect: near_defect.zip(scene.defect.as_ref().map(|d| d.angle)),
             cage_ratio: cage_ratio(bearing, scene.cage.slip),
             layout: Layout::new(scene),
@@ -180,11 +176,11 @@ impl Model {
         j as f64 * TAU / self.element_count as f64
     }
 
-    /// Radial direction of element `j` for cos and sin of the cage angle.
+    /// Radial direction of element `j` for that of element 1.
     #[inline]
-    pub(super) fn direction(&self, j: usize, cage: (f64, f64)) -> [f64; 2] {
+    pub(super) fn direction(&self, j: usize, cage: Vector) -> Vector {
         let (cos, sin) = (self.elements[j / WIDEST].cos[j % WIDEST], self.elements[j / WIDEST].sin[j % WIDEST]);
-        [cage.0 * cos - cage.1 * sin, cage.1 * cos + cage.0 * sin]
+        Vector::new(cage.x * cos - cage.y * sin, cage.y * cos + cage.x * sin)
     }
 }
 

@@ -6,17 +6,21 @@
 //!
 //! An element that nothing touches does not answer.
 
-use super::forces::dot;
-use super::linearized::{Bends, ElementChange, ElementVariation, Instant, Linearized};
+use super::kinematics::Kinematics;
+use super::linearized::{Bends, ElementVariation, Linearized};
 use super::model::Model;
+use crate::numerics::plane::Vector;
+use crate::scene::Motion;
 
 /// ∂(force on inner ring, force on outer ring)/∂(position of inner ring, position of outer ring) [N/m].
-pub type RingJacobian = [[f64; 4]; 4];
+pub type RingJacobian = nalgebra::Matrix4<f64>;
+/// x and y of the inner ring, then of the outer.
+pub type Rings = nalgebra::Vector4<f64>;
 
 /// Change of one element's path [m] and of the forces on the rings [N], its balance kept.
 pub(super) struct Balanced {
     pub(super) path: f64,
-    pub(super) rings: [f64; 4],
+    pub(super) rings: Rings,
 }
 
 impl Model {
@@ -24,26 +28,23 @@ impl Model {
     #[inline]
     pub(super) fn radial_balance(&self, element: &Linearized) -> (f64, f64) {
         let Linearized { e_r, rho, omega, .. } = *element;
-        let body = dot(self.gravity, e_r) + rho * omega * omega;
-        let contacts = dot(element.inner, e_r) - element.outer[0];
-        let along = radial(element, &element.change(&ElementVariation::of_path()));
+        let body = self.gravity.dot(&e_r) + rho * omega * omega;
+        let contacts = element.inner.dot(&e_r) - element.outer.x;
+        let along = element.change(&ElementVariation::of_path()).radial(element);
         (contacts + self.element_mass * body, along + self.element_mass * omega * omega)
     }
 
     /// What a change does to an element that keeps its balance, and through it to the rings.
     pub(super) fn balanced(&self, element: &Linearized, by: &ElementVariation) -> Balanced {
-        let Linearized { e_r, e_t, rho, omega, .. } = *element;
+        let Linearized { rho, omega, .. } = *element;
         let along = element.change(&ElementVariation::of_path());
         let direct = element.change(by);
-        let stiffness = radial(element, &along) + self.element_mass * omega * omega;
-        let push = radial(element, &direct) + 2.0 * self.element_mass * rho * omega * by.cage_speed;
+        let stiffness = along.radial(element) + self.element_mass * omega * omega;
+        let push = direct.radial(element) + 2.0 * self.element_mass * rho * omega * by.cage_speed;
         let path = if stiffness == 0.0 { 0.0 } else { -push / stiffness };
-        let outer = [0, 1].map(|i| direct.outer[i] + path * along.outer[i]);
-        let mut rings = [0.0; 4];
-        for a in 0..2 {
-            rings[a] = -(direct.inner[a] + path * along.inner[a]);
-            rings[2 + a] = outer[0] * e_r[a] - outer[1] * e_t[a];
-        }
+        let (on_shaft, on_housing) =
+            (-(direct.inner + along.inner * path), direct.on_housing(element) + along.on_housing(element) * path);
+        let rings = stacked(on_shaft, on_housing);
         Balanced { path, rings }
     }
 
@@ -51,26 +52,45 @@ impl Model {
     pub(super) fn add_balanced(&self, element: &Linearized, jacobian: &mut RingJacobian) {
         for axis in 0..2 {
             let rings = self.balanced(element, &ElementVariation::of_offset(axis)).rings;
-            for i in 0..4 {
-                jacobian[i][axis] -= rings[i];
-                jacobian[i][2 + axis] += rings[i];
-            }
+            jacobian.column_mut(axis).zip_apply(&rings, |sum, force| *sum -= force);
+            jacobian.column_mut(2 + axis).zip_apply(&rings, |sum, force| *sum += force);
         }
     }
 
     /// Elastic Jacobian of the rings' forces at the element paths `u`, the rings' centres being `offset` (outer minus inner)
     /// apart.
-    pub fn ring_jacobian(&self, u: &[f64], cells: &[u32], offset: [f64; 2], cage_angle: f64) -> RingJacobian {
-        let (mut jacobian, at) = ([[0.0; 4]; 4], Instant::at_rest(cage_angle, offset));
+    pub fn ring_jacobian(&self, u: &[f64], cells: &[u32], offset: Vector, cage_angle: f64) -> RingJacobian {
+        let (mut jacobian, at) = (RingJacobian::zeros(), Kinematics::at_rest(cage_angle, offset));
         for j in 0..self.element_count {
             self.add_balanced(&self.linearized_at(j, cells[j], (u[j], 0.0), &at, Bends::LeftOut), &mut jacobian);
         }
         jacobian
     }
+
+    /// The matrix of the free rings' balance, −J + supports + `shift`; rows and columns of the others are those of the unit matrix.
+    pub(super) fn free_rings_matrix(&self, jacobian: &RingJacobian, shift: f64) -> RingJacobian {
+        let (free, rings) = (self.free(), self.supports.rings());
+        RingJacobian::from_fn(|i, k| match (free[i] && free[k], i == k) {
+            (true, true) => rings[i / 2].stiffness + shift - jacobian[(i, i)],
+            (true, false) => -jacobian[(i, k)],
+            (false, on_diagonal) => f64::from(u8::from(on_diagonal)),
+        })
+    }
+
+    /// `forces` with those on rings that are not free left out.
+    pub(super) fn free_rings(&self, forces: Rings) -> Rings {
+        let free = self.free();
+        Rings::from_fn(|i, _| if free[i] { forces[i] } else { 0.0 })
+    }
+
+    /// Which of the rings' coordinates forces move.
+    fn free(&self) -> [bool; 4] {
+        let [shaft, housing] = [&self.shaft, &self.housing].map(|ring| ring.motion == Motion::Internal);
+        [shaft, shaft, housing, housing]
+    }
 }
 
-/// Change of the radial force of both contacts [N].
-#[inline]
-fn radial(element: &Linearized, change: &ElementChange) -> f64 {
-    dot(change.inner, element.e_r) - change.outer[0]
+/// Vectors of the inner and the outer ring as one.
+pub(crate) fn stacked(shaft: Vector, housing: Vector) -> Rings {
+    Rings::new(shaft.x, shaft.y, housing.x, housing.y)
 }

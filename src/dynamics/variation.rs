@@ -9,10 +9,11 @@
 //! onset of a contact there are two.
 
 use super::drive::Drive;
-use super::forces::{SMOOTH, dot};
-use super::linearized::{Bends, DIFFERENCE, ElementVariation, Instant, Linearized, times};
+use super::forces::SMOOTH;
+use super::kinematics::{Kinematics, RingState};
+use super::linearized::{Bends, DIFFERENCE, ElementVariation, Linearized};
 use super::model::Model;
-use super::rings::RingState;
+use crate::numerics::plane::{Matrix, Vector, turned};
 
 /// A small change of state and inputs.
 #[derive(Debug, Clone, Default)]
@@ -39,13 +40,13 @@ pub struct ForceChange {
     /// Of each outer contact's force [N].
     pub outer: Vec<f64>,
     /// Of the force on the inner ring [N].
-    pub shaft: [f64; 2],
+    pub shaft: Vector,
     /// Of the force on the outer ring [N].
-    pub housing: [f64; 2],
+    pub housing: Vector,
     /// Of the cage torque [N m] while the outer ring's acceleration does not change.
     pub cage_torque: f64,
     /// Cage torque by the outer ring's acceleration [kg m].
-    pub torque_by_acceleration: [f64; 2],
+    pub torque_by_acceleration: Vector,
 }
 
 impl Variation {
@@ -63,8 +64,13 @@ impl Variation {
     }
 
     /// Of the outer ring's position less that of the inner [m].
-    pub(super) fn offset(&self) -> [f64; 2] {
-        [0, 1].map(|a| self.housing.position[a] - self.shaft.position[a])
+    pub(super) fn offset(&self) -> Vector {
+        self.housing.position - self.shaft.position
+    }
+
+    /// Of the outer ring's velocity less that of the inner [m/s].
+    pub(super) fn drift(&self) -> Vector {
+        self.housing.velocity - self.shaft.velocity
     }
 }
 
@@ -82,109 +88,94 @@ impl Model {
         drive: &Drive,
         cells: &[u32],
         state: &[f64],
-        acceleration: [f64; 2],
+        acceleration: Vector,
         by: &Variation,
         change: &mut ForceChange,
     ) {
-        let z = self.element_count;
-        let at = self.instant(drive, 0.0, state);
-        let drift = [0, 1].map(|a| by.housing.velocity[a] - by.shaft.velocity[a]);
-        (change.shaft, change.housing, change.torque_by_acceleration) = ([0.0; 2], [0.0; 2], [0.0; 2]);
+        let now = self.kinematics(drive, 0.0, state);
+        let none = Vector::zeros();
+        (change.shaft, change.housing, change.torque_by_acceleration) = (none, none, none);
         change.cage_torque = 0.0;
         let moves = by.cage_angle != 0.0;
-        for j in 0..z {
+        for j in 0..self.element_count {
             let bends = if moves || by.path[j] != 0.0 { Bends::Wanted } else { Bends::LeftOut };
             let place = (state[j], state[self.layout.radial_velocity + j]);
-            let element = self.linearized(j, cells[j], place, &at, bends);
+            let element = self.linearized(j, cells[j], place, &now, bends);
             let Linearized { e_r, e_t, rho, omega, .. } = element;
+            let turn = by.cage_angle;
             let path_rate =
-                by.radial_velocity[j] - dot(by.housing.velocity, e_r) - dot(at.housing.velocity, e_t) * by.cage_angle;
+                by.radial_velocity[j] - by.housing.velocity.dot(&e_r) - now.housing.velocity.dot(&e_t) * turn;
             let seen = ElementVariation {
                 offset: by.offset(),
-                drift,
+                drift: by.drift(),
                 path: by.path[j],
                 path_rate,
-                cage_angle: by.cage_angle,
+                cage_angle: turn,
                 cage_speed: by.cage_speed,
             };
             let d = element.change(&seen);
-            let amount = dot(element.inner, element.inner).sqrt();
-            change.inner[j] = if amount > 0.0 { dot(element.inner, d.inner) / amount } else { 0.0 };
+            let amount = element.inner.norm();
+            change.inner[j] = if amount > 0.0 { element.inner.dot(&d.inner) / amount } else { 0.0 };
             change.outer[j] = element.outer_amount(&seen);
-            let turn = by.cage_angle;
-            for a in 0..2 {
-                change.shaft[a] -= d.inner[a];
-                change.housing[a] +=
-                    (d.outer[0] + element.outer[1] * turn) * e_r[a] + (element.outer[0] * turn - d.outer[1]) * e_t[a];
-                change.torque_by_acceleration[a] -= rho * self.element_mass * e_t[a];
-            }
-            let body = [0, 1].map(|a| self.gravity[a] - acceleration[a]);
-            let inertia = dot(body, e_t) - 2.0 * element.path_rate * omega - rho * at.alpha;
-            let force = dot(element.inner, e_t) + element.outer[1] + self.element_mass * inertia;
-            let inertia_change = -dot(body, e_r) * turn
+            change.shaft -= d.inner;
+            change.housing += d.on_housing(&element) + (e_r * element.outer.y + e_t * element.outer.x) * turn;
+            change.torque_by_acceleration -= e_t * (rho * self.element_mass);
+            let body = self.gravity - acceleration;
+            let alpha = now.cage.acceleration;
+            let inertia = body.dot(&e_t) - 2.0 * element.path_rate * omega - rho * alpha;
+            let force = element.inner.dot(&e_t) + element.outer.y + self.element_mass * inertia;
+            let inertia_change = -body.dot(&e_r) * turn
                 - 2.0 * (path_rate * omega + element.path_rate * by.cage_speed)
-                - by.path[j] * at.alpha;
+                - by.path[j] * alpha;
             let force_change =
-                dot(d.inner, e_t) - dot(element.inner, e_r) * turn + d.outer[1] + self.element_mass * inertia_change;
+                d.inner.dot(&e_t) - element.inner.dot(&e_r) * turn + d.outer.y + self.element_mass * inertia_change;
             change.cage_torque += by.path[j] * force + rho * force_change;
         }
     }
 
     /// Change of the inner ring's elastic force by its own position, [`Model::ring_jacobian`]'s first block [N/m], for a
     /// small change at the cage angle of `drive` at τ = 0.
-    pub fn vary_stiffness(&self, drive: &Drive, cells: &[u32], state: &[f64], by: &Variation) -> [[f64; 2]; 2] {
-        let cage_angle = drive.cage_angle(0.0);
-        let (shaft, housing) = (self.shaft_state(drive, 0.0, state), self.housing_state(drive, 0.0, state));
-        let offset = [0, 1].map(|a| housing.position[a] - shaft.position[a]);
-        let (mut sum, at) = ([[0.0; 2]; 2], Instant::at_rest(cage_angle, offset));
+    pub fn vary_stiffness(&self, drive: &Drive, cells: &[u32], state: &[f64], by: &Variation) -> Matrix {
+        let now = self.kinematics(drive, 0.0, state);
+        let (cage_angle, offset) = (now.cage.angle, now.offset());
+        let (mut sum, still) = (Matrix::zeros(), Kinematics::at_rest(cage_angle, offset));
         for j in 0..self.element_count {
             let (cell, u, turn) = (cells[j], state[j], by.cage_angle);
             let rho = self.outer_centre_radius + u;
-            let element = self.linearized_at(j, cell, (u, 0.0), &at, Bends::LeftOut);
+            let element = self.linearized_at(j, cell, (u, 0.0), &still, Bends::LeftOut);
             let (_, radial) = self.radial_balance(&element);
             if radial == 0.0 {
                 continue;
             }
             let Linearized { e_r, e_t, by_q: g, .. } = element;
-            let q = by.offset();
-            let q = [0, 1].map(|a| q[a] + e_r[a] * by.path[j] + rho * e_t[a] * turn);
+            let q = by.offset() + e_r * by.path[j] + e_t * (rho * turn);
             let dg = self.vary_inner_stiffness(u, offset, e_r, q);
-            let across = times(g, e_r);
-            let (moved, turned) = (times(dg, e_r), times(g, e_t));
-            let d_across = [0, 1].map(|a| moved[a] + turned[a] * turn);
-            let d_radial = dot(e_t, across) * turn + dot(e_r, d_across)
+            let across = g * e_r;
+            let d_across = dg * e_r + g * e_t * turn;
+            let d_radial = e_t.dot(&across) * turn + e_r.dot(&d_across)
                 - self.vary_outer_stiffness(j, cell, u, cage_angle, (by.path[j], turn));
-            for a in 0..2 {
-                for b in 0..2 {
-                    sum[a][b] += dg[a][b] - (d_across[a] * across[b] + across[a] * d_across[b]) / radial
-                        + across[a] * across[b] * d_radial / (radial * radial);
-                }
-            }
+            let mixed = d_across * across.transpose();
+            sum += dg - (mixed + mixed.transpose()) / radial
+                + across * across.transpose() * (d_radial / (radial * radial));
         }
         sum
     }
 
     /// Change of G = −(k + Q/|q|) n nᵀ + Q/|q| of an inner contact when the element moves by `q` from the inner ring.
-    fn vary_inner_stiffness(&self, u: f64, offset: [f64; 2], e_r: [f64; 2], q: [f64; 2]) -> [[f64; 2]; 2] {
+    fn vary_inner_stiffness(&self, u: f64, offset: Vector, e_r: Vector, q: Vector) -> Matrix {
         let gap = self.inner_gap(u, offset, e_r);
         if gap.approach <= 0.0 {
-            return [[0.0; 2]; 2];
+            return Matrix::zeros();
         }
-        let n = [gap.n[0] * e_r[0] - gap.n[1] * e_r[1], gap.n[0] * e_r[1] + gap.n[1] * e_r[0]];
-        let away = dot(n, q);
+        let n = e_r * gap.n.x + turned(e_r) * gap.n.y;
+        let away = n.dot(&q);
         let (force, k) = (self.inner.elastic(gap.approach), self.inner.elastic_stiffness(gap.approach));
         let c = force / gap.distance;
         let dk = -0.75 * self.inner.stiffness / gap.approach.sqrt() * away;
         let dc = -(k + c) * away / gap.distance;
-        let dn = [0, 1].map(|a| (q[a] - n[a] * away) / gap.distance);
-        let mut change = [[0.0; 2]; 2];
-        for a in 0..2 {
-            for b in 0..2 {
-                change[a][b] =
-                    -(dk + dc) * n[a] * n[b] - (k + c) * (dn[a] * n[b] + n[a] * dn[b]) + if a == b { dc } else { 0.0 };
-            }
-        }
-        change
+        let dn = (q - n * away) / gap.distance;
+        let mixed = dn * n.transpose();
+        Matrix::from_diagonal_element(dc) - n * n.transpose() * (dk + dc) - (mixed + mixed.transpose()) * (k + c)
     }
 
     /// Change of an outer contact's radial tangent stiffness by path [m] and cage angle [rad]; near the defect and where the
@@ -195,8 +186,8 @@ impl Model {
         }
         let radial = |u: f64, angle: f64| {
             // Nothing moves and the rings' offset does not matter to the outer contact.
-            let at = Instant::at_rest(angle, [0.0; 2]);
-            self.linearized_at(j, cell, (u, 0.0), &at, Bends::LeftOut).change(&ElementVariation::of_path()).outer[0]
+            let still = Kinematics::at_rest(angle, Vector::zeros());
+            self.linearized_at(j, cell, (u, 0.0), &still, Bends::LeftOut).change(&ElementVariation::of_path()).outer.x
         };
         let mut change = 0.0;
         if by.0 != 0.0 {

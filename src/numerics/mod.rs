@@ -5,7 +5,7 @@
 
 pub mod elliptic;
 pub mod lanes;
-pub mod linear;
+pub mod plane;
 mod power;
 pub mod row;
 #[cfg(test)]

@@ -7,7 +7,12 @@
 //! and each position from its velocity, x = (v + b_x)/s. What is left are the velocities of rings and sensor, five at
 //! most, by elimination with row pivoting. Rows of bodies without state are those of the unit matrix.
 
-use crate::dynamics::jacobian::{BODIES, Jacobian};
+use nalgebra::{Const, LU};
+
+use crate::dynamics::jacobian::Jacobian;
+use crate::dynamics::supports::{BODIES, Bodies, BodyMatrix};
+use crate::dynamics::tangent::{Rings, stacked};
+use crate::numerics::plane::{Matrix, Vector};
 
 /// Unknowns that elements see: velocities of the inner, then the outer ring.
 const RINGS: usize = 4;
@@ -17,32 +22,23 @@ const RINGS: usize = 4;
 pub struct Arrow {
     shift: f64,
     elements: Vec<Eliminated>,
-    /// Factors of the bodies' matrix, and the row swapped into each place.
-    factors: [[f64; BODIES]; BODIES],
-    pivots: [usize; BODIES],
-    /// Whether any body has a state.
-    coupled: bool,
+    /// Factors of the bodies' matrix; `None` where no body has a state.
+    bodies: Option<LU<f64, Const<BODIES>, Const<BODIES>>>,
 }
 
 /// One element's block, solved.
 #[derive(Debug, Clone, Copy, Default)]
 struct Eliminated {
     /// Inverse of the 2×2 block.
-    inverse: [[f64; 2]; 2],
-    /// ∂(u, w)/∂V
-    by_rings: [[f64; RINGS]; 2],
+    inverse: Matrix,
+    /// ∂u/∂V and ∂w/∂V
+    by_rings: [Rings; 2],
 }
 
 impl Arrow {
     /// Room for `count` elements.
     pub fn new(count: usize) -> Self {
-        Self {
-            shift: 1.0,
-            elements: vec![Eliminated::default(); count],
-            factors: [[0.0; BODIES]; BODIES],
-            pivots: [0; BODIES],
-            coupled: false,
-        }
+        Self { shift: 1.0, elements: vec![Eliminated::default(); count], bodies: None }
     }
 
     /// Eliminates `shift` − `jacobian`.
@@ -50,69 +46,30 @@ impl Arrow {
         self.shift = shift;
         let inverse_shift = 1.0 / shift;
         let free = jacobian.places.map(|place| place.is_some());
-        self.coupled = free.contains(&true);
-        let mut matrix = [[0.0; BODIES]; BODIES];
-        for (i, row) in matrix.iter_mut().enumerate() {
-            for (k, value) in row.iter_mut().enumerate() {
-                *value = -jacobian.by_velocity[i][k] - inverse_shift * jacobian.by_position[i][k];
-            }
-            row[i] += shift;
-        }
+        let coupled = free.contains(&true);
+        let mut matrix =
+            BodyMatrix::from_diagonal_element(shift) - jacobian.by_velocity - jacobian.by_position * inverse_shift;
         for (block, solved) in jacobian.elements.iter().zip(&mut self.elements) {
             let (a, c) = (block.by_path, block.by_velocity);
-            let per_determinant = 1.0 / (shift * (shift - c) - a);
-            let inverse =
-                [[(shift - c) * per_determinant, per_determinant], [a * per_determinant, shift * per_determinant]];
-            solved.inverse = inverse;
-            if !self.coupled {
+            solved.inverse = Matrix::new(shift - c, 1.0, a, shift) / (shift * (shift - c) - a);
+            if !coupled {
                 continue;
             }
-            for k in 0..RINGS {
-                let (along, velocity, sign) = if k < 2 {
-                    (0.0, block.by_shaft_velocity[k], -1.0)
-                } else {
-                    (-block.e_r[k - 2], block.by_housing_velocity[k - 2], 1.0)
-                };
-                let radial = velocity + sign * inverse_shift * block.by_offset[k % 2];
-                for (row, inverse) in solved.by_rings.iter_mut().zip(inverse) {
-                    row[k] = inverse[0] * along + inverse[1] * radial;
-                }
-            }
-            for i in 0..RINGS {
-                for k in 0..RINGS {
-                    matrix[i][k] -= block.rings_by_path[i] * solved.by_rings[0][k]
-                        + block.rings_by_velocity[i] * solved.by_rings[1][k];
-                }
-            }
+            let moved = block.by_offset * inverse_shift;
+            let radial = stacked(block.by_shaft_velocity - moved, block.by_housing_velocity + moved);
+            let along = stacked(Vector::zeros(), -block.e_r);
+            solved.by_rings = [0, 1].map(|i| along * solved.inverse[(i, 0)] + radial * solved.inverse[(i, 1)]);
+            let [u, w] = &solved.by_rings;
+            let through = block.rings_by_path * u.transpose() + block.rings_by_velocity * w.transpose();
+            let mut rings = matrix.fixed_view_mut::<RINGS, RINGS>(0, 0);
+            rings -= through;
         }
         for i in (0..BODIES).filter(|&i| !free[i]) {
-            for k in 0..BODIES {
-                (matrix[i][k], matrix[k][i]) = (0.0, 0.0);
-            }
-            matrix[i][i] = 1.0;
+            matrix.row_mut(i).fill(0.0);
+            matrix.column_mut(i).fill(0.0);
+            matrix[(i, i)] = 1.0;
         }
-        self.factors = matrix;
-        if self.coupled {
-            self.eliminate();
-        }
-    }
-
-    fn eliminate(&mut self) {
-        let a = &mut self.factors;
-        for i in 0..BODIES {
-            let pivot = (i..BODIES).fold(i, |best, k| if a[k][i].abs() > a[best][i].abs() { k } else { best });
-            a.swap(i, pivot);
-            self.pivots[i] = pivot;
-            let pivot_row = a[i];
-            let inverse = 1.0 / pivot_row[i];
-            for row in a.iter_mut().skip(i + 1) {
-                let factor = row[i] * inverse;
-                row[i] = factor;
-                for k in i + 1..BODIES {
-                    row[k] -= factor * pivot_row[k];
-                }
-            }
-        }
+        self.bodies = coupled.then(|| matrix.lu());
     }
 
     /// Puts x into `b`, for the `jacobian` that was eliminated last.
@@ -121,60 +78,32 @@ impl Arrow {
         let inverse_shift = 1.0 / self.shift;
         // What the positions' right-hand sides alone would move.
         let shifted = jacobian.places.map(|place| place.map_or(0.0, |(position, _)| b[position] * inverse_shift));
-        let offset = [shifted[2] - shifted[0], shifted[3] - shifted[1]];
-        let mut v = [0.0; BODIES];
+        let offset = Vector::new(shifted[2] - shifted[0], shifted[3] - shifted[1]);
+        let mut rings = Rings::zeros();
         for (j, (block, solved)) in jacobian.elements.iter().zip(&self.elements).enumerate() {
-            let (b_u, b_w) = (b[j], b[start + j] + block.by_offset[0] * offset[0] + block.by_offset[1] * offset[1]);
-            let [to_u, to_w] = solved.inverse;
-            let (u, w) = (to_u[0] * b_u + to_u[1] * b_w, to_w[0] * b_u + to_w[1] * b_w);
-            (b[j], b[start + j]) = (u, w);
-            for i in 0..RINGS {
-                v[i] += block.rings_by_path[i] * u + block.rings_by_velocity[i] * w;
-            }
+            let moved = solved.inverse * Vector::new(b[j], b[start + j] + block.by_offset.dot(&offset));
+            (b[j], b[start + j]) = (moved.x, moved.y);
+            rings += block.rings_by_path * moved.x + block.rings_by_velocity * moved.y;
         }
-        if !self.coupled {
-            return;
+        let Some(bodies) = &self.bodies else { return };
+        let mut v = jacobian.by_position * Bodies::from(shifted) + rings.push(0.0);
+        for (v, place) in v.iter_mut().zip(&jacobian.places) {
+            *v = place.map_or(0.0, |(_, velocity)| *v + b[velocity]);
         }
-        for i in 0..BODIES {
-            let Some((_, velocity)) = jacobian.places[i] else {
-                v[i] = 0.0;
-                continue;
-            };
-            v[i] += b[velocity];
-            for k in 0..BODIES {
-                v[i] += jacobian.by_position[i][k] * shifted[k];
-            }
+        if !bodies.solve_mut(&mut v) {
+            // Error control takes a step back whose result is no number.
+            v.fill(f64::NAN);
         }
-        self.substitute(&mut v);
         for (i, place) in jacobian.places.iter().enumerate() {
             if let Some((position, velocity)) = *place {
                 b[velocity] = v[i];
                 b[position] = (v[i] + b[position]) * inverse_shift;
             }
         }
+        let v = Rings::new(v[0], v[1], v[2], v[3]);
         for (j, solved) in self.elements.iter().enumerate() {
-            for (place, row) in [(j, solved.by_rings[0]), (start + j, solved.by_rings[1])] {
-                for k in 0..RINGS {
-                    b[place] += row[k] * v[k];
-                }
-            }
-        }
-    }
-
-    fn substitute(&self, v: &mut [f64; BODIES]) {
-        for (i, &pivot) in self.pivots.iter().enumerate() {
-            v.swap(i, pivot);
-        }
-        for i in 0..BODIES {
-            for k in i + 1..BODIES {
-                v[k] -= self.factors[k][i] * v[i];
-            }
-        }
-        for i in (0..BODIES).rev() {
-            for k in i + 1..BODIES {
-                v[i] -= self.factors[i][k] * v[k];
-            }
-            v[i] /= self.factors[i][i];
+            b[j] += solved.by_rings[0].dot(&v);
+            b[start + j] += solved.by_rings[1].dot(&v);
         }
     }
 }

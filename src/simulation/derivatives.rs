@@ -17,9 +17,11 @@ use super::values::{out_of_range, wrong_type};
 use super::variables::Causality;
 use super::{Simulation, SimulationError, VariableError};
 use crate::dynamics::drive::Drive;
-use crate::dynamics::rings::RingState;
+use crate::dynamics::kinematics::{Kinematics, RingState};
+use crate::dynamics::supports::Bodies;
+use crate::dynamics::tangent::Rings;
 use crate::dynamics::variation::{ForceChange, Variation};
-use crate::scene::Motion;
+use crate::numerics::plane::{Matrix, Vector};
 
 /// A small change of everything that outputs are made of, and what it makes of the forces.
 #[derive(Debug, Clone)]
@@ -27,14 +29,14 @@ pub(super) struct Change {
     variation: Variation,
     forces: ForceChange,
     /// Of the external loads on inner and outer ring [N].
-    loads: [f64; 4],
+    loads: Rings,
     /// Of the sensor's position and velocity.
     sensor: [f64; 2],
     /// Of the accelerations of inner and outer ring [m/s²].
-    accelerations: [[f64; 2]; 2],
+    accelerations: [Vector; 2],
     sensor_acceleration: f64,
     cage_torque: f64,
-    stiffness: [[f64; 2]; 2],
+    stiffness: Matrix,
 }
 
 impl Change {
@@ -42,20 +44,20 @@ impl Change {
         Self {
             variation: Variation::new(count),
             forces: ForceChange::new(count),
-            loads: [0.0; 4],
+            loads: Rings::zeros(),
             sensor: [0.0; 2],
-            accelerations: [[0.0; 2]; 2],
+            accelerations: [Vector::zeros(); 2],
             sensor_acceleration: 0.0,
             cage_torque: 0.0,
-            stiffness: [[0.0; 2]; 2],
+            stiffness: Matrix::zeros(),
         }
     }
 
     fn clear(&mut self) {
         self.variation.clear();
-        (self.loads, self.sensor, self.accelerations) = ([0.0; 4], [0.0; 2], [[0.0; 2]; 2]);
+        (self.loads, self.sensor, self.accelerations) = (Rings::zeros(), [0.0; 2], [Vector::zeros(); 2]);
         (self.sensor_acceleration, self.cage_torque) = (0.0, 0.0);
-        self.stiffness = [[0.0; 2]; 2];
+        self.stiffness = Matrix::zeros();
     }
 
     fn ring(&mut self, name: RingName) -> &mut RingState {
@@ -189,28 +191,12 @@ impl Simulation {
         (variation.cage_angle, variation.cage_speed) = (drive.cage.0[1], drive.cage.0[2]);
         variation.path.copy_from_slice(&self.derivative[..z]);
         variation.radial_velocity.copy_from_slice(&self.derivative[layout.radial_velocity..][..z]);
-        let rings = [
-            (&mut variation.shaft, layout.shaft, &drive.shaft),
-            (&mut variation.housing, layout.housing, &drive.housing),
-        ];
-        for (ring, place, prescribed) in rings {
-            *ring = match place {
-                Some(i) => RingState {
-                    position: [self.derivative[i], self.derivative[i + 1]],
-                    velocity: [self.derivative[i + 2], self.derivative[i + 3]],
-                },
-                // Zero for a fixed ring.
-                None => RingState {
-                    position: prescribed.map(|q| q.rate_at(0.0)),
-                    velocity: prescribed.map(|q| q.second_at(0.0)),
-                },
-            };
-        }
+        [variation.shaft, variation.housing] = self.model.ring_rates(drive, 0.0, &self.derivative);
         if let Some(i) = layout.sensor {
             change.sensor = [self.derivative[i], self.derivative[i + 1]];
         }
         // Those of internal rings follow from the forces' change.
-        change.accelerations = [&drive.shaft, &drive.housing].map(|prescribed| prescribed.map(|q| q.0[3]));
+        change.accelerations = [&drive.shaft, &drive.housing].map(|[x, y]| Vector::new(x.0[3], y.0[3]));
         for (axis, load) in drive.shaft_load.iter().chain(&drive.housing_load).enumerate() {
             change.loads[axis] = load.rate_at(0.0);
         }
@@ -222,38 +208,26 @@ impl Simulation {
         let progress = &self.state.progress;
         let (cells, state) = (&progress.cells, &progress.state);
         let change = &mut self.change;
-        let present = [0, 1].map(|a| self.present_acceleration[a]);
-        self.model.vary(&drive, cells, state, present, &change.variation, &mut change.forces);
+        self.model.vary(&drive, cells, state, self.present_acceleration, &change.variation, &mut change.forces);
 
-        let (shaft, housing) = (&change.variation.shaft, &change.variation.housing);
-        let sensor_force = self.model.sensor.as_ref().map_or(0.0, |sensor| {
-            sensor.stiffness * (change.sensor[0] - housing.position[1])
-                + sensor.damping * (change.sensor[1] - housing.velocity[1])
-        });
         // At the start nothing accelerates, whatever the inputs are.
         if self.state.started {
-            change.sensor_acceleration = self.model.sensor.as_ref().map_or(0.0, |sensor| -sensor_force / sensor.mass);
-            let rings = [
-                (&self.model.shaft, shaft, change.forces.shaft),
-                (&self.model.housing, housing, change.forces.housing),
-            ];
-            for (ring, (support, moved, force)) in rings.into_iter().enumerate() {
-                if support.motion != Motion::Internal {
-                    continue;
-                }
-                for axis in 0..2 {
-                    let sensor = if ring == 1 && axis == 1 { sensor_force } else { 0.0 };
-                    change.accelerations[ring][axis] = (change.loads[2 * ring + axis] + force[axis] + sensor
-                        - support.damping * moved.velocity[axis]
-                        - support.stiffness * moved.position[axis])
-                        / support.mass;
-                }
+            let (variation, forces) = (&change.variation, &change.forces);
+            let cage = drive.cage_at(0.0);
+            let moved = Kinematics { cage, shaft: variation.shaft, housing: variation.housing };
+            let [x, v] = moved.bodies(change.sensor[0], change.sensor[1]);
+            let (supports, [shaft, housing]) = (&self.model.supports, [forces.shaft, forces.housing]);
+            let contacts = Bodies::from([shaft.x, shaft.y, housing.x, housing.y, 0.0]);
+            let all = supports.forces(&x, &v) + contacts + change.loads.push(0.0);
+            let accelerations = all.component_mul(&supports.inverse_masses());
+            for (i, acceleration) in accelerations.iter().enumerate().take(4) {
+                // What the host prescribes has been set before.
+                change.accelerations[i / 2][i % 2] += acceleration;
             }
+            change.sensor_acceleration = accelerations[4];
         }
         let by_acceleration = change.forces.torque_by_acceleration;
-        change.cage_torque = change.forces.cage_torque
-            + by_acceleration[0] * change.accelerations[1][0]
-            + by_acceleration[1] * change.accelerations[1][1];
+        change.cage_torque = change.forces.cage_torque + by_acceleration.dot(&change.accelerations[1]);
         let wanted = |&reference: &u32| matches!(self.quantities[reference as usize], Quantity::Stiffness(..));
         if unknowns.iter().any(wanted) {
             change.stiffness = self.model.vary_stiffness(&drive, cells, state, &change.variation);
@@ -274,7 +248,7 @@ impl Simulation {
             Quantity::Force(name, axis) => ring(name).2[axis],
             // Before the first step the mean is the force itself.
             Quantity::MeanForce(name, axis) if !self.state.started => ring(name).2[axis],
-            Quantity::Stiffness(row, column) => -self.change.stiffness[row][column],
+            Quantity::Stiffness(row, column) => -self.change.stiffness[(row, column)],
             Quantity::SensorAcceleration => self.change.sensor_acceleration,
             Quantity::CageAngle | Quantity::ElementAngle(_) => variation.cage_angle,
             Quantity::CageSpeed => variation.cage_speed,

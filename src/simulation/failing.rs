@@ -83,11 +83,10 @@ fn first_largest(layout: &Layout, size: impl Fn(usize) -> f64) -> usize {
 pub(super) fn check_rings(model: &Model, drive: &Drive, tau: f64, progress: &Progress) -> Result<(), StepError> {
     let shaft = model.shaft_state(drive, tau, &progress.state).position;
     let housing = model.housing_state(drive, tau, &progress.state).position;
-    let (x, y) = (housing[0] - shaft[0], housing[1] - shaft[1]);
-    let limit = model.element_radius;
-    if x * x + y * y <= limit * limit {
+    let (apart, limit) = (housing - shaft, model.element_radius);
+    if apart.norm_squared() <= limit * limit {
         return Ok(());
     }
-    let offset = libm::hypot(x, y);
-    Err(StepError::RingsApart { offset, limit, shaft, housing, since: tau })
+    let offset = libm::hypot(apart.x, apart.y);
+    Err(StepError::RingsApart { offset, limit, shaft: shaft.into(), housing: housing.into(), since: tau })
 }

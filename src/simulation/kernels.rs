@@ -6,10 +6,11 @@ use super::explicit::{LAST, Pair, RightHandSide};
 use super::progress::Progress;
 use super::rodas;
 use super::stepper::Stepper;
-use crate::dynamics::between::Known;
-use crate::dynamics::drive::{Clock, Drive};
+use crate::dynamics::dense_output::Known;
+use crate::dynamics::drive::Drive;
 use crate::dynamics::forces::Forces;
 use crate::dynamics::jacobian::Jacobian;
+use crate::dynamics::kinematics::{CageState, Stage};
 use crate::dynamics::model::Model;
 use crate::numerics::lanes::{Kernel, Wide};
 
@@ -66,8 +67,8 @@ fn explicit_step<S: Wide>(
 ) {
     let weights = pair.weights();
     let sum = stepper.first_force.map(|force| weights[0] * force);
-    let clocks = drive.clocks(from, pair.nodes().map(|node| node * h));
-    let mut stages = Stages { model, drive, clocks, weights, forces: &mut stepper.forces, sum };
+    let cages = drive.cage_after(from, pair.nodes().map(|node| node * h));
+    let mut stages = Stages { model, drive, cages, weights, forces: &mut stepper.forces, sum };
     stepper.explicit.try_step(simd, pair, &progress.state, h, &mut stages);
     stepper.weighted_force = stages.sum;
     stepper.largest_error = stepper.explicit.error(simd, pair, h, &stepper.weights);
@@ -83,12 +84,12 @@ fn implicit<S: Wide>(
 ) {
     let Stepper { explicit, implicit, forces, jacobian, arrow, by_time, largest_error, weights, .. } = stepper;
     let [first, .., last] = &mut explicit.stages;
-    let clocks = drive.clocks(from, rodas::NODES.map(|node| node * h));
-    let mut system = System { model, drive, clocks, forces, jacobian, arrow };
+    let cages = drive.cage_after(from, rodas::NODES.map(|node| node * h));
+    let mut system = System { model, drive, cages, forces, jacobian, arrow };
     implicit.try_step(simd, &progress.state, (first, by_time), h, &mut system);
     *largest_error = implicit.largest_error(weights);
-    let at = (drive, &clocks[rodas::NODES.len() - 1]);
-    model.derivative_on::<S, true>(simd, at, (&implicit.end, None), last, forces);
+    let stage = Stage { drive, cage: &cages[rodas::NODES.len() - 1], state: &implicit.end, ahead: None };
+    model.derivative_on::<S, true>(simd, &stage, last, forces);
 }
 
 /// The state at a share of the step tried last, its derivative, and each contact there.
@@ -109,18 +110,19 @@ impl Kernel for Look<'_> {
     fn run<S: Wide>(self, simd: S) {
         let Self { stepper, model, drive, from, h, share, progress } = self;
         let Stepper { explicit, implicit, forces, dense, scratch, pair, .. } = stepper;
-        let clock = drive.clock(from + share * h);
+        let cage = drive.cage_at(from + share * h);
         match pair {
             _ if progress.choice.implicit => implicit.dense(simd, &progress.state, share, dense),
             Pair::DormandPrince => dormand_prince::dense(simd, explicit, &progress.state, (h, share), dense),
             Pair::PhaseFitted => {
-                let start = Known { clock: drive.clock(from), state: &progress.state, derivative: &explicit.stages[0] };
+                let start =
+                    Known { cage: drive.cage_at(from), state: &progress.state, derivative: &explicit.stages[0] };
                 let end =
-                    Known { clock: drive.clock(from + h), state: &explicit.end, derivative: &explicit.stages[LAST] };
-                model.between(drive, [start, end], (h, share), &clock, dense);
+                    Known { cage: drive.cage_at(from + h), state: &explicit.end, derivative: &explicit.stages[LAST] };
+                model.dense_output(drive, [start, end], (h, share), &cage, dense);
             }
         }
-        model.derivative_on::<S, true>(simd, (drive, &clock), (dense, None), scratch, forces);
+        model.derivative_on::<S, true>(simd, &Stage { drive, cage: &cage, state: dense, ahead: None }, scratch, forces);
     }
 }
 
@@ -128,7 +130,7 @@ impl Kernel for Look<'_> {
 struct System<'a> {
     model: &'a Model,
     drive: &'a Drive,
-    clocks: [Clock; 8],
+    cages: [CageState; 8],
     forces: &'a mut Forces,
     jacobian: &'a Jacobian,
     arrow: &'a Arrow,
@@ -137,8 +139,8 @@ struct System<'a> {
 impl rodas::System for System<'_> {
     #[inline(always)]
     fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: &[f64], out: &mut [f64]) {
-        let at = (self.drive, &self.clocks[stage]);
-        self.model.derivative_on::<S, false>(simd, at, (state, None), out, self.forces);
+        let stage = Stage { drive: self.drive, cage: &self.cages[stage], state, ahead: None };
+        self.model.derivative_on::<S, false>(simd, &stage, out, self.forces);
     }
 
     fn solve(&self, b: &mut [f64]) {
@@ -151,7 +153,7 @@ struct Stages<'a> {
     model: &'a Model,
     drive: &'a Drive,
     /// Those of the first stages; the last two are at the same time.
-    clocks: [Clock; LAST],
+    cages: [CageState; LAST],
     /// Weights of the stages.
     weights: [f64; LAST],
     forces: &'a mut Forces,
@@ -162,14 +164,13 @@ struct Stages<'a> {
 impl RightHandSide for Stages<'_> {
     #[inline(always)]
     fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: (&[f64], Option<f64>), out: &mut [f64]) {
-        let at = (self.drive, &self.clocks[stage.min(LAST - 1)]);
-        let forces = &mut *self.forces;
         let (state, ahead) = state;
-        let at_stage = (self.model, at, state);
+        let (model, forces) = (self.model, &mut *self.forces);
+        let at = Stage { drive: self.drive, cage: &self.cages[stage.min(LAST - 1)], state, ahead };
         match ahead {
-            None if stage == LAST => return simd.apart(Evaluation::<true, false>(at_stage, 0.0, out, forces)),
-            None => simd.apart(Evaluation::<false, false>(at_stage, 0.0, out, &mut *forces)),
-            Some(ahead) => simd.apart(Evaluation::<false, true>(at_stage, ahead, out, &mut *forces)),
+            None if stage == LAST => return simd.apart(Evaluation::<true, false> { model, at, out, forces }),
+            None => simd.apart(Evaluation::<false, false> { model, at, out, forces: &mut *forces }),
+            Some(_) => simd.apart(Evaluation::<false, true> { model, at, out, forces: &mut *forces }),
         }
         for (sum, force) in self.sum.iter_mut().zip(forces.rings) {
             *sum += self.weights[stage] * force;
@@ -180,19 +181,21 @@ impl RightHandSide for Stages<'_> {
 /// One evaluation of the right-hand side, each contact kept if `RECORD`; if `AHEAD`, with positions that are still to be moved on
 /// by a time [s]. Each is a function of its own: a step that has all of its stages written out is longer than what a
 /// processor keeps decoded.
-struct Evaluation<'a, const RECORD: bool, const AHEAD: bool>(
-    (&'a Model, (&'a Drive, &'a Clock), &'a [f64]),
-    f64,
-    &'a mut [f64],
-    &'a mut Forces,
-);
+struct Evaluation<'a, const RECORD: bool, const AHEAD: bool> {
+    model: &'a Model,
+    at: Stage<'a>,
+    out: &'a mut [f64],
+    forces: &'a mut Forces,
+}
 
 impl<const RECORD: bool, const AHEAD: bool> Kernel for Evaluation<'_, RECORD, AHEAD> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Wide>(self, simd: S) {
-        let Self((model, at, state), ahead, out, forces) = self;
-        model.derivative_on::<S, RECORD>(simd, at, (state, AHEAD.then_some(ahead)), out, forces);
+        let Self { model, at, out, forces } = self;
+        // Known when this is compiled, so that each kind is a function without the other's work.
+        let ahead = if AHEAD { Some(at.ahead.unwrap_or(0.0)) } else { None };
+        model.derivative_on::<S, RECORD>(simd, &Stage { ahead, ..at }, out, forces);
     }
 }

@@ -38,6 +38,7 @@ use crate::contact::map::ContactMap;
 use crate::dynamics::drive::{CageAngle, Drive};
 use crate::dynamics::forces::{Forces, SMOOTH};
 use crate::dynamics::model::Model;
+use crate::numerics::plane::Vector;
 use crate::scene::{ContactLaw, Scene};
 use crate::surface::Surface;
 use access::Access;
@@ -79,7 +80,7 @@ pub struct Simulation {
     derivative: Vec<f64>,
     change: Change,
     /// The outer ring's acceleration when outputs were computed last [m/s²].
-    present_acceleration: [f64; 2],
+    present_acceleration: Vector,
     /// Without the variables, which are in `values`, `integers` and `input_rates` while the simulation runs.
     state: State,
     /// Parameters have been set since the model was built.
@@ -168,7 +169,7 @@ impl Simulation {
             forces: Forces::new(model.element_count),
             derivative: vec![0.0; model.layout.len],
             change: Change::new(model.element_count),
-            present_acceleration: [0.0; 2],
+            present_acceleration: Vector::zeros(),
             state: State {
                 time: 0.0,
                 started: false,
@@ -372,7 +373,7 @@ impl Simulation {
         self.model.derivative(&drive, 0.0, &progress.cells, &progress.state, &mut self.derivative, &mut self.forces);
         self.forces.note_pushing(&mut progress.pushing);
         let (shaft, housing) = (self.forces.shaft(), self.forces.housing());
-        progress.mean_force = [shaft[0], shaft[1], housing[0], housing[1]];
+        progress.mean_force = [shaft.x, shaft.y, housing.x, housing.y];
         self.equilibrium_is_stale = false;
         Ok(())
     }

@@ -4,16 +4,17 @@ use super::table::{Quantity, RingName};
 use super::{Simulation, SimulationError};
 use crate::dynamics::drive::Drive;
 use crate::dynamics::forces::Forces;
+use crate::dynamics::kinematics::RingState;
 use crate::dynamics::model::Model;
-use crate::dynamics::rings::RingState;
+use crate::numerics::plane::Vector;
 
 /// All that the outputs of one instant are computed from.
 #[derive(Debug)]
-pub struct Instant<'a> {
+pub struct Outputs<'a> {
     state: &'a [f64],
     forces: &'a Forces,
     ring: [RingState; 2],
-    acceleration: [[f64; 2]; 2],
+    acceleration: [Vector; 2],
     sensor: f64,
     cage_angle: f64,
     model: &'a Model,
@@ -21,8 +22,8 @@ pub struct Instant<'a> {
     tau: f64,
 }
 
-impl<'a> Instant<'a> {
-    /// The instant `tau` [s] after the communication point. `derivative` and `forces` are the model's for `state`;
+impl<'a> Outputs<'a> {
+    /// Those of the instant `tau` [s] after the communication point. `derivative` and `forces` are the model's for `state`;
     /// `cage_start` is the cage angle at the communication point [rad], all turns counted.
     pub fn new(
         model: &'a Model,
@@ -35,7 +36,7 @@ impl<'a> Instant<'a> {
             state,
             forces,
             ring: [model.shaft_state(drive, tau, state), model.housing_state(drive, tau, state)],
-            acceleration: model.ring_accelerations(drive, tau, derivative),
+            acceleration: model.ring_rates(drive, tau, derivative).map(|ring| ring.velocity),
             sensor: model.layout.sensor.map_or(0.0, |i| derivative[i + 1]),
             cage_angle: cage_start + drive.cage.at(tau),
             model,
@@ -44,7 +45,7 @@ impl<'a> Instant<'a> {
         }
     }
 
-    /// Value of an output; `None` for what does not belong to an instant.
+    /// Value of an output; `None` for what does not belong to an outputs.
     pub fn value(&self, quantity: Quantity) -> Option<f64> {
         Some(match quantity {
             Quantity::Position(ring, axis) => self.ring[place(ring)].position[axis],
@@ -90,19 +91,19 @@ impl Simulation {
             self.rest();
         }
         let progress = &self.state.progress;
-        let instant = Instant::new(
+        let outputs = Outputs::new(
             &self.model,
             (&drive, 0.0),
             (&progress.state, &self.derivative),
             &self.forces,
             self.state.cage.total(),
         );
-        self.present_acceleration = instant.acceleration[place(RingName::Housing)];
+        self.present_acceleration = outputs.acceleration[place(RingName::Housing)];
         let first = self.inputs.count;
         for (i, quantity) in self.quantities.iter().enumerate().skip(first) {
             let value = match *quantity {
                 Quantity::MeanForce(ring, axis) => Some(progress.mean_force[2 * place(ring) + axis]),
-                other => instant.value(other),
+                other => outputs.value(other),
             };
             if let Some(value) = value {
                 self.values[i] = value;
@@ -140,13 +141,12 @@ impl Simulation {
         if self.stiffness_is_stale {
             let drive = self.drive(false);
             let progress = &self.state.progress;
-            let shaft = self.model.shaft_state(&drive, 0.0, &progress.state);
-            let housing = self.model.housing_state(&drive, 0.0, &progress.state);
-            let offset = [0, 1].map(|a| housing.position[a] - shaft.position[a]);
-            let jacobian = self.model.ring_jacobian(&progress.state, &progress.cells, offset, drive.cage_angle(0.0));
+            let now = self.model.kinematics(&drive, 0.0, &progress.state);
+            let (state, cells) = (&progress.state, &progress.cells);
+            let jacobian = self.model.ring_jacobian(state, cells, now.offset(), now.cage.angle);
             for (value, quantity) in self.values.iter_mut().zip(self.quantities.iter()) {
                 if let Quantity::Stiffness(row, column) = *quantity {
-                    *value = -jacobian[row][column];
+                    *value = -jacobian[(row, column)];
                 }
             }
             self.stiffness_is_stale = false;

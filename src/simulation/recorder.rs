@@ -4,7 +4,7 @@
 //! what is integrated. The next instant is kept as the time from the communication point, as all time is; a rewound
 //! simulation takes back the samples of the time that it takes back.
 
-use super::outputs::Instant;
+use super::outputs::Outputs;
 use super::table::Quantity;
 use super::variables::{Causality, Variable};
 
@@ -120,9 +120,9 @@ impl Recorder {
     }
 
     /// Takes the sample that is due.
-    pub(super) fn take(&mut self, due: &mut Due, instant: &Instant) {
+    pub(super) fn take(&mut self, due: &mut Due, outputs: &Outputs) {
         self.values.push(self.start.0 + due.delay);
-        self.values.extend(self.signals.iter().map(|(_, quantity)| instant.value(*quantity).unwrap_or(f64::NAN)));
+        self.values.extend(self.signals.iter().map(|(_, quantity)| outputs.value(*quantity).unwrap_or(f64::NAN)));
         due.delay += self.period;
         due.count += 1;
     }

@@ -17,7 +17,7 @@ use super::explicit::{Explicit, Pair};
 use super::failing::check_rings;
 use super::kernels::{Look, Trial};
 use super::knots::{Leg, next_knot};
-use super::outputs::Instant;
+use super::outputs::Outputs;
 use super::progress::Progress;
 use super::recorder::Recorder;
 use super::rodas::{self, Rodas};
@@ -276,8 +276,8 @@ impl Stepper {
         while let Some(tau) = recorder.due_before(&progress.due, from + h) {
             self.look(model, drive, (from, h), (tau - from).max(0.0) / h, progress);
             let Self { dense, scratch, forces, .. } = self;
-            let instant = Instant::new(model, (drive, tau), (dense, scratch), forces, recorder.cage_angle());
-            recorder.take(&mut progress.due, &instant);
+            let outputs = Outputs::new(model, (drive, tau), (dense, scratch), forces, recorder.cage_angle());
+            recorder.take(&mut progress.due, &outputs);
         }
         // What the recorder looks up is not the solver's work.
         self.forces.defect_lookups = lookups;

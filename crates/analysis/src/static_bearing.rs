@@ -193,7 +193,7 @@ impl StaticBearing {
         model.derivative(&drive, 0.0, &cells, &state, &mut vec![0.0; state.len()], &mut forces);
         let displacement = model.shaft_state(&drive, 0.0, &state).position;
         let paths = &state[..model.element_count];
-        let jacobian = model.ring_jacobian(paths, &cells, displacement.map(|x| -x), cage_angle);
+        let jacobian = model.ring_jacobian(paths, &cells, -displacement, cage_angle);
         let elements = (0..model.element_count).map(|j| LoadedElement {
             angle: wrap(cage_angle + model.element_offset(j)),
             path: paths[j],
@@ -205,9 +205,9 @@ impl StaticBearing {
         Ok(Balance {
             cage_angle,
             load,
-            displacement,
-            stiffness: [0, 1].map(|a| [0, 1].map(|b| -jacobian[a][b])),
-            load_zone: load_zone(model.radial_clearance, displacement),
+            displacement: displacement.into(),
+            stiffness: [0, 1].map(|a| [0, 1].map(|b| -jacobian[(a, b)])),
+            load_zone: load_zone(model.radial_clearance, displacement.into()),
             elements: elements.collect(),
         })
     }

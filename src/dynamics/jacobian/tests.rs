@@ -87,7 +87,7 @@ pub(crate) fn whole(jacobian: &Jacobian, len: usize) -> Vec<Vec<f64>> {
         matrix[x][v] = 1.0;
         for k in 0..BODIES {
             let Some((x_k, v_k)) = places[k] else { continue };
-            (matrix[v][x_k], matrix[v][v_k]) = (jacobian.by_position[i][k], jacobian.by_velocity[i][k]);
+            (matrix[v][x_k], matrix[v][v_k]) = (jacobian.by_position[(i, k)], jacobian.by_velocity[(i, k)]);
         }
     }
     matrix

@@ -1,4 +1,4 @@
-//! Motion between two instants at which state and derivative are known.
+//! Dense output: the motion between two instants at which state and derivative are known.
 //!
 //! Every position follows the polynomial of degree five that has its value, rate and second derivative at both ends
 //! (Hermite); its error is of order h⁶. Velocities are that polynomial's derivative. An element's w is not the rate of its
@@ -7,28 +7,29 @@
 //! u' = w − e_r·v_o,   u'' = w' − e_r·v_o' − ω e_t·v_o
 //! ```
 
-use super::drive::{Clock, Drive};
-use super::forces::dot;
+use super::drive::Drive;
+use super::kinematics::CageState;
 use super::model::Model;
+use crate::numerics::plane::turned;
 
 /// What is known at one instant.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Known<'a> {
-    pub(crate) clock: Clock,
+    pub(crate) cage: CageState,
     pub(crate) state: &'a [f64],
     pub(crate) derivative: &'a [f64],
 }
 
 impl Model {
-    /// State at `share` of the time `h` [s] from the first to the second instant, where the cage is as `clock` says, into
+    /// State at `share` of the time `h` [s] from the first to the second instant, where the cage is as `cage` says, into
     /// `out`.
     #[inline(always)]
-    pub(crate) fn between(
+    pub(crate) fn dense_output(
         &self,
         drive: &Drive,
         ends: [Known; 2],
         (h, share): (f64, f64),
-        clock: &Clock,
+        cage: &CageState,
         out: &mut [f64],
     ) {
         let layout = &self.layout;
@@ -41,19 +42,18 @@ impl Model {
                 (out[i], out[i + count]) = basis.at(value(i), rate(i), rate(i + count));
             }
         }
-        let housing = ends.map(|end| self.housing_state(drive, end.clock.tau, end.state).velocity);
-        let acceleration = ends.map(|end| self.ring_accelerations(drive, end.clock.tau, end.derivative)[1]);
-        let velocity = self.housing_state(drive, clock.tau, out).velocity;
+        let housing = ends.map(|end| self.housing_state(drive, end.cage.tau, end.state).velocity);
+        let acceleration = ends.map(|end| self.ring_rates(drive, end.cage.tau, end.derivative)[1].velocity);
+        let velocity = self.housing_state(drive, cage.tau, out).velocity;
         let w = layout.radial_velocity;
         for j in 0..self.element_count {
             let bend = [0, 1].map(|k| {
-                let (e_r, clock) = (self.direction(j, ends[k].clock.cage), &ends[k].clock);
-                let e_t = [-e_r[1], e_r[0]];
-                ends[k].derivative[w + j] - dot(e_r, acceleration[k]) - clock.cage_speed * dot(e_t, housing[k])
+                let (e_r, cage) = (self.direction(j, ends[k].cage.direction), &ends[k].cage);
+                ends[k].derivative[w + j] - e_r.dot(&acceleration[k]) - cage.speed * turned(e_r).dot(&housing[k])
             });
             let (path, path_rate) = basis.at(value(j), rate(j), bend);
             out[j] = path;
-            out[w + j] = path_rate + dot(self.direction(j, clock.cage), velocity);
+            out[w + j] = path_rate + self.direction(j, cage.direction).dot(&velocity);
         }
     }
 }
@@ -120,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn what_lies_between_is_what_many_small_steps_give() {
+    fn dense_output_is_what_many_small_steps_give() {
         // 0.06 rad of an element's vibration: the polynomials' rates miss 1e-10 m/s. Without the terms of a turning e_r or of the
         // outer ring's acceleration they would miss 1e-7.
         let h = 2e-7;
@@ -133,11 +133,11 @@ mod tests {
             for ((at, tau), rates) in [(&state, 0.0), (&end, h)].into_iter().zip(&mut rates) {
                 model.derivative(&drive, tau, &cells, at, rates, &mut forces);
             }
-            let known = |state, derivative, tau| Known { clock: drive.clock(tau), state, derivative };
+            let known = |state, derivative, tau| Known { cage: drive.cage_at(tau), state, derivative };
             let ends = [known(&state[..], &rates[0][..], 0.0), known(&end, &rates[1], h)];
             for share in [0.3, 0.7] {
                 let mut found = vec![0.0; state.len()];
-                model.between(&drive, ends, (h, share), &drive.clock(share * h), &mut found);
+                model.dense_output(&drive, ends, (h, share), &drive.cage_at(share * h), &mut found);
                 let expected = integrated(&model, &drive, (&state, &cells), share * h);
                 for i in (0..state.len()).filter(|&i| model.layout.is_used(i)) {
                     let limit = if model.layout.is_position(i) { 1e-16 } else { 2e-9 };

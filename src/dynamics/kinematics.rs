@@ -1,0 +1,250 @@
+//! Where cage and rings are at one instant, and how fast they move: the bearing's one "now".
+//!
+//! The cage is known before the state is, so its part is worked out first, for several instants of a step together. Rings
+//! follow from the state where it has them, else from the host.
+
+use super::drive::{Cubic, Drive};
+use super::model::Model;
+use crate::numerics::plane::Vector;
+use crate::numerics::sin_cos;
+use crate::scene::Motion;
+
+/// The cage at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CageState {
+    /// Time τ since the communication point [s].
+    pub tau: f64,
+    /// Direction of element 1: cosine and sine of the cage angle.
+    pub direction: Vector,
+    /// Cage angle [rad], within one turn at the communication point.
+    pub angle: f64,
+    /// Cage speed [rad/s].
+    pub speed: f64,
+    /// Cage acceleration [rad/s²].
+    pub acceleration: f64,
+}
+
+/// Position and velocity of a ring.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RingState {
+    /// Position [m].
+    pub position: Vector,
+    /// Velocity [m/s].
+    pub velocity: Vector,
+}
+
+/// Cage and rings at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Kinematics {
+    /// The cage.
+    pub cage: CageState,
+    /// The inner ring.
+    pub shaft: RingState,
+    /// The outer ring.
+    pub housing: RingState,
+}
+
+/// What the right-hand side is evaluated at.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Stage<'a> {
+    /// What acts from outside.
+    pub(crate) drive: &'a Drive,
+    /// The cage at the stage's instant.
+    pub(crate) cage: &'a CageState,
+    /// State vector.
+    pub(crate) state: &'a [f64],
+    /// Time [s] by which the positions in `state` are still to be moved on along the velocities in it.
+    pub(crate) ahead: Option<f64>,
+}
+
+impl Default for RingState {
+    fn default() -> Self {
+        Self { position: Vector::zeros(), velocity: Vector::zeros() }
+    }
+}
+
+impl CageState {
+    /// A cage that stands still at an angle [rad].
+    pub fn at_rest(angle: f64) -> Self {
+        Self { tau: 0.0, direction: direction(angle), angle, speed: 0.0, acceleration: 0.0 }
+    }
+}
+
+impl Kinematics {
+    /// Nothing moves; the outer ring's centre is `offset` [m] from the inner's.
+    pub fn at_rest(cage_angle: f64, offset: Vector) -> Self {
+        let housing = RingState { position: offset, ..RingState::default() };
+        Self { cage: CageState::at_rest(cage_angle), shaft: RingState::default(), housing }
+    }
+
+    /// Position of the outer ring's centre seen from the inner's [m].
+    #[inline(always)]
+    pub fn offset(&self) -> Vector {
+        self.housing.position - self.shaft.position
+    }
+
+    /// Its velocity [m/s].
+    #[inline(always)]
+    pub fn drift(&self) -> Vector {
+        self.housing.velocity - self.shaft.velocity
+    }
+}
+
+impl Drive {
+    /// The cage at `tau`.
+    #[inline]
+    pub fn cage_at(&self, tau: f64) -> CageState {
+        let angle = self.cage_angle(tau);
+        CageState {
+            tau,
+            direction: direction(angle),
+            angle,
+            speed: self.cage.rate_at(tau),
+            acceleration: self.cage.0[2],
+        }
+    }
+
+    /// The cage at some instants after `from`, worked out together: the direction at `from`, turned by a small angle.
+    #[inline(always)]
+    pub(crate) fn cage_after<const N: usize>(&self, from: f64, after: [f64; N]) -> [CageState; N] {
+        let start = self.cage_at(from);
+        let mut turned = [0.0; N];
+        for (angle, after) in turned.iter_mut().zip(after) {
+            *angle = after * (start.speed + 0.5 * after * start.acceleration);
+        }
+        if !turned.iter().all(|angle| angle.abs() <= SMALL_ANGLE) {
+            return after.map(|after| self.cage_at(from + after));
+        }
+        let mut cages = [start; N];
+        for ((cage, after), x) in cages.iter_mut().zip(after).zip(turned) {
+            let square = x * x;
+            let sin = x * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0 - square * (1.0 / 5040.0))));
+            let less = square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0 - square * (1.0 / 40_320.0))));
+            let (cos_0, sin_0) = (start.direction.x, start.direction.y);
+            cage.tau = from + after;
+            cage.direction = Vector::new(cos_0 - (cos_0 * less + sin_0 * sin), sin_0 - (sin_0 * less - cos_0 * sin));
+            cage.angle = start.angle + x;
+            cage.speed = start.speed + after * start.acceleration;
+        }
+        cages
+    }
+}
+
+/// Angle up to which the series of [`Drive::cage_after`] hold to rounding [rad]: 0.03¹⁰/10! is 2e-22.
+const SMALL_ANGLE: f64 = 0.03;
+
+#[inline(always)]
+fn direction(angle: f64) -> Vector {
+    let (sin, cos) = sin_cos(angle);
+    Vector::new(cos, sin)
+}
+
+impl Model {
+    /// Cage and rings at `tau`.
+    pub fn kinematics(&self, drive: &Drive, tau: f64, state: &[f64]) -> Kinematics {
+        self.kinematics_of(&Stage { drive, cage: &drive.cage_at(tau), state, ahead: None })
+    }
+
+    #[inline(always)]
+    pub(super) fn kinematics_of(&self, at: &Stage) -> Kinematics {
+        let Stage { drive, cage, state, ahead } = *at;
+        let (shaft, housing) = (self.shaft.motion, self.housing.motion);
+        Kinematics {
+            cage: *cage,
+            shaft: ring_state(self.layout.shaft, shaft, &drive.shaft, cage.tau, state, ahead),
+            housing: ring_state(self.layout.housing, housing, &drive.housing, cage.tau, state, ahead),
+        }
+    }
+
+    /// Position and velocity of the inner ring, wherever they come from.
+    #[inline(always)]
+    pub fn shaft_state(&self, drive: &Drive, tau: f64, state: &[f64]) -> RingState {
+        ring_state(self.layout.shaft, self.shaft.motion, &drive.shaft, tau, state, None)
+    }
+
+    /// Position and velocity of the outer ring, wherever they come from.
+    #[inline(always)]
+    pub fn housing_state(&self, drive: &Drive, tau: f64, state: &[f64]) -> RingState {
+        ring_state(self.layout.housing, self.housing.motion, &drive.housing, tau, state, None)
+    }
+
+    /// Velocity and acceleration of the inner and the outer ring, each in a [`RingState`] of rates: zero for a ring at rest.
+    pub fn ring_rates(&self, drive: &Drive, tau: f64, derivative: &[f64]) -> [RingState; 2] {
+        [(self.layout.shaft, &drive.shaft), (self.layout.housing, &drive.housing)].map(
+            |(place, prescribed)| match place {
+                Some(i) => RingState {
+                    position: Vector::new(derivative[i], derivative[i + 1]),
+                    velocity: Vector::new(derivative[i + 2], derivative[i + 3]),
+                },
+                None => prescribed_rate(prescribed, tau),
+            },
+        )
+    }
+}
+
+/// Rates of a prescribed ring; zero for one that does not move.
+pub(super) fn prescribed_rate(prescribed: &[Cubic; 2], tau: f64) -> RingState {
+    let [x, y] = prescribed;
+    RingState {
+        position: Vector::new(x.rate_at(tau), y.rate_at(tau)),
+        velocity: Vector::new(x.second_at(tau), y.second_at(tau)),
+    }
+}
+
+#[inline(always)]
+fn ring_state(
+    place: Option<usize>,
+    motion: Motion,
+    prescribed: &[Cubic; 2],
+    tau: f64,
+    state: &[f64],
+    ahead: Option<f64>,
+) -> RingState {
+    match (place, motion) {
+        (Some(i), _) => {
+            let velocity = Vector::new(state[i + 2], state[i + 3]);
+            let position = Vector::new(moved(state[i], velocity.x, ahead), moved(state[i + 1], velocity.y, ahead));
+            RingState { position, velocity }
+        }
+        (None, Motion::Host) => {
+            let [x, y] = prescribed;
+            RingState {
+                position: Vector::new(x.at(tau), y.at(tau)),
+                velocity: Vector::new(x.rate_at(tau), y.rate_at(tau)),
+            }
+        }
+        _ => RingState::default(),
+    }
+}
+
+/// A position, moved on along its rate by the time `ahead`.
+#[inline(always)]
+pub(super) fn moved(position: f64, rate: f64, ahead: Option<f64>) -> f64 {
+    ahead.map_or(position, |ahead| position + ahead * rate)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::drive::Quadratic;
+
+    #[test]
+    fn cages_worked_out_together_are_those_worked_out_alone() {
+        for (speed, acceleration) in [(100.0, 0.0), (-3000.0, 1e7), (0.0, 0.0), (1e4, -1e9)] {
+            for from in [0.0, 3e-4] {
+                let drive = Drive { cage_start: 2.5, cage: Quadratic([0.0, speed, acceleration]), ..Drive::default() };
+                let after = [0.0, 1e-7, 3e-6, 1e-5];
+                for (together, after) in drive.cage_after(from, after).into_iter().zip(after) {
+                    let alone = drive.cage_at(from + after);
+                    // A rounding or two of numbers up to 1, and of the angle.
+                    let angle = 4.0 * f64::EPSILON * (1.0 + alone.angle.abs());
+                    assert!((together.direction.x - alone.direction.x).abs() < angle, "{together:?} {alone:?}");
+                    assert!((together.direction.y - alone.direction.y).abs() < angle, "{together:?} {alone:?}");
+                    assert!((together.angle - alone.angle).abs() < angle);
+                    let speed = 4.0 * f64::EPSILON * (alone.speed.abs() + 1e7 * 3e-4 + 1.0);
+                    assert!((together.speed - alone.speed).abs() < speed.max(1e-9));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! Vectors and matrices of the bearing's plane: x to the right, y up, angles counter-clockwise from +x.
+//!
+//! They are nalgebra's of fixed size, whose sums and products are ordinary IEEE operations one by one, in an order that the
+//! size fixes: equal bits on every machine.
+
+/// A vector of the plane.
+pub type Vector = nalgebra::Vector2<f64>;
+/// A linear map of the plane.
+pub type Matrix = nalgebra::Matrix2<f64>;
+
+/// `v` turned by a right angle counter-clockwise: e_t from e_r.
+#[inline(always)]
+pub fn turned(v: Vector) -> Vector {
+    Vector::new(-v.y, v.x)
+}
