@@ -6,6 +6,7 @@
 pub mod elliptic;
 pub mod lanes;
 pub mod linear;
+pub mod low_pass;
 mod power;
 pub mod row;
 #[cfg(test)]
