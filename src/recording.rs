@@ -7,28 +7,71 @@
 //!
 //! [npy]: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html
 
-use std::fs::{self, File};
+mod claim;
+
+use std::fs;
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use crate::simulation::Simulation;
 use crate::simulation::recorder::Samples;
+use claim::Claim;
 
 /// What goes wrong with a recording.
 #[derive(Debug, thiserror::Error)]
-#[error("recording {path}: {cause}. Check the folder given as recorder.folder", path = path.display())]
-pub struct RecordingError {
-    /// The file.
-    path: PathBuf,
-    /// What the system says.
-    cause: io::Error,
+pub enum RecordingError {
+    /// The system refuses.
+    #[error("recording {path}: {cause}. Check the folder given as recorder.folder", path = path.display())]
+    Unwritable {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        cause: io::Error,
+    },
+    /// Another instance in this process writes it.
+    #[error(
+        "recording {path}: instance {other:?} is writing it, and instance {name:?} would write over it. \
+         Give them names that differ in letters, digits, - or _, or another recorder.folder",
+        path = path.display()
+    )]
+    Claimed {
+        /// The file.
+        path: PathBuf,
+        /// Name of the instance that is refused.
+        name: String,
+        /// Name of the instance that writes it.
+        other: String,
+    },
+    /// Another process writes it, or another FMU's library in this one.
+    #[error(
+        "recording {path}: another process, or another FMU in this one, is writing it, and instance {name:?} would write \
+         over it. Give the instances other names, or another recorder.folder",
+        path = path.display()
+    )]
+    ClaimedElsewhere {
+        /// The file.
+        path: PathBuf,
+        /// Name of the instance that is refused.
+        name: String,
+    },
+}
+
+/// Samples that are not in the file yet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unstored {
+    /// How many.
+    pub count: usize,
+    /// Time of the first [s].
+    pub from: f64,
+    /// Time of the last [s].
+    pub to: f64,
 }
 
 /// A recording that grows.
 #[derive(Debug)]
 pub struct Recording {
     path: PathBuf,
-    file: File,
+    claim: Claim,
     names: Vec<String>,
     /// Length of the header [bytes].
     header: u64,
@@ -42,10 +85,11 @@ const GATHERED: usize = 1 << 16;
 
 impl Recording {
     /// Begins the recording `<name>.npy` of a simulation, in the folder that its recorder has been given; `None` if there
-    /// is none. Characters of `name` that not every file system takes become `_`.
+    /// is none. Characters of `name` that not every file system takes become `_`. The recording of a run that is over is
+    /// written over.
     ///
     /// # Errors
-    /// A folder that can be neither used nor made, a file that cannot be written.
+    /// A folder that can be neither used nor made, a file that cannot be written or that another instance writes.
     pub fn begin(simulation: &Simulation, name: &str) -> Result<Option<Self>, RecordingError> {
         let Some(recorder) = simulation.recorder() else { return Ok(None) };
         let plain = |c: char| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' };
@@ -53,16 +97,13 @@ impl Recording {
         let path = Path::new(recorder.folder()).join(format!("{stem}.npy"));
         let mut names = vec!["time".to_owned()];
         names.extend(recorder.references().map(|reference| simulation.table()[reference as usize].name.clone()));
-        let create = || {
-            fs::create_dir_all(recorder.folder())?;
-            File::create(&path)
-        };
-        let file = match create() {
-            Ok(file) => file,
-            Err(cause) => return Err(RecordingError { path, cause }),
-        };
+        if let Err(cause) = fs::create_dir_all(recorder.folder()) {
+            return Err(RecordingError::Unwritable { path, cause });
+        }
+        let claim = Claim::new(&path, name)?;
         let header = header(&names, 0).len() as u64;
-        let mut recording = Self { path, file, names, header, first: 0, rows: 0 };
+        let mut recording = Self { path, claim, names, header, first: recorder.samples().first, rows: 0 };
+        recording.count(0).map_err(|cause| recording.failed(cause))?;
         recording.write(simulation)?;
         Ok(Some(recording))
     }
@@ -85,7 +126,7 @@ impl Recording {
     /// Stores the samples of a simulation, all of them.
     ///
     /// # Errors
-    /// A file that cannot be written. The samples are kept.
+    /// A file that cannot be written. The samples are kept, and the file holds what it held.
     pub fn store(&mut self, simulation: &mut Simulation) -> Result<(), RecordingError> {
         self.write(simulation)?;
         simulation.forget_samples();
@@ -94,27 +135,65 @@ impl Recording {
 
     fn write(&mut self, simulation: &Simulation) -> Result<(), RecordingError> {
         let Some(recorder) = simulation.recorder() else { return Ok(()) };
-        self.put(recorder.samples()).map_err(|cause| RecordingError { path: self.path.clone(), cause })
+        self.put(recorder.samples()).map_err(|cause| self.failed(cause))
+    }
+
+    fn failed(&self, cause: io::Error) -> RecordingError {
+        RecordingError::Unwritable { path: self.path.clone(), cause }
     }
 
     fn put(&mut self, samples: Samples) -> io::Result<()> {
-        if self.rows == 0 || samples.first < self.first {
-            (self.first, self.rows) = (samples.first, 0);
+        let start = samples.first.saturating_sub(self.first);
+        if samples.first < self.first || start < self.rows {
+            // Taken back: out of the file before others come in their place, or a full disk would leave both in it.
+            self.count(start)?;
         }
-        let mut bytes = Vec::with_capacity(8 * samples.values.len());
+        if self.rows == 0 {
+            self.first = samples.first;
+        }
+        if samples.values.is_empty() {
+            return Ok(());
+        }
         let start = samples.first - self.first;
+        let mut bytes = Vec::with_capacity(8 * samples.values.len());
         // Rows that another instance took, if the state came from there: not known here, and said so.
         for _ in self.rows..start {
             bytes.extend(std::iter::repeat_n(f64::NAN.to_le_bytes(), samples.width).flatten());
         }
         bytes.extend(samples.values.iter().flat_map(|value| value.to_le_bytes()));
-        let row = 8 * samples.width as u64;
-        self.file.seek(SeekFrom::Start(self.header + row * self.rows.min(start)))?;
-        self.file.write_all(&bytes)?;
-        self.rows = start + samples.values.len() as u64 / samples.width as u64;
-        self.file.set_len(self.header + row * self.rows)?;
-        self.file.seek(SeekFrom::Start(0))?;
-        self.file.write_all(&header(&self.names, self.rows))
+        let end = self.end(self.rows);
+        let file = &mut self.claim.file;
+        if let Err(cause) = file.seek(SeekFrom::Start(end)).and_then(|_| file.write_all(&bytes)) {
+            // What fitted is no row that is counted.
+            drop(file.set_len(end));
+            return Err(cause);
+        }
+        self.count(start + (samples.values.len() / samples.width) as u64)
+    }
+
+    /// Makes the file one of so many rows.
+    fn count(&mut self, rows: u64) -> io::Result<()> {
+        let file = &mut self.claim.file;
+        file.seek(SeekFrom::Start(0))?;
+        file.write_all(&header(&self.names, rows))?;
+        self.rows = rows;
+        let end = self.end(rows);
+        self.claim.file.set_len(end)
+    }
+
+    /// Length of a file of so many rows [bytes].
+    fn end(&self, rows: u64) -> u64 {
+        self.header + 8 * self.names.len() as u64 * rows
+    }
+}
+
+impl Unstored {
+    /// The samples of a simulation that its recording has not stored.
+    pub fn of(simulation: &Simulation) -> Option<Self> {
+        let samples = simulation.recorder()?.samples();
+        let mut times = samples.values.iter().step_by(samples.width);
+        let from = *times.next()?;
+        Some(Self { count: samples.values.len() / samples.width, from, to: *times.last().unwrap_or(&from) })
     }
 }
 

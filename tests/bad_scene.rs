@@ -220,6 +220,14 @@ fn negative_quantities_are_refused() {
 }
 
 #[test]
+fn a_recorder_that_filters_has_a_lowest_rate_and_a_known_filter() {
+    let rate = GOOD.lines().find(|line| line.starts_with("rate_hz")).unwrap();
+    refused(rate, "rate_hz = 99.0", &["recorder.rate_hz", "linear-phase", "is 99", "at least 100.0"]);
+    refused(rate, &format!("{rate}\nfilter = \"butterworth\""), &["butterworth", "linear-phase", "none"]);
+    assert!(Scene::from_toml(&GOOD.replace(rate, "rate_hz = 99.0\nfilter = \"none\"")).is_ok());
+}
+
+#[test]
 fn no_quantity_may_be_nan_or_infinite() {
     let of = |value: &str, line: &str| {
         let (key, _) = line.split_once(" = ").unwrap();

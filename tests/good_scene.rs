@@ -80,7 +80,7 @@ fn what_is_left_out_gets_the_documented_default() {
     assert_eq!(scene.shaft.load, [0.0, 0.0]);
     assert_eq!(scene.sensor, None);
     assert_eq!(scene.tolerance, 1e-5);
-    assert_eq!(scene.recorder_rate, None);
+    assert_eq!(scene.recorder, None);
     assert_eq!((scene.experiment.stop, scene.experiment.step), (0.5, 1e-4));
 }
 

@@ -52,7 +52,7 @@ fn a_host_that_steps_by_milliseconds_records_at_51200_hz() {
     let folder = common::folder("recorder");
     let scene = folder.join("recorded.toml");
     let text = fs::read_to_string(common::root().join("scenes/6205-healthy.toml")).unwrap();
-    fs::write(&scene, format!("{text}\n[recorder]\nrate_hz = 51200.0\n")).unwrap();
+    fs::write(&scene, format!("{text}\n[recorder]\nrate_hz = 51200.0\nfilter = \"none\"\n")).unwrap();
     let fmu = fmu_build::fmu::write(&Model::read(&scene).unwrap(), common::library(), &folder).unwrap();
     common::run_script("recorder.py", [fmu]);
 }

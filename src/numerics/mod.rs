@@ -5,6 +5,7 @@
 
 pub mod elliptic;
 pub mod lanes;
+pub mod low_pass;
 pub mod plane;
 mod power;
 pub mod row;

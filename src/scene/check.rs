@@ -11,7 +11,7 @@
 
 use super::error::SceneError;
 use super::quantity::*;
-use super::{Bearing, Contact, Damping, Defect, DefectShape, Motion, Ring, Scene};
+use super::{Bearing, Contact, Damping, Defect, DefectShape, Motion, Recorder, RecorderFilter, Ring, Scene};
 use std::f64::consts::{PI, TAU};
 
 /// Longest name of a scene.
@@ -39,8 +39,11 @@ impl Scene {
         self.check_sensor()?;
         TOLERANCE.check(self.tolerance)?;
         MAX_STEPS.check(self.max_steps as f64)?;
-        if let Some(rate) = self.recorder_rate {
+        if let Some(Recorder { rate, filter }) = self.recorder {
             RECORDER_RATE.check(rate)?;
+            if filter == RecorderFilter::LinearPhase {
+                FILTERED_RATE.check(rate)?;
+            }
         }
         self.check_experiment()
     }

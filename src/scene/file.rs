@@ -24,7 +24,7 @@
 //! | `shaft.load_n`, `housing.load_n` (internal only) | `[0, 0]` |
 //! | `sensor` | none; its `mass_kg`, `stiffness_n_m`, `damping_n_s_m` 1, 8.8826e9, 9424.8 |
 //! | `solver.tolerance`, `.max_steps` | 1e-5, 10 000 000 |
-//! | `recorder` | none |
+//! | `recorder` | none; its `filter` `"linear-phase"`, or `"none"` |
 //! | `experiment.stop_s`, `.step_s` | 0.5, 1e-4 |
 
 mod keys;
@@ -32,7 +32,10 @@ mod not_modelled;
 mod rings;
 
 use super::error::SceneError;
-use super::{Bearing, Cage, Contact, ContactLaw, Damping, Defect, DefectShape, Experiment, Scene, Sensor};
+use super::{
+    Bearing, Cage, Contact, ContactLaw, Damping, Defect, DefectShape, Experiment, Recorder, RecorderFilter, Scene,
+    Sensor,
+};
 use rings::{HousingTable, SensorTable, ShaftTable};
 use serde::Deserialize;
 use std::f64::consts::{PI, TAU};
@@ -99,7 +102,7 @@ impl SceneFile {
             }),
             tolerance: self.solver.tolerance,
             max_steps: self.solver.max_steps,
-            recorder_rate: self.recorder.map(|table| table.rate_hz),
+            recorder: self.recorder.map(|table| Recorder { rate: table.rate_hz, filter: table.filter }),
             experiment: Experiment { stop: self.experiment.stop_s, step: self.experiment.step_s },
         })
     }
@@ -322,6 +325,8 @@ impl Default for SolverTable {
 #[serde(deny_unknown_fields)]
 struct RecorderTable {
     rate_hz: f64,
+    #[serde(default)]
+    filter: RecorderFilter,
 }
 
 #[derive(Deserialize)]

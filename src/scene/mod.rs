@@ -42,8 +42,8 @@ pub struct Scene {
     pub tolerance: f64,
     /// Most integration steps in one communication step, after which it fails.
     pub max_steps: u64,
-    /// Sampling rate of the recorder inside the step [Hz]; `None` for none.
-    pub recorder_rate: Option<f64>,
+    /// The recorder inside the step; `None` for none.
+    pub recorder: Option<Recorder>,
     /// Default run.
     pub experiment: Experiment,
 }
@@ -237,6 +237,26 @@ pub struct Sensor {
     pub stiffness: f64,
     /// Damping [N s/m].
     pub damping: f64,
+}
+
+/// A recorder of outputs inside the step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Recorder {
+    /// Samples per second [Hz].
+    pub rate: f64,
+    /// What keeps aliases out.
+    pub filter: RecorderFilter,
+}
+
+/// What the recorder does against aliases of what is faster than half its rate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RecorderFilter {
+    /// Accelerations and forces on rings are sampled much faster and filtered, without delay.
+    #[default]
+    LinearPhase,
+    /// Nothing: every value is that of its instant.
+    None,
 }
 
 /// Default run of the scene.

@@ -143,6 +143,14 @@ pub(super) const MAX_STEPS: Quantity =
     quantity("most integration steps", "solver.max_steps", 1.0, Inclusive(1.0), Inclusive(1e15));
 pub(super) const RECORDER_RATE: Quantity =
     quantity("recorder rate", "recorder.rate_hz", 1.0, Exclusive(0.0), Inclusive(1e7));
+/// Below it the filter would be megabytes long, and what it lets through is no vibration.
+pub(super) const FILTERED_RATE: Quantity = quantity(
+    "rate of a recorder that filters",
+    "recorder.rate_hz with recorder.filter = \"linear-phase\"",
+    1.0,
+    Inclusive(100.0),
+    Inclusive(1e7),
+);
 pub(super) const STOP: Quantity = quantity("stop time", "experiment.stop_s", 1.0, Exclusive(0.0), Inclusive(1e9));
 pub(super) const STEP: Quantity =
     quantity("communication step", "experiment.step_s", 1.0, Exclusive(0.0), Inclusive(1e9));

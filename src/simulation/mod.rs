@@ -5,6 +5,7 @@
 mod access;
 pub mod arrow;
 mod contact_changes;
+mod decimation;
 mod dependencies;
 pub mod derivatives;
 pub mod dormand_prince;
@@ -44,7 +45,7 @@ use crate::surface::Surface;
 use access::Access;
 use derivatives::Change;
 use progress::Progress;
-use recorder::Recorder;
+use recorder::{Due, Recorder};
 use setup::Inputs;
 use std::sync::Arc;
 use stepper::{Control, Stepper};
@@ -158,13 +159,14 @@ impl Simulation {
             ContactLaw::Love => true,
         } && surface.is_some();
         let model = setup::build_model(&scene, surface.as_ref().filter(|_| !model_is_stale), map.as_ref())?;
-        let progress = Progress::new(model.layout.len, model.element_count);
+        let recorder = Recorder::of(&scene, &table, &quantities);
+        let progress = Progress::new(model.layout.len, model.element_count, under_way(&recorder));
         let inputs = Inputs::new(&quantities, table.iter().take_while(|v| v.causality == Causality::Input).count());
         let input_rates = vec![[None; 2]; inputs.count];
         Ok(Self {
             inputs,
             stepper: Stepper::new(&model),
-            recorder: scene.recorder_rate.map(|rate| Recorder::new(rate, &table, &quantities)),
+            recorder,
             method: Method::Automatic,
             forces: Forces::new(model.element_count),
             derivative: vec![0.0; model.layout.len],
@@ -249,10 +251,10 @@ impl Simulation {
         }
     }
 
-    /// Drops the samples kept in the recorder, once they have been stored.
+    /// Drops the rows kept in the recorder, once they have been stored.
     pub fn forget_samples(&mut self) {
         if let Some(recorder) = &mut self.recorder {
-            recorder.forget(self.state.progress.due.count);
+            recorder.forget(&self.state.progress.due);
         }
     }
 
@@ -295,8 +297,10 @@ impl Simulation {
         self.stiffness_is_stale = true;
         self.model.forget_contacts();
         let mut recorder = self.recorder.as_mut().filter(|recorder| recorder.is_on());
-        if let Some(recorder) = &mut recorder {
-            recorder.begin(self.state.time, self.state.cage.total());
+        match &mut recorder {
+            Some(recorder) => recorder.begin(self.state.time, self.state.cage.total()),
+            // What is not sampled cannot be made up for: whoever records on from here begins anew.
+            None => self.state.progress.due = Due::default(),
         }
         let time = self.state.time;
         self.stepper
@@ -338,7 +342,7 @@ impl Simulation {
         self.input_rates.copy_from_slice(&state.input_rates);
         self.state.copy_progress(state);
         if let Some(recorder) = &mut self.recorder {
-            recorder.rewind(self.state.progress.due.count);
+            recorder.rewind(&self.state.progress.due);
         }
         self.equilibrium_is_stale = true;
         self.outputs_are_stale = true;
@@ -364,7 +368,7 @@ impl Simulation {
         let drive = self.drive(false);
         let cage_angle = drive.cage_angle(0.0);
         let progress = &mut self.state.progress;
-        *progress = Progress::new(self.model.layout.len, self.model.element_count);
+        *progress = Progress::new(self.model.layout.len, self.model.element_count, under_way(&self.recorder));
         for j in 0..self.model.element_count {
             progress.cells[j] = self.model.cell_at(j, cage_angle);
         }
@@ -387,4 +391,9 @@ impl Simulation {
         self.model_is_stale = false;
         Ok(())
     }
+}
+
+/// Length of the rows that a recorder has under way.
+fn under_way(recorder: &Option<Recorder>) -> usize {
+    recorder.as_ref().map_or(0, Recorder::under_way)
 }

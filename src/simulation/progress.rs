@@ -27,6 +27,8 @@ pub struct Progress {
     pub choice: Choice,
     /// When the recorder takes its next sample.
     pub due: Due,
+    /// The recorder's rows under way; of no length where the scene has no recorder.
+    pub under_way: Row,
     /// Mean forces on inner and outer ring over the last communication step [N].
     pub mean_force: [f64; 4],
     /// Accepted steps.
@@ -40,8 +42,8 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// A state at rest in `len` places for `count` elements.
-    pub fn new(len: usize, count: usize) -> Self {
+    /// A state at rest in `len` places for `count` elements, with so many places for rows of the recorder.
+    pub fn new(len: usize, count: usize, under_way: usize) -> Self {
         Self {
             state: Row::zeros(len),
             cells: vec![SMOOTH; count],
@@ -50,6 +52,7 @@ impl Progress {
             last_error: 1.0,
             choice: Choice::default(),
             due: Due::default(),
+            under_way: Row::zeros(under_way),
             mean_force: [0.0; 4],
             steps: 0,
             implicit_steps: 0,
@@ -60,10 +63,11 @@ impl Progress {
 
     /// Copies the progress of another state of the same model; allocates nothing.
     pub fn copy_from(&mut self, other: &Progress) {
-        let Self { state, cells, pushing, .. } = self;
+        let Self { state, cells, pushing, under_way, .. } = self;
         state.copy_from_slice(&other.state);
         cells.copy_from_slice(&other.cells);
         pushing.copy_from_slice(&other.pushing);
+        under_way.copy_from_slice(&other.under_way);
         (self.next_step, self.last_error, self.choice) = (other.next_step, other.last_error, other.choice);
         (self.due, self.mean_force) = (other.due, other.mean_force);
         (self.steps, self.implicit_steps) = (other.steps, other.implicit_steps);

@@ -3,30 +3,54 @@
 //! Samples are taken from the dense output of each accepted integration step. They neither shorten a step nor change
 //! what is integrated. The next instant is kept as the time from the communication point, as all time is; a rewound
 //! simulation takes back the samples of the time that it takes back.
+//!
+//! Of the accelerations and the rings' forces a spectrum is wanted: they are sampled faster than rows are, and filtered
+//! ([`super::decimation`]). Of an element one wants to know where it is, when it touches and how hard, so its path and forces are
+//! those at the row's time, as is the cage's angle. A row is complete, and seen, when the filter has gone past it.
 
+use std::f64::consts::TAU;
+
+use super::decimation::{Decimation, HALF, RATE_PER_PASS, UNDER_WAY, slot};
 use super::outputs::Outputs;
+use super::setup::largest_force;
 use super::table::Quantity;
 use super::variables::{Causality, Variable};
+use crate::geometry::hertz_constant::HertzConstants;
+use crate::scene::{self, RecorderFilter, Scene};
 
 /// Share of a sampling period by which an instant may lie before the end of a step and still be left to the next one:
 /// far above the rounding of the instants, far below what a sampled signal could show.
 const ROUNDING: f64 = 1e-9;
 
-/// The instants at which samples are due. Part of the state.
+/// Samples in a period of the fastest oscillation, that of an element between its raceways. Beyond it forces and accelerations
+/// fall by 50 dB per decade, as impacts do that begin with a force ∝ t^1.5; what is left to fold at six times its frequency is
+/// 80 dB and more below the signal (docs/guide.md has the measured levels).
+const OVERSAMPLING: f64 = 6.0;
+/// Highest sampling rate [Hz]: that of a recorder without a filter.
+const HIGHEST_RATE: f64 = 1e7;
+
+/// The instants at which samples are due. Part of the state, as are the rows under way.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Due {
     /// Time from the communication point to the next sample [s].
     pub delay: f64,
     /// Samples taken since the start.
-    pub count: u64,
+    pub taken: u64,
 }
 
-/// Takes samples and keeps them until they are fetched. All but [`Due`] is workspace.
+/// Takes samples, filters them and keeps rows until they are fetched. All but [`Due`] and the rows under way is workspace.
 #[derive(Debug, Clone)]
 pub struct Recorder {
-    period: f64,
-    /// References and quantities of the recorded outputs.
+    /// Rows per second.
+    rate: f64,
+    /// Time between two samples [s].
+    interval: f64,
+    /// `None` where every sample is a row.
+    decimation: Option<Decimation>,
+    /// References and quantities of the recorded outputs, those that are filtered first.
     signals: Vec<(u32, Quantity)>,
+    /// Values of those in one sample.
+    sample: Vec<f64>,
     /// Number of the first row kept.
     first: u64,
     /// Rows of the time and the signals.
@@ -37,7 +61,7 @@ pub struct Recorder {
     start: (f64, f64),
 }
 
-/// Samples that have not been fetched yet.
+/// Rows that have not been fetched yet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Samples<'a> {
     /// Number of the first row, counted from the start of the run.
@@ -49,15 +73,35 @@ pub struct Samples<'a> {
 }
 
 impl Recorder {
-    /// A recorder of accelerations, forces and paths at `rate` [Hz].
-    pub(super) fn new(rate: f64, table: &[Variable], quantities: &[Quantity]) -> Self {
-        let signals = table
-            .iter()
-            .zip(quantities)
-            .filter(|(row, quantity)| row.causality == Causality::Output && is_recorded(**quantity))
-            .map(|(row, &quantity)| (row.reference, quantity))
-            .collect();
-        Self { period: 1.0 / rate, signals, first: 0, values: Vec::new(), folder: String::new(), start: (0.0, 0.0) }
+    /// The recorder that a scene asks for, if it does.
+    pub(super) fn of(scene: &Scene, table: &[Variable], quantities: &[Quantity]) -> Option<Self> {
+        let scene::Recorder { rate, filter } = scene.recorder?;
+        let decimation = match filter {
+            RecorderFilter::LinearPhase => {
+                let fastest = (OVERSAMPLING * element_frequency(scene)).min(HIGHEST_RATE);
+                // No filter without at least two samples for a row.
+                Some(Decimation::new((fastest / rate).ceil().max(2.0) as u64))
+            }
+            RecorderFilter::None => None,
+        };
+        let recorded = |wanted: fn(Quantity) -> bool| {
+            let rows = table.iter().zip(quantities).filter(|(row, _)| row.causality == Causality::Output);
+            rows.map(|(row, &quantity)| (row.reference, quantity)).filter(move |(_, quantity)| wanted(*quantity))
+        };
+        let signals: Vec<_> = recorded(is_vibration).chain(recorded(is_of_an_instant)).collect();
+        let filtered = if decimation.is_some() { recorded(is_vibration).count() } else { 0 };
+        let per_row = decimation.as_ref().map_or(1, Decimation::factor);
+        Some(Self {
+            rate,
+            interval: 1.0 / (rate * per_row as f64),
+            decimation,
+            signals,
+            sample: vec![0.0; filtered],
+            first: 0,
+            values: Vec::new(),
+            folder: String::new(),
+            start: (0.0, 0.0),
+        })
     }
 
     /// References of the recorded outputs, in the order of the columns after the time.
@@ -65,14 +109,48 @@ impl Recorder {
         self.signals.iter().map(|(reference, _)| *reference)
     }
 
-    /// Time between two samples [s].
-    pub(super) fn period(&self) -> f64 {
-        self.period
+    /// Time by which rows are seen later than they are [s]: the filter's reach.
+    pub fn lag(&self) -> f64 {
+        if self.decimation.is_some() { HALF as f64 / self.rate } else { 0.0 }
     }
 
-    /// Samples that have not been fetched yet.
+    /// What is recorded, in words.
+    pub fn description(&self) -> String {
+        let rate = self.rate;
+        if self.decimation.is_none() {
+            return format!("{rate} samples/s, not filtered: what is faster than {} Hz is folded below it", 0.5 * rate);
+        }
+        let pass = rate / RATE_PER_PASS;
+        format!(
+            "{rate} samples/s; accelerations and forces on rings are filtered without delay: all passes up to {pass} Hz, \
+             nothing from {} Hz on. The last row is {:.3} ms before the end of the run",
+            rate - pass,
+            1e3 * self.lag()
+        )
+    }
+
+    /// Time between two samples [s].
+    pub(super) fn interval(&self) -> f64 {
+        self.interval
+    }
+
+    /// Length of the rows under way.
+    pub(super) fn under_way(&self) -> usize {
+        if self.decimation.is_some() { UNDER_WAY * self.width() } else { 0 }
+    }
+
+    /// Rows that are complete when so many samples have been taken.
+    fn complete(&self, samples: u64) -> u64 {
+        self.decimation.as_ref().map_or(samples, |decimation| decimation.complete(samples))
+    }
+
+    /// Rows that have not been fetched yet.
     pub fn samples(&self) -> Samples<'_> {
-        Samples { first: self.first, width: 1 + self.signals.len(), values: &self.values }
+        Samples { first: self.first, width: self.width(), values: &self.values }
+    }
+
+    fn width(&self) -> usize {
+        1 + self.signals.len()
     }
 
     /// Folder that the host wants the recording in.
@@ -84,18 +162,18 @@ impl Recorder {
         !self.folder.is_empty()
     }
 
-    /// Drops the samples kept; the next row is number `count`.
-    pub(super) fn forget(&mut self, count: u64) {
+    /// Drops the rows kept.
+    pub(super) fn forget(&mut self, due: &Due) {
         self.values.clear();
-        self.first = count;
+        self.first = self.complete(due.taken);
     }
 
-    /// Takes back the samples from number `count` on.
-    pub(super) fn rewind(&mut self, count: u64) {
-        let rows = self.values.len() as u64 / (1 + self.signals.len()) as u64;
-        match count.checked_sub(self.first) {
-            Some(kept) if kept <= rows => self.values.truncate(kept as usize * (1 + self.signals.len())),
-            _ => self.forget(count),
+    /// Takes back the rows that were not complete when a state was taken.
+    pub(super) fn rewind(&mut self, due: &Due) {
+        let rows = (self.values.len() / self.width()) as u64;
+        match self.complete(due.taken).checked_sub(self.first) {
+            Some(kept) if kept <= rows => self.values.truncate(kept as usize * self.width()),
+            _ => self.forget(due),
         }
     }
 
@@ -111,7 +189,7 @@ impl Recorder {
 
     /// The next sample's time since the communication point, if it comes before `end`, both in [s].
     pub(super) fn due_before(&self, due: &Due, end: f64) -> Option<f64> {
-        (due.delay < end - ROUNDING * self.period).then(|| due.delay.max(0.0))
+        (due.delay < end - ROUNDING * self.interval).then(|| due.delay.max(0.0))
     }
 
     /// Cage angle at the communication point [rad], all turns counted.
@@ -120,23 +198,64 @@ impl Recorder {
     }
 
     /// Takes the sample that is due.
-    pub(super) fn take(&mut self, due: &mut Due, outputs: &Outputs) {
-        self.values.push(self.start.0 + due.delay);
-        self.values.extend(self.signals.iter().map(|(_, quantity)| outputs.value(*quantity).unwrap_or(f64::NAN)));
-        due.delay += self.period;
-        due.count += 1;
+    pub(super) fn take(&mut self, due: &mut Due, under_way: &mut [f64], outputs: &Outputs) {
+        let time = self.start.0 + due.delay;
+        if let Some(decimation) = &self.decimation {
+            let place = decimation.place(due.taken);
+            let (vibrations, others) = self.signals.split_at(self.sample.len());
+            fill(&mut self.sample, vibrations, outputs);
+            // First the sums of what is filtered, then the time and the rest.
+            let (sums, plain) = under_way.split_at_mut(UNDER_WAY * self.sample.len());
+            decimation.add(place, &self.sample, sums);
+            if let (row, 0) = place {
+                let width = 1 + others.len();
+                let middle = &mut plain[slot(row) * width..][..width];
+                middle[0] = time;
+                fill(&mut middle[1..], others, outputs);
+                if let Some(complete) = row.checked_sub(HALF as u64).map(slot) {
+                    let plain = &plain[complete * width..][..width];
+                    self.values.push(plain[0]);
+                    self.values.extend(sums.chunks_exact(UNDER_WAY).map(|slots| slots[complete]));
+                    self.values.extend(&plain[1..]);
+                }
+            }
+        } else {
+            let start = self.values.len();
+            self.values.resize(start + self.width(), time);
+            fill(&mut self.values[start + 1..], &self.signals, outputs);
+        }
+        due.delay += self.interval;
+        due.taken += 1;
     }
 }
 
-/// What a vibration engineer looks at. Positions and velocities of rings and angles of elements follow from it or from
+/// Puts the values of signals at an instant into as many places.
+fn fill(places: &mut [f64], signals: &[(u32, Quantity)], outputs: &Outputs) {
+    for (place, (_, quantity)) in places.iter_mut().zip(signals) {
+        *place = outputs.value(*quantity).unwrap_or(f64::NAN);
+    }
+}
+
+/// Frequency of an element between its raceways when the largest force presses on it [Hz]: the fastest oscillation of a bearing,
+/// with dQ/dδ = 1.5 K^⅔ Q^⅓ for each contact.
+fn element_frequency(scene: &Scene) -> f64 {
+    let force = largest_force(scene);
+    let HertzConstants { inner, outer } = HertzConstants::of(&scene.bearing);
+    let stiffness = |k: f64| 1.5 * libm::cbrt(k * k * force);
+    ((stiffness(inner) + stiffness(outer)) / scene.bearing.mass_of_element()).sqrt() / TAU
+}
+
+/// What a measuring chain could show.
+fn is_vibration(quantity: Quantity) -> bool {
+    matches!(quantity, Quantity::SensorAcceleration | Quantity::Acceleration(..) | Quantity::Force(..))
+}
+
+/// What is looked at instant by instant. Positions and velocities of rings and angles of elements follow from the vibrations or from
 /// the cage angle.
-fn is_recorded(quantity: Quantity) -> bool {
+fn is_of_an_instant(quantity: Quantity) -> bool {
     matches!(
         quantity,
-        Quantity::SensorAcceleration
-            | Quantity::Acceleration(..)
-            | Quantity::Force(..)
-            | Quantity::CageAngle
+        Quantity::CageAngle
             | Quantity::ElementPath(_)
             | Quantity::ElementInnerForce(_)
             | Quantity::ElementOuterForce(_)

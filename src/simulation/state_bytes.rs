@@ -4,6 +4,7 @@
 //! Numbers are written bit by bit, so a state that went through bytes continues with the same bits, also in another
 //! process. The bytes carry no version and no checksum: whoever stores them adds both.
 
+use super::recorder::Recorder;
 use super::stepper::SMALLEST_STEP;
 use super::variables::{Causality, Kind, Variable};
 use super::{Simulation, State};
@@ -26,7 +27,7 @@ impl State {
     pub fn byte_count(&self) -> usize {
         let progress = &self.progress;
         let fixed = 8 + 1 + 8 + 8 + 2 * 8 + (1 + 4 * 4 + 2 * 8 + 1) + 4 * 8 + 4 * 8 + 2 * 8;
-        let real = progress.state.len() + self.values.len();
+        let real = progress.state.len() + progress.under_way.len() + self.values.len();
         let rates = self.input_rates.as_flattened().len();
         fixed + 8 * real + 9 * rates + 4 * (progress.cells.len() + self.integers.len()) + progress.pushing.len()
     }
@@ -52,7 +53,7 @@ impl State {
         real(&mut choice.gained, field)?;
         real(&mut choice.stable_step, field)?;
         flag(&mut choice.damped, field)?;
-        let lists = [&mut progress.mean_force[..], &mut progress.state, &mut self.values];
+        let lists = [&mut progress.mean_force[..], &mut progress.state, &mut progress.under_way, &mut self.values];
         for value in lists.into_iter().flatten() {
             real(value, field)?;
         }
@@ -80,7 +81,7 @@ impl State {
             &mut progress.implicit_steps,
             &mut progress.rejected_steps,
             &mut progress.defect_lookups,
-            &mut progress.due.count,
+            &mut progress.due.taken,
         ];
         for count in counts {
             let mut bytes = count.to_le_bytes();
@@ -124,6 +125,7 @@ impl Simulation {
             &[progress.next_step, progress.due.delay],
             &progress.mean_force,
             &progress.state,
+            &progress.under_way,
             &state.values,
         ];
         let rates = state.input_rates.as_flattened().iter().flatten();
@@ -141,7 +143,10 @@ impl Simulation {
             return Some("the choice of the integration method is none that could have been made");
         }
         // A sample that is overdue by ages would be made up for, period by period.
-        if self.recorder.as_ref().is_some_and(|recorder| progress.due.delay.abs() > 2.0 * recorder.period()) {
+        let possible = |recorder: &Recorder| {
+            progress.due.delay.abs() <= 2.0 * recorder.interval() && progress.due.taken < MOST_SAMPLES
+        };
+        if !self.recorder.as_ref().is_none_or(possible) {
             return Some("the next sample is due at no time at which one can be");
         }
         if state.cage.rest.abs() > std::f64::consts::PI || state.cage.turns.unsigned_abs() >= MOST_TURNS {
@@ -180,6 +185,8 @@ impl Simulation {
 
 /// Ten times the velocity [m/s] that a host may prescribe for a ring.
 const LARGEST_VELOCITY: f64 = 1e4;
+/// Samples of the recorder in ten thousand years.
+const MOST_SAMPLES: u64 = 1 << 60;
 /// Turns of the cage beyond which the angle has no digits left behind the point.
 const MOST_TURNS: u64 = 1 << 50;
 

@@ -277,7 +277,7 @@ impl Stepper {
             self.look(model, drive, (from, h), (tau - from).max(0.0) / h, progress);
             let Self { dense, scratch, forces, .. } = self;
             let outputs = Outputs::new(model, (drive, tau), (dense, scratch), forces, recorder.cage_angle());
-            recorder.take(&mut progress.due, &outputs);
+            recorder.take(&mut progress.due, &mut progress.under_way, &outputs);
         }
         // What the recorder looks up is not the solver's work.
         self.forces.defect_lookups = lookups;

@@ -353,7 +353,7 @@ impl Builder<'_> {
             Unit::One,
             p(scene.tolerance, 1e-12, 0.1, 1e-5),
         );
-        if scene.recorder_rate.is_some() {
+        if scene.recorder.is_some() {
             self.push(
                 "recorder.folder",
                 "Folder for the recording, <instance name>.npy; empty for none",

@@ -41,6 +41,14 @@ pub(crate) const RULES: &[(&str, &str, &[Evidence])] = &[
     ),
     (
         "Binary",
+        "A file that an instance writes is no other instance's, in this process or another: the second is refused at its start.",
+        &[
+            T("instances_whose_names_become_one_file_name_are_told_so_at_the_start"),
+            T("a_recording_of_another_process_is_left_alone_while_it_is_written_and_no_longer"),
+        ],
+    ),
+    (
+        "Binary",
         "The processor's floating-point state is left as it was found, and may be any.",
         &[T("floating_point_control_state_is_left_alone_and_may_be_odd")],
     ),
@@ -81,6 +89,11 @@ pub(crate) const RULES: &[(&str, &str, &[Evidence])] = &[
         ],
     ),
     ("State machine", "A reset instance is as a new one.", &[T("a_reset_instance_runs_like_a_new_one_to_the_bit")]),
+    (
+        "State machine",
+        "A recording that cannot be stored fails a step, but neither a termination nor a reset: these warn, and say what was lost.",
+        &[T("a_full_disk_costs_samples_that_are_told_and_no_instance")],
+    ),
     (
         "State machine",
         "Null, dead and invented handles, and null pointers in any function, are errors.",

@@ -290,6 +290,13 @@ impl Host {
         unsafe { fmi2SetInteger(self.c, references.as_ptr(), references.len(), values.as_ptr()) }
     }
 
+    pub(crate) fn set_text(&self, reference: u32, value: &str) -> Status {
+        let value = CString::new(value).unwrap();
+        let pointer = value.as_ptr();
+        // SAFETY: one reference and one string that ends in NUL.
+        unsafe { fmi2SetString(self.c, &raw const reference, 1, &raw const pointer) }
+    }
+
     pub(crate) fn save(&self) -> FmuState {
         let mut state = ptr::null_mut();
         // SAFETY: `state` is NULL, as the first call wants it.

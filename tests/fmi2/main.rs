@@ -14,6 +14,7 @@ mod logging;
 mod modes;
 mod panics;
 mod processes;
+mod recordings;
 mod saved_states;
 mod steps;
 mod variables;

@@ -69,7 +69,7 @@ impl<'a> Rig<'a> {
         // Element 1 starts in the middle of the spall: an entry lies half the spall's length before the passage's start.
         scene.cage = Cage { slip: 0.0, initial_angle: load_angle(&scene) };
         scene.shaft_speed = TAU * bpfo / kinematics::frequencies(&scene.bearing, 0.0, 1.0).bpfo;
-        scene.recorder_rate = None;
+        scene.recorder = None;
         // Elements ring at 40 to 50 kHz on their contacts: sampled much slower, that would fold below the cut.
         Some(Self { scene, bpfo, rate: 20.0 * CUT, maps })
     }

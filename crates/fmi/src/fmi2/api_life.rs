@@ -152,7 +152,7 @@ pub unsafe extern "C" fn fmi2FreeInstance(c: Component) {
     {
         drop(boundary::guard(|| {
             let mut instance = handles::remove(instance);
-            if let Err(failure) = instance.finish_recording() {
+            if let Err(failure) = instance.finish_recording("are lost") {
                 instance.logger.insist(Status::Error, format!("fmi2FreeInstance: {failure}."));
             }
         }));
@@ -259,29 +259,30 @@ pub unsafe extern "C" fn fmi2ExitInitializationMode(c: Component) -> Status {
     })
 }
 
-/// `fmi2Terminate`: no more steps; results may still be read.
+/// `fmi2Terminate`: no more steps; results may still be read. A warning if the recording cannot be stored.
 ///
 /// # Safety
 /// `c` may be any value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Terminate(c: Component) -> Status {
     boundary::call(c, &state::TERMINATE, |instance| {
-        instance.finish_recording()?;
+        let finished = instance.finish_recording("stay in memory: fmi2FreeInstance and fmi2Reset try once more");
         enter(instance, Mode::Terminated, "fmi2Terminate");
-        Ok(())
+        finished
     })
 }
 
-/// `fmi2Reset`: as after `fmi2Instantiate`. Saved states and the choice of log categories stay.
+/// `fmi2Reset`: as after `fmi2Instantiate`. Saved states and the choice of log categories stay. A warning if samples of the
+/// recording could not be stored: they are lost, the instance is as good as new.
 ///
 /// # Safety
 /// `c` may be any value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Reset(c: Component) -> Status {
     boundary::call(c, &state::RESET, |instance| {
-        instance.reset()?;
+        let unstored = instance.reset()?;
         enter(instance, Mode::Instantiated, "fmi2Reset");
-        Ok(())
+        unstored.map_or(Ok(()), Err)
     })
 }
 

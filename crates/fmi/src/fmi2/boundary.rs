@@ -46,7 +46,8 @@ fn fail(instance: &mut Instance, function: &'static Function, failure: Failure) 
     let logger = &instance.logger;
     // Formatting is code too: if it panics, the line is lost and the status stands.
     let logged = catch_unwind(AssertUnwindSafe(|| {
-        logger.line(status, || format!("{}: {failure}.{}", function.name, failure.advice()));
+        let text = || format!("{}: {failure}.{}", function.name, failure.advice());
+        if failure.must_be_told() { logger.insist(status, text()) } else { logger.line(status, text) }
     }));
     drop(logged.map_err(words));
     status

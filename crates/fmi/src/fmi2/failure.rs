@@ -8,7 +8,7 @@ use super::blob::BlobError;
 use super::clock::ClockError;
 use super::state::{Mode, Modes};
 use super::types::{Status, StatusKind};
-use brinell::recording::RecordingError;
+use brinell::recording::{RecordingError, Unstored};
 use brinell::simulation::{SimulationError, VariableError};
 
 /// What went wrong in a call.
@@ -71,6 +71,16 @@ pub(super) enum Failure {
     /// A recording that cannot be written.
     #[error(transparent)]
     Recording(#[from] RecordingError),
+    /// Samples that could not be stored when a run ended.
+    #[error("{cause}. {} {fate}", unstored(.samples))]
+    Unstored {
+        /// Why not.
+        cause: RecordingError,
+        /// Those samples.
+        samples: Option<Unstored>,
+        /// What becomes of them.
+        fate: &'static str,
+    },
     /// A result that is not a number, or infinite.
     #[error("variable {name} is {value}; it is not handed out. Check the inputs and the step size")]
     NotFinite {
@@ -111,7 +121,7 @@ impl Failure {
     /// The status that the host gets.
     pub(super) fn status(&self) -> Status {
         match self {
-            Failure::UnknownCategory(_) | Failure::FreedByValue => Status::Warning,
+            Failure::UnknownCategory(_) | Failure::FreedByValue | Failure::Unstored { .. } => Status::Warning,
             Failure::UnknownStatus(_)
             | Failure::Variable(VariableError::OutOfRange { .. } | VariableError::UnusedDerivative { .. })
             | Failure::Simulation(
@@ -119,6 +129,11 @@ impl Failure {
             ) => Status::Discard,
             _ => Status::Error,
         }
+    }
+
+    /// Whether the line is sent even if its category is off: whoever wants no debugging still wants to know what was lost.
+    pub(super) fn must_be_told(&self) -> bool {
+        matches!(self, Failure::Unstored { .. })
     }
 
     /// What the host can do after this.
@@ -131,5 +146,12 @@ impl Failure {
                  or call fmi2FreeInstance."
             }
         }
+    }
+}
+
+fn unstored(samples: &Option<Unstored>) -> String {
+    match samples {
+        Some(Unstored { count, from, to }) => format!("{count} samples from {from:.6} s to {to:.6} s"),
+        None => "Samples that were taken back are still in the file and".to_owned(),
     }
 }

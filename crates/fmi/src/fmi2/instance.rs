@@ -9,7 +9,7 @@ use super::shared_models::SharedModel;
 use super::snapshots::{Snapshot, Snapshots};
 use super::state::Mode;
 use super::types::{FmuState, Status, ValueReference};
-use brinell::recording::Recording;
+use brinell::recording::{Recording, Unstored};
 use brinell::simulation::{Simulation, VariableError};
 
 /// One instance of the FMU.
@@ -54,21 +54,30 @@ impl Instance {
         }
     }
 
-    /// Back to where [`new`](Self::new) left it. Saved states and logging stay.
-    pub(super) fn reset(&mut self) -> Result<(), Failure> {
-        self.finish_recording()?;
+    /// Back to where [`new`](Self::new) left it, and what kept samples from being stored, if anything did. Saved states and
+    /// logging stay.
+    pub(super) fn reset(&mut self) -> Result<Option<Failure>, Failure> {
+        let unstored = self.finish_recording("are lost").err();
         self.recording = None;
         self.rebuild();
         self.mode = Mode::Instantiated;
         self.clock = None;
         self.last_step = Status::Ok;
-        Ok(())
+        Ok(unstored)
     }
 
     /// Finds the static equilibrium and begins the recording, if there is to be one.
     pub(super) fn initialize(&mut self, start: f64) -> Result<(), Failure> {
         self.simulation.initialize(start)?;
+        self.begin_recording()
+    }
+
+    fn begin_recording(&mut self) -> Result<(), Failure> {
         self.recording = Recording::begin(&self.simulation, self.logger.instance_name())?;
+        if let (Some(recording), Some(recorder)) = (&self.recording, self.simulation.recorder()) {
+            let path = recording.path().display();
+            self.logger.line(Status::Ok, || format!("recording {path}: {}.", recorder.description()));
+        }
         Ok(())
     }
 
@@ -81,12 +90,12 @@ impl Instance {
         Ok(())
     }
 
-    /// Stores what the recorder still holds.
-    pub(super) fn finish_recording(&mut self) -> Result<(), Failure> {
-        match &mut self.recording {
-            Some(recording) => Ok(recording.store(&mut self.simulation)?),
-            None => Ok(()),
-        }
+    /// Stores what the recorder still holds. What becomes of it if that fails is told as `fate`: never more than a warning,
+    /// for the run itself is as good as it was.
+    pub(super) fn finish_recording(&mut self, fate: &'static str) -> Result<(), Failure> {
+        let Some(recording) = &mut self.recording else { return Ok(()) };
+        let Err(cause) = recording.store(&mut self.simulation) else { return Ok(()) };
+        Err(Failure::Unstored { cause, samples: Unstored::of(&self.simulation), fate })
     }
 
     fn rebuild(&mut self) {
@@ -119,6 +128,10 @@ impl Instance {
         self.mode = snapshot.mode;
         self.clock = snapshot.clock;
         self.last_step = snapshot.last_step;
+        // The state of another instance, taken up by one that was never initialized itself.
+        if self.recording.is_none() && self.mode == Mode::StepComplete {
+            self.begin_recording()?;
+        }
         Ok(())
     }
 

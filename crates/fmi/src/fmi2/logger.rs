@@ -73,7 +73,8 @@ impl Logger {
         }
     }
 
-    /// Sends a line whatever is switched on: for `fmi2Instantiate`, which leaves no instance to switch logging on for.
+    /// Sends a line whatever is switched on: for `fmi2Instantiate`, which leaves no instance to switch logging on for, and for
+    /// what a host must not miss.
     pub(super) fn insist(&self, status: Status, text: String) {
         self.send(status, category_of(status), text);
     }

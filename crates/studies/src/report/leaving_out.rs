@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::Result;
-use brinell::scene::{ContactLaw, Defect, DefectShape, Motion, Ring, Scene, Sensor};
+use brinell::scene::{ContactLaw, Defect, DefectShape, Motion, Recorder, RecorderFilter, Ring, Scene, Sensor};
 use brinell::simulation::Simulation;
 
 use super::Extent;
@@ -71,8 +71,10 @@ pub(super) fn measure(extent: Extent, data: &Path) -> Result<Vec<Part>> {
     }
     add("+ all outputs read every 0.1 ms", &scene, Seen::Outputs)?;
     add("+ tangent stiffness read as well", &scene, Seen::Stiffness)?;
-    scene.recorder_rate = Some(51_200.0);
-    add("+ recorder at 51.2 kHz", &scene, Seen::Stiffness)?;
+    scene.recorder = Some(Recorder { rate: 51_200.0, filter: RecorderFilter::None });
+    add("+ recorder at 51.2 kHz, filter none", &scene, Seen::Stiffness)?;
+    scene.recorder = Some(Recorder { rate: 51_200.0, filter: RecorderFilter::LinearPhase });
+    add("  the same, filter linear-phase", &scene, Seen::Stiffness)?;
     write(&data.join("leaving-out.csv"), &parts)?;
     Ok(parts)
 }

@@ -1,6 +1,7 @@
 //! One run of a scene for the report: its signals at even instants, and what differs between two runs.
 
 use anyhow::{Result, ensure};
+use brinell::scene::{Recorder, RecorderFilter};
 use brinell::simulation::{Method, Simulation};
 
 use fmu_build::model::Model;
@@ -46,7 +47,8 @@ impl Subject {
     /// A scene with a recorder. A ring that the host moves is held where it presses on the elements.
     pub(super) fn new(model: &Model, name: String, stop: f64) -> Result<Self> {
         let mut scene = model.scene.clone();
-        scene.recorder_rate = Some(RATE);
+        // Two runs are compared at equal instants, so nothing is filtered.
+        scene.recorder = Some(Recorder { rate: RATE, filter: RecorderFilter::None });
         let profile = model.profile.as_ref().map(|profile| profile.text.as_str());
         let mut simulation = Simulation::with_map(scene, profile, model.map.as_deref())?;
         // 12 µm beyond the concentric place: some hundred newtons on the lowest elements.

@@ -1,0 +1,84 @@
+//! One writer per recording: whoever begins a recording claims its file, and nobody else gets it until the claim is dropped.
+//!
+//! The system keeps the claim, so it holds against other processes and ends with the process, however that ends: a lock on the
+//! file where locks only bind those who ask for them, and on Windows, where a lock would shut out readers as well, an opening
+//! that lets others read but not write. On file systems that know no locks it holds within the process only.
+//!
+//! What the system does not know is whose claim it is. A list in the process knows the instances' names.
+
+use std::fs::{self, File, OpenOptions};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use super::RecordingError;
+
+/// Files claimed in this process and the names of the instances that write them.
+static CLAIMED: Mutex<Vec<(PathBuf, String)>> = Mutex::new(Vec::new());
+
+fn claimed() -> MutexGuard<'static, Vec<(PathBuf, String)>> {
+    // The list is whole after each change of it.
+    CLAIMED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A file that is open for writing, and nobody else's.
+#[derive(Debug)]
+pub(super) struct Claim {
+    /// The file, empty when it was claimed.
+    pub(super) file: File,
+    /// Where it is, in one spelling.
+    place: PathBuf,
+}
+
+impl Claim {
+    /// Claims a file for the instance `name` and empties it; the file is made if there is none.
+    pub(super) fn new(path: &Path, name: &str) -> Result<Self, RecordingError> {
+        let failed = |cause| RecordingError::Unwritable { path: path.to_owned(), cause };
+        let mut claimed = claimed();
+        let opened = open(path).map_err(failed)?;
+        // Some file systems cannot say where a file really is; names are then found by the path given.
+        let place = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let (path, name) = (path.to_owned(), name.to_owned());
+        if let Some((_, other)) = claimed.iter().find(|(other, _)| *other == place) {
+            return Err(RecordingError::Claimed { path, name, other: other.clone() });
+        }
+        let Some(file) = opened else { return Err(RecordingError::ClaimedElsewhere { path, name }) };
+        file.set_len(0).map_err(|cause| RecordingError::Unwritable { path, cause })?;
+        claimed.push((place.clone(), name));
+        Ok(Self { file, place })
+    }
+}
+
+impl Drop for Claim {
+    fn drop(&mut self) {
+        let mut claimed = claimed();
+        claimed.retain(|(place, _)| *place != self.place);
+        // A child that was forked in the meantime has the file open as well, and closing it here would not free it.
+        drop(self.file.unlock());
+    }
+}
+
+/// Opens a file for writing and keeps it as it is; `None` if somebody else writes it.
+#[cfg(not(windows))]
+fn open(path: &Path) -> io::Result<Option<File>> {
+    let file = OpenOptions::new().write(true).create(true).truncate(false).open(path)?;
+    match file.try_lock() {
+        Err(fs::TryLockError::WouldBlock) => Ok(None),
+        // A file system without locks is no reason to record nothing.
+        Ok(()) | Err(fs::TryLockError::Error(_)) => Ok(Some(file)),
+    }
+}
+
+/// Opens a file for writing and keeps it as it is; `None` if somebody else writes it.
+#[cfg(windows)]
+fn open(path: &Path) -> io::Result<Option<File>> {
+    use std::os::windows::fs::OpenOptionsExt;
+    /// Others may open it to read, and for nothing else.
+    const FILE_SHARE_READ: u32 = 1;
+    const ERROR_SHARING_VIOLATION: i32 = 32;
+    let opened = OpenOptions::new().write(true).create(true).truncate(false).share_mode(FILE_SHARE_READ).open(path);
+    match opened {
+        Err(cause) if cause.raw_os_error() == Some(ERROR_SHARING_VIOLATION) => Ok(None),
+        opened => opened.map(Some),
+    }
+}
