@@ -6,6 +6,7 @@ SI units; y up; angles counter-clockwise from +x; `force` is the bearing's force
 
 import atexit
 import collections
+import contextlib
 import functools
 import os
 import shlex
@@ -27,6 +28,21 @@ except ModuleNotFoundError:  # Python 3.9 and 3.10
 
 ROOT = Path(__file__).resolve().parent.parent
 SCENES = ROOT / "scenes"
+
+
+@contextlib.contextmanager
+def whole(path):
+    """A file to write that takes the name `path` when all is written: a full disk leaves what was there before."""
+    path = Path(path)
+    part = path.with_name(f"new-{os.getpid()}-{path.name}")
+    try:
+        yield part
+        os.replace(part, path)
+    except OSError as error:
+        why = f"{path} was not written, what was there before is unchanged: {error.strerror}; choose another folder"
+        raise OSError(error.errno, why) from error
+    finally:
+        part.unlink(missing_ok=True)
 
 
 def changed_scene(base, name, changes, folder):
@@ -54,7 +70,8 @@ def changed_scene(base, name, changes, folder):
             lines += ["", f"[{key}]", *(f"{name} = {toml(value)}" for name, value in table.items())]
     path = Path(folder) / f"{name}.toml"
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    with whole(path) as part:
+        part.write_text("\n".join(lines) + "\n", encoding="utf-8")
     return path
 
 
@@ -82,10 +99,11 @@ def executable():
 
 
 def build(scenes, folder):
-    """Builds the FMUs of scene files. Gives their paths."""
+    """Builds the FMUs of scene files. Gives their paths: each bears its scene's name, whatever the file's is."""
     command = [*program(), "build", *(str(Path(scene).resolve()) for scene in scenes), "-o", str(Path(folder).resolve())]
     subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
-    return [Path(folder) / f"{Path(scene).stem}.fmu" for scene in scenes]
+    names = [tomllib.loads(Path(scene).read_text(encoding="utf-8"))["name"] for scene in scenes]
+    return [Path(folder) / f"{name}.fmu" for name in names]
 
 
 @functools.cache

@@ -1,6 +1,7 @@
 """How the examples' figures look, and how they are written: the same bytes from the same numbers."""
 
 import matplotlib
+from bearing import whole
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -26,5 +27,6 @@ def legend(axis):
 def save(figure, stem):
     for suffix in ("svg", "png"):
         metadata = {"Date": None} if suffix == "svg" else {"Software": None}
-        figure.savefig(f"{stem}.{suffix}", dpi=150, metadata=metadata)
+        with whole(f"{stem}.{suffix}") as part:
+            figure.savefig(part, dpi=150, metadata=metadata)
     plt.close(figure)

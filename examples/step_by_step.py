@@ -26,7 +26,7 @@ import time
 from pathlib import Path
 
 import numpy as np
-from bearing import SCENES, Bearing, build, changed_scene
+from bearing import SCENES, Bearing, build, changed_scene, whole
 
 MASS, LENGTH, CENTRE = 6.0, 0.40, 0.22  # kg, m between the bearings, m from left bearing to the centre of mass
 INERTIA, POLAR = 0.09, 0.008  # kg m², across the axis and about it
@@ -149,7 +149,8 @@ def main():
     places = [f"{side}.{axis} [m]" for side in ("left", "right") for axis in "xy"]
     forces = [f"{side}.force.{axis} [N]" for side in ("left", "right") for axis in "xy"]
     header = ",".join(["time [s]", *places, *forces, *(f"right.{name} [m/s2]" for name in seen)])
-    np.savetxt(stem.with_suffix(".csv"), rows, delimiter=",", header=header, comments="", fmt="%.9g")
+    with whole(stem.with_suffix(".csv")) as part:
+        np.savetxt(part, rows, delimiter=",", header=header, comments="", fmt="%.9g")
     draw(rows, seen, options.step, options.passes, stem)
     last = rows[:, 0] > options.stop - 0.05
     print(json.dumps({

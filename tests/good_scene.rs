@@ -1,6 +1,6 @@
 //! A scene file is read into SI units, and what it leaves out gets the documented default.
 
-use brinell::scene::{ContactLaw, Damping, DefectShape, Motion, Scene};
+use brinell::scene::{ContactLaw, Damping, DefectShape, Motion, Remark, Scene};
 use std::f64::consts::PI;
 
 const SHORT: &str = r#"
@@ -102,6 +102,15 @@ fn an_empty_sensor_table_is_the_15_khz_resonator() {
 }
 
 #[test]
+fn an_open_groove_is_remarked_upon_and_usual_ones_are_not() {
+    assert_eq!(Scene::from_toml(SHORT).unwrap().remarks(), []);
+    let grooves = "conformity_inner = 0.6\nconformity_outer = 126.0";
+    let scene = Scene::from_toml(&SHORT.replace("groove_diameter_mm = 8.19", grooves)).unwrap();
+    assert_eq!(scene.remarks(), [Remark::OpenGroove { ring: "outer", conformity: 126.0 }]);
+    assert!(scene.remarks()[0].to_string().contains("Rolling elements are balls here, so far"));
+}
+
+#[test]
 fn a_hosted_ring_has_no_mass_of_its_own() {
     let text = SHORT.replace("motion = \"internal\"", "motion = \"host\"");
     let scene = Scene::from_toml(&text).unwrap();
@@ -112,4 +121,10 @@ fn a_hosted_ring_has_no_mass_of_its_own() {
 #[test]
 fn the_model_identifier_is_a_c_identifier() {
     assert_eq!(Scene::from_toml(SHORT).unwrap().model_identifier(), "Brinell_er16k_tb1");
+    for name in ["6205-epps", "-", "_a", "9", "a--b_C-7"] {
+        let identifier = Scene::from_toml(&SHORT.replace("er16k-tb1", name)).unwrap().model_identifier();
+        let (first, rest) = identifier.split_at(1);
+        assert!(first.chars().all(|c| c.is_ascii_alphabetic()), "{identifier}");
+        assert!(rest.chars().all(|c| c.is_ascii_alphanumeric() || c == '_'), "{identifier}");
+    }
 }

@@ -192,7 +192,7 @@ def main():
     passage_csv = folder / "passage.csv"
     plotting.write_csv(passage_csv, [f"{name} [{units.get(name, 'N')}]" for name in signals], signals.values())
     events_csv = folder / "events.csv"
-    with open(events_csv, "w", encoding="utf-8", newline="\n") as file:
+    with plotting.whole(events_csv) as part, open(part, "w", encoding="utf-8", newline="\n") as file:
         file.write("event,time [s],after entry [s],outer force [N]\n")
         for name, (when, value) in events.items():
             file.write(f"{name},{when!r},{when - entry!r},{value!r}\n")

@@ -1,5 +1,7 @@
 """The look of every figure: README width, legible at half size, colour-blind safe, equal bytes from equal data."""
 
+import contextlib
+import os
 from pathlib import Path
 
 import matplotlib
@@ -42,9 +44,24 @@ def read_csv(path):
     return {name: values[:, index] for index, name in enumerate(names)}
 
 
+@contextlib.contextmanager
+def whole(path):
+    """A file to write that takes the name `path` when all is written: a full disk leaves what was there before."""
+    path = Path(path)
+    part = path.with_name(f"new-{os.getpid()}-{path.name}")
+    try:
+        yield part
+        os.replace(part, path)
+    except OSError as error:
+        why = f"{path} was not written, what was there before is unchanged: {error.strerror}; choose another folder"
+        raise OSError(error.errno, why) from error
+    finally:
+        part.unlink(missing_ok=True)
+
+
 def write_csv(path, header, columns):
     """Columns of equal length; `repr` of a float reads back to the same bits."""
-    with open(path, "w", encoding="utf-8", newline="\n") as file:
+    with whole(path) as part, open(part, "w", encoding="utf-8", newline="\n") as file:
         file.write(",".join(header) + "\n")
         for row in zip(*(np.asarray(column, dtype=float).tolist() for column in columns)):
             file.write(",".join(map(repr, row)) + "\n")
@@ -55,6 +72,7 @@ def save(figure, stem):
     stem = Path(stem)
     for suffix, metadata in ((".svg", {"Date": None, "Creator": None}), (".png", {"Software": None})):
         path = stem.with_name(stem.name + suffix)
-        figure.savefig(path, metadata=metadata, dpi=150)
+        with whole(path) as part:
+            figure.savefig(part, metadata=metadata, dpi=150)
         print(path)
     plt.close(figure)

@@ -15,10 +15,10 @@ pub enum ArchiveError {
     #[error("archive entry {0:?}: names are relative, with forward slashes and without '..'")]
     Name(String),
     /// The zip writer's own error.
-    #[error("archive: {0}")]
+    #[error("archive")]
     Zip(#[from] zip::result::ZipError),
     /// Writing failed.
-    #[error("archive: {0}")]
+    #[error("archive")]
     Io(#[from] std::io::Error),
 }
 

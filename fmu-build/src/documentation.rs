@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use brinell::scene::{Damping, DefectShape, Motion, Ring, Scene};
+use brinell::scene::{ContactLaw, Damping, DefectShape, Motion, Ring, Scene};
+use brinell::simulation::Method;
 use brinell::simulation::variables::{Causality, Kind, Variable};
 use quick_xml::escape::escape;
 
@@ -11,7 +12,9 @@ use crate::model_description::causality;
 use crate::units;
 
 /// What the model leaves out, in one place for every reader.
-pub const LIMITS: [&str; 6] = [
+pub const LIMITS: [&str; 8] = [
+    "Rolling elements are balls: rollers with their line contacts need another law.",
+    "Defects are on the outer raceway, whose ring does not turn.",
     "Love's half-space at a vertical edge ignores the corner's own compliance: a quarter-space correction would lower \
      the force there by up to a third, and the pressure at the edge diverges.",
     "The earlier law <code>hertz</code> overstates the force at an edge: Love gives 0.84 to 0.86 of it there, and 0.53 \
@@ -37,9 +40,12 @@ const EQUATIONS: &str = "<p>For each element u is its path, ρ the distance of i
     m_i x_i'' = F_i − Σ Q_i n − c_i v_i − k_i x_i\n\
     m_o x_o'' = F_o + Σ (F_r e_r − F_t e_t) − c_o v_o − k_o x_o + f_s,   m_s y_s'' = −f_s</pre>\n\
     <p>F<sub>r</sub> and F<sub>t</sub> are what the outer raceway exerts on an element. On the smooth raceway the approach is u; \
-    near a defect it is an equivalent one, Δ(u, place), of the contact law above. An explicit Runge–Kutta method of order 5 \
-    with error control steps, an implicit one of the same order where contacts are stiff; steps end where a contact begins or \
-    ends and where an element enters another part of the defect.</p>\n";
+    near a defect it is an equivalent one, Δ(u, place), of the contact law above.</p>\n";
+
+/// The coupling errors that the guide has measured; `masters` finds them.
+const GUIDE: &str = include_str!("../../docs/guide.md");
+/// How their table begins.
+const MASTERS: &str = "| bearing | master | the rotor is told |";
 
 /// Writes the page.
 pub fn write(model: &Model) -> String {
@@ -54,10 +60,21 @@ pub fn write(model: &Model) -> String {
     );
     page.push_str("<h2>The bearing</h2>\n");
     facts(&mut page, scene);
+    for remark in scene.remarks() {
+        line(&mut page, format_args!("<p>Note: {remark}.</p>"));
+    }
     page.push_str("<h2>Coupling</h2>\n");
     coupling(&mut page, scene);
     page.push_str("<h2>Equations</h2>\n");
     page.push_str(EQUATIONS);
+    line(
+        &mut page,
+        format_args!(
+            "<p>Time is integrated under error control by {}. Steps end where a contact begins or ends and where an \
+             element enters another part of the defect.</p>",
+            Method::automatic_in_words()
+        ),
+    );
     page.push_str("<h2>Variables</h2>\n");
     for kind in [Causality::Input, Causality::Parameter, Causality::Output, Causality::Local] {
         variables(&mut page, model.simulation.table(), kind);
@@ -102,8 +119,8 @@ fn facts(page: &mut String, scene: &Scene) {
     };
     let mm = |length: f64| format!("{} mm", digits(length * 1e3));
     let rows = [
-        ("Rolling elements", bearing.element_count.to_string()),
-        ("Element diameter", mm(bearing.element_diameter)),
+        ("Rolling elements", format!("{} balls", bearing.element_count)),
+        ("Ball diameter", mm(bearing.element_diameter)),
         ("Pitch diameter", mm(bearing.pitch_diameter)),
         (
             "Groove conformity, inner and outer",
@@ -151,11 +168,34 @@ fn coupling(page: &mut String, scene: &Scene) {
     if scene.shaft.motion == Motion::Host || scene.housing.motion == Motion::Host {
         page.push_str(
             "<p>This host moves a ring. Give position, velocity and, if it is known, acceleration: inputs are \
-             continued by them inside the step. Step the FMU first, then apply <code>mean_force</code> to the ring's \
-             body over the same step: holding inputs and forces instead is unstable beyond about 1e-5 s against a body of \
-             a few kilograms.</p>\n",
+             continued by them inside the step. Which force the ring's body is to be told depends on the master. One \
+             that steps the FMU first gives the body <code>mean_force</code> over the same step. One that steps all \
+             units in parallel gives it <code>force</code> with its derivative, from \
+             <code>fmi2GetRealOutputDerivatives</code>; <code>mean_force</code> would come a step late there. Error of \
+             a rotor of 3 kg by the communication step, rms over rms of its motion:</p>\n",
         );
+        masters(page);
     }
+}
+
+/// The guide's table of masters, as HTML.
+fn masters(page: &mut String) {
+    page.push_str("<table>\n");
+    let rows = GUIDE.lines().skip_while(|row| !row.starts_with(MASTERS)).take_while(|row| row.starts_with('|'));
+    for (index, row) in rows.filter(|row| !row.starts_with("|---")).enumerate() {
+        let cell = if index == 0 { "th" } else { "td" };
+        let cells = row.trim_matches('|').split('|').map(|text| {
+            // Words between grave accents are code.
+            let mut parts = text.trim().split('`');
+            let plain = parts.next().unwrap_or_default().to_owned();
+            let text = parts.enumerate().fold(plain, |text, (i, part)| {
+                if i % 2 == 0 { format!("{text}<code>{part}</code>") } else { text + part }
+            });
+            format!("<{cell}>{}</{cell}>", text.replace("> 1", "&gt; 1"))
+        });
+        line(page, format_args!("<tr>{}</tr>", cells.collect::<String>()));
+    }
+    page.push_str("</table>\n");
 }
 
 fn variables(page: &mut String, table: &[Variable], kind: Causality) {
@@ -220,4 +260,51 @@ fn digits(value: f64) -> String {
     }
     let shown = format!("{value:.5e}").parse::<f64>().unwrap_or(value);
     shown.to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    fn page(scene: &str) -> String {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/");
+        write(&Model::read(&std::path::Path::new(path).join(scene).with_extension("toml")).unwrap())
+    }
+
+    #[test]
+    fn the_page_names_the_methods_that_step() {
+        let page = page("6205-healthy");
+        for method in [
+            "phase-fitted pair of order 4(3)",
+            "Dormand and Prince of order 5(4)",
+            "Rodas5P, linearly implicit, of order 5(4)",
+        ] {
+            assert!(page.contains(method), "{method} is not named");
+        }
+        assert!(!page.contains("Runge–Kutta method of order 5"));
+    }
+
+    #[test]
+    fn the_page_of_a_hosted_ring_says_which_force_is_for_which_master() {
+        let page = page("6205-hosted");
+        // Both bearings by seven masters, below one heading.
+        let rows: Vec<&str> =
+            page.lines().filter(|row| row.starts_with("<tr><t") && row.contains(" µs</th>")).collect();
+        assert_eq!(rows.len(), 1, "{rows:?}");
+        for (master, count) in [("<td>parallel</td>", 8), ("<td>sequential</td>", 6)] {
+            assert_eq!(page.matches(master).count(), count, "{master}");
+        }
+        assert!(page.contains("<td><code>mean_force</code>, held</td>"));
+        // A ring that moves under forces is wired to no master.
+        assert!(!self::page("6205-healthy").contains("<td>parallel</td>"));
+    }
+
+    #[test]
+    fn the_page_says_balls_and_outer_raceway() {
+        let page = page("6205-healthy");
+        assert!(page.contains("<td>9 balls</td>") && page.contains("Rolling elements are balls:"));
+        assert!(page.contains("Defects are on the outer raceway"));
+    }
 }

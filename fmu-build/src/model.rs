@@ -41,6 +41,9 @@ impl Model {
         let about = || path.display().to_string();
         let scene_text = fs::read_to_string(path).with_context(about)?;
         let scene = Scene::from_toml(&scene_text).with_context(about)?;
+        for remark in scene.remarks() {
+            eprintln!("note: {}: {remark}", about());
+        }
         let profile = match scene.defect.as_ref().map(|defect| &defect.shape) {
             Some(DefectShape::Profile(name)) => {
                 let file = path.parent().unwrap_or(Path::new("")).join(name);

@@ -54,10 +54,10 @@ pub const FUNCTIONS: [&str; 34] = [
 #[derive(Debug, thiserror::Error)]
 pub enum SlaveError {
     /// The file is no library, or lacks something.
-    #[error("library: {0}")]
+    #[error("library")]
     Library(#[from] libloading::Error),
     /// A name with a zero byte.
-    #[error("a name for the C interface holds a zero byte")]
+    #[error("a name for the C interface")]
     ZeroByte(#[from] std::ffi::NulError),
     /// `fmi2Instantiate` gave NULL.
     #[error("fmi2Instantiate gave NULL; log: {0}")]

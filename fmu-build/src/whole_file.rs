@@ -1,7 +1,7 @@
-//! Files that are whole or not there. A disk that fills up, or a run that fails, leaves a file of the same name as it was.
+//! Files that are whole or not there: a disk that fills up, or a run that fails, leaves a file of that name as it was.
 //!
-//! Everything is written into a temporary file in the same folder, which takes the name when its last byte is on the disk. It
-//! is removed on the way out of every failure.
+//! Everything is written into a temporary file in the same folder, which takes the name when its last byte is on the
+//! disk. It is removed on the way out of every failure.
 
 use std::fs::{self, Permissions};
 use std::io::{self, BufWriter, Write};
@@ -13,8 +13,8 @@ use tempfile::{NamedTempFile, TempDir};
 /// Why a file was not written; the file of that name is what it was before.
 #[derive(Debug, thiserror::Error)]
 #[error(
-    "{path} was not written, and what was there before is unchanged: see whether its disk is full and who may write there, or \
-     choose another folder"
+    "{path} was not written, and what was there before is unchanged: see whether its disk is full and who may write \
+     there, or choose another folder"
 )]
 pub struct NotWritten {
     path: String,
@@ -53,7 +53,8 @@ pub fn write_with(path: &Path, fill: impl FnOnce(&mut dyn Write) -> Result<()>) 
     Ok(())
 }
 
-/// A folder for files that grow, in `folder`, which is made where it is missing. It is removed with all that is still in it.
+/// A folder for files that grow, in `folder`, which is made where it is missing. It is removed with all that is left
+/// in it.
 pub fn folder_in(folder: &Path) -> Result<TempDir> {
     fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
     tempfile::Builder::new().suffix(".part").tempdir_in(folder).with_context(|| folder.display().to_string())

@@ -18,6 +18,7 @@ const ROSS: &str = "python examples/rotor_ross.py --stop 1";
 const ROSS_ITSELF: &str = "python examples/rotor_ross.py --host ross --stop 0.2";
 const LINEAR: &str = "python examples/rotor_linear.py --short";
 const ERROR: &str = "python examples/coupling_error.py --short";
+const MASTERS: &str = "python examples/masters.py --short";
 const COST: &str = "python examples/step_cost.py --steps 200";
 const SWEEP: &str =
     "python examples/sweep.py --runs 8 --stop 0.1 --grid defect.length_deg=15.8 --random shaft.speed_hz=10:40";
@@ -103,7 +104,7 @@ fn blocks(language: &str) -> Vec<String> {
 
 #[test]
 fn every_command_of_the_guide_is_run_here() {
-    let known = [RIGID, ROSS, ROSS_ITSELF, LINEAR, ERROR, COST, SWEEP, SIZED, SCHEDULER, WORKER, CLUSTER];
+    let known = [RIGID, ROSS, ROSS_ITSELF, LINEAR, ERROR, MASTERS, COST, SWEEP, SIZED, SCHEDULER, WORKER, CLUSTER];
     let commands: Vec<_> =
         blocks("sh").iter().flat_map(|block| block.lines().map(str::to_owned).collect::<Vec<_>>()).collect();
     for command in &commands {
@@ -127,6 +128,19 @@ fn the_code_in_the_guide_runs() {
         .replace("\"target/examples\"", &format!("{:?}", folder.display().to_string()));
     fs::write(&script, text).unwrap();
     python().run_file(&script, [""; 0]).unwrap_or_else(|error| panic!("{error:#}"));
+}
+
+#[test]
+fn an_fmu_bears_its_scenes_name_whatever_its_files_is() {
+    let folder = common::folder("example-names");
+    fs::copy(common::root().join("scenes/6205-healthy.toml"), folder.join("another.toml")).unwrap();
+    let script = folder.join("names.py");
+    let text = "import sys\nsys.path.insert(0, sys.argv[1])\nfrom bearing import build\n\
+                [fmu] = build([sys.argv[2] + '/another.toml'], sys.argv[2])\nprint(fmu.name, fmu.is_file())";
+    fs::write(&script, text).unwrap();
+    let said =
+        python().run_file(&script, [common::root().join("examples"), folder]).unwrap_or_else(|e| panic!("{e:#}"));
+    assert_eq!(said.trim(), "6205-healthy.fmu True");
 }
 
 #[test]
@@ -218,6 +232,33 @@ fn the_coupling_is_as_exact_as_the_guide_says() {
         assert!(found.0 < short && found.1 < long, "{row}: {found:?} %, limits {short} and {long} %");
     }
     assert!(at("healthy ROSS, no stand-in", 1).is_infinite(), "without the stand-in 100 µs are unstable: {rows:?}");
+}
+
+#[test]
+fn each_master_is_as_exact_with_each_force_as_the_guide_says() {
+    let rows = table(&run(MASTERS, &common::folder("example-masters")), 3);
+    assert_eq!(rows.len(), 14);
+    let guide = fs::read_to_string(common::root().join("docs/guide.md")).unwrap();
+    for (words, _) in &rows {
+        let row = words.replacen(' ', " | ", 2);
+        assert!(guide.contains(&format!("| {row} |")), "not in the guide: {row}");
+    }
+    let at = |row: &str, column: usize| {
+        let (_, cells) = rows.iter().find(|(words, _)| words == row).unwrap();
+        percent(&cells[column])
+    };
+    for bearing in ["healthy", "spalled"] {
+        // Steps of 10 µs over the first 5 ms: a quarter of the guide's time, and less error. Limits: two to three times
+        // what was found.
+        let found = |told: &str| at(&format!("{bearing} {told}"), 0);
+        let (held, derivative) = (found("parallel `force`, held"), found("parallel `force` and its derivative"));
+        let (late, sequential) = (found("parallel `mean_force`, held"), found("sequential `mean_force`, held"));
+        assert!(derivative < 0.06 && sequential < 0.03, "{bearing}: {derivative} %, {sequential} %");
+        // A force that comes a whole step late instead of half a one: twice the error, and more as it grows.
+        assert!(late > 1.8 * held && held > 20.0 * derivative, "{bearing}: {late} %, {held} %, {derivative} %");
+        let same = found("parallel `mean_force` and its derivative, which is 0");
+        assert_eq!(same, late, "{bearing}: the mean's derivative is not 0");
+    }
 }
 
 #[test]

@@ -1,5 +1,5 @@
-//! What the commands write is whole or not there: under a limit on the size of files, which ends a write as a full disk does,
-//! a file of the same name stays as it was, and no part of a new one is left.
+//! What the commands write is whole or not there: under a limit on the size of files, which ends a write as a full disk
+//! does, a file of the same name stays as it was, and no part of a new one is left.
 #![cfg(unix)]
 #![allow(clippy::unwrap_used)]
 
@@ -110,4 +110,26 @@ fn a_table_of_stiffness_that_does_not_fit_leaves_the_earlier_one() {
     let name = out.display().to_string();
     let arguments = ["stiffness", &scene("6205-healthy"), "--no-figure", "-o", &name];
     fails_and_leaves(&out, &["6205-healthy-stiffness.csv"], 1 << 14, &arguments);
+}
+
+#[test]
+fn a_figure_that_does_not_fit_leaves_the_earlier_one() {
+    common::python();
+    let out = common::folder("whole-figure");
+    let name = out.display().to_string();
+    let arguments = ["run", &scene("6205-healthy"), "--stop", "0.01", "--step", "1e-3", "-o", &name];
+    for file in ["6205-healthy.svg", "6205-healthy.png"] {
+        fs::write(out.join(file), BEFORE).unwrap();
+    }
+    // The signals fit, their figure does not.
+    let output = limited(1 << 15, &arguments);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(!output.status.success() && said.contains("6205-healthy.svg was not written"), "{said}");
+    let after = contents(&out);
+    assert_eq!(
+        after.keys().collect::<Vec<_>>(),
+        ["6205-healthy.csv", "6205-healthy.png", "6205-healthy.svg"],
+        "{said}"
+    );
+    assert!(after["6205-healthy.svg"] == BEFORE && after["6205-healthy.png"] == BEFORE, "{said}");
 }

@@ -295,6 +295,31 @@ mod tests {
     }
 
     #[test]
+    fn every_processor_factors_and_solves_to_the_same_bits() {
+        // Without vector instructions `mul_add` is a call into Rust's runtime, which emulates it for want of an
+        // instruction.
+        let order = 61;
+        let filled = || {
+            let mut m = Cholesky::default();
+            m.resize(order);
+            for c in 0..order {
+                m.column_mut(c).iter_mut().enumerate().for_each(|(r, value)| *value = entry(c + r, c));
+            }
+            m
+        };
+        let (mut native, mut plain) = (filled(), filled());
+        assert_eq!((native.factor(), Arch::Scalar.dispatch(Factor(&mut plain))), (Ok(()), Ok(())));
+        let right = |m: &Cholesky| -> Vec<f64> {
+            (0..m.solve_length()).map(|i| if i < order { (i as f64).sqrt() } else { 0.0 }).collect()
+        };
+        let (mut by_native, mut by_plain) = (right(&native), right(&plain));
+        native.solve(&mut by_native);
+        Arch::Scalar.dispatch(Solve(&plain, &mut by_plain));
+        let bits = |solution: &[f64]| solution.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+        assert_eq!(bits(&by_native), bits(&by_plain));
+    }
+
+    #[test]
     fn an_indefinite_matrix_is_refused() {
         let mut m = Cholesky::default();
         m.resize(2);

@@ -17,9 +17,9 @@ pub enum ContactError {
     },
     /// Measured points farther apart than the grid's cells: what the grid would resolve was never measured.
     #[error(
-        "defect profile: points are {step_um:.2} um apart {direction} the raceway at {at_mm:.4} mm, the limit is a cell of \
-         the contact grid, {cell_um:.2} um: measure more finely, make cells longer with contact.cells, or add points on \
-         lines that are meant to be straight"
+        "defect profile: points are {step_um:.2} um apart {direction} the raceway at {at_mm:.4} mm, the limit is a \
+         cell of the contact grid, {cell_um:.2} um: measure more finely, make cells longer with contact.cells, or add \
+         points on lines that are meant to be straight"
     )]
     TooCoarse {
         /// "along" or "across".

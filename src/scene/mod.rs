@@ -7,9 +7,11 @@ mod error;
 mod file;
 mod key_fault;
 mod quantity;
+mod remark;
 
 pub use error::{Bound, Limits, SceneError};
 pub use key_fault::{Hint, KeyFault};
+pub use remark::Remark;
 
 use serde::Deserialize;
 
@@ -49,7 +51,8 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The C identifier of the scene's model: `Brinell_er16k_tb1` for the scene `er16k-tb1`.
+    /// The C identifier of the scene's model: `Brinell_er16k_tb1` for the scene `er16k-tb1`. Hyphens, which a name may hold,
+    /// become underscores, and the prefix keeps a leading digit inside.
     pub fn model_identifier(&self) -> String {
         format!("Brinell_{}", self.name.replace('-', "_"))
     }

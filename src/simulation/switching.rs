@@ -15,6 +15,7 @@
 
 use super::explicit::Pair;
 use super::stepper::SMALLEST_STEP;
+use super::{dormand_prince, phase_fitted, rodas};
 use crate::dynamics::jacobian::Jacobian;
 
 /// Which methods a simulation may use.
@@ -36,6 +37,19 @@ pub enum Method {
 const LOOSE: f64 = 1e-6;
 
 impl Method {
+    /// What the automatic choice steps with, as part of a sentence.
+    pub fn automatic_in_words() -> String {
+        let order = |[step, estimate]: [usize; 2]| format!("order {step}({estimate})");
+        format!(
+            "an explicit phase-fitted pair of {} at tolerances from {LOOSE:e} on, the explicit pair of Dormand and Prince \
+             of {} at smaller ones and where damping is strong, and Rodas5P, linearly implicit, of {} where contacts are \
+             stiff",
+            order(phase_fitted::ORDERS),
+            order(dormand_prince::ORDERS),
+            order(rodas::ORDERS)
+        )
+    }
+
     /// The explicit method for a tolerance; `damped`: the last look found the fastest motion strongly damped.
     pub(super) fn pair(self, tolerance: f64, damped: bool) -> Pair {
         match self {

@@ -235,12 +235,12 @@ impl Builder<'_> {
             RingName::Housing => ("housing", "outer ring"),
         };
         let motion = self.motion(ring);
-        let mut pair = |suffix: &str, text: &str, quantity: fn(RingName, usize) -> Q, unit: Unit, nominal: f64| {
+        let mut pair = |suffix: &str, text: [&str; 2], quantity: fn(RingName, usize) -> Q, unit: Unit, nominal: f64| {
             for (axis, letter) in AXES.iter().enumerate() {
                 let place = suffix.replace('*', letter);
                 self.output(
                     &[name, ".", &place].concat(),
-                    &[text, " the ", what, " along ", letter].concat(),
+                    &[text[0], " the ", what, " along ", letter, text[1]].concat(),
                     quantity(ring, axis),
                     unit,
                     nominal,
@@ -248,19 +248,22 @@ impl Builder<'_> {
             }
         };
         if motion == Motion::Internal {
-            pair("*", "Position of", Q::Position, Unit::Metre, 1e-5);
-            pair("v*", "Velocity of", Q::Velocity, Unit::MetrePerSecond, 1e-2);
-            pair("a*", "Acceleration of", Q::Acceleration, Unit::MetrePerSecondSquared, 10.0);
+            pair("*", ["Position of", ""], Q::Position, Unit::Metre, 1e-5);
+            pair("v*", ["Velocity of", ""], Q::Velocity, Unit::MetrePerSecond, 1e-2);
+            pair("a*", ["Acceleration of", ""], Q::Acceleration, Unit::MetrePerSecondSquared, 10.0);
         }
-        pair("force.*", "Force of the bearing's contacts, at this moment, on", Q::Force, Unit::Newton, 1000.0);
-        if motion == Motion::Host {
-            pair(
-                "mean_force.*",
+        // Which of the two forces belongs to which master is measured by examples/masters.py.
+        let hosted = motion == Motion::Host;
+        let after =
+            if hosted { "; with its derivative by time for a master that steps all units in parallel" } else { "" };
+        let now = ["Force of the bearing's contacts, at this moment, on", after];
+        pair("force.*", now, Q::Force, Unit::Newton, 1000.0);
+        if hosted {
+            let mean = [
                 "Force of the bearing's contacts, mean over the last communication step, on",
-                Q::MeanForce,
-                Unit::Newton,
-                1000.0,
-            );
+                "; for a host that takes the same step after the bearing, never for one in parallel",
+            ];
+            pair("mean_force.*", mean, Q::MeanForce, Unit::Newton, 1000.0);
         }
     }
 

@@ -1,5 +1,5 @@
-//! What is wrong with the keys of a scene file, all of it at once. Asked only of a file that was refused; values are not
-//! looked at.
+//! What is wrong with the keys of a scene file, all of it at once. Asked only of a file that was refused; values are
+//! not looked at.
 
 use super::super::key_fault::{Hint, KeyFault};
 use super::not_modelled::{DEFECTS, instead_of};

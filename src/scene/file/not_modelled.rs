@@ -20,11 +20,11 @@ const PLANE: &str = "the rings move in one plane, so far: no axial load, no cont
 const DRY: &str = "contacts without lubricant and friction, so far";
 
 const ASKED: [Asked; 5] = [
-    Asked { tables: &[""], names: &[], parts: &["defect", "spall", "race"], only: DEFECTS },
+    Asked { tables: &[""], names: &["race"], parts: &["defect", "spall", "raceway", "_race"], only: DEFECTS },
     Asked {
         tables: &["defect"],
-        names: &["on", "side", "where", "location", "position", "ring", "surface", "part", "element", "ball"],
-        parts: &["race", "inner", "outer", "defect", "spall"],
+        names: &["on", "race", "side", "where", "location", "position", "ring", "surface", "part", "element", "ball"],
+        parts: &["raceway", "inner", "outer", "defect", "spall"],
         only: DEFECTS,
     },
     Asked {

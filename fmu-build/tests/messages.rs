@@ -1,0 +1,71 @@
+//! What a user reads when something is wrong: the reason, once.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn program(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_fmu-build")).args(arguments).output().unwrap()
+}
+
+/// What the program says of a scene whose text was changed in one place.
+fn said_of(folder: &Path, old: &str, new: &str, command: &[&str]) -> (bool, String) {
+    let text = fs::read_to_string(common::root().join("scenes/6205-healthy.toml")).unwrap();
+    assert_eq!(text.matches(old).count(), 1, "`{old}` must stand once in the scene");
+    let path = folder.join("changed.toml");
+    fs::write(&path, text.replace(old, new)).unwrap();
+    let path = path.display().to_string();
+    let output = program(&[&command[..1], &[path.as_str()], &command[1..]].concat());
+    (output.status.success(), String::from_utf8(output.stderr).unwrap())
+}
+
+#[track_caller]
+fn once(said: &str, words: &str) {
+    assert_eq!(said.matches(words).count(), 1, "`{words}` once in: {said}");
+}
+
+#[test]
+fn what_is_wrong_with_a_scene_file_is_said_once() {
+    let folder = common::folder("messages");
+    for (old, new, words) in [
+        ("element_count = 9", "element_count = \"nine\"", "invalid type"),
+        ("[bearing]", "[bearing", "TOML parse error"),
+        ("element_count = 9", "element_cout = 9", "did you mean element_count?"),
+        ("element_count = 9", "element_count = 0", "number of elements"),
+    ] {
+        let (succeeded, said) = said_of(&folder, old, new, &["build"]);
+        assert!(!succeeded, "{new} was taken");
+        once(&said, words);
+        once(&said, "changed.toml");
+    }
+}
+
+#[test]
+fn a_groove_that_no_ball_bearing_has_is_remarked_upon() {
+    let folder = common::folder("remarks");
+    let out = folder.display().to_string();
+    let command = ["run", "--stop", "1e-4", "--no-figure", "-o", &out];
+    let (succeeded, said) = said_of(&folder, "conformity_outer = 0.52", "conformity_outer = 5.2", &command);
+    assert!(succeeded, "{said}");
+    once(&said, "the groove conformity of the outer ring is 5.2000: ball bearings have 0.51 to 0.6");
+    let (succeeded, said) = said_of(&folder, "conformity_outer = 0.52", "conformity_outer = 0.53", &command);
+    assert!(succeeded && !said.contains("note:"), "{said}");
+}
+
+#[test]
+fn a_library_that_cannot_be_loaded_is_said_once() {
+    common::python();
+    let folder = common::folder("no-library");
+    let (library, out) = (folder.join("no.so").display().to_string(), folder.display().to_string());
+    fs::write(&library, "no library").unwrap();
+    let scene = common::root().join("scenes/6205-healthy.toml").display().to_string();
+    assert!(program(&["build", &scene, "--library", &library, "-o", &out]).status.success());
+    let output = program(&["check", &folder.join("6205-healthy.fmu").display().to_string()]);
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(!output.status.success());
+    // The loader names the file that it could not read.
+    once(&said, "Brinell_6205_healthy.");
+}
