@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use brinell::scene::{ContactLaw, Damping, DefectShape, Motion, Ring, Scene};
+use brinell::scene::{Damping, DefectShape, Motion, Ring, Scene};
 use brinell::simulation::Method;
 use brinell::simulation::variables::{Causality, Kind, Variable};
 use quick_xml::escape::escape;

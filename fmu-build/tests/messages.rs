@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 fn program(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_fmu-build")).args(arguments).output().unwrap()
+    Command::new(env!("CARGO_BIN_EXE_brinell")).args(arguments).output().unwrap()
 }
 
 /// What the program says of a scene whose text was changed in one place.
