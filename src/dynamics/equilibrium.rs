@@ -47,6 +47,20 @@ pub enum EquilibriumError {
         /// Why there is no answer.
         cause: ContactError,
     },
+    /// An element that nothing holds.
+    #[error(
+        "no static equilibrium: element {element} finds no balance between the raceways, {force:.3e} N are left on it at a path of \
+         {path:.3e} m; nothing carries it, or the contact's damping is more than its force at this speed: start it \
+         elsewhere with cage.initial_angle, or load or hold the rings"
+    )]
+    Element {
+        /// Number of the element, from 1.
+        element: usize,
+        /// Where the search ended, its path u [m].
+        path: f64,
+        /// Radial force left there [N].
+        force: f64,
+    },
 }
 
 /// Share of the largest force in play that may remain as residual: a few roundings of a sum of Z forces.
@@ -57,9 +71,15 @@ const SMALLEST_RESIDUAL: f64 = 1e-12;
 const UNBALANCED: f64 = 1e-6;
 /// How far from where a search ended a contact law is asked for an answer [m]: far above the rounding of paths.
 const FURTHER: f64 = 1e-15;
-/// Longest step of a ring between two iterations [m].
+/// Share of the forces on an element that may remain as residual: far above rounding, far below what matters.
+const ELEMENT_RESIDUAL: f64 = 1e-9;
+/// Share of an element's distance to which its position is known: some roundings.
+const ROUNDING: f64 = 1e-14;
+/// Longest step of a ring between two iterations at first [m]; a soft support may have a long way to go.
 const LONGEST_STEP: f64 = 50e-6;
-const ITERATIONS: usize = 500;
+/// Iterations after which the longest step doubles.
+const DOUBLING: i32 = 50;
+const ITERATIONS: i32 = 500;
 
 impl Model {
     /// Writes the static equilibrium under `drive` at τ = 0 into `state`; velocities are those of rings at rest, or of
@@ -73,9 +93,14 @@ impl Model {
         let mut iteration = 0;
         while balance.residual() > balance.limit {
             iteration += 1;
-            let step = self.newton_step(&given, rings, &u, &balance);
+            let step = self.newton_step(&given, rings, &u, &balance, longest_step(iteration));
             let next = self.along(&given, rings, &mut u, &balance, step).filter(|_| iteration <= ITERATIONS);
             let Some(next) = next else {
+                if balance.residual() <= balance.rounding {
+                    // As near as roundings let it come: back to the paths of these rings.
+                    self.balance(&given, rings, &mut u);
+                    break;
+                }
                 // A step that cannot be taken may end where a contact has no answer.
                 let tried = rings + step;
                 self.balance(&given, tried, &mut u);
@@ -85,6 +110,7 @@ impl Model {
             (rings, balance) = next;
         }
         self.check_contacts(&given, rings, &u)?;
+        self.check_elements(&given, rings, &u)?;
         self.write(drive, rings, &u, state);
         Ok(())
     }
@@ -175,14 +201,33 @@ impl Model {
         Ok(())
     }
 
+    /// Refuses a balance of the rings in which an element has none: the search for its path ends wherever it got to.
+    fn check_elements(&self, given: &Given, rings: Rings, u: &[f64]) -> Result<(), EquilibriumError> {
+        let now = given.placed(rings);
+        for (j, &path) in u.iter().enumerate() {
+            let element = self.linearized_at(j, given.cells[j], (path, 0.0), &now, Bends::LeftOut);
+            let (force, slope) = self.radial_balance(&element);
+            let omega = now.cage.speed;
+            let body = self.element_mass * (self.gravity.norm() + element.rho * omega * omega);
+            let contacts = element.inner.norm() + element.outer.x.abs();
+            let limit = ELEMENT_RESIDUAL * (body + contacts) + ROUNDING * element.rho * slope.abs();
+            if !(force.abs() <= limit && path.abs() <= self.element_radius) {
+                return Err(EquilibriumError::Element { element: j + 1, path, force });
+            }
+        }
+        Ok(())
+    }
+
     /// Balances all elements for given rings and sums the forces on the rings.
     fn balance(&self, given: &Given, rings: Rings, u: &mut [f64]) -> Balance {
         let Given { drive, cells, .. } = given;
         let now = given.placed(rings);
-        let (mut force, mut largest, mut contact_sum) = (Rings::zeros(), 0.0f64, 0.0);
+        let (mut force, mut largest, mut contact_sum, mut rounding) = (Rings::zeros(), 0.0f64, 0.0, 0.0);
+        let play = now.offset().norm() + self.radial_clearance.abs();
         for j in 0..self.element_count {
             let (path, element) = self.balanced_element(j, cells[j], u[j], &now);
             u[j] = path;
+            rounding += self.radial_balance(&element).1.abs() * (path.abs() + play) * 4.0 * f64::EPSILON;
             contact_sum += element.inner.norm();
             force += stacked(-element.inner, element.on_housing());
             largest = largest.max(element.inner.amax()).max(element.outer.amax());
@@ -192,22 +237,23 @@ impl Model {
         let supports = Rings::from_fn(|i, _| self.supports.rings()[i / 2].stiffness * rings[i]);
         force += loads - supports;
         largest = largest.max(loads.amax()).max(supports.amax());
-        Balance { force: self.free_rings(force), contact_sum, limit: RESIDUAL * largest + SMALLEST_RESIDUAL }
+        let limit = RESIDUAL * largest + SMALLEST_RESIDUAL;
+        Balance { force: self.free_rings(force), contact_sum, limit, rounding }
     }
 
     /// A step of the free rings from the condensed tangent: (−J + μ) step = force.
-    fn newton_step(&self, given: &Given, rings: Rings, u: &[f64], balance: &Balance) -> Rings {
+    fn newton_step(&self, given: &Given, rings: Rings, u: &[f64], balance: &Balance, longest: f64) -> Rings {
         let jacobian = self.ring_jacobian(u, given.cells, given.placed(rings).offset(), given.still.cage.angle);
         // The turning of contact forces makes a lightly held ring's tangent indefinite; its bound ΣQ/|q| takes that out.
         // The second term lets a loose ring move by the longest step, and vanishes with the residual.
-        let shift = balance.contact_sum / self.outer_centre_radius + balance.residual() / LONGEST_STEP;
+        let shift = balance.contact_sum / self.outer_centre_radius + balance.residual() / longest;
         let solved = self.free_rings_matrix(&jacobian, shift).lu().solve(&balance.force);
         let step = solved.unwrap_or_else(|| Rings::repeat(f64::NAN));
         let length = step.amax();
         if !length.is_finite() || step.dot(&balance.force) <= 0.0 {
-            balance.force / balance.residual() * LONGEST_STEP
-        } else if length > LONGEST_STEP {
-            step * (LONGEST_STEP / length)
+            balance.force / balance.residual() * longest
+        } else if length > longest {
+            step * (longest / length)
         } else {
             step
         }
@@ -261,6 +307,11 @@ impl Model {
     }
 }
 
+/// Longest step of a ring in an iteration [m]: after all of them it may have moved by metres.
+fn longest_step(iteration: i32) -> f64 {
+    LONGEST_STEP * f64::from(1 << (iteration / DOUBLING).min(16))
+}
+
 /// What the search is given. Velocities in `still` stay; where the rings are follows in each iteration.
 struct Given<'a> {
     drive: &'a Drive,
@@ -283,6 +334,8 @@ struct Balance {
     /// Σ|Q_i| [N]
     contact_sum: f64,
     limit: f64,
+    /// What roundings of the positions make of the forces [N]; more than the limit where a damper is steep.
+    rounding: f64,
 }
 
 impl Balance {
