@@ -193,7 +193,7 @@ impl Unstored {
         let samples = simulation.recorder()?.samples();
         let mut times = samples.values.iter().step_by(samples.width);
         let from = *times.next()?;
-        Some(Self { count: samples.values.len() / samples.width, from, to: *times.last().unwrap_or(&from) })
+        Some(Self { count: samples.values.len() / samples.width, from, to: *times.next_back().unwrap_or(&from) })
     }
 }
 
