@@ -101,7 +101,10 @@ fn a_full_disk_costs_samples_that_are_told_and_no_instance() {
     assert_eq!(host.terminate(), Status::Ok);
     let (all, beyond) = times(&file);
     assert_eq!((all.len(), beyond), (4096 - 15, 0));
-    assert!(all.windows(2).all(|pair| (pair[1] - pair[0] - 1.0 / 51_200.0).abs() < 1e-12), "no row twice, none missing");
+    assert!(
+        all.windows(2).all(|pair| (pair[1] - pair[0] - 1.0 / 51_200.0).abs() < 1e-12),
+        "no row twice, none missing"
+    );
     drop(host);
 
     // The last chance, and nobody listens but the one who must.

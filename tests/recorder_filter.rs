@@ -75,7 +75,8 @@ fn no_aliases_reach_the_band_below_the_rate_over_2_56() {
 
 #[test]
 fn rows_are_the_low_pass_of_the_signal_and_what_the_fast_samples_fold_is_80_db_below_it() {
-    let (rate, per_row, half, names) = (51_200.0, 16, 15, ["housing.ay", "shaft.ay", "shaft.force.y", "housing.force.x"]);
+    let (rate, per_row, half, names) =
+        (51_200.0, 16, 15, ["housing.ay", "shaft.ay", "shaft.force.y", "housing.force.x"]);
     let rows = recorded("er16k-tb1", (rate, LinearPhase), 0.05, &names);
     // Twice as fast as the recorder samples; what that folds is another 15 dB lower.
     let fine = recorded("er16k-tb1", (rate * per_row as f64, None), 0.05, &names);

@@ -31,7 +31,8 @@ mod rings;
 
 use super::error::SceneError;
 use super::{
-    Bearing, Cage, Contact, ContactLaw, Damping, Defect, DefectShape, Experiment, Recorder, RecorderFilter, Scene, Sensor,
+    Bearing, Cage, Contact, ContactLaw, Damping, Defect, DefectShape, Experiment, Recorder, RecorderFilter, Scene,
+    Sensor,
 };
 use rings::{HousingTable, SensorTable, ShaftTable};
 use serde::Deserialize;

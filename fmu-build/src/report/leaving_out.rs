@@ -5,9 +5,7 @@ use std::io::{BufWriter, Write};
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use brinell::scene::{
-    ContactLaw, Defect, DefectShape, Motion, Recorder, RecorderFilter, Ring, Scene, Sensor,
-};
+use brinell::scene::{ContactLaw, Defect, DefectShape, Motion, Recorder, RecorderFilter, Ring, Scene, Sensor};
 use brinell::simulation::Simulation;
 
 use super::Extent;
