@@ -4,9 +4,9 @@
 
 use std::path::Path;
 
-use brinell::analysis::recording::{Recording, Source, Speed};
-use brinell::analysis::report::Verdict;
-use brinell::analysis::spall_size::size;
+use brinell_analysis::recording::{Recording, Source, Speed};
+use brinell_analysis::report::Verdict;
+use brinell_analysis::spall_size::size;
 use brinell::scene::Scene;
 use libfuzzer_sys::fuzz_target;
 
