@@ -18,3 +18,5 @@ mod misuse;
 mod oracle;
 mod recordings;
 mod scenes;
+#[path = "../support/mod.rs"]
+mod support;
