@@ -20,4 +20,6 @@ mod oracle;
 mod recordings;
 mod scenes;
 mod subject;
+#[path = "../support/mod.rs"]
+mod support;
 mod units;

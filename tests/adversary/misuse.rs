@@ -8,6 +8,7 @@
 //! - an error has one line in the log that begins with the function, what is switched off is silent;
 //! - no number that is not finite is given under OK;
 //! - a twin that takes only the calls which succeeded gives equal bits, in variables, states and recordings;
+//! - so does a new instance that takes only the calls which were not taken back, in variables;
 //! - after an error reading, restoring, resetting and freeing go on, and a reset gives a usable instance.
 //!
 //! Instances are dealt out to the threads anew in each round, so each is used by one thread at a time and wanders between them. A walk is a
@@ -78,6 +79,7 @@ const CALLS: [(&str, Call); 34] = [
     ("fmi2GetStringStatus", steps::string_status),
 ];
 
+/// One for each scene.
 const INSTANCES: usize = 6;
 const THREADS: usize = 3;
 const ROUNDS: usize = 8;
@@ -135,6 +137,7 @@ fn finish(w: &mut Walker, chance: &mut Chance) {
     }
     w.require(w.model.state == State::StepComplete, || "after a reset no step could be taken".to_owned());
     w.compare();
+    w.compare_with_the_straight_way();
     life::free(w, chance, true, &nobody);
 }
 
@@ -227,7 +230,13 @@ fn any_sequence_of_calls_has_the_statuses_of_the_standard_and_leaves_what_succee
     let gaps = sum.gaps();
     // Each function has been called in each state, and each status has come.
     assert!(gaps.is_empty(), "{gaps:?}");
-    assert!(sum.statuses.iter().all(|count| *count > 0) && sum.comparisons > 0 && sum.recordings > 0, "{sum}");
+    assert!(
+        sum.statuses.iter().all(|count| *count > 0)
+            && sum.comparisons > 0
+            && sum.straight_ways > 0
+            && sum.recordings > 0,
+        "{sum}"
+    );
     assert_eq!(FORBIDDEN_CALLS.load(Ordering::Relaxed), 0);
 }
 

@@ -196,7 +196,7 @@ pub(crate) const RULES: &[(&str, &str, &[Evidence])] = &[
         "Steps",
         "Never a number that is not finite under OK.",
         &[
-            T("any_sequence_of_calls_leaves_an_instance_that_can_be_reset"),
+            T("any_sequence_of_calls_has_the_statuses_of_the_standard_and_leaves_what_succeeded_untouched"),
             M("cargo +nightly fuzz run calls", "15 min, no finding"),
         ],
     ),
@@ -366,9 +366,11 @@ pub(crate) const RULES: &[(&str, &str, &[Evidence])] = &[
     ),
     (
         "Hostile callers",
-        "Any sequence of calls with any values leaves an instance that can be reset.",
+        "Any sequence of calls with any arguments has the statuses of the standard, changes nothing where it fails, and leaves an instance \
+         that can be reset.",
         &[
-            T("any_sequence_of_calls_leaves_an_instance_that_can_be_reset"),
+            T("any_sequence_of_calls_has_the_statuses_of_the_standard_and_leaves_what_succeeded_untouched"),
+            T("on_a_full_disk_calls_fail_with_an_error_and_a_reset_always_works"),
             T("misaligned_overlapping_and_absurdly_long_arrays_are_refused"),
             T("a_logger_that_calls_back_into_its_instance_is_turned_away"),
         ],

@@ -65,6 +65,9 @@ pub(super) fn instantiate(w: &mut Walker, chance: &mut Chance, kind: bool, _: &S
 /// The end of the instance and of its twin. What is called on the handle afterwards leads nowhere.
 pub(super) fn free(w: &mut Walker, chance: &mut Chance, _: bool, others: &Strangers) {
     w.compare();
+    if chance.one_in(2) {
+        w.compare_with_the_straight_way();
+    }
     w.tally.count("fmi2FreeInstance", w.model.state, Status::Ok);
     w.remember("fmi2FreeInstance".to_owned());
     let (clean, c) = (w.model.state != State::Error, w.subject.c);
@@ -188,7 +191,7 @@ pub(super) fn setup(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Strange
     let expected = w.expect("fmi2SetupExperiment", verdict);
     let status = w.subject.setup(tolerance, start, stop);
     if w.judge("fmi2SetupExperiment", expected, status, || format!("{tolerance:?}, {start:?}, {stop:?}")) {
-        w.follow(|twin| twin.setup(tolerance, start, stop));
+        w.follow(move |twin| twin.setup(tolerance, start, stop));
         w.model.clock = Some((start, stop));
     }
 }

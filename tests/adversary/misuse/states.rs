@@ -1,7 +1,7 @@
 //! Calls that save, restore and serialize states: one's own, other instances', freed, invented and damaged ones.
 
 use super::chance::Chance;
-use super::standard::{ERROR, OK};
+use super::standard::{ERROR, OK, WARNING};
 use super::walker::{Blob, Saved, State, Strangers, Walker};
 use brinell_fmi::fmi2::*;
 use std::ptr;
@@ -88,7 +88,31 @@ pub(super) fn set_state(w: &mut Walker, chance: &mut Chance, kind: bool, others:
     w.compare();
 }
 
+/// Passes a state instead of its address, as fmusim does.
+fn free_by_value(w: &mut Walker, chance: &mut Chance, others: &Strangers) {
+    let own = (!w.saved.is_empty() && chance.one_in(2)).then(|| chance.below(w.saved.len()));
+    let strange: Vec<usize> = w.freed.iter().map(|handle| handle.addr()).chain(others.states.iter().copied()).collect();
+    let handle = match own {
+        Some(index) => w.saved[index].handle,
+        None if strange.is_empty() => return,
+        None => ptr::without_provenance_mut(*chance.pick(&strange)),
+    };
+    let own = w.saved.iter().position(|saved| saved.handle == handle);
+    let expected = w.expect("fmi2FreeFMUstate", if own.is_some() { WARNING } else { ERROR });
+    // SAFETY: a handle is no address and is not followed.
+    let status = unsafe { fmi2FreeFMUstate(w.subject.c, handle.cast()) };
+    w.judge("fmi2FreeFMUstate", expected, status, || format!("{handle:?} itself"));
+    if let Some(index) = own {
+        let saved = w.saved.swap_remove(index);
+        forget_twins(w, &saved);
+        w.freed.push(saved.handle);
+    }
+}
+
 pub(super) fn free_state(w: &mut Walker, chance: &mut Chance, kind: bool, others: &Strangers) {
+    if !kind && chance.one_in(4) {
+        return free_by_value(w, chance, others);
+    }
     if w.saved.is_empty() || !kind && chance.one_in(2) {
         let wrong = not_ours(w, chance, others);
         let (mut handle, mut verdict) = (wrong, ERROR);

@@ -60,7 +60,7 @@ pub(super) fn do_step(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Stran
         w.model.last_step = Status::Error;
     }
     if done {
-        w.follow(|twin| twin.step(point, step));
+        w.follow(move |twin| twin.step(point, step));
         w.model.clock = Some((end, stop));
         w.model.last_step = Status::Ok;
         if let Some(before) = before {
@@ -157,14 +157,15 @@ pub(super) fn input_derivatives(w: &mut Walker, chance: &mut Chance, kind: bool,
     }
     let finite = value.is_finite();
     let expected = w.expect("fmi2SetRealInputDerivatives", if finite || null { verdict } else { DISCARD.or(ERROR) });
-    let set = |host: &crate::host::Host| {
-        // SAFETY: one element each, or arguments that are to be refused.
-        unsafe { fmi2SetRealInputDerivatives(host.c, &raw const reference, count, orders, &raw const value) }
-    };
-    let status = set(&w.subject);
+    // SAFETY: one element each, or arguments that are to be refused.
+    let status =
+        unsafe { fmi2SetRealInputDerivatives(w.subject.c, &raw const reference, count, orders, &raw const value) };
     let call = || format!("{reference}, {count}, order {order}, {value:?}");
     if w.judge("fmi2SetRealInputDerivatives", expected, status, call) && count == 1 {
-        w.follow(set);
+        w.follow(move |twin| {
+            // SAFETY: one element each.
+            unsafe { fmi2SetRealInputDerivatives(twin.c, &raw const reference, 1, &raw const order, &raw const value) }
+        });
         w.model.wild |= turns_wild;
         w.model.rates.entry(reference).or_default()[order as usize - 1] = Some(value);
     }

@@ -12,6 +12,8 @@ pub(super) struct Tally {
     pub(super) statuses: [u64; 4],
     /// Of an instance with its twin.
     pub(super) comparisons: u64,
+    /// Of an instance with a new one that goes the way straight.
+    pub(super) straight_ways: u64,
     /// Recordings compared with those of twins.
     pub(super) recordings: u64,
     pub(super) instances: u64,
@@ -22,7 +24,8 @@ pub(super) struct Tally {
 impl Default for Tally {
     fn default() -> Self {
         let none = [[0; 5]; 34];
-        Self { calls: none, statuses: [0; 4], comparisons: 0, recordings: 0, instances: 0, strange: 0 }
+        let statuses = [0; 4];
+        Self { calls: none, statuses, comparisons: 0, straight_ways: 0, recordings: 0, instances: 0, strange: 0 }
     }
 }
 
@@ -40,6 +43,7 @@ impl Tally {
             *sum += part;
         }
         self.comparisons += other.comparisons;
+        self.straight_ways += other.straight_ways;
         self.recordings += other.recordings;
         self.instances += other.instances;
         self.strange += other.strange;
@@ -61,6 +65,7 @@ impl fmt::Display for Tally {
         let [ok, warning, discard, error] = self.statuses;
         writeln!(f, "{} instances, {} calls: OK {ok}", self.instances, ok + warning + discard + error)?;
         writeln!(f, "warning {warning}, discard {discard}, error {error}; {} with strange handles", self.strange)?;
-        write!(f, "{} comparisons with a twin, {} recordings", self.comparisons, self.recordings)
+        write!(f, "{} comparisons with a twin, {} with a straight way, ", self.comparisons, self.straight_ways)?;
+        write!(f, "{} of recordings", self.recordings)
     }
 }

@@ -158,7 +158,8 @@ pub(super) fn set_real(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Stra
     let expected = w.expect("fmi2SetReal", verdict);
     let status = w.subject.set(&list, &values);
     if w.judge("fmi2SetReal", expected, status, || format!("{list:?}, {values:?}")) {
-        w.follow(|twin| twin.set(&list, &values));
+        let (all, of) = (list.clone(), values.clone());
+        w.follow(move |twin| twin.set(&all, &of));
         w.model.wild |= turns_wild;
         // The last value given to a variable is the one that is read back.
         if w.model.state != State::Instantiated {
@@ -187,7 +188,7 @@ pub(super) fn set_integer(w: &mut Walker, chance: &mut Chance, kind: bool, _: &S
     let expected = w.expect("fmi2SetInteger", verdict);
     let status = w.subject.set_integers(&list, &values);
     if w.judge("fmi2SetInteger", expected, status, || format!("{list:?}, {values:?}")) {
-        w.follow(|twin| twin.set_integers(&list, &values));
+        w.follow(move |twin| twin.set_integers(&list, &values));
     }
 }
 
@@ -238,7 +239,7 @@ pub(super) fn set_string(w: &mut Walker, chance: &mut Chance, kind: bool, _: &St
         };
         let own = CString::new(own).unwrap();
         // SAFETY: one element each.
-        w.follow(|twin| unsafe { fmi2SetString(twin.c, &raw const reference, 1, &own.as_ptr()) });
+        w.alongside(|twin| unsafe { fmi2SetString(twin.c, &raw const reference, 1, &own.as_ptr()) });
         w.folder = folder;
     }
 }

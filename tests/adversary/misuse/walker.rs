@@ -13,8 +13,11 @@ use std::sync::Arc;
 
 pub(super) use super::standard::State;
 
+/// A call that has changed an instance, to be made on another one.
+type Deed = Arc<dyn Fn(&Host) -> Status + Send + Sync>;
+
 /// What the standard and the calls so far say about an instance. It is saved and restored with the instance's state.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Clone)]
 pub(super) struct Model {
     pub(super) state: State,
     /// Time and stop time, once an experiment is set up.
@@ -24,11 +27,20 @@ pub(super) struct Model {
     /// Derivatives of inputs, of order 1 and 2, for the next step.
     pub(super) rates: BTreeMap<u32, [Option<f64>; 2]>,
     pub(super) last_step: Status,
+    /// The calls that lead here from a new instance, without what was taken back.
+    path: Vec<Deed>,
 }
 
 impl Model {
     fn new() -> Self {
-        Self { state: State::Instantiated, clock: None, wild: false, rates: BTreeMap::new(), last_step: Status::Ok }
+        Self {
+            state: State::Instantiated,
+            clock: None,
+            wild: false,
+            rates: BTreeMap::new(),
+            last_step: Status::Ok,
+            path: Vec::new(),
+        }
     }
 }
 
@@ -189,26 +201,51 @@ impl<'w> Walker<'w> {
         });
     }
 
+    /// Lets the twin do what the instance did, and notes it as part of the way here.
+    pub(super) fn follow(&mut self, deed: impl Fn(&Host) -> Status + Send + Sync + 'static) {
+        self.alongside(&deed);
+        self.model.path.push(Arc::new(deed));
+    }
+
     /// Lets the twin do what the instance did, if it stands where the instance stood.
-    pub(super) fn follow(&mut self, act: impl FnOnce(&Host) -> Status) {
+    pub(super) fn alongside(&mut self, deed: impl Fn(&Host) -> Status) {
         if self.together {
-            let status = act(&self.twin);
+            let status = deed(&self.twin);
             self.require(status <= Status::Warning, || format!("the twin got {status:?}"));
         }
     }
 
-    /// Compares everything that can be read, bit by bit; then the states as bytes.
-    pub(super) fn compare(&mut self) {
-        let readable = standard::allows("fmi2GetReal", self.model.state) && self.model.state != State::Error;
-        if !self.together || !readable {
+    fn is_readable(&self) -> bool {
+        standard::allows("fmi2GetReal", self.model.state) && self.model.state != State::Error
+    }
+
+    /// Everything that can be read.
+    fn read(&self, host: &Host) -> Result<(Vec<u64>, Vec<i32>), Status> {
+        let reals = host.get(&self.stage.reals(None))?;
+        Ok((bits(&reals), host.get_integers(&self.stage.integers())?))
+    }
+
+    /// A new instance that goes straight the way that the instance has come by detours gives equal bits.
+    pub(super) fn compare_with_the_straight_way(&mut self) {
+        if !self.together || !self.is_readable() || self.model.wild {
             return;
         }
-        let (reals, integers) = (self.stage.reals(None), self.stage.integers());
-        let read = |host: &Host| {
-            let reals = host.get(&reals);
-            reals.and_then(|reals| Ok((bits(&reals), host.get_integers(&integers)?)))
-        };
-        let (ours, twins) = (read(&self.subject), read(&self.twin));
+        let straight = Host::with(Arc::clone(&self.stage.resources), "straight", false);
+        for (number, deed) in self.model.path.iter().enumerate() {
+            let status = deed(&straight);
+            self.require(status <= Status::Warning, || format!("straight, deed {number} got {status:?}"));
+        }
+        let (ours, straights) = (self.read(&self.subject), self.read(&straight));
+        self.require(ours == straights, || format!("the straight way differs: {ours:x?} {straights:x?}"));
+        self.tally.straight_ways += 1;
+    }
+
+    /// Compares everything that can be read, bit by bit; then the states as bytes.
+    pub(super) fn compare(&mut self) {
+        if !self.together || !self.is_readable() {
+            return;
+        }
+        let (ours, twins) = (self.read(&self.subject), self.read(&self.twin));
         self.subject.lines();
         self.require(ours == twins, || format!("the twin differs: {ours:x?} {twins:x?}"));
         if ours.is_err() {

@@ -43,6 +43,8 @@ mod resources;
 mod shared_models;
 mod snapshots;
 mod state;
+#[cfg(test)]
+mod tests;
 mod types;
 mod uri;
 
