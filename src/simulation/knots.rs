@@ -229,7 +229,7 @@ mod tests {
                     let turn = -0.5 * speed * speed / acceleration;
                     let cage_start = knot + centre - turn;
                     let before = model.cell_at(0, cage_start);
-                    let mut cells = vec![SMOOTH; 9];
+                    let mut cells = [SMOOTH; 9];
                     cells[0] = before;
                     let cage = Quadratic([0.0, speed, acceleration]);
                     let drive = Drive { cage_start, cage, ..Drive::default() };

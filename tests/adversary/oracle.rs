@@ -110,7 +110,7 @@ impl Bearing {
     }
 
     /// Angle of element `j` from the defect's centre, within half a turn.
-    pub fn from_defect(&self, j: usize, cage: f64) -> f64 {
+    pub fn angle_to_defect(&self, j: usize, cage: f64) -> f64 {
         let angle = cage + TAU * j as f64 / self.count as f64 - self.defect.as_ref().map_or(0.0, |d| d.1);
         angle - TAU * (angle / TAU).round()
     }
@@ -187,7 +187,7 @@ impl Bearing {
             let inner = self.contact(0, self.rho_0 - self.clearance - length, -(n[0] * q_rate[0] + n[1] * q_rate[1]));
             let (path, slope) = match &self.defect {
                 None => (0.0, 0.0),
-                Some((envelope, _)) => envelope.path(features[j], self.from_defect(j, cage)),
+                Some((envelope, _)) => envelope.path(features[j], self.angle_to_defect(j, cage)),
             };
             let outer = self.contact(1, u - path, u_rate - slope * omega);
             let kappa = (slope / rho).atan();

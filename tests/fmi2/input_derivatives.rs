@@ -128,7 +128,8 @@ fn a_motion_is_the_same_in_whichever_variables_it_is_told() {
         set(host, by("shaft.ay"), a);
         rate(host, by("shaft.ay"), 1, j);
     });
-    let ways: [(&str, &dyn Fn(&Host, &dyn Fn(&str) -> u32)); 5] = [
+    type Tell<'a> = &'a dyn Fn(&Host, &dyn Fn(&str) -> u32);
+    let ways: [(&str, Tell); 5] = [
         ("velocity and its derivatives", &|host, by| {
             set(host, by("shaft.vy"), v);
             rate(host, by("shaft.vy"), 1, a);

@@ -14,7 +14,8 @@ pub struct Around {
 
 /// A defect, and what it is called.
 pub fn random(draw: &mut Draw, around: &Around) -> (&'static str, Shape) {
-    let kinds: [(&str, fn(&mut Draw, &Around) -> Shape); 8] = [
+    type Kind = fn(&mut Draw, &Around) -> Shape;
+    let kinds: [(&str, Kind); 8] = [
         ("steep spall", steep),
         ("sloping spall", sloping),
         ("dent", dent),

@@ -102,7 +102,7 @@ impl<'a> Run<'a> {
         let cage = quadratic(self.outside.cage, features_at)[0];
         for j in 0..self.bearing.count {
             self.features[j] = match &self.bearing.defect {
-                Some((envelope, _)) => envelope.feature(self.bearing.from_defect(j, cage)),
+                Some((envelope, _)) => envelope.feature(self.bearing.angle_to_defect(j, cage)),
                 None => Feature::Raceway,
             };
         }
@@ -194,7 +194,7 @@ impl<'a> Run<'a> {
             let ends = [from, to].map(|t| quadratic(cage, t)[0] - cage[0]);
             let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
             for j in 0..self.bearing.count {
-                let start = self.bearing.from_defect(j, cage[0]);
+                let start = self.bearing.angle_to_defect(j, cage[0]);
                 for change in &envelope.changes {
                     let mut angle = change - start;
                     angle += TAU * ((low - angle) / TAU).ceil();
