@@ -4,10 +4,8 @@
 
 mod random;
 mod shape;
-mod transform;
 
 pub use random::{PHASE, fastest, random};
-pub use transform::Factors;
 
 use std::fmt::Write;
 
