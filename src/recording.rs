@@ -3,7 +3,7 @@
 //! One NumPy array with a named field for the time and for each signal ([format 2.0][npy]), so
 //! `numpy.load("bearing.npy")["sensor.acceleration"]` is a signal. The header is written anew with the number of rows
 //! after each write, so the file can be read at any time. Samples that a host takes back by restoring a state are
-//! written over. A file has one writer ([`claim`]).
+//! written over. A file has one writer (`claim`).
 //!
 //! [npy]: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html
 

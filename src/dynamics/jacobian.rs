@@ -1,7 +1,7 @@
 //! Analytic Jacobian of the right-hand side, damping included, and its derivative by time.
 //!
 //! An element couples to the rings and to no other element, so the matrix is an arrow: one 2×2 block per element, its
-//! coupling to the rings, and the rings' own block. The contacts' derivatives are those of [`super::linearized`], with f, G and
+//! coupling to the rings, and the rings' own block. The contacts' derivatives are those of `linearized`, with f, G and
 //! D as there; because u' = w − e_r·v_o,
 //! ```text
 //! ∂f/∂u = G e_r + D e_t ω    ∂f/∂w = D e_r    ∂f/∂x_o = −∂f/∂x_i = G    ∂f/∂v_i = −D    ∂f/∂v_o = D e_t e_tᵀ

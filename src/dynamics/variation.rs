@@ -1,6 +1,6 @@
 //! First-order change of forces and accelerations for a small change of state and inputs.
 //!
-//! An element's contacts change with everything they see by the one rule of [`super::linearized`], where
+//! An element's contacts change with everything they see by the one rule of `linearized`, where
 //! ```text
 //! u' = w − e_r·v_o                  du' = dw − e_r·dv_o − e_t·v_o dθ
 //! ```

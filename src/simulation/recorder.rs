@@ -5,7 +5,7 @@
 //! simulation takes back the samples of the time that it takes back.
 //!
 //! Of the accelerations and the rings' forces a spectrum is wanted: they are sampled faster than rows are, and filtered
-//! ([`super::decimation`]). Of an element one wants to know where it is, when it touches and how hard, so its path and forces are
+//! (`decimation`). Of an element one wants to know where it is, when it touches and how hard, so its path and forces are
 //! those at the row's time, as is the cage's angle. A row is complete, and seen, when the filter has gone past it.
 
 use std::f64::consts::TAU;

@@ -153,7 +153,7 @@ pub fn largest_force(scene: &Scene) -> f64 {
 /// What the contact map of a scene covers: forces up to `contact.largest_force_n`, or else four times the static force on
 /// the most loaded element, 5 F/Z (Stribeck), and at least 1000 N. Δ counts the rings' and seats' compliance as well.
 /// An accuracy that the scene asks for is held; the usual one may be missed, in defects deeper than they are long, by what
-/// [`TOLERATED`] says.
+/// `TOLERATED` says.
 pub fn map_specification(scene: &Scene) -> MapSpecification {
     let force = largest_force(scene);
     let contact = libm::pow(force / HertzConstants::of(&scene.bearing).outer, 2.0 / 3.0);
