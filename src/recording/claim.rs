@@ -53,6 +53,10 @@ impl Drop for Claim {
     fn drop(&mut self) {
         let mut claimed = claimed();
         claimed.retain(|(place, _)| *place != self.place);
+        if claimed.is_empty() {
+            // Nothing is left of the list when the library is unloaded.
+            *claimed = Vec::new();
+        }
         // A child that was forked in the meantime has the file open as well, and closing it here would not free it.
         drop(self.file.unlock());
     }

@@ -34,6 +34,11 @@ pub(super) fn run_on_a_small_disk(test: &str) -> Result<(), String> {
     Ok(())
 }
 
+/// Whether this process has a small file system.
+pub(super) fn is_small() -> bool {
+    env::var_os(SMALL).is_some()
+}
+
 /// The small file system of this process, emptied and then filled up but for some pages.
 pub(super) fn nearly_full(chance: &mut Chance) -> FullDisk {
     let folder = PathBuf::from(env::var_os(SMALL).expect("started by another test"));

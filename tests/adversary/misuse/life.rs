@@ -207,25 +207,22 @@ pub(super) fn enter(w: &mut Walker, _: &mut Chance, _: bool, _: &Strangers) {
 }
 
 pub(super) fn exit(w: &mut Walker, _: &mut Chance, _: bool, _: &Strangers) {
-    let verdict = match w.folder {
-        Folder::None => OK,
-        Folder::Shared if !w.name_is_shared => OK,
-        // Another instance may have the recording, or there is no room for it.
-        Folder::Shared | Folder::Full => OK.or(ERROR),
-        Folder::Blocked => ERROR,
-    };
-    let expected = w.expect("fmi2ExitInitializationMode", w.unless_wild(verdict));
+    let allowed = w.model.state == State::Initialization;
+    let expected = w.expect("fmi2ExitInitializationMode", w.unless_wild(w.begins_recording()));
     let status = w.subject.exit();
     let done = w.judge("fmi2ExitInitializationMode", expected, status, String::new);
     if done {
         w.follow(|twin| twin.exit());
         w.model.state = State::StepComplete;
     }
-    w.recording = done && w.folder != Folder::None;
+    if allowed {
+        w.recording_began(done);
+    }
 }
 
 pub(super) fn terminate(w: &mut Walker, _: &mut Chance, _: bool, _: &Strangers) {
-    let verdict = if w.folder == Folder::Full { OK.or(ERROR) } else { OK };
+    // What cannot be stored stays in memory, which is worth a warning.
+    let verdict = if w.folder == Folder::Full { OK.or(WARNING) } else { OK };
     let expected = w.expect("fmi2Terminate", verdict);
     let status = w.subject.terminate();
     if w.judge("fmi2Terminate", expected, status, String::new) {

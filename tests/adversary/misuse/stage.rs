@@ -20,9 +20,10 @@ pub(super) struct Stage {
 /// Rings inside and from the host, spall, trace and none; a contact map, which instances share; a recorder as fast as one may be, so that it writes within a walk.
 pub(super) fn stages() -> Vec<Stage> {
     let list = [
+        // The first are for instances that share names.
         ("er16k-tb1", true),
-        ("6205-hosted", false),
         ("6205-epps", true),
+        ("6205-hosted", false),
         ("er16k-tb1-hosted-shaft", false),
         ("6205-healthy", true),
     ];

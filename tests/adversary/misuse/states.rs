@@ -76,8 +76,18 @@ pub(super) fn set_state(w: &mut Walker, chance: &mut Chance, kind: bool, others:
     }
     let index = chance.below(w.saved.len());
     let (handle, twin, model) = (w.saved[index].handle, w.saved[index].twin, w.saved[index].model.clone());
-    let expected = w.expect("fmi2SetFMUstate", if model.wild { OK.or(ERROR) } else { OK });
+    // A run that is taken up in its middle is recorded from there.
+    let begins = w.file != Some(true) && model.state == State::StepComplete;
+    let mut verdict = if begins { w.begins_recording() } else { OK };
+    if model.wild || begins && w.file.is_none() {
+        verdict = OK.or(ERROR);
+    }
+    let expected = w.expect("fmi2SetFMUstate", verdict);
     let status = w.subject.restore(handle);
+    let done = status <= Status::Warning;
+    if begins && (w.file == Some(false) || !done) {
+        w.recording_began(done);
+    }
     if w.judge("fmi2SetFMUstate", expected, status, || format!("state {index}")) {
         w.together = twin.is_some_and(|twin| w.twin.restore(twin) == Status::Ok);
         w.require(twin.is_none() || w.together, || "the twin cannot be restored".to_owned());

@@ -93,11 +93,15 @@ fn inputs_follow_their_derivatives(w: &mut Walker, before: &[(u32, f64)], h: f64
         // "shaft.vy" goes on as "shaft.ay" says, unless its derivative is given.
         let (ring, letters) = name.split_once('.').unwrap();
         let motion = letters.strip_prefix('v').map(|axis| value(&format!("{ring}.a{axis}")));
-        let position = matches!(letters, "x" | "y");
-        if position && (rates[0].is_none() || rates[1].is_none()) {
+        let rate =
+            |name: String| w.model.rates.iter().find(|(r, _)| w.stage.variable(**r).name == name).map(|(_, r)| r[0]);
+        // What a ring's acceleration and velocity say together with its position would be another polynomial.
+        let alone = |axis: &str| ["v", "a"].iter().all(|motion| rate(format!("{ring}.{motion}{axis}")).is_none());
+        if matches!(letters, "x" | "y") && (rates.contains(&None) || !alone(letters)) {
             continue;
         }
-        let (first, second) = (rates[0].or(motion).unwrap_or(0.0), rates[1].unwrap_or(0.0));
+        let jerk = letters.strip_prefix('v').and_then(|axis| rate(format!("{ring}.a{axis}"))).flatten();
+        let (first, second) = (rates[0].or(motion).unwrap_or(0.0), rates[1].or(jerk).unwrap_or(0.0));
         let of = |list: &[(u32, f64)]| list.iter().find(|(r, _)| r == reference).unwrap().1;
         let (start, end) = (of(before), of(&after));
         // A position's derivative takes its velocity along, whose own is then no matter.

@@ -2,7 +2,7 @@
 
 use super::chance::Chance;
 use super::stage::{Places, Stage};
-use super::standard::{self, Statuses};
+use super::standard::{self, ERROR, OK, Statuses};
 use super::tally::Tally;
 use crate::host::{Host, Line, bits};
 use brinell_fmi::fmi2::*;
@@ -94,6 +94,8 @@ pub(super) struct Walker<'w> {
     pub(super) folder: Folder,
     /// A recording was begun and nothing has failed since.
     pub(super) recording: bool,
+    /// Whether a file is open for it; `None` if that cannot be known.
+    pub(super) file: Option<bool>,
     /// Other instances may have the same name, or one that makes the same name of a file.
     pub(super) name_is_shared: bool,
     /// Categories that are on: their bits are those of the statuses.
@@ -108,12 +110,16 @@ pub(super) struct Walker<'w> {
 // SAFETY: each walker, and with it the two instances and their logs, is used by one thread at a time.
 unsafe impl Send for Walker<'_> {}
 
+/// So many places are for instances whose names others have, too.
+pub(super) const SHARERS: u64 = 2;
+
 /// Bits of all categories in [`Walker::categories`].
 pub(super) const ALL_CATEGORIES: u8 = 0b1111;
 
 impl<'w> Walker<'w> {
+    /// An instance of its own name, or of one that others may have; its place says which.
     pub(super) fn new(stage: &'w Stage, places: &'w Places, number: u64, seed: u64, chance: &mut Chance) -> Self {
-        let name_is_shared = chance.one_in(3);
+        let name_is_shared = number % 1000 < SHARERS;
         let name = match (name_is_shared, chance.below(3)) {
             (true, 0) => "left bearing".to_owned(),
             (true, 1) => "left/bearing".to_owned(),
@@ -136,6 +142,7 @@ impl<'w> Walker<'w> {
             freed: Vec::new(),
             folder: Folder::None,
             recording: false,
+            file: Some(false),
             name_is_shared,
             categories: if logging { ALL_CATEGORIES } else { 0 },
             tally: Tally { instances: 2, ..Tally::default() },
@@ -148,12 +155,29 @@ impl<'w> Walker<'w> {
 
     /// Statuses that a call may have: those given where the function is allowed, an error elsewhere.
     pub(super) fn expect(&self, function: &str, where_allowed: Statuses) -> Statuses {
-        if standard::allows(function, self.model.state) { where_allowed } else { standard::ERROR }
+        if standard::allows(function, self.model.state) { where_allowed } else { ERROR }
     }
 
     /// With an error beside the statuses given, if values are such that it may fail.
     pub(super) fn unless_wild(&self, statuses: Statuses) -> Statuses {
-        if self.model.wild || self.model.state == State::Error { statuses.or(standard::ERROR) } else { statuses }
+        if self.model.wild || self.model.state == State::Error { statuses.or(ERROR) } else { statuses }
+    }
+
+    /// Statuses of a call that begins a recording.
+    pub(super) fn begins_recording(&self) -> Statuses {
+        match self.folder {
+            Folder::None => OK,
+            Folder::Shared if !self.name_is_shared => OK,
+            // Another instance may have the recording, or there is no room for it.
+            Folder::Shared | Folder::Full => OK.or(ERROR),
+            Folder::Blocked => ERROR,
+        }
+    }
+
+    /// After such a call.
+    pub(super) fn recording_began(&mut self, done: bool) {
+        let begun = done && self.folder != Folder::None;
+        (self.recording, self.file) = (begun, if done { Some(begun) } else { None });
     }
 
     /// Looks at the status and the log of a call. True if the call has had its effect.
@@ -185,7 +209,9 @@ impl<'w> Walker<'w> {
                 Status::Discard => "logStatusDiscard",
                 _ => "logStatusError",
             };
-            let proper = line.category == category && line.format == "%s" && line.message.starts_with(function);
+            let event = line.status == Status::Ok && line.message.starts_with("recording ");
+            let proper = event || line.message.starts_with(function);
+            let proper = proper && line.category == category && line.format == "%s";
             self.require(proper, || format!("{line:?}"));
             self.require(self.categories & 1 << line.status as u8 != 0, || format!("switched off: {line:?}"));
         }
@@ -194,11 +220,7 @@ impl<'w> Walker<'w> {
         if status != Status::Ok {
             self.require(of(status) == wanted, || format!("{wanted} lines expected: {lines:?}"));
         }
-        // A reset says what was lost with a recording.
-        let loses = function == "fmi2Reset" && self.folder != Folder::None;
-        self.require(loses || lines.iter().all(|line| line.status <= status), || {
-            format!("worse than the status: {lines:?}")
-        });
+        self.require(lines.iter().all(|line| line.status <= status), || format!("worse than the status: {lines:?}"));
     }
 
     /// Lets the twin do what the instance did, and notes it as part of the way here.
@@ -285,7 +307,7 @@ impl<'w> Walker<'w> {
     /// After `fmi2Reset`: as a new instance, but for saved states and logging.
     pub(super) fn start_over(&mut self) {
         self.model = Model::new();
-        (self.together, self.recording, self.folder) = (true, false, Folder::None);
+        (self.together, self.recording, self.folder, self.file) = (true, false, Folder::None, Some(false));
     }
 
     pub(super) fn remember(&mut self, call: String) {
