@@ -1,13 +1,13 @@
-//! Bytes as a recording of a machine: text, NumPy or WAV as they come, and numbers under a sound NumPy header, so that times and
-//! signals are tried too. Refused with a reason, or sized: what is resolved is a length.
+//! Bytes as a recording of a machine: text, NumPy or WAV as they come, and numbers under a sound NumPy header, so
+//! that times and signals are tried too. Refused with a reason, or sized: what is resolved is a length.
 #![no_main]
 
 use std::path::Path;
 
+use brinell::scene::Scene;
 use brinell_analysis::recording::{Recording, Source, Speed};
 use brinell_analysis::report::Verdict;
 use brinell_analysis::spall_size::size;
-use brinell::scene::Scene;
 use libfuzzer_sys::fuzz_target;
 
 /// 67 samples a passage at 10 Hz: 8 passages, the fewest that are sized, fit into a short input.

@@ -1,5 +1,5 @@
-//! A machine that is made here: what the vibration of a bearing with a spall looks like, by the kinematics of an element of
-//! finite size. No recording of a machine is needed.
+//! A machine that is made here: what the vibration of a bearing with a spall looks like, by the kinematics of an
+//! element of finite size. No recording of a machine is needed.
 #![allow(unreachable_pub, clippy::unwrap_used)]
 
 use brinell::geometry::kinematics;
@@ -36,9 +36,10 @@ pub fn scene() -> Scene {
     .unwrap()
 }
 
-/// A machine's answer to elements that pass a spall of `length` degrees at shaft speed `speed` [Hz]: the force that the element loses
-/// moves the housing (a mode at 700 Hz), and blows on entry and exit excite a resonance at 9 kHz. Noise of `noise` times the
-/// signal's root mean square. Passages scatter by 0.2 degrees. `length` 0 is a healthy bearing: noise and shaft harmonics.
+/// A machine's answer to elements that pass a spall of `length` degrees at shaft speed `speed` [Hz]: the force that
+/// the element loses moves the housing (a mode at 700 Hz), and blows on entry and exit excite a resonance at 9 kHz.
+/// Noise of `noise` times the signal's root mean square. Passages scatter by 0.2 degrees. `length` 0 is a healthy
+/// bearing: noise and shaft harmonics.
 pub fn signal(length: f64, speed: f64, noise: f64) -> Vec<f64> {
     let count = (4.0 * RATE) as usize;
     let bearing = scene().bearing;
@@ -49,7 +50,8 @@ pub fn signal(length: f64, speed: f64, noise: f64) -> Vec<f64> {
     if length > 0.0 {
         for k in 0..(4.0 * travel / 40.0) as usize {
             let edge = (k as f64 * 40.0 + 7.0 + 0.2 * random.normal()) / travel;
-            // Free after 0.42 degrees: 49 N on nine elements. The first blow falls in the middle of a short spall, or on its floor.
+            // Free after 0.42 degrees: 49 N on nine elements. The first blow falls in the middle of a short spall, or
+            // on its floor.
             let unloading = 0.42;
             let first = (0.5 * length).min(1.1);
             for (blow, strength) in [(first, 0.8), (length - 0.5 * unloading, 1.0)] {

@@ -69,7 +69,8 @@ pub enum SizingError {
     },
     /// Squares of the samples would overflow or vanish.
     #[error(
-        "{name}: samples from {low:e} to {high:e}: they must differ by {lowest:e} at least and stay within ±{highest:e}; choose another unit"
+        "{name}: samples from {low:e} to {high:e}: they must differ by {lowest:e} at least and stay within \
+         ±{highest:e}; choose another unit"
     )]
     Magnitude {
         /// The recording.

@@ -85,8 +85,8 @@ pub enum Unresolved {
     LowRate(f64, f64, f64),
     /// A piece is missing.
     #[error(
-        "the passages after about {0:.2} s are shifted by {1:.1} degrees against those before: is a piece of the recording missing, or did \
-         the cage skid? Cut the recording there"
+        "the passages after about {0:.2} s are shifted by {1:.1} degrees against those before: is a piece of the \
+         recording missing, or did the cage skid? Cut the recording there"
     )]
     Broken(f64, f64),
     /// More than one passage in a period.

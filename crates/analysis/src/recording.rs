@@ -1,9 +1,9 @@
 //! A vibration recording at constant shaft speed, checked.
 //!
-//! A recording with a tachometer is brought to constant speed first: between two pulses (rising edges) the shaft is taken to turn
-//! uniformly, and the signal is sampled anew at equal shaft angles; likewise with the speed given at every sample. Its rate and speed are then
-//! those of the mean speed. Invalid where the speed changes much within one turn: resonances keep their frequency in time, not
-//! in angle, so that a run-up is smeared.
+//! A recording with a tachometer is brought to constant speed first: between two pulses (rising edges) the shaft is
+//! taken to turn uniformly, and the signal is sampled anew at equal shaft angles; likewise with the speed given at
+//! every sample. Its rate and speed are then those of the mean speed. Invalid where the speed changes much within one
+//! turn: resonances keep their frequency in time, not in angle, so that a run-up is smeared.
 
 use super::error::SizingError;
 use super::recording_file::Table;
@@ -17,9 +17,9 @@ const LARGEST: f64 = 1e100;
 const CLIPPED_PERCENT: f64 = 0.1;
 /// Equal samples in a row at the extreme that count as a run: two can be chance in a coarse signal.
 const CLIPPED_RUN: usize = 3;
-/// Samples that are only nearly equal, because noise was added to what was clipped: within this share of the range from the extreme,
-/// with second differences of at most that share of the usual ones, so many times in a row. On the crest of a loud hum the
-/// signal goes on as lively as elsewhere.
+/// Samples that are only nearly equal, because noise was added to what was clipped: within this share of the range
+/// from the extreme, with second differences of at most that share of the usual ones, so many times in a row. On the
+/// crest of a loud hum the signal goes on as lively as elsewhere.
 const NEARLY: f64 = 0.01;
 const STILL: f64 = 0.1;
 const STILL_RUN: usize = 3;
@@ -140,8 +140,8 @@ impl Recording {
     /// Reads a `.csv`, `.txt`, `.npy` or `.wav` file.
     ///
     /// # Errors
-    /// A file that cannot be read or understood, a rate that contradicts the file's own, and those of [`new`](Self::new),
-    /// [`with_tachometer`](Self::with_tachometer) and [`with_speeds`](Self::with_speeds).
+    /// A file that cannot be read or understood, a rate that contradicts the file's own, and those of
+    /// [`new`](Self::new), [`with_tachometer`](Self::with_tachometer) and [`with_speeds`](Self::with_speeds).
     pub fn read(path: &Path, source: &Source) -> Result<Self, SizingError> {
         let bytes = std::fs::read(path).map_err(|source| SizingError::File { path: path.to_owned(), source })?;
         Self::of_file(path, &bytes, source)
@@ -309,7 +309,8 @@ mod tests {
         let recording = Recording::with_tachometer("made", &signal, &pulses, 1, rate).unwrap();
         // Ends at the last pulse: the mean speed differs from 10 Hz by what of the wander is left over.
         assert!((recording.speed() - 10.0).abs() < 0.05, "{}", recording.speed());
-        // Every turn has 20 periods now: the signal is the same one turn later but for the speed's change within a turn.
+        // Every turn has 20 periods now: the signal is the same one turn later but for the speed's change within a
+        // turn.
         let turn = recording.rate() / recording.speed();
         let x = recording.samples();
         for i in 0..x.len() - turn as usize - 2 {

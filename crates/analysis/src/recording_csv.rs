@@ -1,11 +1,12 @@
 //! Recordings as text: numbers in columns.
 //!
-//! Columns are parted by semicolons, tabs, commas or blanks, whichever of these, in this order, the first row of numbers has;
-//! where that is not the comma, a comma in a number is its decimal point. Lines before the first that begins with a number are
-//! a preamble, and the last of them with as many cells is the heading. Lines that begin with # or % are comments.
+//! Columns are parted by semicolons, tabs, commas or blanks, whichever of these, in this order, the first row of
+//! numbers has; where that is not the comma, a comma in a number is its decimal point. Lines before the first that
+//! begins with a number are a preamble, and the last of them with as many cells is the heading. Lines that begin with
+//! # or % are comments.
 //!
-//! What can be read in two ways is refused: points and commas in numbers of one file, commas that may part thousands, and
-//! `1,5` alone on its line, unless other lines tell whether it is one number or two.
+//! What can be read in two ways is refused: points and commas in numbers of one file, commas that may part thousands,
+//! and `1,5` alone on its line, unless other lines tell whether it is one number or two.
 
 /// Lines of preamble after which the file is taken for something else.
 const LONGEST_PREAMBLE: usize = 100;
@@ -100,8 +101,8 @@ fn one_meaning_of_commas(rows: &[Line]) -> Result<(), String> {
     match rows.iter().find(|(_, line)| twice(line)) {
         None => Ok(()),
         Some((number, line)) => Err(format!(
-            "line {number}: '{line}': commas seem to part numbers and their decimals alike: part columns by semicolons, or \
-             write decimal points"
+            "line {number}: '{line}': commas seem to part numbers and their decimals alike: part columns by semicolons, \
+             or write decimal points"
         )),
     }
 }
@@ -129,11 +130,13 @@ fn one_number_a_line(preamble: &[Line], rows: &[Line]) -> Result<bool, String> {
         (Some(_), None) => Ok(true),
         (None, Some(_)) => Ok(false),
         (None, None) => Err(format!(
-            "line {}: '{}' is one number with a decimal comma, or two: put names above two columns, or write decimal points",
+            "line {}: '{}' is one number with a decimal comma, or two: put names above two columns, or write decimal \
+             points",
             rows[0].0, rows[0].1
         )),
         (Some((number, line)), Some((other, unlike))) => Err(format!(
-            "line {number}: '{line}' looks like one number with a decimal comma, line {other}, '{unlike}', like several: part              columns by semicolons, or write decimal points"
+            "line {number}: '{line}' looks like one number with a decimal comma, line {other}, '{unlike}', like \
+             several: part columns by semicolons, or write decimal points"
         )),
     }
 }
@@ -183,7 +186,8 @@ impl Decimals {
         }
         match (self.point, self.comma) {
             (Some(point), Some(comma)) => Err(format!(
-                "line {line}: '{cell}': line {point} has a decimal point and line {comma} a comma in a number: one of both is needed"
+                "line {line}: '{cell}': line {point} has a decimal point and line {comma} a comma in a number: one of \
+                 both is needed"
             )),
             _ => Ok(()),
         }
@@ -192,7 +196,8 @@ impl Decimals {
     fn check(&self) -> Result<(), String> {
         match &self.thousands {
             Some((line, cell)) if !self.decimal => Err(format!(
-                "line {line}: the comma in '{cell}' is decimal or parts thousands, and no other line tells: write decimal points"
+                "line {line}: the comma in '{cell}' is decimal or parts thousands, and no other line tells: write \
+                 decimal points"
             )),
             _ => Ok(()),
         }

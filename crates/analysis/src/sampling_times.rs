@@ -1,23 +1,24 @@
 //! Whether the samples of a recording are evenly spaced, by the column that carries their times.
 //!
 //! Printed times are rounded: a step between two of them may differ from the sampling period by one unit of the last
-//! digit, and so may times that went through single precision. What is beyond that is a hole, a repeated sample, a clock
-//! set back, or jitter. A single lost sample shows where the last digit is at most half a period, two show up to a whole one;
-//! coarser times are refused. A slow drift of the clock passes.
+//! digit, and so may times that went through single precision. What is beyond that is a hole, a repeated sample, a
+//! clock set back, or jitter. A single lost sample shows where the last digit is at most half a period, two show up
+//! to a whole one; coarser times are refused. A slow drift of the clock passes.
 //!
-//! The period is a median, so that holes do not stretch it; the rate is the mean one, which is sharper once there are none.
+//! The period is a median, so that holes do not stretch it; the rate is the mean one, which is sharper once there are
+//! none.
 
 use super::statistics;
 
 /// Steps over which the period is taken: the digits' share in it is then 1/64 of a unit.
 const STRIDE: usize = 64;
-/// Difference of a step from the period beside the digits' [share of the period]. At 0.45 of the rate, the top of the band
-/// that is used, it is a phase of 0.06 rad: noise 25 dB below the signal.
+/// Difference of a step from the period beside the digits' [share of the period]. At 0.45 of the rate, the top of the
+/// band that is used, it is a phase of 0.06 rad: noise 25 dB below the signal.
 const JITTER: f64 = 0.02;
 /// Difference that digits explain at most [share of the period]: a lost sample makes it 1, a repeated one −1.
 const EXPLAINED: f64 = 0.9;
-/// Stretches in which the rate is looked at, and largest difference of one from the mean of all: what a given rate may differ
-/// from the file's.
+/// Stretches in which the rate is looked at, and largest difference of one from the mean of all: what a given rate
+/// may differ from the file's.
 const STRETCHES: usize = 16;
 const DRIFT: f64 = 0.01;
 /// Share of uneven steps from which they are the rule: jitter, and no column of times if it is not called so.
@@ -40,7 +41,8 @@ pub enum Uneven {
     },
     /// Samples are missing.
     #[error(
-        "a hole of {} after {} (sample {index}): about {missing} samples are missing; holes in all: {holes}. Cut the recording there",
+        "a hole of {} after {} (sample {index}): about {missing} samples are missing; holes in all: {holes}. Cut the \
+         recording there",
         quantity(.length, .unit), quantity(.at, .unit)
     )]
     Hole {
@@ -68,7 +70,10 @@ pub enum Uneven {
         unit: String,
     },
     /// The clock goes back.
-    #[error("the time goes back after {} (sample {index}), to {}: it must rise", quantity(.at, .unit), quantity(.to, .unit))]
+    #[error(
+        "the time goes back after {} (sample {index}), to {}: it must rise",
+        quantity(.at, .unit), quantity(.to, .unit)
+    )]
     Backward {
         /// The last sample before.
         index: usize,
@@ -81,7 +86,8 @@ pub enum Uneven {
     },
     /// The digits do not tell samples apart.
     #[error(
-        "times are given to {}, samples come every {}: whether some are missing cannot be told. Give the times more digits",
+        "times are given to {}, samples come every {}: whether some are missing cannot be told. Give the times more \
+         digits",
         quantity(.digit, .unit), quantity(.period, .unit)
     )]
     Coarse {
@@ -94,8 +100,8 @@ pub enum Uneven {
     },
     /// Steps differ by more than digits explain.
     #[error(
-        "{count} of {of} steps are uneven, the first of {} after {} (sample {index}): samples come every {}, and {limit:.1} % of that is \
-         allowed there, digits included",
+        "{count} of {of} steps are uneven, the first of {} after {} (sample {index}): samples come every {}, and \
+         {limit:.1} % of that is allowed there, digits included",
         quantity(.step, .unit), quantity(.at, .unit), quantity(.period, .unit)
     )]
     Jitter {
@@ -251,7 +257,8 @@ impl<'a> Clock<'a> {
             return double;
         }
         let finest = |range: &[u8]| unit_of_digit(range.iter().copied().max().unwrap_or_default());
-        // The two sides apart: where a fixed number of digits is printed in all, the point moves, and the digit with it.
+        // The two sides apart: where a fixed number of digits is printed in all, the point moves, and the digit with
+        // it.
         let count = self.times.len();
         let before = finest(&self.decimals[(i + 1).saturating_sub(SIDE)..(i + 1).max(SIDE.min(count))]);
         let after = finest(&self.decimals[(i + 1).min(count.saturating_sub(SIDE))..(i + 1 + SIDE).min(count)]);
