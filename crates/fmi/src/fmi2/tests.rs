@@ -25,6 +25,8 @@ radial_clearance_um = 5.0
 youngs_modulus_gpa = 207.0
 poissons_ratio = 0.3
 density_kg_m3 = 7800.0
+[cage]
+initial_angle_deg = -90.0
 [shaft]
 motion = "internal"
 speed_hz = 10.0
