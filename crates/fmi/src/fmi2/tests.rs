@@ -25,14 +25,13 @@ radial_clearance_um = 5.0
 youngs_modulus_gpa = 207.0
 poissons_ratio = 0.3
 density_kg_m3 = 7800.0
-[cage]
-initial_angle_deg = -90.0
 [shaft]
 motion = "internal"
 speed_hz = 10.0
 load_n = [0.0, -500.0]
 mass_kg = 3.0
 damping_n_s_m = 1400.0
+stiffness_n_m = 1e7
 [housing]
 motion = "fixed"
 [recorder]
