@@ -66,7 +66,7 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
     println!("{}", path.display());
     let mut paths = vec![path];
 
-    let critical = if bottom.is_some() { bearing.critical_load()? } else { None };
+    let critical = if bottom.is_some() { varied.critical_load()? } else { None };
     if let (Some(bottom), Some(critical)) = (&bottom, &critical) {
         let path = beside(&stem, "-critical-load.csv");
         let Bearing { radial_clearance, outer_compliance, .. } = model.scene.bearing;

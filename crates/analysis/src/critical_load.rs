@@ -14,7 +14,6 @@
 //! the contacts is the crudest allowance for that.
 
 use super::static_bearing::{StaticBearing, StaticError};
-use brinell::dynamics::equilibrium::EquilibriumError;
 
 /// A critical load and where it belongs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,11 +90,7 @@ impl StaticBearing {
             if !(0..self.element_count()).any(|j| self.model.resting_path(j, cage_angle) >= BOTTOM * bottom.path) {
                 continue;
             }
-            let found = match self.critical_load_at(cage_angle) {
-                // Beyond what the contact map covers: not the least, if the other place answers.
-                Err(StaticError::Equilibrium { cause: EquilibriumError::Contact { .. }, .. }) => continue,
-                found => found?,
-            };
+            let found = self.critical_load_at(cage_angle)?;
             if found.is_some_and(|new| least.is_none_or(|old| new.load < old.load)) {
                 least = found;
             }
