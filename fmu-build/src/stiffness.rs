@@ -76,7 +76,7 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
         println!("{}", path.display());
         paths.push(path);
     }
-    print!("{}", summary(&bearing, &varied, &balances, bottom.as_ref(), critical.as_ref())?);
+    print!("{}", summary(&varied, &varied, &balances, bottom.as_ref(), critical.as_ref())?);
     if options.figure {
         let python = Python::prepare(project)?;
         print!("{}", python.run("stiffness.py", [stem])?);
