@@ -25,8 +25,10 @@ fn made(model: &Model, folder: &str, options: Options) -> std::path::PathBuf {
 
 #[test]
 fn a_scene_with_a_defect_gives_two_tables_and_a_figure() {
-    let folder =
-        made(&common::model("er16k-tb2"), "stiffness-tb2", Options { load: None, points: Some(20), figure: true });
+    // The critical load lies beyond the forces that the scene's own map covers, which is refused.
+    let mut model = common::model("er16k-tb2");
+    model.scene.contact.law = brinell::scene::ContactLaw::Hertz;
+    let folder = made(&model, "stiffness-tb2", Options { load: None, points: Some(20), figure: true });
     let (header, rows) = read(&folder.join("er16k-tb2-stiffness.csv"));
     let column = |name: &str| header.iter().position(|cell| cell.starts_with(name)).unwrap();
     assert!(rows.len() > 20 && rows.iter().all(|row| row.len() == header.len()));
