@@ -5,7 +5,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
-use brinell::scene::{Bearing, ContactLaw};
+use brinell::dynamics::equilibrium::EquilibriumError;
+use brinell::scene::{Bearing, ContactLaw, Scene};
 use brinell_analysis::critical_load::{Bottom, CriticalLoad};
 use brinell_analysis::static_bearing::{Balance, StaticBearing, StaticError};
 use brinell_analysis::stiffness::{min_mean_max, sweep};
@@ -45,14 +46,7 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
         StaticBearing::new(&brinell::scene::Scene { defect: None, ..model.scene.clone() }, None)?,
         options.load,
     )?;
-    // The bottom of a spall is flat: every law is Hertz's there, and with `hertz` a variation needs no new map.
-    let mut plain = model.scene.clone();
-    plain.contact.law = ContactLaw::Hertz;
-    let varied = match StaticBearing::new(&plain, profile) {
-        Ok(plain) => loaded(plain, options.load)?,
-        // A topography is no matter for law `hertz`.
-        Err(_) => bearing.clone(),
-    };
+    let plain = plain(&bearing, &model.scene, profile, options.load)?;
     let [x, y] = bearing.load();
     let bottom = bottom_of(&bearing)?;
     // In the middle of the sweep element 1 is in the middle of the defect, at its ends two elements are about it.
@@ -62,26 +56,46 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
 
     let stem = folder.join(&model.scene.name);
     let path = beside(&stem, "-stiffness.csv");
-    whole_file::write_with(&path, |mut out| write_sweep(&mut out, &bearing, &healthy, &balances))?;
+    whole_file::write_with(&path, |mut out| write_sweep(&mut out, &plain, &healthy, &balances))?;
     println!("{}", path.display());
     let mut paths = vec![path];
 
-    let critical = if bottom.is_some() { varied.critical_load()? } else { None };
+    let critical = if bottom.is_some() { covered(plain.critical_load())? } else { None };
     if let (Some(bottom), Some(critical)) = (&bottom, &critical) {
         let path = beside(&stem, "-critical-load.csv");
         let Bearing { radial_clearance, outer_compliance, .. } = model.scene.bearing;
         whole_file::write_with(&path, |mut out| {
-            write_variations(&mut out, &varied, bottom, critical, radial_clearance, outer_compliance)
+            write_variations(&mut out, &plain, bottom, critical, radial_clearance, outer_compliance)
         })?;
         println!("{}", path.display());
         paths.push(path);
     }
-    print!("{}", summary(&varied, &varied, &balances, bottom.as_ref(), critical.as_ref())?);
+    print!("{}", summary(&plain, &balances, bottom.as_ref(), critical.as_ref())?);
     if options.figure {
         let python = Python::prepare(project)?;
         print!("{}", python.run("stiffness.py", [stem])?);
     }
     Ok(())
+}
+
+/// The bearing that is asked for critical loads. The bottom of a spall is flat: every law is Hertz's there. With `hertz` a
+/// variation needs no new map, and no map ends below the load.
+fn plain(bearing: &StaticBearing, scene: &Scene, profile: Option<&str>, load: Option<f64>) -> Result<StaticBearing> {
+    let mut scene = scene.clone();
+    scene.contact.law = ContactLaw::Hertz;
+    match StaticBearing::new(&scene, profile) {
+        Ok(plain) => loaded(plain, load),
+        // Law `hertz` knows no topography.
+        Err(_) => Ok(bearing.clone()),
+    }
+}
+
+/// A critical load, or `None` where it needs forces that the contact map does not cover.
+fn covered(found: Result<Option<CriticalLoad>, StaticError>) -> Result<Option<CriticalLoad>> {
+    match found {
+        Err(StaticError::Equilibrium { cause: EquilibriumError::Contact { .. }, .. }) => Ok(None),
+        found => Ok(found?),
+    }
 }
 
 /// The bearing under an amount of load along its own.
@@ -111,7 +125,7 @@ fn bottom_of(bearing: &StaticBearing) -> Result<Option<Bottom>> {
 
 fn write_sweep(
     out: &mut impl Write,
-    bearing: &StaticBearing,
+    plain: &StaticBearing,
     healthy: &StaticBearing,
     balances: &[Balance],
 ) -> Result<()> {
@@ -133,7 +147,7 @@ fn write_sweep(
     ]
     .map(|(name, unit)| (name.to_owned(), unit))
     .to_vec();
-    for j in 1..=bearing.element_count() {
+    for j in 1..=plain.element_count() {
         names.extend([
             (format!("element[{j}].angle"), "rad"),
             (format!("element[{j}].force.inner"), "N"),
@@ -144,7 +158,7 @@ fn write_sweep(
     csv::header(out, names.iter().map(|(name, unit)| (name.as_str(), *unit)))?;
     for balance in balances {
         let without = healthy.balance(balance.cage_angle, balance.load)?;
-        let critical = bearing.critical_load_at(balance.cage_angle)?.map_or(f64::NAN, |found| found.load);
+        let critical = covered(plain.critical_load_at(balance.cage_angle))?.map_or(f64::NAN, |found| found.load);
         let [[xx, xy], [yx, yy]] = balance.stiffness;
         let ([x, y], [load_x, load_y]) = (balance.displacement, balance.load);
         let mut row =
@@ -175,7 +189,7 @@ fn write_variations(
     let names = [("varied", "1"), ("path", "m"), ("clearance", "m"), ("compliance", "m/N"), ("critical_load", "N")];
     csv::header(out, names.into_iter())?;
     let mut row = |varied: f64, path: f64, clearance: f64, compliance: f64, bearing: &StaticBearing| -> Result<()> {
-        let found = bearing.critical_load()?.map_or(f64::NAN, |found| found.load);
+        let found = covered(bearing.critical_load())?.map_or(f64::NAN, |found| found.load);
         Ok(csv::row(out, [varied, path, clearance, compliance, found].into_iter())?)
     };
     for factor in DEPTHS {
@@ -192,7 +206,7 @@ fn write_variations(
         let clearance = widest * part(i);
         row(1.0, bottom.path, clearance, compliance, &bearing.with_clearance(clearance))?;
     }
-    let rigid = bearing.with_outer_compliance(0.0).critical_load()?.map_or(critical.load, |found| found.load);
+    let rigid = covered(bearing.with_outer_compliance(0.0).critical_load())?.map_or(critical.load, |found| found.load);
     let softest = (4.0 * bottom.path / rigid).max(2.0 * compliance);
     for i in 0..VARIATIONS {
         let compliance = softest * part(i);
@@ -203,7 +217,6 @@ fn write_variations(
 
 fn summary(
     bearing: &StaticBearing,
-    varied: &StaticBearing,
     balances: &[Balance],
     bottom: Option<&Bottom>,
     critical: Option<&CriticalLoad>,
@@ -221,7 +234,9 @@ fn summary(
     text += &line("load zone, half-angle", zone, "degrees");
     let Some(bottom) = bottom else { return Ok(text) };
     let Some(critical) = critical else {
-        return Ok(text + "critical load: none; no load brings the elements at the bottom of the defect to carry\n");
+        return Ok(
+            text + "critical load: none; no load that the contact law covers brings the elements at the bottom of the defect to carry\n"
+        );
     };
     let angles = [critical.cage_angle.to_degrees(), bottom.path * 1e6];
     text += &format!(
@@ -231,7 +246,7 @@ fn summary(
         angles[1],
         angles[0]
     );
-    if let Some(by) = varied.sensitivity(critical)? {
+    if let Some(by) = bearing.sensitivity(critical)? {
         text += &format!(
             "  per µm of depth {:+.1} N, per µm of clearance {:+.1} N, per nm/N of compliance {:+.1} N\n",
             by.by_depth * 1e-6,
