@@ -3,7 +3,7 @@
 //! A host may read and set twenty variables at every communication point. A row of the variable table is several cache
 //! lines long and is only needed to word an error; here a variable takes 24 bytes. Everything follows from the table.
 
-use super::table::Quantity;
+use super::quantity::Quantity;
 use super::variables::{Causality, Kind, Variable};
 
 /// One variable's rules, as far as the good path needs them.

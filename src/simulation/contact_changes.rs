@@ -1,9 +1,8 @@
 //! Contact changes: the instants at which a contact begins or ceases to push, found on the dense output of a step.
 
+use super::kernels::look;
 use super::progress::Progress;
-use super::stepper::Stepper;
-use crate::dynamics::drive::Drive;
-use crate::dynamics::model::Model;
+use super::workspace::{Problem, Span, Workspace};
 
 /// Width, as a share of the step and per tolerance, to which the instant of a change is narrowed down. What is left of the
 /// approach is this share of what a step covers, itself near the error of the dense output; and forces begin with the power
@@ -12,50 +11,47 @@ const WIDTH_PER_TOLERANCE: f64 = 1e-2;
 /// Narrowest and widest such widths.
 const WIDTHS: [f64; 2] = [1e-9, 1e-5];
 
-impl Stepper {
-    /// Share of the step at which the first contact changes; leaves the forces there.
-    ///
-    /// How far the contact that has changed most is beyond its change is continuous and changes its sign there. The
-    /// secant's zero is looked at on its far side, so that both ends of the bracket close in; every third look halves it,
-    /// whatever the secant says.
-    pub(super) fn first_change(
-        &mut self,
-        model: &Model,
-        drive: &Drive,
-        step: (f64, f64),
-        tolerance: f64,
-        progress: &Progress,
-    ) -> f64 {
-        let narrow = (WIDTH_PER_TOLERANCE * tolerance).clamp(WIDTHS[0], WIDTHS[1]);
-        let (mut before, mut after) = (0.0, 1.0);
-        let (mut at_before, mut at_after): (Option<f64>, f64) = (None, self.forces.beyond_change(&progress.pushing));
-        let mut last_before = true;
-        for look in 0.. {
-            let width: f64 = after - before;
-            if width <= narrow {
-                break;
-            }
-            let share = match at_before {
-                Some(at_before) if look % 3 != 2 => {
-                    let secant: f64 = before - width * at_before / (at_after - at_before);
-                    let margin = if last_before { 0.5 * narrow } else { -0.5 * narrow };
-                    (secant + margin).clamp(before + 0.25 * narrow, after - 0.25 * narrow)
-                }
-                _ => 0.5 * (before + after),
-            };
-            self.look(model, drive, step, share, progress);
-            let value = self.forces.beyond_change(&progress.pushing);
-            // What is no number counts as changed: the step is then cut before it.
-            last_before = value <= 0.0;
-            if last_before {
-                (before, at_before) = (share, Some(value));
-            } else {
-                (after, at_after) = (share, value);
-            }
+/// Share of the step at which the first contact changes; leaves the forces there.
+///
+/// How far the contact that has changed most is beyond its change is continuous and changes its sign there. The
+/// secant's zero is looked at on its far side, so that both ends of the bracket close in; every third look halves it,
+/// whatever the secant says.
+pub(super) fn first_change(
+    workspace: &mut Workspace,
+    problem: Problem,
+    span: Span,
+    tolerance: f64,
+    progress: &Progress,
+) -> f64 {
+    let narrow = (WIDTH_PER_TOLERANCE * tolerance).clamp(WIDTHS[0], WIDTHS[1]);
+    let (mut before, mut after) = (0.0, 1.0);
+    let (mut at_before, mut at_after): (Option<f64>, f64) = (None, workspace.forces.beyond_change(&progress.pushing));
+    let mut last_before = true;
+    for trial in 0.. {
+        let width: f64 = after - before;
+        if width <= narrow {
+            break;
         }
+        let share = match at_before {
+            Some(at_before) if trial % 3 != 2 => {
+                let secant: f64 = before - width * at_before / (at_after - at_before);
+                let margin = if last_before { 0.5 * narrow } else { -0.5 * narrow };
+                (secant + margin).clamp(before + 0.25 * narrow, after - 0.25 * narrow)
+            }
+            _ => 0.5 * (before + after),
+        };
+        look(workspace, problem, span, share, progress);
+        let value = workspace.forces.beyond_change(&progress.pushing);
+        // What is no number counts as changed: the step is then cut before it.
+        last_before = value <= 0.0;
         if last_before {
-            self.look(model, drive, step, after, progress);
+            (before, at_before) = (share, Some(value));
+        } else {
+            (after, at_after) = (share, value);
         }
-        after
     }
+    if last_before {
+        look(workspace, problem, span, after, progress);
+    }
+    after
 }

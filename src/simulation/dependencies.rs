@@ -4,7 +4,7 @@
 //! follow prescribed motion. At the start the static equilibrium ties forces, positions and paths to every load and every
 //! motion that is given; but rings are at rest whatever the inputs are, and what only matters in motion does not enter.
 
-use super::table::{Quantity as Q, RingName};
+use super::quantity::{Parameter, Quantity as Q, RingName};
 use super::variables::{Causality, Dependencies, Variable};
 use crate::scene::{Motion, Scene};
 
@@ -54,20 +54,29 @@ fn follows(output: Q, input: Q, defect: bool, sensor_follows_input: bool) -> boo
         Q::CageSpeed => speed,
         // Tangential parts of the inner contacts, and the elements' inertia as the outer ring accelerates.
         Q::CageTorque => place || pace || speed || matches!(input, Q::Acceleration(Housing, _) | Q::Load(Housing, _)),
-        _ => false,
+        // States follow no input at once, and a mean is of the step before.
+        Q::Position(..)
+        | Q::Velocity(..)
+        | Q::MeanForce(..)
+        | Q::CageAngle
+        | Q::ElementAngle(_)
+        | Q::ElementPath(_) => false,
+        Q::ShaftSpeed | Q::Load(..) | Q::Count(_) | Q::Parameter(_) => false,
     }
 }
 
 /// Whether an output depends on an input or a parameter in initialization mode.
 fn starts_from(output: Q, known: Q) -> bool {
     match output {
-        Q::CageAngle | Q::ElementAngle(_) => known == Q::CageInitialAngle,
-        Q::CageSpeed => matches!(known, Q::ShaftSpeed | Q::CageSlip),
+        Q::CageAngle | Q::ElementAngle(_) => known == Q::Parameter(Parameter::CageInitialAngle),
+        Q::CageSpeed => matches!(known, Q::ShaftSpeed | Q::Parameter(Parameter::CageSlip)),
         // At rest.
         Q::Velocity(..) | Q::Acceleration(..) | Q::SensorAcceleration => false,
         _ => match known {
             // Tolerance and recorder are of steps; masses and dampers of rings matter in motion.
-            Q::Tolerance | Q::RecorderFolder | Q::RingMass(_) | Q::RingDamping(_) => false,
+            Q::Parameter(
+                Parameter::Tolerance | Parameter::RecorderFolder | Parameter::RingMass(_) | Parameter::RingDamping(_),
+            ) => false,
             // Only the cage's torque knows that a prescribed outer ring accelerates.
             Q::Acceleration(RingName::Housing, _) => output == Q::CageTorque,
             Q::Acceleration(RingName::Shaft, _) => false,

@@ -12,61 +12,16 @@
 //! change with nothing until the next step.
 
 use super::access;
-use super::table::{Quantity, RingName};
+use super::change::Change;
+use super::instance::Simulation;
+use super::quantity::{Quantity, RingName};
 use super::values::{out_of_range, wrong_type};
-use super::variables::Causality;
-use super::{Simulation, SimulationError, VariableError};
+use super::variables::{Causality, Kind, Variable};
+use super::{SimulationError, VariableError};
 use crate::dynamics::drive::Drive;
-use crate::dynamics::kinematics::{Kinematics, RingState};
+use crate::dynamics::kinematics::Kinematics;
 use crate::dynamics::supports::Bodies;
-use crate::dynamics::tangent::Rings;
-use crate::dynamics::variation::{ForceChange, Variation};
-use crate::numerics::plane::{Matrix, Vector};
-
-/// A small change of everything that outputs are made of, and what it makes of the forces.
-#[derive(Debug, Clone)]
-pub(super) struct Change {
-    variation: Variation,
-    forces: ForceChange,
-    /// Of the external loads on inner and outer ring [N].
-    loads: Rings,
-    /// Of the sensor's position and velocity.
-    sensor: [f64; 2],
-    /// Of the accelerations of inner and outer ring [m/s²].
-    accelerations: [Vector; 2],
-    sensor_acceleration: f64,
-    cage_torque: f64,
-    stiffness: Matrix,
-}
-
-impl Change {
-    pub(super) fn new(count: usize) -> Self {
-        Self {
-            variation: Variation::new(count),
-            forces: ForceChange::new(count),
-            loads: Rings::zeros(),
-            sensor: [0.0; 2],
-            accelerations: [Vector::zeros(); 2],
-            sensor_acceleration: 0.0,
-            cage_torque: 0.0,
-            stiffness: Matrix::zeros(),
-        }
-    }
-
-    fn clear(&mut self) {
-        self.variation.clear();
-        (self.loads, self.sensor, self.accelerations) = (Rings::zeros(), [0.0; 2], [Vector::zeros(); 2]);
-        (self.sensor_acceleration, self.cage_torque) = (0.0, 0.0);
-        self.stiffness = Matrix::zeros();
-    }
-
-    fn ring(&mut self, name: RingName) -> &mut RingState {
-        match name {
-            RingName::Shaft => &mut self.variation.shaft,
-            RingName::Housing => &mut self.variation.housing,
-        }
-    }
-}
+use crate::numerics::plane::Vector;
 
 impl Simulation {
     /// Derivatives by time of real outputs at the present time; of order 1.
@@ -89,9 +44,7 @@ impl Simulation {
         if !self.state.started {
             return Err(SimulationError::NotInitialized);
         }
-        if self.outputs_are_stale {
-            self.refresh()?;
-        }
+        self.refresh()?;
         let drive = self.drive(true);
         self.model.forget_contacts();
         let progress = &self.state.progress;
@@ -127,9 +80,7 @@ impl Simulation {
                 return Err(out_of_range(variable, value, f64::MIN, f64::MAX).into());
             }
         }
-        if self.outputs_are_stale {
-            self.refresh()?;
-        }
+        self.refresh()?;
         self.model.forget_contacts();
         self.along_inputs(knowns, seed);
         if !self.state.started {
@@ -152,9 +103,9 @@ impl Simulation {
     }
 
     /// The variable, if it is a real output.
-    fn unknown(&self, reference: u32) -> Result<&super::Variable, VariableError> {
+    fn unknown(&self, reference: u32) -> Result<&Variable, VariableError> {
         let variable = self.variable(reference)?;
-        if !matches!(variable.kind, super::Kind::Real { .. }) {
+        if !matches!(variable.kind, Kind::Real { .. }) {
             return Err(wrong_type(variable, "Real"));
         }
         if variable.causality != Causality::Output {
@@ -174,8 +125,7 @@ impl Simulation {
                 Quantity::Load(RingName::Housing, axis) => change.loads[2 + axis] += value,
                 Quantity::Position(name, axis) => change.ring(name).position[axis] += value,
                 Quantity::Velocity(name, axis) => change.ring(name).velocity[axis] += value,
-                Quantity::Acceleration(RingName::Shaft, axis) => change.accelerations[0][axis] += value,
-                Quantity::Acceleration(RingName::Housing, axis) => change.accelerations[1][axis] += value,
+                Quantity::Acceleration(name, axis) => change.accelerations[name.index()][axis] += value,
                 _ => {}
             }
         }
@@ -256,7 +206,8 @@ impl Simulation {
             Quantity::ElementPath(j) => variation.path[j],
             Quantity::ElementInnerForce(j) => forces.inner[j],
             Quantity::ElementOuterForce(j) => forces.outer[j],
-            _ => 0.0,
+            Quantity::MeanForce(..) | Quantity::Count(_) => 0.0,
+            Quantity::ShaftSpeed | Quantity::Load(..) | Quantity::Parameter(_) => 0.0,
         }
     }
 }

@@ -1,48 +1,13 @@
 //! What the explicit methods share: room for the stages of a step, error estimates, and what is asked of the equations.
 
-use super::{dormand_prince, phase_fitted};
 use crate::numerics::lanes::{Cut, Each, Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, largest_of, quads, quads_mut};
 use crate::numerics::row::Row;
 
 /// Where the derivative at the end of a step is kept; with either method it is the first stage of the next.
 pub const LAST: usize = 6;
 
-/// The explicit methods.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Pair {
-    /// [`dormand_prince`]: order 5(4), for any tolerance.
-    #[default]
-    DormandPrince,
-    /// [`phase_fitted`]: order 4(3), with longer steps where something oscillates.
-    PhaseFitted,
-}
-
-impl Pair {
-    /// Nodes c up to the end of the step; where one method has a stage less, its last is the end.
-    pub fn nodes(self) -> [f64; LAST] {
-        match self {
-            Self::DormandPrince => std::array::from_fn(|i| dormand_prince::NODES[i]),
-            Self::PhaseFitted => phase_fitted::NODES,
-        }
-    }
-
-    /// Weights b of the stages.
-    pub fn weights(self) -> [f64; LAST] {
-        match self {
-            Self::DormandPrince => dormand_prince::STAGES[LAST],
-            Self::PhaseFitted => phase_fitted::WEIGHTS,
-        }
-    }
-
-    /// Stages that the error estimate is made of, with their weights.
-    #[inline(always)]
-    fn error(self) -> [(usize, f64); 6] {
-        match self {
-            Self::DormandPrince => [0, 2, 3, 4, 5, 6].map(|i| (i, dormand_prince::ERROR[i])),
-            Self::PhaseFitted => [0, 1, 2, 3, 4, 6].map(|i| (i, phase_fitted::ERROR[i])),
-        }
-    }
-}
+/// Stages that an error estimate is made of, with their weights.
+pub type ErrorParts = [(usize, f64); 6];
 
 /// Room for the stages of a step, made once. States are cut as [`Cut`] says.
 #[derive(Debug, Clone, Default)]
@@ -64,37 +29,20 @@ impl Explicit {
         Self { stages: std::array::from_fn(|_| zeros()), end: zeros(), trial: zeros(), positions, cut }
     }
 
-    /// Tries a step of length `h` from `state`; the first stage must be there.
-    #[inline(always)]
-    pub fn try_step<S: Wide>(
-        &mut self,
-        simd: S,
-        pair: Pair,
-        state: &[f64],
-        h: f64,
-        right_hand_side: &mut impl RightHandSide,
-    ) {
-        match pair {
-            Pair::DormandPrince => dormand_prince::try_step(simd, self, state, h, right_hand_side),
-            Pair::PhaseFitted => phase_fitted::try_step(simd, self, state, h, right_hand_side),
-        }
-    }
-
     /// Largest magnitude of the error estimate of the step tried last, each component times its weight; infinite as soon
     /// as one is no finite number.
     #[inline(always)]
-    pub fn error<S: Wide>(&self, simd: S, pair: Pair, h: f64, weights: &[f64]) -> f64 {
+    pub fn error<S: Wide>(&self, simd: S, parts: ErrorParts, h: f64, weights: &[f64]) -> f64 {
         let mut found = Found { largest: [0.0; QUAD], poison: [0.0; WIDEST] };
-        let parts = pair.error();
         let [a, b, c, d, e, f] = parts.map(|(stage, _)| &self.stages[stage][..]);
         self.cut.look(simd, [weights, a, b, c, d, e, f], &Errors(parts.map(|(_, weight)| weight)), &mut found);
         if found.poison == [0.0; WIDEST] { h * largest_of(found.largest) } else { f64::INFINITY }
     }
 
     /// Error estimate of component `i` of the step tried last.
-    pub fn error_of(&self, pair: Pair, i: usize, h: f64) -> f64 {
+    pub fn error_of(&self, parts: ErrorParts, i: usize, h: f64) -> f64 {
         let mut sum = 0.0;
-        for (stage, weight) in pair.error() {
+        for (stage, weight) in parts {
             sum += weight * self.stages[stage][i];
         }
         h * sum

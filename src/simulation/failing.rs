@@ -1,72 +1,66 @@
 //! What a step that cannot be taken fails of: told by the state, the contact or the ring that it begins with, not by
 //! what follows from it.
 
-use super::explicit::Pair;
+use super::pair::Pair;
 use super::progress::Progress;
-use super::step_error::StepError;
-use super::stepper::{SMALLEST_STEP, Stepper};
-use crate::dynamics::drive::Drive;
+use super::step_error::{SMALLEST_STEP, StepError};
+
+use super::workspace::{Problem, Span, Workspace};
 use crate::dynamics::forces::UnsolvedContact;
 use crate::dynamics::model::{Layout, Model};
 
-impl Stepper {
-    /// Whether a step shorter than the one of length `h` that failed is still worth trying.
-    pub(super) fn check_step(
-        &mut self,
-        model: &Model,
-        drive: &Drive,
-        (since, h): (f64, f64),
-        error: f64,
-        progress: &Progress,
-    ) -> Result<(), StepError> {
-        // A step must move time: late in a long communication step its last digit is the limit.
-        let (step, limit) = (progress.next_step, SMALLEST_STEP.max(4.0 * f64::EPSILON * since));
-        if step >= limit {
-            return Ok(());
-        }
-        if error.is_finite() {
-            let component = self.worst(model, h, (progress.choice.implicit, self.pair));
-            return Err(StepError::Underflow { step, limit, since, component });
-        }
-        // Rings that the host has moved apart say more than what follows from it.
-        check_rings(model, drive, since + h, progress)?;
-        if let Some(UnsolvedContact { element, angle, offset, cause }) = self.forces.unsolved.take() {
-            let (element, angle_deg) = (element + 1, angle.to_degrees());
-            return Err(StepError::Contact { element, angle_deg, offset, since, cause });
-        }
-        Err(self.diverging(model, drive, (since, h), step, progress))
+/// Whether a step shorter than the one of length `h` that failed is still worth trying.
+pub(super) fn check_step(
+    workspace: &mut Workspace,
+    problem: Problem,
+    span: Span,
+    error: f64,
+    progress: &Progress,
+) -> Result<(), StepError> {
+    let (Problem { model, .. }, since) = (problem, span.from);
+    // A step must move time: late in a long communication step its last digit is the limit.
+    let (step, limit) = (progress.next_step, SMALLEST_STEP.max(4.0 * f64::EPSILON * since));
+    if step >= limit {
+        return Ok(());
     }
+    if error.is_finite() {
+        let component = worst(workspace, model, span.length, (progress.choice.implicit, workspace.pair));
+        return Err(StepError::Underflow { step, limit, since, component });
+    }
+    // Rings that the host has moved apart say more than what follows from it.
+    check_rings(problem, span.end(), progress)?;
+    if let Some(UnsolvedContact { element, angle, offset, cause }) = workspace.forces.unsolved.take() {
+        let (element, angle_deg) = (element + 1, angle.to_degrees());
+        return Err(StepError::Contact { element, angle_deg, offset, since, cause });
+    }
+    Err(diverging(workspace, problem, span, step, progress))
+}
 
-    /// What changes fastest where no step of length `h` has a finite end: at its start, or in Euler's step on, where
-    /// all rates are finite there too. Behind that each number that is none makes others so, and which was the
-    /// first cannot be told.
-    fn diverging(
-        &mut self,
-        model: &Model,
-        drive: &Drive,
-        (since, h): (f64, f64),
-        step: f64,
-        progress: &Progress,
-    ) -> StepError {
-        let Self { explicit, forces, dense, scratch, weights, .. } = self;
-        let rates = &mut explicit.stages[0];
-        model.derivative(drive, since, &progress.cells, &progress.state, rates, forces);
-        for (i, place) in dense.iter_mut().enumerate() {
-            *place = progress.state[i] + h * rates[i];
-        }
-        model.derivative(drive, since + h, &progress.cells, dense, scratch, forces);
-        let finite = |i: usize| scratch[i].is_finite();
-        let rates: &[f64] = if (0..scratch.len()).all(finite) { scratch } else { rates };
-        let fastest = first_largest(&model.layout, |i| weights[i] * rates[i]);
-        let (component, value) = (model.layout.name(fastest), progress.state[fastest]);
-        StepError::NotFinite { component, value, rate: rates[fastest], step, since }
+/// What changes fastest where no step of length `h` has a finite end: at its start, or in Euler's step on, where
+/// all rates are finite there too. Behind that each number that is none makes others so, and which was the
+/// first cannot be told.
+fn diverging(workspace: &mut Workspace, problem: Problem, span: Span, step: f64, progress: &Progress) -> StepError {
+    let (Problem { model, drive }, Span { from: since, length: h }) = (problem, span);
+    let Workspace { explicit, forces, dense, scratch, weights, .. } = workspace;
+    let rates = &mut explicit.stages[0];
+    model.derivative(drive, since, &progress.cells, &progress.state, rates, forces);
+    for (i, place) in dense.iter_mut().enumerate() {
+        *place = progress.state[i] + h * rates[i];
     }
+    model.derivative(drive, since + h, &progress.cells, dense, scratch, forces);
+    let finite = |i: usize| scratch[i].is_finite();
+    let rates: &[f64] = if (0..scratch.len()).all(finite) { scratch } else { rates };
+    let fastest = first_largest(&model.layout, |i| weights[i] * rates[i]);
+    let (component, value) = (model.layout.name(fastest), progress.state[fastest]);
+    StepError::NotFinite { component, value, rate: rates[fastest], step, since }
+}
 
-    /// Name of the state with the largest error in the step tried last, whose length was `h`.
-    pub(super) fn worst(&self, model: &Model, h: f64, (implicit, pair): (bool, Pair)) -> String {
-        let error = |i: usize| if implicit { self.implicit.error(i) } else { self.explicit.error_of(pair, i, h) };
-        model.layout.name(first_largest(&model.layout, |i| self.weights[i] * error(i)))
-    }
+/// Name of the state with the largest error in the step tried last, whose length was `h`.
+pub(super) fn worst(workspace: &Workspace, model: &Model, h: f64, (implicit, pair): (bool, Pair)) -> String {
+    let error = |i: usize| {
+        if implicit { workspace.implicit.error(i) } else { workspace.explicit.error_of(pair.error_parts(), i, h) }
+    };
+    model.layout.name(first_largest(&model.layout, |i| workspace.weights[i] * error(i)))
 }
 
 /// The state at which `size` is the largest; what is no number is larger than any.
@@ -80,7 +74,8 @@ fn first_largest(layout: &Layout, size: impl Fn(usize) -> f64) -> usize {
 }
 
 /// Beyond an element's radius the rings are beside each other, and a contact that is not a number would push nothing.
-pub(super) fn check_rings(model: &Model, drive: &Drive, tau: f64, progress: &Progress) -> Result<(), StepError> {
+pub(super) fn check_rings(problem: Problem, tau: f64, progress: &Progress) -> Result<(), StepError> {
+    let Problem { model, drive } = problem;
     let shaft = model.shaft_state(drive, tau, &progress.state).position;
     let housing = model.housing_state(drive, tau, &progress.state).position;
     let (apart, limit) = (housing - shaft, model.element_radius);

@@ -2,26 +2,39 @@
 
 use super::arrow::Arrow;
 use super::dormand_prince;
-use super::explicit::{LAST, Pair, RightHandSide};
+use super::explicit::{LAST, RightHandSide};
+use super::pair::Pair;
 use super::progress::Progress;
 use super::rodas;
-use super::stepper::Stepper;
+use super::workspace::{Problem, Span, Workspace};
 use crate::dynamics::dense_output::Known;
 use crate::dynamics::drive::Drive;
 use crate::dynamics::forces::Forces;
 use crate::dynamics::jacobian::Jacobian;
 use crate::dynamics::kinematics::{CageState, Stage};
 use crate::dynamics::model::Model;
-use crate::numerics::lanes::{Kernel, Wide};
+use crate::numerics::lanes::{Kernel, Wide, dispatch};
 
-/// One step of length `h` from `from` with the method that is chosen, all stages, and what error control asks of it.
-pub(super) struct Trial<'a> {
-    pub(super) stepper: &'a mut Stepper,
-    pub(super) model: &'a Model,
-    pub(super) drive: &'a Drive,
-    pub(super) from: f64,
-    pub(super) h: f64,
-    pub(super) progress: &'a Progress,
+/// Tries one step with the method that is chosen, and leaves what error control asks of it.
+pub(super) fn try_step(workspace: &mut Workspace, problem: Problem, span: Span, progress: &Progress) {
+    if progress.choice.implicit {
+        workspace.linearize(problem, span.from, progress);
+        workspace.arrow.factor(&workspace.jacobian, 1.0 / (rodas::GAMMA * span.length));
+    }
+    dispatch(Trial { workspace, problem, span, progress });
+}
+
+/// Leaves the state at a share of the step tried last in `dense`, its derivative in `scratch`, and all forces there.
+pub(super) fn look(workspace: &mut Workspace, problem: Problem, span: Span, share: f64, progress: &Progress) {
+    dispatch(Look { workspace, problem, span, share, progress });
+}
+
+/// A step, all stages.
+struct Trial<'a> {
+    workspace: &'a mut Workspace,
+    problem: Problem<'a>,
+    span: Span,
+    progress: &'a Progress,
 }
 
 impl Kernel for Trial<'_> {
@@ -29,29 +42,23 @@ impl Kernel for Trial<'_> {
 
     #[inline(always)]
     fn run<S: Wide>(self, simd: S) {
-        let Self { stepper, model, drive, from, h, progress } = self;
+        let Self { workspace, problem, span, progress } = self;
         if progress.choice.implicit {
-            implicit(simd, stepper, (model, drive), (from, h), progress);
+            implicit(simd, workspace, problem, span, progress);
         } else {
-            explicit(simd, stepper, (model, drive), (from, h), progress);
+            explicit(simd, workspace, problem, span, progress);
         }
-        stepper.last_force = stepper.forces.rings;
-        stepper.largest_approach = stepper.forces.largest_approach_on(simd);
-        stepper.changed = stepper.forces.pushing_differs_on(simd, &progress.pushing);
+        workspace.last_force = workspace.forces.rings;
+        workspace.largest_approach = workspace.forces.largest_approach_on(simd);
+        workspace.changed = workspace.forces.pushing_differs_on(simd, &progress.pushing);
     }
 }
 
 #[inline(always)]
-fn explicit<S: Wide>(
-    simd: S,
-    stepper: &mut Stepper,
-    (model, drive): (&Model, &Drive),
-    (from, h): (f64, f64),
-    progress: &Progress,
-) {
-    match stepper.pair {
-        Pair::DormandPrince => explicit_step(simd, Pair::DormandPrince, stepper, (model, drive), (from, h), progress),
-        Pair::PhaseFitted => explicit_step(simd, Pair::PhaseFitted, stepper, (model, drive), (from, h), progress),
+fn explicit<S: Wide>(simd: S, workspace: &mut Workspace, problem: Problem, span: Span, progress: &Progress) {
+    match workspace.pair {
+        Pair::DormandPrince => explicit_step(simd, Pair::DormandPrince, workspace, problem, span, progress),
+        Pair::PhaseFitted => explicit_step(simd, Pair::PhaseFitted, workspace, problem, span, progress),
     }
 }
 
@@ -60,29 +67,25 @@ fn explicit<S: Wide>(
 fn explicit_step<S: Wide>(
     simd: S,
     pair: Pair,
-    stepper: &mut Stepper,
-    (model, drive): (&Model, &Drive),
-    (from, h): (f64, f64),
+    workspace: &mut Workspace,
+    problem: Problem,
+    span: Span,
     progress: &Progress,
 ) {
+    let (Problem { model, drive }, Span { from, length: h }) = (problem, span);
     let weights = pair.weights();
-    let sum = stepper.first_force.map(|force| weights[0] * force);
+    let sum = workspace.first_force.map(|force| weights[0] * force);
     let cages = drive.cage_after(from, pair.nodes().map(|node| node * h));
-    let mut stages = Stages { model, drive, cages, weights, forces: &mut stepper.forces, sum };
-    stepper.explicit.try_step(simd, pair, &progress.state, h, &mut stages);
-    stepper.weighted_force = stages.sum;
-    stepper.largest_error = stepper.explicit.error(simd, pair, h, &stepper.weights);
+    let mut stages = Stages { model, drive, cages, weights, forces: &mut workspace.forces, sum };
+    pair.try_step(simd, &mut workspace.explicit, &progress.state, h, &mut stages);
+    workspace.weighted_force = stages.sum;
+    workspace.largest_error = workspace.explicit.error(simd, pair.error_parts(), h, &workspace.weights);
 }
 
 #[inline(always)]
-fn implicit<S: Wide>(
-    simd: S,
-    stepper: &mut Stepper,
-    (model, drive): (&Model, &Drive),
-    (from, h): (f64, f64),
-    progress: &Progress,
-) {
-    let Stepper { explicit, implicit, forces, jacobian, arrow, by_time, largest_error, weights, .. } = stepper;
+fn implicit<S: Wide>(simd: S, workspace: &mut Workspace, problem: Problem, span: Span, progress: &Progress) {
+    let (Problem { model, drive }, Span { from, length: h }) = (problem, span);
+    let Workspace { explicit, implicit, forces, jacobian, arrow, by_time, largest_error, weights, .. } = workspace;
     let [first, .., last] = &mut explicit.stages;
     let cages = drive.cage_after(from, rodas::NODES.map(|node| node * h));
     let mut system = System { model, drive, cages, forces, jacobian, arrow };
@@ -93,14 +96,12 @@ fn implicit<S: Wide>(
 }
 
 /// The state at a share of the step tried last, its derivative, and each contact there.
-pub(super) struct Look<'a> {
-    pub(super) stepper: &'a mut Stepper,
-    pub(super) model: &'a Model,
-    pub(super) drive: &'a Drive,
-    pub(super) from: f64,
-    pub(super) h: f64,
-    pub(super) share: f64,
-    pub(super) progress: &'a Progress,
+struct Look<'a> {
+    workspace: &'a mut Workspace,
+    problem: Problem<'a>,
+    span: Span,
+    share: f64,
+    progress: &'a Progress,
 }
 
 impl Kernel for Look<'_> {
@@ -108,8 +109,9 @@ impl Kernel for Look<'_> {
 
     #[inline(always)]
     fn run<S: Wide>(self, simd: S) {
-        let Self { stepper, model, drive, from, h, share, progress } = self;
-        let Stepper { explicit, implicit, forces, dense, scratch, pair, .. } = stepper;
+        let Self { workspace, problem: Problem { model, drive }, span: Span { from, length: h }, share, progress } =
+            self;
+        let Workspace { explicit, implicit, forces, dense, scratch, pair, .. } = workspace;
         let cage = drive.cage_at(from + share * h);
         match pair {
             _ if progress.choice.implicit => implicit.dense(simd, &progress.state, share, dense),

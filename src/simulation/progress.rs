@@ -1,5 +1,6 @@
 //! The part of the state that the integration owns: plain numbers, all that its future depends on.
 
+use super::quantity::Count;
 use super::recorder::Due;
 use super::switching::Choice;
 use crate::dynamics::forces::SMOOTH;
@@ -58,6 +59,17 @@ impl Progress {
             implicit_steps: 0,
             rejected_steps: 0,
             defect_lookups: 0,
+        }
+    }
+
+    /// What the solver has counted. Approaches near the defect are looked up or, where the law `solves_grids`, solved for.
+    pub(super) fn count(&self, count: Count, solves_grids: bool) -> u64 {
+        match count {
+            Count::Steps => self.steps,
+            Count::RejectedSteps => self.rejected_steps,
+            Count::ContactSolves if solves_grids => self.defect_lookups,
+            Count::MapLookups if !solves_grids => self.defect_lookups,
+            Count::ContactSolves | Count::MapLookups => 0,
         }
     }
 

@@ -12,8 +12,8 @@ use std::f64::consts::TAU;
 
 use super::decimation::{Decimation, HALF, RATE_PER_PASS, UNDER_WAY, slot};
 use super::outputs::Outputs;
+use super::quantity::Quantity;
 use super::setup::largest_force;
-use super::table::Quantity;
 use super::variables::{Causality, Variable};
 use crate::geometry::hertz_constant::HertzConstants;
 use crate::scene::{self, RecorderFilter, Scene};

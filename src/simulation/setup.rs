@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::SimulationError;
-use super::table::{Quantity, RingName};
+use super::quantity::{Parameter, Quantity, RingName};
 use super::variables::{Kind, Variable};
 use crate::contact::map::ContactMap;
 use crate::contact::map_build::{MapSpecification, Runner, Sequential};
@@ -15,56 +15,6 @@ use crate::dynamics::model::Model;
 use crate::geometry::hertz_constant::HertzConstants;
 use crate::scene::{ContactLaw, Damping, Ring, Scene};
 use crate::surface::Surface;
-
-/// Where in the table the inputs of one ring stand.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct RingInputs {
-    pub(super) load: [Option<usize>; 2],
-    pub(super) position: [Option<usize>; 2],
-    pub(super) velocity: [Option<usize>; 2],
-    pub(super) acceleration: [Option<usize>; 2],
-}
-
-/// Where in the table the inputs stand, and the tolerance.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Inputs {
-    pub(super) speed: Option<usize>,
-    pub(super) tolerance: Option<usize>,
-    /// Inputs are the first so many rows.
-    pub(super) count: usize,
-    pub(super) shaft: RingInputs,
-    pub(super) housing: RingInputs,
-}
-
-impl Inputs {
-    /// `input_count` leading rows of the table are inputs; a ring's motion among the outputs is not.
-    pub(super) fn new(quantities: &[Quantity], input_count: usize) -> Self {
-        let mut inputs = Self {
-            tolerance: quantities.iter().position(|&q| q == Quantity::Tolerance),
-            count: input_count,
-            ..Self::default()
-        };
-        for (index, &quantity) in quantities.iter().take(input_count).enumerate() {
-            let place = match quantity {
-                Quantity::ShaftSpeed => &mut inputs.speed,
-                Quantity::Load(ring, axis) => &mut inputs.ring(ring).load[axis],
-                Quantity::Position(ring, axis) => &mut inputs.ring(ring).position[axis],
-                Quantity::Velocity(ring, axis) => &mut inputs.ring(ring).velocity[axis],
-                Quantity::Acceleration(ring, axis) => &mut inputs.ring(ring).acceleration[axis],
-                _ => continue,
-            };
-            *place = Some(index);
-        }
-        inputs
-    }
-
-    fn ring(&mut self, ring: RingName) -> &mut RingInputs {
-        match ring {
-            RingName::Shaft => &mut self.shaft,
-            RingName::Housing => &mut self.housing,
-        }
-    }
-}
 
 /// Start values of the table: reals, and beside them integers.
 pub(super) fn start_values(table: &[Variable]) -> (Vec<f64>, Vec<i32>) {
@@ -79,8 +29,8 @@ pub(super) fn start_values(table: &[Variable]) -> (Vec<f64>, Vec<i32>) {
 }
 
 /// Value of a real parameter, if the scene has it.
-pub(super) fn parameter(quantities: &[Quantity], values: &[f64], wanted: Quantity) -> Option<f64> {
-    quantities.iter().position(|&q| q == wanted).map(|i| values[i])
+pub(super) fn parameter(quantities: &[Quantity], values: &[f64], wanted: Parameter) -> Option<f64> {
+    quantities.iter().position(|&q| q == Quantity::Parameter(wanted)).map(|i| values[i])
 }
 
 /// The scene with the parameters that the host has set, checked again.
@@ -92,30 +42,32 @@ pub(super) fn with_parameters(
 ) -> Result<Scene, SimulationError> {
     let mut changed = scene.clone();
     for ((&quantity, &value), &integer) in quantities.iter().zip(values).zip(integers) {
-        match quantity {
-            Quantity::RadialClearance => changed.bearing.radial_clearance = value,
-            Quantity::ContactDamping => {
+        let Quantity::Parameter(parameter) = quantity else { continue };
+        match parameter {
+            Parameter::RadialClearance => changed.bearing.radial_clearance = value,
+            Parameter::ContactDamping => {
                 changed.contact.damping = match changed.contact.damping {
                     Damping::HuntCrossley(_) => Damping::HuntCrossley(value),
                     Damping::Proportional(_) => Damping::Proportional(value),
                 }
             }
-            Quantity::ContactLaw => {
+            Parameter::ContactLaw => {
                 // Other numbers were refused when they were set.
                 changed.contact.law = ContactLaw::numbered(integer).unwrap_or(changed.contact.law);
             }
-            Quantity::CageSlip => changed.cage.slip = value,
-            Quantity::CageInitialAngle => changed.cage.initial_angle = value,
-            Quantity::DefectAngle => {
+            Parameter::CageSlip => changed.cage.slip = value,
+            Parameter::CageInitialAngle => changed.cage.initial_angle = value,
+            Parameter::DefectAngle => {
                 if let Some(defect) = &mut changed.defect {
                     defect.angle = value;
                 }
             }
-            Quantity::RingMass(ring) => ring_of(&mut changed, ring).mass = value,
-            Quantity::RingDamping(ring) => ring_of(&mut changed, ring).damping = value,
-            Quantity::RingStiffness(ring) => ring_of(&mut changed, ring).stiffness = value,
-            Quantity::Tolerance => changed.tolerance = value,
-            _ => {}
+            Parameter::RingMass(ring) => ring_of(&mut changed, ring).mass = value,
+            Parameter::RingDamping(ring) => ring_of(&mut changed, ring).damping = value,
+            Parameter::RingStiffness(ring) => ring_of(&mut changed, ring).stiffness = value,
+            Parameter::Tolerance => changed.tolerance = value,
+            // The recorder is no part of the model.
+            Parameter::RecorderFolder => {}
         }
     }
     changed.check()?;

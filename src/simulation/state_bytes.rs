@@ -4,10 +4,11 @@
 //! Numbers are written bit by bit, so a state that went through bytes continues with the same bits, also in another
 //! process. The bytes carry no version and no checksum: whoever stores them adds both.
 
+use super::instance::Simulation;
 use super::recorder::Recorder;
-use super::stepper::SMALLEST_STEP;
+use super::state::State;
+use super::step_error::SMALLEST_STEP;
 use super::variables::{Causality, Kind, Variable};
-use super::{Simulation, State};
 
 impl State {
     /// The state as bytes.
@@ -27,7 +28,7 @@ impl State {
     pub fn byte_count(&self) -> usize {
         let progress = &self.progress;
         let fixed = 8 + 1 + 8 + 8 + 2 * 8 + (1 + 4 * 4 + 2 * 8 + 1) + 4 * 8 + 4 * 8 + 2 * 8;
-        let real = progress.state.len() + progress.under_way.len() + self.values.len();
+        let real = progress.state.len() + progress.under_way.len() + self.reals.len();
         let rates = self.input_rates.as_flattened().len();
         fixed + 8 * real + 9 * rates + 4 * (progress.cells.len() + self.integers.len()) + progress.pushing.len()
     }
@@ -53,7 +54,7 @@ impl State {
         real(&mut choice.gained, field)?;
         real(&mut choice.stable_step, field)?;
         flag(&mut choice.damped, field)?;
-        let lists = [&mut progress.mean_force[..], &mut progress.state, &mut progress.under_way, &mut self.values];
+        let lists = [&mut progress.mean_force[..], &mut progress.state, &mut progress.under_way, &mut self.reals];
         for value in lists.into_iter().flatten() {
             real(value, field)?;
         }
@@ -126,7 +127,7 @@ impl Simulation {
             &progress.mean_force,
             &progress.state,
             &progress.under_way,
-            &state.values,
+            &state.reals,
         ];
         let rates = state.input_rates.as_flattened().iter().flatten();
         if !numbers.into_iter().flatten().chain(rates).all(|number| number.is_finite()) {
@@ -166,7 +167,7 @@ impl Simulation {
         }
         let in_range = |variable: &Variable| {
             let (value, integer) =
-                (state.values[variable.reference as usize], state.integers[variable.reference as usize]);
+                (state.reals[variable.reference as usize], state.integers[variable.reference as usize]);
             match variable.kind {
                 // What inputs have reached since they were set may be beyond what can be set.
                 Kind::Real { min, max, .. } if variable.causality == Causality::Parameter => {

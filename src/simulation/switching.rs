@@ -13,8 +13,8 @@
 //! Explicit steps stay within h|λ| = r of the last look. Error control alone lets them swing across it, and what grows there
 //! before it is noticed is noise as large as the tolerance: in a healthy bearing several times all other errors.
 
-use super::explicit::Pair;
-use super::stepper::SMALLEST_STEP;
+use super::pair::Pair;
+use super::step_error::SMALLEST_STEP;
 use super::{dormand_prince, phase_fitted, rodas};
 use crate::dynamics::jacobian::Jacobian;
 

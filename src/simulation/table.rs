@@ -2,57 +2,9 @@
 //!
 //! Inputs come first, then outputs, then parameters. A variable's index is its FMI value reference.
 
-use super::driving::derivatives;
+use super::quantity::{Count, Parameter, Quantity, Quantity as Q, RingName};
 use super::variables::{Causality, Kind, Unit, Variability, Variable};
 use crate::scene::{ContactLaw, Damping, Motion, Scene};
-
-/// One of the two rings.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum RingName {
-    /// The inner ring.
-    Shaft,
-    /// The outer ring.
-    Housing,
-}
-
-/// What a variable stands for in the model. `usize` arguments are the axis (0 is x, 1 is y) or the element (from 0).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub enum Quantity {
-    ShaftSpeed,
-    Load(RingName, usize),
-    Position(RingName, usize),
-    Velocity(RingName, usize),
-    Acceleration(RingName, usize),
-    Force(RingName, usize),
-    MeanForce(RingName, usize),
-    Stiffness(usize, usize),
-    SensorAcceleration,
-    CageAngle,
-    CageSpeed,
-    CageTorque,
-    ElementAngle(usize),
-    ElementPath(usize),
-    ElementInnerForce(usize),
-    ElementOuterForce(usize),
-    Steps,
-    RejectedSteps,
-    ContactSolves,
-    MapLookups,
-    RadialClearance,
-    ContactDamping,
-    ContactLaw,
-    CageSlip,
-    CageInitialAngle,
-    DefectAngle,
-    RingMass(RingName),
-    RingDamping(RingName),
-    RingStiffness(RingName),
-    Tolerance,
-    RecorderFolder,
-}
-
-use Quantity as Q;
 
 /// Items of the enumeration type of `contact.law`, the first having value 1.
 pub const CONTACT_LAWS: &[(&str, &str)] = &{
@@ -209,22 +161,22 @@ impl Builder<'_> {
                 100.0,
             );
         }
-        self.counter("solver.steps", "Integration steps taken since the start", Q::Steps);
+        self.counter("solver.steps", "Integration steps taken since the start", Q::Count(Count::Steps));
         self.counter(
             "solver.rejected_steps",
             "Integration steps taken again with a shorter one, for error or to land",
-            Q::RejectedSteps,
+            Q::Count(Count::RejectedSteps),
         );
         if self.scene.defect.is_some() {
             self.counter(
                 "solver.contact_solves",
                 "Contacts near the defect that were solved on a grid since the start",
-                Q::ContactSolves,
+                Q::Count(Count::ContactSolves),
             );
             self.counter(
                 "solver.map_lookups",
                 "Approaches near the defect that were looked up in the path or map since the start",
-                Q::MapLookups,
+                Q::Count(Count::MapLookups),
             );
         }
     }
@@ -274,7 +226,7 @@ impl Builder<'_> {
         self.parameter(
             "bearing.radial_clearance",
             "Radial internal clearance; negative is a preload",
-            Q::RadialClearance,
+            Q::Parameter(Parameter::RadialClearance),
             Unit::Metre,
             p(bearing.radial_clearance, -bearing.element_diameter, bearing.element_diameter, 1e-5),
         );
@@ -285,7 +237,7 @@ impl Builder<'_> {
         self.parameter(
             "contact.damping",
             &format!("Contact damping: {what}"),
-            Q::ContactDamping,
+            Q::Parameter(Parameter::ContactDamping),
             unit,
             p(damping, 0.0, 1e6, nominal),
         );
@@ -294,19 +246,19 @@ impl Builder<'_> {
             "Law of the outer contact near the defect",
             Kind::Enumeration { type_name: "ContactLaw", items: CONTACT_LAWS, start: scene.contact.law.number() },
             (Causality::Parameter, Variability::Fixed),
-            Q::ContactLaw,
+            Q::Parameter(Parameter::ContactLaw),
         );
         self.parameter(
             "cage.slip",
             "Lag of the cage behind pure rolling",
-            Q::CageSlip,
+            Q::Parameter(Parameter::CageSlip),
             Unit::One,
             p(scene.cage.slip, 0.0, 1.0, 0.01),
         );
         self.parameter(
             "cage.initial_angle",
             "Angle of element 1 at the start, counter-clockwise from +x",
-            Q::CageInitialAngle,
+            Q::Parameter(Parameter::CageInitialAngle),
             Unit::Radian,
             p(scene.cage.initial_angle, -1e3, 1e3, 1.0),
         );
@@ -314,7 +266,7 @@ impl Builder<'_> {
             self.parameter(
                 "defect.angle",
                 "Angle of the defect's centre, counter-clockwise from +x",
-                Q::DefectAngle,
+                Q::Parameter(Parameter::DefectAngle),
                 Unit::Radian,
                 p(defect.angle, -1e3, 1e3, 1.0),
             );
@@ -330,21 +282,21 @@ impl Builder<'_> {
             self.parameter(
                 &format!("{name}.mass"),
                 &format!("Mass of the {what} and what moves with it"),
-                Q::RingMass(ring),
+                Q::Parameter(Parameter::RingMass(ring)),
                 Unit::Kilogram,
                 p(parts.mass, 1e-6, 1e9, 1.0),
             );
             self.parameter(
                 &format!("{name}.damping"),
                 &format!("Viscous damping of the {what} to ground"),
-                Q::RingDamping(ring),
+                Q::Parameter(Parameter::RingDamping(ring)),
                 Unit::NewtonSecondPerMetre,
                 p(parts.damping, 0.0, 1e12, 1000.0),
             );
             self.parameter(
                 &format!("{name}.stiffness"),
                 &format!("Support stiffness of the {what} to ground"),
-                Q::RingStiffness(ring),
+                Q::Parameter(Parameter::RingStiffness(ring)),
                 Unit::NewtonPerMetre,
                 p(parts.stiffness, 0.0, 1e15, 1e7),
             );
@@ -352,7 +304,7 @@ impl Builder<'_> {
         self.parameter(
             "solver.tolerance",
             "Relative tolerance of the time integration",
-            Q::Tolerance,
+            Q::Parameter(Parameter::Tolerance),
             Unit::One,
             p(scene.tolerance, 1e-12, 0.1, 1e-5),
         );
@@ -362,14 +314,14 @@ impl Builder<'_> {
                 "Folder for the recording, <instance name>.npy; empty for none",
                 Kind::Text { start: String::new() },
                 (Causality::Parameter, Variability::Fixed),
-                Q::RecorderFolder,
+                Q::Parameter(Parameter::RecorderFolder),
             );
         }
     }
 
     fn input(&mut self, name: &str, text: &str, quantity: Quantity, unit: Unit, start: f64, range: (f64, f64)) {
         let kind = Kind::Real { unit, start: Some(start), min: Some(-range.0), max: Some(range.0), nominal: range.1 };
-        let text = [text, "; ", derivatives(quantity).1].concat();
+        let text = [text, "; ", quantity.input_derivatives().1].concat();
         self.push(name, &text, kind, (Causality::Input, Variability::Continuous), quantity);
     }
 

@@ -1,9 +1,8 @@
 //! The variables' values, set and read by value reference.
 
-use super::Simulation;
 use super::access;
-use super::driving;
 use super::error::{SimulationError, VariableError};
+use super::instance::{Fresh, Simulation};
 use super::variables::{Causality, Kind, Variable};
 
 impl Simulation {
@@ -17,10 +16,9 @@ impl Simulation {
                 .try_for_each(|(&reference, &value)| self.check_real(reference, value));
         };
         for (&reference, &value) in references.iter().zip(values) {
-            self.values[reference as usize] = value;
+            self.state.reals[reference as usize] = value;
         }
-        self.model_is_stale |= classes & access::PARAMETER != 0;
-        self.mark_set();
+        self.note_set(classes & access::PARAMETER != 0);
         Ok(())
     }
 
@@ -29,14 +27,14 @@ impl Simulation {
         let Some(classes) = access::classes(&self.access, references) else {
             return Err(self.not_real(references).into());
         };
-        if classes & access::OUTPUT != 0 && self.outputs_are_stale {
+        if classes & access::OUTPUT != 0 {
             self.refresh()?;
         }
         if classes & access::STIFFNESS != 0 {
             self.refresh_stiffness();
         }
         for (value, &reference) in values.iter_mut().zip(references) {
-            *value = self.values[reference as usize];
+            *value = self.state.reals[reference as usize];
         }
         Ok(())
     }
@@ -64,10 +62,9 @@ impl Simulation {
             }
         }
         for (&reference, &value) in references.iter().zip(values) {
-            self.integers[reference as usize] = value;
-            self.model_is_stale = true;
+            self.state.integers[reference as usize] = value;
         }
-        self.mark_set();
+        self.note_set(!references.is_empty());
         Ok(())
     }
 
@@ -81,11 +78,11 @@ impl Simulation {
             }
             outputs |= variable.kind == Kind::Integer;
         }
-        if outputs && self.outputs_are_stale {
+        if outputs {
             self.refresh()?;
         }
         for (value, &reference) in values.iter_mut().zip(references) {
-            *value = self.integers[reference as usize];
+            *value = self.state.integers[reference as usize];
         }
         Ok(())
     }
@@ -107,7 +104,7 @@ impl Simulation {
             if variable.causality != Causality::Input || order < 1 {
                 return Err(VariableError::Derivative { name: name(), order });
             }
-            let (highest, _) = driving::derivatives(self.quantities[reference as usize]);
+            let (highest, _) = self.quantities[reference as usize].input_derivatives();
             if order > highest {
                 return Err(VariableError::UnusedDerivative { name: name(), order, highest });
             }
@@ -116,13 +113,13 @@ impl Simulation {
             }
         }
         for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
-            self.input_rates[reference as usize][order as usize - 1] = Some(value);
+            self.state.input_rates[reference as usize][order as usize - 1] = Some(value);
         }
         Ok(())
     }
 
     /// The error for the first reference that is unknown or not real.
-    pub(super) fn not_real(&self, references: &[u32]) -> VariableError {
+    fn not_real(&self, references: &[u32]) -> VariableError {
         let error = |&reference: &u32| match self.variable(reference) {
             Ok(variable) if matches!(variable.kind, Kind::Real { .. }) => None,
             Ok(variable) => Some(wrong_type(variable, "Real")),
@@ -156,10 +153,42 @@ impl Simulation {
             .ok_or_else(|| VariableError::UnknownReference(reference, self.table.len() as u32 - 1))
     }
 
-    pub(super) fn mark_set(&mut self) {
-        self.outputs_are_stale = true;
-        self.stiffness_is_stale = true;
-        self.equilibrium_is_stale = true;
+    /// Notes that inputs or, if `model`, parameters have been set.
+    fn note_set(&mut self, model: bool) {
+        self.outdate(match (model, self.state.started) {
+            (true, _) => Fresh::Nothing,
+            (false, false) => Fresh::Model,
+            (false, true) => Fresh::State,
+        });
+    }
+
+    /// Reads strings.
+    pub fn strings(&self, references: &[u32]) -> Result<Vec<String>, VariableError> {
+        references.iter().map(|&reference| Ok(self.folder(reference)?.to_owned())).collect()
+    }
+
+    /// Sets strings; all or none; before `initialize`. Strings are no part of the state: a state that is restored
+    /// elsewhere does not write into this host's folder.
+    pub fn set_strings(&mut self, references: &[u32], values: &[&str]) -> Result<(), VariableError> {
+        for &reference in references {
+            self.folder(reference)?;
+            if self.state.started {
+                return Err(not_settable(self.variable(reference)?, "parameters are fixed after initialization"));
+            }
+        }
+        // The folder is the only string, so the last value holds.
+        if let Some(value) = values.last() {
+            self.record_into(value);
+        }
+        Ok(())
+    }
+
+    fn folder(&self, reference: u32) -> Result<&str, VariableError> {
+        let variable = self.variable(reference)?;
+        match (&variable.kind, &self.recorder) {
+            (Kind::Text { .. }, Some(recorder)) => Ok(&recorder.folder),
+            _ => Err(wrong_type(variable, "String")),
+        }
     }
 }
 
@@ -170,7 +199,7 @@ pub(super) fn wrong_type(variable: &Variable, wanted: &'static str) -> VariableE
     VariableError::WrongType { name: variable.name.clone(), reference: variable.reference, wanted }
 }
 
-pub(super) fn not_settable(variable: &Variable, why: &'static str) -> VariableError {
+fn not_settable(variable: &Variable, why: &'static str) -> VariableError {
     VariableError::NotSettable { name: variable.name.clone(), why }
 }
 

@@ -1,0 +1,52 @@
+//! A small change of the bearing, of which the derivatives of outputs are made.
+
+use super::quantity::RingName;
+use crate::dynamics::kinematics::RingState;
+use crate::dynamics::tangent::Rings;
+use crate::dynamics::variation::{ForceChange, Variation};
+use crate::numerics::plane::{Matrix, Vector};
+
+/// A small change of everything that outputs are made of, and what it makes of the forces.
+#[derive(Debug, Clone)]
+pub(super) struct Change {
+    pub(super) variation: Variation,
+    pub(super) forces: ForceChange,
+    /// Of the external loads on inner and outer ring [N].
+    pub(super) loads: Rings,
+    /// Of the sensor's position and velocity.
+    pub(super) sensor: [f64; 2],
+    /// Of the accelerations of inner and outer ring [m/s²].
+    pub(super) accelerations: [Vector; 2],
+    pub(super) sensor_acceleration: f64,
+    pub(super) cage_torque: f64,
+    pub(super) stiffness: Matrix,
+}
+
+impl Change {
+    pub(super) fn new(count: usize) -> Self {
+        Self {
+            variation: Variation::new(count),
+            forces: ForceChange::new(count),
+            loads: Rings::zeros(),
+            sensor: [0.0; 2],
+            accelerations: [Vector::zeros(); 2],
+            sensor_acceleration: 0.0,
+            cage_torque: 0.0,
+            stiffness: Matrix::zeros(),
+        }
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.variation.clear();
+        (self.loads, self.sensor, self.accelerations) = (Rings::zeros(), [0.0; 2], [Vector::zeros(); 2]);
+        (self.sensor_acceleration, self.cage_torque) = (0.0, 0.0);
+        self.stiffness = Matrix::zeros();
+    }
+
+    pub(super) fn ring(&mut self, name: RingName) -> &mut RingState {
+        match name {
+            RingName::Shaft => &mut self.variation.shaft,
+            RingName::Housing => &mut self.variation.housing,
+        }
+    }
+}

@@ -1,0 +1,53 @@
+//! Where in the variable table the inputs stand.
+
+use super::quantity::{Parameter, Quantity, RingName};
+
+/// Where in the table the inputs of one ring stand.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct RingInputs {
+    pub(super) load: [Option<usize>; 2],
+    pub(super) position: [Option<usize>; 2],
+    pub(super) velocity: [Option<usize>; 2],
+    pub(super) acceleration: [Option<usize>; 2],
+}
+
+/// Where in the table the inputs stand, and the tolerance.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Inputs {
+    pub(super) speed: Option<usize>,
+    pub(super) tolerance: Option<usize>,
+    /// Inputs are the first so many rows.
+    pub(super) count: usize,
+    pub(super) shaft: RingInputs,
+    pub(super) housing: RingInputs,
+}
+
+impl Inputs {
+    /// `input_count` leading rows of the table are inputs; a ring's motion among the outputs is not.
+    pub(super) fn new(quantities: &[Quantity], input_count: usize) -> Self {
+        let mut inputs = Self {
+            tolerance: quantities.iter().position(|&q| q == Quantity::Parameter(Parameter::Tolerance)),
+            count: input_count,
+            ..Self::default()
+        };
+        for (index, &quantity) in quantities.iter().take(input_count).enumerate() {
+            let place = match quantity {
+                Quantity::ShaftSpeed => &mut inputs.speed,
+                Quantity::Load(ring, axis) => &mut inputs.ring(ring).load[axis],
+                Quantity::Position(ring, axis) => &mut inputs.ring(ring).position[axis],
+                Quantity::Velocity(ring, axis) => &mut inputs.ring(ring).velocity[axis],
+                Quantity::Acceleration(ring, axis) => &mut inputs.ring(ring).acceleration[axis],
+                _ => continue,
+            };
+            *place = Some(index);
+        }
+        inputs
+    }
+
+    fn ring(&mut self, ring: RingName) -> &mut RingInputs {
+        match ring {
+            RingName::Shaft => &mut self.shaft,
+            RingName::Housing => &mut self.housing,
+        }
+    }
+}

@@ -1,0 +1,345 @@
+//! One bearing from its scene on: its life from setting up to stepping, and its state taken and put back.
+
+use super::access::Access;
+use super::change::Change;
+use super::dependencies;
+use super::driving;
+use super::error::{SimulationError, VariableError};
+use super::inputs::Inputs;
+use super::progress::Progress;
+use super::quantity::{Parameter, Quantity};
+use super::recorder::{Due, Recorder};
+use super::setup;
+use super::state::State;
+use super::stepper::{Control, Stepper};
+use super::switching::Method;
+use super::table;
+use super::variables::{Causality, Dependencies, Variable};
+use super::workspace::{Problem, Workspace};
+use crate::contact::map::ContactMap;
+use crate::dynamics::drive::{CageAngle, Drive};
+use crate::dynamics::forces::{Forces, SMOOTH};
+use crate::dynamics::model::Model;
+use crate::numerics::plane::Vector;
+use crate::scene::{ContactLaw, Scene};
+use crate::surface::Surface;
+use std::sync::Arc;
+
+/// A bearing that is stepped through time.
+///
+/// Life: [`new`](Self::new), set parameters and inputs, [`initialize`](Self::initialize), then set inputs and
+/// [`step`](Self::step). Reading outputs before `initialize` computes the static equilibrium of the values set so far.
+#[derive(Debug, Clone)]
+pub struct Simulation {
+    pub(super) scene: Arc<Scene>,
+    pub(super) surface: Option<Arc<Surface>>,
+    /// The contact map stored with the scene.
+    pub(super) map: Option<Arc<ContactMap>>,
+    /// Shared by clones, as what follows from the table is.
+    pub(super) table: Arc<[Variable]>,
+    pub(super) quantities: Arc<[Quantity]>,
+    pub(super) access: Arc<[Access]>,
+    pub(super) inputs: Inputs,
+    pub(super) model: Model,
+    workspace: Workspace,
+    /// `None` where the scene has no recorder.
+    pub(super) recorder: Option<Recorder>,
+    pub(super) method: Method,
+    pub(super) forces: Forces,
+    pub(super) derivative: Vec<f64>,
+    pub(super) change: Change,
+    /// The outer ring's acceleration when outputs were computed last [m/s²].
+    pub(super) present_acceleration: Vector,
+    pub(super) state: State,
+    pub(super) fresh: Fresh,
+}
+
+/// The last of what has been computed for the values that are set now. Each follows from the one before it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Fresh {
+    /// Nothing: parameters have been set since the model was built.
+    Nothing,
+    /// The model; before the start the equilibrium is still to be found.
+    Model,
+    /// The state vector.
+    State,
+    /// All outputs but the stiffness.
+    Outputs,
+    /// The stiffness as well.
+    Stiffness,
+}
+
+impl Simulation {
+    /// Sets up the scene. `profile` is the text of the defect's profile file, when the scene names one.
+    ///
+    /// # Errors
+    /// An impossible scene or profile.
+    pub fn new(scene: Scene, profile: Option<&str>) -> Result<Self, SimulationError> {
+        Self::with_map(scene, profile, None)
+    }
+
+    /// As [`new`](Self::new), with the bytes of the contact map that was stored for the scene. Without it, law `map`
+    /// computes the map on initialization, which takes seconds.
+    ///
+    /// # Errors
+    /// An impossible scene or profile; a map that is damaged or belongs to something else.
+    pub fn with_map(scene: Scene, profile: Option<&str>, map: Option<&[u8]>) -> Result<Self, SimulationError> {
+        // Without a defect there is nothing to look up.
+        let map = map.filter(|_| scene.defect.is_some()).map(ContactMap::decode).transpose()?;
+        Self::with_shared_map(scene, profile, map.map(Arc::new))
+    }
+
+    /// As [`with_map`](Self::with_map), with a map that others may use as well.
+    ///
+    /// # Errors
+    /// As [`with_map`](Self::with_map).
+    pub fn with_shared_map(
+        scene: Scene,
+        profile: Option<&str>,
+        map: Option<Arc<ContactMap>>,
+    ) -> Result<Self, SimulationError> {
+        scene.check()?;
+        let surface =
+            scene.defect.as_ref().map(|defect| Surface::load(&defect.shape, profile, &scene.bearing)).transpose()?;
+        let (table, quantities): (Vec<_>, Vec<_>) = table::rows(&scene).into_iter().unzip();
+        let access = table.iter().zip(&quantities).map(|(row, &quantity)| Access::new(row, quantity)).collect();
+        let (reals, integers) = setup::start_values(&table);
+        let map = map.filter(|_| surface.is_some());
+        if let (Some(surface), Some(map)) = (&surface, &map) {
+            map.check_fingerprint(setup::map_fingerprint(&scene, surface))?;
+        }
+        // What takes long is left to the initialization: the host may change parameters before it.
+        let is_complete = surface.is_none()
+            || match scene.contact.law {
+                ContactLaw::Hertz => true,
+                ContactLaw::Map => map.is_some(),
+                ContactLaw::Love => false,
+            };
+        let model = setup::build_model(&scene, surface.as_ref().filter(|_| is_complete), map.as_ref())?;
+        let recorder = Recorder::of(&scene, &table, &quantities);
+        let progress = Progress::new(model.layout.len, model.element_count, under_way(&recorder));
+        let inputs = Inputs::new(&quantities, table.iter().take_while(|v| v.causality == Causality::Input).count());
+        Ok(Self {
+            inputs,
+            workspace: Workspace::new(&model),
+            recorder,
+            method: Method::Automatic,
+            forces: Forces::new(model.element_count),
+            derivative: vec![0.0; model.layout.len],
+            change: Change::new(model.element_count),
+            present_acceleration: Vector::zeros(),
+            state: State {
+                time: 0.0,
+                started: false,
+                cage: CageAngle::new(scene.cage.initial_angle),
+                progress,
+                reals,
+                integers,
+                input_rates: vec![[None; 2]; inputs.count],
+            },
+            scene: Arc::new(scene),
+            surface: surface.map(Arc::new),
+            map,
+            table: table.into(),
+            access,
+            quantities: quantities.into(),
+            model,
+            fresh: if is_complete { Fresh::Model } else { Fresh::Nothing },
+        })
+    }
+
+    /// The variables, ordered by value reference, which is the index.
+    pub fn table(&self) -> &[Variable] {
+        &self.table
+    }
+
+    /// Value reference of the variable of this name.
+    ///
+    /// # Errors
+    /// The scene has no such variable.
+    pub fn reference(&self, name: &str) -> Result<u32, VariableError> {
+        let variable = self.table.iter().find(|variable| variable.name == name);
+        variable.map(|variable| variable.reference).ok_or_else(|| VariableError::UnknownName(name.to_owned()))
+    }
+
+    /// What each output depends on, in the order of the table.
+    pub fn dependencies(&self) -> Vec<Dependencies> {
+        dependencies::of(&self.table, &self.quantities, &self.scene)
+    }
+
+    /// The scene as it was set up.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Time [s].
+    pub fn time(&self) -> f64 {
+        self.state.time
+    }
+
+    /// Chooses the integration method, for studies; automatic unless this is called. No part of the state.
+    pub fn set_method(&mut self, method: Method) {
+        self.method = method;
+        // What is stable is to be looked at anew: it was for another method.
+        self.state.progress.choice.stable_step = 0.0;
+    }
+
+    /// Accepted integration steps so far, and how many of them the implicit method took.
+    pub fn step_counts(&self) -> (u64, u64) {
+        (self.state.progress.steps, self.state.progress.implicit_steps)
+    }
+
+    /// The recorder, if the scene has one and the host has given it a folder.
+    pub fn recorder(&self) -> Option<&Recorder> {
+        self.recorder.as_ref().filter(|recorder| recorder.is_on())
+    }
+
+    /// Gives the recorder a folder; an empty one switches it off. Does nothing where the scene has no recorder.
+    pub fn record_into(&mut self, folder: &str) {
+        if let Some(recorder) = &mut self.recorder {
+            folder.clone_into(&mut recorder.folder);
+        }
+    }
+
+    /// Drops the rows kept in the recorder, once they have been stored.
+    pub fn forget_samples(&mut self) {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.forget(&self.state.progress.due);
+        }
+    }
+
+    /// The equations of motion and what acts from outside from now on, for studies that integrate them themselves.
+    pub fn equations(&self) -> (&Model, Drive) {
+        (&self.model, self.drive(true))
+    }
+
+    /// The state vector, laid out as [`crate::dynamics::model::Layout`] says.
+    pub fn state_vector(&self) -> &[f64] {
+        &self.state.progress.state
+    }
+
+    /// Solves the static equilibrium at `start` [s] and ends the setting of parameters.
+    pub fn initialize(&mut self, start: f64) -> Result<(), SimulationError> {
+        self.find_equilibrium()?;
+        self.state.time = start;
+        self.state.started = true;
+        self.forget_samples();
+        Ok(())
+    }
+
+    /// Advances by exactly `step` [s].
+    pub fn step(&mut self, step: f64) -> Result<(), SimulationError> {
+        if !(step > 0.0 && step.is_finite()) {
+            return Err(SimulationError::CommunicationStep(step));
+        }
+        if !self.state.started {
+            return Err(SimulationError::NotInitialized);
+        }
+        let drive = self.drive(true);
+        let control = Control {
+            tolerance: self.inputs.tolerance.map_or(self.scene.tolerance, |i| self.state.reals[i]),
+            max_steps: self.scene.max_steps,
+            method: self.method,
+        };
+        self.fresh = Fresh::State;
+        self.model.forget_contacts();
+        let mut recorder = self.recorder.as_mut().filter(|recorder| recorder.is_on());
+        match &mut recorder {
+            Some(recorder) => recorder.begin(self.state.time, self.state.cage.total()),
+            // What is not sampled cannot be made up for: whoever records on from here begins anew.
+            None => self.state.progress.due = Due::default(),
+        }
+        let time = self.state.time;
+        let problem = Problem { model: &self.model, drive: &drive };
+        Stepper { problem, control, workspace: &mut self.workspace, progress: &mut self.state.progress, recorder }
+            .advance(step)
+            .map_err(|cause| SimulationError::Step { time, cause })?;
+        self.state.cage = self.state.cage.advanced(drive.cage.at(step));
+        self.state.time += step;
+        driving::follow(&mut self.state, &self.inputs, &drive, step);
+        Ok(())
+    }
+
+    /// Takes the state.
+    pub fn save(&self) -> State {
+        self.state.clone()
+    }
+
+    /// Takes the state over one taken earlier of this same model; allocates nothing.
+    pub fn save_into(&self, state: &mut State) {
+        state.copy_from(&self.state);
+    }
+
+    /// Puts a state of this same model back. An error leaves the simulation in need of another state or of a rebuild.
+    pub fn restore(&mut self, state: &State) -> Result<(), SimulationError> {
+        let present = &self.state;
+        let parameters_differ = self.table.iter().enumerate().any(|(i, variable)| {
+            variable.causality == Causality::Parameter
+                && (present.reals[i].to_bits() != state.reals[i].to_bits() || present.integers[i] != state.integers[i])
+        });
+        self.state.copy_from(state);
+        if let Some(recorder) = &mut self.recorder {
+            recorder.rewind(&self.state.progress.due);
+        }
+        self.outdate(if parameters_differ { Fresh::Nothing } else { Fresh::Model });
+        // Before the start, the equilibrium rebuilds the model when it is asked for.
+        if !self.state.started {
+            return Ok(());
+        }
+        self.rebuild()?;
+        let cells = self.model.defect.as_ref().map_or(0, |(near, _)| near.knots().len().saturating_sub(1));
+        if self.state.progress.cells.iter().all(|&cell| cell == SMOOTH || (cell as usize) < cells) {
+            self.fresh = Fresh::State;
+            Ok(())
+        } else {
+            Err(SimulationError::ForeignState)
+        }
+    }
+
+    /// Notes that what follows after `last` is no longer that of the values set.
+    pub(super) fn outdate(&mut self, last: Fresh) {
+        self.fresh = self.fresh.min(last);
+    }
+
+    /// Where every external influence is, during the next step if `stepping`.
+    pub(super) fn drive(&self, stepping: bool) -> Drive {
+        driving::drive(&self.state, &self.inputs, self.model.cage_ratio, stepping)
+    }
+
+    /// Rebuilds the model if parameters were set, and finds the equilibrium.
+    pub(super) fn find_equilibrium(&mut self) -> Result<(), SimulationError> {
+        self.rebuild()?;
+        let angle = setup::parameter(&self.quantities, &self.state.reals, Parameter::CageInitialAngle);
+        self.state.cage = CageAngle::new(angle.unwrap_or(self.scene.cage.initial_angle));
+        let drive = self.drive(false);
+        let cage_angle = drive.cage_angle(0.0);
+        let progress = &mut self.state.progress;
+        *progress = Progress::new(self.model.layout.len, self.model.element_count, under_way(&self.recorder));
+        for j in 0..self.model.element_count {
+            progress.cells[j] = self.model.cell_at(j, cage_angle);
+        }
+        self.model.equilibrium(&drive, &progress.cells, &mut progress.state)?;
+        self.model.forget_contacts();
+        self.model.derivative(&drive, 0.0, &progress.cells, &progress.state, &mut self.derivative, &mut self.forces);
+        self.forces.note_pushing(&mut progress.pushing);
+        let (shaft, housing) = (self.forces.shaft(), self.forces.housing());
+        progress.mean_force = [shaft.x, shaft.y, housing.x, housing.y];
+        self.fresh = Fresh::State;
+        Ok(())
+    }
+
+    fn rebuild(&mut self) -> Result<(), SimulationError> {
+        if self.fresh > Fresh::Nothing {
+            return Ok(());
+        }
+        let scene = setup::with_parameters(&self.scene, &self.quantities, &self.state.reals, &self.state.integers)?;
+        self.model = setup::build_model(&scene, self.surface.as_deref(), self.map.as_ref())?;
+        self.fresh = Fresh::Model;
+        Ok(())
+    }
+}
+
+/// Length of the rows that a recorder has under way.
+fn under_way(recorder: &Option<Recorder>) -> usize {
+    recorder.as_ref().map_or(0, Recorder::under_way)
+}

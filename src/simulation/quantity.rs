@@ -1,0 +1,86 @@
+//! What a variable stands for in the model, apart from its name.
+
+/// One of the two rings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RingName {
+    /// The inner ring.
+    Shaft,
+    /// The outer ring.
+    Housing,
+}
+
+impl RingName {
+    /// Position in lists of both rings, the inner one first.
+    pub(super) fn index(self) -> usize {
+        match self {
+            Self::Shaft => 0,
+            Self::Housing => 1,
+        }
+    }
+}
+
+/// What a variable stands for in the model. `usize` arguments are the axis (0 is x, 1 is y) or the element (from 0).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Quantity {
+    ShaftSpeed,
+    Load(RingName, usize),
+    Position(RingName, usize),
+    Velocity(RingName, usize),
+    Acceleration(RingName, usize),
+    Force(RingName, usize),
+    MeanForce(RingName, usize),
+    Stiffness(usize, usize),
+    SensorAcceleration,
+    CageAngle,
+    CageSpeed,
+    CageTorque,
+    ElementAngle(usize),
+    ElementPath(usize),
+    ElementInnerForce(usize),
+    ElementOuterForce(usize),
+    Count(Count),
+    Parameter(Parameter),
+}
+
+/// What the solver counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Count {
+    Steps,
+    RejectedSteps,
+    ContactSolves,
+    MapLookups,
+}
+
+/// What a host may set before the start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Parameter {
+    RadialClearance,
+    ContactDamping,
+    ContactLaw,
+    CageSlip,
+    CageInitialAngle,
+    DefectAngle,
+    RingMass(RingName),
+    RingDamping(RingName),
+    RingStiffness(RingName),
+    Tolerance,
+    RecorderFolder,
+}
+
+impl Quantity {
+    /// Highest order of the derivatives by time that act where a quantity is an input, and how its description says so.
+    ///
+    /// What would make a higher polynomial than [`Drive`](crate::dynamics::drive::Drive) has is refused: the cage's angle is
+    /// a quadratic, so that the instants at which elements pass knots are roots of one.
+    pub(super) fn input_derivatives(self) -> (i32, &'static str) {
+        match self {
+            Self::Position(..) => (2, "derivatives of orders 1 and 2 act, in place of velocity and acceleration"),
+            Self::Velocity(..) => (2, "derivatives of orders 1 and 2 act, in place of acceleration and its derivative"),
+            Self::Load(..) => (2, "derivatives of orders 1 and 2 act"),
+            _ => (1, "derivative of order 1 acts"),
+        }
+    }
+}
