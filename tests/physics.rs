@@ -43,7 +43,7 @@ fn the_element_forces_of_the_initial_equilibrium_add_up_to_the_load() {
     let shaft = [bearing.get("shaft.x"), bearing.get("shaft.y")];
     let housing = [bearing.get("housing.x"), bearing.get("housing.y")];
     let scene = shipped("6205-healthy");
-    let radius = scene.bearing.outer_raceway_radius() - 0.5 * scene.bearing.element_diameter;
+    let radius = scene.bearing.outer_raceway_radius() - scene.bearing.element_radius();
     for j in 1..=z {
         let angle = bearing.get(&format!("element[{j}].angle"));
         let rho = radius + bearing.get(&format!("element[{j}].path"));
@@ -104,7 +104,7 @@ fn without_load_and_gravity_nothing_moves() {
 /// Total energy of a bearing that stands: rings, radial motion of elements, contacts, supports, load and gravity.
 fn energy(bearing: &mut Named, scene: &Scene) -> f64 {
     let hertz = brinell::geometry::hertz_constant::HertzConstants::of(&scene.bearing);
-    let radius = scene.bearing.outer_raceway_radius() - 0.5 * scene.bearing.element_diameter;
+    let radius = scene.bearing.outer_raceway_radius() - scene.bearing.element_radius();
     let mass = scene.bearing.mass_of_element();
     let mut energy = 0.0;
     for (name, ring) in [("shaft", scene.shaft), ("housing", scene.housing)] {

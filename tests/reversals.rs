@@ -133,7 +133,7 @@ fn knots(scene: &Scene) -> Vec<f64> {
     let DefectShape::Spall { length, depth, edge_slope } = scene.defect.as_ref().unwrap().shape else { panic!() };
     let profile = Profile::spall(length, depth, edge_slope);
     let bearing = &scene.bearing;
-    let (element, raceway) = (0.5 * bearing.element_diameter, bearing.outer_raceway_radius());
+    let (element, raceway) = (bearing.element_radius(), bearing.outer_raceway_radius());
     RigidPath::new(profile.points(), element, raceway).unwrap().knots().to_vec()
 }
 

@@ -49,7 +49,7 @@ fn raceway_csv(model: &Model) -> Result<Vec<u8>> {
         Surface::Topography(topography) => topography.profile_at(0.0),
     };
     let radius = bearing.outer_raceway_radius();
-    let path = RigidPath::new(profile.points(), bearing.element_diameter / 2.0, radius)?;
+    let path = RigidPath::new(profile.points(), bearing.element_radius(), radius)?;
     let rigid = |arc: f64| {
         let after = path.knots().partition_point(|&knot| knot <= arc / radius);
         if after == 0 || after == path.knots().len() { 0.0 } else { path.at(after - 1, arc / radius).path }

@@ -25,7 +25,7 @@ use super::force_law::{Force, ForceLaw};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CompliantContact {
     /// The contact.
-    pub contact: ForceLaw,
+    pub law: ForceLaw,
     /// Compliance c [m/N]; 0 for none, which leaves every bit the contact's own.
     pub compliance: f64,
 }
@@ -37,39 +37,39 @@ impl CompliantContact {
         if self.compliance == 0.0 || delta <= 0.0 {
             return (delta, rate);
         }
-        let part = part(delta, self.contact.stiffness, self.compliance);
+        let part = part(delta, self.law.stiffness, self.compliance);
         (part.approach, part.share * part.share * rate)
     }
 
     /// Elastic force [N] at approach `delta` [m].
     pub fn elastic(&self, delta: f64) -> f64 {
-        self.contact.elastic(self.of_contact(delta, 0.0).0)
+        self.law.elastic(self.of_contact(delta, 0.0).0)
     }
 
     /// Elastic tangent stiffness [N/m] at approach `delta` [m].
     pub fn elastic_stiffness(&self, delta: f64) -> f64 {
         if self.compliance == 0.0 || delta <= 0.0 {
-            return self.contact.elastic_stiffness(delta);
+            return self.law.elastic_stiffness(delta);
         }
-        let part = part(delta, self.contact.stiffness, self.compliance);
-        self.contact.elastic_stiffness(part.approach) * part.share
+        let part = part(delta, self.law.stiffness, self.compliance);
+        self.law.elastic_stiffness(part.approach) * part.share
     }
 
     /// Force [N] at approach `delta` [m] and its rate [m/s].
     pub fn force(&self, delta: f64, rate: f64) -> f64 {
         let (delta, rate) = self.of_contact(delta, rate);
-        self.contact.force(delta, rate)
+        self.law.force(delta, rate)
     }
 
     /// Force with its derivatives.
     pub fn with_derivatives(&self, delta: f64, rate: f64) -> Force {
         if self.compliance == 0.0 || delta <= 0.0 {
-            return self.contact.with_derivatives(delta, rate);
+            return self.law.with_derivatives(delta, rate);
         }
-        let Part { approach, share } = part(delta, self.contact.stiffness, self.compliance);
-        let alone = self.contact.with_derivatives(approach, share * share * rate);
+        let Part { approach, share } = part(delta, self.law.stiffness, self.compliance);
+        let alone = self.law.with_derivatives(approach, share * share * rate);
         // s = 1/(1 + c k) falls as the contact hardens: ds/dΔ = −s³ c dk/dδ.
-        let hardening = 0.75 * self.contact.stiffness / approach.sqrt();
+        let hardening = 0.75 * self.law.stiffness / approach.sqrt();
         let share_by_approach = -share * share * share * self.compliance * hardening;
         Force {
             value: alone.value,
@@ -81,7 +81,7 @@ impl CompliantContact {
     /// As [`ForceLaw::pushing`].
     pub fn pushing(&self, delta: f64, rate: f64) -> f64 {
         let (delta, rate) = self.of_contact(delta, rate);
-        self.contact.pushing(delta, rate)
+        self.law.pushing(delta, rate)
     }
 }
 
@@ -130,7 +130,7 @@ mod tests {
         let dampings = [Damping::HuntCrossley(0.5), Damping::Proportional(1e-6)];
         dampings.into_iter().flat_map(|damping| {
             let contact = ForceLaw { stiffness: 1e10, damping };
-            [1e-9, 1e-8, 3e-7].map(|compliance| CompliantContact { contact, compliance })
+            [1e-9, 1e-8, 3e-7].map(|compliance| CompliantContact { law: contact, compliance })
         })
     }
 
@@ -207,7 +207,7 @@ mod tests {
     fn without_compliance_no_bit_is_other_than_the_contacts() {
         for law in contacts().map(|law| CompliantContact { compliance: 0.0, ..law }) {
             for (delta, rate) in [(3.7e-6, 0.013), (1.1e-5, -0.4), (-2e-6, 1.0), (0.0, 0.0)] {
-                let (alone, bits) = (law.contact, f64::to_bits);
+                let (alone, bits) = (law.law, f64::to_bits);
                 assert_eq!(bits(law.force(delta, rate)), bits(alone.force(delta, rate)));
                 assert_eq!(bits(law.pushing(delta, rate)), bits(alone.pushing(delta, rate)));
                 assert_eq!(bits(law.elastic(delta)), bits(alone.elastic(delta)));
@@ -220,7 +220,7 @@ mod tests {
     #[test]
     fn a_compliance_takes_its_linear_part_of_the_approach() {
         let contact = ForceLaw { stiffness: 2e10, damping: Damping::HuntCrossley(0.0) };
-        let law = CompliantContact { contact, compliance: 1e-8 };
+        let law = CompliantContact { law: contact, compliance: 1e-8 };
         // 632.4555… N over 10 µm in the contact and 6.324555… µm in the compliance; printed digits.
         assert!((law.elastic(16.324_555_320_336_76e-6) - 632.455_532_033_675_9).abs() < 1e-9);
         let springs = 1.0 / (1.5 * 632.455_532_033_675_9 / 1e-5) + 1e-8;
@@ -232,7 +232,7 @@ mod tests {
         for damping in [Damping::HuntCrossley(0.5), Damping::Proportional(1e-6)] {
             for compliance in [1e-9, 1e-8, 3e-7] {
                 let alone = ForceLaw { stiffness: 2e10, damping };
-                let law = CompliantContact { contact: alone, compliance };
+                let law = CompliantContact { law: alone, compliance };
                 let (total, rate) = (3e-5, 1e-5);
                 let share = part(total, alone.stiffness, compliance).share;
                 // Contact and damper against the spring: δ from the balance of forces at the contact's own rate.

@@ -14,6 +14,7 @@
 // `!(a > b)` is true for NaN as well, and is meant to be.
 #![allow(clippy::neg_cmp_op_on_partial_ord)]
 
+use crate::scene::Bearing;
 use crate::geometry::hertz_constant::squared_eccentricity;
 use crate::numerics::elliptic;
 use crate::surface::Surface;
@@ -29,6 +30,17 @@ pub struct ElementOnRaceway {
     pub raceway_radius: f64,
     /// Radius of the groove r_g [m].
     pub groove_radius: f64,
+}
+
+impl ElementOnRaceway {
+    /// Element and outer raceway of a bearing.
+    pub fn outer(bearing: &Bearing) -> Self {
+        Self {
+            element_radius: bearing.element_radius(),
+            raceway_radius: bearing.outer_raceway_radius(),
+            groove_radius: bearing.conformity_outer * bearing.element_diameter,
+        }
+    }
 }
 
 impl ElementOnRaceway {

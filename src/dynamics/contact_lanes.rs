@@ -5,7 +5,6 @@
 //!
 //! A place without an element has stiffness 0 and no derivative.
 
-use super::forces::Forces;
 use super::kinematics::{Kinematics, Stage};
 use super::model::Model;
 use crate::contact::force_law::DampedLaw;
@@ -136,7 +135,7 @@ impl Model {
         now: &Kinematics,
         stage: &Stage,
         derivative: &mut [f64],
-        forces: &mut Forces,
+        (groups, contacts): (&[Group], &mut Record),
     ) -> [f64; 4] {
         let start = self.layout.radial_velocity;
         let (offset, v, omega) = (now.offset(), now.housing.velocity, now.cage.speed);
@@ -147,9 +146,8 @@ impl Model {
         let smooth = Smooth { model: self, now, offset, drift, body, series, ahead: stage.ahead };
         let mut sums = Sums::default();
         if RECORD {
-            forces.contacts.outer_tangential.fill(0.0);
+            contacts.outer_tangential.fill(0.0);
         }
-        let Forces { groups, contacts, .. } = forces;
         let (state, derivative) = (blocks(stage.state), blocks_mut(derivative));
         for (k, group) in groups.iter().enumerate() {
             let w = start / WIDEST + k;
@@ -228,7 +226,7 @@ impl Smooth<'_> {
         let along = dot(simd, -turned(self.drift), e_r) + rho * Lanes::splat(simd, now.cage.speed);
         let opening = n_r * (dot(simd, self.drift, e_r) + path_rate) + n_t * along;
 
-        let law = DampedLaw::new(model.inner.damping, number);
+        let law = DampedLaw::new(model.inner.contact.law.damping, number);
         let inner = law.force(of(&group.inner), delta, -opening);
         let outer = law.force(of(&group.outer), u, path_rate);
         let turning = rho * Lanes::splat(simd, now.cage.speed * now.cage.speed);

@@ -10,10 +10,10 @@
 //! An element that nothing pushes rests against the outer raceway without force.
 
 use super::drive::{Drive, Quadratic};
-use super::forces::SMOOTH;
 use super::kinematics::Kinematics;
 use super::linearized::{Bends, Linearized};
 use super::model::Model;
+use super::raceway::SMOOTH;
 use super::tangent::{Rings, stacked};
 use crate::contact::error::ContactError;
 use crate::numerics::plane::Vector;
@@ -193,8 +193,7 @@ impl Model {
             let element = self.linearized_at(j, cell, (u - FURTHER, 0.0), &now, Bends::LeftOut);
             let residual = self.radial_balance(&element).0;
             if !(residual.abs() <= UNBALANCED * element.inner.norm()) {
-                let centre = self.defect.as_ref().map_or(0.0, |defect| defect.1);
-                let angle_deg = self.angle_from_defect(j, now.cage.angle, centre).to_degrees();
+                let angle_deg = self.angle_from_defect(j, now.cage.angle).to_degrees();
                 return Err(EquilibriumError::Contact { element: j + 1, angle_deg, residual, cause });
             }
         }

@@ -17,14 +17,11 @@ use super::contact_lanes::{Group, Record};
 use super::drive::Drive;
 use super::kinematics::{Kinematics, Stage, moved};
 use super::model::Model;
+use super::raceway::SMOOTH;
 use crate::contact::error::ContactError;
 use crate::contact::near_defect::OuterApproach;
 use crate::numerics::lanes::{Each, Kernel, Lanes, Lists, QUAD, WIDEST, Wide, dispatch, largest_of, places};
 use crate::numerics::plane::{Vector, turned};
-use crate::numerics::wrap;
-
-/// Cell of an element on the smooth raceway, away from the defect.
-pub const SMOOTH: u32 = u32::MAX;
 
 /// What the right-hand side found on its way. Its lists are made once.
 #[derive(Debug, Default)]
@@ -92,7 +89,7 @@ impl Forces {
 
     /// Sorts the elements by the raceway they are on. What follows inside kernels is for these cells.
     fn enter(&mut self, model: &Model, cells: &[u32]) {
-        let rigid = model.outer.compliance == 0.0;
+        let rigid = model.outer.contact.compliance == 0.0;
         self.others.clear();
         self.groups.copy_from_slice(&model.elements);
         for (j, &cell) in cells.iter().enumerate() {
@@ -187,12 +184,6 @@ pub(super) struct InnerGap {
 }
 
 impl Model {
-    /// Angle [rad] of element `j` from the defect's centre, within half a turn, for a cage angle.
-    #[inline]
-    pub fn angle_from_defect(&self, j: usize, cage_angle: f64, defect_angle: f64) -> f64 {
-        wrap(cage_angle + self.element_offset(j) - defect_angle)
-    }
-
     /// Derivative of `state` at `tau`, and each contact; `cells` says in which cell of the defect each element is.
     pub fn derivative(
         &self,
@@ -228,7 +219,7 @@ impl Model {
             self.other_contacts::<RECORD>(&{ now }, state, ahead, forces)
         };
         let [shaft_x, shaft_y, housing_x, housing_y] =
-            self.smooth_contacts::<S, RECORD>(simd, &now, stage, derivative, forces);
+            self.smooth_contacts::<S, RECORD>(simd, &now, stage, derivative, (&forces.groups, &mut forces.contacts));
         let (housing_x, housing_y) = (housing_x + others.x, housing_y + others.y);
         if RECORD && !forces.others.is_empty() {
             forces.record_others();
@@ -263,7 +254,7 @@ impl Model {
         ahead: Option<f64>,
         forces: &mut Forces,
     ) -> Vector {
-        let (compliant, start) = (self.outer.compliance != 0.0, self.layout.radial_velocity);
+        let (compliant, start) = (self.outer.contact.compliance != 0.0, self.layout.radial_velocity);
         let mut on_housing = Vector::zeros();
         let Forces { others, other_contacts, groups, defect_lookups, unsolved, .. } = forces;
         other_contacts.clear();
@@ -276,15 +267,15 @@ impl Model {
             let near = near.unwrap_or_else(|| Ok(OuterApproach::smooth(u))).unwrap_or_else(|cause| {
                 // What is no number here has its cause elsewhere.
                 if (u + now.cage.angle).is_finite() {
-                    let angle = self.defect.as_ref().map_or(0.0, |d| self.angle_from_defect(j, now.cage.angle, d.1));
+                    let angle = self.angle_from_defect(j, now.cage.angle);
                     *unsolved = Some(UnsolvedContact { element: j, angle, offset: now.offset().into(), cause });
                 }
                 OuterApproach::unsolved()
             });
             let rate = near.by_path * path_rate + near.by_angle * now.cage.speed;
             let (part, part_rate) =
-                if compliant { self.outer.of_contact(near.value, rate) } else { (near.value, rate) };
-            let outer = self.outer.contact.force(part, part_rate);
+                if compliant { self.outer.contact.of_contact(near.value, rate) } else { (near.value, rate) };
+            let outer = self.outer.contact.law.force(part, part_rate);
             let (f_r, f_t) = (outer * near.radial, outer * near.tangential);
             groups[j / WIDEST].other[j % WIDEST] = -f_r * self.inverse_element_mass;
             on_housing += e_r * f_r - turned(e_r) * f_t;
@@ -295,7 +286,7 @@ impl Model {
             other_contacts.push(OtherContact {
                 element: j,
                 approach: near.value,
-                pushing: self.outer.contact.pushing(part, part_rate),
+                pushing: self.outer.contact.law.pushing(part, part_rate),
                 force: [magnitude, f_r, f_t],
             });
         }
@@ -329,8 +320,8 @@ impl Model {
         if cell == SMOOTH {
             return None;
         }
-        let (near, centre) = self.defect.as_ref()?;
-        Some(near.approach(cell as usize, u, self.angle_from_defect(j, cage_angle, *centre), rho))
+        let defect = self.outer.defect.as_ref()?;
+        Some(defect.surface.approach(cell as usize, u, defect.angle(cage_angle + self.element_offset(j)), rho))
     }
 
     /// As [`Self::near_defect`], the smooth raceway included.
@@ -338,18 +329,6 @@ impl Model {
         match self.near_defect(j, cell, u, cage_angle, rho) {
             None => OuterApproach::smooth(u),
             Some(near) => near.unwrap_or_else(|_| OuterApproach::unsolved()),
-        }
-    }
-
-    /// Cell of the defect in which element `j` is at a cage angle [rad].
-    pub fn cell_at(&self, j: usize, cage_angle: f64) -> u32 {
-        let Some((near, centre)) = &self.defect else { return SMOOTH };
-        let knots = near.knots();
-        let angle = self.angle_from_defect(j, cage_angle, *centre);
-        match knots.partition_point(|&k| k <= angle) {
-            0 => SMOOTH,
-            above if above == knots.len() => SMOOTH,
-            above => (above - 1) as u32,
         }
     }
 

@@ -25,7 +25,7 @@
 //! Derivatives are those of the branch that each contact is in; at the onset of a contact there are two. At rest all of
 //! it is elastic: G is symmetric, and no damping enters.
 
-use super::forces::SMOOTH;
+use super::raceway::SMOOTH;
 use super::kinematics::Kinematics;
 use super::model::Model;
 use crate::contact::near_defect::OuterApproach;
@@ -203,7 +203,7 @@ impl Model {
         let n = e_r * gap.n.x + e_t * gap.n.y;
         let q_rate = now.drift() + e_r * path_rate + e_t * (rho * omega);
         let rate = -n.dot(&q_rate);
-        let force = self.inner.with_derivatives(gap.approach, rate);
+        let force = self.inner.contact.law.with_derivatives(gap.approach, rate);
         // P q̇/|q| and Q/|q|
         let turn = (q_rate + n * rate) / gap.distance;
         let across = force.value / gap.distance;
@@ -214,7 +214,7 @@ impl Model {
         let bent = bends == Bends::Wanted && cell != SMOOTH;
         let bend = if bent { self.bend(j, cell, u, now.cage.angle) } else { Bend::default() };
         let near = self.outer_approach(j, cell, u, now.cage.angle, rho);
-        let law = self.outer.with_derivatives(near.value, near.by_path * path_rate + near.by_angle * omega);
+        let law = self.outer.contact.with_derivatives(near.value, near.by_path * path_rate + near.by_angle * omega);
         let direction = Vector::new(near.radial, near.tangential);
         Linearized {
             e_r,

@@ -13,6 +13,7 @@ pub mod jacobian;
 pub mod kinematics;
 mod linearized;
 pub mod model;
+pub mod raceway;
 pub mod supports;
 pub mod tangent;
 pub mod variation;

@@ -6,15 +6,15 @@
 //! *outer ring's* centre), w the radial component of the element's absolute velocity.
 
 use super::contact_lanes::Group;
+use super::raceway::{Placed, Raceway, SMOOTH};
 use super::supports::Supports;
 use crate::contact::compliant::CompliantContact;
 use crate::contact::force_law::ForceLaw;
-use crate::contact::near_defect::NearDefect;
 use crate::geometry::hertz_constant::HertzConstants;
 use crate::geometry::kinematics::cage_ratio;
 use crate::numerics::lanes::{Cut, QUAD, WIDEST, places};
 use crate::numerics::plane::Vector;
-use crate::numerics::sin_cos;
+use crate::numerics::{sin_cos, wrap};
 use crate::scene::{Motion, Ring, Scene};
 use std::f64::consts::TAU;
 
@@ -33,10 +33,10 @@ pub struct Model {
     pub outer_centre_radius: f64,
     /// Radial clearance G_r [m].
     pub radial_clearance: f64,
-    /// Contact with the inner raceway.
-    pub inner: ForceLaw,
-    /// Contact with the outer raceway, which may yield.
-    pub outer: CompliantContact,
+    /// The inner raceway.
+    pub inner: Raceway,
+    /// The outer raceway.
+    pub outer: Raceway,
     /// Gravity on the elements [m/s²].
     pub gravity: Vector,
     /// The inner ring.
@@ -45,8 +45,6 @@ pub struct Model {
     pub housing: Ring,
     /// What holds rings and sensor.
     pub supports: Supports,
-    /// The raceway near the defect, and the angle of its centre [rad].
-    pub defect: Option<(NearDefect, f64)>,
     /// Cage speed per shaft speed.
     pub cage_ratio: f64,
     /// Places of the state vector.
@@ -138,12 +136,15 @@ impl Layout {
 }
 
 impl Model {
-    /// Works the parameters out. `near_defect` is the raceway near the scene's defect under the scene's contact law.
-    pub fn new(scene: &Scene, near_defect: Option<NearDefect>) -> Self {
+    /// Works the parameters out. `defect` is the scene's, under its contact law.
+    pub fn new(scene: &Scene, defect: Option<Placed>) -> Self {
         let bearing = &scene.bearing;
         let hertz = HertzConstants::of(bearing);
-        let law = |stiffness| ForceLaw { stiffness, damping: scene.contact.damping };
-        let element_radius = 0.5 * bearing.element_diameter;
+        let raceway = |stiffness, compliance, defect| {
+            let law = ForceLaw { stiffness, damping: scene.contact.damping };
+            Raceway { contact: CompliantContact { law, compliance }, defect }
+        };
+        let element_radius = bearing.element_radius();
         Self {
             element_count: bearing.element_count,
             element_mass: bearing.mass_of_element(),
@@ -151,13 +152,12 @@ impl Model {
             element_radius,
             outer_centre_radius: bearing.outer_raceway_radius() - element_radius,
             radial_clearance: bearing.radial_clearance,
-            inner: law(hertz.inner),
-            outer: CompliantContact { contact: law(hertz.outer), compliance: bearing.outer_compliance },
+            inner: raceway(hertz.inner, 0.0, None),
+            outer: raceway(hertz.outer, bearing.outer_compliance, defect),
             gravity: scene.gravity.into(),
             shaft: scene.shaft,
             housing: scene.housing,
             supports: Supports::new(scene),
-            defect: near_defect.zip(scene.defect.as_ref().map(|d| d.angle)),
             cage_ratio: cage_ratio(bearing, scene.cage.slip),
             layout: Layout::new(scene),
             elements: groups(bearing.element_count, 1.0 / bearing.mass_of_element(), hertz),
@@ -166,9 +166,21 @@ impl Model {
 
     /// Makes contacts near the defect independent of what was computed before, rounding included.
     pub fn forget_contacts(&self) {
-        if let Some((near, _)) = &self.defect {
-            near.forget();
+        for defect in [&self.inner.defect, &self.outer.defect].into_iter().flatten() {
+            defect.surface.forget();
         }
+    }
+
+    /// Angle [rad] of element `j` from the centre of the outer raceway's defect, within half a turn; from +x without one.
+    #[inline]
+    pub fn angle_from_defect(&self, j: usize, cage_angle: f64) -> f64 {
+        let angle = cage_angle + self.element_offset(j);
+        self.outer.defect.as_ref().map_or_else(|| wrap(angle), |defect| defect.angle(angle))
+    }
+
+    /// Cell of the outer raceway's defect in which element `j` is at a cage angle [rad].
+    pub fn cell_at(&self, j: usize, cage_angle: f64) -> u32 {
+        self.outer.defect.as_ref().map_or(SMOOTH, |defect| defect.cell_at(self.angle_from_defect(j, cage_angle)))
     }
 
     /// Angle of element `j` (from 0) ahead of element 1 [rad].

@@ -9,7 +9,7 @@
 //! onset of a contact there are two.
 
 use super::drive::Drive;
-use super::forces::SMOOTH;
+use super::raceway::SMOOTH;
 use super::kinematics::{Kinematics, RingState};
 use super::linearized::{Bends, DIFFERENCE, ElementVariation, Linearized};
 use super::model::Model;
@@ -169,9 +169,9 @@ impl Model {
         }
         let n = e_r * gap.n.x + turned(e_r) * gap.n.y;
         let away = n.dot(&q);
-        let (force, k) = (self.inner.elastic(gap.approach), self.inner.elastic_stiffness(gap.approach));
+        let (force, k) = (self.inner.contact.law.elastic(gap.approach), self.inner.contact.law.elastic_stiffness(gap.approach));
         let c = force / gap.distance;
-        let dk = -0.75 * self.inner.stiffness / gap.approach.sqrt() * away;
+        let dk = -0.75 * self.inner.contact.law.stiffness / gap.approach.sqrt() * away;
         let dc = -(k + c) * away / gap.distance;
         let dn = (q - n * away) / gap.distance;
         let mixed = dn * n.transpose();
@@ -181,8 +181,8 @@ impl Model {
     /// Change of an outer contact's radial tangent stiffness by path [m] and cage angle [rad]; near the defect and where the
     /// raceway yields by central differences, like the second derivatives of the approach.
     fn vary_outer_stiffness(&self, j: usize, cell: u32, u: f64, cage_angle: f64, by: (f64, f64)) -> f64 {
-        if cell == SMOOTH && self.outer.compliance == 0.0 {
-            return if u > 0.0 { 0.75 * self.outer.contact.stiffness / u.sqrt() * by.0 } else { 0.0 };
+        if cell == SMOOTH && self.outer.contact.compliance == 0.0 {
+            return if u > 0.0 { 0.75 * self.outer.contact.law.stiffness / u.sqrt() * by.0 } else { 0.0 };
         }
         let radial = |u: f64, angle: f64| {
             // Nothing moves and the rings' offset does not matter to the outer contact.

@@ -25,7 +25,7 @@ pub struct HertzConstants {
 impl HertzConstants {
     /// Those of a bearing, an override in the scene going first.
     pub fn of(bearing: &Bearing) -> Self {
-        let r = 0.5 * bearing.element_diameter;
+        let r = bearing.element_radius();
         let modulus = effective_modulus(bearing);
         let across = |conformity: f64| 1.0 / r - 1.0 / (conformity * bearing.element_diameter);
         Self {

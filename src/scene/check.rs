@@ -90,7 +90,7 @@ impl Bearing {
 
     /// Largest radial clearance [m]: the radius of an element.
     pub fn largest_radial_clearance(&self) -> f64 {
-        self.element_diameter / 2.0
+        self.element_radius()
     }
 
     fn check(&self) -> Result<(), SceneError> {
@@ -182,7 +182,7 @@ fn check_spall(length: f64, depth: f64, edge_slope: f64, bearing: &Bearing) -> R
     if length_mm >= limit_mm {
         return Err(SceneError::SpallTooLong { length_mm, limit_mm });
     }
-    let limit_um = shown(bearing.element_diameter / 2.0 * 1e6);
+    let limit_um = shown(bearing.element_radius() * 1e6);
     if depth_um >= limit_um {
         return Err(SceneError::SpallTooDeep { depth_um, limit_um });
     }

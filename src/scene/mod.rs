@@ -91,6 +91,11 @@ pub struct Bearing {
 }
 
 impl Bearing {
+    /// Radius of an element [m].
+    pub fn element_radius(&self) -> f64 {
+        0.5 * self.element_diameter
+    }
+
     /// Radius of the outer raceway at the groove's bottom, R_o = (D_pw + D_w + G_r)/2 [m].
     pub fn outer_raceway_radius(&self) -> f64 {
         (self.pitch_diameter + self.element_diameter + self.radial_clearance) / 2.0

@@ -18,7 +18,8 @@ use super::variables::{Causality, Dependencies, Variable};
 use super::workspace::{Problem, Workspace};
 use crate::contact::map::ContactMap;
 use crate::dynamics::drive::{CageAngle, Drive};
-use crate::dynamics::forces::{Forces, SMOOTH};
+use crate::dynamics::forces::Forces;
+use crate::dynamics::raceway::SMOOTH;
 use crate::dynamics::model::Model;
 use crate::numerics::plane::Vector;
 use crate::scene::{ContactLaw, Scene};
@@ -287,8 +288,9 @@ impl Simulation {
             return Ok(());
         }
         self.rebuild()?;
-        let cells = self.model.defect.as_ref().map_or(0, |(near, _)| near.knots().len().saturating_sub(1));
-        if self.state.progress.cells.iter().all(|&cell| cell == SMOOTH || (cell as usize) < cells) {
+        let defect = self.model.outer.defect.as_ref();
+        let exists = |&cell: &u32| defect.map_or(cell == SMOOTH, |defect| defect.has_cell(cell));
+        if self.state.progress.cells.iter().all(exists) {
             self.fresh = Fresh::State;
             Ok(())
         } else {

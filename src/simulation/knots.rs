@@ -9,9 +9,8 @@
 //! or not at all.
 
 use crate::dynamics::drive::Drive;
-use crate::dynamics::forces::SMOOTH;
 use crate::dynamics::model::Model;
-use std::f64::consts::TAU;
+use crate::dynamics::raceway::Ahead;
 
 /// Part of a communication step on which the cage turns one way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,9 +52,7 @@ fn earliest(
     (way, end): (f64, f64),
     cells: &[u32],
 ) -> Option<Knot> {
-    let (near, centre) = model.defect.as_ref()?;
-    let knots = near.knots();
-    let last = knots.len() - 1;
+    let defect = model.outer.defect.as_ref()?;
     let cage_angle = drive.cage_angle(tau);
     let (mut speed, acceleration) = (way * drive.cage.rate_at(tau), way * drive.cage.0[2]);
     if leg == Leg::Out {
@@ -64,29 +61,13 @@ fn earliest(
     }
     let mut earliest: Option<Knot> = None;
     for (element, &cell) in cells.iter().enumerate() {
-        let angle = model.angle_from_defect(element, cage_angle, *centre);
-        // The angle to the knot ahead, and the cell beyond it.
-        let (ahead, beyond) = match (cell == SMOOTH, way > 0.0) {
-            (true, true) => (around(knots[0] - angle), 0),
-            (true, false) => (around(angle - knots[last]), last as u32 - 1),
-            (false, true) => {
-                let next = cell + 1;
-                (knots[next as usize] - angle, if next as usize == last { SMOOTH } else { next })
-            }
-            (false, false) => (angle - knots[cell as usize], if cell == 0 { SMOOTH } else { cell - 1 }),
-        };
-        let at = tau + passage(speed, acceleration, ahead.max(0.0));
+        let Ahead { angle, beyond } = defect.ahead(cell, model.angle_from_defect(element, cage_angle), way > 0.0);
+        let at = tau + passage(speed, acceleration, angle.max(0.0));
         if at <= end && earliest.is_none_or(|e| at < e.tau) {
             earliest = Some(Knot { tau: at, element, cell: beyond, leg });
         }
     }
     earliest
-}
-
-/// An angle [rad] brought into [0, 2π); one that falls short of 0 by rounding is 0.
-fn around(angle: f64) -> f64 {
-    let within = angle.rem_euclid(TAU);
-    if within > TAU - 1e-9 { 0.0 } else { within }
 }
 
 /// Time until speed·t + ½ acceleration·t² reaches `angle` ≥ 0 on its way forward, infinite if never. Where it begins by
@@ -109,6 +90,7 @@ mod tests {
     use super::*;
     use crate::dynamics::drive::{CageAngle, Quadratic};
     use crate::dynamics::jacobian::tests::lively;
+    use crate::dynamics::raceway::SMOOTH;
     use crate::scene::{Damping, Motion};
     use proptest::prelude::*;
 
@@ -170,8 +152,8 @@ mod tests {
 
     /// How far the angle of element `j` is outside its cell [rad]; negative inside.
     fn outside(model: &Model, j: usize, cage_angle: f64, cell: u32) -> f64 {
-        let (near, centre) = model.defect.as_ref().unwrap();
-        let (knots, angle) = (near.knots(), model.angle_from_defect(j, cage_angle, *centre));
+        let defect = model.outer.defect.as_ref().unwrap();
+        let (knots, angle) = (defect.knots(), model.angle_from_defect(j, cage_angle));
         match cell {
             SMOOTH => (angle - knots[0]).min(knots[knots.len() - 1] - angle),
             cell => (knots[cell as usize] - angle).max(angle - knots[cell as usize + 1]),
@@ -192,10 +174,10 @@ mod tests {
             on_knot in prop::option::of((0..20usize, 0..9usize)),
         ) {
             let model = model();
-            let (near, centre) = model.defect.as_ref().unwrap();
+            let defect = model.outer.defect.as_ref().unwrap();
             // Perhaps an element begins exactly on a knot.
             let start = on_knot.map_or(start, |(k, j)| {
-                near.knots()[k % near.knots().len()] + centre - model.element_offset(j)
+                defect.knots()[k % defect.knots().len()] + defect.centre - model.element_offset(j)
             });
             let mut angle = CageAngle::new(start);
             let mut cells: Vec<u32> = (0..9).map(|j| model.cell_at(j, angle.rest)).collect();
@@ -219,15 +201,15 @@ mod tests {
     #[test]
     fn a_knot_on_which_the_cage_turns_is_passed_both_ways_or_not_at_all() {
         let model = model();
-        let (near, centre) = model.defect.as_ref().unwrap();
+        let defect = model.outer.defect.as_ref().unwrap();
         let mut passed = [0; 3];
-        for (k, &knot) in near.knots().iter().enumerate() {
+        for (k, &knot) in defect.knots().iter().enumerate() {
             for way in [1.0, -1.0] {
                 for n in 1..200 {
                     // So short a way that no other knot is met.
                     let (speed, acceleration) = (way * f64::from(n) * 0.013, -way * 1e3 / f64::from(n));
                     let turn = -0.5 * speed * speed / acceleration;
-                    let cage_start = knot + centre - turn;
+                    let cage_start = knot + defect.centre - turn;
                     let before = model.cell_at(0, cage_start);
                     let mut cells = [SMOOTH; 9];
                     cells[0] = before;

@@ -3,7 +3,7 @@
 use super::quantity::Count;
 use super::recorder::Due;
 use super::switching::Choice;
-use crate::dynamics::forces::SMOOTH;
+use crate::dynamics::raceway::SMOOTH;
 use crate::numerics::lanes::places;
 use crate::numerics::row::Row;
 

@@ -31,7 +31,7 @@ impl Simulation {
             self.state.cage.total(),
         );
         self.present_acceleration = outputs.housing_acceleration();
-        let solves_grids = self.model.defect.as_ref().is_some_and(|(near, _)| near.solves_grids());
+        let solves_grids = self.model.outer.defect.as_ref().is_some_and(|defect| defect.surface.solves_grids());
         for (i, quantity) in self.quantities.iter().enumerate().skip(self.inputs.count) {
             let value = match *quantity {
                 Quantity::MeanForce(ring, axis) => Some(progress.mean_force[2 * ring.index() + axis]),

@@ -12,6 +12,7 @@ use crate::contact::near_defect::{NearDefect, NearLove, NearMap};
 use crate::contact::raceway_grid::{ElementOnRaceway, Resolution};
 use crate::contact::rigid_path::RigidPath;
 use crate::dynamics::model::Model;
+use crate::dynamics::raceway::Placed;
 use crate::geometry::hertz_constant::HertzConstants;
 use crate::scene::{ContactLaw, Damping, Ring, Scene};
 use crate::surface::Surface;
@@ -85,16 +86,6 @@ fn ring_of(scene: &mut Scene, ring: RingName) -> &mut Ring {
 /// leaves open.
 const TOLERATED: f64 = 0.02;
 
-/// Element and outer raceway of a bearing.
-fn element_on_raceway(scene: &Scene) -> ElementOnRaceway {
-    let bearing = &scene.bearing;
-    ElementOnRaceway {
-        element_radius: 0.5 * bearing.element_diameter,
-        raceway_radius: bearing.outer_raceway_radius(),
-        groove_radius: bearing.conformity_outer * bearing.element_diameter,
-    }
-}
-
 /// Force [N] up to which the contact map of a scene reaches.
 pub fn largest_force(scene: &Scene) -> f64 {
     let load = [scene.shaft.load, scene.housing.load].iter().map(|f| f[0].hypot(f[1])).fold(0.0, f64::max);
@@ -133,12 +124,12 @@ pub fn build_map(
     if scene.contact.law != ContactLaw::Map {
         return Ok(None);
     }
-    Ok(Some(ContactMap::build(surface, element_on_raceway(scene), map_specification(scene), runner)?))
+    Ok(Some(ContactMap::build(surface, ElementOnRaceway::outer(&scene.bearing), map_specification(scene), runner)?))
 }
 
 /// Fingerprint of all that the contact map of a scene depends on.
 pub fn map_fingerprint(scene: &Scene, surface: &Surface) -> u64 {
-    ContactMap::fingerprint_of(surface, element_on_raceway(scene), map_specification(scene))
+    ContactMap::fingerprint_of(surface, ElementOnRaceway::outer(&scene.bearing), map_specification(scene))
 }
 
 /// A map that was stored with the scene; refused when it is damaged or belongs to something else.
@@ -148,7 +139,7 @@ pub fn stored_map(scene: &Scene, surface: &Surface, bytes: &[u8]) -> Result<Cont
 
 /// The raceway near the defect under law `map`: the stored map if it is that of this scene, or else one made now.
 fn near_map(scene: &Scene, surface: &Surface, stored: Option<&Arc<ContactMap>>) -> Result<NearDefect, SimulationError> {
-    let (element, specification) = (element_on_raceway(scene), map_specification(scene));
+    let (element, specification) = (ElementOnRaceway::outer(&scene.bearing), map_specification(scene));
     let map = match stored {
         Some(map) if map.fingerprint() == map_fingerprint(scene, surface) => Arc::clone(map),
         _ => Arc::new(ContactMap::build(surface, element, specification, &mut Sequential(|_, _| {}))?),
@@ -157,7 +148,7 @@ fn near_map(scene: &Scene, surface: &Surface, stored: Option<&Arc<ContactMap>>) 
 }
 
 fn near_love(scene: &Scene, surface: &Surface) -> Result<NearDefect, SimulationError> {
-    let element = element_on_raceway(scene);
+    let element = ElementOnRaceway::outer(&scene.bearing);
     let (contact, knots, flats) = MapPlan::new(surface, element, map_specification(scene))?.into_love();
     Ok(NearDefect::Love(Box::new(NearLove::new(contact, &knots, flats, element.raceway_radius))))
 }
@@ -172,7 +163,7 @@ pub fn build_model(
         .map(|surface| match (scene.contact.law, surface) {
             (ContactLaw::Hertz, Surface::Profile(profile)) => Ok(NearDefect::Hertz(RigidPath::new(
                 profile.points(),
-                0.5 * scene.bearing.element_diameter,
+                scene.bearing.element_radius(),
                 scene.bearing.outer_raceway_radius(),
             )?)),
             (ContactLaw::Hertz, Surface::Topography(_)) => {
@@ -182,5 +173,6 @@ pub fn build_model(
             (ContactLaw::Love, _) => near_love(scene, surface),
         })
         .transpose()?;
-    Ok(Model::new(scene, near))
+    let placed = near.zip(scene.defect.as_ref()).map(|(surface, defect)| Placed { surface, centre: defect.angle });
+    Ok(Model::new(scene, placed))
 }

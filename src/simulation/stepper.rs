@@ -148,7 +148,7 @@ impl Stepper<'_> {
     fn pass(&mut self, at: Knot, tau: f64, end: f64, at_once: &mut usize) -> Result<Option<Knot>, StepError> {
         *at_once += 1;
         let model = self.problem.model;
-        let knots = model.defect.as_ref().map_or(0, |(near, _)| near.knots().len());
+        let knots = model.outer.defect.as_ref().map_or(0, |defect| defect.knots().len());
         // Each element can pass each knot once.
         if *at_once > model.element_count * knots {
             return Err(StepError::TooFast { count: *at_once, since: tau });

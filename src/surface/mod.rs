@@ -46,7 +46,7 @@ impl Surface {
         } else {
             Self::Profile(Profile::from_csv(text)?)
         };
-        surface.check_fits(TAU * bearing.outer_raceway_radius(), bearing.element_diameter / 2.0)?;
+        surface.check_fits(TAU * bearing.outer_raceway_radius(), bearing.element_radius())?;
         Ok(surface)
     }
 
@@ -59,7 +59,7 @@ impl Surface {
             Self::Profile(profile) => Self::Profile(profile.scaled(factor)),
             Self::Topography(topography) => Self::Topography(topography.scaled(factor)),
         };
-        scaled.check_fits(TAU * bearing.outer_raceway_radius(), bearing.element_diameter / 2.0)?;
+        scaled.check_fits(TAU * bearing.outer_raceway_radius(), bearing.element_radius())?;
         Ok(scaled)
     }
 

@@ -43,7 +43,7 @@ pub fn load_0(what: &'static str, damping: Damping) -> Row {
     scene.shaft.stiffness = 1e6;
     let speed = scene.shaft_speed * cage_ratio(&scene.bearing, 0.0);
     let mass = scene.bearing.mass_of_element();
-    let radius = scene.bearing.outer_raceway_radius() - 0.5 * scene.bearing.element_diameter;
+    let radius = scene.bearing.outer_raceway_radius() - scene.bearing.element_radius();
     let mut bearing = Named::started(scene);
     bearing.run(1e-3, 100);
     let (expected, got) = (mass * radius * speed * speed, bearing.get("element[3].force.outer"));
@@ -59,7 +59,7 @@ pub fn speed_100_000_rev_min() -> Row {
     scene.shaft_speed = 100_000.0 / 60.0 * TAU;
     let omega = scene.shaft_speed * cage_ratio(&scene.bearing, 0.0);
     let mass = scene.bearing.mass_of_element();
-    let radius = scene.bearing.outer_raceway_radius() - 0.5 * scene.bearing.element_diameter;
+    let radius = scene.bearing.outer_raceway_radius() - scene.bearing.element_radius();
     let mut bearing = Named::started(scene);
     bearing.run(1e-4, 200);
     let gravity = -9.81 * bearing.get("element[3].angle").sin();

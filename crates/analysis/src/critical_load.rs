@@ -117,7 +117,7 @@ impl StaticBearing {
             Ok(inside.iter().map(|&j| balance.elements[j].inner_approach).fold(f64::NEG_INFINITY, f64::max))
         };
         // That of one contact squeezed by the depth: the scale of loads here.
-        let scale = self.model.outer.contact.stiffness * deepest * deepest.sqrt();
+        let scale = self.model.outer.contact.law.stiffness * deepest * deepest.sqrt();
         let load = crossing(squeeze, scale)?;
         Ok(load.map(|load| CriticalLoad { load, cage_angle, elements: inside.len() }))
     }
@@ -138,7 +138,7 @@ impl StaticBearing {
         let clearance = self.model.radial_clearance;
         let looser = load(&self.with_clearance(clearance + step))? - load(&self.with_clearance(clearance - step))?;
         // No compliance below 0: the one-sided quotient of second order.
-        let (compliance, soft) = (self.model.outer.compliance, step / critical.load);
+        let (compliance, soft) = (self.model.outer.contact.compliance, step / critical.load);
         let softer = |times: f64| load(&self.with_outer_compliance(compliance + times * soft));
         let by_compliance = (4.0 * softer(1.0)? - softer(2.0)? - 3.0 * softer(0.0)?) / (2.0 * soft);
         let found = Sensitivity { by_depth: deeper / (2.0 * step), by_clearance: looser / (2.0 * step), by_compliance };

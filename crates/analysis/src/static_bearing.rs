@@ -228,7 +228,7 @@ impl StaticBearing {
     /// The same bearing with another compliance in series with each outer contact [m/N].
     pub fn with_outer_compliance(&self, compliance: f64) -> Self {
         let mut other = self.clone();
-        other.model.outer.compliance = compliance;
+        other.model.outer.contact.compliance = compliance;
         other
     }
 
@@ -240,12 +240,12 @@ impl StaticBearing {
         let surface = self.surface.as_ref().ok_or(StaticError::NoDefect)?.scaled(factor, &self.scene.bearing)?;
         let mut other = Self::with_surface(self.scene.clone(), Some(surface), None)?;
         other.load = self.load;
-        Ok(other.with_clearance(self.model.radial_clearance).with_outer_compliance(self.model.outer.compliance))
+        Ok(other.with_clearance(self.model.radial_clearance).with_outer_compliance(self.model.outer.contact.compliance))
     }
 
     /// First and last angle of the defect [rad] from its centre, and the angle of its centre.
     pub(super) fn extent(&self) -> Option<([f64; 2], f64)> {
-        self.extent.zip(self.model.defect.as_ref().map(|(_, centre)| *centre))
+        self.extent.zip(self.model.outer.defect.as_ref().map(|defect| defect.centre))
     }
 
     /// Length of the defect along the raceway [rad]; `None` without one.
@@ -254,8 +254,8 @@ impl StaticBearing {
     }
 
     fn is_in_defect(&self, j: usize, cage_angle: f64) -> bool {
-        self.extent().is_some_and(|([first, last], centre)| {
-            let angle = self.model.angle_from_defect(j, cage_angle, centre);
+        self.extent().is_some_and(|([first, last], _)| {
+            let angle = self.model.angle_from_defect(j, cage_angle);
             angle >= first && angle <= last
         })
     }

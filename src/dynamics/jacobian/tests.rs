@@ -4,7 +4,8 @@ use super::*;
 use crate::contact::near_defect::NearDefect;
 use crate::contact::rigid_path::RigidPath;
 use crate::dynamics::drive::{Cubic, Quadratic};
-use crate::dynamics::forces::{Forces, SMOOTH};
+use crate::dynamics::forces::Forces;
+use crate::dynamics::raceway::{Placed, SMOOTH};
 use crate::scene::{Damping, Scene};
 
 /// A model with a defect, its rings moved as `motions` say, and something at work in everything that depends on time.
@@ -16,8 +17,10 @@ pub(crate) fn lively(motions: [Motion; 2], damping: Damping, cage_angle: f64) ->
         ring.motion = motion;
     }
     let profile = [(-2.7e-3, 0.0), (-2.6e-3, 1e-4), (2.0e-3, 1e-4), (2.7e-3, 0.0)];
-    let (radius, raceway) = (0.5 * scene.bearing.element_diameter, scene.bearing.outer_raceway_radius());
-    let model = Model::new(&scene, Some(NearDefect::Hertz(RigidPath::new(&profile, radius, raceway).unwrap())));
+    let (radius, raceway) = (scene.bearing.element_radius(), scene.bearing.outer_raceway_radius());
+    let surface = NearDefect::Hertz(RigidPath::new(&profile, radius, raceway).unwrap());
+    let centre = scene.defect.as_ref().unwrap().angle;
+    let model = Model::new(&scene, Some(Placed { surface, centre }));
     let place = |start: f64| [Cubic([start, 2e-3, -3.0, 4e4]), Cubic([-start, -1e-3, 5.0, -7e4])];
     let load = |start: f64| [Quadratic([start, 2e4, 1e6]), Quadratic([-900.0, -4e4, 2e6])];
     let drive = Drive {

@@ -85,12 +85,12 @@ impl FixedRun {
     /// Derivative of `moved` at `tau` into slope `k`.
     fn slope(&mut self, k: usize, tau: f64) {
         let angle = self.drive.cage_angle(tau);
-        if self.model.defect.is_some() {
+        if self.model.outer.defect.is_some() {
             for j in 0..self.model.element_count {
                 self.cells[j] = self.model.cell_at(j, angle);
             }
         } else {
-            self.cells.fill(brinell::dynamics::forces::SMOOTH);
+            self.cells.fill(brinell::dynamics::raceway::SMOOTH);
         }
         self.model.derivative(&self.drive, tau, &self.cells, &self.moved, &mut self.slopes[k], &mut self.forces);
     }

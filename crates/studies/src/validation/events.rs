@@ -144,7 +144,7 @@ fn path_of(case: &Case) -> Result<(Surface, RigidPath)> {
     let defect = case.scene.defect.as_ref().context("no defect")?;
     let surface = Surface::load(&defect.shape, case.profile(), bearing)?;
     let Surface::Profile(profile) = &surface else { anyhow::bail!("a topography has no one path") };
-    let path = RigidPath::new(profile.points(), bearing.element_diameter / 2.0, bearing.outer_raceway_radius())?;
+    let path = RigidPath::new(profile.points(), bearing.element_radius(), bearing.outer_raceway_radius())?;
     Ok((surface, path))
 }
 
