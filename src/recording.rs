@@ -19,6 +19,7 @@ use claim::Claim;
 
 /// What goes wrong with a recording.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum RecordingError {
     /// The system refuses.
     #[error("recording {path}: {cause}. Check the folder given as recorder.folder", path = path.display())]

@@ -128,3 +128,49 @@ fn the_model_identifier_is_a_c_identifier() {
         assert!(rest.chars().all(|c| c.is_ascii_alphanumeric() || c == '_'), "{identifier}");
     }
 }
+
+#[test]
+fn a_scene_built_in_rust_is_that_of_the_shortest_file() {
+    let file = Scene::from_toml(
+        r#"
+        name = "bearing"
+        [bearing]
+        element_count = 9
+        element_diameter_mm = 7.94
+        pitch_diameter_mm = 39.04
+        conformity_inner = 0.52
+        conformity_outer = 0.52
+        youngs_modulus_gpa = 207.0
+        poissons_ratio = 0.3
+        density_kg_m3 = 7800.0
+        [shaft]
+        motion = "internal"
+        speed_hz = 0.0
+        [housing]
+        motion = "internal"
+        [sensor]
+        [defect]
+        angle_deg = -90.0
+        length_mm = 2.0
+        depth_um = 50.0
+        "#,
+    )
+    .unwrap();
+    let bearing = brinell::scene::Bearing::steel_balls(9, 7.94 / 1e3, 39.04 / 1e3);
+    let builder = Scene::builder(bearing).sensor(brinell::scene::Sensor::default());
+    let built = builder.clone().spall((-90f64).to_radians(), 2.0 / 1e3, 50.0 / 1e6).build().unwrap();
+    assert_eq!(built, file);
+    assert_eq!(builder.build().unwrap().contact.law, ContactLaw::Hertz);
+}
+
+#[test]
+fn contact_laws_have_the_numbers_and_names_of_the_published_interface() {
+    let interface = [(1, "hertz", ContactLaw::Hertz), (2, "map", ContactLaw::Map), (3, "love", ContactLaw::Love)];
+    for (number, name, law) in interface {
+        assert_eq!((law.number(), law.described().0, ContactLaw::numbered(number)), (number, name, Some(law)));
+        let scene = Scene::from_toml(&format!("{SHORT}[contact]\nlaw = \"{name}\"")).unwrap();
+        assert_eq!(scene.contact.law, law);
+    }
+    assert_eq!(ContactLaw::ALL.len(), interface.len());
+    assert_eq!([0, 4, i32::MIN].map(ContactLaw::numbered), [None; 3]);
+}

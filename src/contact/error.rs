@@ -2,6 +2,7 @@
 
 /// Why a contact could not be solved or a map not be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ContactError {
     /// An input is not a finite number, or out of its range.
     #[error("{quantity} is {value:e} {unit}, it must be {limit}")]

@@ -14,9 +14,9 @@
 // `!(a > b)` is true for NaN as well, and is meant to be.
 #![allow(clippy::neg_cmp_op_on_partial_ord)]
 
-use crate::scene::Bearing;
 use crate::geometry::hertz_constant::squared_eccentricity;
 use crate::numerics::elliptic;
+use crate::scene::Bearing;
 use crate::surface::Surface;
 
 use super::{active_set::Mirror, error::ContactError};

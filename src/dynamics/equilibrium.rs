@@ -20,6 +20,7 @@ use crate::numerics::plane::Vector;
 
 /// Why no equilibrium was found.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum EquilibriumError {
     /// The residual did not vanish.
     #[error(

@@ -25,9 +25,9 @@
 //! Derivatives are those of the branch that each contact is in; at the onset of a contact there are two. At rest all of
 //! it is elastic: G is symmetric, and no damping enters.
 
-use super::raceway::SMOOTH;
 use super::kinematics::Kinematics;
 use super::model::Model;
+use super::raceway::SMOOTH;
 use crate::contact::near_defect::OuterApproach;
 use crate::numerics::plane::{Matrix, Vector, turned};
 

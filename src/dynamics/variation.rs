@@ -9,10 +9,10 @@
 //! onset of a contact there are two.
 
 use super::drive::Drive;
-use super::raceway::SMOOTH;
 use super::kinematics::{Kinematics, RingState};
 use super::linearized::{Bends, DIFFERENCE, ElementVariation, Linearized};
 use super::model::Model;
+use super::raceway::SMOOTH;
 use crate::numerics::plane::{Matrix, Vector, turned};
 
 /// A small change of state and inputs.
@@ -169,7 +169,8 @@ impl Model {
         }
         let n = e_r * gap.n.x + turned(e_r) * gap.n.y;
         let away = n.dot(&q);
-        let (force, k) = (self.inner.contact.law.elastic(gap.approach), self.inner.contact.law.elastic_stiffness(gap.approach));
+        let (force, k) =
+            (self.inner.contact.law.elastic(gap.approach), self.inner.contact.law.elastic_stiffness(gap.approach));
         let c = force / gap.distance;
         let dk = -0.75 * self.inner.contact.law.stiffness / gap.approach.sqrt() * away;
         let dc = -(k + c) * away / gap.distance;

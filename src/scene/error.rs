@@ -7,6 +7,7 @@ use std::fmt;
 ///
 /// Values are shown in the unit of the key, so that a reader finds in the file what the message speaks of.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SceneError {
     /// Broken TOML, or a value of the wrong type. The message holds the parser's; it is no source that would be shown again.
     #[error("scene file: {0}")]

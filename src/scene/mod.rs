@@ -2,6 +2,7 @@
 //!
 //! A [`Scene`] that exists is possible: everything after this module relies on that and checks nothing again.
 
+mod builder;
 mod check;
 mod error;
 mod file;
@@ -9,6 +10,7 @@ mod key_fault;
 mod quantity;
 mod remark;
 
+pub use builder::SceneBuilder;
 pub use error::{Bound, Limits, SceneError};
 pub use key_fault::{Hint, KeyFault};
 pub use remark::Remark;

@@ -8,6 +8,7 @@ use crate::surface::SurfaceError;
 
 /// What goes wrong in setting up or stepping a bearing. Each message names the quantity, its value and the limit.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SimulationError {
     /// A variable was addressed wrongly or given a value that it cannot have. Nothing was changed.
     #[error(transparent)]
@@ -54,6 +55,7 @@ pub enum SimulationError {
 
 /// A variable was addressed wrongly or given a value that it cannot have. Nothing was changed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum VariableError {
     /// No such reference.
     #[error("value reference {0} is unknown: this model's references are 0 to {1}")]

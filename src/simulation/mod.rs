@@ -28,6 +28,7 @@ pub mod quantity;
 pub mod recorder;
 mod refresh;
 pub mod rodas;
+pub mod samples;
 pub mod setup;
 mod state;
 pub mod state_bytes;

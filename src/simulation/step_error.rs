@@ -7,6 +7,7 @@ pub(super) const SMALLEST_STEP: f64 = 1e-15;
 
 /// Why a communication step could not be finished; the state stays that of the last accepted integration step.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum StepError {
     /// Error control asks for a step that no longer moves time.
     #[error(

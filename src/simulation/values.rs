@@ -6,6 +6,25 @@ use super::instance::{Fresh, Simulation};
 use super::variables::{Causality, Kind, Variable};
 
 impl Simulation {
+    /// Value of a real variable by its name. In a loop [`reals`](Self::reals) with references from
+    /// [`reference`](Self::reference) is faster.
+    ///
+    /// # Errors
+    /// An unknown name; a variable that is not real; before `initialize` an equilibrium that does not exist.
+    pub fn get(&mut self, name: &str) -> Result<f64, SimulationError> {
+        let mut value = [0.0];
+        self.reals(&[self.reference(name)?], &mut value)?;
+        Ok(value[0])
+    }
+
+    /// Sets a real input, or before `initialize` a real parameter, by its name.
+    ///
+    /// # Errors
+    /// An unknown name; a variable that cannot be set now; a value out of range.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<(), VariableError> {
+        self.set_reals(&[self.reference(name)?], &[value])
+    }
+
     /// Sets reals; all or none. Inputs at any time, parameters before `initialize`.
     pub fn set_reals(&mut self, references: &[u32], values: &[f64]) -> Result<(), VariableError> {
         let writable = if self.state.started { access::INPUT } else { access::INPUT | access::PARAMETER };

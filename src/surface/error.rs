@@ -2,6 +2,7 @@
 
 /// A measured surface that cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SurfaceError {
     /// The file that the scene names was not handed over.
     #[error("defect profile \"{name}\": the file is missing")]

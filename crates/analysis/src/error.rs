@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 /// A recording that cannot be read or cannot be sized, whatever the bearing's state.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum SizingError {
     /// The file could not be read.
     #[error("{path}: {source}")]

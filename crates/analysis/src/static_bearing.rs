@@ -29,6 +29,7 @@ use std::sync::Arc;
 
 /// Why a static study cannot be done.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum StaticError {
     /// The scene is impossible.
     #[error(transparent)]

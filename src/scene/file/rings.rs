@@ -1,6 +1,6 @@
 //! The tables `[shaft]`, `[housing]` and `[sensor]` of the scene file.
 
-use crate::scene::{Motion, Ring, SceneError};
+use crate::scene::{Motion, Ring, SceneError, Sensor};
 use serde::Deserialize;
 
 #[derive(Deserialize)]
@@ -27,27 +27,29 @@ pub(super) struct HousingTable {
 impl ShaftTable {
     pub(super) fn into_ring(self) -> Result<Ring, SceneError> {
         let support = [self.mass_kg, self.damping_n_s_m, self.stiffness_n_m];
-        ring("shaft", self.motion, self.load_n, support, [3.2638, 1376.8, 0.0])
+        ring("shaft", self.motion, self.load_n, support, Ring::default_shaft())
     }
 }
 
 impl HousingTable {
     pub(super) fn into_ring(self) -> Result<Ring, SceneError> {
         let support = [self.mass_kg, self.damping_n_s_m, self.stiffness_n_m];
-        ring("housing", self.motion, self.load_n, support, [6.638, 2210.7, 1.51056e7])
+        ring("housing", self.motion, self.load_n, support, Ring::default_housing())
     }
 }
 
-/// A ring from its keys; `given` and `default` are mass, damping and stiffness.
+/// A ring from its keys; `given` are mass, damping and stiffness.
 fn ring(
     name: &'static str,
     motion: Motion,
     load: Option<[f64; 2]>,
     given: [Option<f64>; 3],
-    default: [f64; 3],
+    default: Ring,
 ) -> Result<Ring, SceneError> {
     if motion == Motion::Internal {
-        let [mass, damping, stiffness] = [0, 1, 2].map(|i| given[i].unwrap_or(default[i]));
+        let [mass, damping, stiffness] = given;
+        let (mass, damping) = (mass.unwrap_or(default.mass), damping.unwrap_or(default.damping));
+        let stiffness = stiffness.unwrap_or(default.stiffness);
         return Ok(Ring { motion, load: load.unwrap_or_default(), mass, damping, stiffness });
     }
     // A key without effect is refused: whoever wrote it expects one.
@@ -74,6 +76,7 @@ pub(super) struct SensorTable {
 
 impl Default for SensorTable {
     fn default() -> Self {
-        Self { mass_kg: 1.0, stiffness_n_m: 8.8826e9, damping_n_s_m: 9424.8 }
+        let Sensor { mass, stiffness, damping } = Sensor::default();
+        Self { mass_kg: mass, stiffness_n_m: stiffness, damping_n_s_m: damping }
     }
 }

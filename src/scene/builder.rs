@@ -1,0 +1,222 @@
+//! Scenes made by a Rust program. What is not said has the value that a scene file gives it.
+
+use super::{
+    Bearing, Cage, Contact, ContactLaw, Damping, Defect, DefectShape, Experiment, Motion, Recorder, Ring, Scene,
+    SceneError, Sensor,
+};
+use std::f64::consts::FRAC_PI_2;
+
+/// A scene under construction; [`build`](Self::build) checks it.
+#[derive(Debug, Clone)]
+pub struct SceneBuilder {
+    scene: Scene,
+    /// `None` for the map with a defect and Hertz's law without.
+    law: Option<ContactLaw>,
+}
+
+impl Scene {
+    /// Begins a scene with this bearing: healthy, shaft and housing with mass on supports, no load, standing still.
+    ///
+    /// ```
+    /// use brinell::scene::{Bearing, Scene};
+    ///
+    /// let scene = Scene::builder(Bearing::steel_balls(9, 7.94e-3, 39.04e-3))
+    ///     .name("6205-spall")
+    ///     .shaft_speed(157.1)
+    ///     .shaft_load([0.0, -1500.0])
+    ///     .spall(-std::f64::consts::FRAC_PI_2, 2e-3, 50e-6)
+    ///     .build()?;
+    /// assert_eq!(scene.bearing.element_count, 9);
+    /// # Ok::<(), brinell::scene::SceneError>(())
+    /// ```
+    pub fn builder(bearing: Bearing) -> SceneBuilder {
+        let scene = Self {
+            name: "bearing".to_owned(),
+            description: String::new(),
+            gravity: [0.0, -9.81],
+            bearing,
+            contact: Contact {
+                law: ContactLaw::Hertz,
+                damping: Damping::HuntCrossley(0.5),
+                largest_force: None,
+                cells: None,
+                map_accuracy: None,
+            },
+            cage: Cage { slip: 0.0, initial_angle: -FRAC_PI_2 },
+            defect: None,
+            shaft: Ring::default_shaft(),
+            shaft_speed: 0.0,
+            housing: Ring::default_housing(),
+            sensor: None,
+            tolerance: 1e-5,
+            max_steps: 10_000_000,
+            recorder: None,
+            experiment: Experiment { stop: 0.5, step: 1e-4 },
+        };
+        SceneBuilder { scene, law: None }
+    }
+}
+
+impl Bearing {
+    /// A ball bearing of steel: `count` balls of a diameter [m] on a pitch diameter [m]. Conformities 0.52, radial clearance
+    /// 5 µm, Young's modulus 207 GPa, Poisson's ratio 0.3, density 7800 kg/m³: all of them assumed, usual values.
+    pub fn steel_balls(count: usize, element_diameter: f64, pitch_diameter: f64) -> Self {
+        Self {
+            element_count: count,
+            element_diameter,
+            pitch_diameter,
+            conformity_inner: 0.52,
+            conformity_outer: 0.52,
+            radial_clearance: 5e-6,
+            youngs_modulus: 207e9,
+            poissons_ratio: 0.3,
+            density: 7800.0,
+            element_mass: None,
+            hertz_inner: None,
+            hertz_outer: None,
+            outer_compliance: 0.0,
+        }
+    }
+}
+
+impl Ring {
+    /// The inner ring with its shaft: a free mass. Values of published models of a bearing test rig with five degrees of
+    /// freedom (attributed to Sawalhi and Randall 2008), but for the stiffness: a shaft that is held to the ground as stiffly
+    /// as a bearing is stiff would carry the load itself.
+    pub(super) fn default_shaft() -> Self {
+        Self { motion: Motion::Internal, load: [0.0; 2], mass: 3.2638, damping: 1376.8, stiffness: 0.0 }
+    }
+
+    /// The outer ring with its pedestal: a mass on a support, from the same models.
+    pub(super) fn default_housing() -> Self {
+        Self { motion: Motion::Internal, load: [0.0; 2], mass: 6.638, damping: 2210.7, stiffness: 1.51056e7 }
+    }
+
+    /// A ring whose position and velocity the host gives at each communication point.
+    pub fn hosted() -> Self {
+        Self { motion: Motion::Host, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 }
+    }
+
+    /// A ring that stands still.
+    pub fn fixed() -> Self {
+        Self { motion: Motion::Fixed, ..Self::hosted() }
+    }
+}
+
+impl Default for Sensor {
+    /// A resonator of 15 kHz with 5 % of critical damping, from the same models as the rings' supports.
+    fn default() -> Self {
+        Self { mass: 1.0, stiffness: 8.8826e9, damping: 9424.8 }
+    }
+}
+
+impl SceneBuilder {
+    /// Name, which becomes that of the FMU: letters, digits, `-` and `_`.
+    #[must_use]
+    pub fn name(mut self, name: &str) -> Self {
+        name.clone_into(&mut self.scene.name);
+        self
+    }
+
+    /// Gravity [m/s²], x and y.
+    #[must_use]
+    pub fn gravity(mut self, gravity: [f64; 2]) -> Self {
+        self.scene.gravity = gravity;
+        self
+    }
+
+    /// Shaft speed [rad/s], counter-clockwise.
+    #[must_use]
+    pub fn shaft_speed(mut self, speed: f64) -> Self {
+        self.scene.shaft_speed = speed;
+        self
+    }
+
+    /// Load on the inner ring [N], x and y.
+    #[must_use]
+    pub fn shaft_load(mut self, load: [f64; 2]) -> Self {
+        self.scene.shaft.load = load;
+        self
+    }
+
+    /// The inner ring and who moves it; its load with it.
+    #[must_use]
+    pub fn shaft(mut self, ring: Ring) -> Self {
+        self.scene.shaft = ring;
+        self
+    }
+
+    /// The outer ring and who moves it; its load with it.
+    #[must_use]
+    pub fn housing(mut self, ring: Ring) -> Self {
+        self.scene.housing = ring;
+        self
+    }
+
+    /// A spall of the outer raceway with vertical edges: angle of its centre [rad], length [m] and depth [m].
+    #[must_use]
+    pub fn spall(self, angle: f64, length: f64, depth: f64) -> Self {
+        self.defect(Defect { angle, shape: DefectShape::Spall { length, depth, edge_slope: FRAC_PI_2 } })
+    }
+
+    /// A defect of the outer raceway.
+    #[must_use]
+    pub fn defect(mut self, defect: Defect) -> Self {
+        self.scene.defect = Some(defect);
+        self
+    }
+
+    /// Law of the contacts near the defect.
+    #[must_use]
+    pub fn law(mut self, law: ContactLaw) -> Self {
+        self.law = Some(law);
+        self
+    }
+
+    /// Damping of the contacts.
+    #[must_use]
+    pub fn damping(mut self, damping: Damping) -> Self {
+        self.scene.contact.damping = damping;
+        self
+    }
+
+    /// The cage: its slip, and the angle of element 1 at the start [rad].
+    #[must_use]
+    pub fn cage(mut self, slip: f64, initial_angle: f64) -> Self {
+        self.scene.cage = Cage { slip, initial_angle };
+        self
+    }
+
+    /// An accelerometer on the housing.
+    #[must_use]
+    pub fn sensor(mut self, sensor: Sensor) -> Self {
+        self.scene.sensor = Some(sensor);
+        self
+    }
+
+    /// A recorder of outputs inside the step.
+    #[must_use]
+    pub fn recorder(mut self, recorder: Recorder) -> Self {
+        self.scene.recorder = Some(recorder);
+        self
+    }
+
+    /// Relative tolerance of the time integration.
+    #[must_use]
+    pub fn tolerance(mut self, tolerance: f64) -> Self {
+        self.scene.tolerance = tolerance;
+        self
+    }
+
+    /// The scene, checked.
+    ///
+    /// # Errors
+    /// Whatever [`Scene::check`] refuses.
+    pub fn build(self) -> Result<Scene, SceneError> {
+        let Self { mut scene, law } = self;
+        let usual = if scene.defect.is_some() { ContactLaw::Map } else { ContactLaw::Hertz };
+        scene.contact.law = law.unwrap_or(usual);
+        scene.check()?;
+        Ok(scene)
+    }
+}
