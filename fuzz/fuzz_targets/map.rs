@@ -16,7 +16,7 @@ fuzz_target!(|data: &[u8]| {
     let mut bytes = b"BRNL-MAP\x01\0\0\0".to_vec();
     bytes.extend_from_slice(&[0; 8]);
     bytes.extend_from_slice(data);
-    bytes.extend_from_slice(&brinell_fuzz::fnv(&bytes).to_le_bytes());
+    bytes.extend_from_slice(&brinell_fuzz::checksum(&bytes).to_le_bytes());
     look(&bytes);
 });
 

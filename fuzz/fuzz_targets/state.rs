@@ -6,7 +6,7 @@ use std::cell::OnceCell;
 use std::ptr;
 
 use brinell_fmi::fmi2::*;
-use brinell_fuzz::{Resources, fnv, get, start};
+use brinell_fuzz::{Resources, checksum, get, start};
 use libfuzzer_sys::fuzz_target;
 
 /// Where the checksum stands and what it covers.
@@ -68,7 +68,7 @@ fuzz_target!(|data: &[u8]| {
             let place = usize::from(u16::from_le_bytes([change[0], change[1]])) % (length - CHECKED_FROM - 8);
             bytes[CHECKED_FROM + place..][..8].copy_from_slice(&change[2..]);
         }
-        let sum = fnv(&bytes[CHECKED_FROM..]);
+        let sum = checksum(&bytes[CHECKED_FROM..]);
         bytes[CHECKSUM..CHECKED_FROM].copy_from_slice(&sum.to_le_bytes());
         fixture.look(&bytes);
     });

@@ -119,7 +119,5 @@ pub fn run(mut simulation: Simulation) {
     }
 }
 
-/// 64-bit FNV-1a, which guards states and maps.
-pub fn fnv(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |sum, byte| (sum ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
-}
+/// The checksum that guards states and maps.
+pub use brinell::numerics::checksum::checksum;

@@ -5,12 +5,12 @@
 
 use std::hash::Hasher;
 
+use crate::numerics::checksum::Checksum;
 use crate::surface::Surface;
 
 use super::{
     error::ContactError,
     map::ContactMap,
-    map_format::Fingerprint,
     map_plan::MapPlan,
     raceway_grid::{ElementOnRaceway, Resolution},
 };
@@ -90,7 +90,7 @@ impl ContactMap {
 
     /// Fingerprint of all inputs: a stored map with another one belongs to something else.
     pub fn fingerprint_of(surface: &Surface, element: ElementOnRaceway, specification: MapSpecification) -> u64 {
-        let mut hash = Fingerprint::default();
+        let mut hash = Checksum::default();
         hash.write(env!("CARGO_PKG_VERSION").as_bytes());
         let mut number = |value: f64| hash.write(&value.to_bits().to_le_bytes());
         for value in [element.element_radius, element.raceway_radius, element.groove_radius] {

@@ -4,6 +4,7 @@
 //! of the neighbour's cubic there, so that both sides of the line carry the same cubics of value and slope: the surface stays C¹. No
 //! cell is next to one more than once more cut.
 
+use crate::numerics::hermite;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::map::{Cell, Cubic, evaluate};
@@ -163,7 +164,7 @@ impl Cells {
 fn cubic(corners: &[Node; 4], length: f64, height: f64) -> Cubic {
     // Along the raceway first: coefficients in q of value and path slope at both ends of the path.
     let along = |left: &Node, right: &Node, v: usize, scale: f64| {
-        hermite([scale * left[v], scale * length * left[v + 1], scale * right[v], scale * length * right[v + 1]])
+        hermite::cubic([scale * left[v], scale * length * left[v + 1], scale * right[v], scale * length * right[v + 1]])
     };
     let order = |node: &Node| [node[0], node[1], node[2], node[3]];
     let [a, b, c, d] = [order(&corners[0]), order(&corners[1]), order(&corners[2]), order(&corners[3])];
@@ -171,15 +172,10 @@ fn cubic(corners: &[Node; 4], length: f64, height: f64) -> Cubic {
     let (low_slope, high_slope) = (along(&a, &b, 2, height), along(&c, &d, 2, height));
     let mut out = [[0.0; 4]; 4];
     for i in 0..4 {
-        let column = hermite([low[i], low_slope[i], high[i], high_slope[i]]);
+        let column = hermite::cubic([low[i], low_slope[i], high[i], high_slope[i]]);
         for j in 0..4 {
             out[j][i] = column[j];
         }
     }
     out
-}
-
-/// Coefficients of the cubic with value and slope at 0 and at 1.
-pub(super) fn hermite([f0, m0, f1, m1]: [f64; 4]) -> [f64; 4] {
-    [f0, m0, 3.0 * (f1 - f0) - 2.0 * m0 - m1, 2.0 * (f0 - f1) + m0 + m1]
 }

@@ -1,11 +1,11 @@
 //! A contact map as bytes: little-endian, with version, fingerprint of the inputs and checksum.
 
-use std::hash::Hasher;
-
 use super::{
     error::ContactError,
     map::{Accuracy, Cell, ContactMap, Patch, Stretch, Strip},
 };
+use crate::numerics::bytes::Reader;
+use crate::numerics::checksum::checksum;
 
 const MAGIC: &[u8; 8] = b"BRNL-MAP";
 const VERSION: u32 = 2;
@@ -17,34 +17,6 @@ pub const TAIL: usize = 8;
 
 fn refused(reason: &str) -> ContactError {
     ContactError::MapRefused { reason: reason.to_owned() }
-}
-
-/// FNV-1a, 64 bits: guards against damage and mix-ups, not against malice.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Fingerprint(u64);
-
-impl Default for Fingerprint {
-    fn default() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
-    }
-}
-
-impl Hasher for Fingerprint {
-    fn write(&mut self, bytes: &[u8]) {
-        for &byte in bytes {
-            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
-        }
-    }
-
-    fn finish(&self) -> u64 {
-        self.0
-    }
-}
-
-fn checksum(bytes: &[u8]) -> u64 {
-    let mut hash = Fingerprint::default();
-    hash.write(bytes);
-    hash.finish()
 }
 
 impl ContactMap {
@@ -129,41 +101,37 @@ impl ContactMap {
     pub fn decode(bytes: &[u8]) -> Result<Self, ContactError> {
         let Some((body, sum)) = bytes.split_last_chunk::<8>() else { return Err(refused("the file is too short")) };
         let Some(rest) = body.strip_prefix(MAGIC) else { return Err(refused("the file is not a contact map")) };
-        let Some((version, rest)) = rest.split_first_chunk::<4>() else { return Err(refused("the file is too short")) };
-        let version = u32::from_le_bytes(*version);
+        let mut rest = Reader(rest);
+        let Some(version) = rest.u32() else { return Err(refused("the file is too short")) };
         if version != VERSION {
             return Err(refused(&format!("the file has format {version}, this library reads {VERSION}")));
         }
         if checksum(body) != u64::from_le_bytes(*sum) {
             return Err(refused("the checksum does not fit, the file is damaged"));
         }
-        let Some((own, rest)) = rest.split_first_chunk::<8>() else { return Err(refused("the file is too short")) };
-        read(rest, u64::from_le_bytes(*own))
-            .filter(consistent)
-            .ok_or_else(|| refused("its contents contradict each other"))
+        let Some(own) = rest.u64() else { return Err(refused("the file is too short")) };
+        read(rest.0, own).filter(consistent).ok_or_else(|| refused("its contents contradict each other"))
     }
 }
 
-/// Numbers one after the other.
-struct Numbers<'a>(std::slice::ChunksExact<'a, u8>);
+/// Finite numbers one after the other.
+struct Numbers<'a>(Reader<'a>);
 
 impl Numbers<'_> {
     fn number(&mut self) -> Option<f64> {
-        let chunk = self.0.next()?;
-        let value = f64::from_le_bytes(chunk.try_into().ok()?);
-        value.is_finite().then_some(value)
+        self.0.f64().filter(|value| value.is_finite())
     }
 
     /// A count that the remaining bytes can hold.
     fn count(&mut self) -> Option<usize> {
         let value = self.number()?;
         let count = value as usize;
-        (value >= 0.0 && count as f64 == value && count <= self.0.len()).then_some(count)
+        (value >= 0.0 && count as f64 == value && count <= self.0.0.len() / 8).then_some(count)
     }
 }
 
 fn read(body: &[u8], fingerprint: u64) -> Option<ContactMap> {
-    let mut numbers = Numbers(body.chunks_exact(8));
+    let mut numbers = Numbers(Reader(body));
     let largest_approach = numbers.number()?;
     let mut accuracy = Accuracy {
         max_normal: numbers.number()?,
@@ -177,8 +145,7 @@ fn read(body: &[u8], fingerprint: u64) -> Option<ContactMap> {
     let count = numbers.count()?;
     let knots = (0..if count == 0 { 0 } else { count + 1 }).map(|_| numbers.number()).collect::<Option<Vec<_>>>()?;
     let stretches = (0..count).map(|_| read_stretch(&mut numbers)).collect::<Option<Vec<_>>>()?;
-    let complete = numbers.0.next().is_none() && body.len().is_multiple_of(8);
-    complete.then_some(ContactMap { knots, stretches, nodes, largest_approach, accuracy, fingerprint })
+    numbers.0.0.is_empty().then_some(ContactMap { knots, stretches, nodes, largest_approach, accuracy, fingerprint })
 }
 
 fn read_stretch(numbers: &mut Numbers<'_>) -> Option<Stretch> {

@@ -4,6 +4,7 @@
 //! grid at two to four points in each cell of nodes; a cell in which the error is larger than asked for is cut in four. That happens
 //! where a second contact begins, of the floor beside that of the edge: there the force has a kink in its slope, on a line across the map.
 
+use crate::numerics::hermite;
 use std::collections::BTreeMap;
 
 use crate::surface::Surface;
@@ -14,7 +15,7 @@ use super::{
     love::LoveContact,
     map::{Accuracy, ContactMap, Patch, Stretch, Strip},
     map_build::{MapSpecification, Runner},
-    map_cells::{Cells, FINEST, Key, LEVELS, Node, Place, hermite},
+    map_cells::{Cells, FINEST, Key, LEVELS, Node, Place},
     raceway_grid::ElementOnRaceway,
 };
 
@@ -221,7 +222,7 @@ impl MapPlan {
                 })
                 .collect();
             self.patches[p].references =
-                ends.windows(2).map(|e| hermite([e[0][0], e[0][1] * width, e[1][0], e[1][1] * width])).collect();
+                ends.windows(2).map(|e| hermite::cubic([e[0][0], e[0][1] * width, e[1][0], e[1][1] * width])).collect();
             let columns = runner.run(strips + 1, &|k| self.column(&self.patches[p], k))?;
             let rows = columns.windows(2).map(|pair| pair[0].len().max(pair[1].len()) - 1).collect();
             let mut cells = Cells::new(self.patches[p].cells.size, rows);

@@ -16,6 +16,7 @@
 
 use super::error::ContactError;
 use super::rigid_roller::{Feature, Roller};
+use crate::numerics::hermite;
 
 /// Path of a rigid element over a profile, as pieces between knots.
 #[derive(Debug, Clone, PartialEq)]
@@ -93,7 +94,7 @@ impl Piece {
             .map(|i| {
                 let (p1, s1) = node(i);
                 let m1 = s1 * width;
-                let cubic = [p0, m0, 3.0 * (p1 - p0) - 2.0 * m0 - m1, 2.0 * (p0 - p1) + m0 + m1];
+                let cubic = hermite::cubic([p0, m0, p1, m1]);
                 (p0, m0) = (p1, m1);
                 cubic
             })

@@ -3,7 +3,10 @@
 //! Bits must be equal on every machine. The standard library's sine, cosine and power functions are the
 //! platform's own; those used here are compiled with the project.
 
+pub mod bytes;
+pub mod checksum;
 pub mod elliptic;
+pub mod hermite;
 pub mod lanes;
 pub mod low_pass;
 pub mod plane;

@@ -9,6 +9,7 @@ use super::recorder::Recorder;
 use super::state::State;
 use super::step_error::SMALLEST_STEP;
 use super::variables::{Causality, Kind, Variable};
+use crate::numerics::bytes::Reader;
 
 impl State {
     /// The state as bytes.
@@ -101,14 +102,12 @@ impl Simulation {
     pub fn state_from_bytes(&self, bytes: &[u8]) -> Result<State, &'static str> {
         const SHAPE: &str = "they are not of the shape that this model's have";
         let mut state = self.save();
-        let mut rest = bytes;
+        let mut rest = Reader(bytes);
         let read = state.visit(&mut |field| {
-            let (head, tail) = rest.split_at_checked(field.len())?;
-            field.copy_from_slice(head);
-            rest = tail;
+            field.copy_from_slice(rest.bytes(field.len())?);
             Some(())
         });
-        if read.is_none() || !rest.is_empty() {
+        if read.is_none() || !rest.0.is_empty() {
             return Err(SHAPE);
         }
         match self.flaw(&state) {

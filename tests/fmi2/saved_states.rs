@@ -251,9 +251,7 @@ fn contents_that_no_run_leaves_behind_are_refused_with_the_reason_even_if_the_ch
     ] {
         let mut bytes = good.clone();
         bytes[place..place + 8].copy_from_slice(&f64::to_le_bytes(value));
-        let sum = bytes[checked..]
-            .iter()
-            .fold(0xcbf2_9ce4_8422_2325_u64, |sum, byte| (sum ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3));
+        let sum = brinell::numerics::checksum::checksum(&bytes[checked..]);
         bytes[checked - 8..checked].copy_from_slice(&sum.to_le_bytes());
         assert_eq!(host.deserialize(&bytes), Err(Status::Error), "{value} at {place}");
         let message = host.lines().pop().unwrap().message;

@@ -3,10 +3,12 @@
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::hash::Hasher;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock};
 
 use brinell::contact::map_build::Sequential;
+use brinell::numerics::checksum::Checksum;
 use brinell::scene::{ContactLaw, Scene};
 use brinell::simulation::{Simulation, setup};
 use brinell::surface::Surface;
@@ -25,10 +27,11 @@ pub fn shipped_as_it_is(name: &str) -> Scene {
     Scene::from_toml(&text).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
 
-/// FNV-1a of the bits of numbers.
+/// Checksum of numbers.
 pub fn fingerprint(bits: impl Iterator<Item = u64>) -> u64 {
-    bits.flat_map(u64::to_le_bytes)
-        .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
+    let mut sum = Checksum::default();
+    bits.for_each(|number| sum.write(&number.to_le_bytes()));
+    sum.finish()
 }
 
 /// Text of the profile file that a shipped scene names, if it names one.

@@ -12,6 +12,8 @@ use super::clock::Clock;
 use super::snapshots::Snapshot;
 use super::state::Mode;
 use super::types::Status;
+use brinell::numerics::bytes::Reader;
+use brinell::numerics::checksum::checksum;
 use brinell::simulation::Simulation;
 
 const MAGIC: &[u8; 8] = b"Brinell\0";
@@ -82,32 +84,32 @@ pub(super) fn encode(snapshot: &Snapshot, guid: &str) -> Vec<u8> {
         bytes.extend_from_slice(&value.to_le_bytes());
     }
     bytes.extend_from_slice(&simulation);
-    let checksum = checksum(&bytes[CHECKED_FROM..]);
-    bytes[CHECKED_FROM - 8..CHECKED_FROM].copy_from_slice(&checksum.to_le_bytes());
+    let sum = checksum(&bytes[CHECKED_FROM..]);
+    bytes[CHECKED_FROM - 8..CHECKED_FROM].copy_from_slice(&sum.to_le_bytes());
     bytes
 }
 
 /// The state in bytes that an instance of this simulation's model has written.
 pub(super) fn decode(bytes: &[u8], guid: &str, simulation: &Simulation) -> Result<Snapshot, BlobError> {
-    let mut rest = bytes;
-    if take::<8>(&mut rest).ok_or(BlobError::Foreign)? != *MAGIC {
+    let mut rest = Reader(bytes);
+    if rest.array().ok_or(BlobError::Foreign)? != *MAGIC {
         return Err(BlobError::Foreign);
     }
     let short = BlobError::Length { given: bytes.len() as u64, written: encoded_length(0) as u64 };
-    let found = u32::from_le_bytes(take(&mut rest).ok_or(short.clone())?);
+    let found = rest.u32().ok_or(short.clone())?;
     if found != FORMAT {
         return Err(BlobError::Format { found });
     }
-    let sum = u64::from_le_bytes(take(&mut rest).ok_or(short.clone())?);
-    let damaged = checksum(rest) != sum;
-    let written = u64::from_le_bytes(take(&mut rest).ok_or(short.clone())?);
+    let sum = rest.u64().ok_or(short.clone())?;
+    let damaged = checksum(rest.0) != sum;
+    let written = rest.u64().ok_or(short.clone())?;
     if written != bytes.len() as u64 {
         return Err(BlobError::Length { given: bytes.len() as u64, written });
     }
     if damaged {
         return Err(BlobError::Damaged);
     }
-    let found: [u8; GUID_LENGTH] = take(&mut rest).ok_or(short)?;
+    let found: [u8; GUID_LENGTH] = rest.array().ok_or(short)?;
     if found != guid_field(guid) {
         return Err(BlobError::OtherModel {
             found: String::from_utf8_lossy(&found).into_owned(),
@@ -117,16 +119,15 @@ pub(super) fn decode(bytes: &[u8], guid: &str, simulation: &Simulation) -> Resul
     contents(rest, simulation).map_err(BlobError::Contents)
 }
 
-fn contents(mut rest: &[u8], simulation: &Simulation) -> Result<Snapshot, &'static str> {
+fn contents(mut rest: Reader, simulation: &Simulation) -> Result<Snapshot, &'static str> {
     let (mode, last_step, clock) =
         instance_part(&mut rest).ok_or("mode, status or time of the instance is impossible")?;
-    Ok(Snapshot { mode, last_step, clock, simulation: simulation.state_from_bytes(rest)? })
+    Ok(Snapshot { mode, last_step, clock, simulation: simulation.state_from_bytes(rest.0)? })
 }
 
-fn instance_part(rest: &mut &[u8]) -> Option<(Mode, Status, Option<Clock>)> {
-    let [mode, last_step, clock] = take(rest)?;
-    let mut value = || Some(f64::from_le_bytes(take(rest)?));
-    let (start, stop, time, last) = (value()?, value()?, value()?, value()?);
+fn instance_part(rest: &mut Reader) -> Option<(Mode, Status, Option<Clock>)> {
+    let [mode, last_step, clock] = rest.array()?;
+    let (start, stop, time, last) = (rest.f64()?, rest.f64()?, rest.f64()?, rest.f64()?);
     let last_step = [Status::Ok, Status::Warning, Status::Discard, Status::Error]
         .into_iter()
         .find(|status| *status as u8 == last_step)?;
@@ -150,15 +151,4 @@ fn guid_field(guid: &str) -> [u8; GUID_LENGTH] {
         *byte = character;
     }
     field
-}
-
-fn take<const N: usize>(rest: &mut &[u8]) -> Option<[u8; N]> {
-    let (head, tail) = rest.split_first_chunk::<N>()?;
-    *rest = tail;
-    Some(*head)
-}
-
-/// 64-bit FNV-1a.
-fn checksum(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |sum, byte| (sum ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
 }

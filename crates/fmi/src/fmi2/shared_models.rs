@@ -166,9 +166,7 @@ mod tests {
         let mut bytes = b"BRNL-MAP\x02\0\0\0".to_vec();
         bytes.extend(number.to_le_bytes());
         bytes.extend([0; 8 * 8]);
-        let sum = bytes
-            .iter()
-            .fold(0xcbf2_9ce4_8422_2325_u64, |sum, byte| (sum ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3));
+        let sum = brinell::numerics::checksum::checksum(&bytes);
         bytes.extend(sum.to_le_bytes());
         let path = std::env::temp_dir().join(format!("brinell-shared-map-{}-{number}.bin", std::process::id()));
         fs::write(&path, bytes).unwrap();
