@@ -9,7 +9,7 @@ use brinell::contact::conjugate_gradients::ConjugateGradients;
 use brinell::contact::grid::{Border, GridActiveSet, GridProblem, GridSolver};
 use brinell::contact::love::LoveContact;
 use brinell::contact::map::ContactMap;
-use brinell::contact::map_build::{MapSpecification, Sequential};
+use brinell::contact::map_specification::{MapSpecification, Sequential};
 use brinell::contact::raceway_grid::{ElementOnRaceway, Resolution};
 use brinell::surface::{Profile, Surface};
 use criterion::{Criterion, criterion_group, criterion_main};

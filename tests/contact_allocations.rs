@@ -10,7 +10,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use brinell::contact::love::LoveContact;
 use brinell::contact::map::ContactMap;
-use brinell::contact::map_build::{MapSpecification, Sequential};
+use brinell::contact::map_specification::{MapSpecification, Sequential};
 use brinell::contact::raceway_grid::{ElementOnRaceway, Resolution};
 use brinell::surface::{Profile, Surface};
 use counting::allocations;

@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 use brinell::contact::error::ContactError;
 use brinell::contact::love::LoveContact;
 use brinell::contact::map::ContactMap;
-use brinell::contact::map_build::{MapSpecification, Sequential};
+use brinell::contact::map_specification::{MapSpecification, Sequential};
 use brinell::contact::raceway_grid::{ElementOnRaceway, Resolution};
 use brinell::surface::{Profile, Surface, Topography};
 

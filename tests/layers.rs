@@ -2,8 +2,13 @@
 //! workspace depends only on those that it may know.
 #![allow(clippy::unwrap_used)]
 
+#[path = "layers/reader.rs"]
+mod reader;
+
 use std::fs;
 use std::path::{Path, PathBuf};
+
+use reader::imports;
 
 /// The order of the layers; each may import those before it.
 const ORDER: [&str; 8] = ["numerics", "scene", "geometry", "surface", "contact", "dynamics", "simulation", "recording"];
@@ -60,6 +65,52 @@ fn no_layer_imports_backwards() {
 }
 
 #[test]
+fn no_module_of_a_layer_imports_one_that_imports_it() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let cycle_in = |layer: &str| {
+        let files: Vec<_> = files_of(&source, layer).into_iter().filter_map(|file| module(&source, &file)).collect();
+        reader::cycle(&reader::graph(layer, &files)).map(|cycle| format!("in {layer}: {}", cycle.join(" -> ")))
+    };
+    let cycles: Vec<_> = ORDER.into_iter().filter_map(cycle_in).collect();
+    assert!(cycles.is_empty(), "\n{}", cycles.join("\n"));
+}
+
+/// Path of a file's module within its layer, and its text; none for files of tests.
+fn module(source: &Path, file: &Path) -> Option<(reader::Path, String)> {
+    let inside = file.strip_prefix(source).unwrap().with_extension("");
+    let mut path: reader::Path = inside.iter().skip(1).map(|part| part.to_string_lossy().into_owned()).collect();
+    if path.last().is_some_and(|name| name == "mod") {
+        path.pop();
+    }
+    let is_test = path.last().is_some_and(|name| name == "tests" || name == "trees");
+    (!is_test).then(|| (path, fs::read_to_string(file).unwrap()))
+}
+
+#[test]
+fn the_reader_of_cycles_finds_one_that_is_there() {
+    let file = |path: &str, text: &str| {
+        let path: reader::Path = path.split('/').filter(|part| !part.is_empty()).map(str::to_owned).collect();
+        (path, text.to_owned())
+    };
+    let good = [
+        file("", "pub mod a;\npub use b::{B, C};\npub struct Own;"),
+        file("a", "use super::{B, Own};\nuse crate::other::a;"),
+        file("b", "//! `super::a`\nfn f() {}\n#[cfg(test)]\nmod tests {\n    use super::super::a;\n}"),
+        file("a/part", "use super::super::b::f;\nuse super::g;"),
+    ];
+    assert_eq!(reader::cycle(&reader::graph("layer", &good)), None);
+    for bad in [file("b", "use super::a::A;"), file("b", "use crate::layer::{c, a};"), file("b", "use super::Own;")] {
+        let mut files = good.clone();
+        let closes = bad.1.contains("Own");
+        files[2] = bad;
+        if closes {
+            files[0].1 += "\nuse a::A;";
+        }
+        assert!(reader::cycle(&reader::graph("layer", &files)).is_some(), "{files:?}");
+    }
+}
+
+#[test]
 fn every_module_of_the_crate_has_a_place_in_the_order() {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/lib.rs");
     let text = fs::read_to_string(source).unwrap();
@@ -113,59 +164,4 @@ fn files_of(source: &Path, layer: &str) -> Vec<PathBuf> {
     }
     files.sort();
     files
-}
-
-/// Every name that follows `crate::`, alone or in braces, with its line; comments do not count.
-fn imports(text: &str) -> Vec<(usize, String)> {
-    let code: String = text.lines().map(|line| without_comment(line) + "\n").collect();
-    let mut found = Vec::new();
-    for (at, _) in code.match_indices("crate::") {
-        let before = code[..at].chars().next_back();
-        if before.is_some_and(|c| c.is_alphanumeric() || c == '_' || c == '$') {
-            continue;
-        }
-        let line = code[..at].matches('\n').count() + 1;
-        let rest = &code[at + "crate::".len()..];
-        match rest.strip_prefix('{') {
-            Some(list) => found.extend(first_names(list).into_iter().map(|name| (line, name))),
-            None => found.push((line, name_at(rest))),
-        }
-    }
-    found
-}
-
-/// The first name of each path in a list that ends with its closing brace.
-fn first_names(list: &str) -> Vec<String> {
-    let (mut names, mut depth, mut start) = (Vec::new(), 0, true);
-    for (at, c) in list.char_indices() {
-        match c {
-            '{' => depth += 1,
-            '}' if depth == 0 => break,
-            '}' => depth -= 1,
-            ',' if depth == 0 => start = true,
-            c if start && (c.is_alphabetic() || c == '_') => {
-                names.push(name_at(&list[at..]));
-                start = false;
-            }
-            _ => {}
-        }
-    }
-    names
-}
-
-fn name_at(text: &str) -> String {
-    text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
-}
-
-fn without_comment(line: &str) -> String {
-    let mut quoted = false;
-    let bytes = line.as_bytes();
-    for (at, byte) in bytes.iter().enumerate() {
-        match byte {
-            b'"' if at == 0 || bytes[at - 1] != b'\\' => quoted = !quoted,
-            b'/' if !quoted && bytes.get(at + 1) == Some(&b'/') => return line[..at].to_owned(),
-            _ => {}
-        }
-    }
-    line.to_owned()
 }

@@ -4,7 +4,7 @@
 
 mod support;
 
-use brinell::contact::map_build::Sequential;
+use brinell::contact::map_specification::Sequential;
 use brinell::contact::rigid_path::RigidPath;
 use brinell::scene::{ContactLaw, Defect, DefectShape, Motion, Ring, Scene};
 use brinell::simulation::{Simulation, setup};

@@ -9,7 +9,7 @@ use std::thread;
 use anyhow::Result;
 use brinell::contact::error::ContactError;
 use brinell::contact::map::ContactMap;
-use brinell::contact::map_build::Runner;
+use brinell::contact::map_specification::Runner;
 use brinell::scene::{ContactLaw, Scene};
 use brinell::simulation::setup;
 use brinell::surface::Surface;

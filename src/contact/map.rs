@@ -58,7 +58,7 @@ pub(super) struct Strip {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Cell {
     Leaf(u32),
-    Cut([u32; 4]),
+    Divided([u32; 4]),
 }
 
 /// A stretch of raceway with nodes.
@@ -194,7 +194,7 @@ impl Patch {
         let leaf = loop {
             match cell {
                 Cell::Leaf(leaf) => break self.leaves.get(*leaf as usize)?,
-                Cell::Cut(parts) => {
+                Cell::Divided(parts) => {
                     (q, t, per_arc, per_path) = (2.0 * q, 2.0 * t, 2.0 * per_arc, 2.0 * per_path);
                     let (right, high) = (usize::from(q >= 1.0), usize::from(t >= 1.0));
                     (q, t) = (q - right as f64, t - high as f64);

@@ -73,7 +73,7 @@ impl Cells {
     }
 
     /// Cuts a leaf in four, and before it neighbours that would be two cuts behind.
-    pub(super) fn cut(&mut self, key: Key) {
+    pub(super) fn divide(&mut self, key: Key) {
         if !self.leaves.contains(&key) {
             return;
         }
@@ -91,7 +91,7 @@ impl Cells {
                 && let Some(neighbour) = self.leaf_at(i, j)
                 && neighbour.0 < level
             {
-                self.cut(neighbour);
+                self.divide(neighbour);
             }
         }
         self.leaves.remove(&key);
@@ -154,7 +154,7 @@ impl Cells {
             let (level, i, j) = key;
             let first = keys.len() as u32;
             keys.extend([(0, 0), (1, 0), (0, 1), (1, 1)].map(|(di, dj)| (level + 1, 2 * i + di, 2 * j + dj)));
-            cells.push(Cell::Cut([first, first + 1, first + 2, first + 3]));
+            cells.push(Cell::Divided([first, first + 1, first + 2, first + 3]));
         }
         (cells, self.cubics.values().copied().collect())
     }

@@ -58,7 +58,7 @@ impl ContactMap {
                     for cell in &patch.cells {
                         number(match cell {
                             Cell::Leaf(leaf) => f64::from(*leaf),
-                            Cell::Cut(_) => -1.0,
+                            Cell::Divided(_) => -1.0,
                         });
                     }
                     number(patch.leaves.len() as f64);
@@ -168,14 +168,14 @@ fn read_stretch(numbers: &mut Numbers<'_>) -> Option<Stretch> {
         let leaf = numbers.number()?;
         cells.push(if leaf < 0.0 {
             part += 4;
-            Cell::Cut([part - 4, part - 3, part - 2, part - 1])
+            Cell::Divided([part - 4, part - 3, part - 2, part - 1])
         } else {
             Cell::Leaf(leaf as u32)
         });
     }
     // All parts are there, and each lies behind the cell that was cut.
     let complete = part as usize == cells.len();
-    let ordered = cells.iter().zip(0..).all(|(cell, n)| !matches!(cell, Cell::Cut(parts) if parts[0] <= n));
+    let ordered = cells.iter().zip(0..).all(|(cell, n)| !matches!(cell, Cell::Divided(parts) if parts[0] <= n));
     let count = numbers.count()?;
     let mut leaves = Vec::new();
     for _ in 0..count {

@@ -14,8 +14,8 @@ use super::{
     flat_stretches::{check_ends, flats, reach, shallowest},
     love::LoveContact,
     map::{Accuracy, ContactMap, Patch, Stretch, Strip},
-    map_build::{MapSpecification, Runner},
     map_cells::{Cells, FINEST, Key, LEVELS, Node, Place},
+    map_specification::{MapSpecification, Runner},
     raceway_grid::ElementOnRaceway,
 };
 
@@ -201,7 +201,7 @@ impl MapPlan {
                 return Ok(ContactMap { accuracy, ..map });
             }
             for (p, key) in poor {
-                self.patches[p].cells.cut(key);
+                self.patches[p].cells.divide(key);
             }
         }
     }

@@ -18,6 +18,7 @@ pub mod map_build;
 mod map_cells;
 pub mod map_format;
 pub mod map_plan;
+pub mod map_specification;
 pub mod near_defect;
 pub mod raceway_grid;
 pub mod rigid_path;

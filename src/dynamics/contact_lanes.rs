@@ -5,6 +5,7 @@
 //!
 //! A place without an element has stiffness 0 and no derivative.
 
+use super::element_block::ElementBlock;
 use super::kinematics::{Kinematics, Stage};
 use super::model::Model;
 use crate::contact::force_law::DampedLaw;
@@ -24,25 +25,6 @@ struct Smooth<'a> {
     series: bool,
     /// Time [s] by which paths are still to be moved on along their rates.
     ahead: Option<f64>,
-}
-
-/// What differs between elements, for eight of them; where there is none, all zeros.
-#[derive(Debug, Clone, Copy, Default)]
-#[repr(align(64))]
-pub(super) struct Group {
-    /// cos and sin of the element's angle ahead of element 1.
-    pub(super) cos: [f64; WIDEST],
-    pub(super) sin: [f64; WIDEST],
-    /// 1 where there is an element.
-    pub(super) present: [f64; WIDEST],
-    /// 1/mass [1/kg].
-    pub(super) per_mass: [f64; WIDEST],
-    /// Hertz constant of the inner contact [N/m^1.5].
-    pub(super) inner: [f64; WIDEST],
-    /// That of the outer contact on the smooth rigid raceway; 0 for an element that is not on it.
-    pub(super) outer: [f64; WIDEST],
-    /// Acceleration of w by an outer contact that is not on it [m/s²].
-    pub(super) other: [f64; WIDEST],
 }
 
 /// What follows for some elements.
@@ -135,7 +117,7 @@ impl Model {
         now: &Kinematics,
         stage: &Stage,
         derivative: &mut [f64],
-        (groups, contacts): (&[Group], &mut Record),
+        (elements, contacts): (&[ElementBlock], &mut Record),
     ) -> [f64; 4] {
         let start = self.layout.radial_velocity;
         let (offset, v, omega) = (now.offset(), now.housing.velocity, now.cage.speed);
@@ -149,14 +131,14 @@ impl Model {
             contacts.outer_tangential.fill(0.0);
         }
         let (state, derivative) = (blocks(stage.state), blocks_mut(derivative));
-        for (k, group) in groups.iter().enumerate() {
+        for (k, block) in elements.iter().enumerate() {
             let w = start / WIDEST + k;
             for part in 0..WIDEST / S::F64_LANES {
                 if (k * WIDEST + part * S::F64_LANES) >= self.element_count {
                     break;
                 }
                 let of = |numbers: &[f64; WIDEST]| Lanes::part(simd, numbers, part);
-                let found = smooth.contacts((simd, of(&state[k]), of(&state[w])), group, of, &mut sums);
+                let found = smooth.contacts((simd, of(&state[k]), of(&state[w])), block, of, &mut sums);
                 found.path_rate.put(&mut derivative[k], part);
                 found.acceleration.put(&mut derivative[w], part);
                 if RECORD {
@@ -195,12 +177,12 @@ impl Smooth<'_> {
     fn contacts<S: Wide>(
         &self,
         (simd, u, w): (S, Lanes<S>, Lanes<S>),
-        group: &Group,
+        block: &ElementBlock,
         of: impl Fn(&[f64; WIDEST]) -> Lanes<S>,
         sums: &mut Sums,
     ) -> Found<S> {
         let (model, now) = (self.model, self.now);
-        let (cos, sin, present) = (of(&group.cos), of(&group.sin), of(&group.present));
+        let (cos, sin, present) = (of(&block.cos), of(&block.sin), of(&block.present));
         let (cage_cos, cage_sin) = (Lanes::splat(simd, now.cage.direction.x), Lanes::splat(simd, now.cage.direction.y));
         let e_r = [cage_cos * cos - cage_sin * sin, cage_sin * cos + cage_cos * sin];
         let path_rate = w - dot(simd, now.housing.velocity, e_r);
@@ -227,11 +209,11 @@ impl Smooth<'_> {
         let opening = n_r * (dot(simd, self.drift, e_r) + path_rate) + n_t * along;
 
         let law = DampedLaw::new(model.inner.contact.law.damping, number);
-        let inner = law.force(of(&group.inner), delta, -opening);
-        let outer = law.force(of(&group.outer), u, path_rate);
+        let inner = law.force(of(&block.inner), delta, -opening);
+        let outer = law.force(of(&block.outer), u, path_rate);
         let turning = rho * Lanes::splat(simd, now.cage.speed * now.cage.speed);
-        let acceleration = (inner * n_r - outer) * of(&group.per_mass)
-            + of(&group.other)
+        let acceleration = (inner * n_r - outer) * of(&block.per_mass)
+            + of(&block.other)
             + (dot(simd, self.body, e_r) + turning) * present;
 
         sums.add([

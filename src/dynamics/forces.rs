@@ -1,27 +1,12 @@
-//! The right-hand side of the equations of motion.
-//!
-//! With e_r, e_t the radial and tangential directions of an element, q from the inner ring's centre to the element's,
-//! n = q/|q|, v_o, v_i the rings' velocities and ω the cage speed:
-//! ```text
-//! u'  = w − e_r·v_o
-//! w'  = (Q_i n·e_r − F_r)/m + g·e_r + ω (v_o·e_t + ρ ω)
-//! δ_i = R_i + r − |q|,   δ̇_i = −n·(v_o + u' e_r + ρ ω e_t − v_i)
-//! m_i x_i'' = F_i − Σ Q_i n − c_s v_i − k_s x_i
-//! m_o x_o'' = F_o + Σ (F_r e_r − F_t e_t) − c_p v_o − k_p x_o + f_s,   m_s y_s'' = −f_s
-//! ```
-//! F_r and F_t are what the outer raceway exerts on the element, inwards and counter-clockwise; on the smooth raceway
-//! F_r = Q(u, u') and F_t = 0. As w is the element's *absolute* radial velocity, no ring acceleration enters.
-//! The cage is kinematic: it takes up every tangential force on the elements. What it takes is the cage torque.
+//! What an evaluation of the equations of motion finds on its way: forces on the rings, and each contact if asked for.
 
-use super::contact_lanes::{Group, Record};
-use super::drive::Drive;
-use super::kinematics::{Kinematics, Stage, moved};
+use super::contact_lanes::Record;
+use super::element_block::ElementBlock;
 use super::model::Model;
 use super::raceway::SMOOTH;
 use crate::contact::error::ContactError;
-use crate::contact::near_defect::OuterApproach;
-use crate::numerics::lanes::{Each, Kernel, Lanes, Lists, QUAD, WIDEST, Wide, dispatch, largest_of, places};
-use crate::numerics::plane::{Vector, turned};
+use crate::numerics::lanes::{Each, Lanes, Lists, QUAD, WIDEST, Wide, largest_of, places};
+use crate::numerics::plane::Vector;
 
 /// What the right-hand side found on its way. Its lists are made once.
 #[derive(Debug, Default)]
@@ -29,11 +14,11 @@ pub struct Forces {
     /// Each contact, where the right-hand side was asked to keep them.
     pub contacts: Record,
     /// The elements, with what follows from the raceway that each is on.
-    pub(super) groups: Vec<Group>,
+    pub(super) elements: Vec<ElementBlock>,
     /// Elements that are not on the smooth rigid raceway, with their cells.
-    others: Vec<(usize, u32)>,
+    pub(super) others: Vec<(usize, u32)>,
     /// Their outer contacts.
-    other_contacts: Vec<OtherContact>,
+    pub(super) other_contacts: Vec<OtherContact>,
     /// Number of elements.
     count: usize,
     /// The bearing's force on the inner ring, then on the outer [N].
@@ -62,7 +47,7 @@ impl Clone for Forces {
     fn clone(&self) -> Self {
         let mut copy = Self {
             contacts: self.contacts.clone(),
-            groups: self.groups.clone(),
+            elements: self.elements.clone(),
             unsolved: self.unsolved.clone(),
             ..Self::new(self.count)
         };
@@ -80,7 +65,7 @@ impl Forces {
         Self {
             count,
             contacts: Record::new(places),
-            groups: vec![Group::default(); places / WIDEST],
+            elements: vec![ElementBlock::default(); places / WIDEST],
             others: Vec::with_capacity(count),
             other_contacts: Vec::with_capacity(count),
             ..Self::default()
@@ -88,20 +73,20 @@ impl Forces {
     }
 
     /// Sorts the elements by the raceway they are on. What follows inside kernels is for these cells.
-    fn enter(&mut self, model: &Model, cells: &[u32]) {
+    pub(super) fn enter(&mut self, model: &Model, cells: &[u32]) {
         let rigid = model.outer.contact.compliance == 0.0;
         self.others.clear();
-        self.groups.copy_from_slice(&model.elements);
+        self.elements.copy_from_slice(&model.elements);
         for (j, &cell) in cells.iter().enumerate() {
             if !(rigid && cell == SMOOTH) {
                 self.others.push((j, cell));
-                self.groups[j / WIDEST].outer[j % WIDEST] = 0.0;
+                self.elements[j / WIDEST].outer[j % WIDEST] = 0.0;
             }
         }
     }
 
     /// Puts what [`Model::other_contacts`] found among the contacts that are kept.
-    fn record_others(&mut self) {
+    pub(super) fn record_others(&mut self) {
         let record = &mut self.contacts;
         for other in &self.other_contacts {
             let j = other.element;
@@ -164,192 +149,12 @@ impl Forces {
 
 /// An outer contact that is not that of the smooth rigid raceway.
 #[derive(Debug, Clone, Copy)]
-struct OtherContact {
-    element: usize,
-    approach: f64,
-    pushing: f64,
-    /// Magnitude [N], and the parts inwards and counter-clockwise on the element.
-    force: [f64; 3],
-}
-
-/// An element seen from the inner ring's centre.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct InnerGap {
-    /// δ_i [m]
+pub(super) struct OtherContact {
+    pub(super) element: usize,
     pub(super) approach: f64,
-    /// n = q/|q|, radial and tangential.
-    pub(super) n: Vector,
-    /// |q| [m]
-    pub(super) distance: f64,
-}
-
-impl Model {
-    /// Derivative of `state` at `tau`, and each contact; `cells` says in which cell of the defect each element is.
-    pub fn derivative(
-        &self,
-        drive: &Drive,
-        tau: f64,
-        cells: &[u32],
-        state: &[f64],
-        derivative: &mut [f64],
-        forces: &mut Forces,
-    ) {
-        forces.enter(self, cells);
-        let stage = Stage { drive, cage: &drive.cage_at(tau), state, ahead: None };
-        dispatch(Derivative { model: self, stage, derivative, forces });
-    }
-
-    /// As [`Self::derivative`] inside a kernel, for the cells that `forces` have last seen there. Each contact is kept only if
-    /// `RECORD`, which takes a stage whose positions are not still to be moved on.
-    #[inline(always)]
-    pub(crate) fn derivative_on<S: Wide, const RECORD: bool>(
-        &self,
-        simd: S,
-        stage: &Stage,
-        derivative: &mut [f64],
-        forces: &mut Forces,
-    ) {
-        let Stage { drive, cage, state, ahead } = *stage;
-        let (now, tau) = (self.kinematics_of(stage), cage.tau);
-        // A copy for the call, so that what is known of the instant can stay in registers: what is written to memory in parts
-        // and read together soon after is read late.
-        let others = if forces.others.is_empty() {
-            Vector::zeros()
-        } else {
-            self.other_contacts::<RECORD>(&{ now }, state, ahead, forces)
-        };
-        let [shaft_x, shaft_y, housing_x, housing_y] =
-            self.smooth_contacts::<S, RECORD>(simd, &now, stage, derivative, (&forces.groups, &mut forces.contacts));
-        let (housing_x, housing_y) = (housing_x + others.x, housing_y + others.y);
-        if RECORD && !forces.others.is_empty() {
-            forces.record_others();
-        }
-        Lanes::of(simd, [shaft_x, shaft_y, housing_x, housing_y]).store(&mut forces.rings, 0);
-        let supports = &self.supports;
-        if let Some(i) = self.layout.shaft {
-            let force = Vector::new(drive.shaft_load[0].at(tau) + shaft_x, drive.shaft_load[1].at(tau) + shaft_y);
-            supports.shaft.ring_rates(simd, &now.shaft, force).store(derivative, i);
-        }
-        let mut reaction = 0.0;
-        if let Some(i) = self.layout.sensor {
-            let v = state[i + 1];
-            reaction = supports.sensor_force(moved(state[i], v, ahead), v, &now.housing);
-            supports.sensor_rates(simd, v, reaction).store(derivative, i);
-        }
-        if let Some(i) = self.layout.housing {
-            let load = &drive.housing_load;
-            let force = Vector::new(load[0].at(tau) + housing_x, load[1].at(tau) + (housing_y + reaction));
-            supports.housing.ring_rates(simd, &now.housing, force).store(derivative, i);
-        }
-    }
-
-    /// The outer contacts that are not those of the smooth rigid raceway; gives their force on the outer ring.
-    ///
-    /// They come first, so that what they add to an element's acceleration is long written when all elements' are read.
-    #[inline(never)]
-    fn other_contacts<const RECORD: bool>(
-        &self,
-        now: &Kinematics,
-        state: &[f64],
-        ahead: Option<f64>,
-        forces: &mut Forces,
-    ) -> Vector {
-        let (compliant, start) = (self.outer.contact.compliance != 0.0, self.layout.radial_velocity);
-        let mut on_housing = Vector::zeros();
-        let Forces { others, other_contacts, groups, defect_lookups, unsolved, .. } = forces;
-        other_contacts.clear();
-        for &(j, cell) in others.iter() {
-            let e_r = self.direction(j, now.cage.direction);
-            let path_rate = state[start + j] - now.housing.velocity.dot(&e_r);
-            let u = moved(state[j], path_rate, ahead);
-            let near = self.near_defect(j, cell, u, now.cage.angle, self.outer_centre_radius + u);
-            *defect_lookups += u64::from(near.is_some());
-            let near = near.unwrap_or_else(|| Ok(OuterApproach::smooth(u))).unwrap_or_else(|cause| {
-                // What is no number here has its cause elsewhere.
-                if (u + now.cage.angle).is_finite() {
-                    let angle = self.angle_from_defect(j, now.cage.angle);
-                    *unsolved = Some(UnsolvedContact { element: j, angle, offset: now.offset().into(), cause });
-                }
-                OuterApproach::unsolved()
-            });
-            let rate = near.by_path * path_rate + near.by_angle * now.cage.speed;
-            let (part, part_rate) =
-                if compliant { self.outer.contact.of_contact(near.value, rate) } else { (near.value, rate) };
-            let outer = self.outer.contact.law.force(part, part_rate);
-            let (f_r, f_t) = (outer * near.radial, outer * near.tangential);
-            groups[j / WIDEST].other[j % WIDEST] = -f_r * self.inverse_element_mass;
-            on_housing += e_r * f_r - turned(e_r) * f_t;
-            if !RECORD {
-                continue;
-            }
-            let magnitude = outer * (near.radial * near.radial + near.tangential * near.tangential).sqrt();
-            other_contacts.push(OtherContact {
-                element: j,
-                approach: near.value,
-                pushing: self.outer.contact.law.pushing(part, part_rate),
-                force: [magnitude, f_r, f_t],
-            });
-        }
-        on_housing
-    }
-
-    /// Where an element at path `u` in direction `e_r` is seen from the inner ring, whose centre is `offset` before the
-    /// outer ring's.
-    #[inline]
-    pub(super) fn inner_gap(&self, u: f64, offset: Vector, e_r: Vector) -> InnerGap {
-        // |q| = √((ρ+p)² + t²), written so that δ_i loses no digits to the radii's 20 mm.
-        let (p, t) = (offset.dot(&e_r), offset.dot(&turned(e_r)));
-        let q_r = self.outer_centre_radius + u + p;
-        let distance = (q_r * q_r + t * t).sqrt();
-        let approach = -self.radial_clearance - u - p - t * t / (distance + q_r);
-        InnerGap { approach, n: Vector::new(q_r / distance, t / distance), distance }
-    }
-
-    /// Approach of element `j` to the outer raceway in a cell of the defect; `None` on the smooth raceway.
-    ///
-    /// Inlined, so that what its caller does not use is not worked out.
-    #[inline(always)]
-    pub(super) fn near_defect(
-        &self,
-        j: usize,
-        cell: u32,
-        u: f64,
-        cage_angle: f64,
-        rho: f64,
-    ) -> Option<Result<OuterApproach, ContactError>> {
-        if cell == SMOOTH {
-            return None;
-        }
-        let defect = self.outer.defect.as_ref()?;
-        Some(defect.surface.approach(cell as usize, u, defect.angle(cage_angle + self.element_offset(j)), rho))
-    }
-
-    /// As [`Self::near_defect`], the smooth raceway included.
-    pub(super) fn outer_approach(&self, j: usize, cell: u32, u: f64, cage_angle: f64, rho: f64) -> OuterApproach {
-        match self.near_defect(j, cell, u, cage_angle, rho) {
-            None => OuterApproach::smooth(u),
-            Some(near) => near.unwrap_or_else(|_| OuterApproach::unsolved()),
-        }
-    }
-
-    /// Torque of the elements on the cage about the outer ring's centre [N m], counter-clockwise.
-    ///
-    /// The kinematic cage forces each element to the tangential acceleration a_o·e_t + 2 u' ω + ρ ω'; what contacts and
-    /// gravity do not supply, it does. `acceleration` is the outer ring's [m/s²].
-    pub fn cage_torque(&self, drive: &Drive, tau: f64, state: &[f64], acceleration: Vector, forces: &Forces) -> f64 {
-        let cage = drive.cage_at(tau);
-        (0..self.element_count)
-            .map(|j| {
-                let e_t = turned(self.direction(j, cage.direction));
-                let rho = self.outer_centre_radius + state[j];
-                let contacts = &forces.contacts;
-                let inertia =
-                    acceleration.dot(&e_t) + 2.0 * contacts.path_rate[j] * cage.speed + rho * cage.acceleration;
-                let contacts = contacts.inner[j] * contacts.normal_tangential[j] + contacts.outer_tangential[j];
-                rho * (contacts + self.element_mass * (self.gravity.dot(&e_t) - inertia))
-            })
-            .sum()
-    }
+    pub(super) pushing: f64,
+    /// Magnitude [N], and the parts inwards and counter-clockwise on the element.
+    pub(super) force: [f64; 3],
 }
 
 /// How far the contact that has changed most is beyond its change.
@@ -376,23 +181,5 @@ impl Each<2, 0> for Largest {
     fn places<S: Wide>(&self, _: S, approach: [Lanes<S>; 2], most: &mut [f64; QUAD]) -> [Lanes<S>; 0] {
         approach[0].at_least(approach[1]).largest_to(most);
         []
-    }
-}
-
-/// The whole right-hand side.
-struct Derivative<'a> {
-    model: &'a Model,
-    stage: Stage<'a>,
-    derivative: &'a mut [f64],
-    forces: &'a mut Forces,
-}
-
-impl Kernel for Derivative<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S: Wide>(self, simd: S) {
-        let Self { model, stage, derivative, forces } = self;
-        model.derivative_on::<S, true>(simd, &stage, derivative, forces);
     }
 }

@@ -6,6 +6,8 @@
 pub mod contact_lanes;
 pub(crate) mod dense_output;
 pub mod drive;
+mod element_block;
+mod element_contacts;
 pub mod equilibrium;
 pub mod equilibrium_variation;
 pub mod forces;
@@ -14,6 +16,8 @@ pub mod kinematics;
 mod linearized;
 pub mod model;
 pub mod raceway;
+mod right_hand_side;
+mod ring_motion;
 pub mod supports;
 pub mod tangent;
 pub mod variation;

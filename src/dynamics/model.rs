@@ -5,16 +5,16 @@
 //! part to a multiple of four, so that they are treated several at a time. u is the roller path (ρ − (R_o − r), ρ the distance of the element's centre from the
 //! *outer ring's* centre), w the radial component of the element's absolute velocity.
 
-use super::contact_lanes::Group;
+use super::element_block::{ElementBlock, blocks};
 use super::raceway::{Placed, Raceway, SMOOTH};
 use super::supports::Supports;
 use crate::contact::compliant::CompliantContact;
 use crate::contact::force_law::ForceLaw;
 use crate::geometry::hertz_constant::HertzConstants;
 use crate::geometry::kinematics::cage_ratio;
-use crate::numerics::lanes::{Cut, QUAD, WIDEST, places};
+use crate::numerics::lanes::{Partition, QUAD, WIDEST, places};
 use crate::numerics::plane::Vector;
-use crate::numerics::{sin_cos, wrap};
+use crate::numerics::wrap;
 use crate::scene::{Motion, Ring, Scene};
 use std::f64::consts::TAU;
 
@@ -50,7 +50,7 @@ pub struct Model {
     /// Places of the state vector.
     pub layout: Layout,
     /// What differs from element to element, eight at a time.
-    pub(super) elements: Vec<Group>,
+    pub(super) elements: Vec<ElementBlock>,
 }
 
 /// Where a state is found.
@@ -94,9 +94,9 @@ impl Layout {
         i < self.radial_velocity || within(self.shaft, 2) || within(self.housing, 2) || within(self.sensor, 1)
     }
 
-    /// How the state is cut.
-    pub fn cut(&self) -> Cut {
-        Cut { count: self.element_count, rest: self.len - 2 * self.radial_velocity }
+    /// The lists that the state is made up of.
+    pub fn partition(&self) -> Partition {
+        Partition { count: self.element_count, rest: self.len - 2 * self.radial_velocity }
     }
 
     /// Whether place `i` is a state's, not one that only fills a list up.
@@ -160,7 +160,7 @@ impl Model {
             supports: Supports::new(scene),
             cage_ratio: cage_ratio(bearing, scene.cage.slip),
             layout: Layout::new(scene),
-            elements: groups(bearing.element_count, 1.0 / bearing.mass_of_element(), hertz),
+            elements: blocks(bearing.element_count, 1.0 / bearing.mass_of_element(), hertz),
         }
     }
 
@@ -194,16 +194,4 @@ impl Model {
         let (cos, sin) = (self.elements[j / WIDEST].cos[j % WIDEST], self.elements[j / WIDEST].sin[j % WIDEST]);
         Vector::new(cage.x * cos - cage.y * sin, cage.y * cos + cage.x * sin)
     }
-}
-
-/// Elements, eight at a time.
-fn groups(count: usize, per_mass: f64, hertz: HertzConstants) -> Vec<Group> {
-    let mut groups = vec![Group::default(); places(count) / WIDEST];
-    for j in 0..count {
-        let (sin, cos) = sin_cos(j as f64 * TAU / count as f64);
-        let (group, i) = (&mut groups[j / WIDEST], j % WIDEST);
-        (group.cos[i], group.sin[i], group.present[i]) = (cos, sin, 1.0);
-        (group.per_mass[i], group.inner[i], group.outer[i]) = (per_mass, hertz.inner, hertz.outer);
-    }
-    groups
 }

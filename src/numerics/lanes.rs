@@ -113,7 +113,10 @@ impl Wide for Scalar256b {
 }
 
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+mod partition;
 mod x86;
+
+pub use partition::Partition;
 
 /// What runs on several numbers at a time.
 pub trait Kernel {
@@ -191,64 +194,6 @@ impl<const I: usize, const O: usize> Lists<'_, I, O> {
                 list[k] = value.1;
             }
         }
-    }
-}
-
-/// How a vector of states is made up: two lists of equal length, which are treated with all lanes there are, and a rest,
-/// which is treated by four. Whoever writes and whoever reads a vector soon after must cut it in the same way: a register
-/// that was written in parts is read late.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Cut {
-    /// Numbers in each list.
-    pub count: usize,
-    /// Numbers in the rest, a multiple of [`QUAD`].
-    pub rest: usize,
-}
-
-impl Cut {
-    /// Start of the second list.
-    pub fn second(self) -> usize {
-        places(self.count)
-    }
-
-    /// Start of the rest.
-    pub fn third(self) -> usize {
-        2 * places(self.count)
-    }
-
-    /// Length of the whole.
-    pub fn len(self) -> usize {
-        self.third() + self.rest
-    }
-
-    /// Whether there is nothing.
-    pub fn is_empty(self) -> bool {
-        self.len() == 0
-    }
-
-    /// Treats all places.
-    #[inline(always)]
-    pub fn for_each<S: Wide, E: Each<I, 1>, const I: usize>(
-        self,
-        simd: S,
-        from: [&[f64]; I],
-        to: &mut [f64],
-        each: &E,
-        sum: &mut E::Sum,
-    ) {
-        if S::F64_LANES == QUAD {
-            return Lists { from, to: [to] }.for_each(simd, self.len(), each, sum);
-        }
-        let (lists, rest) = to.split_at_mut(self.third());
-        Lists { from, to: [lists] }.for_each(simd, self.third(), each, sum);
-        Lists { from: after(from, self.third()), to: [rest] }.for_each(simd.quad(), self.rest, each, sum);
-    }
-
-    /// Treats all places of lists that are only read.
-    #[inline(always)]
-    pub fn look<S: Wide, E: Each<I, 0>, const I: usize>(self, simd: S, from: [&[f64]; I], each: &E, sum: &mut E::Sum) {
-        Lists { from, to: [] }.for_each(simd, self.third(), each, sum);
-        Lists { from: after(from, self.third()), to: [] }.for_each(simd.quad(), self.rest, each, sum);
     }
 }
 

@@ -11,7 +11,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use super::RecordingError;
+use super::error::RecordingError;
 
 /// Files claimed in this process and the names of the instances that write them.
 static CLAIMED: Mutex<Vec<(PathBuf, String)>> = Mutex::new(Vec::new());

@@ -9,13 +9,10 @@
 //! to an approach of 0.0037 D_w in each contact (30 µm for D_w = 7.94 mm; Hertzian approach at a given pressure grows in
 //! proportion to size), hence G_r ≥ −0.0075 D_w. Ceramic or very open grooves would allow somewhat less; the limit is not scaled for them.
 
-use super::error::SceneError;
+use super::error::{LONGEST_NAME, SceneError};
 use super::quantity::*;
 use super::{Bearing, Contact, Damping, Defect, DefectShape, Motion, Recorder, RecorderFilter, Ring, Scene};
 use std::f64::consts::{PI, TAU};
-
-/// Longest name of a scene.
-pub(super) const LONGEST_NAME: usize = 64;
 
 /// Smallest clearance over element diameter; see the head of this file.
 const SMALLEST_RELATIVE_CLEARANCE: f64 = -0.0075;

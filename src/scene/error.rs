@@ -3,6 +3,9 @@
 use super::key_fault::KeyFault;
 use std::fmt;
 
+/// Longest name of a scene.
+pub(super) const LONGEST_NAME: usize = 64;
+
 /// A scene that cannot be read or cannot exist.
 ///
 /// Values are shown in the unit of the key, so that a reader finds in the file what the message speaks of.
@@ -66,7 +69,7 @@ pub enum SceneError {
     /// A name that cannot become a file name and a C identifier.
     #[error(
         "name \"{0}\": 1 to {max} characters, each an ASCII letter, a digit, - or _",
-        max = super::check::LONGEST_NAME
+        max = LONGEST_NAME
     )]
     Name(String),
     /// A profile that is not a plain file name.

@@ -46,8 +46,8 @@ pub fn try_step<S: Wide>(
     h: f64,
     right_hand_side: &mut impl RightHandSide,
 ) {
-    let Explicit { stages, end, trial, positions, cut } = room;
-    let cut = (*cut, &positions[..]);
+    let Explicit { stages, end, trial, positions, partition } = room;
+    let cut = (*partition, &positions[..]);
     let rows = (row(STAGES[1]), row(STAGES[2]), row(STAGES[3]), row(STAGES[4]), row(STAGES[5]));
     for stage in 1..LAST {
         let (done, rest) = stages.split_at_mut(stage);
@@ -76,7 +76,7 @@ pub fn try_step<S: Wide>(
 #[inline(always)]
 pub fn dense<S: Wide>(simd: S, room: &Explicit, state: &[f64], (h, share): (f64, f64), out: &mut [f64]) {
     let [first, _, b, c, d, e, last] = &room.stages;
-    room.cut.for_each(simd, [state, &room.end, first, b, c, d, e, last], out, &Dense { h, share }, &mut ());
+    room.partition.for_each(simd, [state, &room.end, first, b, c, d, e, last], out, &Dense { h, share }, &mut ());
 }
 
 /// The state at a share of a step of this length: from those at its ends and all stages but the second, whose weight is 0.
@@ -106,7 +106,7 @@ impl Each<8, 1> for Dense {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::lanes::Cut;
+    use crate::numerics::lanes::Partition;
     use crate::numerics::row::Row;
     use crate::numerics::trees;
     use pulp::Scalar256b;
@@ -130,7 +130,7 @@ mod tests {
     }
 
     fn integrate(count: usize) -> Vec<f64> {
-        let mut method = Explicit::new(Cut { count: 0, rest: 4 }, Row::zeros(4));
+        let mut method = Explicit::new(Partition { count: 0, rest: 4 }, Row::zeros(4));
         let mut state = vec![1.0, 0.0, 1.0, 0.0];
         let h = 1.0 / count as f64;
         for i in 0..count {
@@ -188,7 +188,7 @@ mod tests {
     fn dense_output_is_of_order_four() {
         // One step from the exact state: its dense output is wrong by O(h⁵). Largest error over the step's shares.
         let error = |h: f64| {
-            let mut method = Explicit::new(Cut { count: 0, rest: 4 }, Row::zeros(4));
+            let mut method = Explicit::new(Partition { count: 0, rest: 4 }, Row::zeros(4));
             let state = vec![0.0, 0.0, 1.0, 0.0];
             let mut first = vec![0.0; 4];
             right_hand_side(0.0, &state, &mut first);

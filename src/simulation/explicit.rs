@@ -1,6 +1,8 @@
 //! What the explicit methods share: room for the stages of a step, error estimates, and what is asked of the equations.
 
-use crate::numerics::lanes::{Cut, Each, Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, largest_of, quads, quads_mut};
+use crate::numerics::lanes::{
+    Each, Lanes, Partition, QUAD, WIDEST, Wide, blocks, blocks_mut, largest_of, quads, quads_mut,
+};
 use crate::numerics::row::Row;
 
 /// Where the derivative at the end of a step is kept; with either method it is the first stage of the next.
@@ -9,7 +11,7 @@ pub const LAST: usize = 6;
 /// Stages that an error estimate is made of, with their weights.
 pub type ErrorParts = [(usize, f64); 6];
 
-/// Room for the stages of a step, made once. States are cut as [`Cut`] says.
+/// Room for the stages of a step, made once. States are parted as [`Partition`] says.
 #[derive(Debug, Clone, Default)]
 pub struct Explicit {
     /// Stage derivatives; the first is that at the start of the step, that at [`LAST`] at its end.
@@ -19,14 +21,14 @@ pub struct Explicit {
     pub(super) trial: Row,
     /// 1 where a state is a position, 0 elsewhere.
     pub(super) positions: Row,
-    pub(super) cut: Cut,
+    pub(super) partition: Partition,
 }
 
 impl Explicit {
     /// Room for states that are cut in this way; 1 in `positions` where a state is a position.
-    pub fn new(cut: Cut, positions: Row) -> Self {
-        let zeros = || Row::zeros(cut.len());
-        Self { stages: std::array::from_fn(|_| zeros()), end: zeros(), trial: zeros(), positions, cut }
+    pub fn new(partition: Partition, positions: Row) -> Self {
+        let zeros = || Row::zeros(partition.len());
+        Self { stages: std::array::from_fn(|_| zeros()), end: zeros(), trial: zeros(), positions, partition }
     }
 
     /// Largest magnitude of the error estimate of the step tried last, each component times its weight; infinite as soon
@@ -35,7 +37,7 @@ impl Explicit {
     pub fn error<S: Wide>(&self, simd: S, parts: ErrorParts, h: f64, weights: &[f64]) -> f64 {
         let mut found = Found { largest: [0.0; QUAD], poison: [0.0; WIDEST] };
         let [a, b, c, d, e, f] = parts.map(|(stage, _)| &self.stages[stage][..]);
-        self.cut.look(simd, [weights, a, b, c, d, e, f], &Errors(parts.map(|(_, weight)| weight)), &mut found);
+        self.partition.look(simd, [weights, a, b, c, d, e, f], &Errors(parts.map(|(_, weight)| weight)), &mut found);
         if found.poison == [0.0; WIDEST] { h * largest_of(found.largest) } else { f64::INFINITY }
     }
 
@@ -62,12 +64,12 @@ impl Explicit {
 #[inline(always)]
 pub(super) fn combine<S: Wide, const N: usize>(
     simd: S,
-    (cut, kinds): (Cut, &[f64]),
+    (partition, kinds): (Partition, &[f64]),
     (state, stages): (&[f64], [&[f64]; N]),
     (h, positions, velocities): (f64, &[f64; N], &[f64; N]),
     to: &mut [f64],
 ) {
-    let (half, whole) = (cut.second() / WIDEST, cut.third() / WIDEST);
+    let (half, whole) = (partition.second() / WIDEST, partition.third() / WIDEST);
     let mut lists = [&blocks(state)[..whole]; N];
     for (list, stage) in lists.iter_mut().zip(stages) {
         *list = &blocks(stage)[..whole];
@@ -90,7 +92,7 @@ pub(super) fn combine<S: Wide, const N: usize>(
             }
         }
     }
-    let third = cut.third();
+    let third = partition.third();
     let (quad, state, to) = (simd.quad(), quads(&state[third..]), quads_mut(&mut to[third..]));
     let kinds = &quads(&kinds[third..])[..to.len()];
     let mut lists = [&state[..to.len()]; N];

@@ -69,8 +69,8 @@ pub fn try_step<S: Wide>(
     h: f64,
     right_hand_side: &mut impl RightHandSide,
 ) {
-    let Explicit { stages, end, trial, positions, cut } = room;
-    let cut = (*cut, &positions[..]);
+    let Explicit { stages, end, trial, positions, partition } = room;
+    let cut = (*partition, &positions[..]);
     for stage in 1..5 {
         let (done, rest) = stages.split_at_mut(stage);
         match stage {
@@ -96,7 +96,7 @@ pub fn try_step<S: Wide>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::lanes::{Cut, Kernel, dispatch};
+    use crate::numerics::lanes::{Kernel, Partition, dispatch};
     use crate::numerics::row::Row;
     use pulp::Scalar256b;
 
@@ -273,7 +273,7 @@ mod tests {
     /// Both oscillators after `count` steps of length `h`.
     fn integrate(start: [f64; 4], count: usize, h: f64, force: impl Fn(f64, f64, f64) -> f64 + Copy) -> [f64; 4] {
         let kinds = Row::from_fn(4, |i| if i % 2 == 0 { 1.0 } else { 0.0 });
-        let mut room = Explicit::new(Cut { count: 0, rest: 4 }, kinds);
+        let mut room = Explicit::new(Partition { count: 0, rest: 4 }, kinds);
         let mut state = start;
         for step in 0..count {
             let mut equations = Oscillators(force, step as f64 * h, h);
@@ -340,7 +340,7 @@ mod tests {
     fn lists_of_any_width_give_equal_bits_and_what_single_oscillators_give() {
         let is_position = |i: usize| i < 9 || i == 32 || i == 34;
         let kinds = Row::from_fn(36, |i| f64::from(u8::from(is_position(i))));
-        let mut room = Explicit::new(Cut { count: 9, rest: 4 }, kinds);
+        let mut room = Explicit::new(Partition { count: 9, rest: 4 }, kinds);
         let state: Vec<f64> = (0..36)
             .map(|i| if (9..16).contains(&i) || (25..32).contains(&i) { 0.0 } else { (i as f64).sin() })
             .collect();

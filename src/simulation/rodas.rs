@@ -11,7 +11,7 @@
 //!
 //! J and ∂f/∂t must be exact for the order to hold. At the onset of a contact they jump; steps end there.
 
-use crate::numerics::lanes::{Cut, Each, Lanes, Wide};
+use crate::numerics::lanes::{Each, Lanes, Partition, Wide};
 use crate::numerics::row::Row;
 
 /// Order of a step, and of the one that its error is estimated by.
@@ -113,14 +113,14 @@ pub struct Rodas {
     pub end: Row,
     trial: Row,
     slope: Row,
-    cut: Cut,
+    partition: Partition,
 }
 
 impl Rodas {
     /// Room for states that are cut in this way.
-    pub fn new(cut: Cut) -> Self {
-        let zeros = || Row::zeros(cut.len());
-        Self { stages: std::array::from_fn(|_| zeros()), end: zeros(), trial: zeros(), slope: zeros(), cut }
+    pub fn new(partition: Partition) -> Self {
+        let zeros = || Row::zeros(partition.len());
+        Self { stages: std::array::from_fn(|_| zeros()), end: zeros(), trial: zeros(), slope: zeros(), partition }
     }
 
     /// Tries a step of length `h` from `state`, where the derivative is `first` and its derivative by time `by_time`.
@@ -133,21 +133,24 @@ impl Rodas {
         h: f64,
         system: &mut impl System,
     ) {
-        let Self { stages, end, trial, slope, cut } = self;
-        let cut = *cut;
-        cut.for_each(simd, [first, by_time], &mut stages[0], &Coupled::<0>(h), &mut ());
+        let Self { stages, end, trial, slope, partition } = self;
+        partition.for_each(simd, [first, by_time], &mut stages[0], &Coupled::<0>(h), &mut ());
         system.solve(&mut stages[0]);
         for stage in 1..8 {
             let (done, rest) = stages.split_at_mut(stage);
             let k = &mut rest[0];
             match stage {
-                1 => cut.for_each(simd, [state, &done[0]], trial, &Argument::<1>, &mut ()),
-                2 => cut.for_each(simd, [state, &done[0], &done[1]], trial, &Argument::<2>, &mut ()),
-                3 => cut.for_each(simd, [state, &done[0], &done[1], &done[2]], trial, &Argument::<3>, &mut ()),
-                4 => {
-                    cut.for_each(simd, [state, &done[0], &done[1], &done[2], &done[3]], trial, &Argument::<4>, &mut ())
-                }
-                5 => cut.for_each(
+                1 => partition.for_each(simd, [state, &done[0]], trial, &Argument::<1>, &mut ()),
+                2 => partition.for_each(simd, [state, &done[0], &done[1]], trial, &Argument::<2>, &mut ()),
+                3 => partition.for_each(simd, [state, &done[0], &done[1], &done[2]], trial, &Argument::<3>, &mut ()),
+                4 => partition.for_each(
+                    simd,
+                    [state, &done[0], &done[1], &done[2], &done[3]],
+                    trial,
+                    &Argument::<4>,
+                    &mut (),
+                ),
+                5 => partition.for_each(
                     simd,
                     [state, &done[0], &done[1], &done[2], &done[3], &done[4]],
                     trial,
@@ -156,36 +159,42 @@ impl Rodas {
                 ),
                 _ => {
                     slope.copy_from_slice(trial);
-                    cut.for_each(simd, [slope, &done[stage - 1]], trial, &Sum, &mut ());
+                    partition.for_each(simd, [slope, &done[stage - 1]], trial, &Sum, &mut ());
                 }
             }
             system.evaluate(simd, stage, trial, slope);
             match stage {
-                1 => cut.for_each(simd, [slope, by_time, &done[0]], k, &Coupled::<1>(h), &mut ()),
-                2 => cut.for_each(simd, [slope, by_time, &done[0], &done[1]], k, &Coupled::<2>(h), &mut ()),
-                3 => cut.for_each(simd, [slope, by_time, &done[0], &done[1], &done[2]], k, &Coupled::<3>(h), &mut ()),
-                4 => cut.for_each(
+                1 => partition.for_each(simd, [slope, by_time, &done[0]], k, &Coupled::<1>(h), &mut ()),
+                2 => partition.for_each(simd, [slope, by_time, &done[0], &done[1]], k, &Coupled::<2>(h), &mut ()),
+                3 => partition.for_each(
+                    simd,
+                    [slope, by_time, &done[0], &done[1], &done[2]],
+                    k,
+                    &Coupled::<3>(h),
+                    &mut (),
+                ),
+                4 => partition.for_each(
                     simd,
                     [slope, by_time, &done[0], &done[1], &done[2], &done[3]],
                     k,
                     &Coupled::<4>(h),
                     &mut (),
                 ),
-                5 => cut.for_each(
+                5 => partition.for_each(
                     simd,
                     [slope, by_time, &done[0], &done[1], &done[2], &done[3], &done[4]],
                     k,
                     &Coupled::<5>(h),
                     &mut (),
                 ),
-                6 => cut.for_each(
+                6 => partition.for_each(
                     simd,
                     [slope, by_time, &done[0], &done[1], &done[2], &done[3], &done[4], &done[5]],
                     k,
                     &Coupled::<6>(h),
                     &mut (),
                 ),
-                _ => cut.for_each(
+                _ => partition.for_each(
                     simd,
                     [slope, by_time, &done[0], &done[1], &done[2], &done[3], &done[4], &done[5], &done[6]],
                     k,
@@ -195,7 +204,7 @@ impl Rodas {
             }
             system.solve(k);
         }
-        cut.for_each(simd, [trial, &stages[7]], end, &Sum, &mut ());
+        partition.for_each(simd, [trial, &stages[7]], end, &Sum, &mut ());
     }
 
     /// Largest magnitude of the error estimate of the step tried last, each component times its weight; infinite as soon
@@ -224,7 +233,7 @@ impl Rodas {
         }
         let [a, b, c, d, e, f, g, last] = &self.stages;
         let from = [state, &self.end, a, b, c, d, e, f, g, last];
-        self.cut.for_each(simd, from, out, &Dense { share, weights }, &mut ());
+        self.partition.for_each(simd, from, out, &Dense { share, weights }, &mut ());
     }
 }
 
@@ -414,7 +423,7 @@ mod tests {
     }
 
     fn integrate(count: usize) -> Vec<f64> {
-        let mut method = Rodas::new(Cut { count: 0, rest: 4 });
+        let mut method = Rodas::new(Partition { count: 0, rest: 4 });
         let mut y = vec![0.5, 0.0, 1.0, 0.0];
         let h = 1.0 / count as f64;
         for i in 0..count {
@@ -439,7 +448,7 @@ mod tests {
     #[test]
     fn dense_output_is_of_order_four() {
         let error = |h: f64| {
-            let mut method = Rodas::new(Cut { count: 0, rest: 4 });
+            let mut method = Rodas::new(Partition { count: 0, rest: 4 });
             let (y, mut found) = (vec![1.0, 0.0, 1.0, 0.0], vec![0.0; 4]);
             step(&mut method, 0.0, &y, h);
             (1..20)

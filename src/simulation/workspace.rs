@@ -82,9 +82,9 @@ impl Workspace {
         let len = model.layout.len;
         let positions = Row::from_fn(len, |i| f64::from(u8::from(model.layout.is_position(i))));
         Self {
-            explicit: Explicit::new(model.layout.cut(), positions),
+            explicit: Explicit::new(model.layout.partition(), positions),
             pair: Pair::default(),
-            implicit: Rodas::new(model.layout.cut()),
+            implicit: Rodas::new(model.layout.partition()),
             jacobian: Jacobian::new(model),
             by_time: Row::zeros(len),
             linearized: false,

@@ -7,7 +7,7 @@ use std::hash::Hasher;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock};
 
-use brinell::contact::map_build::Sequential;
+use brinell::contact::map_specification::Sequential;
 use brinell::numerics::checksum::Checksum;
 use brinell::scene::{ContactLaw, Scene};
 use brinell::simulation::{Simulation, setup};

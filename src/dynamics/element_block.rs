@@ -1,0 +1,37 @@
+//! What differs from element to element, eight of them at a time.
+
+use crate::geometry::hertz_constant::HertzConstants;
+use crate::numerics::lanes::{WIDEST, places};
+use crate::numerics::sin_cos;
+use std::f64::consts::TAU;
+
+/// What differs between elements, for eight of them; where there is none, all zeros.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(align(64))]
+pub(super) struct ElementBlock {
+    /// cos and sin of the element's angle ahead of element 1.
+    pub(super) cos: [f64; WIDEST],
+    pub(super) sin: [f64; WIDEST],
+    /// 1 where there is an element.
+    pub(super) present: [f64; WIDEST],
+    /// 1/mass [1/kg].
+    pub(super) per_mass: [f64; WIDEST],
+    /// Hertz constant of the inner contact [N/m^1.5].
+    pub(super) inner: [f64; WIDEST],
+    /// That of the outer contact on the smooth rigid raceway; 0 for an element that is not on it.
+    pub(super) outer: [f64; WIDEST],
+    /// Acceleration of w by an outer contact that is not on it [m/s²].
+    pub(super) other: [f64; WIDEST],
+}
+
+/// All elements of a bearing, of mass 1/`per_mass` [kg].
+pub(super) fn blocks(count: usize, per_mass: f64, hertz: HertzConstants) -> Vec<ElementBlock> {
+    let mut blocks = vec![ElementBlock::default(); places(count) / WIDEST];
+    for j in 0..count {
+        let (sin, cos) = sin_cos(j as f64 * TAU / count as f64);
+        let (block, i) = (&mut blocks[j / WIDEST], j % WIDEST);
+        (block.cos[i], block.sin[i], block.present[i]) = (cos, sin, 1.0);
+        (block.per_mass[i], block.inner[i], block.outer[i]) = (per_mass, hertz.inner, hertz.outer);
+    }
+    blocks
+}

@@ -1,0 +1,44 @@
+//! What goes wrong with a recording.
+
+use std::io;
+use std::path::PathBuf;
+
+/// What goes wrong with a recording.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RecordingError {
+    /// The system refuses.
+    #[error("recording {path}: {cause}. Check the folder given as recorder.folder", path = path.display())]
+    Unwritable {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        cause: io::Error,
+    },
+    /// Another instance in this process writes it.
+    #[error(
+        "recording {path}: instance {other:?} is writing it, and instance {name:?} would write over it. \
+         Give them names that differ in letters, digits, - or _, or another recorder.folder",
+        path = path.display()
+    )]
+    Claimed {
+        /// The file.
+        path: PathBuf,
+        /// Name of the instance that is refused.
+        name: String,
+        /// Name of the instance that writes it.
+        other: String,
+    },
+    /// Another process writes it, or another FMU's library in this one.
+    #[error(
+        "recording {path}: another process, or another FMU in this one, is writing it, and instance {name:?} would write \
+         over it. Give the instances other names, or another recorder.folder",
+        path = path.display()
+    )]
+    ClaimedElsewhere {
+        /// The file.
+        path: PathBuf,
+        /// Name of the instance that is refused.
+        name: String,
+    },
+}
