@@ -38,6 +38,11 @@ const PRESCRIBED: [Prescribed; 3] = [
     ("a", "Acceleration", Q::Acceleration, Unit::MetrePerSecondSquared, (1e9, 10.0)),
 ];
 
+/// Start value, limits and nominal value of a parameter.
+fn limited(start: f64, min: f64, max: f64, nominal: f64) -> (f64, Option<f64>, Option<f64>, f64) {
+    (start, Some(min), Some(max), nominal)
+}
+
 impl Builder<'_> {
     fn motion(&self, ring: RingName) -> Motion {
         match ring {
@@ -128,39 +133,47 @@ impl Builder<'_> {
             0.1,
         );
         for j in 0..self.scene.bearing.element_count {
-            let n = (j + 1).to_string();
-            // Concatenated: setting up an instance is mostly writing names.
-            let name = |part: &str| ["element[", &n, part].concat();
-            let text = |before: &str, after: &str| [before, &n, after].concat();
-            self.output(
-                &name("].angle"),
-                &text("Angle of element ", ", counter-clockwise from +x"),
-                Q::ElementAngle(j),
-                Unit::Radian,
-                1.0,
-            );
-            self.output(
-                &name("].path"),
-                &text("Radial path of element ", ": 0 where it touches the smooth outer raceway, positive outwards"),
-                Q::ElementPath(j),
-                Unit::Metre,
-                1e-5,
-            );
-            self.output(
-                &name("].force.inner"),
-                &text("Normal force between element ", " and the inner raceway"),
-                Q::ElementInnerForce(j),
-                Unit::Newton,
-                100.0,
-            );
-            self.output(
-                &name("].force.outer"),
-                &text("Normal force between element ", " and the outer raceway"),
-                Q::ElementOuterForce(j),
-                Unit::Newton,
-                100.0,
-            );
+            self.element_outputs(j);
         }
+        self.counters();
+    }
+
+    fn element_outputs(&mut self, j: usize) {
+        let n = (j + 1).to_string();
+        // Concatenated: setting up an instance is mostly writing names.
+        let name = |part: &str| ["element[", &n, part].concat();
+        let text = |before: &str, after: &str| [before, &n, after].concat();
+        self.output(
+            &name("].angle"),
+            &text("Angle of element ", ", counter-clockwise from +x"),
+            Q::ElementAngle(j),
+            Unit::Radian,
+            1.0,
+        );
+        self.output(
+            &name("].path"),
+            &text("Radial path of element ", ": 0 where it touches the smooth outer raceway, positive outwards"),
+            Q::ElementPath(j),
+            Unit::Metre,
+            1e-5,
+        );
+        self.output(
+            &name("].force.inner"),
+            &text("Normal force between element ", " and the inner raceway"),
+            Q::ElementInnerForce(j),
+            Unit::Newton,
+            100.0,
+        );
+        self.output(
+            &name("].force.outer"),
+            &text("Normal force between element ", " and the outer raceway"),
+            Q::ElementOuterForce(j),
+            Unit::Newton,
+            100.0,
+        );
+    }
+
+    fn counters(&mut self) {
         self.counter("solver.steps", "Integration steps taken since the start", Q::Count(Count::Steps));
         self.counter(
             "solver.rejected_steps",
@@ -222,25 +235,14 @@ impl Builder<'_> {
     fn parameters(&mut self) {
         let scene = self.scene;
         let bearing = &scene.bearing;
-        let p = |start: f64, min: f64, max: f64, nominal: f64| (start, Some(min), Some(max), nominal);
         self.parameter(
             "bearing.radial_clearance",
             "Radial internal clearance; negative is a preload",
             Q::Parameter(Parameter::RadialClearance),
             Unit::Metre,
-            p(bearing.radial_clearance, -bearing.element_diameter, bearing.element_diameter, 1e-5),
+            limited(bearing.radial_clearance, -bearing.element_diameter, bearing.element_diameter, 1e-5),
         );
-        let (damping, unit, what, nominal) = match scene.contact.damping {
-            Damping::HuntCrossley(chi) => (chi, Unit::SecondPerMetre, "Hunt-Crossley constant chi", 0.5),
-            Damping::Proportional(tau) => (tau, Unit::Second, "time constant tau of proportional damping", 1e-6),
-        };
-        self.parameter(
-            "contact.damping",
-            &format!("Contact damping: {what}"),
-            Q::Parameter(Parameter::ContactDamping),
-            unit,
-            p(damping, 0.0, 1e6, nominal),
-        );
+        self.damping();
         self.push(
             "contact.law",
             "Law of the outer contact near the defect",
@@ -253,14 +255,14 @@ impl Builder<'_> {
             "Lag of the cage behind pure rolling",
             Q::Parameter(Parameter::CageSlip),
             Unit::One,
-            p(scene.cage.slip, 0.0, 1.0, 0.01),
+            limited(scene.cage.slip, 0.0, 1.0, 0.01),
         );
         self.parameter(
             "cage.initial_angle",
             "Angle of element 1 at the start, counter-clockwise from +x",
             Q::Parameter(Parameter::CageInitialAngle),
             Unit::Radian,
-            p(scene.cage.initial_angle, -1e3, 1e3, 1.0),
+            limited(scene.cage.initial_angle, -1e3, 1e3, 1.0),
         );
         if let Some(defect) = &scene.defect {
             self.parameter(
@@ -268,45 +270,20 @@ impl Builder<'_> {
                 "Angle of the defect's centre, counter-clockwise from +x",
                 Q::Parameter(Parameter::DefectAngle),
                 Unit::Radian,
-                p(defect.angle, -1e3, 1e3, 1.0),
+                limited(defect.angle, -1e3, 1e3, 1.0),
             );
         }
         for ring in RINGS {
-            let (name, what, parts) = match ring {
-                RingName::Shaft => ("shaft", "inner ring", scene.shaft),
-                RingName::Housing => ("housing", "outer ring", scene.housing),
-            };
-            if self.motion(ring) != Motion::Internal {
-                continue;
+            if self.motion(ring) == Motion::Internal {
+                self.ring_parameters(ring);
             }
-            self.parameter(
-                &format!("{name}.mass"),
-                &format!("Mass of the {what} and what moves with it"),
-                Q::Parameter(Parameter::RingMass(ring)),
-                Unit::Kilogram,
-                p(parts.mass, 1e-6, 1e9, 1.0),
-            );
-            self.parameter(
-                &format!("{name}.damping"),
-                &format!("Viscous damping of the {what} to ground"),
-                Q::Parameter(Parameter::RingDamping(ring)),
-                Unit::NewtonSecondPerMetre,
-                p(parts.damping, 0.0, 1e12, 1000.0),
-            );
-            self.parameter(
-                &format!("{name}.stiffness"),
-                &format!("Support stiffness of the {what} to ground"),
-                Q::Parameter(Parameter::RingStiffness(ring)),
-                Unit::NewtonPerMetre,
-                p(parts.stiffness, 0.0, 1e15, 1e7),
-            );
         }
         self.parameter(
             "solver.tolerance",
             "Relative tolerance of the time integration",
             Q::Parameter(Parameter::Tolerance),
             Unit::One,
-            p(scene.tolerance, 1e-12, 0.1, 1e-5),
+            limited(scene.tolerance, 1e-12, 0.1, 1e-5),
         );
         if scene.recorder.is_some() {
             self.push(
@@ -317,6 +294,48 @@ impl Builder<'_> {
                 Q::Parameter(Parameter::RecorderFolder),
             );
         }
+    }
+
+    fn damping(&mut self) {
+        let (damping, unit, what, nominal) = match self.scene.contact.damping {
+            Damping::HuntCrossley(chi) => (chi, Unit::SecondPerMetre, "Hunt-Crossley constant chi", 0.5),
+            Damping::Proportional(tau) => (tau, Unit::Second, "time constant tau of proportional damping", 1e-6),
+        };
+        self.parameter(
+            "contact.damping",
+            &format!("Contact damping: {what}"),
+            Q::Parameter(Parameter::ContactDamping),
+            unit,
+            limited(damping, 0.0, 1e6, nominal),
+        );
+    }
+
+    fn ring_parameters(&mut self, ring: RingName) {
+        let (name, what, parts) = match ring {
+            RingName::Shaft => ("shaft", "inner ring", self.scene.shaft),
+            RingName::Housing => ("housing", "outer ring", self.scene.housing),
+        };
+        self.parameter(
+            &format!("{name}.mass"),
+            &format!("Mass of the {what} and what moves with it"),
+            Q::Parameter(Parameter::RingMass(ring)),
+            Unit::Kilogram,
+            limited(parts.mass, 1e-6, 1e9, 1.0),
+        );
+        self.parameter(
+            &format!("{name}.damping"),
+            &format!("Viscous damping of the {what} to ground"),
+            Q::Parameter(Parameter::RingDamping(ring)),
+            Unit::NewtonSecondPerMetre,
+            limited(parts.damping, 0.0, 1e12, 1000.0),
+        );
+        self.parameter(
+            &format!("{name}.stiffness"),
+            &format!("Support stiffness of the {what} to ground"),
+            Q::Parameter(Parameter::RingStiffness(ring)),
+            Unit::NewtonPerMetre,
+            limited(parts.stiffness, 0.0, 1e15, 1e7),
+        );
     }
 
     fn input(&mut self, name: &str, text: &str, quantity: Quantity, unit: Unit, start: f64, range: (f64, f64)) {
