@@ -133,8 +133,8 @@ fn the_scenes_own_rig_does_not_resolve_what_is_too_short_for_an_element_to_get_f
     rig.contact.law = ContactLaw::Hertz;
     let report = sized(simulated(&rig, 1.3, 0.3), 20.0, &rig);
     assert_eq!(report.verdict, Verdict::Unresolved, "{:?}", report.length_deg);
-    // Its likeness would give the length: the answer says what was seen, and from where on it would count.
-    assert!(report.recordings[0].likeness.unwrap() > 0.9);
+    // Its similarity would give the length: the answer says what was seen, and from where on it would count.
+    assert!(report.recordings[0].similarity.unwrap() > 0.9);
     assert!(report.reason.contains("not surely above 1.78"), "{}", report.reason);
 }
 

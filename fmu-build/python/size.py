@@ -20,8 +20,8 @@ def mark(axis, found, labelled):
         axis.axvspan(*edges, color="#eeeeee", zorder=0)
         for at, name in zip(edges, ("leading edge", "trailing edge")):
             axis.axvline(at, color="black", linewidth=0.9, linestyle="--" if name == "leading edge" else "-.", label=name if labelled else None)
-    for k, at in enumerate(found["blows_deg"]):
-        axis.axvline(at, color=VERMILION, linewidth=0.9, label="blow" if labelled and k == 0 else None)
+    for k, at in enumerate(found["impacts_deg"]):
+        axis.axvline(at, color=VERMILION, linewidth=0.9, label="impact" if labelled and k == 0 else None)
 
 
 def title(found):
@@ -59,7 +59,7 @@ def draw(stem):
         low, high = axis.get_ylim()
         axis.set_ylim(low, high + 0.3 * (high - low))
         axis.legend(loc="upper right", ncols=6, columnspacing=1)
-    origin = "leading edge" if "model" in data else "first blow"
+    origin = "leading edge" if "model" in data else "first impact"
     axes[-1].set_xlabel(f"element travel from the {origin} (degrees of the outer raceway)" if found["length_deg"] else "element travel (degrees of the outer raceway)")
     edges = found["edges_deg"]
     if edges:

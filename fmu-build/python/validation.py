@@ -145,7 +145,7 @@ def beside():
                 lines = axis.get_lines()[:1] + other.get_lines()[:1]
                 axis.legend(lines, [line.get_label() for line in lines], loc="upper left")
             if row == len(speeds) - 1:
-                axis.set_xlabel("element travel from the first blow (degrees)")
+                axis.set_xlabel("element travel from the first impact (degrees)")
     bottom = figure.add_subplot(grid[len(speeds), :])
     styles = ("-", "--", ":")
     for speed, style in zip(speeds, styles * 3):

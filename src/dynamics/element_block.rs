@@ -1,7 +1,7 @@
 //! What differs from element to element, eight of them at a time.
 
 use crate::geometry::hertz_constant::HertzConstants;
-use crate::numerics::lanes::{WIDEST, places};
+use crate::numerics::lanes::{WIDEST, padded};
 use crate::numerics::sin_cos;
 use std::f64::consts::TAU;
 
@@ -26,7 +26,7 @@ pub(super) struct ElementBlock {
 
 /// All elements of a bearing, of mass 1/`per_mass` [kg].
 pub(super) fn blocks(count: usize, per_mass: f64, hertz: HertzConstants) -> Vec<ElementBlock> {
-    let mut blocks = vec![ElementBlock::default(); places(count) / WIDEST];
+    let mut blocks = vec![ElementBlock::default(); padded(count) / WIDEST];
     for j in 0..count {
         let (sin, cos) = sin_cos(j as f64 * TAU / count as f64);
         let (block, i) = (&mut blocks[j / WIDEST], j % WIDEST);

@@ -5,7 +5,7 @@ use super::element_block::ElementBlock;
 use super::model::Model;
 use super::raceway::SMOOTH;
 use crate::contact::error::ContactError;
-use crate::numerics::lanes::{Each, Lanes, Lists, QUAD, WIDEST, Wide, largest_of, places};
+use crate::numerics::lanes::{Each, Lanes, Lists, QUAD, WIDEST, Wide, largest_of, padded};
 use crate::numerics::plane::Vector;
 
 /// What the right-hand side found on its way. Its lists are made once.
@@ -61,7 +61,7 @@ impl Clone for Forces {
 impl Forces {
     /// Room for `count` elements.
     pub fn new(count: usize) -> Self {
-        let places = places(count);
+        let places = padded(count);
         Self {
             count,
             contacts: Record::new(places),
@@ -164,7 +164,7 @@ impl Each<4, 0> for BeyondChange {
     type Sum = [f64; QUAD];
 
     #[inline(always)]
-    fn places<S: Wide>(&self, _: S, from: [Lanes<S>; 4], most: &mut [f64; QUAD]) -> [Lanes<S>; 0] {
+    fn each<S: Wide>(&self, _: S, from: [Lanes<S>; 4], most: &mut [f64; QUAD]) -> [Lanes<S>; 0] {
         let [inner_side, inner, outer_side, outer] = from;
         (-(inner_side * inner)).at_least(-(outer_side * outer)).largest_to(most);
         []
@@ -178,7 +178,7 @@ impl Each<2, 0> for Largest {
     type Sum = [f64; QUAD];
 
     #[inline(always)]
-    fn places<S: Wide>(&self, _: S, approach: [Lanes<S>; 2], most: &mut [f64; QUAD]) -> [Lanes<S>; 0] {
+    fn each<S: Wide>(&self, _: S, approach: [Lanes<S>; 2], most: &mut [f64; QUAD]) -> [Lanes<S>; 0] {
         approach[0].at_least(approach[1]).largest_to(most);
         []
     }

@@ -12,7 +12,7 @@ use crate::contact::compliant::CompliantContact;
 use crate::contact::force_law::ForceLaw;
 use crate::geometry::hertz_constant::HertzConstants;
 use crate::geometry::kinematics::cage_ratio;
-use crate::numerics::lanes::{Partition, QUAD, WIDEST, places};
+use crate::numerics::lanes::{Partition, QUAD, WIDEST, padded};
 use crate::numerics::plane::Vector;
 use crate::numerics::wrap;
 use crate::scene::{Motion, Ring, Scene};
@@ -72,7 +72,7 @@ pub struct Layout {
 
 impl Layout {
     fn new(scene: &Scene) -> Self {
-        let radial_velocity = places(scene.bearing.element_count);
+        let radial_velocity = padded(scene.bearing.element_count);
         let mut len = 2 * radial_velocity;
         let mut take = |wanted: bool, count: usize| {
             wanted.then(|| {

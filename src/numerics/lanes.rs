@@ -16,7 +16,7 @@ pub const QUAD: usize = 4;
 pub const WIDEST: usize = 8;
 
 /// Places that a list of `count` numbers takes.
-pub fn places(count: usize) -> usize {
+pub fn padded(count: usize) -> usize {
     count.next_multiple_of(WIDEST)
 }
 
@@ -53,7 +53,7 @@ pub trait Wide: Simd {
     fn quad(self) -> Self::Quad;
 
     /// Runs a kernel as a function of its own, not as a part of the caller.
-    fn apart<K: Kernel>(self, kernel: K) -> K::Output;
+    fn outlined<K: Kernel>(self, kernel: K) -> K::Output;
 
     /// Four numbers in one register.
     fn four(self, numbers: [f64; QUAD]) -> <Self::Quad as Simd>::f64s;
@@ -80,7 +80,7 @@ impl Wide for Scalar256b {
     }
 
     #[inline(never)]
-    fn apart<K: Kernel>(self, kernel: K) -> K::Output {
+    fn outlined<K: Kernel>(self, kernel: K) -> K::Output {
         kernel.run(self)
     }
 
@@ -157,7 +157,7 @@ pub trait Each<const I: usize, const O: usize> {
     type Sum;
 
     /// Several places at a time. To be marked `inline(always)`.
-    fn places<S: Wide>(&self, simd: S, from: [Lanes<S>; I], sum: &mut Self::Sum) -> [Lanes<S>; O];
+    fn each<S: Wide>(&self, simd: S, from: [Lanes<S>; I], sum: &mut Self::Sum) -> [Lanes<S>; O];
 }
 
 /// Lists that are read and written together.
@@ -189,7 +189,7 @@ impl<const I: usize, const O: usize> Lists<'_, I, O> {
             for (value, list) in values.iter_mut().zip(&from) {
                 value.1 = list[k];
             }
-            let found = each.places(simd, values, sum);
+            let found = each.each(simd, values, sum);
             for (list, value) in to.iter_mut().zip(found) {
                 list[k] = value.1;
             }
@@ -337,7 +337,7 @@ mod tests {
         type Sum = ([f64; WIDEST], bool);
 
         #[inline(always)]
-        fn places<S: Wide>(&self, simd: S, [x]: [Lanes<S>; 1], sum: &mut Self::Sum) -> [Lanes<S>; 1] {
+        fn each<S: Wide>(&self, simd: S, [x]: [Lanes<S>; 1], sum: &mut Self::Sum) -> [Lanes<S>; 1] {
             let one = Lanes::splat(simd, 1.0);
             let y = ((x * x + one).sqrt() - x.or_zero() / (x.abs() + one)).at_most(-x + one);
             y.add_to(&mut sum.0, sum.1);

@@ -1,6 +1,6 @@
 //! Contact changes: the instants at which a contact begins or ceases to push, found on the dense output of a step.
 
-use super::kernels::look;
+use super::kernels::probe;
 use super::progress::Progress;
 use super::workspace::{Problem, Span, Workspace};
 
@@ -40,7 +40,7 @@ pub(super) fn first_change(
             }
             _ => 0.5 * (before + after),
         };
-        look(workspace, problem, span, share, progress);
+        probe(workspace, problem, span, share, progress);
         let value = workspace.forces.beyond_change(&progress.pushing);
         // What is no number counts as changed: the step is then cut before it.
         last_before = value <= 0.0;
@@ -51,7 +51,7 @@ pub(super) fn first_change(
         }
     }
     if last_before {
-        look(workspace, problem, span, after, progress);
+        probe(workspace, problem, span, after, progress);
     }
     after
 }

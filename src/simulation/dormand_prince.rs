@@ -89,7 +89,7 @@ impl Each<8, 1> for Dense {
     type Sum = ();
 
     #[inline(always)]
-    fn places<S: Wide>(&self, simd: S, from: [Lanes<S>; 8], (): &mut ()) -> [Lanes<S>; 1] {
+    fn each<S: Wide>(&self, simd: S, from: [Lanes<S>; 8], (): &mut ()) -> [Lanes<S>; 1] {
         let [state, after, first, b, c, d, e, last] = from;
         let [h, share, rest] = [self.h, self.share, 1.0 - self.share].map(|number| Lanes::splat(simd, number));
         let difference = after - state;

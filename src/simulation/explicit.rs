@@ -37,7 +37,7 @@ impl Explicit {
     pub fn error<S: Wide>(&self, simd: S, parts: ErrorParts, h: f64, weights: &[f64]) -> f64 {
         let mut found = Found { largest: [0.0; QUAD], poison: [0.0; WIDEST] };
         let [a, b, c, d, e, f] = parts.map(|(stage, _)| &self.stages[stage][..]);
-        self.partition.look(simd, [weights, a, b, c, d, e, f], &Errors(parts.map(|(_, weight)| weight)), &mut found);
+        self.partition.read(simd, [weights, a, b, c, d, e, f], &Errors(parts.map(|(_, weight)| weight)), &mut found);
         if found.poison == [0.0; WIDEST] { h * largest_of(found.largest) } else { f64::INFINITY }
     }
 
@@ -144,7 +144,7 @@ impl Each<7, 0> for Errors {
     type Sum = Found;
 
     #[inline(always)]
-    fn places<S: Wide>(&self, simd: S, [weight, stages @ ..]: [Lanes<S>; 7], found: &mut Found) -> [Lanes<S>; 0] {
+    fn each<S: Wide>(&self, simd: S, [weight, stages @ ..]: [Lanes<S>; 7], found: &mut Found) -> [Lanes<S>; 0] {
         let mut sum = Lanes::splat(simd, self.0[0]) * stages[0];
         for (stage, part) in stages.into_iter().zip(self.0).skip(1) {
             sum = sum + Lanes::splat(simd, part) * stage;

@@ -1,4 +1,4 @@
-//! What runs in wide registers within a step: all stages of a trial, and a look into the step tried last.
+//! What runs in wide registers within a step: all stages of a trial, and a probe of the step tried last.
 
 use super::arrow::Arrow;
 use super::dormand_prince;
@@ -25,8 +25,8 @@ pub(super) fn try_step(workspace: &mut Workspace, problem: Problem, span: Span, 
 }
 
 /// Leaves the state at a share of the step tried last in `dense`, its derivative in `scratch`, and all forces there.
-pub(super) fn look(workspace: &mut Workspace, problem: Problem, span: Span, share: f64, progress: &Progress) {
-    dispatch(Look { workspace, problem, span, share, progress });
+pub(super) fn probe(workspace: &mut Workspace, problem: Problem, span: Span, share: f64, progress: &Progress) {
+    dispatch(Probe { workspace, problem, span, share, progress });
 }
 
 /// A step, all stages.
@@ -96,7 +96,7 @@ fn implicit<S: Wide>(simd: S, workspace: &mut Workspace, problem: Problem, span:
 }
 
 /// The state at a share of the step tried last, its derivative, and each contact there.
-struct Look<'a> {
+struct Probe<'a> {
     workspace: &'a mut Workspace,
     problem: Problem<'a>,
     span: Span,
@@ -104,7 +104,7 @@ struct Look<'a> {
     progress: &'a Progress,
 }
 
-impl Kernel for Look<'_> {
+impl Kernel for Probe<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -170,9 +170,9 @@ impl RightHandSide for Stages<'_> {
         let (model, forces) = (self.model, &mut *self.forces);
         let at = Stage { drive: self.drive, cage: &self.cages[stage.min(LAST - 1)], state, ahead };
         match ahead {
-            None if stage == LAST => return simd.apart(Evaluation::<true, false> { model, at, out, forces }),
-            None => simd.apart(Evaluation::<false, false> { model, at, out, forces: &mut *forces }),
-            Some(_) => simd.apart(Evaluation::<false, true> { model, at, out, forces: &mut *forces }),
+            None if stage == LAST => return simd.outlined(Evaluation::<true, false> { model, at, out, forces }),
+            None => simd.outlined(Evaluation::<false, false> { model, at, out, forces: &mut *forces }),
+            Some(_) => simd.outlined(Evaluation::<false, true> { model, at, out, forces: &mut *forces }),
         }
         for (sum, force) in self.sum.iter_mut().zip(forces.rings) {
             *sum += self.weights[stage] * force;

@@ -4,7 +4,7 @@ use super::quantity::Count;
 use super::recorder::Due;
 use super::switching::Choice;
 use crate::dynamics::raceway::SMOOTH;
-use crate::numerics::lanes::places;
+use crate::numerics::lanes::padded;
 use crate::numerics::row::Row;
 
 /// Step tried first [s]: far below the period of an element on its contacts, and grown at once if that was too timid.
@@ -48,7 +48,7 @@ impl Progress {
         Self {
             state: Row::zeros(len),
             cells: vec![SMOOTH; count],
-            pushing: Row::from_fn(2 * places(count), |_| -1.0),
+            pushing: Row::from_fn(2 * padded(count), |_| -1.0),
             next_step: FIRST_STEP,
             last_error: 1.0,
             choice: Choice::default(),

@@ -226,7 +226,7 @@ impl Each<10, 1> for Dense {
     type Sum = ();
 
     #[inline(always)]
-    fn places<S: Wide>(&self, simd: S, from: [Lanes<S>; 10], (): &mut ()) -> [Lanes<S>; 1] {
+    fn each<S: Wide>(&self, simd: S, from: [Lanes<S>; 10], (): &mut ()) -> [Lanes<S>; 1] {
         let [state, after, stages @ ..] = from;
         let mut sum = Lanes::splat(simd, 1.0 - self.share) * state + Lanes::splat(simd, self.share) * after;
         for (stage, weight) in stages.into_iter().zip(self.weights) {
@@ -245,7 +245,7 @@ macro_rules! stages {
             type Sum = ();
 
             #[inline(always)]
-            fn places<S: Wide>(&self, simd: S, from: [Lanes<S>; $argument], (): &mut ()) -> [Lanes<S>; 1] {
+            fn each<S: Wide>(&self, simd: S, from: [Lanes<S>; $argument], (): &mut ()) -> [Lanes<S>; 1] {
                 let mut sum = from[0];
                 for (&weight, &stage) in STAGES[$stage].iter().zip(&from[1..]) {
                     sum = sum + Lanes::splat(simd, weight) * stage;
@@ -258,7 +258,7 @@ macro_rules! stages {
             type Sum = ();
 
             #[inline(always)]
-            fn places<S: Wide>(&self, simd: S, from: [Lanes<S>; $coupled], (): &mut ()) -> [Lanes<S>; 1] {
+            fn each<S: Wide>(&self, simd: S, from: [Lanes<S>; $coupled], (): &mut ()) -> [Lanes<S>; 1] {
                 let mut sum = from[0];
                 for (&weight, &stage) in COUPLING[$stage].iter().zip(&from[2..]) {
                     sum = sum + Lanes::splat(simd, weight / self.0) * stage;
@@ -278,7 +278,7 @@ impl Each<2, 1> for Sum {
     type Sum = ();
 
     #[inline(always)]
-    fn places<S: Wide>(&self, _: S, [a, b]: [Lanes<S>; 2], (): &mut ()) -> [Lanes<S>; 1] {
+    fn each<S: Wide>(&self, _: S, [a, b]: [Lanes<S>; 2], (): &mut ()) -> [Lanes<S>; 1] {
         [a + b]
     }
 }

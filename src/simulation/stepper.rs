@@ -11,7 +11,7 @@
 
 use super::contact_changes::first_change;
 use super::failing::{check_rings, check_step, worst};
-use super::kernels::{look, try_step};
+use super::kernels::{probe, try_step};
 use super::knots::{Knot, Leg, next_knot};
 use super::outputs::Outputs;
 use super::pair::Pair;
@@ -220,7 +220,7 @@ impl Stepper<'_> {
         let Some(recorder) = recorder else { return };
         let lookups = workspace.forces.defect_lookups;
         while let Some(tau) = recorder.due_before(&progress.due, span.end()) {
-            look(workspace, *problem, span, (tau - span.from).max(0.0) / span.length, progress);
+            probe(workspace, *problem, span, (tau - span.from).max(0.0) / span.length, progress);
             let Workspace { dense, scratch, forces, .. } = &**workspace;
             let outputs =
                 Outputs::new(problem.model, (problem.drive, tau), (dense, scratch), forces, recorder.cage_angle());
@@ -284,7 +284,7 @@ impl Stepper<'_> {
             workspace.weighted_force[i] = (workspace.first_force[i] + workspace.last_force[i]) / 12.0;
         }
         for share in LOBATTO {
-            look(workspace, *problem, span, share, progress);
+            probe(workspace, *problem, span, share, progress);
             for (sum, force) in workspace.weighted_force.iter_mut().zip(workspace.forces.rings) {
                 *sum += 5.0 / 12.0 * force;
             }

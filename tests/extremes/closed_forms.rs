@@ -172,7 +172,7 @@ pub fn energy_without_damping() -> Row {
         of(inner, hertz.inner) + of(outer, hertz.outer) + 0.5 * mass * w * w
     };
     let rest = energy(&mut bearing);
-    // A blow by the outer ring's velocity, once.
+    // An impact by the outer ring's velocity, once.
     bearing.set("shaft.x", 3e-6);
     let start = energy(&mut bearing);
     let mut drift: f64 = 0.0;

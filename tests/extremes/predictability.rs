@@ -52,7 +52,7 @@ impl Run {
     }
 
     /// Largest difference of any path up to and at about a time.
-    fn apart(&self, other: &Run, time: f64) -> f64 {
+    fn distance(&self, other: &Run, time: f64) -> f64 {
         let window = window(time - 1e-3, time);
         let pairs = self.paths.iter().zip(&other.paths);
         pairs.fold(0.0f64, |m, (a, b)| {
@@ -119,11 +119,11 @@ pub fn tables() -> [String; 2] {
     let moved = Run::new(TIGHTEST, 1e-12);
     let mut growth = "| ms | contacts begun | largest difference of any path, m |\n|---:|---:|---:|\n".to_owned();
     for time in TIMES {
-        writeln!(growth, "| {:.0} | {} | {:.1e} |", 1e3 * time, exact.bounces(time), moved.apart(&exact, time))
+        writeln!(growth, "| {:.0} | {} | {:.1e} |", 1e3 * time, exact.bounces(time), moved.distance(&exact, time))
             .unwrap();
     }
     let (from, to) = (5e-3, 50e-3);
-    let tenfold = (moved.apart(&exact, to) / moved.apart(&exact, from)).log10();
+    let tenfold = (moved.distance(&exact, to) / moved.distance(&exact, from)).log10();
     let (milliseconds, contacts) = (1e3 * (to - from) / tenfold, exact.bounces(to) as f64 / tenfold);
     writeln!(
         growth,
@@ -153,8 +153,8 @@ pub fn tables() -> [String; 2] {
 fn bounces_make_a_small_difference_ten_million_times_larger_in_fifty_milliseconds() {
     let (exact, moved) = (Run::new(1e-11, 0.0), Run::new(1e-11, 1e-12));
     // Before anything bounces the element keeps its 1e-12 m; after half the time it could have been anything between.
-    assert!(moved.apart(&exact, 5e-3) < 2e-12, "{:e}", moved.apart(&exact, 5e-3));
-    let late = moved.apart(&exact, 50e-3);
+    assert!(moved.distance(&exact, 5e-3) < 2e-12, "{:e}", moved.distance(&exact, 5e-3));
+    let late = moved.distance(&exact, 50e-3);
     // The play of a loose element is some 10 µm at least, and 100 µm over the spall.
     assert!(late > 1e-8 && late < 1.1e-4, "{late:e}");
 }

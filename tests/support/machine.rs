@@ -37,7 +37,7 @@ pub fn scene() -> Scene {
 }
 
 /// A machine's answer to elements that pass a spall of `length` degrees at shaft speed `speed` [Hz]: the force that
-/// the element loses moves the housing (a mode at 700 Hz), and blows on entry and exit excite a resonance at 9 kHz.
+/// the element loses moves the housing (a mode at 700 Hz), and impacts on entry and exit excite a resonance at 9 kHz.
 /// Noise of `noise` times the signal's root mean square. Passages scatter by 0.2 degrees. `length` 0 is a healthy
 /// bearing: noise and shaft harmonics.
 pub fn signal(length: f64, speed: f64, noise: f64) -> Vec<f64> {
@@ -50,12 +50,12 @@ pub fn signal(length: f64, speed: f64, noise: f64) -> Vec<f64> {
     if length > 0.0 {
         for k in 0..(4.0 * travel / 40.0) as usize {
             let edge = (k as f64 * 40.0 + 7.0 + 0.2 * random.normal()) / travel;
-            // Free after 0.42 degrees: 49 N on nine elements. The first blow falls in the middle of a short spall, or
+            // Free after 0.42 degrees: 49 N on nine elements. The first impact falls in the middle of a short spall, or
             // on its floor.
             let unloading = 0.42;
             let first = (0.5 * length).min(1.1);
-            for (blow, strength) in [(first, 0.8), (length - 0.5 * unloading, 1.0)] {
-                add_blow(&mut high, edge + blow / travel, strength);
+            for (impact, strength) in [(first, 0.8), (length - 0.5 * unloading, 1.0)] {
+                add_impact(&mut high, edge + impact / travel, strength);
             }
             let from = (edge * RATE) as usize;
             for (i, f) in force.iter_mut().enumerate().skip(from).take((length / travel * RATE) as usize + 2) {
@@ -75,7 +75,7 @@ pub fn signal(length: f64, speed: f64, noise: f64) -> Vec<f64> {
     all
 }
 
-fn add_blow(signal: &mut [f64], at: f64, strength: f64) {
+fn add_impact(signal: &mut [f64], at: f64, strength: f64) {
     let from = (at * RATE).ceil() as usize;
     for (i, x) in signal.iter_mut().enumerate().skip(from).take(400) {
         let t = i as f64 / RATE - at;

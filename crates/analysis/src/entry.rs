@@ -1,7 +1,7 @@
 //! The entry of an element into a spall, in the averaged signal.
 //!
 //! **Onset.** As the contact leaves the raceway, its force falls and the housing follows smoothly, below the frequencies of
-//! blows and with the opposite sign. When the element's centre stands over the edge, an elastic contact has lost 14 to 16 % of its
+//! impacts and with the opposite sign. When the element's centre stands over the edge, an elastic contact has lost 14 to 16 % of its
 //! force (computed with Love's half-space), so the moment at which the excursion reaches 15 % of its first extreme is the edge: later swings are
 //! the housing's answer. It is found on the straight line through 25 % and 50 %, which noise hardly reaches.
 //!
@@ -14,9 +14,9 @@ use super::statistics;
 
 /// Share of its force that an elastic contact has lost when its centre stands over a sharp edge.
 const LOST_AT_EDGE: f64 = 0.15;
-/// Widest stretch before the first blow in which an entry is looked for [degrees].
+/// Widest stretch before the first impact in which an entry is looked for [degrees].
 const REACH: f64 = 3.0;
-/// Way after the last blow that is left to what the blow itself forces [degrees].
+/// Way after the last impact that is left to what the impact itself forces [degrees].
 const AFTER: f64 = 1.0;
 /// Points per degree on which ringing is predicted, and samples from which.
 const FINENESS: f64 = 10.0;
@@ -40,11 +40,11 @@ pub struct Entry {
     pub clearness: f64,
 }
 
-/// The entry before the first blow at grid point `blow` of the averaged signal over one spacing, `degree` grid points being one degree;
-/// `span` from first to last blow [grid points].
-pub fn entry(signal: &[f64], blow: f64, span: f64, degree: f64) -> Option<Entry> {
+/// The entry before the first impact at grid point `impact` of the averaged signal over one spacing, `degree` grid points being one degree;
+/// `span` from first to last impact [grid points].
+pub fn entry(signal: &[f64], impact: f64, span: f64, degree: f64) -> Option<Entry> {
     let smooth = smooth(signal, degree);
-    let index = |degrees: f64| (blow + degrees * degree).max(0.0) as usize;
+    let index = |degrees: f64| (impact + degrees * degree).max(0.0) as usize;
     let (from, to) = (index(-REACH), index(-FLANK).min(smooth.len()));
     let before = smooth.get(index(-5.0 - REACH)..from)?;
     if before.len() < 8 || to < from + 4 {
@@ -52,7 +52,7 @@ pub fn entry(signal: &[f64], blow: f64, span: f64, degree: f64) -> Option<Entry>
     }
     let plain =
         Silence { base: statistics::median(before), noise: statistics::spread(before), rings: vec![0.0; to - from] };
-    let silence = match predicted(&smooth, blow, span, degree, to - from) {
+    let silence = match predicted(&smooth, impact, span, degree, to - from) {
         Some(predicted) if predicted.noise < plain.noise => predicted,
         _ => plain,
     };
@@ -75,14 +75,14 @@ struct Silence {
     rings: Vec<f64>,
 }
 
-/// The last passage's ringing, carried on over `count` grid points before the first blow.
-fn predicted(smooth: &[f64], blow: f64, span: f64, degree: f64, count: usize) -> Option<Silence> {
+/// The last passage's ringing, carried on over `count` grid points before the first impact.
+fn predicted(smooth: &[f64], impact: f64, span: f64, degree: f64, count: usize) -> Option<Silence> {
     let n = smooth.len();
     let step = degree / FINENESS;
-    // From the last blow of the passage before, around the circle of one spacing, to the reach of the entry.
+    // From the last impact of the passage before, around the circle of one spacing, to the reach of the entry.
     let silent = n as f64 - span - (AFTER + REACH) * degree;
     let points = (silent / step).max(0.0) as usize;
-    let from = blow - REACH * degree - points as f64 * step;
+    let from = impact - REACH * degree - points as f64 * step;
     let value = |at: f64| {
         let i = at.floor();
         let point = |i: f64| smooth[i.rem_euclid(n as f64) as usize % n];
@@ -111,11 +111,11 @@ fn predicted(smooth: &[f64], blow: f64, span: f64, degree: f64, count: usize) ->
     (!missed.is_empty() && noise.is_finite()).then(|| Silence { base, noise, rings: (0..count).map(at).collect() })
 }
 
-/// The entry when there is one blow only, at the exit: the first excursion that leaves the silence before, however early.
-pub fn far_entry(signal: &[f64], blow: f64, degree: f64) -> Option<Entry> {
+/// The entry when there is one impact only, at the exit: the first excursion that leaves the silence before, however early.
+pub fn far_entry(signal: &[f64], impact: f64, degree: f64) -> Option<Entry> {
     let smooth = smooth(signal, degree);
-    let to = ((blow - FLANK * degree).max(0.0) as usize).min(smooth.len());
-    // The silence: the quietest stretch of three degrees before the blow.
+    let to = ((impact - FLANK * degree).max(0.0) as usize).min(smooth.len());
+    // The silence: the quietest stretch of three degrees before the impact.
     let stretch = ((3.0 * degree) as usize).max(8);
     let quiet = (0..to.checked_sub(stretch)?)
         .step_by((stretch / 12).max(1))
@@ -129,14 +129,14 @@ pub fn far_entry(signal: &[f64], blow: f64, degree: f64) -> Option<Entry> {
     let leaves = (quiet + stretch..to).find(|&i| away(i) > limit)?;
     let extreme = (leaves..to - 1).find(|&i| away(i + 1) <= away(i))?;
     let far = rise(&smooth, quiet, extreme, base, noise)?;
-    // It must also stand out of the ringing that the blow has left, and be where it was.
+    // It must also stand out of the ringing that the impact has left, and be where it was.
     let end = extreme as f64 + FLANK * degree;
-    let again = entry(signal, end, blow - end, degree)?;
+    let again = entry(signal, end, impact - end, degree)?;
     let same = (again.at - far.at).abs() < degree;
     Some(Entry { clearness: if same { far.clearness.min(again.clearness) } else { 0.0 }, ..far })
 }
 
-/// Half the length of the blow's own flank, which begins a filter's length before its steepest point [degrees].
+/// Half the length of the impact's own flank, which begins a filter's length before its steepest point [degrees].
 const FLANK: f64 = 0.2;
 
 fn smooth(signal: &[f64], degree: f64) -> Vec<f64> {

@@ -1,7 +1,7 @@
 //! Whether elements that pass a defect of the outer raceway can be heard, and how often one passes.
 //!
 //! Each passage excites resonances anew, so that the envelope of a band that holds one repeats with the ball pass frequency.
-//! The envelope's logarithm is taken, which no single blow can rule, and its spectrum searched near the nominal BPFO for
+//! The envelope's logarithm is taken, which no single impact can rule, and its spectrum searched near the nominal BPFO for
 //! the frequency with the strongest comb of harmonics:
 //! ```text
 //! S(f) = mean over k of ln(1 + P(k f) / noise near k f),   noise = median of P between (k ± 0.4) f
@@ -12,7 +12,7 @@
 use super::spectrum::{self, Band, Spectrum};
 use super::statistics;
 
-/// Harmonics in the comb. The envelope of two blows per passage has nulls: one harmonic proves nothing.
+/// Harmonics in the comb. The envelope of two impacts per passage has nulls: one harmonic proves nothing.
 const HARMONICS: usize = 10;
 /// Largest deviation of the ball pass frequency from pure rolling: 3 % slip behind, 2 % ahead by inexact dimensions or speed.
 const SLIP: std::ops::RangeInclusive<f64> = -0.02..=0.03;

@@ -8,9 +8,9 @@
 //! ```
 //! **Entry.** The edge is where 15 % of the force is lost, if it is sharp; a rounded edge lets go earlier, by at most the
 //! way s_r from there to half the excursion.
-//! **Exit.** The last blow falls when the element, squeezed between trailing edge and inner ring, takes up its load again:
+//! **Exit.** The last impact falls when the element, squeezed between trailing edge and inner ring, takes up its load again:
 //! not before L − s_u, not after L.
-//! With both taken at the middle of their ranges, and S the way from the entry's onset to the last blow,
+//! With both taken at the middle of their ranges, and S the way from the entry's onset to the last impact,
 //! ```text
 //! L = S + (s_u − s_r)/2,   u² = (s_u² + s_r²)/12 + u_statistical²
 //! ```
@@ -20,24 +20,24 @@
 
 use super::continuity::Break;
 use super::entry::{self, Entry};
-use super::events::{self, Blow};
+use super::events::{self, Impact};
 use super::measured::Measured;
 use super::passages;
 use super::statistics::{self, Random};
 use brinell::geometry::hertz_constant::HertzConstants;
 use brinell::scene::{Bearing, Motion, Scene};
 
-/// Share of a period before the first blow.
+/// Share of a period before the first impact.
 const LEAD: f64 = 0.3;
-/// The window of a jump: the way in which a blow's envelope rises [degrees], but not less than this time [s].
+/// The window of a jump: the way in which an impact's envelope rises [degrees], but not less than this time [s].
 const JUMP: (f64, f64) = (0.25, 1.2e-4);
 /// Clearness of the entry's excursion below which it is not taken for one.
 const CLEAR: f64 = 3.0;
-/// The same for an entry far before a single blow, where there is more to mistake.
+/// The same for an entry far before a single impact, where there is more to mistake.
 const CLEAR_FAR: f64 = 8.0;
-/// Sampling rate that blows close to each other need [Hz]: echoes fade faster the higher the band, and 5 to 11 kHz is just enough.
+/// Sampling rate that impacts close to each other need [Hz]: echoes fade faster the higher the band, and 5 to 11 kHz is just enough.
 const ENOUGH_RATE: f64 = 24_000.0;
-/// Length from which blows are not close [degrees].
+/// Length from which impacts are not close [degrees].
 const LONG: f64 = 3.0;
 /// Share of the length beyond which its 95 % interval says nothing.
 pub(super) const UNCERTAIN: f64 = 0.25;
@@ -55,12 +55,12 @@ pub struct EventLength {
     pub systematic: f64,
     /// Shortest length that could have been resolved.
     pub limit: f64,
-    /// First blow after the start of a passage's period.
+    /// First impact after the start of a passage's period.
     pub first: f64,
-    /// Onset of the entry, relative to the first blow.
+    /// Onset of the entry, relative to the first impact.
     pub onset: f64,
-    /// Blows, relative to the first.
-    pub blows: Vec<f64>,
+    /// Impacts, relative to the first.
+    pub impacts: Vec<f64>,
 }
 
 /// Why there is no length. Angles in degrees.
@@ -77,9 +77,9 @@ pub enum Unresolved {
          {2:.2} Hz stands {3:.1} above it: are speed, rate and bearing right, or is it not the outer raceway?"
     )]
     OtherPattern(f64, f64, f64, f64),
-    /// Blows and echoes cannot be told apart in what the rate leaves.
+    /// Impacts and echoes cannot be told apart in what the rate leaves.
     #[error(
-        "{0:.2} degrees at a sampling rate of {1:.0} Hz: below {2:.0} Hz the band above the rings' modes is too narrow to tell a second blow that \
+        "{0:.2} degrees at a sampling rate of {1:.0} Hz: below {2:.0} Hz the band above the rings' modes is too narrow to tell a second impact that \
          close from an echo"
     )]
     LowRate(f64, f64, f64),
@@ -94,21 +94,21 @@ pub enum Unresolved {
         "the same passes {0} times in each ball pass period: are rate and speed right, or are there several spalls?"
     )]
     SeveralTimes(usize),
-    /// No blow stands out.
-    #[error("no blow stands out of the averaged passages: largest jump of the envelope below {0:.1} dB")]
-    NoBlow(f64),
-    /// Onset and blows cannot be told apart.
+    /// No impact stands out.
+    #[error("no impact stands out of the averaged passages: largest jump of the envelope below {0:.1} dB")]
+    NoImpact(f64),
+    /// Onset and impacts cannot be told apart.
     #[error(
-        "one blow per passage and no clear entry before it (clearness {0:.1}, limit {1:.1}): entry and exit are not apart"
+        "one impact per passage and no clear entry before it (clearness {0:.1}, limit {1:.1}): entry and exit are not apart"
     )]
-    OneBlow(f64, f64),
+    OneImpact(f64, f64),
     /// No entry.
     #[error(
-        "{0:.2} degrees between first and last blow, but no clear entry before them (clearness {1:.1}, limit {2:.1})"
+        "{0:.2} degrees between first and last impact, but no clear entry before them (clearness {1:.1}, limit {2:.1})"
     )]
     NoEntry(f64, f64, f64),
-    /// Blows fill the spacing.
-    #[error("blows over {0:.1} of {1:.1} degrees of spacing: first and last cannot be told")]
+    /// Impacts fill the spacing.
+    #[error("impacts over {0:.1} of {1:.1} degrees of spacing: first and last cannot be told")]
     NoSilence(f64, f64),
     /// The halves of the recording disagree.
     #[error("odd and even passages disagree: {0:.2} and {1:.2} degrees")]
@@ -143,10 +143,10 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Result<EventLength, Unres
     }
     let grid = Grid::new(measured);
     let envelopes = measured.envelope_rows(0.0, grid.points);
-    let blows = events::blows(&decibels(passages::average(&envelopes)), grid.width, grid.smallest);
-    let blows = events::without_echoes(blows, &envelopes, grid.width, grid.degree * measured.travel());
-    let Some(first) = blows.first().copied() else { return Err(Unresolved::NoBlow(grid.smallest)) };
-    let span = grid.span(&blows);
+    let impacts = events::impacts(&decibels(passages::average(&envelopes)), grid.width, grid.smallest);
+    let impacts = events::without_echoes(impacts, &envelopes, grid.width, grid.degree * measured.travel());
+    let Some(first) = impacts.first().copied() else { return Err(Unresolved::NoImpact(grid.smallest)) };
+    let span = grid.span(&impacts);
     if span > 0.6 * measured.spacing {
         return Err(Unresolved::NoSilence(span, measured.spacing));
     }
@@ -154,9 +154,9 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Result<EventLength, Unres
     let rows = Rows {
         signal: measured.signal_rows(share, grid.points),
         envelope: measured.envelope_rows(share, grid.points),
-        blow: LEAD * grid.points as f64,
+        impact: LEAD * grid.points as f64,
         last: LEAD * grid.points as f64 + span * grid.degree,
-        far: blows.len() == 1,
+        far: impacts.len() == 1,
     };
     let everything: Vec<usize> = (0..rows.signal.len()).collect();
     let Some((entry, way)) = rows.way(&everything, &grid) else { return Err(unclear(&rows, span, 0.0)) };
@@ -185,14 +185,14 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Result<EventLength, Unres
     if 2.0 * uncertainty > UNCERTAIN * length {
         return Err(Unresolved::TooUncertain(length, 2.0 * uncertainty));
     }
-    let blows = blows.iter().map(|b| (b.at - first.at).rem_euclid(grid.points as f64) / grid.degree).collect();
-    let onset = (entry.at - rows.blow) / grid.degree;
+    let impacts = impacts.iter().map(|b| (b.at - first.at).rem_euclid(grid.points as f64) / grid.degree).collect();
+    let onset = (entry.at - rows.impact) / grid.degree;
     let first = first.at / grid.degree;
-    Ok(EventLength { length, statistical, systematic, limit, first, onset, blows })
+    Ok(EventLength { length, statistical, systematic, limit, first, onset, impacts })
 }
 
 fn unclear(rows: &Rows, span: f64, clearness: f64) -> Unresolved {
-    if rows.far { Unresolved::OneBlow(clearness, CLEAR_FAR) } else { Unresolved::NoEntry(span, clearness, CLEAR) }
+    if rows.far { Unresolved::OneImpact(clearness, CLEAR_FAR) } else { Unresolved::NoEntry(span, clearness, CLEAR) }
 }
 
 /// The averaged passage that a figure shows: degrees from `from`, signal, envelope level [dB]. `from` is in degrees after the
@@ -226,9 +226,9 @@ impl Grid {
         Self { points, degree, width, smallest }
     }
 
-    /// From first to last blow [degrees].
-    fn span(&self, blows: &[Blow]) -> f64 {
-        match (blows.first(), blows.last()) {
+    /// From first to last impact [degrees].
+    fn span(&self, impacts: &[Impact]) -> f64 {
+        match (impacts.first(), impacts.last()) {
             (Some(a), Some(b)) => (b.at - a.at).rem_euclid(self.points as f64) / self.degree,
             _ => 0.0,
         }
@@ -238,10 +238,10 @@ impl Grid {
 struct Rows {
     signal: Vec<Vec<f64>>,
     envelope: Vec<Vec<f64>>,
-    /// First and last blow [grid points].
-    blow: f64,
+    /// First and last impact [grid points].
+    impact: f64,
     last: f64,
-    /// There is one blow: the entry may lie far before it.
+    /// There is one impact: the entry may lie far before it.
     far: bool,
 }
 
@@ -250,17 +250,17 @@ impl Rows {
         if self.far { CLEAR_FAR } else { CLEAR }
     }
 
-    /// Entry, and the way from it to the last blow [degrees], in the average over the chosen rows.
+    /// Entry, and the way from it to the last impact [degrees], in the average over the chosen rows.
     fn way(&self, chosen: &[usize], grid: &Grid) -> Option<(Entry, f64)> {
         let signal = average_of(&self.signal, chosen);
         let level = decibels(average_of(&self.envelope, chosen));
         let reach = (0.4 * grid.degree) as usize;
-        let blow = events::jump_near(&level, grid.width, self.blow, reach);
+        let impact = events::jump_near(&level, grid.width, self.impact, reach);
         let last = events::jump_near(&level, grid.width, self.last, reach);
         let entry = if self.far {
-            entry::far_entry(&signal, blow, grid.degree)?
+            entry::far_entry(&signal, impact, grid.degree)?
         } else {
-            entry::entry(&signal, blow, self.last - self.blow, grid.degree)?
+            entry::entry(&signal, impact, self.last - self.impact, grid.degree)?
         };
         Some((entry, (last - entry.at) / grid.degree))
     }

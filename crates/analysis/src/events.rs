@@ -1,27 +1,27 @@
-//! The blows of one passage, read from passages laid over each other.
+//! The impacts of one passage, read from passages laid over each other.
 //!
-//! **Blow.** A jump of the high-frequency envelope: the mean level over a short window after a moment against that before it.
-//! The energy that appears there, not the level, ranks it: what is left of an earlier blow does not count.
+//! **Impact.** A jump of the high-frequency envelope: the mean level over a short window after a moment against that before it.
+//! The energy that appears there, not the level, ranks it: what is left of an earlier impact does not count.
 
 use super::statistics;
 
-/// A blow brings at least this share of the strongest blow's energy; below are echoes and noise.
+/// An impact brings at least this share of the strongest impact's energy; below are echoes and noise.
 const WEAKEST_BLOW: f64 = 0.12;
-/// A blow jumps at least by this share of the steepest blow's jump [dB]: it rises out of silence, or over a decaying blow, while an echo
+/// An impact jumps at least by this share of the steepest impact's jump [dB]: it rises out of silence, or over a decaying impact, while an echo
 /// or a beat rises over what it is a part of.
 const LOWEST_JUMP: f64 = 0.3;
 /// A jump that no late echo makes [dB].
 const STEEP: f64 = 8.0;
-/// Correlation of loudness over the passages from which a rise is an echo of the blow before: two edges are hit each in its own way.
+/// Correlation of loudness over the passages from which a rise is an echo of the impact before: two edges are hit each in its own way.
 const SAME_CAUSE: f64 = 0.6;
 /// Time after which echoes have died down [s]: 1 m of housing at the 1 km/s of slow bending waves. Later ones do not rise by [`STEEP`].
 const DIED_DOWN: f64 = 1e-3;
 /// Passages below which such a correlation may be chance: 0.6 of 20 passages is three standard deviations.
 const FEWEST_TO_COMPARE: usize = 20;
 
-/// A blow.
+/// An impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Blow {
+pub struct Impact {
     /// Where the envelope rises fastest [grid points, with fraction].
     pub at: f64,
     /// Jump of the envelope [dB].
@@ -30,23 +30,23 @@ pub struct Blow {
     pub energy: f64,
 }
 
-/// Blows of a passage in the order of the circle of one spacing, that after the longest silence first.
+/// Impacts of a passage in the order of the circle of one spacing, that after the longest silence first.
 ///
 /// `level` is the averaged envelope [dB] over one spacing, `width` the window [grid points] of the jump, `smallest` the least
 /// jump that is no accident [dB].
-pub fn blows(level: &[f64], width: usize, smallest: f64) -> Vec<Blow> {
+pub fn impacts(level: &[f64], width: usize, smallest: f64) -> Vec<Impact> {
     let n = level.len();
     if n < 4 * width {
         return Vec::new();
     }
     let jumps = jumps(level, width);
     let power: Vec<f64> = level.iter().map(|&l| libm::exp10(l / 10.0)).collect();
-    let mut found: Vec<Blow> = (0..n)
+    let mut found: Vec<Impact> = (0..n)
         .filter(|&i| jumps[i] >= smallest)
         .filter(|&i| (1..=width).all(|k| jumps[(i + k) % n] <= jumps[i] && jumps[(i + n - k) % n] < jumps[i]))
         .map(|i| {
             let peak = (0..2 * width).map(|k| power[(i + k) % n]).fold(0.0, f64::max);
-            Blow { at: i as f64 + vertex(&jumps, i), jump: jumps[i], energy: peak - power[(i + n - width) % n] }
+            Impact { at: i as f64 + vertex(&jumps, i), jump: jumps[i], energy: peak - power[(i + n - width) % n] }
         })
         .collect();
     let strongest = found.iter().map(|b| b.energy).fold(0.0, f64::max);
@@ -56,16 +56,16 @@ pub fn blows(level: &[f64], width: usize, smallest: f64) -> Vec<Blow> {
     after_the_longest_silence(found, n)
 }
 
-/// The blows without echoes: rises that are loud whenever an earlier blow is loud, passage by passage, and that are not both late and steep.
+/// The impacts without echoes: rises that are loud whenever an earlier impact is loud, passage by passage, and that are not both late and steep.
 ///
-/// `envelopes` is one row per passage on the grid of the blows, `rate` its points per second.
-pub fn without_echoes(mut blows: Vec<Blow>, envelopes: &[Vec<f64>], width: usize, rate: f64) -> Vec<Blow> {
+/// `envelopes` is one row per passage on the grid of the impacts, `rate` its points per second.
+pub fn without_echoes(mut impacts: Vec<Impact>, envelopes: &[Vec<f64>], width: usize, rate: f64) -> Vec<Impact> {
     let Some(n) = envelopes.first().map(Vec::len).filter(|_| envelopes.len() >= FEWEST_TO_COMPARE) else {
-        return blows;
+        return impacts;
     };
-    let loudness = |blow: &Blow| -> Vec<f64> {
-        let from = n + blow.at.max(0.0) as usize - width / 2;
-        // The loudest window near the blow: a peak depends on where between two samples it falls, a fixed window on how well the passage is
+    let loudness = |impact: &Impact| -> Vec<f64> {
+        let from = n + impact.at.max(0.0) as usize - width / 2;
+        // The loudest window near the impact: a peak depends on where between two samples it falls, a fixed window on how well the passage is
         // aligned, and both edges share that.
         let loudest = |row: &Vec<f64>| {
             let mean = |k: usize| (0..width).map(|i| row[(from + k + i) % n]).sum::<f64>() / width as f64;
@@ -73,28 +73,28 @@ pub fn without_echoes(mut blows: Vec<Blow>, envelopes: &[Vec<f64>], width: usize
         };
         envelopes.iter().map(|row| libm::log(loudest(row))).collect()
     };
-    let all: Vec<Vec<f64>> = blows.iter().map(loudness).collect();
+    let all: Vec<Vec<f64>> = impacts.iter().map(loudness).collect();
     let loud_together = |i: usize, j: usize| statistics::correlation(&all[i], &all[j]) > SAME_CAUSE;
-    let late = |i: usize, j: usize| (blows[i].at - blows[j].at).rem_euclid(n as f64) > DIED_DOWN * rate;
-    let echo = |i: usize| (0..i).any(|j| loud_together(i, j) && !(late(i, j) && blows[i].jump >= STEEP));
-    let kept: Vec<bool> = (0..blows.len()).map(|i| !echo(i)).collect();
+    let late = |i: usize, j: usize| (impacts[i].at - impacts[j].at).rem_euclid(n as f64) > DIED_DOWN * rate;
+    let echo = |i: usize| (0..i).any(|j| loud_together(i, j) && !(late(i, j) && impacts[i].jump >= STEEP));
+    let kept: Vec<bool> = (0..impacts.len()).map(|i| !echo(i)).collect();
     let mut kept = kept.into_iter();
-    blows.retain(|_| kept.next().unwrap_or(true));
-    after_the_longest_silence(blows, n)
+    impacts.retain(|_| kept.next().unwrap_or(true));
+    after_the_longest_silence(impacts, n)
 }
 
-/// Blows around a circle of `n` points, that after the longest silence first.
-fn after_the_longest_silence(mut blows: Vec<Blow>, n: usize) -> Vec<Blow> {
+/// Impacts around a circle of `n` points, that after the longest silence first.
+fn after_the_longest_silence(mut impacts: Vec<Impact>, n: usize) -> Vec<Impact> {
     let silence = |i: usize| {
-        let before = blows[(i + blows.len() - 1) % blows.len()].at;
-        (blows[i].at - before).rem_euclid(n as f64)
+        let before = impacts[(i + impacts.len() - 1) % impacts.len()].at;
+        (impacts[i].at - before).rem_euclid(n as f64)
     };
-    if blows.len() > 1
-        && let Some(first) = (0..blows.len()).max_by(|&a, &b| silence(a).total_cmp(&silence(b)))
+    if impacts.len() > 1
+        && let Some(first) = (0..impacts.len()).max_by(|&a, &b| silence(a).total_cmp(&silence(b)))
     {
-        blows.rotate_left(first);
+        impacts.rotate_left(first);
     }
-    blows
+    impacts
 }
 
 /// Where, within `reach` grid points of `near`, the envelope jumps most.

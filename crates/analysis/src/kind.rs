@@ -17,7 +17,7 @@ use super::synthesis::{CUT, POINTS, Rig, Trial};
 use super::waveform_length::WaveformLength;
 use brinell::scene::{ContactLaw, Motion, Scene};
 
-/// Difference of likeness by which one kind of spall is preferred to the other.
+/// Difference of similarity by which one kind of spall is preferred to the other.
 const CLEARLY_LIKER: f64 = 0.02;
 /// Depth at which ringing is expected [m]: deep enough for free elements, which is what the two kinds differ in.
 const FREE_DEPTH: f64 = 1e-3;
@@ -63,7 +63,7 @@ impl Judged {
         // Above the critical load ringing is no witness.
         let heard =
             if critical_load.is_some_and(|critical| load(scene) >= critical) { Kind::Undecided } else { by_ringing };
-        let kind = waveform.map_or(by_ringing, |w| by_likeness(w, spacing, heard));
+        let kind = waveform.map_or(by_ringing, |w| by_similarity(w, spacing, heard));
         // With two elements in the spall, or heard to swing on fewer elements, it is no question.
         let critical_depth = entry
             .filter(|_| waveform.is_none() && kind != Kind::Extended)
@@ -147,7 +147,7 @@ fn by_ringing(measured: Option<Ringing>, expected: Option<[Ringing; 2]>) -> Kind
     }
 }
 
-fn by_likeness(waveform: &WaveformLength, spacing: f64, by_ringing: Kind) -> Kind {
+fn by_similarity(waveform: &WaveformLength, spacing: f64, by_ringing: Kind) -> Kind {
     let [line, extended] = waveform.by_kind;
     let kind = if waveform.length > spacing { Kind::Extended } else { Kind::Line };
     let contradicted = by_ringing != Kind::Undecided && by_ringing != kind;

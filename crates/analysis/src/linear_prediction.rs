@@ -1,12 +1,12 @@
 //! A structure's own ringing, predicted from what went before.
 //!
-//! A structure that rings answers each blow with decaying oscillations, in which every sample follows from the ones before,
+//! A structure that rings answers each impact with decaying oscillations, in which every sample follows from the ones before,
 //! ```text
 //! x(i) = − Σ a(k) x(i − k) + e(i),   k = 1 … p
 //! ```
-//! The residual e holds what does not follow: the blows themselves, and noise. The a(k) come from the recording's autocorrelation by the
+//! The residual e holds what does not follow: the impacts themselves, and noise. The a(k) come from the recording's autocorrelation by the
 //! recursion of Levinson and Durbin, whose filter is always stable. The span of p samples must stay short against the way between two
-//! blows, for the second would else be predicted from the first.
+//! impacts, for the second would else be predicted from the first.
 //!
 //! In a stretch in which nothing happens e is noise, and the prediction can be carried on ([`Ringing::ahead`]): what still rings of the last
 //! passage when the next element comes is known and can be taken off. Its a(k) are those of least squares within the stretch, for decaying
@@ -109,30 +109,30 @@ mod tests {
     use super::*;
 
     /// A resonator that decays by a tenth in seven samples and turns by a radian in each.
-    fn rung(blows: &[f64]) -> Vec<f64> {
+    fn rung(impacts: &[f64]) -> Vec<f64> {
         let (mut a, mut b) = (0.0, 0.0);
-        let next = |&blow: &f64| {
-            (a, b) = (blow + 2.0 * 0.985 * libm::cos(1.0) * a - 0.985 * 0.985 * b, a);
+        let next = |&impact: &f64| {
+            (a, b) = (impact + 2.0 * 0.985 * libm::cos(1.0) * a - 0.985 * 0.985 * b, a);
             a
         };
-        blows.iter().map(next).collect()
+        impacts.iter().map(next).collect()
     }
 
     #[test]
-    fn of_a_structure_that_rings_the_blows_are_left() {
+    fn of_a_structure_that_rings_the_impacts_are_left() {
         let mut random = Random::new(1);
-        let blows: Vec<f64> = (0..20_000).map(|i| if i % 100 == 0 { 10.0 } else { 0.1 * random.normal() }).collect();
-        let left = residual(&rung(&blows), 8);
-        // 20 000 samples give each coefficient within 1/√20 000 = 0.007, and the resonator's amplitude is six times the blow's: 0.5 of 10.
-        let worst = blows.iter().zip(&left).skip(200).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let impacts: Vec<f64> = (0..20_000).map(|i| if i % 100 == 0 { 10.0 } else { 0.1 * random.normal() }).collect();
+        let left = residual(&rung(&impacts), 8);
+        // 20 000 samples give each coefficient within 1/√20 000 = 0.007, and the resonator's amplitude is six times the impact's: 0.5 of 10.
+        let worst = impacts.iter().zip(&left).skip(200).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         assert!(worst < 0.5, "{worst}");
     }
 
     #[test]
     fn ringing_goes_on_as_it_was() {
-        let mut blows = vec![0.0; 260];
-        blows[0] = 1.0;
-        let all = rung(&blows);
+        let mut impacts = vec![0.0; 260];
+        impacts[0] = 1.0;
+        let all = rung(&impacts);
         let ahead = Ringing::of(&all[..200], 6).unwrap().ahead(&all[..200], 60);
         let scale = all[190..200].iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         // The ridge takes a thousandth of the amplitude for noise.

@@ -15,7 +15,7 @@ const FEWEST_PASSAGES: usize = 8;
 /// Fewest samples per passage: with 64, at 40° spacing, one sample is 0.6° and a spall of a few degrees a handful.
 const FEWEST_SAMPLES: usize = 64;
 /// Span of the samples from which the structure's ringing is predicted [s], and fewest samples: a period of modes above 2.5 kHz, and short
-/// against the way between blows (0.7 ms over 5 degrees at 40 Hz).
+/// against the way between impacts (0.7 ms over 5 degrees at 40 Hz).
 const PREDICTED: f64 = 4e-4;
 const FEWEST_PREDICTING: usize = 8;
 
@@ -71,9 +71,9 @@ impl Measured {
         let passages =
             Passages::find(recording.samples(), &spectrum.squared_envelope(comb.band), rate / comb.frequency);
         let order = ((PREDICTED * rate) as usize).max(FEWEST_PREDICTING);
-        let blows = linear_prediction::residual(recording.samples(), order);
-        let mut spectrum = Spectrum::of(&blows, rate);
-        let mut high = spectrum.squared_envelope(Band { low: blow_band(rate), high: 0.45 * rate });
+        let impacts = linear_prediction::residual(recording.samples(), order);
+        let mut spectrum = Spectrum::of(&impacts, rate);
+        let mut high = spectrum.squared_envelope(Band { low: impact_band(rate), high: 0.45 * rate });
         let passages = passages.refined(recording.samples(), &high);
         high.iter_mut().for_each(|x| *x = x.max(0.0).sqrt());
         let bpfo = rate / passages.period;
@@ -115,7 +115,7 @@ impl Measured {
     }
 }
 
-/// Lower edge of the band of blows [Hz]: far above the rings' modes (below 2 kHz), low enough for accelerometers.
-fn blow_band(rate: f64) -> f64 {
+/// Lower edge of the band of impacts [Hz]: far above the rings' modes (below 2 kHz), low enough for accelerometers.
+fn impact_band(rate: f64) -> f64 {
     (0.2 * rate).min(5000.0)
 }

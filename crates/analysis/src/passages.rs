@@ -62,7 +62,7 @@ impl Passages {
         Self::from_starts(best.unwrap_or_default(), period)
     }
 
-    /// The same passages, aligned anew by the envelope of the blows' band, if that makes the averaged envelope steeper.
+    /// The same passages, aligned anew by the envelope of the impacts' band, if that makes the averaged envelope steeper.
     /// The averaged signal must not suffer.
     pub fn refined(self, signal: &[f64], squared_envelope: &[f64]) -> Self {
         let log = rises(squared_envelope, self.period);
@@ -149,7 +149,7 @@ pub fn average(rows: &[Vec<f64>]) -> Vec<f64> {
 }
 
 /// What passages are aligned by: how fast the envelope's logarithm rises, over a quarter of a degree at 40° spacing; where it falls, 0.
-/// Blows rise steeply; the decay after them, with its beats, is long and would align their echoes as gladly.
+/// Impacts rise steeply; the decay after them, with its beats, is long and would align their echoes as gladly.
 fn rises(squared: &[f64], period: f64) -> Vec<f64> {
     let smooth = spectrum::running_mean(squared, (period / 640.0) as usize);
     let floor = statistics::quantile(&smooth, 0.05).unwrap_or(0.0) + f64::MIN_POSITIVE;
@@ -167,7 +167,7 @@ fn rises(squared: &[f64], period: f64) -> Vec<f64> {
 }
 
 /// Aligns from several beginnings and keeps the result with the most contrast: from the blurred mean alone, the passages can
-/// settle in two groups, a blow's echo of one lying on the blow of the other.
+/// settle in two groups, an impact's echo of one lying on the impact of the other.
 fn align(log: &[f64], even: &[f64], period: f64) -> Vec<f64> {
     let whole = template(log, even, period);
     let single = (1..=BEGINNINGS).map(|k| template(log, &[even[k * even.len() / (BEGINNINGS + 1)]], period));

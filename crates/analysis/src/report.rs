@@ -28,9 +28,9 @@ pub enum Kind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Method {
-    /// From the entry's onset to the last blow.
+    /// From the entry's onset to the last impact.
     Events,
-    /// By likeness to the scene's own rig.
+    /// By similarity to the scene's own rig.
     Waveform,
 }
 
@@ -87,14 +87,14 @@ pub struct RecordingReport {
     pub passages: usize,
     /// How far its comb stands above chance [standard deviations].
     pub significance: f64,
-    /// Onset of the entry before the first blow [degrees], where there is one.
+    /// Onset of the entry before the first impact [degrees], where there is one.
     pub onset_deg: Option<f64>,
-    /// Blows, from the first on [degrees].
-    pub blows_deg: Vec<f64>,
-    /// Both edges as the length has them, from the first blow, or by likeness from the entry [degrees].
+    /// Impacts, from the first on [degrees].
+    pub impacts_deg: Vec<f64>,
+    /// Both edges as the length has them, from the first impact, or by similarity from the entry [degrees].
     pub edges_deg: Option<[f64; 2]>,
-    /// Likeness to the scene's rig, 0 to 1, where the scene describes one; below 0.9 it was not used.
-    pub likeness: Option<f64>,
+    /// Similarity to the scene's rig, 0 to 1, where the scene describes one; below 0.9 it was not used.
+    pub similarity: Option<f64>,
     /// Frequencies of ringing after entry and after exit [Hz], where they could be measured.
     pub ringing_hz: Option<[f64; 2]>,
     /// Those expected of a line spall, and of an extended one, of the scene's rig [Hz].
@@ -103,7 +103,7 @@ pub struct RecordingReport {
     pub reason: Option<String>,
 }
 
-/// The averaged passage of one recording, for a figure. Angles in degrees of element travel from the first blow, or by likeness
+/// The averaged passage of one recording, for a figure. Angles in degrees of element travel from the first impact, or by similarity
 /// from the entry.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
@@ -115,9 +115,9 @@ pub struct Figure {
     pub signal: Vec<f64>,
     /// Averaged level of the high-frequency envelope [dB].
     pub level: Vec<f64>,
-    /// The signal below the band of blows, in which entries show and likeness is measured.
+    /// The signal below the band of impacts, in which entries show and similarity is measured.
     pub low: Vec<f64>,
-    /// The most alike simulated passage, scaled to `low`, where likeness gave the length.
+    /// The most alike simulated passage, scaled to `low`, where similarity gave the length.
     pub model: Option<Vec<f64>>,
     /// Rigid path of an element's centre over a spall of the answer's length, deep enough that its floor is not reached [m].
     pub path: Option<Vec<f64>>,

@@ -1,6 +1,6 @@
 //! Length of a spall of the outer raceway from vibration recordings, with its uncertainty, or why there is none.
 //!
-//! Each recording is sized by likeness to the scene's own rig if the scene describes the rig ([`waveform_length`]), else by the
+//! Each recording is sized by similarity to the scene's own rig if the scene describes the rig ([`waveform_length`]), else by the
 //! events of its passages, which needs nothing but the bearing's dimensions ([`event_length`]). A rig that sounds like the
 //! recording also tells a line spall from an extended one; otherwise ringing does ([`ringing`]), or nothing does.
 //!
@@ -22,7 +22,7 @@ use brinell::scene::{Bearing, Scene};
 
 /// Coverage factor of the stated interval: 95 % of a normal distribution.
 const COVERAGE: f64 = 2.0;
-/// Significance of the comb from which likeness is asked: less than the events need, for to be alike is a proof of its own. Short
+/// Significance of the comb from which similarity is asked: less than the events need, for to be alike is a proof of its own. Short
 /// recordings lose many harmonics to the shaft's.
 const HEARD: f64 = 5.0;
 /// Scatter between recordings of one spall, as a share of the length, from which they contradict each other.
@@ -106,7 +106,7 @@ struct Sized {
     events: Option<EventLength>,
     waveform: Option<WaveformLength>,
     /// To the scene's rig, whether that was taken for the recording's or not.
-    likeness: Option<f64>,
+    similarity: Option<f64>,
     judged: Judged,
 }
 
@@ -127,7 +127,8 @@ impl Sized {
         let once = measured.broken.is_none() && measured.times_a_period.is_none();
         let heard = rig.as_ref().filter(|_| measured.comb.significance >= HEARD && once);
         let heard = heard.map(|rig| waveform_length::estimate(&measured, scene, rig));
-        let likeness = heard.as_ref().map(|heard| heard.as_ref().map_or_else(|other| other.likeness, |w| w.likeness));
+        let similarity =
+            heard.as_ref().map(|heard| heard.as_ref().map_or_else(|other| other.similarity, |w| w.similarity));
         let waveform = heard.and_then(Result::ok);
         let spacing = measured.spacing;
         // Where an entry begins [share of a period], and how far from it the next exit is [degrees].
@@ -151,7 +152,7 @@ impl Sized {
             }
             (None, Err(why)) => Err(why.clone()),
         };
-        Self { measured, length, events: events.ok(), waveform, likeness, judged }
+        Self { measured, length, events: events.ok(), waveform, similarity, judged }
     }
 
     fn report(&self) -> RecordingReport {
@@ -165,10 +166,10 @@ impl Sized {
             bpfo_hz: self.measured.bpfo,
             significance: self.measured.comb.significance,
             onset_deg: self.events.as_ref().map(|e| e.onset),
-            blows_deg: self.events.as_ref().map_or_else(Vec::new, |e| e.blows.clone()),
+            impacts_deg: self.events.as_ref().map_or_else(Vec::new, |e| e.impacts.clone()),
             edges_deg: self.edges(),
             passages: self.measured.passages.starts.len(),
-            likeness: self.likeness,
+            similarity: self.similarity,
             ringing_hz: self.judged.ringing.map(Ringing::pair),
             expected_ringing_hz: self.judged.expected.map(|e| e.map(Ringing::pair)),
             reason: self.length.as_ref().err().map(ToString::to_string),
@@ -207,7 +208,7 @@ impl Sized {
     }
 }
 
-/// The length by likeness, unless it is shorter than what can be resolved: a guessed load, clearance or edge would make as much of it.
+/// The length by similarity, unless it is shorter than what can be resolved: a guessed load, clearance or edge would make as much of it.
 fn of_waveform(waveform: &WaveformLength, scene: &Scene, kind: Kind) -> Result<Length, Unresolved> {
     let WaveformLength { length, statistical, systematic, .. } = *waveform;
     let uncertainty = statistical.hypot(systematic).hypot(FLOOR);
@@ -248,8 +249,8 @@ fn common_kind(lengths: &[&Length]) -> Kind {
 /// What a resolved answer rests on, and its warnings.
 fn basis(report: &Report, sized: &[Sized], scene: &Scene) -> String {
     let mut text = match report.method {
-        Some(Method::Waveform) => "likeness of the averaged passage to the scene's rig".to_owned(),
-        _ => "way from the entry's onset to the last blow".to_owned(),
+        Some(Method::Waveform) => "similarity of the averaged passage to the scene's rig".to_owned(),
+        _ => "way from the entry's onset to the last impact".to_owned(),
     };
     if let Some(said) = sized.iter().find(|s| s.length.is_ok()).map(|s| s.judged.said(scene)) {
         text += &said;

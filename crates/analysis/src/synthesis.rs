@@ -22,7 +22,7 @@ pub const POINTS: usize = 1024;
 pub const CUT: f64 = 2500.0;
 /// Time in which the rings' modes decay to a hundredth, with usual supports [s]; a long run grants twice that.
 const DECAY: f64 = 0.025;
-/// Tolerance of short runs: it moves likeness by less than 0.002 and saves a third of the time.
+/// Tolerance of short runs: it moves similarity by less than 0.002 and saves a third of the time.
 const ROUGH: f64 = 1e-3;
 
 /// How long a trial runs.
@@ -138,13 +138,13 @@ pub fn below_cut(passage: &[f64], bpfo: f64) -> Vec<f64> {
 }
 
 /// Largest magnitude of the circular correlation of two passages from [`below_cut`].
-pub fn likeness(measured: &[f64], simulated: &[f64]) -> f64 {
+pub fn similarity(measured: &[f64], simulated: &[f64]) -> f64 {
     best_shift(measured, simulated).1
 }
 
-/// Share of a period by which the simulated passage must be moved to lie over the measured one, and their likeness then.
+/// Share of a period by which the simulated passage must be moved to lie over the measured one, and their similarity then.
 ///
-/// Between grid points by a parabola: half a point off would cost more likeness than a tenth of the length.
+/// Between grid points by a parabola: half a point off would cost more similarity than a tenth of the length.
 pub fn best_shift(measured: &[f64], simulated: &[f64]) -> (f64, f64) {
     let correlation = super::spectrum::circular_correlation(measured, simulated);
     let n = correlation.len();

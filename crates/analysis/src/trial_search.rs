@@ -1,10 +1,10 @@
 //! The search among trial spalls for the one whose simulated passage is most like a measured one.
 //!
-//! Likeness has one top per spall but many lower ones beside it (a period of ringing off), so that a ladder of lengths comes first. From
+//! Similarity has one top per spall but many lower ones beside it (a period of ringing off), so that a ladder of lengths comes first. From
 //! the best rungs the search climbs in length and depth together: where elements reach the floor, a micrometre of depth moves their
 //! strikes as much as a tenth of a degree of length does, and neither is found without the other.
 
-use super::synthesis::{Rig, Run, Trial, likeness};
+use super::synthesis::{Rig, Run, Trial, similarity};
 use brinell::scene::ContactLaw;
 
 /// Step of the last search [degrees].
@@ -22,7 +22,7 @@ const MOST_STEPS: usize = 24;
 #[derive(Debug, Clone)]
 pub(super) struct Fit {
     pub(super) trial: Trial,
-    pub(super) likeness: f64,
+    pub(super) similarity: f64,
     pub(super) passage: Vec<f64>,
 }
 
@@ -33,7 +33,7 @@ pub(super) struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Climbs from a trial to the nearest top of likeness over length and depth.
+    /// Climbs from a trial to the nearest top of similarity over length and depth.
     pub(super) fn climb(&self, from: &Fit) -> Fit {
         let mut best = from.clone();
         let (mut by_length, mut by_depth) = FIRST_STEPS;
@@ -49,7 +49,7 @@ impl Search<'_> {
                 })
                 .collect();
             let next = self.fits(&trials, Run::Short).into_iter().next();
-            if let Some(next) = next.filter(|next| next.likeness > best.likeness) {
+            if let Some(next) = next.filter(|next| next.similarity > best.similarity) {
                 best = next;
             } else if halvings < HALVINGS {
                 halvings += 1;
@@ -62,7 +62,7 @@ impl Search<'_> {
         best
     }
 
-    /// The top of likeness around a length.
+    /// The top of similarity around a length.
     pub(super) fn peak(&self, around: f64, trial: Trial) -> Option<Peak> {
         let from = (around - 3.0 * FINE).max(FINE);
         let trials: Vec<Trial> =
@@ -92,16 +92,16 @@ impl Search<'_> {
             passage = self.rig.passage(trial(length, law), Run::Long).ok()?;
             length = (length - (top(&ruler, &passage)?.0 - seems)).max(FINE);
         }
-        Some(OwnLaw { length, likeness: likeness(self.target, &passage), passage })
+        Some(OwnLaw { length, similarity: similarity(self.target, &passage), passage })
     }
 
-    /// The trials in the order of their likeness; those that cannot be simulated are left out.
+    /// The trials in the order of their similarity; those that cannot be simulated are left out.
     pub(super) fn fits(&self, trials: &[Trial], run: Run) -> Vec<Fit> {
         let threads = std::thread::available_parallelism().map_or(1, |n| n.get().min(8));
         let share = trials.len().div_ceil(threads).max(1);
         let fit = |&trial: &Trial| {
             let passage = self.rig.passage(trial, run).ok()?;
-            Some(Fit { trial, likeness: likeness(self.target, &passage), passage })
+            Some(Fit { trial, similarity: similarity(self.target, &passage), passage })
         };
         let mut fits: Vec<Fit> = std::thread::scope(|scope| {
             let parts: Vec<_> = trials
@@ -110,7 +110,7 @@ impl Search<'_> {
                 .collect();
             parts.into_iter().flat_map(|part| part.join().unwrap_or_default()).collect()
         });
-        fits.sort_by(|a, b| b.likeness.total_cmp(&a.likeness));
+        fits.sort_by(|a, b| b.similarity.total_cmp(&a.similarity));
         fits
     }
 }
@@ -118,16 +118,16 @@ impl Search<'_> {
 /// The answer by the scene's own law.
 pub(super) struct OwnLaw {
     pub(super) length: f64,
-    pub(super) likeness: f64,
+    pub(super) similarity: f64,
     pub(super) passage: Vec<f64>,
 }
 
-/// The top of likeness over length at one depth.
+/// The top of similarity over length at one depth.
 #[derive(Debug, Clone)]
 pub(super) struct Peak {
     pub(super) length: f64,
     pub(super) depth: f64,
-    pub(super) likeness: f64,
+    pub(super) similarity: f64,
     /// In the order of length.
     pub(super) fits: Vec<Fit>,
     pub(super) top: usize,
@@ -137,14 +137,14 @@ impl Peak {
     fn of(mut fits: Vec<Fit>, target: &[f64]) -> Option<Self> {
         fits.sort_by(|a, b| a.trial.length.total_cmp(&b.trial.length));
         let depth = fits.first()?.trial.depth;
-        let (length, likeness, top) = top(&fits, target)?;
-        Some(Self { length, depth, likeness, fits, top })
+        let (length, similarity, top) = top(&fits, target)?;
+        Some(Self { length, depth, similarity, fits, top })
     }
 }
 
-/// Length, likeness and index at the top of the parabola through the best three.
+/// Length, similarity and index at the top of the parabola through the best three.
 pub(super) fn top(fits: &[Fit], target: &[f64]) -> Option<(f64, f64, usize)> {
-    let like: Vec<f64> = fits.iter().map(|f| likeness(target, &f.passage)).collect();
+    let like: Vec<f64> = fits.iter().map(|f| similarity(target, &f.passage)).collect();
     let i = (0..like.len()).max_by(|&a, &b| like[a].total_cmp(&like[b]))?;
     let length = fits[i].trial.length;
     if i == 0 || i + 1 == fits.len() {

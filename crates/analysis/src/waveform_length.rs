@@ -15,9 +15,9 @@ use super::synthesis::{POINTS, Rig, Run, Trial, below_cut, best_shift};
 use super::trial_search::{FINE, Fit, OwnLaw, Peak, Search, lengths, top};
 use brinell::scene::{ContactLaw, Scene};
 
-/// Likeness from which the scene's rig is taken to be the recording's.
+/// Similarity from which the scene's rig is taken to be the recording's.
 pub const LIKE: f64 = 0.9;
-/// Likeness of the coarse search below which the fine one is not worth its time.
+/// Similarity of the coarse search below which the fine one is not worth its time.
 const HOPELESS: f64 = 0.5;
 /// Depth of the first trial spalls [m]: where elements do not reach the floor, it does not matter.
 const DEPTH: f64 = 100e-6;
@@ -26,16 +26,16 @@ const DEPTH: f64 = 100e-6;
 const SHALLOW: [f64; 5] = [4.4, 3.4, 2.6, 2.0, 1.5];
 /// Depths tried beside the best, as shares of it.
 const OTHER_DEPTHS: [f64; 4] = [0.5, 0.25, 2.0, 4.0];
-/// Step of the ladder [degrees]; half of it where elements stand on the floor, for likeness falls off more steeply there.
+/// Step of the ladder [degrees]; half of it where elements stand on the floor, for similarity falls off more steeply there.
 const STEP: f64 = 1.0;
 /// Climbs from the ladder's best trials at most.
 const BEGINNINGS: usize = 4;
-/// Likeness at the top of a climb after which no other is tried.
+/// Similarity at the top of a climb after which no other is tried.
 const UNMISTAKABLE: f64 = 0.97;
 /// Resamplings of the passages.
 const RESAMPLINGS: usize = 60;
 
-/// Length by likeness. Angles in degrees of the outer raceway.
+/// Length by similarity. Angles in degrees of the outer raceway.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WaveformLength {
     /// Length.
@@ -46,9 +46,9 @@ pub struct WaveformLength {
     pub statistical: f64,
     /// Standard uncertainty from depths that fit as well.
     pub systematic: f64,
-    /// Likeness of the best trial.
-    pub likeness: f64,
-    /// Largest likeness of a trial that is a line spall, and of one that is extended.
+    /// Similarity of the best trial.
+    pub similarity: f64,
+    /// Largest similarity of a trial that is a line spall, and of one that is extended.
     pub by_kind: [f64; 2],
     /// Where in a period an entry begins [share of it].
     pub entry: f64,
@@ -59,8 +59,8 @@ pub struct WaveformLength {
 /// A rig that is not the recording's.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NotAlike {
-    /// Likeness of the best trial; 0 where none could be simulated.
-    pub likeness: f64,
+    /// Similarity of the best trial; 0 where none could be simulated.
+    pub similarity: f64,
 }
 
 /// Sizes the recording by the scene's rig.
@@ -68,7 +68,7 @@ pub struct NotAlike {
 /// # Errors
 /// A rig that cannot be simulated, or sounds different.
 pub fn estimate(measured: &Measured, scene: &Scene, rig: &Rig<'_>) -> Result<WaveformLength, NotAlike> {
-    let mut heard = NotAlike { likeness: 0.0 };
+    let mut heard = NotAlike { similarity: 0.0 };
     let found = search(measured, scene, rig, &mut heard);
     found.ok_or(heard)
 }
@@ -84,17 +84,17 @@ fn search(measured: &Measured, scene: &Scene, rig: &Rig<'_>, heard: &mut NotAlik
         all.map(|length| simple(length, depth)).collect()
     };
     let mut found = search.fits(&ladder(DEPTH, STEP), Run::Short);
-    heard.likeness = found.first()?.likeness;
+    heard.similarity = found.first()?.similarity;
     let mut climbed = climbs(&search, &found);
-    if climbed.first().is_none_or(|best| best.likeness < LIKE)
+    if climbed.first().is_none_or(|best| best.similarity < LIKE)
         && let Some(approach) = event_length::approach(scene)
     {
         let shallow: Vec<Trial> = SHALLOW.iter().flat_map(|times| ladder(times * approach, 0.5 * STEP)).collect();
         found.extend(search.fits(&shallow, Run::Short));
-        found.sort_by(|a, b| b.likeness.total_cmp(&a.likeness));
+        found.sort_by(|a, b| b.similarity.total_cmp(&a.similarity));
         climbed = climbs(&search, &found);
     }
-    heard.likeness = climbed.first().map_or(heard.likeness, |best| best.likeness);
+    heard.similarity = climbed.first().map_or(heard.similarity, |best| best.similarity);
     let Trial { length: around, depth, .. } = climbed.first()?.trial;
     found.extend(climbed);
     // The usual depth once only, where the climb has not left it.
@@ -103,10 +103,10 @@ fn search(measured: &Measured, scene: &Scene, rig: &Rig<'_>, heard: &mut NotAlik
         .chain(OTHER_DEPTHS.iter().map(|share| share * depth))
         .filter_map(|depth| search.peak(around, simple(around, depth)))
         .collect();
-    let likest = peaks.iter().map(|p| p.likeness).fold(0.0, f64::max);
+    let likest = peaks.iter().map(|p| p.similarity).fold(0.0, f64::max);
     // As good as the best: within half of what the best itself leaves unexplained.
     let limit = likest - 0.5 * (1.0 - likest).max(1e-3);
-    peaks.retain(|p| p.likeness >= limit);
+    peaks.retain(|p| p.similarity >= limit);
     let range = peaks.iter().fold((f64::MAX, f64::MIN), |(l, h), p| (l.min(p.length), h.max(p.length)));
     // The first is the usual depth, if it is as good: a depth that elements do not reach leaves no trace.
     let cheap = peaks.into_iter().next()?;
@@ -115,16 +115,17 @@ fn search(measured: &Measured, scene: &Scene, rig: &Rig<'_>, heard: &mut NotAlik
     let own = if short { None } else { search.with_law(&cheap, scene.contact.law) };
     let best = own.unwrap_or_else(|| OwnLaw {
         length: cheap.length,
-        likeness: cheap.likeness,
+        similarity: cheap.similarity,
         passage: cheap.fits[cheap.top].passage.clone(),
     });
-    heard.likeness = best.likeness;
-    if best.likeness < LIKE {
+    heard.similarity = best.similarity;
+    if best.similarity < LIKE {
         return None;
     }
     let of_kind = |extended: bool| {
         let all = found.iter().filter(|f| (f.trial.length > spacing) == extended);
-        all.map(|f| f.likeness).fold(if (best.length > spacing) == extended { best.likeness } else { 0.0 }, f64::max)
+        all.map(|f| f.similarity)
+            .fold(if (best.length > spacing) == extended { best.similarity } else { 0.0 }, f64::max)
     };
     let (shift, _) = best_shift(&target, &best.passage);
     Some(WaveformLength {
@@ -132,7 +133,7 @@ fn search(measured: &Measured, scene: &Scene, rig: &Rig<'_>, heard: &mut NotAlik
         depth: cheap.depth,
         statistical: bootstrap(&rows, measured.bpfo, &cheap),
         systematic: 0.5 * (range.1 - range.0) / 3f64.sqrt(),
-        likeness: best.likeness,
+        similarity: best.similarity,
         by_kind: [of_kind(false), of_kind(true)],
         entry: (shift - 0.5 * best.length / spacing).rem_euclid(1.0),
         model: moved_over(&target, &best.passage, shift),
@@ -143,12 +144,12 @@ fn search(measured: &Measured, scene: &Scene, rig: &Rig<'_>, heard: &mut NotAlik
 fn climbs(search: &Search<'_>, found: &[Fit]) -> Vec<Fit> {
     let mut climbed: Vec<Fit> = Vec::new();
     let mut beginnings: Vec<&Fit> = Vec::new();
-    for fit in found.iter().filter(|fit| fit.likeness >= HOPELESS) {
+    for fit in found.iter().filter(|fit| fit.similarity >= HOPELESS) {
         let apart = |b: &&Fit| {
             let ratio = libm::log(b.trial.depth / fit.trial.depth).abs();
             (b.trial.length - fit.trial.length).abs() > 0.8 || ratio > 0.2
         };
-        if beginnings.len() == BEGINNINGS || climbed.last().is_some_and(|top| top.likeness > UNMISTAKABLE) {
+        if beginnings.len() == BEGINNINGS || climbed.last().is_some_and(|top| top.similarity > UNMISTAKABLE) {
             break;
         }
         if beginnings.iter().all(apart) {
@@ -156,7 +157,7 @@ fn climbs(search: &Search<'_>, found: &[Fit]) -> Vec<Fit> {
             climbed.push(search.climb(fit));
         }
     }
-    climbed.sort_by(|a, b| b.likeness.total_cmp(&a.likeness));
+    climbed.sort_by(|a, b| b.similarity.total_cmp(&a.similarity));
     climbed
 }
 

@@ -1,6 +1,6 @@
 //! How vectors of states are parted among registers.
 
-use super::{Each, Lists, QUAD, Wide, after, places};
+use super::{Each, Lists, QUAD, Wide, after, padded};
 
 /// How a vector of states is made up: two lists of equal length, which are treated with all lanes there are, and a rest,
 /// which is treated by four. Whoever writes and whoever reads a vector soon after must part it in the same way: a register
@@ -16,12 +16,12 @@ pub struct Partition {
 impl Partition {
     /// Start of the second list.
     pub fn second(self) -> usize {
-        places(self.count)
+        padded(self.count)
     }
 
     /// Start of the rest.
     pub fn third(self) -> usize {
-        2 * places(self.count)
+        2 * padded(self.count)
     }
 
     /// Length of the whole.
@@ -54,7 +54,7 @@ impl Partition {
 
     /// Treats all places of lists that are only read.
     #[inline(always)]
-    pub fn look<S: Wide, E: Each<I, 0>, const I: usize>(self, simd: S, from: [&[f64]; I], each: &E, sum: &mut E::Sum) {
+    pub fn read<S: Wide, E: Each<I, 0>, const I: usize>(self, simd: S, from: [&[f64]; I], each: &E, sum: &mut E::Sum) {
         Lists { from, to: [] }.for_each(simd, self.third(), each, sum);
         Lists { from: after(from, self.third()), to: [] }.for_each(simd.quad(), self.rest, each, sum);
     }

@@ -6,7 +6,7 @@ use pulp::{Simd, cast};
 
 impl Wide for V3 {
     #[inline(always)]
-    fn apart<K: Kernel>(self, kernel: K) -> K::Output {
+    fn outlined<K: Kernel>(self, kernel: K) -> K::Output {
         self.vectorize(On(self, kernel))
     }
 
@@ -47,7 +47,7 @@ impl Wide for V3 {
 
 impl Wide for V4 {
     #[inline(always)]
-    fn apart<K: Kernel>(self, kernel: K) -> K::Output {
+    fn outlined<K: Kernel>(self, kernel: K) -> K::Output {
         self.vectorize(On(self, kernel))
     }
 

@@ -5,11 +5,11 @@
 pub mod averages;
 pub mod blind;
 pub mod events;
-pub mod made_up_rig;
 pub mod recordings;
 pub mod rigs;
 pub mod runs;
 pub mod statics;
+pub mod synthetic_rig;
 
 use std::fs;
 use std::path::{Path, PathBuf};

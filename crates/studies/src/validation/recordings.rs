@@ -23,7 +23,7 @@ use fmu_build::project::Project;
 /// Scene of the rig.
 const SCENE: &str = "6205-spall-5deg";
 /// The other spall laid beside the recording: length at the surface [degrees], depth [m], slope of the flanks [degrees]. Its floor is 5 degrees
-/// long. Chosen so that blows and null fall where the recording has them.
+/// long. Chosen so that impacts and null fall where the recording has them.
 const FLANKS: [f64; 3] = [5.8, 12e-6, 4.18];
 /// Harmonics of the envelope that are drawn.
 const HARMONICS: usize = 20;
@@ -65,7 +65,7 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
         Ok(Recording::read(&known.path, &source)?)
     };
     let mut text = String::from(
-        "| recording | nominal (°) | found (°) | 95 % (°) | error | onset (°) | blows (°) |\n|---|---:|---:|---:|---:|---:|---|\n",
+        "| recording | nominal (°) | found (°) | 95 % (°) | error | onset (°) | impacts (°) |\n|---|---:|---:|---:|---:|---:|---|\n",
     );
     let mut groups: Vec<(f64, Vec<Recording>)> = Vec::new();
     let mut beside: Vec<(f64, Figure, RecordingReport, Vec<f64>)> = Vec::new();
@@ -99,7 +99,7 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
     }
     if !beside.is_empty() {
         text += "\n### The scene beside the recording of 5°\n\n";
-        text += "| shaft (Hz) | | onset before the first blow (°) | first to last blow (°) | length by events (°) | null of the envelope's harmonics |\n|---:|---|---:|---:|---:|---:|\n";
+        text += "| shaft (Hz) | | onset before the first impact (°) | first to last impact (°) | length by events (°) | null of the envelope's harmonics |\n|---:|---|---:|---:|---:|---:|\n";
         for (speed, figure, found, comb) in &beside {
             writeln!(text, "{}", beside_row(*speed, "recording", Some(found), comb))?;
             for (label, case) in [("scene", &case), ("with flanks", &with_flanks)] {
@@ -121,7 +121,7 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
 
 fn beside_row(speed: f64, label: &str, found: Option<&RecordingReport>, comb: &[f64]) -> String {
     let onset = number(found.and_then(|f| f.onset_deg).map(|onset| -onset));
-    let last = number(found.and_then(|f| f.blows_deg.last().copied()));
+    let last = number(found.and_then(|f| f.impacts_deg.last().copied()));
     let length = number(found.and_then(|f| f.length_deg));
     format!("| {speed} | {label} | {onset} | {last} | {length} | {} |", null(comb))
 }
@@ -130,7 +130,7 @@ fn row(found: &RecordingReport, nominal: f64) -> Result<String> {
     let name = Path::new(&found.name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let error =
         found.length_deg.filter(|_| nominal > 0.0).map(|deg| format!("{:+.1} %", 100.0 * (deg / nominal - 1.0)));
-    let blows: Vec<String> = found.blows_deg.iter().map(|blow| format!("{blow:.2}")).collect();
+    let impacts: Vec<String> = found.impacts_deg.iter().map(|impact| format!("{impact:.2}")).collect();
     let length = found.length_deg.map_or("unresolved".to_owned(), |deg| format!("{deg:.2}"));
     let nominal = if nominal > 0.0 { format!("{nominal}") } else { "healthy".to_owned() };
     Ok(format!(
@@ -138,7 +138,7 @@ fn row(found: &RecordingReport, nominal: f64) -> Result<String> {
         number(found.uncertainty_deg),
         error.unwrap_or("–".to_owned()),
         number(found.onset_deg),
-        blows.join(", ")
+        impacts.join(", ")
     ))
 }
 

@@ -15,7 +15,7 @@ use brinell_analysis::spall_size;
 use brinell_analysis::statistics::Random;
 
 use super::Values;
-use super::made_up_rig::MadeUpRig;
+use super::synthetic_rig::SyntheticRig;
 
 /// Machines of each half, for each length.
 const MACHINES: u64 = 40;
@@ -75,7 +75,7 @@ fn sized(length: f64, half: usize) -> Result<Vec<(Option<f64>, f64)>> {
 
 fn one(number: u64, length: f64) -> Result<(Option<f64>, f64)> {
     let mut random = Random::new(1000 * number + (10.0 * length) as u64);
-    let rig = MadeUpRig::draw(&mut random);
+    let rig = SyntheticRig::draw(&mut random);
     let (count, element, pitch) = BEARINGS[if random.uniform() < 0.5 { 0 } else { random.below(BEARINGS.len()) }];
     let load = rig.load * libm::exp(0.3 * random.normal());
     let scene = Scene::from_toml(&format!(
@@ -98,7 +98,7 @@ fn one(number: u64, length: f64) -> Result<(Option<f64>, f64)> {
         motion = \"internal\""
     ))?;
     let signal = rig.record(&scene.bearing, length, &mut random);
-    let recording = Recording::new("made up", signal, rig.rate, rig.speed)?;
+    let recording = Recording::new("synthetic", signal, rig.rate, rig.speed)?;
     match spall_size::size(&[recording], &scene) {
         Ok(report) => {
             let interval = report.recordings.first().and_then(|r| r.uncertainty_deg).unwrap_or(0.0);

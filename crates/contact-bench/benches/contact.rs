@@ -1,4 +1,5 @@
-//! Cost of one contact: cold grids, warm grid under a moving element, lookup in a map, a map. `cargo bench --bench contact`
+//! Cost of one contact: cold grids, warm grid under a moving element, lookup in a map, a map. 
+//! `cargo bench --manifest-path crates/contact-bench/Cargo.toml`
 
 #![allow(clippy::expect_used)]
 

@@ -4,10 +4,10 @@
 //! leading edge, L the spall's length, P = s²/(2 r_e) the way sunk and δ the approach of the most loaded element,
 //! ```text
 //! force lost   1 − (1 − min(P(s), P(L − s))/δ)^1.5,   all of it while that is above δ;  edges rounded over a random way
-//! first blow   where the element meets the floor or, before that, the other edge (s = L/2)
-//! last blow    where a free element takes up its load again: between L − s_u and L, P(s_u) = δ; none if it never got free
+//! first impact   where the element meets the floor or, before that, the other edge (s = L/2)
+//! last impact    where a free element takes up its load again: between L − s_u and L, P(s_u) = δ; none if it never got free
 //! ```
-//! The lost force moves the housing through modes of 0.2 to 3 kHz; blows ring modes of 1 to 12 kHz, directly and by echoes. Loudness,
+//! The lost force moves the housing through modes of 0.2 to 3 kHz; impacts ring modes of 1 to 12 kHz, directly and by echoes. Loudness,
 //! slip, the cage's wander, shaft harmonics, hum, a gear's tone, knocks that have nothing to do with the bearing, and noise
 //! are added. It is no simulation of a machine, and shares with the estimator only the two formulas of sinking; nothing in it was measured.
 
@@ -23,7 +23,7 @@ const EARLY: f64 = 0.47;
 
 /// A machine, its speed and its recorder.
 #[derive(Debug, Clone, PartialEq)]
-pub struct MadeUpRig {
+pub struct SyntheticRig {
     /// Sampling rate [Hz].
     pub rate: f64,
     /// Shaft speed [Hz].
@@ -42,14 +42,14 @@ pub struct MadeUpRig {
     fast: Vec<[f64; 3]>,
     /// Delay [s] and strength.
     echoes: Vec<[f64; 2]>,
-    /// Duration of a blow [s].
-    blow: f64,
-    /// Scatter of the blows' loudness (of its logarithm), and that which both blows of a passage share.
+    /// Duration of an impact [s].
+    impact: f64,
+    /// Scatter of the impacts' loudness (of its logarithm), and that which both impacts of a passage share.
     loudness: f64,
     shared: f64,
     /// Way from the edge to the floor [degrees].
     floor: f64,
-    /// Strength of the first blow, the last being 1, and of the entry's excursion.
+    /// Strength of the first impact, the last being 1, and of the entry's excursion.
     first: f64,
     entry: f64,
     /// Way over which edges are rounded [degrees].
@@ -63,7 +63,7 @@ pub struct MadeUpRig {
     knocks: [f64; 2],
 }
 
-impl MadeUpRig {
+impl SyntheticRig {
     /// A machine drawn at random.
     pub fn draw(random: &mut Random) -> Self {
         let rates = [12_000.0, 12_800.0, 20_000.0, 25_600.0, 32_000.0, 48_000.0, 51_200.0, 64_000.0, 96_000.0];
@@ -93,7 +93,7 @@ impl MadeUpRig {
             slow: modes(random, few, 200.0, 3000.0, [0.02, 0.15]),
             fast: modes(random, many, 1000.0, (0.45 * rate).min(12_000.0), [0.005, 0.04]),
             echoes,
-            blow: logarithmic(random, 1e-5, 8e-5),
+            impact: logarithmic(random, 1e-5, 8e-5),
             loudness: uniform(random, 0.05, 0.4),
             shared: uniform(random, 0.0, 0.3),
             floor: uniform(random, 0.7, 3.0),
@@ -113,17 +113,17 @@ impl MadeUpRig {
         let count = (self.duration * self.rate) as usize;
         let spacing = 360.0 / bearing.element_count as f64;
         let travel = spacing * kinematics::frequencies(bearing, self.slip, self.speed).bpfo;
-        let (mut force, mut blows) = (vec![0.0; count], vec![0.0; count]);
+        let (mut force, mut impacts) = (vec![0.0; count], vec![0.0; count]);
         let mut wander = 0.0;
         for k in 1..(self.duration * travel / spacing) as usize {
             // A passage forgets its wander after twenty.
             wander += -0.05 * wander + 0.3 * self.wander * random.normal();
             let edge = (k as f64 * spacing + wander + self.jitter * random.normal()) / travel;
             if length > 0.0 {
-                self.pass(bearing, length, edge, travel, &mut force, &mut blows, random);
+                self.pass(bearing, length, edge, travel, &mut force, &mut impacts, random);
             }
         }
-        self.ring(force, blows, random)
+        self.ring(force, impacts, random)
     }
 
     /// One element over the spall, whose leading edge it meets at a time [s].
@@ -135,7 +135,7 @@ impl MadeUpRig {
         edge: f64,
         travel: f64,
         force: &mut [f64],
-        blows: &mut [f64],
+        impacts: &mut [f64],
         random: &mut Random,
     ) {
         let free = unloading(bearing, self.load);
@@ -166,30 +166,30 @@ impl MadeUpRig {
             *f -= shares.iter().sum::<f64>() / 5.0;
         }
         let both = self.shared * random.normal();
-        let mut blow = |s: f64, strength: f64| {
+        let mut impact = |s: f64, strength: f64| {
             let loud = strength * (both + self.loudness * random.normal()).exp();
-            add_blow(blows, edge + s / travel, loud, self.blow, self.rate, &self.echoes);
+            add_impact(impacts, edge + s / travel, loud, self.impact, self.rate, &self.echoes);
         };
-        blow(self.floor.min(0.5 * length), self.first);
+        impact(self.floor.min(0.5 * length), self.first);
         if !never_free {
-            blow(until, 1.0);
+            impact(until, 1.0);
         }
     }
 
     /// The machine around it.
-    fn ring(&self, force: Vec<f64>, blows: Vec<f64>, random: &mut Random) -> Vec<f64> {
+    fn ring(&self, force: Vec<f64>, impacts: Vec<f64>, random: &mut Random) -> Vec<f64> {
         let slow = normed(modal(&force, &self.slow, self.rate, true));
-        let fast = normed(modal(&blows, &self.fast, self.rate, false));
+        let fast = normed(modal(&impacts, &self.fast, self.rate, false));
         let mut all: Vec<f64> = slow.iter().zip(&fast).map(|(low, high)| self.entry * low + high).collect();
         let signal = rms(&all);
         let unit = if signal > 0.0 { signal } else { 1.0 };
         let mut knocks = vec![0.0; all.len()];
         for _ in 0..(self.knocks[0] * self.duration) as usize {
-            add_blow(
+            add_impact(
                 &mut knocks,
                 random.uniform() * self.duration,
                 random.normal(),
-                self.blow,
+                self.impact,
                 self.rate,
                 &self.echoes,
             );
@@ -220,7 +220,7 @@ fn unloading(bearing: &Bearing, load: f64) -> f64 {
 }
 
 /// A half-sine of unit impulse, and its echoes.
-fn add_blow(signal: &mut [f64], at: f64, strength: f64, duration: f64, rate: f64, echoes: &[[f64; 2]]) {
+fn add_impact(signal: &mut [f64], at: f64, strength: f64, duration: f64, rate: f64, echoes: &[[f64; 2]]) {
     for &[delay, share] in std::iter::once(&[0.0, 1.0]).chain(echoes) {
         let begin = (at + delay) * rate;
         let width = duration * rate;
@@ -233,7 +233,7 @@ fn add_blow(signal: &mut [f64], at: f64, strength: f64, duration: f64, rate: f64
     }
 }
 
-/// Response of resonators to a force: acceleration if asked, else velocity, which blows excite at all frequencies alike. Each is the exact
+/// Response of resonators to a force: acceleration if asked, else velocity, which impacts excite at all frequencies alike. Each is the exact
 /// recursion of a mode that is hit by a series of impulses.
 fn modal(force: &[f64], modes: &[[f64; 3]], rate: f64, acceleration: bool) -> Vec<f64> {
     let mut sum = vec![0.0; force.len()];

@@ -1,0 +1,1 @@
+//! Benchmarks of the contact, in `benches/contact.rs`.
