@@ -135,15 +135,16 @@ pub(super) fn input_derivatives(w: &mut Walker, chance: &mut Chance, kind: bool,
         _ => 1e6,
     };
     let mut value = chance.between(-size, size);
-    let (mut verdict, mut turns_wild, mut count) = (OK, false, 1);
-    // Only these must be taken; the others may be refused, if not used.
-    let name = &w.stage.variable(reference).name;
-    if order == 2 || name.contains(".a") || name.contains(".v") {
-        verdict = OK.or(ERROR);
-    }
+    // Orders above those that act, as the description says, are discarded.
+    let highest = if w.stage.variable(reference).description.contains("orders 1 and 2 act") { 2 } else { 1 };
+    let mut verdict = if order > highest { DISCARD } else { OK };
+    let (mut turns_wild, mut count) = (false, 1);
     match if kind { 9 } else { chance.below(9) } {
-        0 => (value, verdict) = (*chance.pick(&[f64::NAN, f64::INFINITY, f64::NEG_INFINITY]), verdict.or(DISCARD)),
-        1 => (order, verdict) = (*chance.pick(&[0, -1, 3, i32::MAX, i32::MIN]), ERROR),
+        0 => (value, verdict) = (*chance.pick(&[f64::NAN, f64::INFINITY, f64::NEG_INFINITY]), DISCARD),
+        1 => {
+            (order, verdict) =
+                *chance.pick(&[(0, ERROR), (-1, ERROR), (3, DISCARD), (i32::MAX, DISCARD), (i32::MIN, ERROR)])
+        }
         2 => (reference, verdict) = (w.stage.unknown(chance), ERROR),
         3 => {
             let others = w.stage.references(|v| v.causality != Causality::Input);
@@ -159,8 +160,7 @@ pub(super) fn input_derivatives(w: &mut Walker, chance: &mut Chance, kind: bool,
     if null && count > 0 {
         verdict = ERROR;
     }
-    let finite = value.is_finite();
-    let expected = w.expect("fmi2SetRealInputDerivatives", if finite || null { verdict } else { DISCARD.or(ERROR) });
+    let expected = w.expect("fmi2SetRealInputDerivatives", verdict);
     // SAFETY: one element each, or arguments that are to be refused.
     let status =
         unsafe { fmi2SetRealInputDerivatives(w.subject.c, &raw const reference, count, orders, &raw const value) };
