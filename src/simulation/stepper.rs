@@ -130,6 +130,8 @@ impl Stepper {
     ) -> Result<(), StepError> {
         let mut tau = 0.0;
         let mut impulse = [0.0; 4];
+        // A step that failed may have left them.
+        (self.forces.defect_lookups, self.forces.unsolved) = (0, None);
         match control.method {
             Method::Automatic => {}
             Method::DormandPrince | Method::PhaseFitted => progress.choice.implicit = false,
