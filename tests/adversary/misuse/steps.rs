@@ -3,7 +3,7 @@
 use super::chance::Chance;
 use super::stage::is_real;
 use super::standard::{DISCARD, ERROR, OK};
-use super::walker::{Folder, State, Strangers, Walker};
+use super::walker::{State, Strangers, Walker};
 use brinell::simulation::variables::Causality;
 use brinell_fmi::fmi2::*;
 use std::ffi::CStr;
@@ -47,7 +47,7 @@ pub(super) fn do_step(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Stran
         }
     }
     if verdict == OK {
-        verdict = w.unless_wild(if w.recording && w.folder == Folder::Full { OK.or(ERROR) } else { OK });
+        verdict = w.unless_wild(if w.file != Some(false) && w.lacks_room() { OK.or(ERROR) } else { OK });
     }
     let expected = w.expect("fmi2DoStep", verdict);
     let looks = !w.model.rates.is_empty() && w.model.state == State::StepComplete;

@@ -92,6 +92,8 @@ pub(super) struct Walker<'w> {
     /// Handles of states that were freed.
     pub(super) freed: Vec<FmuState>,
     pub(super) folder: Folder,
+    /// Where the last recording was begun. The run may have been taken back since, and another folder been named.
+    begun_in: Folder,
     /// A recording was begun and nothing has failed since.
     pub(super) recording: bool,
     /// Whether a file is open for it; `None` if that cannot be known.
@@ -141,6 +143,7 @@ impl<'w> Walker<'w> {
             saved: Vec::new(),
             freed: Vec::new(),
             folder: Folder::None,
+            begun_in: Folder::None,
             recording: false,
             file: Some(false),
             name_is_shared,
@@ -178,6 +181,12 @@ impl<'w> Walker<'w> {
     pub(super) fn recording_began(&mut self, done: bool) {
         let begun = done && self.folder != Folder::None;
         (self.recording, self.file) = (begun, if done { Some(begun) } else { None });
+        self.begun_in = self.folder;
+    }
+
+    /// Whether what is recorded may find no room.
+    pub(super) fn lacks_room(&self) -> bool {
+        [self.folder, self.begun_in].contains(&Folder::Full)
     }
 
     /// Looks at the status and the log of a call. True if the call has had its effect.
@@ -291,7 +300,7 @@ impl<'w> Walker<'w> {
 
     /// The recording, once it is finished, is the twin's byte for byte.
     pub(super) fn compare_recordings(&mut self) {
-        if !(self.recording && self.together && self.folder == Folder::Shared) {
+        if !(self.recording && self.together && self.begun_in == Folder::Shared) {
             return;
         }
         let files = |folder: PathBuf| -> Vec<Vec<u8>> {
@@ -309,7 +318,8 @@ impl<'w> Walker<'w> {
     /// After `fmi2Reset`: as a new instance, but for saved states and logging.
     pub(super) fn start_over(&mut self) {
         self.model = Model::new();
-        (self.together, self.recording, self.folder, self.file) = (true, false, Folder::None, Some(false));
+        (self.together, self.recording, self.file) = (true, false, Some(false));
+        (self.folder, self.begun_in) = (Folder::None, Folder::None);
     }
 
     pub(super) fn remember(&mut self, call: String) {
