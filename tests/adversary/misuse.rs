@@ -87,25 +87,16 @@ const ROUNDS: usize = 8;
 const CALLS_A_ROUND: usize = 40;
 
 /// What a host that knows the standard would do next.
-fn sensible(w: &Walker, chance: &mut Chance) -> Call {
+fn sensible(w: &Walker, chance: &mut Chance, patience: usize) -> Call {
     let calls: &[Call] = match w.model.state {
         State::Instantiated if w.model.clock.is_none() => {
             &[life::setup, life::setup, values::set_real, values::set_string]
         }
         State::Instantiated => &[life::enter, life::enter, values::set_real, values::set_string],
         State::Initialization => &[life::exit, life::exit, values::set_real, values::get_real, values::set_string],
-        State::StepComplete => &[
-            steps::do_step,
-            steps::do_step,
-            steps::do_step,
-            steps::do_step,
-            values::set_real,
-            values::get_real,
-            steps::input_derivatives,
-            states::get_state,
-            states::set_state,
-            life::terminate,
-        ],
+        State::StepComplete if chance.one_in(patience.max(8)) => &[life::terminate, states::set_state],
+        State::StepComplete if !chance.one_in(3) => &[steps::do_step],
+        State::StepComplete => &[values::set_real, values::get_real, steps::input_derivatives, states::get_state],
         State::Terminated => {
             &[life::reset, states::set_state, values::get_real, steps::real_status, steps::output_derivatives]
         }
@@ -114,13 +105,16 @@ fn sensible(w: &Walker, chance: &mut Chance) -> Call {
     *chance.pick(calls)
 }
 
-/// One call of one instance; an instance that it has freed is replaced.
-fn call(w: &mut Walker, chance: &mut Chance, others: &Strangers) {
-    if chance.one_in(3) {
+/// How seldom in a round a call is none that a host would make: often, or so seldom that runs become long.
+const PATIENCE: [usize; 2] = [3, 60];
+
+/// One call of one instance, which is any of all once in `patience` calls.
+fn call(w: &mut Walker, chance: &mut Chance, patience: usize, others: &Strangers) {
+    if chance.one_in(patience) {
         let (_, call) = CALLS[chance.below(CALLS.len())];
         call(w, chance, false, others);
     } else {
-        let (call, kind) = (sensible(w, chance), !chance.one_in(8));
+        let (call, kind) = (sensible(w, chance, patience), !chance.one_in(3 * patience));
         call(w, chance, kind, others);
     }
     if chance.one_in(12) && !w.gone {
@@ -144,10 +138,12 @@ fn finish(w: &mut Walker, chance: &mut Chance) {
 /// A round in one thread.
 fn round(walkers: &mut [Walker], seed: u64, others: &Strangers) {
     let mut chance = Chance::new(seed);
+    let patience = *chance.pick(&PATIENCE);
     for _ in 0..CALLS_A_ROUND * walkers.len() {
         let index = chance.below(walkers.len());
         let w = &mut walkers[index];
-        call(w, &mut chance, others);
+        call(w, &mut chance, patience, others);
+        // One that it has freed is replaced.
         if w.gone {
             let next = Walker::new(w.stage, w.places, w.number + 1000, w.seed, &mut chance);
             let old = std::mem::replace(w, next);
@@ -238,7 +234,7 @@ fn the_calls_are_those_of_the_standards_table() {
 
 #[test]
 fn any_sequence_of_calls_has_the_statuses_of_the_standard_and_leaves_what_succeeded_untouched() {
-    let sum = walks(40, |_| FullDisk::None);
+    let sum = walks(24, |_| FullDisk::None);
     let gaps = sum.gaps();
     // Each function has been called in each state, and each status has come.
     assert!(gaps.is_empty(), "{gaps:?}");
@@ -260,7 +256,7 @@ fn on_a_full_disk_calls_fail_with_an_error_and_a_reset_always_works() {
             println!("skipped: there is no /dev/full either");
             return;
         }
-        walks(12, |_| FullDisk::Device);
+        walks(8, |_| FullDisk::Device);
     }
 }
 
@@ -271,6 +267,6 @@ fn on_the_small_disk() {
         println!("skipped: there is no small disk, the test above makes one");
         return;
     }
-    let sum = walks(12, |chance| if chance.one_in(4) { FullDisk::Device } else { disk::nearly_full(chance) });
-    assert!(sum.statuses()[Status::Error as usize] > 0, "{sum}");
+    let sum = walks(8, |chance| if chance.one_in(4) { FullDisk::Device } else { disk::nearly_full(chance) });
+    assert!(sum.statuses()[Status::Error as usize] > 0 && sum.no_room > 0, "{sum}");
 }

@@ -172,7 +172,7 @@ pub(super) fn debug_logging(w: &mut Walker, chance: &mut Chance, kind: bool, _: 
 pub(super) fn setup(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Strangers) {
     const STARTS: [f64; 7] = [0.0, 0.0, -3.0, 1e-3, 1e5, 1e6, 1.76e9];
     let mut start = *chance.pick(&STARTS);
-    let mut stop = chance.one_in(3).then(|| start + chance.decades(1e-4, 1e-2).max(1e3 * f64::EPSILON * start.abs()));
+    let mut stop = chance.one_in(3).then(|| start + chance.decades(3e-4, 1e-2).max(1e3 * f64::EPSILON * start.abs()));
     let mut tolerance = chance.one_in(3).then(|| chance.decades(1e-7, 1e-3));
     let mut verdict = OK;
     if !kind {

@@ -11,7 +11,7 @@ use std::ptr;
 
 /// A step that a sensible host might take from `time`: long against the rounding of the time, short against a run.
 fn step_size(time: f64, chance: &mut Chance) -> f64 {
-    if time.abs() > 1e4 { chance.between(2e-5, 1e-4) } else { chance.decades(1e-6, 1e-4) }
+    if time.abs() > 1e4 || chance.one_in(2) { chance.between(2e-5, 2e-4) } else { chance.decades(1e-6, 1e-4) }
 }
 
 pub(super) fn do_step(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Strangers) {
@@ -46,8 +46,11 @@ pub(super) fn do_step(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Stran
             verdict = OK.or(ERROR);
         }
     }
+    let mut may_lack_room = false;
     if verdict == OK {
-        verdict = w.unless_wild(if w.file != Some(false) && w.lacks_room() { OK.or(ERROR) } else { OK });
+        may_lack_room = w.file != Some(false) && w.lacks_room();
+        verdict = w.unless_wild(if may_lack_room { OK.or(ERROR) } else { OK });
+        may_lack_room &= !w.model.wild && w.model.state == State::StepComplete;
     }
     let expected = w.expect("fmi2DoStep", verdict);
     let looks = !w.model.rates.is_empty() && w.model.state == State::StepComplete;
@@ -68,6 +71,7 @@ pub(super) fn do_step(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Stran
         }
         w.model.rates.clear();
     } else if verdict != ERROR {
+        w.tally.no_room += u64::from(may_lack_room);
         // A step that failed half-way has left samples behind.
         w.recording = false;
     }

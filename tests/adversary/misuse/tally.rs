@@ -32,6 +32,8 @@ pub(super) struct Tally {
     pub(super) straight_ways: u64,
     /// Recordings compared with those of twins.
     pub(super) recordings: u64,
+    /// Steps that failed because the recording found no room.
+    pub(super) no_room: u64,
     pub(super) instances: u64,
     /// Calls with handles that lead nowhere, and attempts to make instances of wrong arguments.
     pub(super) strange: u64,
@@ -61,6 +63,7 @@ impl Tally {
         self.comparisons += other.comparisons;
         self.straight_ways += other.straight_ways;
         self.recordings += other.recordings;
+        self.no_room += other.no_room;
         self.instances += other.instances;
         self.strange += other.strange;
     }
@@ -89,7 +92,18 @@ impl Tally {
 
 impl fmt::Display for Tally {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { walks, full_disks, threads, instances, comparisons, straight_ways, recordings, strange, .. } = self;
+        let Self {
+            walks,
+            full_disks,
+            threads,
+            instances,
+            comparisons,
+            straight_ways,
+            recordings,
+            no_room,
+            strange,
+            ..
+        } = self;
         writeln!(f, "{walks} walks, {full_disks} of them with a full disk; {instances} instances, {threads} threads")?;
         writeln!(f, "| functions | calls | OK | warning | discard | error |\n|---|---:|---:|---:|---:|---:|")?;
         for (name, rows) in GROUPS.into_iter().chain([("all", 0..TABLE.len())]) {
@@ -98,6 +112,6 @@ impl fmt::Display for Tally {
             writeln!(f, "| {name} | {all} | {ok} | {warning} | {discard} | {error} |")?;
         }
         write!(f, "{strange} calls with handles that lead nowhere; compared: {comparisons} times with a twin, ")?;
-        write!(f, "{straight_ways} times with a straight way, {recordings} recordings")
+        write!(f, "{straight_ways} times with a straight way, {recordings} recordings; {no_room} steps found no room")
     }
 }
