@@ -15,7 +15,8 @@ pub(super) struct Stage {
     pub(super) name: &'static str,
     pub(super) resources: Arc<Resources>,
     pub(super) table: Vec<Variable>,
-    /// It comes with a contact map, which holds for one clearance: another one takes seconds, or minutes without optimisation.
+    /// It comes with a contact map, which holds for one clearance. One for another takes seconds, or minutes without
+    /// optimisation.
     mapped: bool,
 }
 

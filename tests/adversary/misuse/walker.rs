@@ -209,7 +209,8 @@ impl<'w> Walker<'w> {
         status <= Status::Warning
     }
 
-    /// A status other than OK has one line that begins with the function; what is switched off is silent, unless samples are lost.
+    /// A status other than OK has one line that begins with the function; what is switched off is silent, unless samples
+    /// are lost.
     fn look_at(&self, function: &str, status: Status, lines: &[Line]) {
         let is_lost = |status| status == Status::Warning && matches!(function, "fmi2Terminate" | "fmi2Reset");
         let is_told = |status: Status| self.categories & 1 << status as u8 != 0 || is_lost(status);

@@ -74,8 +74,8 @@ pub enum Status {
 
 /// `fmi2CallbackLogger`: environment, instance name, status, category, format, arguments of the format.
 ///
-/// It should not unwind. Of one that does the outcome is defined: the boundary stops it, and an exception of another language, which it
-/// cannot handle, ends the process.
+/// It should not unwind. Of one that does the outcome is defined: the boundary stops it, and an exception of another
+/// language, which it cannot handle, ends the process.
 pub type LoggerCallback =
     unsafe extern "C-unwind" fn(ComponentEnvironment, FmiString, Status, FmiString, FmiString, ...);
 /// `fmi2CallbackAllocateMemory`; never called.
