@@ -125,6 +125,8 @@ impl Stepper<'_> {
     /// The first stage of the first step, and the method that takes it.
     fn begin(&mut self) -> Result<(), StepError> {
         let Self { problem, control, workspace, progress, .. } = self;
+        // A step that failed may have left them.
+        (workspace.forces.defect_lookups, workspace.forces.unsolved) = (0, None);
         match control.method {
             Method::Automatic => {}
             Method::DormandPrince | Method::PhaseFitted => progress.choice.implicit = false,

@@ -1,6 +1,6 @@
 //! The host's logger.
 
-use crate::host::{Host, Resources};
+use crate::host::{Call, Host, Resources};
 use brinell_fmi::fmi2::*;
 use std::ffi::CString;
 use std::ptr;
@@ -98,4 +98,48 @@ fn steps_and_values_in_order_log_nothing() {
         assert!(host.get(&host.reals()).is_ok());
     }
     assert!(host.lines().is_empty());
+}
+
+type Logger = unsafe extern "C-unwind" fn(ComponentEnvironment, FmiString, Status, FmiString, FmiString, ...);
+type Unwinding = unsafe extern "C-unwind" fn(ComponentEnvironment, FmiString, Status, FmiString, FmiString, FmiString);
+
+unsafe extern "C-unwind" fn unwind(
+    _: ComponentEnvironment,
+    _: FmiString,
+    _: Status,
+    _: FmiString,
+    _: FmiString,
+    _: FmiString,
+) {
+    panic!("a logger that unwinds");
+}
+
+#[test]
+fn a_logger_that_unwinds_fails_its_instance_and_leaves_the_process_alone() {
+    // SAFETY: as in `host`; that a logger may unwind is part of its type.
+    let logger: Logger = unsafe { std::mem::transmute::<Unwinding, LoggerCallback>(unwind) };
+    let resources = Resources::of("6205-healthy");
+    let call = Call {
+        name: Some("instance 1"),
+        fmu_type: CO_SIMULATION,
+        guid: Some(&resources.guid),
+        location: Some(&resources.uri()),
+        logger: Some(logger),
+        logging: false,
+    };
+    let (c, _log) = call.make();
+    assert!(!c.is_null());
+    // SAFETY: a living handle; no categories.
+    unsafe {
+        assert_eq!(fmi2SetupExperiment(c, FALSE, 0.0, 0.0, FALSE, 0.0), Status::Ok);
+        assert_eq!(fmi2SetDebugLogging(c, TRUE, 0, ptr::null()), Status::Ok);
+        // It unwinds when it hears of the new mode, and again when it hears of that.
+        assert_eq!(fmi2EnterInitializationMode(c), Status::Error);
+        assert_eq!(fmi2ExitInitializationMode(c), Status::Error);
+        assert_eq!(fmi2SetDebugLogging(c, FALSE, 0, ptr::null()), Status::Ok);
+        assert_eq!(fmi2Reset(c), Status::Ok);
+        assert_eq!(fmi2SetupExperiment(c, FALSE, 0.0, 0.0, FALSE, 0.0), Status::Ok);
+        assert_eq!(fmi2EnterInitializationMode(c), Status::Ok);
+        fmi2FreeInstance(c);
+    }
 }

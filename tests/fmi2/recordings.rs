@@ -95,6 +95,23 @@ fn the_recording_of_a_run_that_is_over_is_written_over() {
 }
 
 #[test]
+fn a_run_that_is_taken_back_to_before_its_start_is_recorded_anew() {
+    let folder = folder("before");
+    let host = recorder("bearing", &folder);
+    let before = host.save();
+    host.start();
+    assert_eq!(host.step(0.0, 10e-3), Status::Ok);
+    assert_eq!(host.restore(before), Status::Ok);
+    host.start();
+    assert_eq!(host.step(0.0, 5e-3), Status::Ok);
+    assert_eq!(host.terminate(), Status::Ok);
+    // The second run alone: 5 ms at 51.2 kHz, less the 15 rows that the filter waits for.
+    assert_eq!(rows(&folder.join("bearing.npy")), 256 - 15);
+    drop(host);
+    fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
 fn a_state_that_an_instance_takes_up_without_having_been_initialized_is_recorded_from_there() {
     let folder = folder("taken-up");
     let donor = recorder("donor", &folder);

@@ -1,6 +1,7 @@
 //! Saving, restoring and serializing the state of an instance.
 
-use crate::host::{Host, bits};
+use crate::host::{Host, Resources, bits};
+use brinell::simulation::variables::Kind;
 use brinell_fmi::fmi2::*;
 use std::ptr;
 
@@ -35,6 +36,23 @@ fn a_rewound_instance_repeats_every_bit() {
         }
         assert_eq!(host.free(state), Status::Ok);
     }
+}
+
+#[test]
+fn a_step_that_failed_leaves_nothing_behind_in_a_state_put_back() {
+    // A millisecond takes more steps than that; 0.1 ms does not.
+    let few = |text: String| text.replace("[solver]", "[solver]\nmax_steps = 100");
+    let host = Host::with(Resources::edited("er16k-tb1", "resources", few), "instance 1", true);
+    host.start();
+    run(&host, 0, 55);
+    let state = host.save();
+    let counters = host.table().iter().filter(|v| v.kind == Kind::Integer).map(|v| v.reference).collect::<Vec<_>>();
+    let (signals, counts) = (run(&host, 55, 20), host.get_integers(&counters).unwrap());
+    assert_eq!(host.restore(state), Status::Ok);
+    assert_eq!(host.step(55.0 * STEP, 10e-3), Status::Error);
+    assert_eq!(host.restore(state), Status::Ok);
+    assert_eq!(run(&host, 55, 20), signals);
+    assert_eq!(host.get_integers(&counters).unwrap(), counts);
 }
 
 #[test]

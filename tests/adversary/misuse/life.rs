@@ -2,7 +2,7 @@
 
 use super::chance::Chance;
 use super::standard::{DISCARD, ERROR, OK, WARNING};
-use super::walker::{ALL_CATEGORIES, Folder, State, Strangers, Walker};
+use super::walker::{ALL_CATEGORIES, State, Strangers, Walker};
 use crate::host::{Call, logger};
 use brinell_fmi::fmi2::*;
 use std::ffi::{CStr, CString, c_void};
@@ -77,7 +77,7 @@ pub(super) fn free(w: &mut Walker, chance: &mut Chance, _: bool, others: &Strang
         fmi2FreeInstance(w.twin.c);
     }
     let lines = w.subject.lines();
-    let loses = matches!(w.folder, Folder::Full | Folder::Shared);
+    let loses = w.lacks_room();
     w.require(loses || lines.is_empty(), || format!("{lines:?}"));
     if clean {
         w.compare_recordings();
@@ -172,7 +172,7 @@ pub(super) fn debug_logging(w: &mut Walker, chance: &mut Chance, kind: bool, _: 
 pub(super) fn setup(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Strangers) {
     const STARTS: [f64; 7] = [0.0, 0.0, -3.0, 1e-3, 1e5, 1e6, 1.76e9];
     let mut start = *chance.pick(&STARTS);
-    let mut stop = chance.one_in(3).then(|| start + chance.decades(1e-4, 1e-2).max(1e3 * f64::EPSILON * start.abs()));
+    let mut stop = chance.one_in(3).then(|| start + chance.decades(3e-4, 1e-2).max(1e3 * f64::EPSILON * start.abs()));
     let mut tolerance = chance.one_in(3).then(|| chance.decades(1e-7, 1e-3));
     let mut verdict = OK;
     if !kind {
@@ -222,7 +222,7 @@ pub(super) fn exit(w: &mut Walker, _: &mut Chance, _: bool, _: &Strangers) {
 
 pub(super) fn terminate(w: &mut Walker, _: &mut Chance, _: bool, _: &Strangers) {
     // What cannot be stored stays in memory, which is worth a warning.
-    let verdict = if w.folder == Folder::Full { OK.or(WARNING) } else { OK };
+    let verdict = if w.lacks_room() { OK.or(WARNING) } else { OK };
     let expected = w.expect("fmi2Terminate", verdict);
     let status = w.subject.terminate();
     if w.judge("fmi2Terminate", expected, status, String::new) {
@@ -235,7 +235,7 @@ pub(super) fn terminate(w: &mut Walker, _: &mut Chance, _: bool, _: &Strangers) 
 /// Gives a usable instance, whatever was before.
 pub(super) fn reset(w: &mut Walker, _: &mut Chance, _: bool, _: &Strangers) {
     // A recording that cannot be finished is lost, which is worth a warning and no more.
-    let verdict = if w.folder == Folder::Full { OK.or(WARNING) } else { OK };
+    let verdict = if w.lacks_room() { OK.or(WARNING) } else { OK };
     let (expected, clean) = (w.expect("fmi2Reset", verdict), w.model.state != State::Error);
     let status = w.subject.reset();
     if w.judge("fmi2Reset", expected, status, String::new) {

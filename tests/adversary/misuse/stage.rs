@@ -15,6 +15,9 @@ pub(super) struct Stage {
     pub(super) name: &'static str,
     pub(super) resources: Arc<Resources>,
     pub(super) table: Vec<Variable>,
+    /// It comes with a contact map, which holds for one clearance. One for another takes seconds, or minutes without
+    /// optimisation.
+    mapped: bool,
 }
 
 /// Rings inside and from the host, spall, trace and none; a contact map, which instances share; a recorder as fast as one may be, so that it writes within a walk.
@@ -44,7 +47,20 @@ pub(super) fn stages() -> Vec<Stage> {
 impl Stage {
     fn new(name: &'static str, resources: Resources) -> Self {
         let host = Host::with(resources, "stage", false);
-        Self { name, table: host.table(), resources: Arc::clone(&host.resources) }
+        let mapped = host.resources.directory.join("map.bin").exists();
+        Self { name, table: host.table(), resources: Arc::clone(&host.resources), mapped }
+    }
+
+    /// Inputs, and parameters if they are not yet `fixed`.
+    pub(super) fn settable(&self, fixed: bool) -> Vec<u32> {
+        self.references(|v| {
+            is_real(v) && (v.causality == Causality::Input || v.causality == Causality::Parameter && !fixed)
+        })
+    }
+
+    /// Whether it takes a new contact map to set this.
+    pub(super) fn takes_long(&self, reference: u32) -> bool {
+        self.mapped && self.variable(reference).name == "bearing.radial_clearance"
     }
 
     pub(super) fn references(&self, wanted: impl Fn(&Variable) -> bool) -> Vec<u32> {

@@ -3,7 +3,7 @@
 use super::chance::Chance;
 use super::stage::is_real;
 use super::standard::{DISCARD, ERROR, OK};
-use super::walker::{Folder, State, Strangers, Walker};
+use super::walker::{State, Strangers, Walker};
 use brinell::simulation::variables::Causality;
 use brinell_fmi::fmi2::*;
 use std::ffi::CStr;
@@ -11,7 +11,7 @@ use std::ptr;
 
 /// A step that a sensible host might take from `time`: long against the rounding of the time, short against a run.
 fn step_size(time: f64, chance: &mut Chance) -> f64 {
-    if time.abs() > 1e4 { chance.between(2e-5, 1e-4) } else { chance.decades(1e-6, 1e-4) }
+    if time.abs() > 1e4 || chance.one_in(2) { chance.between(2e-5, 2e-4) } else { chance.decades(1e-6, 1e-4) }
 }
 
 pub(super) fn do_step(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Strangers) {
@@ -46,8 +46,11 @@ pub(super) fn do_step(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Stran
             verdict = OK.or(ERROR);
         }
     }
+    let mut may_lack_room = false;
     if verdict == OK {
-        verdict = w.unless_wild(if w.recording && w.folder == Folder::Full { OK.or(ERROR) } else { OK });
+        may_lack_room = w.file != Some(false) && w.lacks_room();
+        verdict = w.unless_wild(if may_lack_room { OK.or(ERROR) } else { OK });
+        may_lack_room &= !w.model.wild && w.model.state == State::StepComplete;
     }
     let expected = w.expect("fmi2DoStep", verdict);
     let looks = !w.model.rates.is_empty() && w.model.state == State::StepComplete;
@@ -68,6 +71,7 @@ pub(super) fn do_step(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Stran
         }
         w.model.rates.clear();
     } else if verdict != ERROR {
+        w.tally.no_room += u64::from(may_lack_room);
         // A step that failed half-way has left samples behind.
         w.recording = false;
     }
@@ -135,15 +139,16 @@ pub(super) fn input_derivatives(w: &mut Walker, chance: &mut Chance, kind: bool,
         _ => 1e6,
     };
     let mut value = chance.between(-size, size);
-    let (mut verdict, mut turns_wild, mut count) = (OK, false, 1);
-    // Only these must be taken; the others may be refused, if not used.
-    let name = &w.stage.variable(reference).name;
-    if order == 2 || name.contains(".a") || name.contains(".v") {
-        verdict = OK.or(ERROR);
-    }
+    // Orders above those that act, as the description says, are discarded.
+    let highest = if w.stage.variable(reference).description.contains("orders 1 and 2 act") { 2 } else { 1 };
+    let mut verdict = if order > highest { DISCARD } else { OK };
+    let (mut turns_wild, mut count) = (false, 1);
     match if kind { 9 } else { chance.below(9) } {
-        0 => (value, verdict) = (*chance.pick(&[f64::NAN, f64::INFINITY, f64::NEG_INFINITY]), verdict.or(DISCARD)),
-        1 => (order, verdict) = (*chance.pick(&[0, -1, 3, i32::MAX, i32::MIN]), ERROR),
+        0 => (value, verdict) = (*chance.pick(&[f64::NAN, f64::INFINITY, f64::NEG_INFINITY]), DISCARD),
+        1 => {
+            (order, verdict) =
+                *chance.pick(&[(0, ERROR), (-1, ERROR), (3, DISCARD), (i32::MAX, DISCARD), (i32::MIN, ERROR)])
+        }
         2 => (reference, verdict) = (w.stage.unknown(chance), ERROR),
         3 => {
             let others = w.stage.references(|v| v.causality != Causality::Input);
@@ -159,8 +164,7 @@ pub(super) fn input_derivatives(w: &mut Walker, chance: &mut Chance, kind: bool,
     if null && count > 0 {
         verdict = ERROR;
     }
-    let finite = value.is_finite();
-    let expected = w.expect("fmi2SetRealInputDerivatives", if finite || null { verdict } else { DISCARD.or(ERROR) });
+    let expected = w.expect("fmi2SetRealInputDerivatives", verdict);
     // SAFETY: one element each, or arguments that are to be refused.
     let status =
         unsafe { fmi2SetRealInputDerivatives(w.subject.c, &raw const reference, count, orders, &raw const value) };

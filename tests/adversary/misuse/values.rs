@@ -1,10 +1,9 @@
 //! Calls that read and set variables and their derivatives.
 
 use super::chance::Chance;
-use super::stage::{gentle, impossible, is_real, wild};
+use super::stage::{gentle, impossible, wild};
 use super::standard::{DISCARD, ERROR, OK, Statuses};
 use super::walker::{Folder, State, Strangers, Walker};
-use brinell::simulation::variables::Causality;
 use brinell_fmi::fmi2::*;
 use std::ffi::CString;
 use std::ptr;
@@ -111,16 +110,9 @@ fn path(w: &Walker, folder: Folder) -> String {
     path.to_str().unwrap().to_owned()
 }
 
-/// What may be set in this state: inputs, and parameters before the start.
-fn settable(w: &Walker) -> Vec<u32> {
-    let fixed = w.model.state == State::StepComplete;
-    w.stage.references(|v| {
-        is_real(v) && (v.causality == Causality::Input || v.causality == Causality::Parameter && !fixed)
-    })
-}
-
 pub(super) fn set_real(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Strangers) {
-    let right = settable(w);
+    let settable = w.stage.settable(w.model.state == State::StepComplete);
+    let right: Vec<u32> = settable.iter().copied().filter(|r| !w.stage.takes_long(*r)).collect();
     let mut list: Vec<u32> = (0..chance.below(6)).map(|_| *chance.pick(&right)).collect();
     let mut values: Vec<f64> = list.iter().map(|&r| gentle(w.stage.variable(r), chance)).collect();
     let (mut verdict, mut turns_wild) = (OK, false);
@@ -138,7 +130,7 @@ pub(super) fn set_real(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Stra
             verdict = DISCARD;
         }
         3 | 4 => {
-            let others: Vec<u32> = w.stage.references(|v| !right.contains(&v.reference));
+            let others: Vec<u32> = w.stage.references(|v| !settable.contains(&v.reference));
             let wrong = if chance.one_in(3) { w.stage.unknown(chance) } else { *chance.pick(&others) };
             list.insert(place, wrong);
             values.insert(place, 1.0);

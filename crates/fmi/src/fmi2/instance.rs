@@ -73,6 +73,8 @@ impl Instance {
     }
 
     fn begin_recording(&mut self) -> Result<(), Failure> {
+        // That of a run which was taken back to before its start; its claim would hold against the new one.
+        self.recording = None;
         self.recording = Recording::begin(&self.simulation, self.logger.instance_name())?;
         if let (Some(recording), Some(recorder)) = (&self.recording, self.simulation.recorder()) {
             let path = recording.path().display();

@@ -73,7 +73,11 @@ pub enum Status {
 }
 
 /// `fmi2CallbackLogger`: environment, instance name, status, category, format, arguments of the format.
-pub type LoggerCallback = unsafe extern "C" fn(ComponentEnvironment, FmiString, Status, FmiString, FmiString, ...);
+///
+/// It should not unwind. Of one that does the outcome is defined: the boundary stops it, and an exception of another
+/// language, which it cannot handle, ends the process.
+pub type LoggerCallback =
+    unsafe extern "C-unwind" fn(ComponentEnvironment, FmiString, Status, FmiString, FmiString, ...);
 /// `fmi2CallbackAllocateMemory`; never called.
 pub type AllocateMemoryCallback = unsafe extern "C" fn(usize, usize) -> *mut c_void;
 /// `fmi2CallbackFreeMemory`; never called.
