@@ -1,8 +1,40 @@
 //! A Brinell bearing as hosts of the Functional Mock-up Interface see it: the dynamic library inside an FMU.
 //!
-//! The only crate of the workspace that exports C functions, and the only one with `unsafe` code.
+//! The only crate of the workspace that exports C functions, and the only one with `unsafe` code. It touches no floating-point
+//! control state, starts no thread, keeps nothing in thread-local storage and prints nothing.
+//!
+//! | file | knows |
+//! |---|---|
+//! | `c_types` | the C types that the versions of the interface share |
+//! | `mode` | the modes of an instance |
+//! | `boundary` | how a call reaches its instance, and what becomes of panics and failures |
+//! | `handles` | which handles are alive; a stale or invented one is refused without being dereferenced |
+//! | `arguments` | how an argument from C becomes a slice or a string |
+//! | `failure` | what can go wrong, with which status and which advice |
+//! | `logger` | the host's logger and its categories |
+//! | `uri`, `resources` | where the scene lies, and how it is read |
+//! | `shared_models` | the models read, one for all instances that have the same resources |
+//! | `clock` | communication points and steps |
+//! | `instance` | one instance: model, clock, mode |
+//! | `snapshots`, `blob` | saved states as handles and as bytes |
+//! | [`fmi2`] | the functions of FMI 2.0 |
 
 // Units in brackets, as in `[m]`, are no links.
 #![allow(rustdoc::broken_intra_doc_links)]
+#![allow(unsafe_code)]
 
+mod arguments;
+mod blob;
+mod boundary;
+mod c_types;
+mod clock;
+mod failure;
 pub mod fmi2;
+mod handles;
+mod instance;
+mod logger;
+mod mode;
+mod resources;
+mod shared_models;
+mod snapshots;
+mod uri;

@@ -2,10 +2,10 @@
 
 #![allow(non_snake_case)]
 
-use super::arguments::{array, array_mut, disjoint};
-use super::boundary;
-use super::state;
+use super::functions;
 use super::types::{Component, Integer, Real, Status, ValueReference};
+use crate::arguments::{array, array_mut, disjoint};
+use crate::boundary;
 
 /// `fmi2GetDirectionalDerivative`: J·`dvKnown`, where J holds the partial derivatives of the unknowns by the knowns.
 ///
@@ -21,7 +21,7 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     dvKnown: *const Real,
     dvUnknown: *mut Real,
 ) -> Status {
-    boundary::call(c, &state::GET_DIRECTIONAL_DERIVATIVE, |instance| {
+    boundary::call(c, &functions::GET_DIRECTIONAL_DERIVATIVE, |instance| {
         disjoint(vUnknown_ref, nUnknown, dvUnknown, nUnknown)?;
         disjoint(vKnown_ref, nKnown, dvUnknown, nUnknown)?;
         disjoint(dvKnown, nKnown, dvUnknown, nUnknown)?;
@@ -51,7 +51,7 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
     order: *const Integer,
     value: *const Real,
 ) -> Status {
-    boundary::call(c, &state::SET_REAL_INPUT_DERIVATIVES, |instance| {
+    boundary::call(c, &functions::SET_REAL_INPUT_DERIVATIVES, |instance| {
         // SAFETY: this function's contract; null and misaligned arrays are refused.
         let (references, orders, values) =
             unsafe { (array("vr", vr, nvr)?, array("order", order, nvr)?, array("value", value, nvr)?) };
@@ -71,7 +71,7 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
     order: *const Integer,
     value: *mut Real,
 ) -> Status {
-    boundary::call(c, &state::GET_REAL_OUTPUT_DERIVATIVES, |instance| {
+    boundary::call(c, &functions::GET_REAL_OUTPUT_DERIVATIVES, |instance| {
         disjoint(vr, nvr, value, nvr)?;
         disjoint(order, nvr, value, nvr)?;
         // SAFETY: this function's contract; null, misaligned and overlapping arrays are refused.

@@ -5,17 +5,18 @@
 use std::ffi::{CStr, CString, c_char};
 use std::ptr;
 
-use super::arguments;
-use super::boundary;
-use super::clock::Clock;
-use super::failure::Failure;
-use super::handles;
-use super::instance::Instance;
-use super::logger::Logger;
-use super::resources::{self, ResourceError};
-use super::shared_models::SharedModel;
-use super::state::{self, Mode};
+use super::functions;
 use super::types::{Boolean, CO_SIMULATION, CallbackFunctions, Component, FALSE, FmiString, FmuType, Real, Status};
+use crate::arguments;
+use crate::boundary;
+use crate::clock::Clock;
+use crate::failure::Failure;
+use crate::handles;
+use crate::instance::Instance;
+use crate::logger::Logger;
+use crate::mode::Mode;
+use crate::resources::{self, ResourceError};
+use crate::shared_models::SharedModel;
 use brinell::simulation::variables::Kind;
 
 /// Name by which the tolerance of the time integration is found in the variable table.
@@ -148,7 +149,7 @@ fn prepare(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeInstance(c: Component) {
     if let Ok(instance) = handles::borrow(c)
-        && state::FREE_INSTANCE.allowed.contains(instance.mode)
+        && functions::FREE_INSTANCE.allowed.contains(instance.mode)
     {
         drop(boundary::guard(|| {
             let mut instance = handles::remove(instance);
@@ -171,7 +172,7 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
     nCategories: usize,
     categories: *const FmiString,
 ) -> Status {
-    boundary::call(c, &state::SET_DEBUG_LOGGING, |instance| {
+    boundary::call(c, &functions::SET_DEBUG_LOGGING, |instance| {
         // SAFETY: this function's contract; null is refused.
         let pointers = unsafe { arguments::array("categories", categories, nCategories)? };
         let names = pointers
@@ -200,7 +201,7 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
     stopTimeDefined: Boolean,
     stopTime: Real,
 ) -> Status {
-    boundary::call(c, &state::SETUP_EXPERIMENT, |instance| {
+    boundary::call(c, &functions::SETUP_EXPERIMENT, |instance| {
         let clock = Clock::new(startTime, (stopTimeDefined != FALSE).then_some(stopTime))?;
         if toleranceDefined != FALSE {
             tighten(instance, tolerance)?;
@@ -236,7 +237,7 @@ fn tighten(instance: &mut Instance, tolerance: f64) -> Result<(), Failure> {
 /// `c` may be any value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2EnterInitializationMode(c: Component) -> Status {
-    boundary::call(c, &state::ENTER_INITIALIZATION_MODE, |instance| {
+    boundary::call(c, &functions::ENTER_INITIALIZATION_MODE, |instance| {
         if instance.clock.is_none() {
             return Err(Failure::NotSetUp);
         }
@@ -251,7 +252,7 @@ pub unsafe extern "C" fn fmi2EnterInitializationMode(c: Component) -> Status {
 /// `c` may be any value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2ExitInitializationMode(c: Component) -> Status {
-    boundary::call(c, &state::EXIT_INITIALIZATION_MODE, |instance| {
+    boundary::call(c, &functions::EXIT_INITIALIZATION_MODE, |instance| {
         let clock = instance.clock.ok_or(Failure::NotSetUp)?;
         instance.initialize(clock.start)?;
         enter(instance, Mode::StepComplete, "fmi2ExitInitializationMode");
@@ -265,7 +266,7 @@ pub unsafe extern "C" fn fmi2ExitInitializationMode(c: Component) -> Status {
 /// `c` may be any value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Terminate(c: Component) -> Status {
-    boundary::call(c, &state::TERMINATE, |instance| {
+    boundary::call(c, &functions::TERMINATE, |instance| {
         let finished = instance.finish_recording("stay in memory: fmi2FreeInstance and fmi2Reset try once more");
         enter(instance, Mode::Terminated, "fmi2Terminate");
         finished
@@ -279,7 +280,7 @@ pub unsafe extern "C" fn fmi2Terminate(c: Component) -> Status {
 /// `c` may be any value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Reset(c: Component) -> Status {
-    boundary::call(c, &state::RESET, |instance| {
+    boundary::call(c, &functions::RESET, |instance| {
         let unstored = instance.reset()?;
         enter(instance, Mode::Instantiated, "fmi2Reset");
         unstored.map_or(Ok(()), Err)

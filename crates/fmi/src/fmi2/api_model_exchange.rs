@@ -5,10 +5,11 @@
 
 #![allow(non_snake_case)]
 
-use super::boundary;
-use super::failure::Failure;
-use super::state::{ALWAYS, Function};
+use super::functions::ALWAYS;
 use super::types::{Boolean, Component, EventInfo, Real, Status};
+use crate::boundary;
+use crate::failure::Failure;
+use crate::mode::Function;
 
 macro_rules! not_provided {
     ($($name:ident($($argument:ty),*);)*) => {$(

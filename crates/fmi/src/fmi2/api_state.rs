@@ -4,13 +4,13 @@
 
 use std::ptr;
 
-use super::arguments::{array, disjoint, place_of_state, store, store_all};
-use super::blob;
-use super::boundary;
-use super::failure::Failure;
-use super::snapshots;
-use super::state;
+use super::functions;
 use super::types::{Byte, Component, FmuState, Status};
+use crate::arguments::{array, disjoint, place_of_state, store, store_all};
+use crate::blob;
+use crate::boundary;
+use crate::failure::Failure;
+use crate::snapshots;
 
 /// `fmi2GetFMUstate`: saves the state; over an earlier one if `*FMUstate` is not NULL.
 ///
@@ -18,7 +18,7 @@ use super::types::{Byte, Component, FmuState, Status};
 /// `FMUstate` is null or points to a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetFMUstate(c: Component, FMUstate: *mut FmuState) -> Status {
-    boundary::call(c, &state::GET_FMU_STATE, |instance| {
+    boundary::call(c, &functions::GET_FMU_STATE, |instance| {
         // SAFETY: this function's contract; null and misaligned pointers are refused. The handle itself may be any
         // value.
         let handle = unsafe { place_of_state(FMUstate)? };
@@ -33,7 +33,7 @@ pub unsafe extern "C" fn fmi2GetFMUstate(c: Component, FMUstate: *mut FmuState) 
 /// `c` and `FMUstate` may be any value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetFMUstate(c: Component, FMUstate: FmuState) -> Status {
-    boundary::call(c, &state::SET_FMU_STATE, |instance| instance.restore(FMUstate))
+    boundary::call(c, &functions::SET_FMU_STATE, |instance| instance.restore(FMUstate))
 }
 
 /// `fmi2FreeFMUstate`: frees a saved state and sets its handle to NULL. NULL is ignored. A host that passes the state
@@ -43,7 +43,7 @@ pub unsafe extern "C" fn fmi2SetFMUstate(c: Component, FMUstate: FmuState) -> St
 /// `FMUstate` is null or points to a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeFMUstate(c: Component, FMUstate: *mut FmuState) -> Status {
-    boundary::call(c, &state::FREE_FMU_STATE, |instance| {
+    boundary::call(c, &functions::FREE_FMU_STATE, |instance| {
         if FMUstate.is_null() {
             return Ok(());
         }
@@ -67,7 +67,7 @@ pub unsafe extern "C" fn fmi2FreeFMUstate(c: Component, FMUstate: *mut FmuState)
 /// `size` is null or points to a number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SerializedFMUstateSize(c: Component, FMUstate: FmuState, size: *mut usize) -> Status {
-    boundary::call(c, &state::SERIALIZED_FMU_STATE_SIZE, |instance| {
+    boundary::call(c, &functions::SERIALIZED_FMU_STATE_SIZE, |instance| {
         let length = blob::length(instance.snapshots.get(FMUstate)?);
         // SAFETY: this function's contract; null and misaligned pointers are refused.
         unsafe { store("size", size, length) }
@@ -85,7 +85,7 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
     serializedState: *mut Byte,
     size: usize,
 ) -> Status {
-    boundary::call(c, &state::SERIALIZE_FMU_STATE, |instance| {
+    boundary::call(c, &functions::SERIALIZE_FMU_STATE, |instance| {
         let bytes = blob::encode(instance.snapshots.get(FMUstate)?, instance.model.guid());
         if size != bytes.len() {
             return Err(Failure::Size { given: size, needed: bytes.len() });
@@ -106,7 +106,7 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     size: usize,
     FMUstate: *mut FmuState,
 ) -> Status {
-    boundary::call(c, &state::DESERIALIZE_FMU_STATE, |instance| {
+    boundary::call(c, &functions::DESERIALIZE_FMU_STATE, |instance| {
         disjoint(serializedState, size, FMUstate, 1)?;
         // SAFETY: this function's contract; null, misaligned and overlapping pointers are refused. The handle itself may be
         // any value.

@@ -5,14 +5,14 @@
 
 #![allow(non_snake_case)]
 
-use super::arguments::store;
-use super::boundary;
-use super::failure::Failure;
-use super::state;
+use super::functions;
 use super::types::{
     Boolean, Component, DO_STEP_STATUS, FALSE, FmiString, Integer, LAST_SUCCESSFUL_TIME, PENDING_STATUS, Real, Status,
     StatusKind, TERMINATED,
 };
+use crate::arguments::store;
+use crate::boundary;
+use crate::failure::Failure;
 
 /// `fmi2DoStep`: advances from a communication point by a step of any positive size.
 ///
@@ -27,7 +27,7 @@ pub unsafe extern "C" fn fmi2DoStep(
     communicationStepSize: Real,
     _noSetFMUStatePriorToCurrentPoint: Boolean,
 ) -> Status {
-    boundary::call(c, &state::DO_STEP, |instance| {
+    boundary::call(c, &functions::DO_STEP, |instance| {
         // Stands if the step fails or panics.
         instance.last_step = Status::Error;
         let clock = instance.clock.as_ref().ok_or(Failure::NotSetUp)?;
@@ -47,7 +47,7 @@ pub unsafe extern "C" fn fmi2DoStep(
 /// `c` may be any value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2CancelStep(c: Component) -> Status {
-    boundary::call(c, &state::CANCEL_STEP, |_| Ok(()))
+    boundary::call(c, &functions::CANCEL_STEP, |_| Ok(()))
 }
 
 /// `fmi2GetStatus`: for `fmi2DoStepStatus`, the status of the last step.
@@ -56,7 +56,7 @@ pub unsafe extern "C" fn fmi2CancelStep(c: Component) -> Status {
 /// `value` is null or points to a status.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetStatus(c: Component, s: StatusKind, value: *mut Status) -> Status {
-    boundary::call(c, &state::GET_STATUS, |instance| match s {
+    boundary::call(c, &functions::GET_STATUS, |instance| match s {
         // SAFETY: this function's contract; null and misaligned pointers are refused.
         DO_STEP_STATUS => unsafe { store("value", value, instance.last_step) },
         _ => Err(Failure::UnknownStatus(s)),
@@ -69,7 +69,7 @@ pub unsafe extern "C" fn fmi2GetStatus(c: Component, s: StatusKind, value: *mut 
 /// `value` is null or points to a number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetRealStatus(c: Component, s: StatusKind, value: *mut Real) -> Status {
-    boundary::call(c, &state::GET_REAL_STATUS, |instance| match s {
+    boundary::call(c, &functions::GET_REAL_STATUS, |instance| match s {
         LAST_SUCCESSFUL_TIME => {
             let time = instance.clock.ok_or(Failure::NotSetUp)?.time;
             // SAFETY: this function's contract; null and misaligned pointers are refused.
@@ -85,7 +85,7 @@ pub unsafe extern "C" fn fmi2GetRealStatus(c: Component, s: StatusKind, value: *
 /// `c` may be any value; `value` is not touched.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetIntegerStatus(c: Component, s: StatusKind, _value: *mut Integer) -> Status {
-    boundary::call(c, &state::GET_INTEGER_STATUS, |_| Err(Failure::UnknownStatus(s)))
+    boundary::call(c, &functions::GET_INTEGER_STATUS, |_| Err(Failure::UnknownStatus(s)))
 }
 
 /// `fmi2GetBooleanStatus`: for `fmi2Terminated`, false: the model never ends a run by itself.
@@ -94,7 +94,7 @@ pub unsafe extern "C" fn fmi2GetIntegerStatus(c: Component, s: StatusKind, _valu
 /// `value` is null or points to a Boolean.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetBooleanStatus(c: Component, s: StatusKind, value: *mut Boolean) -> Status {
-    boundary::call(c, &state::GET_BOOLEAN_STATUS, |_| match s {
+    boundary::call(c, &functions::GET_BOOLEAN_STATUS, |_| match s {
         // SAFETY: this function's contract; null and misaligned pointers are refused.
         TERMINATED => unsafe { store("value", value, FALSE) },
         _ => Err(Failure::UnknownStatus(s)),
@@ -107,7 +107,7 @@ pub unsafe extern "C" fn fmi2GetBooleanStatus(c: Component, s: StatusKind, value
 /// `value` is null or points to a string.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetStringStatus(c: Component, s: StatusKind, value: *mut FmiString) -> Status {
-    boundary::call(c, &state::GET_STRING_STATUS, |_| match s {
+    boundary::call(c, &functions::GET_STRING_STATUS, |_| match s {
         // SAFETY: this function's contract; null and misaligned pointers are refused. The string is static.
         PENDING_STATUS => unsafe { store("value", value, c"no step is pending".as_ptr()) },
         _ => Err(Failure::UnknownStatus(s)),

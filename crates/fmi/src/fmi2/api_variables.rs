@@ -4,11 +4,11 @@
 
 #![allow(non_snake_case)]
 
-use super::arguments::{array, array_mut, disjoint, store_all, string};
-use super::boundary;
-use super::failure::Failure;
-use super::state;
+use super::functions;
 use super::types::{Boolean, Component, FmiString, Integer, Real, Status, ValueReference};
+use crate::arguments::{array, array_mut, disjoint, store_all, string};
+use crate::boundary;
+use crate::failure::Failure;
 
 /// `fmi2GetReal`.
 ///
@@ -16,7 +16,7 @@ use super::types::{Boolean, Component, FmiString, Integer, Real, Status, ValueRe
 /// `vr` and `value` are null, or point to `nvr` elements each.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetReal(c: Component, vr: *const ValueReference, nvr: usize, value: *mut Real) -> Status {
-    boundary::call(c, &state::GET_REAL, |instance| {
+    boundary::call(c, &functions::GET_REAL, |instance| {
         disjoint(vr, nvr, value, nvr)?;
         // SAFETY: this function's contract; null, misaligned and overlapping arrays are refused.
         let (references, values) = unsafe { (array("vr", vr, nvr)?, array_mut("value", value, nvr)?) };
@@ -36,7 +36,7 @@ pub unsafe extern "C" fn fmi2GetInteger(
     nvr: usize,
     value: *mut Integer,
 ) -> Status {
-    boundary::call(c, &state::GET_INTEGER, |instance| {
+    boundary::call(c, &functions::GET_INTEGER, |instance| {
         disjoint(vr, nvr, value, nvr)?;
         // SAFETY: this function's contract; null, misaligned and overlapping arrays are refused.
         let (references, values) = unsafe { (array("vr", vr, nvr)?, array_mut("value", value, nvr)?) };
@@ -55,7 +55,7 @@ pub unsafe extern "C" fn fmi2GetBoolean(
     nvr: usize,
     _value: *mut Boolean,
 ) -> Status {
-    boundary::call(c, &state::GET_BOOLEAN, |instance| {
+    boundary::call(c, &functions::GET_BOOLEAN, |instance| {
         // SAFETY: this function's contract; null is refused.
         match unsafe { array("vr", vr, nvr)? } {
             [] => Ok(()),
@@ -75,7 +75,7 @@ pub unsafe extern "C" fn fmi2GetString(
     nvr: usize,
     value: *mut FmiString,
 ) -> Status {
-    boundary::call(c, &state::GET_STRING, |instance| {
+    boundary::call(c, &functions::GET_STRING, |instance| {
         disjoint(vr, nvr, value, nvr)?;
         // SAFETY: this function's contract; null, misaligned and overlapping arrays are refused.
         let references = unsafe { array("vr", vr, nvr)? };
@@ -97,7 +97,7 @@ pub unsafe extern "C" fn fmi2SetReal(
     nvr: usize,
     value: *const Real,
 ) -> Status {
-    boundary::call(c, &state::SET_REAL, |instance| {
+    boundary::call(c, &functions::SET_REAL, |instance| {
         // SAFETY: this function's contract; null and misaligned arrays are refused.
         let (references, values) = unsafe { (array("vr", vr, nvr)?, array("value", value, nvr)?) };
         Ok(instance.simulation.set_reals(references, values)?)
@@ -115,7 +115,7 @@ pub unsafe extern "C" fn fmi2SetInteger(
     nvr: usize,
     value: *const Integer,
 ) -> Status {
-    boundary::call(c, &state::SET_INTEGER, |instance| {
+    boundary::call(c, &functions::SET_INTEGER, |instance| {
         // SAFETY: this function's contract; null and misaligned arrays are refused.
         let (references, values) = unsafe { (array("vr", vr, nvr)?, array("value", value, nvr)?) };
         Ok(instance.simulation.set_integers(references, values)?)
@@ -133,7 +133,7 @@ pub unsafe extern "C" fn fmi2SetBoolean(
     nvr: usize,
     _value: *const Boolean,
 ) -> Status {
-    boundary::call(c, &state::SET_BOOLEAN, |instance| {
+    boundary::call(c, &functions::SET_BOOLEAN, |instance| {
         // SAFETY: this function's contract; null is refused.
         match unsafe { array("vr", vr, nvr)? } {
             [] => Ok(()),
@@ -153,7 +153,7 @@ pub unsafe extern "C" fn fmi2SetString(
     nvr: usize,
     value: *const FmiString,
 ) -> Status {
-    boundary::call(c, &state::SET_STRING, |instance| {
+    boundary::call(c, &functions::SET_STRING, |instance| {
         // SAFETY: this function's contract; null and misaligned arrays are refused.
         let (references, values) = unsafe { (array("vr", vr, nvr)?, array("value", value, nvr)?) };
         let texts = values

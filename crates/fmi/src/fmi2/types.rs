@@ -4,24 +4,19 @@
 //! What a host hands in as an enumeration or a Boolean is a plain C integer here: an out-of-range value must be a
 //! number that can be refused, not undefined behaviour.
 
-use libc::{c_char, c_int, c_uint, c_void};
+use libc::{c_char, c_int};
 
-/// `fmi2Component`: handle of an instance.
-pub type Component = *mut c_void;
-/// `fmi2ComponentEnvironment`: the host's own pointer, handed back in callbacks.
-pub type ComponentEnvironment = *mut c_void;
-/// `fmi2FMUstate`: handle of a saved state.
-pub type FmuState = *mut c_void;
-/// `fmi2ValueReference`.
-pub type ValueReference = c_uint;
+pub use crate::c_types::{
+    AllocateMemoryCallback, CallbackFunctions, Component, ComponentEnvironment, FmiString, FmuState,
+    FreeMemoryCallback, LoggerCallback, Status, StepFinishedCallback, ValueReference,
+};
+
 /// `fmi2Real`.
 pub type Real = f64;
 /// `fmi2Integer`.
 pub type Integer = c_int;
 /// `fmi2Boolean`: [`FALSE`] or [`TRUE`]; every other value counts as true.
 pub type Boolean = c_int;
-/// `fmi2String`: UTF-8, ended by a NUL.
-pub type FmiString = *const c_char;
 /// `fmi2Byte`.
 pub type Byte = c_char;
 /// `fmi2Type`.
@@ -51,52 +46,4 @@ pub const TERMINATED: StatusKind = 3;
 #[derive(Debug)]
 pub struct EventInfo {
     _opaque: [u8; 0],
-}
-
-/// `fmi2Status`. Brinell returns the first four only: a fatal error would condemn the host's other instances, and
-/// no step is ever pending.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Status {
-    /// All well.
-    Ok = 0,
-    /// Not quite right, but the computation goes on.
-    Warning = 1,
-    /// Nothing was done; the computation may go on.
-    Discard = 2,
-    /// This instance is of no use until it is reset or a saved state is restored.
-    Error = 3,
-    /// All instances are of no use.
-    Fatal = 4,
-    /// The step is still running.
-    Pending = 5,
-}
-
-/// `fmi2CallbackLogger`: environment, instance name, status, category, format, arguments of the format.
-///
-/// It should not unwind. Of one that does the outcome is defined: the boundary stops it, and an exception of another
-/// language, which it cannot handle, ends the process.
-pub type LoggerCallback =
-    unsafe extern "C-unwind" fn(ComponentEnvironment, FmiString, Status, FmiString, FmiString, ...);
-/// `fmi2CallbackAllocateMemory`; never called.
-pub type AllocateMemoryCallback = unsafe extern "C" fn(usize, usize) -> *mut c_void;
-/// `fmi2CallbackFreeMemory`; never called.
-pub type FreeMemoryCallback = unsafe extern "C" fn(*mut c_void);
-/// `fmi2StepFinished`; never called.
-pub type StepFinishedCallback = unsafe extern "C" fn(ComponentEnvironment, Status);
-
-/// `fmi2CallbackFunctions`. Only the logger is required.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct CallbackFunctions {
-    /// Receives messages.
-    pub logger: Option<LoggerCallback>,
-    /// Never called, may be NULL.
-    pub allocate_memory: Option<AllocateMemoryCallback>,
-    /// Never called, may be NULL.
-    pub free_memory: Option<FreeMemoryCallback>,
-    /// Never called, may be NULL.
-    pub step_finished: Option<StepFinishedCallback>,
-    /// Handed back to the logger.
-    pub component_environment: ComponentEnvironment,
 }

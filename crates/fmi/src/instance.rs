@@ -2,13 +2,13 @@
 
 use std::ffi::{CString, c_char};
 
+use super::c_types::{FmuState, Status, ValueReference};
 use super::clock::Clock;
 use super::failure::Failure;
 use super::logger::{Logger, c_string};
+use super::mode::Mode;
 use super::shared_models::SharedModel;
 use super::snapshots::{Snapshot, Snapshots};
-use super::state::Mode;
-use super::types::{FmuState, Status, ValueReference};
 use brinell::recording::{Recording, Unstored};
 use brinell::simulation::{Simulation, VariableError};
 

@@ -7,11 +7,11 @@
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use super::c_types::{Component, Status};
 use super::failure::Failure;
 use super::handles;
 use super::instance::Instance;
-use super::state::{Function, Mode};
-use super::types::{Component, Status};
+use super::mode::{Function, Mode};
 
 /// Runs a function's body on the instance behind a handle, if the instance's mode allows the function.
 #[inline]

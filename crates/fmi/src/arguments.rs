@@ -6,9 +6,9 @@
 use std::ffi::CStr;
 use std::slice;
 
+use super::c_types::{FmiString, FmuState};
 use super::failure::Failure;
 use super::snapshots;
-use super::types::{FmiString, FmuState};
 
 /// Longest array in one call. No model has that many variables, so a longer one is a miscount, not a wish.
 const LONGEST: usize = 1 << 20;

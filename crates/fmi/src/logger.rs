@@ -7,7 +7,7 @@ use std::ffi::CString;
 
 use brinell::simulation::log_category::Category;
 
-use super::types::{CallbackFunctions, ComponentEnvironment, LoggerCallback, Status};
+use super::c_types::{CallbackFunctions, ComponentEnvironment, LoggerCallback, Status};
 
 /// The category of lines that go with a status.
 fn category_of(status: Status) -> Category {

@@ -7,10 +7,10 @@
 use std::ptr;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use super::c_types::{FmuState, Status};
 use super::clock::Clock;
 use super::failure::Failure;
-use super::state::Mode;
-use super::types::{FmuState, Status};
+use super::mode::Mode;
 use brinell::simulation::State;
 
 /// Everything that an instance's future depends on. Logging is not part of it.

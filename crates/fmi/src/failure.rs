@@ -5,11 +5,12 @@
 //! or would have no effect.
 
 use super::blob::BlobError;
+use super::c_types::Status;
 use super::clock::ClockError;
-use super::state::{Mode, Modes};
-use super::types::{Status, StatusKind};
+use super::mode::{Mode, Modes};
 use brinell::recording::{RecordingError, Unstored};
 use brinell::simulation::{SimulationError, VariableError};
+use libc::c_int;
 
 /// What went wrong in a call.
 #[derive(Debug, thiserror::Error)]
@@ -108,7 +109,7 @@ pub(super) enum Failure {
     },
     /// A status that cannot be asked for here.
     #[error("status kind {0} is not known to this function")]
-    UnknownStatus(StatusKind),
+    UnknownStatus(c_int),
     /// Logging categories that do not exist.
     #[error("unknown category \"{0}\"; the known ones among the others are set")]
     UnknownCategory(String),

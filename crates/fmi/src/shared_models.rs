@@ -154,7 +154,7 @@ mod tests {
     use std::fs;
     use std::path::PathBuf;
 
-    const SCENE: &str = include_str!("../../../../scenes/6205-healthy.toml");
+    const SCENE: &str = include_str!("../../../scenes/6205-healthy.toml");
 
     fn user(guid: &str, map: &Path) -> Result<SharedModel, ResourceError> {
         let set_up = |_| Simulation::new(Scene::from_toml(SCENE).unwrap(), None);

@@ -8,10 +8,10 @@
 //! `length` is that of the whole blob. The checksum is 64-bit FNV-1a: each of its steps is a bijection of the running value, so a blob
 //! that differs in a single byte never passes.
 
+use super::c_types::Status;
 use super::clock::Clock;
+use super::mode::Mode;
 use super::snapshots::Snapshot;
-use super::state::Mode;
-use super::types::Status;
 use brinell::numerics::bytes::Reader;
 use brinell::numerics::checksum::checksum;
 use brinell::simulation::Simulation;

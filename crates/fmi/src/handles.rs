@@ -15,8 +15,8 @@ use std::ops::{Deref, DerefMut};
 use std::ptr;
 use std::sync::atomic::{AtomicPtr, AtomicU64, AtomicUsize, Ordering};
 
+use super::c_types::Component;
 use super::instance::Instance;
-use super::types::Component;
 
 const IN_USE: u64 = 1;
 const LIVE: u64 = 8;
