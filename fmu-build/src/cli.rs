@@ -7,7 +7,7 @@ use brinell_analysis::recording::Speed;
 use clap::{Args, Parser, Subcommand};
 
 use crate::library::{self, Library};
-use crate::{check, demo, fmu, model::Model, project::Project, run, size, stiffness};
+use crate::{check, demo, fmu, model::Model, modes, project::Project, run, size, stiffness};
 
 /// Rolling bearings with a real surface defect as FMI 2.0 co-simulation units.
 #[derive(Debug, Parser)]
@@ -28,6 +28,8 @@ pub enum Command {
     Check(Check),
     /// Static stiffness, load distribution and critical load over the cage angle: CSV, figure and summary
     Stiffness(Stiffness),
+    /// Natural frequencies, damping ratios and mode shapes over the cage angle: JSON, figure and summary
+    Modes(Modes),
     /// Length of a spall from recordings of one bearing, or why there is none: JSON on standard output, figures
     Size(Size),
     /// Builds the FMU of a spalled 6205 bearing, drives it with fmpy and draws what happens
@@ -87,6 +89,27 @@ pub struct Stiffness {
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     points: Option<u32>,
     /// Folder for CSV and figure [default: target/stiffness]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Leave the figure out; no Python is needed then
+    #[arg(long)]
+    no_figure: bool,
+}
+
+/// Options of `modes`.
+#[derive(Debug, Args)]
+pub struct Modes {
+    /// Scene file (TOML); its cage stands still
+    scene: PathBuf,
+    /// Load in newtons along the scene's load; of a scene without load, on the shaft and downwards, wherever that is
+    /// held [default: the scene's]
+    #[arg(long, value_name = "N")]
+    load: Option<f64>,
+    /// Cage angles within one element spacing [default: 200, more for a short defect]; those at which elements begin
+    /// to be pressed are added
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    points: Option<u32>,
+    /// Folder for JSON and figure [default: target/modes]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Leave the figure out; no Python is needed then
@@ -210,6 +233,16 @@ impl Command {
                     figure: !options.no_figure,
                 };
                 stiffness::command(project, &model, wanted, &folder)
+            }
+            Command::Modes(options) => {
+                let model = Model::read(&options.scene)?;
+                let folder = options.output.unwrap_or_else(|| project.target().join("modes"));
+                let wanted = stiffness::Options {
+                    load: options.load,
+                    points: options.points.map(|count| count as usize),
+                    figure: !options.no_figure,
+                };
+                modes::command(project, &model, wanted, &folder)
             }
             Command::Size(options) => {
                 let wanted = size::Options {

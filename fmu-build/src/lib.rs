@@ -18,6 +18,7 @@ pub mod fmu;
 pub mod library;
 pub mod model;
 pub mod model_description;
+pub mod modes;
 pub mod project;
 pub mod python;
 pub mod run;

@@ -25,6 +25,7 @@ const SCRIPTS: &[(&str, &str)] = &[
     ("report.py", include_str!("../python/report.py")),
     ("run_figure.py", include_str!("../python/run_figure.py")),
     ("size.py", include_str!("../python/size.py")),
+    ("modes.py", include_str!("../python/modes.py")),
     ("stiffness.py", include_str!("../python/stiffness.py")),
     ("validation.py", include_str!("../python/validation.py")),
     ("validate.py", include_str!("../python/validate.py")),

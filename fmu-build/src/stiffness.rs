@@ -29,6 +29,16 @@ pub struct Options {
     pub figure: bool,
 }
 
+impl Options {
+    /// Refuses a load that is none.
+    pub(crate) fn check(&self) -> Result<()> {
+        if let Some(amount) = self.load.filter(|amount| !(amount.is_finite() && *amount > 0.0)) {
+            bail!("load {amount} N: it must be finite and above 0");
+        }
+        Ok(())
+    }
+}
+
 /// Depths, as factors of the scene's, at which the critical load is computed.
 const DEPTHS: [f64; 9] = [0.1, 0.2, 0.3, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0];
 /// Number of clearances and compliances at which it is computed.
@@ -36,9 +46,7 @@ const VARIATIONS: usize = 21;
 
 /// The command: `<folder>/<scene>-stiffness.csv`, with a defect `<scene>-critical-load.csv`, and, if wanted, a figure.
 pub fn command(project: &Project, model: &Model, options: Options, folder: &Path) -> Result<()> {
-    if let Some(amount) = options.load.filter(|amount| !(amount.is_finite() && *amount > 0.0)) {
-        bail!("load {amount} N: it must be finite and above 0");
-    }
+    options.check()?;
     let profile = model.profile.as_ref().map(|profile| profile.text.as_str());
     let map = contact_map::of(&model.scene, profile, project)?;
     let bearing = loaded(StaticBearing::with_map(&model.scene, profile, map.as_deref())?, options.load)?;
@@ -52,7 +60,8 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
     // In the middle of the sweep element 1 is in the middle of the defect, at its ends two elements are about it.
     let middle = bottom.map_or(libm::atan2(y, x), |bottom| bottom.middle);
     let first = middle - 0.5 * bearing.spacing();
-    let balances = sweep(&bearing, first, options.points.unwrap_or_else(|| enough_points(&bearing)))?;
+    let points = options.points.unwrap_or_else(|| enough_points(bearing.spacing(), bearing.defect_length()));
+    let balances = sweep(&bearing, first, points)?;
 
     let stem = folder.join(&model.scene.name);
     let path = beside(&stem, "-stiffness.csv");
@@ -109,8 +118,8 @@ fn loaded(bearing: StaticBearing, amount: Option<f64>) -> Result<StaticBearing> 
 }
 
 /// An even number, so that the middle is one of them: 0.2 degrees for nine elements, or a fortieth of a short defect.
-fn enough_points(bearing: &StaticBearing) -> usize {
-    let of_defect = bearing.defect_length().map_or(0.0, |length| 20.0 * bearing.spacing() / length);
+pub(crate) fn enough_points(spacing: f64, defect_length: Option<f64>) -> usize {
+    let of_defect = defect_length.map_or(0.0, |length| 20.0 * spacing / length);
     2 * (of_defect.ceil() as usize).clamp(100, 2000)
 }
 
@@ -262,7 +271,7 @@ fn summary(
     Ok(text)
 }
 
-fn beside(stem: &Path, end: &str) -> PathBuf {
+pub(crate) fn beside(stem: &Path, end: &str) -> PathBuf {
     let mut name = stem.as_os_str().to_owned();
     name.push(end);
     name.into()

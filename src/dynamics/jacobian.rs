@@ -83,8 +83,12 @@ impl Jacobian {
         }
     }
 
-    /// Largest eigenvalue magnitude [1/s] of the elements and bodies, each taken alone, and the damping ratio (0 to 1)
-    /// of the one that has it. Neighbours that move too shift it by less than a factor of two.
+    /// Largest eigenvalue magnitude [1/s] of the elements and bodies, each taken alone while all else stands still, and
+    /// the damping ratio (0 to 1) of the one that has it.
+    ///
+    /// Neighbours that move too make it larger: without damping by √3 at most; with damping, among many assemblies, by
+    /// less than 2 where rings are heavier than an element and by less than 3 where they are not.
+    /// `tests/fastest_eigenvalue.rs` compares it with all eigenvalues.
     pub fn fastest(&self) -> (f64, f64) {
         let mut fastest = (0.0, 0.0);
         let mut consider = |by_position: f64, by_velocity: f64| {
@@ -105,9 +109,49 @@ impl Jacobian {
             consider(block.by_path, block.by_velocity);
         }
         for i in (0..BODIES).filter(|&i| self.places[i].is_some()) {
-            consider(self.by_position[(i, i)], self.by_velocity[(i, i)]);
+            consider(self.by_own_position(i), self.by_velocity[(i, i)]);
         }
         fastest
+    }
+
+    /// Acceleration of a body by its own position, all else standing still [1/s²]. Paths are seen from the outer ring:
+    /// when that moves and an element does not, the element's path changes.
+    fn by_own_position(&self, body: usize) -> f64 {
+        let alone = self.by_position[(body, body)];
+        if !(2..4).contains(&body) {
+            return alone;
+        }
+        self.elements.iter().fold(alone, |sum, block| sum - block.rings_by_path[body] * block.e_r[body - 2])
+    }
+
+    /// The whole matrix ∂(state')/∂(state), rows by columns, of a state of `len` places; for studies.
+    pub fn matrix(&self, len: usize) -> Vec<Vec<f64>> {
+        let start = self.radial_velocity;
+        let mut matrix = vec![vec![0.0; len]; len];
+        for (j, block) in self.elements.iter().enumerate() {
+            let w = start + j;
+            matrix[j][w] = 1.0;
+            (matrix[w][j], matrix[w][w]) = (block.by_path, block.by_velocity);
+            for a in 0..2 {
+                if let Some((x, v)) = self.places[a] {
+                    (matrix[w][x], matrix[w][v]) = (-block.by_offset[a], block.by_shaft_velocity[a]);
+                    (matrix[v][j], matrix[v][w]) = (block.rings_by_path[a], block.rings_by_velocity[a]);
+                }
+                if let Some((x, v)) = self.places[2 + a] {
+                    (matrix[w][x], matrix[w][v]) = (block.by_offset[a], block.by_housing_velocity[a]);
+                    (matrix[v][j], matrix[v][w]) = (block.rings_by_path[2 + a], block.rings_by_velocity[2 + a]);
+                    matrix[j][v] = -block.e_r[a];
+                }
+            }
+        }
+        let bodies = || self.places.iter().enumerate().filter_map(|(i, place)| place.map(|place| (i, place)));
+        for (i, (x, v)) in bodies() {
+            matrix[x][v] = 1.0;
+            for (k, (x_k, v_k)) in bodies() {
+                (matrix[v][x_k], matrix[v][v_k]) = (self.by_position[(i, k)], self.by_velocity[(i, k)]);
+            }
+        }
+        matrix
     }
 }
 

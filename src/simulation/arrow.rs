@@ -111,7 +111,7 @@ impl Arrow {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::jacobian::tests::{DAMPINGS, MOTIONS, lively, moving, noise, whole};
+    use crate::dynamics::jacobian::tests::{DAMPINGS, MOTIONS, lively, moving, noise};
 
     #[test]
     fn the_solution_satisfies_the_whole_system() {
@@ -123,7 +123,7 @@ mod tests {
             let len = model.layout.len;
             let (mut jacobian, mut by_time) = (Jacobian::new(&model), vec![0.0; len]);
             model.linearize(&drive, 0.0, &cells, &state, &mut jacobian, &mut by_time);
-            let matrix = whole(&jacobian, len);
+            let matrix = jacobian.matrix(len);
             let mut arrow = Arrow::new(model.element_count);
             for shift in [1e2, 1e5, 1e9] {
                 arrow.factor(&jacobian, shift);

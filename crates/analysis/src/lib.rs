@@ -3,8 +3,10 @@
 // Units in brackets, as in `[m]`, are no links.
 #![allow(rustdoc::broken_intra_doc_links)]
 
+pub mod assembly;
 mod continuity;
 pub mod critical_load;
+pub mod eigen;
 pub mod entry;
 pub mod envelope;
 pub mod error;
@@ -13,6 +15,9 @@ pub mod events;
 mod kind;
 mod linear_prediction;
 pub mod measured;
+pub mod mode_lines;
+pub mod modes;
+pub mod modes_report;
 mod npy_header;
 pub mod passages;
 pub mod recording;

@@ -18,24 +18,42 @@ const NARROW: f64 = 1e-7;
 /// # Errors
 /// Those of [`StaticBearing::balance`].
 pub fn sweep(bearing: &StaticBearing, first: f64, count: usize) -> Result<Vec<Balance>, StaticError> {
-    let count = count.max(1);
-    let step = bearing.spacing() / count as f64;
     let at = |angle: f64| bearing.balance(angle, bearing.load());
-    let mut balances = vec![at(first)?];
+    with_changes(first, bearing.spacing(), count, at, same_loaded)
+}
+
+/// What `at` gives at `count` evenly spaced angles from `first` [rad] on over one element spacing, at its end, and at
+/// both sides of each angle between them at which it ceases to be the same kind.
+pub(super) fn with_changes<T: Clone, E>(
+    first: f64,
+    spacing: f64,
+    count: usize,
+    at: impl Fn(f64) -> Result<T, E>,
+    same: impl Fn(&T, &T) -> bool,
+) -> Result<Vec<T>, E> {
+    let count = count.max(1);
+    let angle = |i: usize| first + i as f64 * (spacing / count as f64);
+    let mut found = vec![at(first)?];
     for i in 1..=count {
-        let next = at(first + i as f64 * step)?;
-        let last = &balances[balances.len() - 1];
-        if !same_loaded(last, &next) {
+        let next = at(angle(i))?;
+        let last = &found[found.len() - 1];
+        if !same(last, &next) {
             let (mut before, mut after) = (last.clone(), next.clone());
-            while after.cage_angle - before.cage_angle > NARROW {
-                let middle = at(0.5 * (before.cage_angle + after.cage_angle))?;
-                if same_loaded(&before, &middle) { before = middle } else { after = middle }
+            let (mut low, mut high) = (angle(i - 1), angle(i));
+            while high - low > NARROW {
+                let middle = 0.5 * (low + high);
+                let between = at(middle)?;
+                if same(&before, &between) {
+                    (low, before) = (middle, between)
+                } else {
+                    (high, after) = (middle, between)
+                }
             }
-            balances.extend([before, after]);
+            found.extend([before, after]);
         }
-        balances.push(next);
+        found.push(next);
     }
-    Ok(balances)
+    Ok(found)
 }
 
 /// Least, mean over the angle, and greatest of a quantity over a sweep.

@@ -65,37 +65,6 @@ pub(crate) fn moving(model: &Model, drive: &Drive, seed: u64) -> (Vec<f64>, Vec<
     (state, cells)
 }
 
-/// The whole matrix, rows by columns.
-pub(crate) fn whole(jacobian: &Jacobian, len: usize) -> Vec<Vec<f64>> {
-    let z = jacobian.radial_velocity;
-    let mut matrix = vec![vec![0.0; len]; len];
-    let places = jacobian.places;
-    for (j, block) in jacobian.elements.iter().enumerate() {
-        matrix[j][z + j] = 1.0;
-        (matrix[z + j][j], matrix[z + j][z + j]) = (block.by_path, block.by_velocity);
-        for a in 0..2 {
-            if let Some((x, v)) = places[a] {
-                (matrix[z + j][x], matrix[z + j][v]) = (-block.by_offset[a], block.by_shaft_velocity[a]);
-                (matrix[v][j], matrix[v][z + j]) = (block.rings_by_path[a], block.rings_by_velocity[a]);
-            }
-            if let Some((x, v)) = places[2 + a] {
-                (matrix[z + j][x], matrix[z + j][v]) = (block.by_offset[a], block.by_housing_velocity[a]);
-                (matrix[v][j], matrix[v][z + j]) = (block.rings_by_path[2 + a], block.rings_by_velocity[2 + a]);
-                matrix[j][v] = -block.e_r[a];
-            }
-        }
-    }
-    for i in 0..BODIES {
-        let Some((x, v)) = places[i] else { continue };
-        matrix[x][v] = 1.0;
-        for k in 0..BODIES {
-            let Some((x_k, v_k)) = places[k] else { continue };
-            (matrix[v][x_k], matrix[v][v_k]) = (jacobian.by_position[(i, k)], jacobian.by_velocity[(i, k)]);
-        }
-    }
-    matrix
-}
-
 pub(crate) const MOTIONS: [[Motion; 2]; 4] = [
     [Motion::Internal, Motion::Internal],
     [Motion::Host, Motion::Internal],
@@ -125,7 +94,7 @@ fn jacobian_and_time_derivative_equal_difference_quotients() {
             let (mut jacobian, mut by_time) = (Jacobian::new(&model), vec![0.0; len]);
             let tau = 1e-5;
             model.linearize(&drive, tau, &cells, &state, &mut jacobian, &mut by_time);
-            let matrix = whole(&jacobian, len);
+            let matrix = jacobian.matrix(len);
             let mut forces = Forces::new(model.element_count);
             let mut at = |tau: f64, state: &[f64]| {
                 let mut out = vec![0.0; len];

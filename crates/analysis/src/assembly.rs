@@ -1,0 +1,242 @@
+//! The whole assembly of a scene at rest, linearised at one cage angle: bearing, rings on their supports, sensor.
+//!
+//! The cage stands still, so no centrifugal force acts on the elements. Loads, gravity on the elements, supports and
+//! all damping are the scene's. A ring that a host moves, or that is fixed, holds still at its origin; a held shaft
+//! with a load holds still where it carries that load.
+
+use super::static_bearing::StaticError;
+use brinell::dynamics::drive::{Cubic, Drive, Quadratic};
+use brinell::dynamics::equilibrium::EquilibriumError;
+use brinell::dynamics::forces::Forces;
+use brinell::dynamics::jacobian::Jacobian;
+use brinell::dynamics::model::Model;
+use brinell::numerics::wrap;
+use brinell::scene::{Motion, Scene};
+use brinell::simulation::setup::{build_model, largest_force, stored_map};
+use brinell::surface::Surface;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// An assembly that stands still.
+#[derive(Debug, Clone)]
+pub struct Assembly {
+    model: Model,
+    /// The same with a shaft that moves under its load, where a held shaft has one: says where it is held.
+    seat: Option<Model>,
+    loads: [[f64; 2]; 2],
+    /// Length of the defect [rad] and the angle of its centre.
+    defect: Option<(f64, f64)>,
+}
+
+/// What holds an element between the raceways.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Hold {
+    /// Both raceways press on it.
+    Pressed,
+    /// It rests on one raceway under its own weight. Its contact is linear for motions of some nanometres only.
+    Resting,
+    /// No raceway presses on it: it has no natural frequency.
+    Loose,
+}
+
+/// A degree of freedom of the assembly, and where its position and its velocity stand in the state.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Freedom {
+    pub(super) name: String,
+    pub(super) body: Body,
+    pub(super) mass: f64,
+    pub(super) position: usize,
+    pub(super) velocity: usize,
+}
+
+/// What a degree of freedom belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Body {
+    /// An element, by its number from 0.
+    Element(usize),
+    /// The inner ring.
+    Shaft,
+    /// The outer ring.
+    Housing,
+    /// The accelerometer.
+    Sensor,
+}
+
+/// The assembly at rest at one cage angle, and ∂(state')/∂(state) there.
+#[derive(Debug, Clone)]
+pub(super) struct AtRest {
+    pub(super) matrix: Vec<Vec<f64>>,
+    /// Angle of each element [rad], counter-clockwise from +x, in [−π, π].
+    pub(super) angles: Vec<f64>,
+    pub(super) holds: Vec<Hold>,
+}
+
+/// Share of the largest contact force below which a force is the rounding of a position.
+const CARRIES: f64 = 1e-15;
+
+/// The scene with another amount of load [N]: all its loads in proportion, that on the shaft, or else that on the
+/// housing, becoming the amount. A scene without load gets it on the shaft, downwards, also where the shaft is held.
+pub fn loaded(scene: &Scene, amount: f64) -> Scene {
+    let mut scene = scene.clone();
+    let length = |[x, y]: [f64; 2]| libm::hypot(x, y);
+    let present = [scene.shaft.load, scene.housing.load].map(length).into_iter().find(|&load| load > 0.0);
+    match present {
+        Some(present) => {
+            for ring in [&mut scene.shaft, &mut scene.housing] {
+                ring.load = ring.load.map(|load| load * (amount / present));
+            }
+        }
+        None => scene.shaft.load = [0.0, -amount],
+    }
+    scene
+}
+
+impl Assembly {
+    /// Sets up the assembly of a scene, with or without [`loaded`]. `profile` is the text of the defect's profile file,
+    /// when the scene names one; `map` the bytes of the contact map stored for this scene, without which law `map`
+    /// computes it.
+    ///
+    /// # Errors
+    /// Whatever is wrong with scene or profile; a map that is damaged or belongs to something else.
+    pub fn new(scene: &Scene, profile: Option<&str>, map: Option<&[u8]>) -> Result<Self, StaticError> {
+        let held = scene.shaft.motion != Motion::Internal;
+        let mut still = scene.clone();
+        if held {
+            still.shaft.load = [0.0; 2];
+        }
+        still.check()?;
+        if held {
+            // Prescribed, at the position that is found for it.
+            still.shaft.motion = Motion::Host;
+        }
+        let load = |surface: &brinell::scene::Defect| Surface::load(&surface.shape, profile, &scene.bearing);
+        let surface = scene.defect.as_ref().map(load).transpose()?;
+        let map = match (&surface, map) {
+            (Some(surface), Some(bytes)) => Some(Arc::new(stored_map(scene, surface, bytes)?)),
+            _ => None,
+        };
+        // The map is to reach as far as the scene's loads, that on a held shaft included.
+        still.contact.largest_force = Some(largest_force(scene));
+        let model = build_model(&still, surface.as_ref(), map.as_ref())?;
+        let seat = (held && scene.shaft.load != [0.0; 2]).then(|| {
+            let mut seat = still.clone();
+            (seat.shaft.motion, seat.shaft.mass) = (Motion::Internal, 1.0);
+            (seat.shaft.stiffness, seat.shaft.damping) = (0.0, 0.0);
+            build_model(&seat, surface.as_ref(), map.as_ref())
+        });
+        let radius = scene.bearing.outer_raceway_radius();
+        let extent = surface.as_ref().map(Surface::extent).map(|(first, last)| (last - first) / radius);
+        Ok(Self {
+            model,
+            seat: seat.transpose()?,
+            loads: [scene.shaft.load, scene.housing.load],
+            defect: extent.zip(scene.defect.as_ref().map(|defect| defect.angle)),
+        })
+    }
+
+    /// Number of elements Z.
+    pub fn element_count(&self) -> usize {
+        self.model.element_count
+    }
+
+    /// The spacing of the elements [rad]. Elements are alike, so everything repeats with it, their numbers exchanged; a
+    /// defect changes nothing in that, however long it is.
+    pub fn spacing(&self) -> f64 {
+        TAU / self.model.element_count as f64
+    }
+
+    /// Loads on the inner and on the outer ring [N].
+    pub fn loads(&self) -> [[f64; 2]; 2] {
+        self.loads
+    }
+
+    /// Length of the defect along the raceway [rad] and the angle of its centre [rad]; `None` without one.
+    pub fn defect(&self) -> Option<(f64, f64)> {
+        self.defect
+    }
+
+    /// All degrees of freedom: every element, then rings and sensor as far as they move.
+    pub(super) fn freedoms(&self) -> Vec<Freedom> {
+        let Self { model, .. } = self;
+        let layout = &model.layout;
+        let mut freedoms: Vec<Freedom> = (0..model.element_count)
+            .map(|j| Freedom {
+                name: format!("element[{}].path", j + 1),
+                body: Body::Element(j),
+                mass: model.element_mass,
+                position: j,
+                velocity: layout.radial_velocity + j,
+            })
+            .collect();
+        let rings = [
+            ("shaft", Body::Shaft, &model.shaft, layout.shaft),
+            ("housing", Body::Housing, &model.housing, layout.housing),
+        ];
+        for (name, body, ring, start) in rings {
+            let Some(start) = start else { continue };
+            for (axis, letter) in ["x", "y"].into_iter().enumerate() {
+                let (position, velocity) = (start + axis, start + 2 + axis);
+                freedoms.push(Freedom { name: format!("{name}.{letter}"), body, mass: ring.mass, position, velocity });
+            }
+        }
+        if let (Some(sensor), Some(start)) = (&model.supports.sensor, layout.sensor) {
+            let name = "sensor.y".to_owned();
+            freedoms.push(Freedom {
+                name,
+                body: Body::Sensor,
+                mass: 1.0 / sensor.inverse_mass,
+                position: start,
+                velocity: start + 1,
+            });
+        }
+        freedoms
+    }
+
+    /// The static equilibrium with element 1 at `cage_angle` [rad], and the Jacobian there.
+    ///
+    /// # Errors
+    /// No equilibrium.
+    pub(super) fn at_rest(&self, cage_angle: f64) -> Result<AtRest, StaticError> {
+        let model = &self.model;
+        let count = model.element_count;
+        let cells: Vec<u32> = (0..count).map(|j| model.cell_at(j, cage_angle)).collect();
+        let [shaft_load, housing_load] = self.loads.map(|load| load.map(Quadratic::constant));
+        let mut drive = Drive { cage_start: cage_angle, shaft_load, housing_load, ..Drive::default() };
+        if let Some(seat) = &self.seat {
+            let state = self.equilibrium(seat, &drive, &cells)?;
+            let position = seat.shaft_state(&drive, 0.0, &state).position;
+            drive.shaft = [position.x, position.y].map(|x| Cubic([x, 0.0, 0.0, 0.0]));
+        }
+        let state = self.equilibrium(model, &drive, &cells)?;
+        let mut forces = Forces::new(count);
+        model.derivative(&drive, 0.0, &cells, &state, &mut vec![0.0; state.len()], &mut forces);
+        let mut jacobian = Jacobian::new(model);
+        model.linearize(&drive, 0.0, &cells, &state, &mut jacobian, &mut vec![0.0; state.len()]);
+        let contacts = &forces.contacts;
+        let largest = contacts.inner.iter().chain(&*contacts.outer).fold(0.0f64, |most, &force| most.max(force));
+        let hold = |j: usize| {
+            let carries = [contacts.inner[j], contacts.outer[j]].map(|force| force > CARRIES * largest);
+            match carries {
+                [true, true] => Hold::Pressed,
+                [false, false] => Hold::Loose,
+                _ => Hold::Resting,
+            }
+        };
+        Ok(AtRest {
+            matrix: jacobian.matrix(state.len()),
+            angles: (0..count).map(|j| wrap(cage_angle + model.element_offset(j))).collect(),
+            holds: (0..count).map(hold).collect(),
+        })
+    }
+
+    fn equilibrium(&self, model: &Model, drive: &Drive, cells: &[u32]) -> Result<Vec<f64>, StaticError> {
+        let mut state = vec![0.0; model.layout.len];
+        model.equilibrium(drive, cells, &mut state).map_err(|cause: EquilibriumError| StaticError::Equilibrium {
+            cage_angle_deg: drive.cage_start.to_degrees(),
+            load: self.loads[0],
+            cause,
+        })?;
+        Ok(state)
+    }
+}

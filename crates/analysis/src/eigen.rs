@@ -1,0 +1,169 @@
+//! Dense eigenproblems of a few dozen rows, solved by faer.
+
+use faer::Mat;
+pub(crate) use faer::c64;
+use faer::linalg::solvers::Solve;
+
+/// Why an eigenproblem has no solution that can be trusted.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum EigenError {
+    /// An entry of the matrix is no finite number.
+    #[error("an entry of the matrix is not finite")]
+    NotFinite,
+    /// The iteration did not end.
+    #[error("the iteration for eigenvalues did not converge")]
+    NoConvergence,
+    /// An eigenpair does not satisfy its equation.
+    #[error("an eigenpair misses its equation by {residual:.1e} of the matrix's norm (limit {limit:.0e})")]
+    Residual {
+        /// ‖Az − λz‖ / (‖A‖ ‖z‖).
+        residual: f64,
+        /// Largest that is allowed.
+        limit: f64,
+    },
+}
+
+/// Largest ‖Az − λz‖ of a pair, as a share of ‖A‖ ‖z‖: a thousand times the rounding of some fifty rows.
+const RESIDUAL: f64 = 1e-11;
+/// Distance from an eigenvalue, as a share of ‖A‖, at which A − λ can be inverted.
+const ROUNDING: f64 = 1e-15;
+
+/// An eigenvalue and its vector, of Euclidean length 1.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Eigenpair {
+    pub(crate) value: c64,
+    pub(crate) vector: Vec<c64>,
+}
+
+/// The eigenpairs of a square real matrix, rows by columns; of each complex pair the one with positive imaginary part.
+///
+/// # Errors
+/// A matrix with an entry that is not finite; no convergence; pairs that miss the equation.
+pub(crate) fn eigenpairs(matrix: &[Vec<f64>]) -> Result<Vec<Eigenpair>, EigenError> {
+    let size = matrix.len();
+    if !matrix.iter().flatten().all(|entry| entry.is_finite()) {
+        return Err(EigenError::NotFinite);
+    }
+    let found = to_faer(matrix, size).eigen().map_err(|_| EigenError::NoConvergence)?;
+    let (values, vectors) = (found.S(), found.U());
+    let norm = matrix.iter().flatten().map(|entry| entry * entry).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
+    let mut pairs = Vec::with_capacity(size);
+    for k in 0..size {
+        let value = values[k];
+        // NaN is kept, and refused below.
+        if value.im < 0.0 {
+            continue;
+        }
+        let mut vector = unit((0..size).map(|i| vectors[(i, k)]).collect());
+        if !(miss(matrix, value, &vector) <= RESIDUAL * norm) {
+            vector = refined(matrix, value + ROUNDING * norm, &vector);
+        }
+        let missing = miss(matrix, value, &vector);
+        if !(missing <= RESIDUAL * norm) {
+            return Err(EigenError::Residual { residual: missing / norm, limit: RESIDUAL });
+        }
+        pairs.push(Eigenpair { value, vector });
+    }
+    Ok(pairs)
+}
+
+/// ‖Az − λz‖ for a vector z of length 1.
+fn miss(matrix: &[Vec<f64>], value: c64, vector: &[c64]) -> f64 {
+    let rows = matrix.iter().zip(vector).map(|(row, own)| {
+        let product: c64 = row.iter().zip(vector).map(|(&entry, z)| z * entry).sum();
+        (product - value * own).norm_sqr()
+    });
+    rows.sum::<f64>().sqrt()
+}
+
+/// One step of inverse iteration beside an eigenvalue. Of eigenvalues that are equal to the last digit, as two elements
+/// have that lie symmetrically between held rings, faer's vectors are good to 1e-5 only.
+fn refined(matrix: &[Vec<f64>], beside: c64, vector: &[c64]) -> Vec<c64> {
+    let size = matrix.len();
+    let diagonal = |i: usize, k: usize| if i == k { beside } else { c64::new(0.0, 0.0) };
+    let shifted = Mat::from_fn(size, size, |i, k| c64::new(matrix[i][k], 0.0) - diagonal(i, k));
+    let solution = shifted.partial_piv_lu().solve(Mat::from_fn(size, 1, |i, _| vector[i]));
+    unit((0..size).map(|i| solution[(i, 0)]).collect())
+}
+
+fn unit(vector: Vec<c64>) -> Vec<c64> {
+    let length = vector.iter().map(|z| z.norm_sqr()).sum::<f64>().sqrt();
+    vector.into_iter().map(|z| z / length).collect()
+}
+
+/// Directions that a square real matrix maps to nothing: right singular vectors whose singular value is at most `share`
+/// of the largest.
+///
+/// # Errors
+/// As for [`eigenpairs`].
+pub(crate) fn null_space(matrix: &[Vec<f64>], share: f64) -> Result<Vec<Vec<f64>>, EigenError> {
+    let size = matrix.len();
+    if !matrix.iter().flatten().all(|entry| entry.is_finite()) {
+        return Err(EigenError::NotFinite);
+    }
+    let found = to_faer(matrix, size).svd().map_err(|_| EigenError::NoConvergence)?;
+    let (values, vectors) = (found.S(), found.V());
+    let largest = (0..size).map(|k| values[k]).fold(0.0, f64::max);
+    let nothing = (0..size).filter(|&k| values[k] <= share * largest);
+    Ok(nothing.map(|k| (0..size).map(|i| vectors[(i, k)]).collect()).collect())
+}
+
+fn to_faer(matrix: &[Vec<f64>], size: usize) -> Mat<f64> {
+    Mat::from_fn(size, size, |i, k| matrix[i][k])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_damped_oscillator_and_a_free_mass_have_the_eigenvalues_of_their_formulas() {
+        // x'' = −100 x − 4 x', y'' = −3 y'; state [x, y, x', y'].
+        let matrix = [[0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0], [-100.0, 0.0, -4.0, 0.0], [0.0, 0.0, 0.0, -3.0]];
+        let mut pairs = eigenpairs(&matrix.map(|row| row.to_vec())).unwrap();
+        pairs.sort_by(|a, b| a.value.norm().total_cmp(&b.value.norm()));
+        let expected = [c64::new(0.0, 0.0), c64::new(-3.0, 0.0), c64::new(-2.0, 96f64.sqrt())];
+        for (pair, expected) in pairs.iter().zip(expected) {
+            // Roundings of a matrix of norm 100.
+            assert!((pair.value - expected).norm() < 1e-12, "{} against {expected}", pair.value);
+        }
+        assert_eq!(pairs.len(), 3);
+        let free = null_space(&[vec![-100.0, 0.0], vec![0.0, 0.0]], 1e-12).unwrap();
+        assert_eq!((free.len(), free[0][0].abs(), free[0][1].abs()), (1, 0.0, 1.0));
+    }
+
+    #[test]
+    fn equal_eigenvalues_have_vectors_of_their_own() {
+        // ω, −ω and −2ζω of nine elements between held rings, four of them mirror images of four others.
+        let alone = [
+            [306979.41417318094, -306979.414173181, -188655.36938332662],
+            [233876.54096458433, -233876.54096458427, -36892.11069810774],
+            [31019.46926682775, -31019.469266827746, -0.8517439558798716],
+            [39725.10670012327, -39725.10670012328, -3.757447325232282],
+            [41529.446442818335, -41529.44644281834, -4.904999999999419],
+            [39725.10670012563, -39725.10670012563, -3.757447325233621],
+            [31019.469266826523, -31019.469266826523, -0.8517439558796698],
+            [233876.54096458433, -233876.54096458427, -36892.11069810774],
+            [306979.41417318094, -306979.414173181, -188655.36938332667],
+        ];
+        let mut matrix = vec![vec![0.0; 18]; 18];
+        for (i, entries) in alone.into_iter().enumerate() {
+            [matrix[i][9 + i], matrix[9 + i][i], matrix[9 + i][9 + i]] = entries;
+        }
+        let pairs = eigenpairs(&matrix).unwrap();
+        assert_eq!(pairs.len(), 9);
+        for (k, a) in pairs.iter().enumerate() {
+            for b in &pairs[..k] {
+                let product: c64 = a.vector.iter().zip(&b.vector).map(|(a, b)| a.conj() * b).sum();
+                // Parallel vectors would have 1; what is left between them is any amount below.
+                assert!(product.norm() < 0.99, "{} and {}: {}", a.value, b.value, product.norm());
+            }
+        }
+    }
+
+    #[test]
+    fn a_matrix_that_is_not_finite_is_refused() {
+        assert_eq!(eigenpairs(&[vec![f64::NAN]]), Err(EigenError::NotFinite));
+        assert_eq!(null_space(&[vec![f64::INFINITY]], 1e-12), Err(EigenError::NotFinite));
+    }
+}
