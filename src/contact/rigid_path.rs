@@ -46,6 +46,10 @@ struct Piece {
 
 /// Widest interval of a cubic along the raceway [m]. Its error is width⁴ P⁗/384, about 1e-16 m for an element of 8 mm.
 const INTERVAL: f64 = 5e-6;
+/// Largest error of the cubics over the element's radius. P⁗ grows as 1/r³, and without end where the element touches sideways.
+const ACCURACY: f64 = 2e-13;
+/// Most intervals of a stretch, which only an element that touches at more than 85° asks for.
+const MOST: usize = 1 << 16;
 
 impl RigidPath {
     /// Rolls an element of radius `element_radius` over `points`, (arc, depth) [m] with non-decreasing arc, on a raceway
@@ -82,9 +86,22 @@ impl RigidPath {
 
 impl Piece {
     fn new(roller: &Roller, feature: Feature, start: f64, end: f64) -> Self {
+        if roller.is_level(feature) {
+            return Self::of_intervals(roller, feature, (start, end), 1);
+        }
+        let limit = ACCURACY * roller.element_radius() + 4.0 * f64::EPSILON * roller.raceway_radius();
         let arc = (end - start) * roller.raceway_radius();
-        let level = roller.is_level(feature);
-        let count = if level { 1 } else { (arc / INTERVAL).ceil().max(1.0) as usize };
+        let mut count = (arc / INTERVAL).ceil().max(1.0) as usize;
+        loop {
+            let piece = Self::of_intervals(roller, feature, (start, end), count);
+            if count >= MOST || piece.error(roller, feature) <= limit {
+                return piece;
+            }
+            count *= 2;
+        }
+    }
+
+    fn of_intervals(roller: &Roller, feature: Feature, (start, end): (f64, f64), count: usize) -> Self {
         let width = (end - start) / count as f64;
         let node = |i: usize| roller.touch_slope(feature, start + width * i as f64);
         let (mut p0, mut m0) = node(0);
@@ -99,6 +116,16 @@ impl Piece {
             })
             .collect();
         Self { start, per_width: 1.0 / width, cubics }
+    }
+
+    /// Error [m] in the middle of intervals, where it is largest; of every sixteenth and the last, as it changes slowly along them.
+    fn error(&self, roller: &Roller, feature: Feature) -> f64 {
+        let off = |i: usize| {
+            let angle = self.start + (i as f64 + 0.5) / self.per_width;
+            (self.at(angle).path - roller.touch_slope(feature, angle).0).abs()
+        };
+        let last = self.cubics.len() - 1;
+        (0..last).step_by(16).chain([last]).map(off).fold(0.0, f64::max)
     }
 
     #[inline(always)]

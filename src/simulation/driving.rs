@@ -17,6 +17,16 @@ pub(super) fn derivatives(input: Quantity) -> (i32, &'static str) {
     }
 }
 
+/// Accelerations at the end of the last step that derivatives of inputs gave and no input says: outputs at that instant
+/// follow from them. Gone once the host sets an input.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Ended {
+    /// Of the cage [rad/s²].
+    pub(super) cage: f64,
+    /// Of a prescribed outer ring [m/s²].
+    pub(super) housing: [f64; 2],
+}
+
 impl Simulation {
     /// Where every external influence is during the next step.
     ///
@@ -40,14 +50,21 @@ impl Simulation {
         };
         let Inputs { speed, shaft, housing, .. } = self.inputs;
         let cage_ratio = self.model.cage_ratio;
-        Drive {
+        let mut drive = Drive {
             cage_start: self.state.cage.rest,
             cage: Quadratic([0.0, cage_ratio * value(speed), cage_ratio * rate(speed, 1)]),
             shaft: [place(&shaft, 0), place(&shaft, 1)],
             housing: [place(&housing, 0), place(&housing, 1)],
             shaft_load: shaft.load.map(load),
             housing_load: housing.load.map(load),
+        };
+        if !stepping {
+            drive.cage.0[2] += self.state.ended.cage;
+            for (place, acceleration) in drive.housing.iter_mut().zip(self.state.ended.housing) {
+                place.0[2] += acceleration;
+            }
         }
+        drive
     }
 
     /// After a step the inputs stand where they were extrapolated to, so that outputs belong to the end of the step
@@ -75,6 +92,13 @@ impl Simulation {
         for i in shaft.acceleration.into_iter().chain(housing.acceleration).chain([speed]).flatten() {
             self.values[i] += self.input_rates[i][0].unwrap_or(0.0) * step;
         }
+        let given = self.input_rates.as_flattened().iter().any(Option::is_some);
         self.input_rates.fill([None; 2]);
+        self.state.ended = Ended::default();
+        if given {
+            let now = self.drive(false);
+            let left = |axis: usize| drive.housing[axis].second_at(step) - now.housing[axis].second_at(0.0);
+            self.state.ended = Ended { cage: drive.cage.0[2] - now.cage.0[2], housing: [left(0), left(1)] };
+        }
     }
 }

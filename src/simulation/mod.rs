@@ -44,6 +44,7 @@ use crate::scene::{ContactLaw, Scene};
 use crate::surface::Surface;
 use access::Access;
 use derivatives::Change;
+use driving::Ended;
 use progress::Progress;
 use recorder::{Due, Recorder};
 use setup::Inputs;
@@ -98,6 +99,7 @@ pub struct State {
     time: f64,
     started: bool,
     cage: CageAngle,
+    ended: Ended,
     progress: Progress,
     /// Inputs and parameters, by index; outputs are left at what they were.
     values: Vec<f64>,
@@ -108,7 +110,7 @@ pub struct State {
 impl State {
     /// Copies all but the variables of another state of the same model.
     fn copy_progress(&mut self, other: &State) {
-        (self.time, self.started, self.cage) = (other.time, other.started, other.cage);
+        (self.time, self.started, self.cage, self.ended) = (other.time, other.started, other.cage, other.ended);
         self.progress.copy_from(&other.progress);
     }
 }
@@ -176,6 +178,7 @@ impl Simulation {
                 time: 0.0,
                 started: false,
                 cage: CageAngle::new(scene.cage.initial_angle),
+                ended: Ended::default(),
                 progress,
                 values: Vec::new(),
                 integers: Vec::new(),

@@ -2,7 +2,7 @@
 
 use super::Simulation;
 use super::access;
-use super::driving;
+use super::driving::{self, Ended};
 use super::error::{SimulationError, VariableError};
 use super::variables::{Causality, Kind, Variable};
 
@@ -20,6 +20,9 @@ impl Simulation {
             self.values[reference as usize] = value;
         }
         self.model_is_stale |= classes & access::PARAMETER != 0;
+        if classes & access::INPUT != 0 {
+            self.state.ended = Ended::default();
+        }
         self.mark_set();
         Ok(())
     }

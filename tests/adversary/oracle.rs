@@ -10,6 +10,7 @@
 
 pub mod balance;
 pub mod envelope;
+pub mod half_space;
 mod hertz;
 pub mod run;
 
@@ -99,7 +100,9 @@ impl Bearing {
             ratio: 0.5 * (1.0 - d / pitch) * (1.0 - case.slip),
             cage_start: case.cage_deg * PI / 180.0,
             speed: TAU * case.speed_hz,
-            defect: case.defect.as_ref().map(|defect| (envelope_of(defect, r, r_o), defect.angle_deg * PI / 180.0)),
+            defect: case.defect.as_ref().and_then(|defect| {
+                Some((envelope_of(defect, r, r_o)?, defect.angle_deg * PI / 180.0))
+            }),
             rings: case.rings,
             sensor: case.sensor,
         }
@@ -125,7 +128,8 @@ impl Bearing {
         if side == 1 && self.compliance > 0.0 {
             // Newton from above on a convex function: δ + c K δ^1.5 = Δ.
             for _ in 0..200 {
-                let next = own - (own + self.compliance * k * own * own.sqrt() - approach) / self.softness(k, own);
+                let next =
+                    own - (own + self.compliance * k * own * own.sqrt() - approach) / self.softness(k, own);
                 let done = (next - own).abs() <= 1e-16 * own;
                 own = next;
                 if done {
@@ -196,8 +200,7 @@ impl Bearing {
                 acting.rings[0][a] -= inner.force * n[a];
                 acting.rings[1][a] += f_r * e_r - f_t * e_t;
             }
-            let gravity =
-                [self.gravity[0] * cos + self.gravity[1] * sin, self.gravity[1] * cos - self.gravity[0] * sin];
+            let gravity = [self.gravity[0] * cos + self.gravity[1] * sin, self.gravity[1] * cos - self.gravity[0] * sin];
             along[j] = inner.force * (n[0] * cos + n[1] * sin) - f_r + self.mass * (gravity[0] + rho * omega * omega);
             let around = inner.force * (n[1] * cos - n[0] * sin) + f_t;
             acting.torque += rho * (around + self.mass * (gravity[1] - 2.0 * u_rate * omega - rho * alpha));
@@ -251,8 +254,9 @@ impl Bearing {
     }
 }
 
-fn envelope_of(defect: &Defect, r: f64, r_o: f64) -> Envelope {
-    let points = match &defect.shape {
+/// The envelope of a profile; a topography has none.
+fn envelope_of(defect: &Defect, r: f64, r_o: f64) -> Option<Envelope> {
+    let points: Vec<(f64, f64)> = match &defect.shape {
         Shape::Trace(points) => {
             let middle = 0.5 * (points[0].0 + points[points.len() - 1].0);
             points.iter().map(|(arc, depth)| ((arc - middle) * 1e-3, depth * 1e-6)).collect()
@@ -267,6 +271,7 @@ fn envelope_of(defect: &Defect, r: f64, r_o: f64) -> Envelope {
             let run = if *slope_deg >= 90.0 { 0.0 } else { (depth * (FRAC_PI_2 - slope).tan()).min(half) };
             vec![(-half, 0.0), (run - half, depth), (half - run, depth), (half, 0.0)]
         }
+        Shape::Topography(_) => return None,
     };
-    Envelope::new(&points, r, r_o)
+    Some(Envelope::new(&points, r, r_o))
 }

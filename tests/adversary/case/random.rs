@@ -102,6 +102,7 @@ fn bearing(draw: &mut Draw) -> Case {
         compliance: 0.0,
         damping: Damping::HuntCrossley(0.5),
         law: "hertz",
+        grid: None,
         slip: if draw.chance(0.7) { 0.0 } else { draw.between(0.0, 1.0) },
         cage_deg: 0.0,
         defect: None,
@@ -134,8 +135,7 @@ fn loads_and_damping(draw: &mut Draw, case: &mut Case) -> Scale {
 /// What moves the rings, and with what.
 fn rings(draw: &mut Draw, case: &mut Case, scale: &Scale) {
     use Motion::{Fixed, Host, Internal};
-    let motions =
-        [(Internal, Internal), (Internal, Fixed), (Host, Internal), (Internal, Host), (Host, Host), (Host, Fixed)];
+    let motions = [(Internal, Internal), (Internal, Fixed), (Host, Internal), (Internal, Host), (Host, Host), (Host, Fixed)];
     let (shaft, housing) = draw.pick(&motions);
     let force = scale.stiffness * scale.approach / 1.5 * (case.count as f64 / 5.0).max(1.0);
     for (which, motion) in [shaft, housing].into_iter().enumerate() {
@@ -211,11 +211,7 @@ fn time(case: &Case, scale: &Scale) -> f64 {
 fn motion(draw: &mut Draw, case: &mut Case, scale: &Scale, time: f64) -> &'static str {
     let cage_ratio = Bearing::new(case).ratio.max(1e-6);
     // As far as the defect is long, or a part of it.
-    let length = case.defect.as_ref().map_or(scale.r, |defect| match &defect.shape {
-        super::Shape::Trace(points) => points[points.len() - 1].0 * 1e-3 - points[0].0 * 1e-3,
-        super::Shape::Spall { length: super::Length::Millimetres(length), .. } => length * 1e-3,
-        super::Shape::Spall { length: super::Length::Degrees(degrees), .. } => degrees.to_radians() * scale.raceway,
-    });
+    let length = case.defect.as_ref().map_or(scale.r, |defect| defect.shape.length(scale.raceway));
     let travel = length / scale.raceway * draw.log(0.05, 3.0);
     let size = (travel / time / cage_ratio).min(0.9 * TAU * 1e4).min(9e4) * draw.sign();
     // One element near one end of the defect, on its way in.
@@ -308,8 +304,7 @@ impl Inputs {
         let rings = [0, 1].map(|which| {
             [0, 1].map(|a| {
                 let swing = self.swing[which][a];
-                let [value, first, second] =
-                    [swing * sin, self.rate * swing * cos, -self.rate * self.rate * swing * sin];
+                let [value, first, second] = [swing * sin, self.rate * swing * cos, -self.rate * self.rate * swing * sin];
                 let held = jump && self.internal[which];
                 let value = self.middle[which][a] + value;
                 if held { [value, 0.0, 0.0] } else { [value, first, second] }

@@ -25,7 +25,8 @@ pub fn best(bearing: &Bearing, case: &Case) -> (f64, f64) {
     // At the start the host's derivatives of loads and speed are not at work yet.
     let mut outside = run.outside;
     outside.cage[2] = 0.0;
-    let mut search = Search { bearing, outside, features: run.features, free, acting: Acting::default() };
+    let mut search =
+        Search { bearing, outside, features: run.features, free, acting: Acting::default() };
     let mut best = (f64::INFINITY, 0.0);
     let soft = case.rings.iter().filter(|ring| ring.motion == Motion::Internal && ring.stiffness > 0.0);
     let sag = soft.map(|ring| ring.load[0].hypot(ring.load[1]) / ring.stiffness).fold(0.0, f64::max);

@@ -1,0 +1,1 @@
+//! Scenes that have failed once, each with what was wrong.
