@@ -193,11 +193,7 @@ fn compare(
         };
         time += step.length;
         measure.judged = time / case.duration();
-        let ramp = step.host.is_some_and(|host| host.speed[1] != 0.0);
         for (((name, kind), a), b) in names.iter().zip(&sample).zip(&expected) {
-            if *kind == Kind::Torque && ramp {
-                continue;
-            }
             let off = (a - b).abs();
             if *kind == Kind::Force {
                 measure.error = measure.error.max(off / scale);

@@ -4,76 +4,151 @@ use super::judge::{Measure, Verdict};
 use crate::case::Kind;
 use brinell::simulation::SimulationError;
 use std::collections::BTreeMap;
-use std::fmt::Write;
+use std::fmt::{self, Display, Formatter, Write};
 
-/// What came of all scenes.
-#[derive(Default)]
-pub struct Tally {
-    agreed: Vec<(Kind, f64, Measure)>,
-    refused: BTreeMap<String, (usize, String)>,
-    undecided: BTreeMap<&'static str, usize>,
-    /// Seeds, with what went wrong.
-    pub failed: Vec<(u64, String)>,
+/// What came of one scene. As text it is a line of fields between tabs, so that a long run can be broken off and taken up.
+pub struct Entry {
+    pub seed: u64,
+    /// Defect, motion of the rings, speed.
+    names: [String; 3],
+    tolerance: f64,
+    pub came: Came,
+}
+
+pub enum Came {
+    Agreed(Measure),
+    /// Class of the error, and its text.
+    Refused(String, String),
+    Undecided(String),
+    Failed(String),
 }
 
 /// Quantiles that are shown.
 const QUANTILES: [f64; 4] = [0.5, 0.9, 0.99, 1.0];
 
-impl Tally {
-    pub fn add(&mut self, seed: u64, kind: Kind, tolerance: f64, verdict: Verdict) {
-        match verdict {
-            Verdict::Agreed(measure) => self.agreed.push((kind, tolerance, measure)),
-            Verdict::Refused(error) => {
-                let entry = self.refused.entry(class(&error)).or_insert((0, error.to_string()));
-                entry.0 += 1;
-            }
-            Verdict::Undecided(why) => *self.undecided.entry(why).or_default() += 1,
-            Verdict::Failed(why) => self.failed.push((seed, why)),
-        }
+impl Entry {
+    pub fn new(seed: u64, kind: Kind, tolerance: f64, verdict: Verdict) -> Self {
+        let came = match verdict {
+            Verdict::Agreed(measure) => Came::Agreed(measure),
+            Verdict::Refused(error) => Came::Refused(class(&error), error.to_string()),
+            Verdict::Undecided(why) => Came::Undecided(why.to_owned()),
+            Verdict::Failed(why) => Came::Failed(why),
+        };
+        Self { seed, names: [kind.defect, kind.motion, kind.speed].map(str::to_owned), tolerance, came }
     }
 
-    pub fn join(&mut self, other: Self) {
-        self.agreed.extend(other.agreed);
-        for (class, (count, example)) in other.refused {
-            self.refused.entry(class).or_insert((0, example)).0 += count;
+    /// From its line; `None` where a run was broken off within it.
+    pub fn parse(line: &str) -> Option<Self> {
+        let mut fields = line.split('\t');
+        let seed = fields.next()?.parse().ok()?;
+        let names = [fields.next()?.to_owned(), fields.next()?.to_owned(), fields.next()?.to_owned()];
+        let tolerance = fields.next()?.parse().ok()?;
+        let (verdict, rest) = (fields.next()?, fields.collect::<Vec<_>>());
+        let came = match (verdict, &rest[..]) {
+            ("agreed", [start, error, units, judged]) => Came::Agreed(Measure {
+                start: start.parse().ok()?,
+                error: error.parse().ok()?,
+                units: units.parse().ok()?,
+                judged: judged.parse().ok()?,
+            }),
+            ("refused", [class, text, "."]) => Came::Refused((*class).to_owned(), (*text).to_owned()),
+            ("undecided", [why, "."]) => Came::Undecided((*why).to_owned()),
+            ("failed", [why, "."]) => Came::Failed((*why).to_owned()),
+            _ => return None,
+        };
+        Some(Self { seed, names, tolerance, came })
+    }
+}
+
+impl Display for Entry {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        let [defect, motion, speed] = &self.names;
+        write!(f, "{}\t{defect}\t{motion}\t{speed}\t{:e}\t", self.seed, self.tolerance)?;
+        let one_line = |text: &str| text.replace(['\t', '\n'], " ");
+        match &self.came {
+            Came::Agreed(m) => write!(f, "agreed\t{:e}\t{:e}\t{:e}\t{:e}", m.start, m.error, m.units, m.judged),
+            Came::Refused(class, text) => write!(f, "refused\t{class}\t{}\t.", one_line(text)),
+            Came::Undecided(why) => write!(f, "undecided\t{why}\t."),
+            Came::Failed(why) => write!(f, "failed\t{}\t.", one_line(why)),
         }
-        for (why, count) in other.undecided {
-            *self.undecided.entry(why).or_default() += count;
-        }
-        self.failed.extend(other.failed);
+    }
+}
+
+/// What came of all scenes.
+pub struct Tally<'a> {
+    entries: &'a [Entry],
+    agreed: Vec<(&'a Entry, Measure)>,
+}
+
+impl<'a> Tally<'a> {
+    pub fn new(entries: &'a [Entry]) -> Self {
+        let measure = |entry: &'a Entry| match entry.came {
+            Came::Agreed(measure) => Some((entry, measure)),
+            _ => None,
+        };
+        Self { entries, agreed: entries.iter().filter_map(measure).collect() }
+    }
+
+    /// Each scene that failed, with its seed.
+    pub fn failed(&self) -> Vec<String> {
+        let why = |entry: &Entry| match &entry.came {
+            Came::Failed(why) => Some(format!("BRINELL_SEED={}: {why}", entry.seed)),
+            _ => None,
+        };
+        self.entries.iter().filter_map(why).collect()
     }
 
     /// The tables.
     pub fn markdown(&self) -> String {
-        let refused: usize = self.refused.values().map(|entry| entry.0).sum();
-        let undecided: usize = self.undecided.values().sum();
-        let all = self.agreed.len() + refused + undecided + self.failed.len();
+        let (mut refused, mut undecided) = (BTreeMap::<_, (usize, &str)>::new(), BTreeMap::<_, usize>::new());
+        for entry in self.entries {
+            match &entry.came {
+                Came::Refused(class, text) => refused.entry(class).or_insert((0, text)).0 += 1,
+                Came::Undecided(why) => *undecided.entry(why).or_default() += 1,
+                Came::Agreed(_) | Came::Failed(_) => {}
+            }
+        }
         let mut text = format!(
-            "Of {all} scenes {} agreed, {} failed, {refused} were refused with an error, and of {undecided} the oracle could not \
-             judge even the first step.\n\n",
+            "Of {} scenes {} agreed, {} failed, {} were refused with an error, and of {} the oracle could not judge even the first \
+             step.\n\n",
+            self.entries.len(),
             self.agreed.len(),
-            self.failed.len()
+            self.failed().len(),
+            refused.values().map(|entry| entry.0).sum::<usize>(),
+            undecided.values().sum::<usize>()
         );
-        let whole = self.agreed.iter().filter(|(_, _, measure)| measure.judged > 0.999).count();
+        let whole = self.agreed.iter().filter(|(_, measure)| measure.judged > 0.999).count();
         writeln!(text, "{whole} were judged to their end, the others until bounces let nobody say more.\n").unwrap();
-        text += "| tolerance | scenes | difference of any force over the largest: median | 90 % | 99 % | worst |\n";
-        text += "|---:|---:|---:|---:|---:|---:|\n";
+        self.errors(&mut text);
+        text += "| refused, or not judged | scenes | for example |\n|---|---:|---|\n";
+        for (class, (count, example)) in refused {
+            writeln!(text, "| {class} | {count} | {} |", example.replace('|', "/")).unwrap();
+        }
+        for (why, count) in undecided {
+            writeln!(text, "| not judged: {why} | {count} | |").unwrap();
+        }
+        text
+    }
+
+    /// How far the scenes that agreed are from the oracle.
+    fn errors(&self, text: &mut String) {
+        *text += "| tolerance | scenes | difference of any force over the largest: median | 90 % | 99 % | worst |\n";
+        *text += "|---:|---:|---:|---:|---:|---:|\n";
         for tolerance in [1e-5, 1e-6, 1e-7, 1e-8, 1e-9] {
-            self.row(&mut text, &format!("{tolerance:.0e}"), |(_, own, _)| *own == tolerance);
+            self.row(text, &format!("{tolerance:.0e}"), |entry| entry.tolerance == tolerance);
         }
-        text += "\n| defect | scenes | median | 90 % | 99 % | worst |\n|---|---:|---:|---:|---:|---:|\n";
-        for name in self.names(|kind| kind.defect) {
-            self.row(&mut text, name, |(kind, ..)| kind.defect == name);
+        *text += "\n| defect | scenes | median | 90 % | 99 % | worst |\n|---|---:|---:|---:|---:|---:|\n";
+        for name in self.names(0) {
+            self.row(text, name, |entry| entry.names[0] == name);
         }
-        text += "\n| rings; speed | scenes | median | 90 % | 99 % | worst |\n|---|---:|---:|---:|---:|---:|\n";
-        for name in self.names(|kind| kind.motion) {
-            self.row(&mut text, name, |(kind, ..)| kind.motion == name);
+        *text += "\n| rings; speed | scenes | median | 90 % | 99 % | worst |\n|---|---:|---:|---:|---:|---:|\n";
+        for which in [1, 2] {
+            for name in self.names(which) {
+                self.row(text, name, |entry| entry.names[which] == name);
+            }
         }
-        for name in self.names(|kind| kind.speed) {
-            self.row(&mut text, name, |(kind, ..)| kind.speed == name);
-        }
-        let worst = self.agreed.iter().fold(0.0f64, |m, (_, _, measure)| m.max(measure.units));
-        let start = self.agreed.iter().fold(0.0f64, |m, (_, _, measure)| m.max(measure.start));
+        let worst = self.agreed.iter().fold(0.0f64, |m, (_, measure)| m.max(measure.units));
+        let start = self.agreed.iter().fold(0.0f64, |m, (_, measure)| m.max(measure.start));
         writeln!(
             text,
             "\nThe forces of the start are the oracle's to {start:.0e} of the largest. The worst difference later is {worst:.0} units \
@@ -81,25 +156,18 @@ impl Tally {
             crate::units::LIMIT
         )
         .unwrap();
-        text += "| refused, or not judged | scenes | for example |\n|---|---:|---|\n";
-        for (class, (count, example)) in &self.refused {
-            writeln!(text, "| {class} | {count} | {} |", example.replace('|', "/")).unwrap();
-        }
-        for (why, count) in &self.undecided {
-            writeln!(text, "| not judged: {why} | {count} | |").unwrap();
-        }
-        text
     }
 
-    fn names(&self, of: impl Fn(&Kind) -> &'static str) -> Vec<&'static str> {
-        let mut names: Vec<&'static str> = self.agreed.iter().map(|(kind, ..)| of(kind)).collect();
+    fn names(&self, which: usize) -> Vec<&'a str> {
+        let mut names: Vec<&str> = self.agreed.iter().map(|(entry, _)| entry.names[which].as_str()).collect();
         names.sort_unstable();
         names.dedup();
         names
     }
 
-    fn row(&self, text: &mut String, name: &str, belongs: impl Fn(&(Kind, f64, Measure)) -> bool) {
-        let mut errors: Vec<f64> = self.agreed.iter().filter(|scene| belongs(scene)).map(|s| s.2.error).collect();
+    fn row(&self, text: &mut String, name: &str, belongs: impl Fn(&Entry) -> bool) {
+        let found = self.agreed.iter().filter(|(entry, _)| belongs(entry));
+        let mut errors: Vec<f64> = found.map(|(_, measure)| measure.error).collect();
         errors.sort_unstable_by(f64::total_cmp);
         if errors.is_empty() {
             return;
