@@ -15,7 +15,7 @@ pub const HORIZON: f64 = 0.02;
 
 /// How exactly a position is known [m]: to some roundings of the radii, and to what interpolating the rigid path leaves.
 pub fn rounding(bearing: &Bearing) -> f64 {
-    let path = if bearing.defect.is_some() { 3e-13 * bearing.r } else { 0.0 };
+    let path = if bearing.defective { 3e-13 * bearing.r } else { 0.0 };
     4e-15 * bearing.rho_0 + path
 }
 

@@ -44,7 +44,7 @@ fn standing(draw: &mut Draw) -> (Case, f64) {
 
 /// The same pressed by the inner ring, so that it would go `approach` [m] into a smooth raceway.
 fn pressed(case: &Case, approach: f64) -> Case {
-    let bearing = Bearing::new(case);
+    let bearing = Bearing::smooth(case);
     // Both contacts carry the same.
     let inner = approach * (bearing.stiffness[1] / bearing.stiffness[0]).cbrt().powi(2);
     let (sin, cos) = case.cage_deg.to_radians().sin_cos();
@@ -56,7 +56,7 @@ fn pressed(case: &Case, approach: f64) -> Case {
 
 /// The grid for a force that is a few times the standing one.
 fn grid(case: &Case, approach: f64, cells: [u32; 2]) -> (f64, [u32; 2], f64) {
-    (4.0 * Bearing::new(case).stiffness[1] * approach.powf(1.5), cells, 0.02)
+    (4.0 * Bearing::smooth(case).stiffness[1] * approach.powf(1.5), cells, 0.02)
 }
 
 /// Path of the element, and the raceway's force on it, radial inwards and along the raceway counter-clockwise.
@@ -84,7 +84,7 @@ fn trace(length: f64, step: f64, depth: impl Fn(f64) -> f64) -> Shape {
 
 /// Stands `at` [m] before the defect's middle, counter-clockwise.
 fn over(case: &Case, shape: Shape, at: f64) -> Case {
-    let raceway = Bearing::new(case).rho_0 + 0.5e-3 * case.diameter_mm;
+    let raceway = Bearing::smooth(case).rho_0 + 0.5e-3 * case.diameter_mm;
     Case { defect: Some(Defect { angle_deg: case.cage_deg - (at / raceway).to_degrees(), shape }), ..case.clone() }
 }
 
@@ -228,7 +228,7 @@ fn depth_at(shape: &Shape, arc: f64, axial: f64) -> f64 {
 
 /// Radial and tangential force at the path `u` by the oracle's own half-space, on so many cells.
 fn half_space(case: &Case, shape: &Shape, (u, at): (f64, f64), cells: [usize; 2]) -> [f64; 2] {
-    let bearing = Bearing::new(&Case { defect: None, ..case.clone() });
+    let bearing = Bearing::smooth(case);
     let Grooves::Each(_, conformity) = case.grooves else { unreachable!("drawn so") };
     let (r, d) = (bearing.r, 2.0 * bearing.r);
     let modulus = case.modulus_gpa * 1e9 / (2.0 * (1.0 - case.poisson * case.poisson));
@@ -268,13 +268,13 @@ fn love_agrees_with_a_half_space_of_its_own() {
             1 => trace(draw.between(0.5, 6.0) * half, 0.03 * half, |share| depth * bowl(share)),
             _ => Shape::Topography(patch(draw, 0.06 * half, half, depth)),
         };
-        let raceway = Bearing::new(&case).rho_0 + 0.5e-3 * case.diameter_mm;
+        let raceway = Bearing::smooth(&case).rho_0 + 0.5e-3 * case.diameter_mm;
         let at = draw.between(-0.6, 0.6) * shape.length(raceway);
         let mut case = over(&pressed(&case, approach), shape.clone(), at);
         (case.law, case.grid) = ("love", Some(grid(&case, approach, [24, 16])));
         let [u, radial, tangential] = force(&case)?;
-        let smooth = Bearing::new(&Case { defect: None, ..case.clone() }).stiffness[1] * approach.powf(1.5);
-        let (coarse, fine) = (half_space(&case, &shape, (u, at), [20, 14]), half_space(&case, &shape, (u, at), [40, 28]));
+        let smooth = Bearing::smooth(&case).stiffness[1] * approach.powf(1.5);
+        let (coarse, fine) = (half_space(&case, &shape, (u, at), [14, 10]), half_space(&case, &shape, (u, at), [28, 20]));
         for (found, coarse, fine) in [(radial, coarse[0], fine[0]), (tangential, coarse[1], fine[1])] {
             // Both grids' errors: this one's by its coarser self.
             let limit = 0.03 * smooth + 2.0 * (coarse - fine).abs();

@@ -7,7 +7,7 @@
 use crate::case::{Case, Motion, Step, fastest};
 use crate::oracle::balance;
 use crate::oracle::run::{Kind, Run, Stop, signals};
-use crate::oracle::{Bearing, ELEMENTS, SENSOR};
+use crate::oracle::{Bearing, Contact, ELEMENTS, SENSOR};
 use crate::subject::Subject;
 use crate::units::{HORIZON, LIMIT, differences, largest_force, rounding, units};
 use brinell::simulation::SimulationError;
@@ -90,7 +90,10 @@ fn start_state(case: &Case, names: &[(String, Kind)], sample: &[f64]) -> Vec<f64
 fn start(bearing: &Bearing, case: &Case, first: &[f64], names: &[(String, Kind)]) -> Result<(f64, f64), String> {
     let run = Run::new(bearing, start_state(case, names, first), case.steps[0].host.as_ref(), (1.0, 0));
     let contacts = run.acting.contacts.iter().flatten();
-    let stiffest = (0..2).map(|side| 1.5 * bearing.stiffness[side] * run.largest[side].max(0.0).sqrt()).fold(0.0, f64::max);
+    let elastic = (0..2).map(|side| 1.5 * bearing.stiffness[side] * run.largest[side].max(0.0).sqrt()).fold(0.0, f64::max);
+    // A damper that pushes with √δ is steep where δ is small: ∂F/∂δ is up to 1.5 F/δ.
+    let steep = |contact: &Contact| if contact.pushes { 1.5 * contact.force / contact.approach } else { 0.0 };
+    let stiffest = contacts.clone().map(steep).fold(elastic, f64::max);
     let loads = case.rings.iter().flat_map(|ring| ring.load).fold(0.0f64, |m, f| m.max(f.abs()));
     let body = bearing.mass * (bearing.gravity[0].hypot(bearing.gravity[1]) + bearing.rho_0 * run.outside.cage[1].powi(2));
     let largest = contacts.fold(loads, |m, contact| m.max(contact.force));
