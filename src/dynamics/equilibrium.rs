@@ -77,9 +77,7 @@ const ELEMENT_RESIDUAL: f64 = 1e-9;
 const ROUNDING: f64 = 1e-14;
 /// Longest step of a ring between two iterations at first [m]; a soft support may have a long way to go.
 const LONGEST_STEP: f64 = 50e-6;
-/// Largest change of the rings' offset in an iteration, over an element's radius: a ring must not leap across an element.
-const FURTHEST_APART: f64 = 0.25;
-/// Iterations after which the longest step doubles.
+/// Iterations after which the longest step doubles, and after which rings may go together as far as their supports let them.
 const DOUBLING: i32 = 50;
 const ITERATIONS: i32 = 500;
 
@@ -95,7 +93,7 @@ impl Model {
         let mut iteration = 0;
         while balance.residual() > balance.limit {
             iteration += 1;
-            let step = self.newton_step(&given, rings, &u, &balance, longest_step(iteration));
+            let step = self.newton_step(&given, rings, &u, &balance, iteration);
             let next = self.along(&given, rings, &mut u, &balance, step).filter(|_| iteration <= ITERATIONS);
             let Some(next) = next else {
                 if balance.residual() <= balance.rounding {
@@ -244,25 +242,29 @@ impl Model {
     }
 
     /// A step of the free rings from the condensed tangent: (−J + μ) step = force.
-    fn newton_step(&self, given: &Given, rings: Rings, u: &[f64], balance: &Balance, longest: f64) -> Rings {
+    fn newton_step(&self, given: &Given, rings: Rings, u: &[f64], balance: &Balance, iteration: i32) -> Rings {
         let jacobian = self.ring_jacobian(u, given.cells, given.placed(rings).offset(), given.still.cage.angle);
         // The turning of contact forces makes a lightly held ring's tangent indefinite; its bound ΣQ/|q| takes that out.
         // The second term lets a loose ring move by the longest step, and vanishes with the residual.
-        let shift = balance.contact_sum / self.outer_centre_radius + balance.residual() / longest;
-        let solve = |shift: f64| {
-            let solved = self.free_rings_matrix(&jacobian, shift).lu().solve(&balance.force);
+        let longest = longest_step(iteration);
+        let (turning, free) = (balance.contact_sum / self.outer_centre_radius, balance.residual() / longest);
+        let solve = |share: f64| {
+            let mut matrix = self.free_rings_matrix(&jacobian, share * (turning + free));
+            if iteration > DOUBLING {
+                // What turns a force is the rings' offset. Preloaded rings that soft supports let go together would creep.
+                self.couple(&mut matrix, -share * turning);
+            }
+            let solved = matrix.lu().solve(&balance.force);
             solved.filter(|step| step.amax().is_finite() && step.dot(&balance.force) > 0.0)
         };
         // |q| is less than the centres' radius by some of the clearance: on top of an element a little is left of the turning.
-        let step = solve(shift).or_else(|| solve(2.0 * shift));
+        let step = solve(1.0).or_else(|| solve(2.0));
         let step = step.unwrap_or_else(|| balance.force / balance.residual() * longest);
-        let apart = Vector::new(step[2] - step[0], step[3] - step[1]).amax();
-        let share = (longest / step.amax()).min(FURTHEST_APART * self.element_radius / apart);
-        if share < 1.0 { step * share } else { step }
+        let length = step.amax();
+        if length > longest { step * (longest / length) } else { step }
     }
 
-    /// Goes along a step as far as the residual pushes forward. Where it comes to push back within a rounding of the ring's
-    /// position, as at a second element when a ring falls off the first, that is where the step ends.
+    /// Goes along a step as far as the residual pushes forward.
     fn along(
         &self,
         given: &Given,
@@ -287,10 +289,6 @@ impl Model {
                 high = share
             }
             share = 0.5 * (low + high);
-            if share <= low || share >= high {
-                let moved = low * step.amax() > ROUNDING * self.outer_centre_radius;
-                return moved.then(|| (rings + step * low, self.balance(given, rings + step * low, u)));
-            }
         }
         None
     }

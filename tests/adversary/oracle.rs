@@ -138,8 +138,7 @@ impl Bearing {
         if side == 1 && self.compliance > 0.0 {
             // Newton from above on a convex function: δ + c K δ^1.5 = Δ.
             for _ in 0..200 {
-                let next =
-                    own - (own + self.compliance * k * own * own.sqrt() - approach) / self.softness(k, own);
+                let next = own - (own + self.compliance * k * own * own.sqrt() - approach) / self.softness(k, own);
                 let done = (next - own).abs() <= 1e-16 * own;
                 own = next;
                 if done {
@@ -210,7 +209,8 @@ impl Bearing {
                 acting.rings[0][a] -= inner.force * n[a];
                 acting.rings[1][a] += f_r * e_r - f_t * e_t;
             }
-            let gravity = [self.gravity[0] * cos + self.gravity[1] * sin, self.gravity[1] * cos - self.gravity[0] * sin];
+            let gravity =
+                [self.gravity[0] * cos + self.gravity[1] * sin, self.gravity[1] * cos - self.gravity[0] * sin];
             along[j] = inner.force * (n[0] * cos + n[1] * sin) - f_r + self.mass * (gravity[0] + rho * omega * omega);
             let around = inner.force * (n[1] * cos - n[0] * sin) + f_t;
             acting.torque += rho * (around + self.mass * (gravity[1] - 2.0 * u_rate * omega - rho * alpha));

@@ -46,7 +46,8 @@ const LINES: &str = concat!(env!("CARGO_TARGET_TMPDIR"), "/adversary.tsv");
 
 /// The scenes that long runs have judged so far, the last word on each.
 fn judged_so_far() -> Vec<Entry> {
-    let mut entries: Vec<Entry> = fs::read_to_string(LINES).unwrap_or_default().lines().filter_map(Entry::parse).collect();
+    let mut entries: Vec<Entry> =
+        fs::read_to_string(LINES).unwrap_or_default().lines().filter_map(Entry::parse).collect();
     entries.reverse();
     entries.sort_by_key(|entry| entry.seed);
     entries.dedup_by_key(|entry| entry.seed);

@@ -135,7 +135,8 @@ fn loads_and_damping(draw: &mut Draw, case: &mut Case) -> Scale {
 /// What moves the rings, and with what.
 fn rings(draw: &mut Draw, case: &mut Case, scale: &Scale) {
     use Motion::{Fixed, Host, Internal};
-    let motions = [(Internal, Internal), (Internal, Fixed), (Host, Internal), (Internal, Host), (Host, Host), (Host, Fixed)];
+    let motions =
+        [(Internal, Internal), (Internal, Fixed), (Host, Internal), (Internal, Host), (Host, Host), (Host, Fixed)];
     let (shaft, housing) = draw.pick(&motions);
     let force = scale.stiffness * scale.approach / 1.5 * (case.count as f64 / 5.0).max(1.0);
     for (which, motion) in [shaft, housing].into_iter().enumerate() {
@@ -304,7 +305,8 @@ impl Inputs {
         let rings = [0, 1].map(|which| {
             [0, 1].map(|a| {
                 let swing = self.swing[which][a];
-                let [value, first, second] = [swing * sin, self.rate * swing * cos, -self.rate * self.rate * swing * sin];
+                let [value, first, second] =
+                    [swing * sin, self.rate * swing * cos, -self.rate * self.rate * swing * sin];
                 let held = jump && self.internal[which];
                 let value = self.middle[which][a] + value;
                 if held { [value, 0.0, 0.0] } else { [value, first, second] }

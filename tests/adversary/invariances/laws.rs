@@ -94,7 +94,8 @@ fn on_the_smooth_raceway_all_laws_are_one() {
         let (case, approach) = standing(draw);
         let half = half_contact(&case, approach);
         let length = draw.between(0.5, 4.0) * half;
-        let shape = Shape::Spall { length: Length::Millimetres(length * 1e3), depth_um: 0.2 * approach * 1e6, slope_deg: 90.0 };
+        let shape =
+            Shape::Spall { length: Length::Millimetres(length * 1e3), depth_um: 0.2 * approach * 1e6, slope_deg: 90.0 };
         // The quarter turn leaves the defect far away.
         let far = |law| {
             let mut case = over(&pressed(&case, approach), shape.clone(), 0.0);
@@ -146,7 +147,11 @@ fn the_map_agrees_with_the_grid_that_it_was_made_of() {
         let length = draw.between(0.5, 3.0) * half;
         let depth = approach * draw.log(0.1, 2.0);
         let shape = if draw.chance(0.5) {
-            Shape::Spall { length: Length::Millimetres(length * 1e3), depth_um: depth * 1e6, slope_deg: draw.pick(&[90.0, 60.0]) }
+            Shape::Spall {
+                length: Length::Millimetres(length * 1e3),
+                depth_um: depth * 1e6,
+                slope_deg: draw.pick(&[90.0, 60.0]),
+            }
         } else {
             trace(length, 0.03 * half, |share| depth * bowl(share))
         };
@@ -240,8 +245,7 @@ fn half_space(case: &Case, shape: &Shape, (u, at): (f64, f64), cells: [usize; 2]
     };
     let mean = |s: [f64; 2], y: [f64; 2]| {
         let part = |range: [f64; 2], k: i32| range[0] + (range[1] - range[0]) * (f64::from(k) + 0.5) / 8.0;
-        let sum: f64 =
-            (0..64).map(|k| depth_at(shape, at + part(s, k / 8), part(y, k % 8))).sum();
+        let sum: f64 = (0..64).map(|k| depth_at(shape, at + part(s, k / 8), part(y, k % 8))).sum();
         sum / 64.0
     };
     let [normal, tangential] = solver.forces(u, high, mean);
@@ -274,12 +278,15 @@ fn love_agrees_with_a_half_space_of_its_own() {
         (case.law, case.grid) = ("love", Some(grid(&case, approach, [24, 16])));
         let [u, radial, tangential] = force(&case)?;
         let smooth = Bearing::smooth(&case).stiffness[1] * approach.powf(1.5);
-        let (coarse, fine) = (half_space(&case, &shape, (u, at), [14, 10]), half_space(&case, &shape, (u, at), [28, 20]));
+        let (coarse, fine) =
+            (half_space(&case, &shape, (u, at), [14, 10]), half_space(&case, &shape, (u, at), [28, 20]));
         for (found, coarse, fine) in [(radial, coarse[0], fine[0]), (tangential, coarse[1], fine[1])] {
             // Both grids' errors: this one's by its coarser self.
             let limit = 0.03 * smooth + 2.0 * (coarse - fine).abs();
             if !((found - fine).abs() <= limit) {
-                return Err(format!("{found:e} N, the oracle says {fine:e} N ({coarse:e} N), allowed {limit:e}; smooth {smooth:e} N"));
+                return Err(format!(
+                    "{found:e} N, the oracle says {fine:e} N ({coarse:e} N), allowed {limit:e}; smooth {smooth:e} N"
+                ));
             }
         }
         Ok(())

@@ -16,7 +16,13 @@ fn equal(case: &Case, other: Course) -> Result<(), String> {
     }
     if bits(&base) != bits(&other) {
         let differs = base.samples.iter().zip(&other.samples).position(|(a, b)| a != b);
-        return Err(format!("other bits from sample {differs:?} on"));
+        let names = crate::oracle::run::signals(case);
+        let first = differs.and_then(|at| {
+            let (a, b) = (&base.samples[at], &other.samples[at]);
+            let i = a.iter().zip(b).position(|(a, b)| a != b)?;
+            Some(format!("{} is {:e} and {:e}", names[i].0, a[i], b[i]))
+        });
+        return Err(format!("other bits from sample {differs:?} on: {first:?}"));
     }
     Ok(())
 }

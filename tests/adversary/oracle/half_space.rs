@@ -44,7 +44,8 @@ impl HalfSpace {
                 let [x, y] = corner(k / m, k % m);
                 // Mean of a parabola over the cell.
                 let square = |x: f64, h: f64| (x + 0.5 * h) * (x + 0.5 * h) + h * h / 12.0;
-                u - 0.5 * self.curvatures[0] * square(x, size[0]) - 0.5 * self.curvatures[1] * square(y, size[1])
+                u - 0.5 * self.curvatures[0] * square(x, size[0])
+                    - 0.5 * self.curvatures[1] * square(y, size[1])
                     - cell(k, 0.0)
             })
             .collect();
@@ -54,7 +55,8 @@ impl HalfSpace {
         let step = 1e-3 * size[0];
         let slope = |k: usize| (cell(k, step) - cell(k, -step)) / (2.0 * step);
         let normal = pressure.iter().sum::<f64>() * area;
-        let tangential = pressure.iter().enumerate().filter(|p| *p.1 > 0.0).map(|(k, p)| p * slope(k)).sum::<f64>() * area;
+        let tangential =
+            pressure.iter().enumerate().filter(|p| *p.1 > 0.0).map(|(k, p)| p * slope(k)).sum::<f64>() * area;
         [normal, tangential]
     }
 

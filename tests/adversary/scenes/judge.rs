@@ -90,19 +90,36 @@ fn start_state(case: &Case, names: &[(String, Kind)], sample: &[f64]) -> Vec<f64
 fn start(bearing: &Bearing, case: &Case, first: &[f64], names: &[(String, Kind)]) -> Result<(f64, f64), String> {
     let run = Run::new(bearing, start_state(case, names, first), case.steps[0].host.as_ref(), (1.0, 0));
     let contacts = run.acting.contacts.iter().flatten();
-    let elastic = (0..2).map(|side| 1.5 * bearing.stiffness[side] * run.largest[side].max(0.0).sqrt()).fold(0.0, f64::max);
+    let elastic =
+        (0..2).map(|side| 1.5 * bearing.stiffness[side] * run.largest[side].max(0.0).sqrt()).fold(0.0, f64::max);
     // A damper that pushes with √δ is steep where δ is small: ∂F/∂δ is up to 1.5 F/δ.
     let steep = |contact: &Contact| if contact.pushes { 1.5 * contact.force / contact.approach } else { 0.0 };
     let stiffest = contacts.clone().map(steep).fold(elastic, f64::max);
     let loads = case.rings.iter().flat_map(|ring| ring.load).fold(0.0f64, |m, f| m.max(f.abs()));
-    let body = bearing.mass * (bearing.gravity[0].hypot(bearing.gravity[1]) + bearing.rho_0 * run.outside.cage[1].powi(2));
+    let body =
+        bearing.mass * (bearing.gravity[0].hypot(bearing.gravity[1]) + bearing.rho_0 * run.outside.cage[1].powi(2));
     let largest = contacts.fold(loads, |m, contact| m.max(contact.force));
     let limit = 1e-9 * (largest + body) + rounding(bearing) * stiffest;
+    // The path is kept as cubics that are right to 2e-13 r; where the path's normal leans by κ they are 2e-3 r cos^1.75 κ wide or half
+    // of that, and their slope, which directs the force, is right to 3 of their error over that width.
+    let leaning = |j: usize| {
+        let Some((envelope, _)) = &bearing.defect else { return 0.0 };
+        let slope = envelope.path(run.features[j], bearing.angle_to_defect(j, run.outside.cage[0])).1;
+        let kappa = (slope / bearing.rho_0).atan();
+        run.acting.contacts[j][1].force * kappa.sin().abs() * 1e-9 / kappa.cos().powi(2)
+    };
+    let limits: Vec<f64> = (0..bearing.count).map(|j| limit + leaning(j)).collect();
+    let limit = limits.iter().fold(limit, |m, limit| m.max(*limit));
     for j in 0..bearing.count {
+        let limit = limits[j];
         let along = bearing.mass * (run.rates()[ELEMENTS + 2 * j + 1] + run.carried(j));
         if !(along.abs() <= limit) {
             let contacts = run.acting.contacts[j];
-            return Err(format!("at the start {along:e} N push element {} (limit {limit:e} N): {contacts:?}, {:?}, body {body:e}", j + 1, run.features[j]));
+            return Err(format!(
+                "at the start {along:e} N push element {} (limit {limit:e} N): {contacts:?}, {:?}, body {body:e}",
+                j + 1,
+                run.features[j]
+            ));
         }
     }
     for (which, ring) in case.rings.iter().enumerate().filter(|(_, ring)| ring.motion == Motion::Internal) {
@@ -179,7 +196,9 @@ fn compare(
             Err(Stop::Left) => {
                 return match subject.step(case, i) {
                     Err(error) => Verdict::Refused(error),
-                    Ok(_) => Verdict::Failed(format!("step {i}: by the oracle an element or a ring leaves, here they stay")),
+                    Ok(_) => {
+                        Verdict::Failed(format!("step {i}: by the oracle an element or a ring leaves, here they stay"))
+                    }
                 };
             }
         };
