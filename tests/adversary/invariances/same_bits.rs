@@ -2,7 +2,7 @@
 //! of the scene, a state that was saved and put back.
 
 use super::{Course, course, scene};
-use crate::case::Case;
+use crate::case::{Case, Length, Shape};
 use crate::draw::{Draw, for_seeds};
 use crate::subject::Subject;
 
@@ -63,7 +63,13 @@ fn saving_and_restoring_changes_no_bit() {
 #[test]
 fn a_parameter_set_by_the_host_is_that_of_the_scene() {
     for_seeds(10, |_, draw| {
-        let case = scene(draw, true);
+        let mut case = scene(draw, true);
+        // A length in degrees becomes one in metres with the clearance of the scene, which is to be another one.
+        if let Some(Shape::Spall { length, .. }) = case.defect.as_mut().map(|defect| &mut defect.shape)
+            && let Length::Degrees(_) = length
+        {
+            *length = Length::Millimetres(0.5 * case.diameter_mm);
+        }
         let mut given = Subject::new(&case).map_err(|error| error.to_string())?;
         // The same in all but the parameters, of which the host then sets those of the first.
         let mut other = case.clone();
