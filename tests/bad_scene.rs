@@ -361,7 +361,7 @@ fn a_ring_without_mass_is_refused() {
     refused(
         "stiffness_n_m = 1.51056e7",
         "mass_kg = 1e-7",
-        &["housing mass (housing.mass_kg) is 1e-7", "at least 1e-6"],
+        &["housing mass (housing.mass_kg) is 0.0000001", "at least 1e-6"],
     );
 }
 
