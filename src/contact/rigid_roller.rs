@@ -65,6 +65,11 @@ impl Roller {
         (first - reach, last + reach)
     }
 
+    /// Radius of the element [m].
+    pub(super) fn element_radius(&self) -> f64 {
+        self.element_radius
+    }
+
     /// Radius of the raceway [m].
     pub(super) fn raceway_radius(&self) -> f64 {
         self.raceway_radius

@@ -78,7 +78,7 @@ const ELEMENT_RESIDUAL: f64 = 1e-9;
 const ROUNDING: f64 = 1e-14;
 /// Longest step of a ring between two iterations at first [m]; a soft support may have a long way to go.
 const LONGEST_STEP: f64 = 50e-6;
-/// Iterations after which the longest step doubles.
+/// Iterations after which the longest step doubles, and after which rings may go together as far as their supports let them.
 const DOUBLING: i32 = 50;
 const ITERATIONS: i32 = 500;
 
@@ -94,7 +94,7 @@ impl Model {
         let mut iteration = 0;
         while balance.residual() > balance.limit {
             iteration += 1;
-            let step = self.newton_step(&given, rings, &u, &balance, longest_step(iteration));
+            let step = self.newton_step(&given, rings, &u, &balance, iteration);
             let next = self.along(&given, rings, &mut u, &balance, step).filter(|_| iteration <= ITERATIONS);
             let Some(next) = next else {
                 if balance.residual() <= balance.rounding {
@@ -242,21 +242,26 @@ impl Model {
     }
 
     /// A step of the free rings from the condensed tangent: (−J + μ) step = force.
-    fn newton_step(&self, given: &Given, rings: Rings, u: &[f64], balance: &Balance, longest: f64) -> Rings {
+    fn newton_step(&self, given: &Given, rings: Rings, u: &[f64], balance: &Balance, iteration: i32) -> Rings {
         let jacobian = self.ring_jacobian(u, given.cells, given.placed(rings).offset(), given.still.cage.angle);
         // The turning of contact forces makes a lightly held ring's tangent indefinite; its bound ΣQ/|q| takes that out.
         // The second term lets a loose ring move by the longest step, and vanishes with the residual.
-        let shift = balance.contact_sum / self.outer_centre_radius + balance.residual() / longest;
-        let solved = self.free_rings_matrix(&jacobian, shift).lu().solve(&balance.force);
-        let step = solved.unwrap_or_else(|| Rings::repeat(f64::NAN));
+        let longest = longest_step(iteration);
+        let (turning, free) = (balance.contact_sum / self.outer_centre_radius, balance.residual() / longest);
+        let solve = |share: f64| {
+            let mut matrix = self.free_rings_matrix(&jacobian, share * (turning + free));
+            if iteration > DOUBLING {
+                // What turns a force is the rings' offset. Preloaded rings that soft supports let go together would creep.
+                self.couple(&mut matrix, -share * turning);
+            }
+            let solved = matrix.lu().solve(&balance.force);
+            solved.filter(|step| step.amax().is_finite() && step.dot(&balance.force) > 0.0)
+        };
+        // |q| is less than the centres' radius by some of the clearance: on top of an element a little is left of the turning.
+        let step = solve(1.0).or_else(|| solve(2.0));
+        let step = step.unwrap_or_else(|| balance.force / balance.residual() * longest);
         let length = step.amax();
-        if !length.is_finite() || step.dot(&balance.force) <= 0.0 {
-            balance.force / balance.residual() * longest
-        } else if length > longest {
-            step * (longest / length)
-        } else {
-            step
-        }
+        if length > longest { step * (longest / length) } else { step }
     }
 
     /// Goes along a step as far as the residual pushes forward.

@@ -77,6 +77,15 @@ impl Model {
         })
     }
 
+    /// Adds `stiffness` between the two rings, where both are free, beside the diagonal of [`free_rings_matrix`](Self::free_rings_matrix).
+    pub(super) fn couple(&self, matrix: &mut RingJacobian, stiffness: f64) {
+        let free = self.free();
+        for axis in (0..2).filter(|&axis| free[axis] && free[axis + 2]) {
+            matrix[(axis, axis + 2)] += stiffness;
+            matrix[(axis + 2, axis)] += stiffness;
+        }
+    }
+
     /// `forces` with those on rings that are not free left out.
     pub(super) fn free_rings(&self, forces: Rings) -> Rings {
         let free = self.free();

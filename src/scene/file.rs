@@ -261,6 +261,7 @@ impl Default for CageTable {
 #[serde(deny_unknown_fields)]
 struct DefectTable {
     angle_deg: f64,
+    /// Turned into a length with the scene's own clearance: a host that sets another one leaves the length as it is.
     length_deg: Option<f64>,
     length_mm: Option<f64>,
     depth_um: Option<f64>,

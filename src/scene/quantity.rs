@@ -118,15 +118,16 @@ pub(super) const SPALL_DEPTH: Quantity =
     quantity("spall depth", "defect.depth_um", 1e6, Exclusive(0.0), Inclusive(1e9));
 pub(super) const EDGE_SLOPE: Quantity =
     quantity("edge slope", "defect.edge_slope_deg", DEG, Exclusive(0.0), Inclusive(90.0));
+/// Limits are those that a host finds in the model description: what a scene may say a host may set.
 pub(super) const SHAFT: RingQuantities = RingQuantities {
     load: quantity("load on the shaft", "shaft.load_n", 1.0, Inclusive(-1e9), Inclusive(1e9)),
-    mass: quantity("shaft mass", "shaft.mass_kg", 1.0, Inclusive(1e-9), Inclusive(1e9)),
+    mass: quantity("shaft mass", "shaft.mass_kg", 1.0, Inclusive(1e-6), Inclusive(1e9)),
     damping: quantity("shaft damping", "shaft.damping_n_s_m", 1.0, Inclusive(0.0), Inclusive(1e12)),
     stiffness: quantity("shaft stiffness", "shaft.stiffness_n_m", 1.0, Inclusive(0.0), Inclusive(1e15)),
 };
 pub(super) const HOUSING: RingQuantities = RingQuantities {
     load: quantity("load on the housing", "housing.load_n", 1.0, Inclusive(-1e9), Inclusive(1e9)),
-    mass: quantity("housing mass", "housing.mass_kg", 1.0, Inclusive(1e-9), Inclusive(1e9)),
+    mass: quantity("housing mass", "housing.mass_kg", 1.0, Inclusive(1e-6), Inclusive(1e9)),
     damping: quantity("housing damping", "housing.damping_n_s_m", 1.0, Inclusive(0.0), Inclusive(1e12)),
     stiffness: quantity("housing stiffness", "housing.stiffness_n_m", 1.0, Inclusive(0.0), Inclusive(1e15)),
 };

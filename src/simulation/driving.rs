@@ -1,7 +1,7 @@
 //! What acts on the bearing from outside: from input variables and their derivatives to polynomials of time, and back.
 
 use super::inputs::{Inputs, RingInputs};
-use super::state::State;
+use super::state::{Ended, State};
 use crate::dynamics::drive::{Cubic, Drive, Quadratic};
 
 /// Where every external influence is from a communication point on. Derivatives of inputs act where the bearing is `stepping`.
@@ -24,20 +24,27 @@ pub(super) fn drive(state: &State, inputs: &Inputs, cage_ratio: f64, stepping: b
         ])
     };
     let Inputs { speed, shaft, housing, .. } = *inputs;
-    Drive {
+    let mut drive = Drive {
         cage_start: state.cage.rest,
         cage: Quadratic([0.0, cage_ratio * value(speed), cage_ratio * rate(speed, 1)]),
         shaft: [motion(&shaft, 0), motion(&shaft, 1)],
         housing: [motion(&housing, 0), motion(&housing, 1)],
         shaft_load: shaft.load.map(load),
         housing_load: housing.load.map(load),
+    };
+    if !stepping {
+        drive.cage.0[2] += state.ended.cage;
+        for (motion, acceleration) in drive.housing.iter_mut().zip(state.ended.housing) {
+            motion.0[2] += acceleration;
+        }
     }
+    drive
 }
 
 /// After a step the inputs stand where they were extrapolated to, so that outputs belong to the end of the step
 /// until the host sets them anew.
-pub(super) fn follow(state: &mut State, inputs: &Inputs, drive: &Drive, step: f64) {
-    let rings = [(inputs.shaft, drive.shaft, drive.shaft_load), (inputs.housing, drive.housing, drive.housing_load)];
+pub(super) fn follow(state: &mut State, inputs: &Inputs, cage_ratio: f64, ended: &Drive, step: f64) {
+    let rings = [(inputs.shaft, ended.shaft, ended.shaft_load), (inputs.housing, ended.housing, ended.housing_load)];
     for (ring, motion, load) in rings {
         for axis in 0..2 {
             let ends = [
@@ -56,5 +63,12 @@ pub(super) fn follow(state: &mut State, inputs: &Inputs, drive: &Drive, step: f6
     for i in shaft.acceleration.into_iter().chain(housing.acceleration).chain([speed]).flatten() {
         state.reals[i] += state.input_rates[i][0].unwrap_or(0.0) * step;
     }
+    let given = state.input_rates.as_flattened().iter().any(Option::is_some);
     state.input_rates.fill([None; 2]);
+    state.ended = Ended::default();
+    if given {
+        let now = drive(state, inputs, cage_ratio, false);
+        let left = |axis: usize| ended.housing[axis].second_at(step) - now.housing[axis].second_at(0.0);
+        state.ended = Ended { cage: ended.cage.0[2] - now.cage.0[2], housing: [left(0), left(1)] };
+    }
 }

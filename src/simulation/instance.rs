@@ -10,7 +10,7 @@ use super::progress::Progress;
 use super::quantity::{Parameter, Quantity};
 use super::recorder::{Due, Recorder};
 use super::setup;
-use super::state::State;
+use super::state::{Ended, State};
 use super::stepper::{Control, Stepper};
 use super::switching::Method;
 use super::table;
@@ -133,6 +133,7 @@ impl Simulation {
                 time: 0.0,
                 started: false,
                 cage: CageAngle::new(scene.cage.initial_angle),
+                ended: Ended::default(),
                 progress,
                 reals,
                 integers,
@@ -257,7 +258,7 @@ impl Simulation {
             .map_err(|cause| SimulationError::Step { time, cause })?;
         self.state.cage = self.state.cage.advanced(drive.cage.at(step));
         self.state.time += step;
-        driving::follow(&mut self.state, &self.inputs, &drive, step);
+        driving::follow(&mut self.state, &self.inputs, self.model.cage_ratio, &drive, step);
         Ok(())
     }
 

@@ -9,6 +9,7 @@ pub struct State {
     pub(super) time: f64,
     pub(super) started: bool,
     pub(super) cage: CageAngle,
+    pub(super) ended: Ended,
     pub(super) progress: Progress,
     /// Values of the table's real variables, by index; outputs are those computed last.
     pub(super) reals: Vec<f64>,
@@ -18,11 +19,21 @@ pub struct State {
     pub(super) input_rates: Vec<[Option<f64>; 2]>,
 }
 
+/// Accelerations at the end of the last step that derivatives of inputs gave and no input says: outputs at that instant
+/// follow from them. Gone once the host sets an input.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Ended {
+    /// Of the cage [rad/s²].
+    pub(super) cage: f64,
+    /// Of a prescribed outer ring [m/s²].
+    pub(super) housing: [f64; 2],
+}
+
 impl State {
     /// Copies another state of the same model; allocates nothing.
     pub(super) fn copy_from(&mut self, other: &Self) {
-        let Self { time, started, cage, progress, reals, integers, input_rates } = self;
-        (*time, *started, *cage) = (other.time, other.started, other.cage);
+        let Self { time, started, cage, ended, progress, reals, integers, input_rates } = self;
+        (*time, *started, *cage, *ended) = (other.time, other.started, other.cage, other.ended);
         progress.copy_from(&other.progress);
         reals.copy_from_slice(&other.reals);
         integers.copy_from_slice(&other.integers);

@@ -28,7 +28,7 @@ impl State {
     /// Number of bytes of [`to_bytes`](Self::to_bytes).
     pub fn byte_count(&self) -> usize {
         let progress = &self.progress;
-        let fixed = 8 + 1 + 8 + 8 + 2 * 8 + (1 + 4 * 4 + 2 * 8 + 1) + 4 * 8 + 4 * 8 + 2 * 8;
+        let fixed = 8 + 1 + 8 + 8 + 3 * 8 + 2 * 8 + (1 + 4 * 4 + 2 * 8 + 1) + 4 * 8 + 4 * 8 + 2 * 8;
         let real = progress.state.len() + progress.under_way.len() + self.reals.len();
         let rates = self.input_rates.as_flattened().len();
         fixed + 8 * real + 9 * rates + 4 * (progress.cells.len() + self.integers.len()) + progress.pushing.len()
@@ -44,6 +44,10 @@ impl State {
         field(&mut turns)?;
         self.cage.turns = i64::from_le_bytes(turns);
         real(&mut self.cage.rest, field)?;
+        let [x, y] = &mut self.ended.housing;
+        for value in [&mut self.ended.cage, x, y] {
+            real(value, field)?;
+        }
         for value in [&mut progress.next_step, &mut progress.last_error, &mut progress.due.delay] {
             real(value, field)?;
         }
@@ -121,6 +125,8 @@ impl Simulation {
         let progress = &state.progress;
         let numbers = [
             &[state.time, state.cage.rest, progress.last_error][..],
+            &[state.ended.cage],
+            &state.ended.housing,
             &[progress.choice.gained, progress.choice.stable_step],
             &[progress.next_step, progress.due.delay],
             &progress.mean_force,

@@ -3,6 +3,7 @@
 use super::access;
 use super::error::{SimulationError, VariableError};
 use super::instance::{Fresh, Simulation};
+use super::state::Ended;
 use super::variables::{Causality, Kind, Variable};
 
 impl Simulation {
@@ -36,6 +37,9 @@ impl Simulation {
         };
         for (&reference, &value) in references.iter().zip(values) {
             self.state.reals[reference as usize] = value;
+        }
+        if classes & access::INPUT != 0 {
+            self.state.ended = Ended::default();
         }
         self.note_set(classes & access::PARAMETER != 0);
         Ok(())

@@ -4,8 +4,11 @@
 
 mod random;
 mod shape;
+mod transform;
 
-pub use random::{PHASE, fastest, random};
+pub use random::{Kind, PHASE, fastest, random};
+pub use shape::bowl;
+pub use transform::Factors;
 
 use std::fmt::Write;
 
@@ -26,6 +29,8 @@ pub struct Case {
     pub compliance: f64,
     pub damping: Damping,
     pub law: &'static str,
+    /// Largest force [N], cells along and across, accuracy of the map: for laws `map` and `love`.
+    pub grid: Option<(f64, [u32; 2], f64)>,
     pub slip: f64,
     pub cage_deg: f64,
     pub defect: Option<Defect>,
@@ -67,6 +72,15 @@ pub enum Shape {
     },
     /// Arc [mm] and depth [µm].
     Trace(Vec<(f64, f64)>),
+    Topography(Topography),
+}
+
+/// Depths [µm] over arcs and axial coordinates [mm], those of one arc side by side.
+#[derive(Debug, Clone)]
+pub struct Topography {
+    pub arcs: Vec<f64>,
+    pub axials: Vec<f64>,
+    pub depths: Vec<f64>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -143,6 +157,9 @@ impl Case {
             }
         }
         writeln!(text, "element_count = {}\n[contact]\nlaw = \"{}\"", self.count, self.law).unwrap();
+        if let Some((force, cells, accuracy)) = self.grid {
+            writeln!(text, "largest_force_n = {force:?}\ncells = {cells:?}\nmap_accuracy = {accuracy:?}").unwrap();
+        }
         match self.damping {
             Damping::HuntCrossley(chi) => writeln!(text, "damping = \"hunt-crossley\"\ndamping_chi_s_m = {chi:?}"),
             Damping::Proportional(tau) => writeln!(text, "damping = \"proportional\"\ndamping_tau_s = {tau:?}"),
@@ -166,7 +183,7 @@ impl Case {
                 }
                 writeln!(text, "depth_um = {depth_um:?}\nedge_slope_deg = {slope_deg:?}").unwrap();
             }
-            Shape::Trace(_) => writeln!(text, "profile = \"trace.csv\"").unwrap(),
+            Shape::Trace(_) | Shape::Topography(_) => writeln!(text, "profile = \"trace.csv\"").unwrap(),
         }
     }
 
@@ -190,9 +207,19 @@ impl Case {
 
     /// Text of the profile file.
     pub fn profile(&self) -> Option<String> {
-        let Shape::Trace(points) = &self.defect.as_ref()?.shape else { return None };
-        let lines: String = points.iter().map(|(arc, depth)| format!("{arc},{depth}\n")).collect();
-        Some(format!("arc_mm,depth_um\n{lines}"))
+        match &self.defect.as_ref()?.shape {
+            Shape::Spall { .. } => None,
+            Shape::Trace(points) => {
+                let lines: String = points.iter().map(|(arc, depth)| format!("{arc},{depth}\n")).collect();
+                Some(format!("arc_mm,depth_um\n{lines}"))
+            }
+            Shape::Topography(Topography { arcs, axials, depths }) => {
+                let place = |k: usize| format!("{},{}", arcs[k / axials.len()], axials[k % axials.len()]);
+                let lines: String =
+                    depths.iter().enumerate().map(|(k, depth)| format!("{},{depth}\n", place(k))).collect();
+                Some(format!("arc_mm,axial_mm,depth_um\n{lines}"))
+            }
+        }
     }
 
     /// Length of the whole run [s].

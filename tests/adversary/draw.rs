@@ -67,3 +67,11 @@ pub fn seeds(short: u64) -> std::ops::Range<u64> {
     let start = first.unwrap_or(0);
     start..start + count.unwrap_or(if first.is_some() { 1 } else { short })
 }
+
+/// Runs a check on all seeds and fails with those that failed, each with its reason.
+pub fn for_seeds(short: u64, check: impl Fn(u64, &mut Draw) -> Result<(), String>) {
+    let failed: Vec<String> = seeds(short)
+        .filter_map(|seed| check(seed, &mut Draw::new(seed)).err().map(|why| format!("BRINELL_SEED={seed}: {why}")))
+        .collect();
+    assert!(failed.is_empty(), "{} failed:\n{}", failed.len(), failed.join("\n"));
+}

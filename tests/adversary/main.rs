@@ -14,9 +14,12 @@ mod draw;
 #[path = "../fmi2/host.rs"]
 #[allow(dead_code)]
 mod host;
+mod invariances;
 mod misuse;
 mod oracle;
 mod recordings;
 mod scenes;
+mod subject;
 #[path = "../support/mod.rs"]
 mod support;
+mod units;

@@ -10,6 +10,7 @@
 
 pub mod balance;
 pub mod envelope;
+pub mod half_space;
 mod hertz;
 pub mod run;
 
@@ -31,6 +32,8 @@ pub struct Bearing {
     pub cage_start: f64,
     pub speed: f64,
     pub defect: Option<(Envelope, f64)>,
+    /// Whether the case has a defect.
+    pub defective: bool,
     pub rings: [Ring; 2],
     pub sensor: Option<[f64; 3]>,
 }
@@ -74,6 +77,15 @@ pub fn quadratic(c: [f64; 3], t: f64) -> [f64; 3] {
 
 impl Bearing {
     pub fn new(case: &Case) -> Self {
+        let mut bearing = Self::smooth(case);
+        bearing.defect = case.defect.as_ref().and_then(|defect| {
+            Some((envelope_of(defect, bearing.r, bearing.rho_0 + bearing.r)?, defect.angle_deg * PI / 180.0))
+        });
+        bearing
+    }
+
+    /// Without the defect, whose envelope takes time to find.
+    pub fn smooth(case: &Case) -> Self {
         let (d, pitch, clearance) = (case.diameter_mm * 1e-3, case.pitch_mm * 1e-3, case.clearance_um * 1e-6);
         let (r, r_o, r_i) = (d / 2.0, (pitch + d + clearance) / 2.0, (pitch - d - clearance) / 2.0);
         let modulus = case.modulus_gpa * 1e9 / (2.0 * (1.0 - case.poisson * case.poisson));
@@ -99,7 +111,8 @@ impl Bearing {
             ratio: 0.5 * (1.0 - d / pitch) * (1.0 - case.slip),
             cage_start: case.cage_deg * PI / 180.0,
             speed: TAU * case.speed_hz,
-            defect: case.defect.as_ref().map(|defect| (envelope_of(defect, r, r_o), defect.angle_deg * PI / 180.0)),
+            defect: None,
+            defective: case.defect.is_some(),
             rings: case.rings,
             sensor: case.sensor,
         }
@@ -251,8 +264,9 @@ impl Bearing {
     }
 }
 
-fn envelope_of(defect: &Defect, r: f64, r_o: f64) -> Envelope {
-    let points = match &defect.shape {
+/// The envelope of a profile; a topography has none.
+fn envelope_of(defect: &Defect, r: f64, r_o: f64) -> Option<Envelope> {
+    let points: Vec<(f64, f64)> = match &defect.shape {
         Shape::Trace(points) => {
             let middle = 0.5 * (points[0].0 + points[points.len() - 1].0);
             points.iter().map(|(arc, depth)| ((arc - middle) * 1e-3, depth * 1e-6)).collect()
@@ -267,6 +281,7 @@ fn envelope_of(defect: &Defect, r: f64, r_o: f64) -> Envelope {
             let run = if *slope_deg >= 90.0 { 0.0 } else { (depth * (FRAC_PI_2 - slope).tan()).min(half) };
             vec![(-half, 0.0), (run - half, depth), (half - run, depth), (half, 0.0)]
         }
+        Shape::Topography(_) => return None,
     };
-    Envelope::new(&points, r, r_o)
+    Some(Envelope::new(&points, r, r_o))
 }

@@ -103,6 +103,7 @@ fn write_the_table_of_stability() {
     let text = include_str!("page.md").replace("<!-- rows -->\n", &rows);
     let [growth, tolerances] = predictability::tables();
     let text = text.replace("<!-- growth -->\n", &growth).replace("<!-- tolerances -->\n", &tolerances);
+    let text = text.replace("<!-- random scenes -->\n", include_str!("../adversary/scenes.md"));
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/stability.md");
     std::fs::write(path, text).unwrap();
 }

@@ -46,7 +46,7 @@ pub fn random(draw: &mut Draw) -> (Kind, Case) {
         case.defect = Some(Defect { angle_deg: draw.between(-180.0, 180.0), shape });
     }
     case.cage_deg = draw.between(-180.0, 180.0);
-    let time = time(&case, &scale) * draw.between(0.3, 1.0);
+    let time = time(&case, &scale) * draw.log(0.03, 1.0);
     kind.speed = motion(draw, &mut case, &scale, time);
     (kind, case)
 }
@@ -102,6 +102,7 @@ fn bearing(draw: &mut Draw) -> Case {
         compliance: 0.0,
         damping: Damping::HuntCrossley(0.5),
         law: "hertz",
+        grid: None,
         slip: if draw.chance(0.7) { 0.0 } else { draw.between(0.0, 1.0) },
         cage_deg: 0.0,
         defect: None,
@@ -116,7 +117,7 @@ fn bearing(draw: &mut Draw) -> Case {
 fn loads_and_damping(draw: &mut Draw, case: &mut Case) -> Scale {
     let r = case.diameter_mm * 0.5e-3;
     let approach = r * draw.log(1e-5, 4e-3);
-    let bearing = Bearing::new(case);
+    let bearing = Bearing::smooth(case);
     let [k_i, k_o] = bearing.stiffness.map(|k| 1.5 * k * (0.5 * approach).sqrt());
     let stiffness = k_i * k_o / (k_i + k_o);
     let omega = ((k_i + k_o) / bearing.mass).sqrt();
@@ -145,7 +146,7 @@ fn rings(draw: &mut Draw, case: &mut Case, scale: &Scale) {
                 let size = if draw.chance(0.1) { 0.0 } else { force * draw.log(0.1, 1.0) };
                 ring.load = draw.vector(size);
             }
-            ring.mass = scale.mass * draw.log(2.0, 1e5);
+            ring.mass = (scale.mass * draw.log(2.0, 1e5)).max(1e-6);
             // A ring is held, if by nothing else than the other one.
             let held = which == 1 || housing != Internal && draw.chance(0.3) || draw.chance(0.2);
             if held {
@@ -177,7 +178,7 @@ fn motion_name(case: &Case) -> &'static str {
 
 /// Largest angular frequency or rate of decay [1/s] of a case under its loads.
 pub fn fastest(case: &Case, approach: [f64; 2]) -> f64 {
-    let bearing = Bearing::new(case);
+    let bearing = Bearing::smooth(case);
     let (mut stiff, mut damped) = (0.0, 0.0);
     for side in 0..2 {
         let root = bearing.stiffness[side] * approach[side].max(0.0).sqrt();
@@ -209,13 +210,9 @@ fn time(case: &Case, scale: &Scale) -> f64 {
 
 /// Speeds, steps and inputs for a run of so many seconds.
 fn motion(draw: &mut Draw, case: &mut Case, scale: &Scale, time: f64) -> &'static str {
-    let cage_ratio = Bearing::new(case).ratio.max(1e-6);
+    let cage_ratio = Bearing::smooth(case).ratio.max(1e-6);
     // As far as the defect is long, or a part of it.
-    let length = case.defect.as_ref().map_or(scale.r, |defect| match &defect.shape {
-        super::Shape::Trace(points) => points[points.len() - 1].0 * 1e-3 - points[0].0 * 1e-3,
-        super::Shape::Spall { length: super::Length::Millimetres(length), .. } => length * 1e-3,
-        super::Shape::Spall { length: super::Length::Degrees(degrees), .. } => degrees.to_radians() * scale.raceway,
-    });
+    let length = case.defect.as_ref().map_or(scale.r, |defect| defect.shape.length(scale.raceway));
     let travel = length / scale.raceway * draw.log(0.05, 3.0);
     let size = (travel / time / cage_ratio).min(0.9 * TAU * 1e4).min(9e4) * draw.sign();
     // One element near one end of the defect, on its way in.

@@ -12,10 +12,22 @@ pub struct Around {
     pub approach: f64,
 }
 
+impl Shape {
+    /// Its length along a raceway of this radius [m].
+    pub fn length(&self, raceway: f64) -> f64 {
+        let range = |arcs: [f64; 2]| (arcs[1] - arcs[0]) * 1e-3;
+        match self {
+            Self::Spall { length: Length::Millimetres(length), .. } => length * 1e-3,
+            Self::Spall { length: Length::Degrees(degrees), .. } => degrees.to_radians() * raceway,
+            Self::Trace(points) => range([points[0].0, points[points.len() - 1].0]),
+            Self::Topography(topography) => range([topography.arcs[0], topography.arcs[topography.arcs.len() - 1]]),
+        }
+    }
+}
+
 /// A defect, and what it is called.
 pub fn random(draw: &mut Draw, around: &Around) -> (&'static str, Shape) {
-    type Kind = fn(&mut Draw, &Around) -> Shape;
-    let kinds: [(&str, Kind); 8] = [
+    let kinds: [(&str, fn(&mut Draw, &Around) -> Shape); 8] = [
         ("steep spall", steep),
         ("sloping spall", sloping),
         ("dent", dent),
@@ -80,7 +92,7 @@ fn points(length: f64, shares: impl Iterator<Item = (f64, f64)>) -> Shape {
 }
 
 /// (1 − x²)² of the width, sampled.
-fn bowl(share: f64) -> f64 {
+pub fn bowl(share: f64) -> f64 {
     let x = 2.0 * share - 1.0;
     if x.abs() >= 1.0 { 0.0 } else { (1.0 - x * x) * (1.0 - x * x) }
 }

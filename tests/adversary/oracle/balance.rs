@@ -17,7 +17,7 @@ struct Search<'a> {
     acting: Acting,
 }
 
-/// Largest net force [N] that is left on a free ring or an element at the best balance found, and the largest force in play.
+/// Largest net force [N] that is left on a free ring or an element at the best stable balance found, and the largest force in play.
 pub fn best(bearing: &Bearing, case: &Case) -> (f64, f64) {
     let run = super::run::Run::new(bearing, vec![0.0; bearing.len()], case.steps[0].host.as_ref(), (1.0, 0));
     let free = (0..2).filter(|&which| case.rings[which].motion == Motion::Internal);
@@ -78,7 +78,10 @@ impl Search<'_> {
                 }
             }
         }
-        (force.iter().fold(0.0f64, |m, f| m.max(f.abs())), largest)
+        let jacobian = self.jacobian(&y, &force);
+        // On top of an element a ring is in balance and does not stay there.
+        let left = if stable(&jacobian) { force.iter().fold(0.0f64, |m, f| m.max(f.abs())) } else { f64::INFINITY };
+        (left, largest)
     }
 
     fn jacobian(&mut self, y: &[f64], force: &[f64]) -> Vec<Vec<f64>> {
@@ -133,6 +136,23 @@ impl Search<'_> {
             *along = self.bearing.mass * (rates[ELEMENTS + 2 * j + 1] + carried[0] * cos + carried[1] * sin);
         }
     }
+}
+
+/// Whether forces push back whatever moves: −(J + Jᵀ) has Cholesky's factors.
+fn stable(jacobian: &[Vec<f64>]) -> bool {
+    let n = jacobian.len();
+    let mut lower = vec![vec![0.0; n]; n];
+    for i in 0..n {
+        for k in 0..=i {
+            let before: f64 = (0..k).map(|l| lower[i][l] * lower[k][l]).sum();
+            let rest = -(jacobian[i][k] + jacobian[k][i]) - before;
+            if i == k && rest <= 0.0 {
+                return false;
+            }
+            lower[i][k] = if i == k { rest.sqrt() } else { rest / lower[k][k] };
+        }
+    }
+    true
 }
 
 /// The step against `force`; columns of the Jacobian are those of its lists.

@@ -71,7 +71,7 @@ impl Envelope {
 
     /// Lowest ρ between two angles of a piece, and where, `None` if it is at an end.
     fn lowest(&self, ends: [(f64, f64); 2], (mut low, mut high): (f64, f64), psi: f64) -> Option<(f64, f64)> {
-        if !(self.tangency(ends, low, psi) < 0.0 && self.tangency(ends, high, psi) > 0.0) {
+        if !(self.tangency(ends, low, psi) <= 0.0 && self.tangency(ends, high, psi) >= 0.0) {
             return None;
         }
         for _ in 0..90 {

@@ -11,8 +11,10 @@ use std::f64::consts::{PI, TAU};
 pub enum Stop {
     /// More steps than allowed.
     Budget,
-    /// An element or a ring has left the bearing, at this time [s].
-    Left(f64),
+    /// An element or a ring has left the bearing.
+    Left,
+    /// The steps were too long: the state is no longer finite.
+    Lost,
 }
 
 /// What a signal is measured in.
@@ -69,7 +71,6 @@ pub struct Run<'a> {
     pub largest: [f64; 2],
     h: f64,
     left: usize,
-    time: f64,
     stages: [Vec<f64>; 5],
 }
 
@@ -90,7 +91,6 @@ impl<'a> Run<'a> {
             largest: [0.0; 2],
             h,
             left: budget,
-            time: 0.0,
             stages: std::array::from_fn(|_| vec![0.0; len]),
         };
         run.feel(0.0, 0.0);
@@ -174,7 +174,6 @@ impl<'a> Run<'a> {
             self.smooth(from, to)?;
             from = to;
         }
-        self.time += length;
         self.outside.cage = quadratic(self.outside.cage, length);
         self.outside.rings = self.outside.rings.map(|ring| ring.map(|c| quadratic(c, length)));
         Ok(self.values(length))
@@ -300,8 +299,11 @@ impl<'a> Run<'a> {
             Motion::Fixed => 0.0,
         };
         let offset = (place(1, 0) - place(0, 0)).hypot(place(1, 1) - place(0, 1));
-        let far = (0..self.bearing.count).any(|j| !(self.y[ELEMENTS + 2 * j].abs() <= self.bearing.r));
-        if far || !(offset <= self.bearing.r) { Err(Stop::Left(self.time + t)) } else { Ok(()) }
+        let far = (0..self.bearing.count).any(|j| self.y[ELEMENTS + 2 * j].abs() > self.bearing.r);
+        if !self.y.iter().all(|y| y.is_finite()) {
+            return Err(Stop::Lost);
+        }
+        if far || offset > self.bearing.r { Err(Stop::Left) } else { Ok(()) }
     }
 
     /// The signals now, after a communication step of this length, in the order of [`signals`].

@@ -1,0 +1,144 @@
+//! The same scene seen from elsewhere: turned, mirrored, made of other lengths, forces and times, its steps cut.
+
+use super::{Case, Damping, Grooves, Host, Length, Shape, Step};
+
+/// Factors of length, force and time.
+#[derive(Debug, Clone, Copy)]
+pub struct Factors {
+    pub length: f64,
+    pub force: f64,
+    pub time: f64,
+}
+
+impl Case {
+    /// With every vector mapped, by an orthogonal map, and every angle [°].
+    fn moved(&self, vector: impl Fn([f64; 2]) -> [f64; 2], angle: impl Fn(f64) -> f64) -> Self {
+        let mut case = self.clone();
+        case.gravity = vector(case.gravity);
+        case.cage_deg = angle(case.cage_deg);
+        if let Some(defect) = &mut case.defect {
+            defect.angle_deg = angle(defect.angle_deg);
+        }
+        for ring in &mut case.rings {
+            ring.load = vector(ring.load);
+        }
+        for host in case.steps.iter_mut().filter_map(|step| step.host.as_mut()) {
+            for ring in &mut host.rings {
+                for order in 0..3 {
+                    let [x, y] = vector([ring[0][order], ring[1][order]]);
+                    (ring[0][order], ring[1][order]) = (x, y);
+                }
+            }
+        }
+        case
+    }
+
+    /// Turned about the origin, counter-clockwise.
+    pub fn turned(&self, degrees: f64) -> Self {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        self.moved(|[x, y]| [cos * x - sin * y, sin * x + cos * y], |angle| angle + degrees)
+    }
+
+    /// Left and right exchanged. Element j takes the place of element −j.
+    pub fn mirrored(&self) -> Self {
+        let mut case = self.moved(|[x, y]| [-x, y], |angle| 180.0 - angle);
+        case.speed_hz = -case.speed_hz;
+        for host in case.steps.iter_mut().filter_map(|step| step.host.as_mut()) {
+            host.speed = host.speed.map(|speed| -speed);
+        }
+        if let Some(Shape::Trace(points)) = case.defect.as_mut().map(|defect| &mut defect.shape) {
+            points.reverse();
+            for point in points {
+                point.0 = -point.0;
+            }
+        }
+        case
+    }
+
+    /// With all lengths, forces and times multiplied.
+    pub fn scaled(&self, by: Factors) -> Self {
+        let Factors { length, force, time } = by;
+        let mass = force * time * time / length;
+        let mut case = self.clone();
+        case.gravity = case.gravity.map(|g| g * length / (time * time));
+        case.diameter_mm *= length;
+        case.pitch_mm *= length;
+        if let Grooves::Equal(diameter) = &mut case.grooves {
+            *diameter *= length;
+        }
+        case.clearance_um *= length;
+        case.modulus_gpa *= force / (length * length);
+        case.density = case.density.map(|density| density * mass / (length * length * length));
+        case.mass_g = case.mass_g.map(|m| m * mass);
+        case.hertz = case.hertz.map(|k| k.map(|k| k * force / (length * length.sqrt())));
+        case.compliance *= length / force;
+        match &mut case.damping {
+            Damping::HuntCrossley(chi) => *chi *= time / length,
+            Damping::Proportional(tau) => *tau *= time,
+        }
+        match case.defect.as_mut().map(|defect| &mut defect.shape) {
+            Some(Shape::Trace(points)) => {
+                for (arc, depth) in points {
+                    (*arc, *depth) = (*arc * length, *depth * length);
+                }
+            }
+            Some(Shape::Spall { length: long, depth_um, .. }) => {
+                *depth_um *= length;
+                if let Length::Millimetres(long) = long {
+                    *long *= length;
+                }
+            }
+            Some(Shape::Topography(_)) => unimplemented!("random scenes have none"),
+            None => {}
+        }
+        for ring in &mut case.rings {
+            ring.load = ring.load.map(|load| load * force);
+            (ring.mass, ring.stiffness) = (ring.mass * mass, ring.stiffness * force / length);
+            ring.damping *= force * time / length;
+        }
+        case.speed_hz /= time;
+        case.sensor = case.sensor.map(|[m, k, c]| [m * mass, k * force / length, c * force * time / length]);
+        for step in &mut case.steps {
+            step.length *= time;
+        }
+        case.scale_hosts(by);
+        case
+    }
+
+    fn scale_hosts(&mut self, Factors { length, force, time }: Factors) {
+        for host in self.steps.iter_mut().filter_map(|step| step.host.as_mut()) {
+            host.speed = [host.speed[0] / time, host.speed[1] / (time * time)];
+            for which in 0..2 {
+                let internal = self.rings[which].motion == super::Motion::Internal;
+                let unit = if internal { force } else { length };
+                for axis in &mut host.rings[which] {
+                    *axis = [axis[0] * unit, axis[1] * unit / time, axis[2] * unit / (time * time)];
+                }
+            }
+        }
+    }
+
+    /// Each communication step cut in two at a share of its length; what the host says is said on at the cut.
+    pub fn cut(&self, shares: impl Fn(usize) -> f64) -> Self {
+        let mut case = self.clone();
+        case.steps.clear();
+        for (i, step) in self.steps.iter().enumerate() {
+            let first = shares(i) * step.length;
+            case.steps.push(Step { length: first, ..*step });
+            // A host that said nothing has nothing to go on with: all stays as it was left.
+            let host = step.host.map(|host| host.later(first));
+            case.steps.push(Step { length: step.length - first, host });
+        }
+        case
+    }
+}
+
+impl Host {
+    /// What it comes to after a time.
+    pub fn later(&self, time: f64) -> Self {
+        Self {
+            speed: [self.speed[0] + time * self.speed[1], self.speed[1]],
+            rings: self.rings.map(|ring| ring.map(|c| crate::oracle::quadratic(c, time))),
+        }
+    }
+}

@@ -1,0 +1,249 @@
+//! What must not change a result: where the scene lies, its units, how the host cuts time, who sets a parameter, which method steps.
+//!
+//! What only rounding may change is judged in the units of [`crate::units`]: a run at ten times the tolerance says how much of a
+//! difference the scene itself makes, bounces included. The rest must be equal in every bit.
+
+mod laws;
+mod same_bits;
+
+use crate::case::{Case, Motion, random};
+use crate::draw::{Draw, for_seeds};
+use crate::oracle::Bearing;
+use crate::oracle::run::{Kind, signals};
+use crate::subject::Subject;
+use crate::units::{HORIZON, LIMIT, differences, largest_force, units};
+use brinell::simulation::{Method, SimulationError};
+use std::collections::BTreeMap;
+use std::f64::consts::{PI, TAU};
+
+/// The signals at the start and after each step, up to the first that fails.
+pub struct Course {
+    samples: Vec<Vec<f64>>,
+    failed: Option<SimulationError>,
+}
+
+fn course(case: &Case, prepare: impl Fn(&mut Subject)) -> Course {
+    let mut samples = Vec::new();
+    let mut run = || -> Result<(), SimulationError> {
+        let mut subject = Subject::new(case)?;
+        prepare(&mut subject);
+        samples.push(subject.start(case)?);
+        for i in 0..case.steps.len() {
+            samples.push(subject.step(case, i)?);
+        }
+        Ok(())
+    };
+    let failed = run().err();
+    Course { samples, failed }
+}
+
+/// A random scene for comparing the simulation with itself: tight, and without what the comparison has no place for.
+fn scene(draw: &mut Draw, sensor: bool) -> Case {
+    let (_, mut case) = random(draw);
+    case.tolerance = 1e-9;
+    if !sensor {
+        case.sensor = None;
+    }
+    case
+}
+
+/// Compares the course of a scene with that of another one, which `back` brings to the first one's signals.
+fn compare(case: &Case, other: &Case, back: impl Fn(&[(String, Kind)], &[f64]) -> Vec<f64>) -> Result<(), String> {
+    compare_courses(case, course(other, |_| {}), back)
+}
+
+fn compare_courses(
+    case: &Case,
+    other: Course,
+    back: impl Fn(&[(String, Kind)], &[f64]) -> Vec<f64>,
+) -> Result<(), String> {
+    let names = signals(case);
+    let base = course(case, |_| {});
+    let loose = course(&Case { tolerance: 10.0 * case.tolerance, ..case.clone() }, |_| {});
+    if base.samples.is_empty() || other.samples.is_empty() {
+        let same = base.samples.is_empty() && other.samples.is_empty();
+        return if same { Ok(()) } else { Err(format!("refused once: {:?} and {:?}", base.failed, other.failed)) };
+    }
+    let (bearing, mut own) = (Bearing::smooth(case), BTreeMap::new());
+    let mut scale = 0.0f64;
+    for i in 0..base.samples.len().max(other.samples.len()) {
+        let all = (base.samples.get(i), loose.samples.get(i), other.samples.get(i));
+        let (Some(expected), Some(loose), Some(found)) = all else {
+            let same = all.0.is_none() == all.2.is_none();
+            return if same {
+                Ok(())
+            } else {
+                Err(format!("step {i} fails once: {:?}, {:?}", base.failed, other.failed))
+            };
+        };
+        let found = back(&names, found);
+        scale = largest_force(&names, expected).fold(scale, f64::max);
+        let approach = bearing.stiffness.map(|k| (scale / k).cbrt().powi(2));
+        let units = units(&bearing, case, approach);
+        differences(&names, expected, loose, &mut own);
+        let allowed = |kind: Kind| LIMIT * units[&kind] + 10.0 * own[&kind];
+        if allowed(Kind::Force) > HORIZON * scale {
+            return Ok(());
+        }
+        for (((name, kind), a), b) in names.iter().zip(expected).zip(&found) {
+            if !((a - b).abs() <= allowed(*kind)) {
+                let (off, allowed) = ((a - b).abs(), allowed(*kind));
+                return Err(format!(
+                    "step {i}: {name} is {a:e} and {b:e}: {off:e} apart, allowed {allowed:e}; forces up to {scale:e} N"
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn unchanged(_: &[(String, Kind)], sample: &[f64]) -> Vec<f64> {
+    sample.to_vec()
+}
+
+#[test]
+fn turning_the_whole_scene_turns_the_result() {
+    for_seeds(12, |_, draw| {
+        let case = scene(draw, false);
+        let degrees = draw.between(-180.0, 180.0);
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        compare(&case, &case.turned(degrees), |names, sample| {
+            let mut back = sample.to_vec();
+            for (i, (name, kind)) in names.iter().enumerate() {
+                if name.ends_with('x') {
+                    let (x, y) = (sample[i], sample[i + 1]);
+                    (back[i], back[i + 1]) = (cos * x + sin * y, cos * y - sin * x);
+                } else if *kind == Kind::Angle {
+                    back[i] -= degrees.to_radians();
+                }
+            }
+            back
+        })
+    });
+}
+
+#[test]
+fn a_mirror_mirrors_the_result() {
+    for_seeds(12, |_, draw| {
+        let case = scene(draw, true);
+        compare(&case, &case.mirrored(), |names, sample| {
+            let value = |name: &str| sample[names.iter().position(|(other, _)| other == name).unwrap()];
+            let mirrored = |(name, kind): &(String, Kind)| match kind {
+                Kind::Torque => -value(name),
+                Kind::Angle => PI - value(name),
+                _ if name.ends_with('x') => -value(name),
+                _ if name.starts_with("element[") => {
+                    let (number, rest) = name["element[".len()..].split_once(']').unwrap();
+                    let number: usize = number.parse().unwrap();
+                    value(&format!("element[{}]{rest}", (case.count + 1 - number) % case.count + 1))
+                }
+                _ => value(name),
+            };
+            names.iter().map(mirrored).collect()
+        })
+    });
+}
+
+#[test]
+fn similar_scenes_have_similar_results() {
+    for_seeds(12, |_, draw| {
+        let mut case = scene(draw, true);
+        // Lengths that no limit cuts; a step of the tolerance's floor is no longer small beside a smaller approach.
+        case.tolerance = 1e-10;
+        for ring in &mut case.rings {
+            ring.mass = ring.mass.max(1e-4);
+        }
+        let (length, force, density) = (draw.log(0.7, 1.4), draw.log(0.5, 2.0), draw.log(0.5, 2.0));
+        // Densities are drawn up to a fifth of what is accepted.
+        let time = (density * length.powi(4) / force).sqrt();
+        let by = crate::case::Factors { length, force, time };
+        compare(&case, &case.scaled(by), |names, sample| {
+            let unit = |kind: Kind| match kind {
+                Kind::Force => by.force,
+                Kind::Length => by.length,
+                Kind::Velocity => by.length / by.time,
+                Kind::Acceleration(_) => by.length / (by.time * by.time),
+                Kind::Angle => 1.0,
+                Kind::Torque => by.force * by.length,
+            };
+            names.iter().zip(sample).map(|((_, kind), value)| value / unit(*kind)).collect()
+        })
+    });
+}
+
+#[test]
+fn cutting_communication_steps_changes_nothing() {
+    for_seeds(12, |_, draw| {
+        let case = scene(draw, true);
+        let shares: Vec<f64> = case.steps.iter().map(|_| draw.between(0.02, 0.98)).collect();
+        let whole = course(&case.cut(|i| shares[i]), |_| {});
+        let every_other = |samples: Vec<Vec<f64>>| samples.into_iter().step_by(2).collect();
+        let names = signals(&case);
+        let mut other = Course { samples: every_other(whole.samples), failed: whole.failed };
+        // Means are those of the last part.
+        let means: Vec<usize> = (0..names.len()).filter(|&i| names[i].0.contains("mean_force")).collect();
+        let base = course(&case, |_| {});
+        for (sample, base) in other.samples.iter_mut().zip(&base.samples) {
+            for &i in &means {
+                sample[i] = base[i];
+            }
+        }
+        compare_courses(&case, other, unchanged)
+    });
+}
+
+#[test]
+fn every_method_gives_the_same() {
+    for_seeds(6, |_, draw| {
+        let mut case = scene(draw, true);
+        case.tolerance = 1e-8;
+        for method in [Method::DormandPrince, Method::PhaseFitted, Method::Rodas] {
+            compare_courses(&case, course(&case, |subject| subject.simulation.set_method(method)), unchanged)
+                .map_err(|why| format!("{method:?}: {why}"))?;
+        }
+        Ok(())
+    });
+}
+
+#[test]
+fn turning_the_cage_by_a_spacing_renames_the_elements() {
+    for_seeds(8, |_, draw| {
+        let case = scene(draw, true);
+        let (count, spacing) = (case.count, 360.0 / case.count as f64);
+        let turned = Case { cage_deg: case.cage_deg + spacing, ..case.clone() };
+        compare(&case, &turned, |names, sample| {
+            let mut back = sample.to_vec();
+            // Element j is where j + 1 was.
+            let elements = names.len() - 3 * count;
+            back[elements..].rotate_right(3);
+            let angle = names.iter().position(|(_, kind)| *kind == Kind::Angle).unwrap();
+            back[angle] -= TAU / count as f64;
+            back
+        })
+    });
+}
+
+#[test]
+fn moving_both_rings_together_changes_no_force() {
+    for_seeds(8, |_, draw| {
+        let mut case = scene(draw, false);
+        for ring in &mut case.rings {
+            *ring = crate::case::Ring { motion: Motion::Host, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
+        }
+        let size = (0.5 * case.clearance_um.max(0.0) * 1e-6 + 1e-3 * case.diameter_mm * 1e-3).min(5e-3);
+        let (mut at, places) = (0.0, [draw.vector(size), draw.vector(0.0)]);
+        // Far, and as fast as is not yet far after the run.
+        let (away, velocity) = (draw.vector(1e-3), draw.vector(1e-3 / case.duration()));
+        let mut moved = case.clone();
+        for i in 0..case.steps.len() {
+            let host = case.steps[i].host.or(case.steps[0].host).unwrap();
+            let still = places.map(|place| place.map(|x| [x, 0.0, 0.0]));
+            let going = places.map(|place| [0, 1].map(|a| [place[a] + away[a] + velocity[a] * at, velocity[a], 0.0]));
+            case.steps[i].host = Some(crate::case::Host { rings: still, ..host });
+            moved.steps[i].host = Some(crate::case::Host { rings: going, ..host });
+            at += case.steps[i].length;
+        }
+        moved.rings = case.rings;
+        compare(&case, &moved, unchanged)
+    });
+}

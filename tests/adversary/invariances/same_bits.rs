@@ -1,0 +1,104 @@
+//! What must be equal in every bit: a second run, another start time, another order of inputs, a parameter set by the host instead
+//! of the scene, a state that was saved and put back.
+
+use super::{Course, course, scene};
+use crate::case::{Case, Length, Shape};
+use crate::draw::{Draw, for_seeds};
+use crate::subject::Subject;
+
+fn equal(case: &Case, other: Course) -> Result<(), String> {
+    let base = course(case, |_| {});
+    let bits = |course: &Course| -> Vec<Vec<u64>> {
+        course.samples.iter().map(|sample| sample.iter().map(|value| value.to_bits()).collect()).collect()
+    };
+    if base.failed != other.failed {
+        return Err(format!("{:?} and {:?}", base.failed, other.failed));
+    }
+    if bits(&base) != bits(&other) {
+        let differs = base.samples.iter().zip(&other.samples).position(|(a, b)| a != b);
+        let names = crate::oracle::run::signals(case);
+        let first = differs.and_then(|at| {
+            let (a, b) = (&base.samples[at], &other.samples[at]);
+            let i = a.iter().zip(b).position(|(a, b)| a != b)?;
+            Some(format!("{} is {:e} and {:e}", names[i].0, a[i], b[i]))
+        });
+        return Err(format!("other bits from sample {differs:?} on: {first:?}"));
+    }
+    Ok(())
+}
+
+#[test]
+fn a_second_run_has_the_same_bits() {
+    for_seeds(6, |_, draw| {
+        let case = scene(draw, true);
+        equal(&case, course(&case, |_| {}))
+    });
+}
+
+#[test]
+fn the_start_time_changes_no_bit() {
+    for_seeds(6, |_, draw| {
+        let case = scene(draw, true);
+        let start = draw.log(1e-3, 1e9) * draw.sign();
+        equal(&case, course(&case, |subject| subject.begin = start))
+    });
+}
+
+#[test]
+fn the_order_of_inputs_changes_no_bit() {
+    for_seeds(6, |seed, draw| {
+        let case = scene(draw, true);
+        equal(&case, course(&case, |subject| subject.shuffle = Some(Draw::new(!seed))))
+    });
+}
+
+#[test]
+fn saving_and_restoring_changes_no_bit() {
+    for_seeds(6, |_, draw| {
+        let case = scene(draw, true);
+        equal(&case, course(&case, |subject| subject.rollback = true))
+    });
+}
+
+#[test]
+fn a_parameter_set_by_the_host_is_that_of_the_scene() {
+    for_seeds(10, |_, draw| {
+        let mut case = scene(draw, true);
+        // A length in degrees becomes one in metres with the clearance of the scene, which is to be another one.
+        if let Some(Shape::Spall { length, .. }) = case.defect.as_mut().map(|defect| &mut defect.shape)
+            && let Length::Degrees(_) = length
+        {
+            *length = Length::Millimetres(0.5 * case.diameter_mm);
+        }
+        let mut given = Subject::new(&case).map_err(|error| error.to_string())?;
+        // The same in all but the parameters, of which the host then sets those of the first.
+        let mut other = case.clone();
+        other.clearance_um *= draw.between(0.5, 1.0);
+        other.cage_deg += draw.between(-90.0, 90.0);
+        other.slip = draw.unit();
+        other.tolerance = 1e-3;
+        for ring in &mut other.rings {
+            ring.mass *= draw.between(0.5, 2.0);
+            ring.damping = ring.damping * draw.between(0.5, 2.0) + draw.unit();
+            ring.stiffness = ring.stiffness * draw.between(0.5, 2.0) + 1.0;
+        }
+        if let Some(defect) = &mut other.defect {
+            defect.angle_deg += draw.between(-90.0, 90.0);
+        }
+        match &mut other.damping {
+            crate::case::Damping::HuntCrossley(chi) => *chi = 0.5 * *chi + 0.1,
+            crate::case::Damping::Proportional(tau) => *tau = 0.5 * *tau + 1e-6,
+        }
+        let parameters = given.parameters();
+        let found = course_of(&other, &case, |subject| subject.set_parameters(&parameters));
+        equal(&case, found)
+    });
+}
+
+/// The scene of one case under the inputs of another.
+fn course_of(scene: &Case, inputs: &Case, prepare: impl Fn(&mut Subject)) -> Course {
+    let case = Case { steps: inputs.steps.clone(), ..scene.clone() };
+    course(&case, |subject| {
+        prepare(subject);
+    })
+}

@@ -1,0 +1,106 @@
+//! Scenes that have failed once, each with what was wrong.
+
+use super::judge::{Verdict, judge};
+use crate::case::{Case, Damping, Grooves, Motion, Ring, Step};
+use crate::oracle::Bearing;
+use crate::subject::Subject;
+
+/// A bearing of few elements that turns slowly under 500 N straight down; nothing but the elements holds the shaft.
+fn few_elements(count: usize, cage_deg: f64, clearance_um: f64) -> Case {
+    let fixed = Ring { motion: Motion::Fixed, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
+    let shaft = Ring { motion: Motion::Internal, load: [0.0, -500.0], mass: 3.0, damping: 1400.0, stiffness: 0.0 };
+    Case {
+        gravity: [0.0, -9.81],
+        count,
+        diameter_mm: 7.94,
+        pitch_mm: 39.32,
+        grooves: Grooves::Equal(8.19),
+        clearance_um,
+        modulus_gpa: 207.0,
+        poisson: 0.3,
+        density: Some(7800.0),
+        mass_g: None,
+        hertz: [None; 2],
+        compliance: 0.0,
+        damping: Damping::HuntCrossley(0.5),
+        law: "hertz",
+        grid: None,
+        slip: 0.0,
+        cage_deg,
+        defect: None,
+        rings: [shaft, fixed],
+        speed_hz: 10.0,
+        sensor: None,
+        tolerance: 1e-5,
+        steps: vec![Step { length: 1e-6, host: None }],
+    }
+}
+
+/// On top of the lowest element the shaft's tangent is indefinite by the little that the elements' distance is shorter than the
+/// centres' radius. The search then went straight along the residual, across the valley's stiff side, and got nowhere.
+#[test]
+fn three_elements_or_more_hold_a_shaft_wherever_they_stand() {
+    let mut failed = Vec::new();
+    for count in 3..=6 {
+        for clearance in [-1.0, 0.0, 0.5, 5.0, 50.0] {
+            for twelfth in 0..24 {
+                let cage = -90.0 + f64::from(twelfth) * 15.0;
+                let verdict = judge(&few_elements(count, cage, clearance));
+                let why = match verdict {
+                    Verdict::Agreed(_) => continue,
+                    Verdict::Refused(error) => error.to_string(),
+                    Verdict::Undecided(why) => why.to_owned(),
+                    Verdict::Failed(why) => why,
+                };
+                failed.push(format!("{count} elements at {cage} degrees, clearance {clearance} um: {why}"));
+            }
+        }
+    }
+    assert!(failed.is_empty(), "{} failed:\n{}", failed.len(), failed.join("\n"));
+}
+
+/// Preloaded rings that only a soft support holds go together; the search damped that as if it turned the contacts' forces,
+/// and had come a fifth of the way after all its iterations.
+#[test]
+fn preloaded_rings_go_together_as_far_as_a_soft_support_lets_them() {
+    let mut case = few_elements(22, 10.0, -20.0);
+    (case.diameter_mm, case.pitch_mm, case.grooves) = (4.0, 60.0, Grooves::Equal(8.19 * 4.0 / 7.94));
+    case.rings[0].load = [-0.2, 0.24];
+    case.rings[1] = Ring { motion: Motion::Internal, mass: 3.0, stiffness: 4e4, ..case.rings[0] };
+    case.rings[1].load = [0.0; 2];
+    match judge(&case) {
+        Verdict::Agreed(_) => {}
+        Verdict::Refused(error) => panic!("{error}"),
+        Verdict::Undecided(why) => panic!("{why}"),
+        Verdict::Failed(why) => panic!("{why}"),
+    }
+}
+
+/// Outputs at the end of a step knew nothing of the accelerations that derivatives of inputs had given it: a ramp of speed
+/// left the elements' inertia out of the cage's torque, and so did an outer ring whose position had a second derivative.
+#[test]
+fn the_cage_still_accelerates_its_elements_at_the_end_of_a_ramp() {
+    let mut case = few_elements(1, 0.0, 5.0);
+    case.gravity = [0.0; 2];
+    case.rings[0] = Ring { motion: Motion::Fixed, load: [0.0; 2], ..case.rings[0] };
+    case.rings[1].motion = Motion::Host;
+    case.speed_hz = 100.0;
+    let bearing = Bearing::new(&case);
+    let (rise, push) = (1e5, 10.0);
+    let mut subject = Subject::new(&case).unwrap();
+    subject.start(&case).unwrap();
+    let simulation = &mut subject.simulation;
+    let [speed, y, torque] =
+        ["shaft.speed", "housing.y", "cage.torque"].map(|name| simulation.reference(name).unwrap());
+    simulation.set_input_derivatives(&[speed, y], &[1, 2], &[rise, push]).unwrap();
+    simulation.step(1e-5).unwrap();
+    let mut found = [0.0];
+    simulation.reals(&[torque], &mut found).unwrap();
+    let inertia = -bearing.mass * bearing.rho_0 * (bearing.rho_0 * bearing.ratio * rise + push);
+    // What the element's path, the outer ring's 0.5 nm and Coriolis add: its path changes by nanometres.
+    assert!((found[0] / inertia - 1.0).abs() < 1e-3, "{found:?} N m, not {inertia} N m");
+    // A host that sets an input begins anew.
+    simulation.set_reals(&[speed], &[628.0]).unwrap();
+    simulation.reals(&[torque], &mut found).unwrap();
+    assert!(found[0].abs() < 1e-3 * inertia.abs(), "{found:?} N m, with nothing that accelerates");
+}

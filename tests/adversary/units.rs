@@ -1,0 +1,68 @@
+//! In what a difference of two runs is measured.
+//!
+//! The unit is what one step of the simulation may be wrong by: its tolerance times the largest approach, for velocities a
+//! thousand of that per second, and what follows from both for forces and accelerations.
+
+use crate::case::{Case, Damping, Motion};
+use crate::oracle::Bearing;
+use crate::oracle::run::Kind;
+use std::collections::BTreeMap;
+
+/// Units that a difference may have: many steps follow each other, each wrong by up to one.
+pub const LIMIT: f64 = 100.0;
+/// Largest allowed difference over the largest force up to which runs are compared.
+pub const HORIZON: f64 = 0.02;
+
+/// How exactly a position is known [m]: to some roundings of the radii, and to what interpolating the rigid path leaves.
+pub fn rounding(bearing: &Bearing) -> f64 {
+    let path = if bearing.defective { 3e-13 * bearing.r } else { 0.0 };
+    4e-15 * bearing.rho_0 + path
+}
+
+/// One unit of each kind of signal, for the largest approaches [m].
+pub fn units(bearing: &Bearing, case: &Case, largest: [f64; 2]) -> BTreeMap<Kind, f64> {
+    let approach = largest[0].max(largest[1]).max(0.0);
+    let length = case.tolerance * (approach + 1e-7) + rounding(bearing);
+    let velocity = 1e3 * case.tolerance * (approach + 1e-7);
+    let (mut k, mut c) = (0.0f64, 0.0f64);
+    for side in 0..2 {
+        let root = bearing.stiffness[side] * approach.sqrt();
+        k = k.max(1.5 * root);
+        c = c.max(match case.damping {
+            Damping::HuntCrossley(chi) => chi * root * approach,
+            Damping::Proportional(tau) => 1.5 * tau * root,
+        });
+    }
+    let force = length * k + velocity * c;
+    let shared = 1.0 + case.count as f64 / 3.0;
+    let omega = bearing.ratio * bearing.speed.abs();
+    let mut units = BTreeMap::from([
+        (Kind::Force, shared * force),
+        (Kind::Length, length),
+        (Kind::Velocity, velocity),
+        (Kind::Angle, 1e-14 * (1.0 + bearing.cage_start.abs())),
+        (Kind::Torque, bearing.rho_0 * (shared * force + 2.0 * bearing.mass * omega * velocity * case.count as f64)),
+    ]);
+    let sensor = case.sensor.map_or(0.0, |[_, k, c]| k * length + c * velocity);
+    for (which, ring) in case.rings.iter().enumerate() {
+        let own = shared * force + ring.stiffness * length + ring.damping * velocity + sensor;
+        // What the host prescribes is given back as it is.
+        let mass = if ring.motion == Motion::Internal { ring.mass } else { f64::INFINITY };
+        units.insert(Kind::Acceleration(which), own / mass);
+    }
+    units.insert(Kind::Acceleration(2), sensor / case.sensor.map_or(1.0, |[mass, ..]| mass));
+    units
+}
+
+/// Largest difference of each kind between two samples, and those before.
+pub fn differences(names: &[(String, Kind)], a: &[f64], b: &[f64], into: &mut BTreeMap<Kind, f64>) {
+    for (((_, kind), a), b) in names.iter().zip(a).zip(b) {
+        let entry = into.entry(*kind).or_insert(0.0);
+        *entry = entry.max((a - b).abs());
+    }
+}
+
+/// The magnitudes of all forces.
+pub fn largest_force<'a>(names: &'a [(String, Kind)], sample: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+    names.iter().zip(sample).filter(|((_, kind), _)| *kind == Kind::Force).map(|(_, force)| force.abs())
+}
