@@ -1,7 +1,8 @@
-//! What a further instance of a scene costs: memory, and time to create, start and free it, through the compiled library.
+//! What a further instance of a scene costs: memory, and time to create, start and free it, through the compiled
+//! library.
 //!
-//! `cargo bench --bench fmi2_instances`. The scene is `er16k-tb1` with its contact map, the memory that of the process (Linux) when
-//! a thousand instances are at their first communication point.
+//! `cargo bench --bench fmi2_instances`. The scene is `er16k-tb1` with its contact map, the memory that of the process
+//! (Linux) when a thousand instances are at their first communication point.
 #![allow(unsafe_code)]
 // A benchmark stops at the first surprise.
 #![allow(clippy::unwrap_used, missing_docs)]

@@ -1,8 +1,8 @@
 //! What the FMI interface costs: nanoseconds per call, through the compiled library as a host loads it.
 //!
-//! `cargo bench --bench fmi2_interface`. Each figure is the fastest of many batches: what disturbs a measurement only adds.
-//! The overhead of `fmi2DoStep` is what a refused step costs (null handle), and the difference between a step through
-//! the interface and the same step of `Simulation`.
+//! `cargo bench --bench fmi2_interface`. Each figure is the fastest of many batches: what disturbs a measurement only
+//! adds. The overhead of `fmi2DoStep` is what a refused step costs (null handle), and the difference between a step
+//! through the interface and the same step of `Simulation`.
 #![allow(unsafe_code)]
 // A benchmark stops at the first surprise.
 #![allow(clippy::unwrap_used, missing_docs)]

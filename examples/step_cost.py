@@ -71,8 +71,8 @@ def cost(run, count, idle):
     per_step = len(watch.rows) // count  # calls of doStep: of several instances or passes
     whole, inside, calls = np.diff(rows[::per_step], axis=0).T * [[1e-3], [1e-3], [1.0]]
     calls = np.median(calls)
-    # The clock is read twice around each call: half of its cost is inside. Outside all steps are alike, so that their median leaves
-    # out what the machine did in between; inside they are not.
+    # The clock is read twice around each call: half of its cost is inside. Outside all steps are alike, so that their
+    # median leaves out what the machine did in between; inside they are not.
     outside = np.median(whole - inside) + (ctypes_call - clock) * calls
     inside = np.mean(inside) - (ctypes_call + clock) * calls
     return inside + outside, inside, fmpy_call * calls, outside - fmpy_call * calls

@@ -41,7 +41,8 @@ TOLD = {
     "cage.slip": ("cage.slip", 1.0),
     "cage.initial_angle_deg": ("cage.initial_angle", np.pi / 180),
 }
-# Maps for many defects are coarser than that of one studied closely: 0.4 % of the largest force, for a third of the time.
+# Maps for many defects are coarser than that of one studied closely: 0.4 % of the largest force, for a third of the
+# time.
 MAP_ACCURACY = 4e-3
 HARMONICS = 5
 FEATURES = ["bpfo_hz", "rms_m_s2", "kurtosis", *(f"envelope_{k}_bpfo_m_s2" for k in range(1, HARMONICS + 1))]

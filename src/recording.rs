@@ -48,9 +48,9 @@ pub struct Recording {
 const GATHERED: usize = 1 << 16;
 
 impl Recording {
-    /// Begins the recording `<name>.npy` of a simulation, in the folder that its recorder has been given; `None` if there
-    /// is none. Characters of `name` that not every file system takes become `_`. The recording of a run that is over is
-    /// written over.
+    /// Begins the recording `<name>.npy` of a simulation, in the folder that its recorder has been given; `None` if
+    /// there is none. Characters of `name` that not every file system takes become `_`. The recording of a run that is
+    /// over is written over.
     ///
     /// # Errors
     /// A folder that can be neither used nor made, a file that cannot be written or that another instance writes.

@@ -1,4 +1,5 @@
-//! How far a contact map is from the grid it was made from, on the three kinds of surface: a vertical edge, a measured trace, a rough topography.
+//! How far a contact map is from the grid it was made from, on the three kinds of surface: a vertical edge, a measured
+//! trace, a rough topography.
 #![allow(clippy::unwrap_used)]
 
 use std::fmt::Write;
@@ -23,7 +24,8 @@ fn trace() -> Surface {
     Surface::Profile(Profile::from_csv(&text).unwrap())
 }
 
-/// A shallow spall with sloped flanks, whose floor is rough by 1 µm and different at front and back; the element touches the floor.
+/// A shallow spall with sloped flanks, whose floor is rough by 1 µm and different at front and back; the element
+/// touches the floor.
 fn rough() -> Surface {
     let mut text = String::from("arc_mm,axial_mm,depth_um\n");
     for i in 0..=120 {
@@ -38,7 +40,8 @@ fn rough() -> Surface {
     Surface::Topography(Topography::from_csv(&text).unwrap())
 }
 
-/// Differences of both forces between a map and a grid, over points that fill the map evenly: largest and root mean square, of full scale.
+/// Differences of both forces between a map and a grid, over points that fill the map evenly: largest and root mean
+/// square, of full scale.
 fn compare(map: &ContactMap, grid: &mut LoveContact, points: usize) -> ([f64; 2], [f64; 2]) {
     let largest = map.largest_approach();
     let (mut worst, mut squares, mut count) = ([0.0_f64; 2], [0.0; 2], 0.0);

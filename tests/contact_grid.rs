@@ -11,7 +11,8 @@ use brinell::contact::half_space::rectangle_kernel;
 
 const APPROACH: f64 = 0.01;
 
-/// Sphere of radius 1 on a plane, E* = 1, n × n cells; the window is `margin` times Hertz's radius. Beyond the edge the gap is a step.
+/// Sphere of radius 1 on a plane, E* = 1, n × n cells; the window is `margin` times Hertz's radius. Beyond the edge the
+/// gap is a step.
 fn sphere(n: usize, margin: f64, edge: Option<f64>) -> GridProblem {
     let half = margin * APPROACH.sqrt();
     let cell = 2.0 * half / n as f64;
@@ -53,7 +54,8 @@ fn force_of_a_sphere_is_hertz_s_wherever_cells_lie_when_gaps_are_halfway_between
     for (n, limit) in [(32, 2e-4), (64, 4e-5), (128, 5e-6)] {
         let (mut worst, mut sum) = (0.0_f64, 0.0);
         for step in 0..24 {
-            // Windows of 1.05 to 1.28 radii, the sphere off the middle by up to half a cell, cells up to 1.2 times as long as wide.
+            // Windows of 1.05 to 1.28 radii, the sphere off the middle by up to half a cell, cells up to 1.2 times as
+            // long as wide.
             let margin = 1.05 + 0.01 * f64::from(step);
             let cell = 2.0 * margin * APPROACH.sqrt() / f64::from(n);
             let cell = [cell, cell * if step % 3 == 2 { 1.2 } else { 1.0 }];
@@ -101,8 +103,8 @@ fn a_prescribed_force_is_met() {
 
 #[test]
 fn force_under_a_square_flat_punch_converges() {
-    // π E* u = ∫ p/r is the potential of a charged plate: with its capacitance C = 4πε₀ × 0.366 789 × side (Read 1997, six digits)
-    // F = π E* δ × 0.366 789 × side. Side 2, δ = 1, E* = 1.
+    // π E* u = ∫ p/r is the potential of a charged plate: with its capacitance C = 4πε₀ × 0.366 789 × side (Read 1997,
+    // six digits) F = π E* δ × 0.366 789 × side. Side 2, δ = 1, E* = 1.
     let exact = PI * 0.366_789 * 2.0;
     let mut last = f64::INFINITY;
     for n in [16, 32, 64] {
@@ -152,8 +154,8 @@ fn circles_press_less_than_hertz_paraboloids_by_a_few_per_cent() {
 
 #[test]
 fn an_element_centred_on_an_edge_keeps_84_to_86_percent_of_the_force_on_the_rigid_path() {
-    // On the edge the rigid path has not begun to fall: the earlier model gives Hertz's smooth force. Circles, unlike the law, which is scaled to
-    // Hertz on the smooth raceway and keeps 0.87.
+    // On the edge the rigid path has not begun to fall: the earlier model gives Hertz's smooth force. Circles, unlike
+    // the law, which is scaled to Hertz on the smooth raceway and keeps 0.87.
     let (r, outer, groove, modulus) = (3.97e-3_f64, 23.6325e-3, 4.095e-3, 1.137_362_637e11);
     let sag = |radius: f64, t: f64| t * t / (radius + (radius * radius - t * t).sqrt());
     for (force, half) in [(500.0, [0.155e-3, 1.78e-3]), (1500.0, [0.22e-3, 2.5e-3])] {

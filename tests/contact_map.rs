@@ -87,7 +87,8 @@ fn the_map_meets_its_accuracy_and_closed_paths_cost_no_work() {
     let accuracy = map.accuracy();
     assert!(accuracy.max() <= 3e-3, "{accuracy:?}");
     assert!(accuracy.rms_normal <= 6e-4 && accuracy.rms_tangential <= 3e-4, "{accuracy:?}");
-    // A closed ellipse across the flank; trapezoids on a smooth closed path converge quickly, steps of nodes limit them.
+    // A closed ellipse across the flank; trapezoids on a smooth closed path converge quickly, steps of nodes limit
+    // them.
     let (n, mut work, mut moved) = (200_000, 0.0, 0.0);
     let at = |i: usize| {
         let angle = std::f64::consts::TAU * (i % n) as f64 / n as f64;

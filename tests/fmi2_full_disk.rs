@@ -1,7 +1,8 @@
 //! A disk that is full during a recording costs samples and is told; it costs no instance.
 //!
-//! The disk is played by the system's limit to the length of a file, beyond which writing fails as it does on a full disk: what
-//! still fits is written. The limit is the whole program's, so there is one test only. `unsafe` is what a C interface takes.
+//! The disk is played by the system's limit to the length of a file, beyond which writing fails as it does on a full
+//! disk: what still fits is written. The limit is the whole program's, so there is one test only. `unsafe` is what a C
+//! interface takes.
 #![cfg(unix)]
 #![allow(unsafe_code)]
 // What helpers unwrap is the test's own set-up.

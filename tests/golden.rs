@@ -1,9 +1,9 @@
 //! Every shipped scene gives the numbers it gave: 20 ms of each, compared with `tests/golden/<scene>.csv`.
 //!
-//! A file holds exact counters, one fingerprint of all bits, and for each real output a fingerprint of its own, a tolerance
-//! and a sample a millisecond. The fingerprints say whether anything moved, the tolerances whether a signal did: bits may
-//! differ in the last places where arithmetic is written in another order, and such a run still agrees within them.
-//! Outputs that a file does not name are not looked at, so a new variable changes no file.
+//! A file holds exact counters, one fingerprint of all bits, and for each real output a fingerprint of its own, a
+//! tolerance and a sample a millisecond. The fingerprints say whether anything moved, the tolerances whether a signal
+//! did: bits may differ in the last places where arithmetic is written in another order, and such a run still agrees
+//! within them. Outputs that a file does not name are not looked at, so a new variable changes no file.
 //!
 //! `BLESS=1 cargo test --test golden` writes the files anew. Read the difference before it is committed: a slower
 //! solver (more steps, more rejected ones) is a regression too.
@@ -25,8 +25,8 @@ const STEP: f64 = 1e-4;
 const STEPS: usize = 200;
 /// Samples of the file are so many communication steps apart.
 const STRIDE: usize = 10;
-/// Tolerance of a column per largest value in it. Rounding (1e-16) grows tenfold every 6 ms where elements rattle, to 1e-12;
-/// the file prints ten digits. What is larger is another result.
+/// Tolerance of a column per largest value in it. Rounding (1e-16) grows tenfold every 6 ms where elements rattle, to
+/// 1e-12; the file prints ten digits. What is larger is another result.
 const TOLERANCE: f64 = 1e-9;
 
 /// One run: counters by name, and the samples of each output at every communication point.

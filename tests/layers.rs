@@ -1,5 +1,5 @@
-//! The layers import in one direction only: a module names, by `crate::…`, none that stands to its right; and a crate of the
-//! workspace depends only on those that it may know.
+//! The layers import in one direction only: a module names, by `crate::…`, none that stands to its right; and a crate
+//! of the workspace depends only on those that it may know.
 #![allow(clippy::unwrap_used)]
 
 #[path = "layers/reader.rs"]

@@ -106,7 +106,8 @@ fn a_filtered_row_has_no_delay() {
         let rms = |of: &dyn Fn(usize) -> f64| ((0..plain.len()).map(|i| of(i) * of(i)).sum::<f64>()).sqrt();
         let off = |by: usize| rms(&|i| filtered[256 - by + i] - plain[i]) / rms(&|i| plain[i] - mean);
         println!("{name}: off by {:.2e}, one row later by {:.2e}", off(0), off(1));
-        // A healthy bearing has a hundredth of its vibration beyond 20 kHz; a row is a sixth of a radian at its 1.4 kHz.
+        // A healthy bearing has a hundredth of its vibration beyond 20 kHz; a row is a sixth of a radian at its 1.4
+        // kHz.
         assert!(off(0) < 0.02 && off(1) > 0.1, "{name}: {} {}", off(0), off(1));
     }
 }
@@ -115,8 +116,8 @@ fn a_filtered_row_has_no_delay() {
 fn the_first_row_is_the_balance_that_the_run_starts_from() {
     let names = ["shaft.force.y", "housing.force.y", "sensor.acceleration"];
     let found = recorded("er16k-tb1", (51_200.0, LinearPhase), 2e-3, &names);
-    // The load is 500 N, and the elements weigh 0.18 N. The run starts at rest, and what the filter assumes of the time before is
-    // just that.
+    // The load is 500 N, and the elements weigh 0.18 N. The run starts at rest, and what the filter assumes of the time
+    // before is just that.
     for (column, value) in found.iter().zip([500.0, -500.18, 0.0]) {
         assert!((column[0] - value).abs() < 0.02, "{} instead of {value}", column[0]);
     }

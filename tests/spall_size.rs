@@ -1,5 +1,5 @@
-//! Sizing of spalls from signals that are made here, by the kinematics of an element of finite size, or by the library's own
-//! simulation. No recording of a machine is needed.
+//! Sizing of spalls from signals that are made here, by the kinematics of an element of finite size, or by the
+//! library's own simulation. No recording of a machine is needed.
 
 // What a test calls may end it like the test itself.
 #![allow(clippy::unwrap_used)]
@@ -28,7 +28,8 @@ fn spalls_of_two_five_and_eight_degrees_are_sized_by_their_events_at_any_speed()
         for speed in [10.0, 20.0] {
             let report = sized(signal(length, speed, 0.03), speed, &scene());
             let found = report.length_deg.unwrap_or(f64::NAN);
-            // What is asked of recordings: a quarter at 2 degrees, where the events take up all of the length, else a tenth.
+            // What is asked of recordings: a quarter at 2 degrees, where the events take up all of the length, else a
+            // tenth.
             assert!(
                 (found / length - 1.0).abs() < allowed,
                 "{length} degrees at {speed} Hz: {found}, {}",
@@ -180,7 +181,8 @@ fn a_spall_longer_than_the_spacing_is_called_extended_and_rings_as_its_stiffness
     let report = sized(simulated(&rig, 55.8, 0.5), 10.0, &rig);
     assert_eq!(report.kind, Kind::Extended, "{}", report.reason);
     assert!((report.length_deg.unwrap() / 55.8 - 1.0).abs() < 0.03);
-    // 567 and 800 Hz were read off the spectrum of another implementation of the same model; 2 % is such a spectrum's resolution.
+    // 567 and 800 Hz were read off the spectrum of another implementation of the same model; 2 % is such a spectrum's
+    // resolution.
     let [after_entry, after_exit] = report.recordings[0].ringing_hz.unwrap();
     assert!((after_entry / 567.0 - 1.0).abs() < 0.02 && (after_exit / 800.0 - 1.0).abs() < 0.02);
     assert!(!report.reason.contains("WARNING"));

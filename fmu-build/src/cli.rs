@@ -180,7 +180,8 @@ struct LibraryChoice {
     /// Compiled model library to pack, instead of building it from source
     #[arg(long, value_name = "PATH", conflicts_with = "target")]
     library: Option<PathBuf>,
-    /// Platform to compile for: linux64, win64, darwin64, aarch64-linux, or Rust's name of it; may be given several times
+    /// Platform to compile for: linux64, win64, darwin64, aarch64-linux, or Rust's name of it; may be given several
+    /// times
     /// [default: this one's]
     #[arg(long, value_name = "PLATFORM")]
     target: Vec<String>,

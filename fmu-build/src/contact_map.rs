@@ -1,4 +1,5 @@
-//! Contact maps: computed on all cores with a progress bar, kept under `target/maps` by the fingerprint of their inputs.
+//! Contact maps: computed on all cores with a progress bar, kept under `target/maps` by the fingerprint of their
+//! inputs.
 
 use std::fs;
 use std::path::PathBuf;

@@ -1,4 +1,5 @@
-//! The command `stiffness`: static stiffness, load distribution and critical load of a scene, as CSV, figure and summary.
+//! The command `stiffness`: static stiffness, load distribution and critical load of a scene, as CSV, figure and
+//! summary.
 
 use std::f64::consts::PI;
 use std::io::Write;
@@ -87,8 +88,8 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
     Ok(())
 }
 
-/// The bearing that is asked for critical loads. The bottom of a spall is flat: every law is Hertz's there. With `hertz` a
-/// variation needs no new map, and no map ends below the load.
+/// The bearing that is asked for critical loads. The bottom of a spall is flat: every law is Hertz's there. With
+/// `hertz` a variation needs no new map, and no map ends below the load.
 fn plain(bearing: &StaticBearing, scene: &Scene, profile: Option<&str>, load: Option<f64>) -> Result<StaticBearing> {
     let mut scene = scene.clone();
     scene.contact.law = ContactLaw::Hertz;

@@ -1,10 +1,10 @@
 //! Platforms that the model library can be compiled for, and the linkers that do it.
 //!
-//! Rust's own linker call takes the C library of the machine that compiles, and an FMU made on a new Linux does not load on
-//! an older one. Zig holds the symbol lists of every glibc and of the other systems, so linking through it makes a library for
-//! glibc 2.17 (2012) wherever it is made, without `libgcc_s`, and reaches other systems too. It comes from the Python
-//! package index (`pip install ziglang`) and is in this program's own environment; where neither that nor a `zig` in the
-//! path is found, the machine's own linker makes a library for its own kind.
+//! Rust's own linker call takes the C library of the machine that compiles, and an FMU made on a new Linux does not
+//! load on an older one. Zig holds the symbol lists of every glibc and of the other systems, so linking through it
+//! makes a library for glibc 2.17 (2012) wherever it is made, without `libgcc_s`, and reaches other systems too. It
+//! comes from the Python package index (`pip install ziglang`) and is in this program's own environment; where neither
+//! that nor a `zig` in the path is found, the machine's own linker makes a library for its own kind.
 
 use std::env;
 use std::fs;

@@ -216,8 +216,9 @@ fn the_coupling_is_as_exact_as_the_guide_says() {
         let (_, cells) = rows.iter().find(|(words, _)| words == row).unwrap();
         percent(&cells[column])
     };
-    // Steps of 10 µs and 100 µs over 10 ms. The motion only begins then, so the errors are larger shares of it than in the guide's
-    // table over 50 ms. Limits: two to three times what was found; a scheme that lost an order would be ten times off.
+    // Steps of 10 µs and 100 µs over 10 ms. The motion only begins then, so the errors are larger shares of it than in
+    // the guide's table over 50 ms. Limits: two to three times what was found; a scheme that lost an order would be ten
+    // times off.
     for (row, short, long) in [
         ("healthy 3 kg, 1 pass", 0.0005, 0.08),
         ("healthy rigid rotor, 1 pass", 0.001, 0.2),

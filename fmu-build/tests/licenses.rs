@@ -1,5 +1,5 @@
-//! The licences of all crates that are compiled into the model library stand in `fmu-build/assets/third-party.txt`, which
-//! every FMU holds. After a change of dependencies: `BLESS=1 cargo test -p fmu-build --test licenses`.
+//! The licences of all crates that are compiled into the model library stand in `fmu-build/assets/third-party.txt`,
+//! which every FMU holds. After a change of dependencies: `BLESS=1 cargo test -p fmu-build --test licenses`.
 #![allow(clippy::unwrap_used)]
 
 mod common;

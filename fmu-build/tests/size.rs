@@ -1,4 +1,5 @@
-//! The command `size`, as a program: JSON alone on standard output, files beside it, refusals by quantity, value and limit.
+//! The command `size`, as a program: JSON alone on standard output, files beside it, refusals by quantity, value and
+//! limit.
 #![allow(clippy::unwrap_used)]
 
 mod common;

@@ -1,4 +1,5 @@
-//! Bytes as a contact map: as they come, and with fingerprint and checksum put right, so that the contents are tried too.
+//! Bytes as a contact map: as they come, and with fingerprint and checksum put right, so that the contents are tried
+//! too.
 #![no_main]
 
 use std::sync::Arc;

@@ -1,5 +1,6 @@
-//! Bytes as a serialized state: as they come, and a good state with some of its bytes changed and its checksum put right, so
-//! that the contents are tried too. A state that is taken must be one that can be stepped, or fail with a status.
+//! Bytes as a serialized state: as they come, and a good state with some of its bytes changed and its checksum put
+//! right, so that the contents are tried too. A state that is taken must be one that can be stepped, or fail with a
+//! status.
 #![no_main]
 
 use std::cell::OnceCell;

@@ -1,13 +1,15 @@
 //! Direct solution of one frictionless contact on a grid of loaded rectangles.
 //!
-//! Find p ≥ 0 with K p ≥ g, complementary, where g = δ − h is the interference of the undeformed bodies and K Love's kernel. A
-//! primal–dual active set (Hintermüller, Ito and Kunisch 2002): solve K p = g on the set, drop cells that pull, add cells that
-//! interpenetrate, until nothing changes; Cholesky in between. Since K⁻¹ has no positive off-diagonal terms, starting from *all*
-//! interfering cells and only dropping also ends at the solution; that slower path is the fallback. Dropping without adding from any
-//! other start is wrong: `tests/contact.rs` shows how much force it loses.
+//! Find p ≥ 0 with K p ≥ g, complementary, where g = δ − h is the interference of the undeformed bodies and K Love's
+//! kernel. A primal–dual active set (Hintermüller, Ito and Kunisch 2002): solve K p = g on the set, drop cells that
+//! pull, add cells that interpenetrate, until nothing changes; Cholesky in between. Since K⁻¹ has no positive
+//! off-diagonal terms, starting from *all* interfering cells and only dropping also ends at the solution; that slower
+//! path is the fallback. Dropping without adding from any other start is wrong: `tests/contact.rs` shows how much force
+//! it loses.
 //!
-//! The next contact starts from the last set, and the last factor is kept while the set stays the same, so a warm contact
-//! costs two triangular solutions and one product. Cells are addressed by their column on the raceway; only their differences enter K.
+//! The next contact starts from the last set, and the last factor is kept while the set stays the same, so a warm
+//! contact costs two triangular solutions and one product. Cells are addressed by their column on the raceway; only
+//! their differences enter K.
 
 use std::sync::Arc;
 
@@ -67,8 +69,8 @@ pub struct ActiveSet {
 }
 
 impl ActiveSet {
-    /// Solver for `rows` rows of unknowns. The table must hold the largest offset that can occur: all columns of a window (twice as many
-    /// with left and right mirrored) and all `rows` (twice as many with front and back mirrored).
+    /// Solver for `rows` rows of unknowns. The table must hold the largest offset that can occur: all columns of a
+    /// window (twice as many with left and right mirrored) and all `rows` (twice as many with front and back mirrored).
     pub fn new(kernel: &KernelTable, rows: usize, mirror: Mirror) -> Result<Self, ContactError> {
         let needed = if mirror.y || mirror.middle_row { 2 * rows } else { rows };
         if kernel.rows() < needed {
@@ -236,7 +238,8 @@ impl ActiveSet {
         }
     }
 
-    /// The factor of another place serves as well: only differences of columns matter, unless there is a left and a right.
+    /// The factor of another place serves as well: only differences of columns matter, unless there is a left and a
+    /// right.
     fn same_set(&self) -> bool {
         let shift = match (self.runs.first(), self.factored.first()) {
             (Some(a), Some(b)) => a.first - b.first,

@@ -1,9 +1,10 @@
 //! Fourier transforms of eight sequences at a time, one in each lane.
 //!
-//! For a filter the order of the frequencies is of no concern, so the forward transform (decimation in frequency, radices 4, 2, 3, 5) leaves
-//! them in the order of reversed digits and the backward one (decimation in time) takes them so: both in place. Lanes never mix, hence no
-//! shuffles, and the bits do not depend on the vector width of the machine. Padding is not worked on: with `HALF` the
-//! second half of the sequence counts as zero before the forward transform and is not formed by the backward one.
+//! For a filter the order of the frequencies is of no concern, so the forward transform (decimation in frequency,
+//! radices 4, 2, 3, 5) leaves them in the order of reversed digits and the backward one (decimation in time) takes them
+//! so: both in place. Lanes never mix, hence no shuffles, and the bits do not depend on the vector width of the
+//! machine. Padding is not worked on: with `HALF` the second half of the sequence counts as zero before the forward
+//! transform and is not formed by the backward one.
 //!
 //! Not normalised: backward after forward gives the sequence times its length.
 

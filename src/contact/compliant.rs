@@ -4,19 +4,19 @@
 //! ```text
 //! Δ = δ + c K δ^1.5
 //! ```
-//! With δ = Δ/z² and β = c K √Δ this is the cubic z³ − z = β, which has one root z ≥ 1. Its left side is convex there, so
-//! Newton's method converges from any z ≥ 1; from the starts below four steps reach rounding for every β.
+//! With δ = Δ/z² and β = c K √Δ this is the cubic z³ − z = β, which has one root z ≥ 1. Its left side is convex there,
+//! so Newton's method converges from any z ≥ 1; from the starts below four steps reach rounding for every β.
 //!
 //! The share of a small change of Δ that the contact takes is s = dδ/dΔ = 1/(1 + c k) with its tangent stiffness
 //! k = 1.5 K √δ: c k = 1.5 β/z.
 //!
-//! The damper belongs to the contact alone. The contact closes at s Δ̇, and of what its damper exerts the share s reaches
-//! the outside, the rest being taken back by the spring that it stretches; so the force is that of the contact at
-//! (δ, s² Δ̇). Work lost per time is the damper's own, c_d (s Δ̇)². This holds to first order in the damping force; a
-//! massless node between damper and compliance would need a state of its own.
+//! The damper belongs to the contact alone. The contact closes at s Δ̇, and of what its damper exerts the share s
+//! reaches the outside, the rest being taken back by the spring that it stretches; so the force is that of the contact
+//! at (δ, s² Δ̇). Work lost per time is the damper's own, c_d (s Δ̇)². This holds to first order in the damping force;
+//! a massless node between damper and compliance would need a state of its own.
 //!
-//! The compliance is local: a contact does not move its neighbours. A real ring bends between its elements as well, so c
-//! is a measure of an assembly's softness and not a ring's flexibility. Near a defect Δ is the equivalent approach of
+//! The compliance is local: a contact does not move its neighbours. A real ring bends between its elements as well, so
+//! c is a measure of an assembly's softness and not a ring's flexibility. Near a defect Δ is the equivalent approach of
 //! the contact law, and the raceway yields along the contact's direction.
 
 use super::force_law::{Force, ForceLaw};
@@ -106,7 +106,8 @@ fn part(total: f64, stiffness: f64, compliance: f64) -> Part {
 /// The root z ≥ 1 of z³ − z = β for β ≥ 0.
 #[inline]
 fn root(beta: f64) -> f64 {
-    // The first is exact to second order at 0, the second to second order at infinity; neither is off by more than 0.04.
+    // The first is exact to second order at 0, the second to second order at infinity; neither is off by more than
+    // 0.04.
     let mut z = if beta < 1.0 {
         1.0 + beta / (2.0 + 1.5 * beta)
     } else {

@@ -1,11 +1,14 @@
-//! Iterative solution of one contact on a large grid: constrained conjugate gradients with products by Fourier transforms.
+//! Iterative solution of one contact on a large grid: constrained conjugate gradients with products by Fourier
+//! transforms.
 //!
-//! On the set of cells under pressure K p = g is solved by preconditioned conjugate gradients; cells that pull leave the set with
-//! pressure 0, cells that interpenetrate enter it, and the directions start anew (Polonsky and Keer 1999, with the set changed only when the
-//! equation on it is solved better than the set is known). The preconditioner is the inverse of the periodic kernel, restricted to the set. A
-//! cold start takes its pressure from the same problem on a grid of half as many cells, and that from a quarter.
+//! On the set of cells under pressure K p = g is solved by preconditioned conjugate gradients; cells that pull leave
+//! the set with pressure 0, cells that interpenetrate enter it, and the directions start anew (Polonsky and Keer 1999,
+//! with the set changed only when the equation on it is solved better than the set is known). The preconditioner is the
+//! inverse of the periodic kernel, restricted to the set. A cold start takes its pressure from the same problem on a
+//! grid of half as many cells, and that from a quarter.
 //!
-//! For stored problems and reference solutions, with the same bits on every machine. Warm, or with few unknowns, `active_set` is faster.
+//! For stored problems and reference solutions, with the same bits on every machine. Warm, or with few unknowns,
+//! `active_set` is faster.
 
 // `!(a > b)` is true for NaN as well, and is meant to be.
 #![allow(clippy::neg_cmp_op_on_partial_ord)]
@@ -127,7 +130,8 @@ impl Level {
         }
     }
 
-    /// Pressure from the coarser grid, bilinear; or none, with the set of cells whose interference exceeds half the largest.
+    /// Pressure from the coarser grid, bilinear; or none, with the set of cells whose interference exceeds half the
+    /// largest.
     fn start(&mut self, approach: f64, coarse: Option<(usize, Vec<f64>)>) {
         for (g, h) in self.interference.iter_mut().zip(&self.gap) {
             *g = approach - h;

@@ -1,16 +1,16 @@
 //! The outer contact near a defect as one potential.
 //!
-//! W(u, s) = (2/5) K Δ(u, s)^{5/2} is the elastic energy of an element whose centre stands at radial path u and arc s on the outer
-//! raceway; K is Hertz's constant of the smooth contact. Δ is the *equivalent approach*: the approach on the smooth raceway that stores the
-//! same energy. Both forces derive from it, so that a closed path costs no work:
+//! W(u, s) = (2/5) K Δ(u, s)^{5/2} is the elastic energy of an element whose centre stands at radial path u and arc s
+//! on the outer raceway; K is Hertz's constant of the smooth contact. Δ is the *equivalent approach*: the approach on
+//! the smooth raceway that stores the same energy. Both forces derive from it, so that a closed path costs no work:
 //!
 //! ```text
 //! F_n = ∂W/∂u = K Δ^{3/2} ∂Δ/∂u     radial, pushes the element inwards
 //! F_t = −∂W/∂s = −K Δ^{3/2} ∂Δ/∂s   on the element along +s, per metre of raceway arc
 //! ```
 
-/// Δ with the derivatives by u and s that the forces, and their slopes along the path, need [m, –, 1/m]. Below zero there is no contact; the value then only tells how far off
-/// the contact is.
+/// Δ with the derivatives by u and s that the forces, and their slopes along the path, need [m, –, 1/m]. Below zero
+/// there is no contact; the value then only tells how far off the contact is.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct EquivalentApproach {
     /// Δ [m].

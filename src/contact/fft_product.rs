@@ -1,12 +1,14 @@
 //! Product with the influence matrix on a whole grid, and its cheap approximate inverse, by Fourier transforms.
 //!
-//! K is a convolution: padded to twice the grid it becomes circular (Hockney's method) and exact. The kernel is even, so its spectrum is
-//! real. The approximate inverse, a preconditioner, is that of the kernel wrapped around the unpadded grid, k(i) + k(N − i) in both directions:
-//! right but for the influence of the borders. The wrapped kernel has to reach over a whole period: with k(N) left out the
-//! spectrum of cells much longer than wide turns negative at high frequencies, and conjugate gradients take ten times as many steps.
+//! K is a convolution: padded to twice the grid it becomes circular (Hockney's method) and exact. The kernel is even,
+//! so its spectrum is real. The approximate inverse, a preconditioner, is that of the kernel wrapped around the
+//! unpadded grid, k(i) + k(N − i) in both directions: right but for the influence of the borders. The wrapped kernel
+//! has to reach over a whole period: with k(N) left out the spectrum of cells much longer than wide turns negative at
+//! high frequencies, and conjugate gradients take ten times as many steps.
 //!
-//! Rows are transformed in pairs, one as the real and one as the imaginary part, eight pairs side by side; columns eight frequencies side by
-//! side. Several times as fast as transforms one after the other by a library (`docs/contact.md`), and the bits are the same on every machine.
+//! Rows are transformed in pairs, one as the real and one as the imaginary part, eight pairs side by side; columns
+//! eight frequencies side by side. Several times as fast as transforms one after the other by a library
+//! (`docs/contact.md`), and the bits are the same on every machine.
 
 use pulp::{Arch, Scalar, Simd, WithSimd};
 
@@ -24,7 +26,8 @@ struct Filter {
     rows: usize,
     along: BatchedFft,
     across: BatchedFft,
-    /// Places of each frequency along the rows and of its negative, in the order of the places: neighbours in memory are worked on together.
+    /// Places of each frequency along the rows and of its negative, in the order of the places: neighbours in memory
+    /// are worked on together.
     pairs: Vec<[(usize, usize); LANES]>,
     /// Over the normalisation: `[eight pairs x × length y + place y]`.
     spectrum: Vec<[f64; LANES]>,
@@ -58,7 +61,8 @@ impl Filter {
         }
     }
 
-    /// Filter whose answer to a unit at the origin is `kernel[j × along + i]`, even and periodic; `shape` turns its spectrum into the filter's.
+    /// Filter whose answer to a unit at the origin is `kernel[j × along + i]`, even and periodic; `shape` turns its
+    /// spectrum into the filter's.
     fn of(columns: usize, rows: usize, along: usize, kernel: &[f64], shape: impl Fn(f64, f64) -> f64) -> Self {
         let across = kernel.len() / along;
         let mut whole = Self::new(along, across, along, across);
@@ -116,7 +120,8 @@ impl Filter {
         }
     }
 
-    /// Eight frequencies of all rows, twice: a pair of real rows z = a + ib gives 2A = Z(f) + Z*(−f), 2iB = Z(f) − Z*(−f).
+    /// Eight frequencies of all rows, twice: a pair of real rows z = a + ib gives 2A = Z(f) + Z*(−f), 2iB = Z(f) −
+    /// Z*(−f).
     #[inline(always)]
     fn gather(&mut self, block: usize) {
         let length = self.along.length();
@@ -276,7 +281,8 @@ mod tests {
 
     #[test]
     fn approximate_inverse_is_positive_definite_and_near_the_inverse_inside() {
-        // Cells twelve times as wide as long: without the kernel at a whole period this one is off by far more than itself.
+        // Cells twelve times as wide as long: without the kernel at a whole period this one is off by far more than
+        // itself.
         for cell in [[1.0, 1.0], [1.0, 12.0], [12.0, 1.0]] {
             let n = 32;
             let mut fft = FftProduct::new(n, n, cell);

@@ -1,7 +1,8 @@
 //! One stored contact problem: an undeformed gap on a regular grid, pressed together by a given approach or force.
 //!
-//! u_i = Σ_j p_j k(i − j)/(π E*), p ≥ 0, u + h − δ ≥ 0, complementary; k is Love's kernel, cells are loaded uniformly and matched at their
-//! centres. Beyond the grid nothing touches: a contact that reaches the border is refused unless the grid is said to be the whole body.
+//! u_i = Σ_j p_j k(i − j)/(π E*), p ≥ 0, u + h − δ ≥ 0, complementary; k is Love's kernel, cells are loaded uniformly
+//! and matched at their centres. Beyond the grid nothing touches: a contact that reaches the border is refused unless
+//! the grid is said to be the whole body.
 
 // `!(a > b)` is true for NaN as well, and is meant to be.
 #![allow(clippy::neg_cmp_op_on_partial_ord)]
@@ -82,7 +83,8 @@ pub trait GridSolver {
     /// Smallest gap [m], the approach at which the contact begins.
     fn first_touch(&self) -> f64;
 
-    /// Solves at the force `force` [N], to a relative 1e-11, by the secant rule on F^(2/3), which Hertz makes a straight line.
+    /// Solves at the force `force` [N], to a relative 1e-11, by the secant rule on F^(2/3), which Hertz makes a
+    /// straight line.
     ///
     /// # Errors
     /// As [`GridSolver::at_approach`], and for a force that is not positive.
@@ -157,11 +159,12 @@ impl GridProblem {
         Ok(Self { columns, rows, cell, effective_modulus, gap, border })
     }
 
-    /// A problem from its gap h(x, y) [m], a function of the place relative to the grid's middle [m]; the rest as for [`GridProblem::new`].
+    /// A problem from its gap h(x, y) [m], a function of the place relative to the grid's middle [m]; the rest as for
+    /// [`GridProblem::new`].
     ///
-    /// A cell's gap is halfway between that at its centre and its mean over the cell (four points of Gauss's rule). With the centre's, the
-    /// force on a paraboloid of contact radius a is 0.06 (cell/a)² too high, with the mean 0.065 (cell/a)² too low; halfway only the
-    /// scatter is left of how cells lie under the border.
+    /// A cell's gap is halfway between that at its centre and its mean over the cell (four points of Gauss's rule).
+    /// With the centre's, the force on a paraboloid of contact radius a is 0.06 (cell/a)² too high, with the mean 0.065
+    /// (cell/a)² too low; halfway only the scatter is left of how cells lie under the border.
     ///
     /// # Errors
     /// As [`GridProblem::new`].
@@ -211,8 +214,9 @@ impl GridProblem {
         self.gap.iter().fold(f64::INFINITY, |m, &h| m.min(h))
     }
 
-    /// About how many unknowns the direct solver meets at the approach δ [m]: on paraboloids the contact is where the interference exceeds
-    /// half its largest value; mirrored cells count once. The direct solver is the faster one below some two hundred, by measurement.
+    /// About how many unknowns the direct solver meets at the approach δ [m]: on paraboloids the contact is where the
+    /// interference exceeds half its largest value; mirrored cells count once. The direct solver is the faster one
+    /// below some two hundred, by measurement.
     pub fn expected_unknowns(&self, approach: f64) -> f64 {
         let least = approach - 0.5 * (approach - self.first_touch());
         self.gap.iter().filter(|h| **h < least).count() as f64 / self.mirror().images()

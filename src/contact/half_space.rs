@@ -8,9 +8,10 @@
 //!   + (x−a) ln{[(y−b)+S(y−b,x−a)]/[(y+b)+S(y+b,x−a)]} + (y−b) ln{[(x−a)+S(y−b,x−a)]/[(x+a)+S(y−b,x+a)]}
 //! ```
 //!
-//! Each logarithm is a difference of two asinh. Written as one asinh of a positive sum it loses nothing; what remains is the
-//! difference of two lengths of the order of the cell, which costs about (distance/cell) × 2⁻⁵³. Beyond ten cell lengths the integral is
-//! therefore taken by Gauss's rule, all of whose terms are positive, and no cancellation is left at any distance.
+//! Each logarithm is a difference of two asinh. Written as one asinh of a positive sum it loses nothing; what remains
+//! is the difference of two lengths of the order of the cell, which costs about (distance/cell) × 2⁻⁵³. Beyond ten cell
+//! lengths the integral is therefore taken by Gauss's rule, all of whose terms are positive, and no cancellation is
+//! left at any distance.
 //!
 //! Valid for a body thick and wide against the contact, linear elastic, frictionless. A sharp edge of the real body is
 //! more compliant than this half-space.
@@ -249,7 +250,8 @@ mod tests {
         let error = |x: f64, y: f64| printed(x, y, 0.5, 0.5) / rectangle_kernel(x, y, 0.5, 0.5) - 1.0;
         // S depends on |x ± a| only, so at x = 0 the misprint does not show; what is left is rounding.
         assert!(error(0.0, 0.0).abs() < 1e-14 && error(0.0, 1.0).abs() < 1e-14);
-        // Three digits, from the same expression with 15 digits elsewhere. An influence that is not even in x is wrong by itself.
+        // Three digits, from the same expression with 15 digits elsewhere. An influence that is not even in x is wrong
+        // by itself.
         assert!((error(1.0, 0.0) + 0.262).abs() < 1e-3, "{}", error(1.0, 0.0));
         assert!((error(-1.0, 0.0) + 0.787).abs() < 1e-3, "{}", error(-1.0, 0.0));
     }

@@ -1,22 +1,24 @@
 //! Law `love`: one element near the defect, solved on the raceway's own grid.
 //!
-//! The grid gives the energy W_g(u, s) = ½ Σ p (u − h) and its derivatives ∂W_g/∂u = Σ p, ∂W_g/∂s = −Σ p ∂h/∂s, exact for
-//! the discrete contact. The equivalent approach is the approach on the *smooth* raceway at which the same grid stores the same energy,
+//! The grid gives the energy W_g(u, s) = ½ Σ p (u − h) and its derivatives ∂W_g/∂u = Σ p, ∂W_g/∂s = −Σ p ∂h/∂s, exact
+//! for the discrete contact. The equivalent approach is the approach on the *smooth* raceway at which the same grid
+//! stores the same energy,
 //!
 //! ```text
 //! Δ(u, s) = W_smooth⁻¹(W_g(u, s))
 //! ```
 //!
-//! W_g is the mean over two grids whose rows are half a row apart: a row that comes into contact is a step in the stiffness, and half a row
-//! later the other grid takes the step. That leaves a quarter of the force's ripple for twice the work; twice the rows would take eight times.
+//! W_g is the mean over two grids whose rows are half a row apart: a row that comes into contact is a step in the
+//! stiffness, and half a row later the other grid takes the step. That leaves a quarter of the force's ripple for twice
+//! the work; twice the rows would take eight times.
 //!
-//! Δ is u on the smooth raceway and u − depth on a flat floor, whatever the resolution and the difference between circles and
-//! Hertz's paraboloids (0.4 to 2.4 % in force): the law joins the closed form without a jump. E* and K cancel. Any function of (u, s) is a
-//! potential, hence the rescaling costs no energy either. On the smooth raceway there remains the
-//! ripple of the grid as the element passes over its cells; `docs/contact.md` gives figures.
+//! Δ is u on the smooth raceway and u − depth on a flat floor, whatever the resolution and the difference between
+//! circles and Hertz's paraboloids (0.4 to 2.4 % in force): the law joins the closed form without a jump. E* and K
+//! cancel. Any function of (u, s) is a potential, hence the rescaling costs no energy either. On the smooth raceway
+//! there remains the ripple of the grid as the element passes over its cells; `docs/contact.md` gives figures.
 //!
-//! Pressure at a sharp corner grows without bound as the grid is refined (the force does not); a half-space knows nothing of the
-//! corner's own compliance.
+//! Pressure at a sharp corner grows without bound as the grid is refined (the force does not); a half-space knows
+//! nothing of the corner's own compliance.
 
 // `!(a > b)` is true for NaN as well, and is meant to be.
 #![allow(clippy::neg_cmp_op_on_partial_ord)]
@@ -35,11 +37,11 @@ use super::{
 
 /// Nodes of the smooth raceway's energy; quadratically dense towards zero.
 const SMOOTH_NODES: usize = 64;
-/// The grid touches where the centre of its first cell touches, a little late. Below this many times that path the contact is a
-/// cell or two.
+/// The grid touches where the centre of its first cell touches, a little late. Below this many times that path the
+/// contact is a cell or two.
 const ONSET_TOUCHES: f64 = 3.0;
-/// Below this part of the largest approach a contact is a few cells and its stiffness is noise: Δ is continued linearly. The force there
-/// is 0.2 % of the largest, and by some per cent of that wrong.
+/// Below this part of the largest approach a contact is a few cells and its stiffness is noise: Δ is continued
+/// linearly. The force there is 0.2 % of the largest, and by some per cent of that wrong.
 const ONSET: f64 = 0.015;
 
 /// Energy of the grid and its derivatives, without the factor π E* × cell area.

@@ -1,17 +1,18 @@
 //! Law `map`: the equivalent approach Δ(u, s), solved beforehand on nodes and interpolated.
 //!
-//! Element, raceway and defect do not change during a run, so the contact is one function of radial path and arc. Near the
-//! defect's flanks Δ is a C¹ surface of bicubic Hermite cells through nodes whose gradients are the grid solver's own forces; both forces are
-//! derivatives of that one surface, hence a closed path costs no work whatever the interpolation error. On the smooth
-//! raceway Δ = u and on a flat floor Δ = u − depth, in closed form; the flanks' first and last columns *are* these forms, so the pieces join in
-//! value and slope. The path is counted from a smooth reference T(s) close to the first touch, so that the onset runs along the
-//! nodes and not across them: Δ(u, s) = f(u − T(s), s). Below the lowest nodes Δ is continued linearly, which keeps its zero where the contact begins.
+//! Element, raceway and defect do not change during a run, so the contact is one function of radial path and arc. Near
+//! the defect's flanks Δ is a C¹ surface of bicubic Hermite cells through nodes whose gradients are the grid solver's
+//! own forces; both forces are derivatives of that one surface, hence a closed path costs no work whatever the
+//! interpolation error. On the smooth raceway Δ = u and on a flat floor Δ = u − depth, in closed form; the flanks'
+//! first and last columns *are* these forms, so the pieces join in value and slope. The path is counted from a smooth
+//! reference T(s) close to the first touch, so that the onset runs along the nodes and not across them: Δ(u, s) = f(u −
+//! T(s), s). Below the lowest nodes Δ is continued linearly, which keeps its zero where the contact begins.
 //!
-//! A cell that is not accurate enough is cut in four, again and again: a second contact (the floor's beside the edge's) begins on a line
-//! across the map, and only the cells on that line need to be small.
+//! A cell that is not accurate enough is cut in four, again and again: a second contact (the floor's beside the edge's)
+//! begins on a line across the map, and only the cells on that line need to be small.
 //!
-//! Valid for Δ up to `largest_approach`; above, Δ is continued linearly up to [`CONTINUED`] times that, where F is some per cent
-//! off (`docs/contact.md`), and beyond a lookup is an error, never a number.
+//! Valid for Δ up to `largest_approach`; above, Δ is continued linearly up to [`CONTINUED`] times that, where F is some
+//! per cent off (`docs/contact.md`), and beyond a lookup is an error, never a number.
 
 use super::{equivalent::EquivalentApproach, error::ContactError};
 
@@ -221,8 +222,8 @@ impl Patch {
     }
 }
 
-/// The whole number below `x`, at least 0 and at most `last`, as an index and as a number; for a whole `x` it may be the one before.
-/// Adding 1.5 × 2⁵² leaves it in the low bits: half the instructions of two conversions.
+/// The whole number below `x`, at least 0 and at most `last`, as an index and as a number; for a whole `x` it may be
+/// the one before. Adding 1.5 × 2⁵² leaves it in the low bits: half the instructions of two conversions.
 #[inline(always)]
 fn whole_part(x: f64, last: f64) -> (usize, f64) {
     const SHIFT: f64 = 6_755_399_441_055_744.0;

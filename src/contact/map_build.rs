@@ -13,8 +13,8 @@ use super::{
     raceway_grid::ElementOnRaceway,
 };
 
-/// The map follows the grid, and the grid's own steps may be larger than the accuracy: a map is refused when its error is
-/// so many times what was asked for, unless the specification tolerates more.
+/// The map follows the grid, and the grid's own steps may be larger than the accuracy: a map is refused when its error
+/// is so many times what was asked for, unless the specification tolerates more.
 const REFUSED: f64 = 1.5;
 
 impl ContactMap {

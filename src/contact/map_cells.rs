@@ -1,8 +1,8 @@
 //! Cells of a contact map under construction: a rectangle of coarse cells, some cut in four, some of their parts again.
 //!
-//! Corners lie on a lattice of the finest cells. A corner in the middle of a coarser neighbour's side *hangs*: its value, slopes and twist are those
-//! of the neighbour's cubic there, so that both sides of the line carry the same cubics of value and slope: the surface stays C¹. No
-//! cell is next to one more than once more cut.
+//! Corners lie on a lattice of the finest cells. A corner in the middle of a coarser neighbour's side *hangs*: its
+//! value, slopes and twist are those of the neighbour's cubic there, so that both sides of the line carry the same
+//! cubics of value and slope: the surface stays C¹. No cell is next to one more than once more cut.
 
 use crate::numerics::hermite;
 use std::collections::{BTreeMap, BTreeSet};
@@ -160,7 +160,8 @@ impl Cells {
     }
 }
 
-/// The bicubic Hermite surface of a cell's four corners (left low, right low, left high, right high), `length` × `height` [m].
+/// The bicubic Hermite surface of a cell's four corners (left low, right low, left high, right high), `length` ×
+/// `height` [m].
 fn cubic(corners: &[Node; 4], length: f64, height: f64) -> Cubic {
     // Along the raceway first: coefficients in q of value and path slope at both ends of the path.
     let along = |left: &Node, right: &Node, v: usize, scale: f64| {

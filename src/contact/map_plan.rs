@@ -1,8 +1,9 @@
 //! Where a [`ContactMap`] needs nodes, what they hold, and how far off it is between them.
 //!
-//! Around the flanks nodes cover every path from below the first touch to the largest approach. The map is compared with the
-//! grid at two to four points in each cell of nodes; a cell in which the error is larger than asked for is cut in four. That happens
-//! where a second contact begins, of the floor beside that of the edge: there the force has a kink in its slope, on a line across the map.
+//! Around the flanks nodes cover every path from below the first touch to the largest approach. The map is compared
+//! with the grid at two to four points in each cell of nodes; a cell in which the error is larger than asked for is cut
+//! in four. That happens where a second contact begins, of the floor beside that of the edge: there the force has a
+//! kink in its slope, on a line across the map.
 
 use crate::numerics::hermite;
 use std::collections::BTreeMap;
@@ -160,7 +161,8 @@ impl MapPlan {
         (self.contact, knots, flats)
     }
 
-    /// Computes nodes and the errors between them, and cuts cells until the accuracy is met or cells are at their smallest.
+    /// Computes nodes and the errors between them, and cuts cells until the accuracy is met or cells are at their
+    /// smallest.
     ///
     /// # Errors
     /// When a contact cannot be solved.

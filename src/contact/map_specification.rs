@@ -1,7 +1,7 @@
 //! What a contact map is made for, and on how many cores.
 //!
-//! Nodes do not depend on each other: the caller says how they are computed, one after the other or on all cores, and the
-//! result is the same to the last bit.
+//! Nodes do not depend on each other: the caller says how they are computed, one after the other or on all cores, and
+//! the result is the same to the last bit.
 
 use super::error::ContactError;
 use super::raceway_grid::Resolution;

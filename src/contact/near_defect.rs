@@ -51,7 +51,8 @@ impl OuterApproach {
         Self { value: f64::NAN, radial: f64::NAN, tangential: f64::NAN, ..Self::smooth(f64::NAN) }
     }
 
-    /// From a potential's Δ(u, s): forces are its gradient. Per turning angle s = R_o ψ, and the tangential force acts at ρ.
+    /// From a potential's Δ(u, s): forces are its gradient. Per turning angle s = R_o ψ, and the tangential force acts
+    /// at ρ.
     fn of(approach: &EquivalentApproach, raceway_radius: f64, rho: f64) -> Self {
         let lever = raceway_radius / rho;
         Self {
@@ -105,8 +106,8 @@ pub struct NearLove {
 }
 
 impl NearLove {
-    /// A grid for a raceway of this radius [m]. Between the ascending arcs `knots` [m] the raceway is flat at a depth [m]
-    /// or the grid is solved.
+    /// A grid for a raceway of this radius [m]. Between the ascending arcs `knots` [m] the raceway is flat at a depth
+    /// [m] or the grid is solved.
     pub fn new(contact: LoveContact, knots: &[f64], flats: Vec<Option<f64>>, raceway_radius: f64) -> Self {
         let knots = knots.iter().map(|arc| arc / raceway_radius).collect();
         Self { contact: RefCell::new(contact), raceway_radius, knots, flats }

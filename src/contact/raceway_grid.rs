@@ -1,15 +1,15 @@
 //! A grid of cells fixed to the outer raceway, and the gap between it and an element above it.
 //!
-//! Gap for zero approach with the element at arc s, circles and not paraboloids (Larizza et al. 2018, eq. 4, corrected: the groove's
-//! curvature is added and a depression *opens* the gap):
+//! Gap for zero approach with the element at arc s, circles and not paraboloids (Larizza et al. 2018, eq. 4, corrected:
+//! the groove's curvature is added and a depression *opens* the gap):
 //!
 //! ```text
 //! h(x, y; s) = c(r, x−s) − c(R_o, x−s) + c(r, y) − c(r_g, y) + d(x, y),   c(R, t) = R − √(R² − t²)
 //! ```
 //!
-//! d is the exact mean depth of a cell, so a sharp edge counts where it is; cell borders lie on the first and the last sharp
-//! edge, because an edge 0.17 cell off costs fifty times the error. The grid does not move with the element: one that does turns its own
-//! resolution into a tangential force.
+//! d is the exact mean depth of a cell, so a sharp edge counts where it is; cell borders lie on the first and the last
+//! sharp edge, because an edge 0.17 cell off costs fifty times the error. The grid does not move with the element: one
+//! that does turns its own resolution into a tangential force.
 
 // `!(a > b)` is true for NaN as well, and is meant to be.
 #![allow(clippy::neg_cmp_op_on_partial_ord)]
@@ -111,8 +111,9 @@ pub struct Resolution {
 }
 
 /// Part of a cell by which a raceway that ends at an edge is continued beyond it. A cell that ends at an edge carries
-/// its pressure uniformly, where the true one grows without bound towards the edge: it is too soft by the same force as if the raceway ended this much earlier. Found
-/// by comparison with finer grids; it is that of a flat punch, too (`tests/contact_grid.rs`).
+/// its pressure uniformly, where the true one grows without bound towards the edge: it is too soft by the same force as
+/// if the raceway ended this much earlier. Found by comparison with finer grids; it is that of a flat punch, too
+/// (`tests/contact_grid.rs`).
 const BEYOND_EDGE: f64 = 0.17;
 
 /// Refuses measured points that are farther apart than a cell is long or wide.

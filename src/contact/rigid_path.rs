@@ -45,17 +45,18 @@ struct Piece {
     cubics: Vec<[f64; 4]>,
 }
 
-/// Widest interval of a cubic along the raceway [m]. Its error is width⁴ P⁗/384, about 1e-16 m for an element of 8 mm; narrower ones
-/// are made where that is above [`ACCURACY`].
+/// Widest interval of a cubic along the raceway [m]. Its error is width⁴ P⁗/384, about 1e-16 m for an element of 8 mm;
+/// narrower ones are made where that is above [`ACCURACY`].
 const INTERVAL: f64 = 5e-6;
-/// Largest error of the cubics over the element's radius. P⁗ grows as 1/r³, and without end where the element touches sideways.
+/// Largest error of the cubics over the element's radius. P⁗ grows as 1/r³, and without end where the element touches
+/// sideways.
 const ACCURACY: f64 = 2e-13;
 /// Most intervals of a stretch, which only an element that touches at more than 85° asks for.
 const MOST: usize = 1 << 16;
 
 impl RigidPath {
-    /// Rolls an element of radius `element_radius` over `points`, (arc, depth) [m] with non-decreasing arc, on a raceway
-    /// of radius `raceway_radius` whose depth is 0 elsewhere.
+    /// Rolls an element of radius `element_radius` over `points`, (arc, depth) [m] with non-decreasing arc, on a
+    /// raceway of radius `raceway_radius` whose depth is 0 elsewhere.
     ///
     /// Depths must be below the element's radius; the surface layer sees to that.
     ///
@@ -120,7 +121,8 @@ impl Piece {
         Self { start, per_width: 1.0 / width, cubics }
     }
 
-    /// Error [m] in the middle of intervals, where it is largest; of every sixteenth and the last, as it changes slowly along them.
+    /// Error [m] in the middle of intervals, where it is largest; of every sixteenth and the last, as it changes slowly
+    /// along them.
     fn error(&self, roller: &Roller, feature: Feature) -> f64 {
         let off = |i: usize| {
             let angle = self.start + (i as f64 + 0.5) / self.per_width;

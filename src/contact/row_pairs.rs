@@ -1,7 +1,8 @@
 //! Influence of rows of cells on each other, and its product with the pressures on the cells that are in contact.
 //!
-//! Entries depend on the difference of columns only: one line of Love's kernel for each pair of rows, with the image of the second row
-//! added where front and back mirror each other. Sums run over cells in a fixed order, for [`BLOCK`] columns side by side.
+//! Entries depend on the difference of columns only: one line of Love's kernel for each pair of rows, with the image of
+//! the second row added where front and back mirror each other. Sums run over cells in a fixed order, for [`BLOCK`]
+//! columns side by side.
 
 use pulp::{Arch, NullaryFnOnce};
 
@@ -17,7 +18,8 @@ pub struct Mirror {
     pub x: bool,
     /// Front and back: row 0 is behind the middle.
     pub y: bool,
-    /// Front and back, and the middle runs along row 0, of which one half is an unknown: its interference is to be halved.
+    /// Front and back, and the middle runs along row 0, of which one half is an unknown: its interference is to be
+    /// halved.
     pub middle_row: bool,
 }
 

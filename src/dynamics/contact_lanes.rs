@@ -38,8 +38,8 @@ struct Found<S: Wide> {
     pushing: [Lanes<S>; 2],
 }
 
-/// Offset of the rings' centres per distance of the elements' below which the series hold to rounding: their next terms are
-/// 0.4 of its sixth power.
+/// Offset of the rings' centres per distance of the elements' below which the series hold to rounding: their next terms
+/// are 0.4 of its sixth power.
 const SERIES: f64 = 2e-3;
 
 /// Forces on the inner ring along x and y, then on the outer, by lanes.
@@ -108,8 +108,8 @@ impl Record {
 }
 
 impl Model {
-    /// Smooth contacts of all elements: their part of the derivative, and, if `RECORD`, each of them. Gives their force on the
-    /// inner ring and on the outer.
+    /// Smooth contacts of all elements: their part of the derivative, and, if `RECORD`, each of them. Gives their force
+    /// on the inner ring and on the outer.
     #[inline(always)]
     pub(super) fn smooth_contacts<S: Wide, const RECORD: bool>(
         &self,

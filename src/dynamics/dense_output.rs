@@ -1,8 +1,8 @@
 //! Dense output: the motion between two instants at which state and derivative are known.
 //!
 //! Every position follows the polynomial of degree five that has its value, rate and second derivative at both ends
-//! (Hermite); its error is of order h⁶. Velocities are that polynomial's derivative. An element's w is not the rate of its
-//! path u: with e_r, e_t turning at the cage speed ω and the outer ring moving at v_o,
+//! (Hermite); its error is of order h⁶. Velocities are that polynomial's derivative. An element's w is not the rate of
+//! its path u: with e_r, e_t turning at the cage speed ω and the outer ring moving at v_o,
 //! ```text
 //! u' = w − e_r·v_o,   u'' = w' − e_r·v_o' − ω e_t·v_o
 //! ```
@@ -21,8 +21,8 @@ pub(crate) struct Known<'a> {
 }
 
 impl Model {
-    /// State at `share` of the time `h` [s] from the first to the second instant, where the cage is as `cage` says, into
-    /// `out`.
+    /// State at `share` of the time `h` [s] from the first to the second instant, where the cage is as `cage` says,
+    /// into `out`.
     #[inline(always)]
     pub(crate) fn dense_output(
         &self,
@@ -121,8 +121,8 @@ mod tests {
 
     #[test]
     fn dense_output_is_what_many_small_steps_give() {
-        // 0.06 rad of an element's vibration: the polynomials' rates miss 1e-10 m/s. Without the terms of a turning e_r or of the
-        // outer ring's acceleration they would miss 1e-7.
+        // 0.06 rad of an element's vibration: the polynomials' rates miss 1e-10 m/s. Without the terms of a turning e_r
+        // or of the outer ring's acceleration they would miss 1e-7.
         let h = 2e-7;
         for motion in [Motion::Internal, Motion::Host] {
             let (model, drive) = lively([motion; 2], Damping::HuntCrossley(0.3), 0.2);

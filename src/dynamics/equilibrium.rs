@@ -2,10 +2,10 @@
 //!
 //! Rings are at rest or move as prescribed, elements keep their distance from the outer ring (u' = 0) and go round with
 //! the cage: they feel gravity, the centrifugal force and the contacts' damping at those rates, so that no acceleration
-//! is left at the start. Each element's radial balance is solved inside (its force falls monotonically with u), then the
-//! internal rings' by Newton's method on the elastic [tangent](super::tangent) with a shift that keeps a loose ring's step
-//! bounded, and a search along the step for the point at which the residual no longer pushes forward: in a convex
-//! potential that is the minimum along the line.
+//! is left at the start. Each element's radial balance is solved inside (its force falls monotonically with u), then
+//! the internal rings' by Newton's method on the elastic [tangent](super::tangent) with a shift that keeps a loose
+//! ring's step bounded, and a search along the step for the point at which the residual no longer pushes forward: in a
+//! convex potential that is the minimum along the line.
 //!
 //! An element that nothing pushes rests against the outer raceway without force.
 
@@ -78,7 +78,8 @@ const ELEMENT_RESIDUAL: f64 = 1e-9;
 const ROUNDING: f64 = 1e-14;
 /// Longest step of a ring between two iterations at first [m]; a soft support may have a long way to go.
 const LONGEST_STEP: f64 = 50e-6;
-/// Iterations after which the longest step doubles, and after which rings may go together as far as their supports let them.
+/// Iterations after which the longest step doubles, and after which rings may go together as far as their supports let
+/// them.
 const DOUBLING: i32 = 50;
 const ITERATIONS: i32 = 500;
 
@@ -137,7 +138,8 @@ impl Model {
 
     /// Element `j` in radial balance, and its path, looked for from `guess` on.
     fn balanced_element(&self, j: usize, cell: u32, guess: f64, now: &Kinematics) -> (f64, Linearized) {
-        // u' = 0. Without second derivatives of the approach the slope is that of another damping, which Newton's method bears.
+        // u' = 0. Without second derivatives of the approach the slope is that of another damping, which Newton's
+        // method bears.
         let element = |u: f64| {
             let element = self.linearized_at(j, cell, (u, 0.0), now, Bends::LeftOut);
             let (force, slope) = self.radial_balance(&element);
@@ -148,8 +150,8 @@ impl Model {
         if at_touch == 0.0 {
             return (touch, touching);
         }
-        // Newton from the path found last, with the bracket that the signs give; where Newton would leave the bracket or
-        // leap, halving, or walking on as long as there is no bracket.
+        // Newton from the path found last, with the bracket that the signs give; where Newton would leave the bracket
+        // or leap, halving, or walking on as long as there is no bracket.
         let (mut low, mut high) = if at_touch > 0.0 { (touch, f64::INFINITY) } else { (f64::NEG_INFINITY, touch) };
         let mut stride = 1e-6f64.copysign(at_touch);
         let mut u = if guess > low && guess < high { guess } else { touch + stride };
@@ -244,14 +246,15 @@ impl Model {
     /// A step of the free rings from the condensed tangent: (−J + μ) step = force.
     fn newton_step(&self, given: &Given, rings: Rings, u: &[f64], balance: &Balance, iteration: i32) -> Rings {
         let jacobian = self.ring_jacobian(u, given.cells, given.placed(rings).offset(), given.still.cage.angle);
-        // The turning of contact forces makes a lightly held ring's tangent indefinite; its bound ΣQ/|q| takes that out.
-        // The second term lets a loose ring move by the longest step, and vanishes with the residual.
+        // The turning of contact forces makes a lightly held ring's tangent indefinite; its bound ΣQ/|q| takes that
+        // out. The second term lets a loose ring move by the longest step, and vanishes with the residual.
         let longest = longest_step(iteration);
         let (turning, free) = (balance.contact_sum / self.outer_centre_radius, balance.residual() / longest);
         let solve = |share: f64| {
             let mut matrix = self.free_rings_matrix(&jacobian, share * (turning + free));
             if iteration > DOUBLING {
-                // What turns a force is the rings' offset. Preloaded rings that soft supports let go together would creep.
+                // What turns a force is the rings' offset. Preloaded rings that soft supports let go together would
+                // creep.
                 self.couple(&mut matrix, -share * turning);
             }
             let solved = matrix.lu().solve(&balance.force);

@@ -1,8 +1,8 @@
 //! How the static equilibrium moves when an input does: the implicit function theorem.
 //!
-//! At the start each element is in radial balance with u' = 0, and so is each internal ring. A change of inputs and rings
-//! moves each path as its [balance](super::tangent) asks, and the internal rings by the solution of what is then left of
-//! theirs, four equations at most.
+//! At the start each element is in radial balance with u' = 0, and so is each internal ring. A change of inputs and
+//! rings moves each path as its [balance](super::tangent) asks, and the internal rings by the solution of what is then
+//! left of theirs, four equations at most.
 //!
 //! An element that nothing touches and nothing moves keeps its place. Rings without any stiffness against them have no
 //! equilibrium of their own; their derivative does not exist.
@@ -16,9 +16,9 @@ use super::variation::Variation;
 use crate::numerics::plane::Vector;
 
 impl Model {
-    /// Completes a change of inputs at the equilibrium `state` by what it does to rings and elements. `by` comes with the
-    /// changes of prescribed rings and of the cage speed; `loads` are those of the external loads on both rings [N].
-    /// `None` if the rings have no stiffness against them.
+    /// Completes a change of inputs at the equilibrium `state` by what it does to rings and elements. `by` comes with
+    /// the changes of prescribed rings and of the cage speed; `loads` are those of the external loads on both rings
+    /// [N]. `None` if the rings have no stiffness against them.
     pub fn vary_equilibrium(
         &self,
         drive: &Drive,

@@ -114,7 +114,8 @@ impl Forces {
         }
     }
 
-    /// How far the contact that has changed most since `sides` were noted is beyond its change [m]; negative while none has.
+    /// How far the contact that has changed most since `sides` were noted is beyond its change [m]; negative while none
+    /// has.
     pub fn beyond_change(&self, sides: &[f64]) -> f64 {
         let places = self.contacts.inner_pushing.len();
         let (inner, outer) = sides.split_at(places);

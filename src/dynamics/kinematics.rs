@@ -1,7 +1,7 @@
 //! Where cage and rings are at one instant, and how fast they move: the bearing's one "now".
 //!
-//! The cage is known before the state is, so its part is worked out first, for several instants of a step together. Rings
-//! follow from the state where it has them, else from the host.
+//! The cage is known before the state is, so its part is worked out first, for several instants of a step together.
+//! Rings follow from the state where it has them, else from the host.
 
 use super::drive::{Cubic, Drive};
 use crate::numerics::plane::Vector;

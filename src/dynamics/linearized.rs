@@ -18,9 +18,9 @@
 //! dF  = (Q_Δ dΔ + Q_Δ̇ dΔ̇) (radial, tangential) + Q d(radial, tangential)
 //! dΔ  = Δ_u du + Δ_ψ dθ              dΔ̇ = Δ_u du' + Δ_ψ dω + (Δ_uu u' + Δ_uψ ω) du + (Δ_uψ u' + Δ_ψψ ω) dθ
 //! ```
-//! F is the outer contact's force, inwards and counter-clockwise, at the equivalent approach Δ(u, ψ). Where Δ is not u itself,
-//! its second derivatives and derivatives of the direction by the angle are central differences over [`DIFFERENCE`],
-//! wrong by less than 1e-6 of themselves.
+//! F is the outer contact's force, inwards and counter-clockwise, at the equivalent approach Δ(u, ψ). Where Δ is not u
+//! itself, its second derivatives and derivatives of the direction by the angle are central differences over
+//! [`DIFFERENCE`], wrong by less than 1e-6 of themselves.
 //!
 //! Derivatives are those of the branch that each contact is in; at the onset of a contact there are two. At rest all of
 //! it is elastic: G is symmetric, and no damping enters.

@@ -1,9 +1,10 @@
 //! The parameters of the equations of motion, worked out once from a scene, and the layout of the state vector.
 //!
 //! The state is `[u_1…u_Z, w_1…w_Z, shaft x y vx vy, housing x y vx vy, sensor y vy]`; a ring that is not internal and
-//! an absent sensor take no place. The lists of u and w are filled up with zeros to a multiple of eight places, the rings'
-//! part to a multiple of four, so that they are treated several at a time. u is the roller path (ρ − (R_o − r), ρ the distance of the element's centre from the
-//! *outer ring's* centre), w the radial component of the element's absolute velocity.
+//! an absent sensor take no place. The lists of u and w are filled up with zeros to a multiple of eight places, the
+//! rings' part to a multiple of four, so that they are treated several at a time. u is the roller path (ρ − (R_o − r),
+//! ρ the distance of the element's centre from the *outer ring's* centre), w the radial component of the element's
+//! absolute velocity.
 
 use super::element_block::{ElementBlock, blocks};
 use super::raceway::{Placed, Raceway, SMOOTH};
@@ -171,7 +172,8 @@ impl Model {
         }
     }
 
-    /// Angle [rad] of element `j` from the centre of the outer raceway's defect, within half a turn; from +x without one.
+    /// Angle [rad] of element `j` from the centre of the outer raceway's defect, within half a turn; from +x without
+    /// one.
     #[inline]
     pub fn angle_from_defect(&self, j: usize, cage_angle: f64) -> f64 {
         let angle = cage_angle + self.element_offset(j);

@@ -1,8 +1,8 @@
 //! A raceway as an element meets it: the contact on its smooth part, and a defect placed at an angle.
 //!
-//! Around a defect the surface is cut at knots into cells, inside each of which the approach is smooth. How an element's
-//! angle, the knots and the cells belong together stands here and nowhere else. All angles are in radians from the
-//! defect's centre, counter-clockwise, within half a turn.
+//! Around a defect the surface is cut at knots into cells, inside each of which the approach is smooth. How an
+//! element's angle, the knots and the cells belong together stands here and nowhere else. All angles are in radians
+//! from the defect's centre, counter-clockwise, within half a turn.
 
 use crate::contact::compliant::CompliantContact;
 use crate::contact::near_defect::NearDefect;

@@ -37,8 +37,8 @@ impl Model {
         dispatch(Derivative { model: self, stage, derivative, forces });
     }
 
-    /// As [`Self::derivative`] inside a kernel, for the cells that `forces` have last seen there. Each contact is kept only if
-    /// `RECORD`, which takes a stage whose positions are not still to be moved on.
+    /// As [`Self::derivative`] inside a kernel, for the cells that `forces` have last seen there. Each contact is kept
+    /// only if `RECORD`, which takes a stage whose positions are not still to be moved on.
     #[inline(always)]
     pub(crate) fn derivative_on<S: Wide, const RECORD: bool>(
         &self,
@@ -49,8 +49,8 @@ impl Model {
     ) {
         let Stage { drive, cage, state, ahead } = *stage;
         let (now, tau) = (self.kinematics_of(stage), cage.tau);
-        // A copy for the call, so that what is known of the instant can stay in registers: what is written to memory in parts
-        // and read together soon after is read late.
+        // A copy for the call, so that what is known of the instant can stay in registers: what is written to memory in
+        // parts and read together soon after is read late.
         let others = if forces.others.is_empty() {
             Vector::zeros()
         } else {

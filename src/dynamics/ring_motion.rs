@@ -35,7 +35,8 @@ impl Model {
         ring_state(self.layout.housing, self.housing.motion, &drive.housing, tau, state, None)
     }
 
-    /// Velocity and acceleration of the inner and the outer ring, each in a [`RingState`] of rates: zero for a ring at rest.
+    /// Velocity and acceleration of the inner and the outer ring, each in a [`RingState`] of rates: zero for a ring at
+    /// rest.
     pub fn ring_rates(&self, drive: &Drive, tau: f64, derivative: &[f64]) -> [RingState; 2] {
         [(self.layout.shaft, &drive.shaft), (self.layout.housing, &drive.housing)].map(
             |(place, prescribed)| match place {

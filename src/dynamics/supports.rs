@@ -1,10 +1,11 @@
-//! What holds rings and sensor: a spring and a damper from each ring to the ground, and from the sensor to the outer ring.
+//! What holds rings and sensor: a spring and a damper from each ring to the ground, and from the sensor to the outer
+//! ring.
 //!
 //! ```text
 //! f_i = −k_i x_i − c_i v_i        f_o = −k_o x_o − c_o v_o + f_s e_y        f_s = k_s (y_s − y_o) + c_s (v_s − v_o)
 //! ```
-//! f_s acts on the sensor the other way. That is written once, in [`Supports::forces`]; right-hand side, Jacobian, equilibrium and
-//! derivatives of outputs take it from there.
+//! f_s acts on the sensor the other way. That is written once, in [`Supports::forces`]; right-hand side, Jacobian,
+//! equilibrium and derivatives of outputs take it from there.
 
 use super::kinematics::{Kinematics, RingState};
 use crate::numerics::lanes::{Lanes, QUAD, Wide};
@@ -131,8 +132,8 @@ impl Kinematics {
     }
 }
 
-/// The sum of two quadruples, written at once: the compiler would write one that is put together in two halves, and reading
-/// them together soon after would have to wait.
+/// The sum of two quadruples, written at once: the compiler would write one that is put together in two halves, and
+/// reading them together soon after would have to wait.
 #[inline(always)]
 fn whole<S: Wide>(simd: S, one: [f64; QUAD], other: [f64; QUAD]) -> Lanes<S::Quad> {
     Lanes::of(simd, one) + Lanes::of(simd, other)

@@ -24,7 +24,8 @@ pub(super) struct Balanced {
 }
 
 impl Model {
-    /// Radial force R on an element [N], inertia of the turning cage and gravity included, and its derivative by u [N/m].
+    /// Radial force R on an element [N], inertia of the turning cage and gravity included, and its derivative by u
+    /// [N/m].
     #[inline]
     pub(super) fn radial_balance(&self, element: &Linearized) -> (f64, f64) {
         let Linearized { e_r, rho, omega, .. } = *element;
@@ -57,8 +58,8 @@ impl Model {
         }
     }
 
-    /// Elastic Jacobian of the rings' forces at the element paths `u`, the rings' centres being `offset` (outer minus inner)
-    /// apart.
+    /// Elastic Jacobian of the rings' forces at the element paths `u`, the rings' centres being `offset` (outer minus
+    /// inner) apart.
     pub fn ring_jacobian(&self, u: &[f64], cells: &[u32], offset: Vector, cage_angle: f64) -> RingJacobian {
         let (mut jacobian, at) = (RingJacobian::zeros(), Kinematics::at_rest(cage_angle, offset));
         for j in 0..self.element_count {
@@ -67,7 +68,8 @@ impl Model {
         jacobian
     }
 
-    /// The matrix of the free rings' balance, −J + supports + `shift`; rows and columns of the others are those of the unit matrix.
+    /// The matrix of the free rings' balance, −J + supports + `shift`; rows and columns of the others are those of the
+    /// unit matrix.
     pub(super) fn free_rings_matrix(&self, jacobian: &RingJacobian, shift: f64) -> RingJacobian {
         let (free, rings) = (self.free(), self.supports.rings());
         RingJacobian::from_fn(|i, k| match (free[i] && free[k], i == k) {
@@ -77,7 +79,8 @@ impl Model {
         })
     }
 
-    /// Adds `stiffness` between the two rings, where both are free, beside the diagonal of [`free_rings_matrix`](Self::free_rings_matrix).
+    /// Adds `stiffness` between the two rings, where both are free, beside the diagonal of
+    /// [`free_rings_matrix`](Self::free_rings_matrix).
     pub(super) fn couple(&self, matrix: &mut RingJacobian, stiffness: f64) {
         let free = self.free();
         for axis in (0..2).filter(|&axis| free[axis] && free[axis + 2]) {

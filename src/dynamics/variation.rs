@@ -133,8 +133,8 @@ impl Model {
         }
     }
 
-    /// Change of the inner ring's elastic force by its own position, [`Model::ring_jacobian`]'s first block [N/m], for a
-    /// small change at the cage angle of `drive` at τ = 0.
+    /// Change of the inner ring's elastic force by its own position, [`Model::ring_jacobian`]'s first block [N/m], for
+    /// a small change at the cage angle of `drive` at τ = 0.
     pub fn vary_stiffness(&self, drive: &Drive, cells: &[u32], state: &[f64], by: &Variation) -> Matrix {
         let now = self.kinematics(drive, 0.0, state);
         let (cage_angle, offset) = (now.cage.angle, now.offset());
@@ -179,8 +179,8 @@ impl Model {
         Matrix::from_diagonal_element(dc) - n * n.transpose() * (dk + dc) - (mixed + mixed.transpose()) * (k + c)
     }
 
-    /// Change of an outer contact's radial tangent stiffness by path [m] and cage angle [rad]; near the defect and where the
-    /// raceway yields by central differences, like the second derivatives of the approach.
+    /// Change of an outer contact's radial tangent stiffness by path [m] and cage angle [rad]; near the defect and
+    /// where the raceway yields by central differences, like the second derivatives of the approach.
     fn vary_outer_stiffness(&self, j: usize, cell: u32, u: f64, cage_angle: f64, by: (f64, f64)) -> f64 {
         if cell == SMOOTH && self.outer.contact.compliance == 0.0 {
             return if u > 0.0 { 0.75 * self.outer.contact.law.stiffness / u.sqrt() * by.0 } else { 0.0 };

@@ -1,8 +1,8 @@
 //! Checksums and fingerprints: FNV-1a (Fowler, Noll and Vo), with 64 and with 128 bits; parameters from the Internet
 //! draft draft-eastlake-fnv.
 //!
-//! They guard against damage and mix-ups, not against malice. Every step is a bijection of the running value, so that no
-//! single byte can change without the sum.
+//! They guard against damage and mix-ups, not against malice. Every step is a bijection of the running value, so that
+//! no single byte can change without the sum.
 
 use std::hash::Hasher;
 

@@ -2,10 +2,11 @@
 //!
 //! A kernel is compiled for AVX-512, for AVX2 and for what every machine has; which one runs is found out at run time.
 //! Additions, products, quotients and square roots are rounded one by one, never fused, so the width changes no bit, as
-//! long as sums over lanes have a fixed order: they are sums of eight lanes, to which a machine with four adds its groups in turn.
+//! long as sums over lanes have a fixed order: they are sums of eight lanes, to which a machine with four adds its
+//! groups in turn.
 //!
-//! Lists of numbers have a multiple of [`WIDEST`] places. Those beyond the last number are zeros and must stay so: a machine
-//! with fewer lanes leaves out what it need not look at.
+//! Lists of numbers have a multiple of [`WIDEST`] places. Those beyond the last number are zeros and must stay so: a
+//! machine with fewer lanes leaves out what it need not look at.
 
 use pulp::{Arch, NullaryFnOnce, Scalar256b, Simd};
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -272,7 +273,8 @@ impl<S: Wide> Lanes<S> {
         Self(self.0, self.0.smaller(self.1, limit.1))
     }
 
-    /// Adds to `sum`, by lanes. Groups of four go to its lower and upper half in turn, which whoever calls keeps count of.
+    /// Adds to `sum`, by lanes. Groups of four go to its lower and upper half in turn, which whoever calls keeps count
+    /// of.
     #[inline(always)]
     pub fn add_to(self, sum: &mut [f64; WIDEST], upper: bool) {
         *sum = self.0.add_lanes(*sum, self.1, upper);

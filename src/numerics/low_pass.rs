@@ -3,16 +3,16 @@
 //! ```text
 //! h(k) = sin(2π f k)/(π k) · I₀(β √(1 − (k/K)²))/I₀(β),   |k| ≤ K
 //! ```
-//! with the cut-off f in cycles per sample. Its gain is ½ at f, and deviates from 1 below and from 0 above a transition by
-//! at most 10^(−A/20), for β = 0.1102 (A − 8.7) and a transition (A − 7.95)/(14.36 · 2K) wide (J. F. Kaiser, *Nonrecursive
-//! digital filter design using the I0-sinh window function*, 1974; valid for A > 50 dB).
+//! with the cut-off f in cycles per sample. Its gain is ½ at f, and deviates from 1 below and from 0 above a transition
+//! by at most 10^(−A/20), for β = 0.1102 (A − 8.7) and a transition (A − 7.95)/(14.36 · 2K) wide (J. F. Kaiser,
+//! *Nonrecursive digital filter design using the I0-sinh window function*, 1974; valid for A > 50 dB).
 
 use std::f64::consts::{PI, TAU};
 
 use super::sin_cos;
 
-/// Coefficients h(−K) … h(K) for K = `half`, cut-off `cutoff` [cycles per sample] and attenuation `attenuation` [dB]. Their sum
-/// is 1.
+/// Coefficients h(−K) … h(K) for K = `half`, cut-off `cutoff` [cycles per sample] and attenuation `attenuation` [dB].
+/// Their sum is 1.
 pub fn low_pass(half: usize, cutoff: f64, attenuation: f64) -> Vec<f64> {
     let beta = 0.1102 * (attenuation - 8.7);
     // One side; the other is its mirror image, to the bit.
@@ -27,7 +27,8 @@ pub fn low_pass(half: usize, cutoff: f64, attenuation: f64) -> Vec<f64> {
     (0..=2 * half).map(|i| side[i.abs_diff(half)] / sum).collect()
 }
 
-/// Modified Bessel function of the first kind and order 0: Σ ((x/2)^k / k!)². All terms are positive, so nothing cancels.
+/// Modified Bessel function of the first kind and order 0: Σ ((x/2)^k / k!)². All terms are positive, so nothing
+/// cancels.
 fn bessel_i0(x: f64) -> f64 {
     let quarter = 0.25 * x * x;
     let (mut sum, mut term, mut k) = (1.0, 1.0, 1.0);

@@ -1,7 +1,7 @@
 //! Vectors and matrices of the bearing's plane: x to the right, y up, angles counter-clockwise from +x.
 //!
-//! They are nalgebra's of fixed size, whose sums and products are ordinary IEEE operations one by one, in an order that the
-//! size fixes: equal bits on every machine.
+//! They are nalgebra's of fixed size, whose sums and products are ordinary IEEE operations one by one, in an order that
+//! the size fixes: equal bits on every machine.
 
 /// A vector of the plane.
 pub type Vector = nalgebra::Vector2<f64>;

@@ -1,5 +1,5 @@
-//! Powers to a few digits, with the same bits on every machine, where a library's full precision would cost more than it is
-//! worth: step size control asks for two a step.
+//! Powers to a few digits, with the same bits on every machine, where a library's full precision would cost more than
+//! it is worth: step size control asks for two a step.
 
 /// `base` to the power `exponent`, for normal positive bases and results, wrong by less than 1e-3 of itself while
 /// |exponent| ≤ 1.

@@ -1,9 +1,9 @@
 //! Rooted trees: the order conditions of one-step methods. For tests of coefficients only.
 //!
 //! A Runge–Kutta method with weights b has order p if Σ b_i Φ_i(t) = 1/density(t) for every tree t of at most p
-//! vertices; Φ is 1 for a leaf and Π_k Σ_j a_ij Φ_j(t_k) over the branches t_k. A Rosenbrock method has β in the place of a
-//! wherever there is one branch only, and α elsewhere (Hairer and Wanner, *Solving Ordinary Differential Equations II*,
-//! IV.7).
+//! vertices; Φ is 1 for a leaf and Π_k Σ_j a_ij Φ_j(t_k) over the branches t_k. A Rosenbrock method has β in the place
+//! of a wherever there is one branch only, and α elsewhere (Hairer and Wanner, *Solving Ordinary Differential Equations
+//! II*, IV.7).
 
 /// A rooted tree, by its branches.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]

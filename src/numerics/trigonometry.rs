@@ -1,8 +1,8 @@
 //! Sine and cosine without branches, with the same bits on every machine.
 //!
 //! The angle is brought into [−π/4, π/4] by n quarter turns, π/2 taken in two parts (Cody and Waite) of which the first
-//! has 33 bits, so that n times it is exact. There Taylor's series end where the next term is below rounding: 0.79¹⁹/19!
-//! is 1e-19. Beyond [`LARGEST`] the library's reduction takes over.
+//! has 33 bits, so that n times it is exact. There Taylor's series end where the next term is below rounding:
+//! 0.79¹⁹/19! is 1e-19. Beyond [`LARGEST`] the library's reduction takes over.
 
 use std::f64::consts::{FRAC_1_PI, FRAC_2_PI, TAU};
 
@@ -73,7 +73,8 @@ fn series<const N: usize>(c: &[f64; N], x: f64) -> f64 {
 #[inline(always)]
 pub fn wrap(angle: f64) -> f64 {
     let turns = angle * (0.5 * FRAC_1_PI);
-    // As far as the sum below keeps whole numbers; the library's rounding is a call on machines without an instruction for it.
+    // As far as the sum below keeps whole numbers; the library's rounding is a call on machines without an instruction
+    // for it.
     let whole = if turns.abs() < 1e15 { (turns + TO_WHOLE) - TO_WHOLE } else { turns.round() };
     angle - TAU * whole
 }

@@ -1,8 +1,10 @@
-//! One writer per recording: whoever begins a recording claims its file, and nobody else gets it until the claim is dropped.
+//! One writer per recording: whoever begins a recording claims its file, and nobody else gets it until the claim is
+//! dropped.
 //!
-//! The system keeps the claim, so it holds against other processes and ends with the process, however that ends: a lock on the
-//! file where locks only bind those who ask for them, and on Windows, where a lock would shut out readers as well, an opening
-//! that lets others read but not write. On file systems that know no locks it holds within the process only.
+//! The system keeps the claim, so it holds against other processes and ends with the process, however that ends: a lock
+//! on the file where locks only bind those who ask for them, and on Windows, where a lock would shut out readers as
+//! well, an opening that lets others read but not write. On file systems that know no locks it holds within the process
+//! only.
 //!
 //! What the system does not know is whose claim it is. A list in the process knows the instances' names.
 

@@ -58,8 +58,9 @@ impl Scene {
 }
 
 impl Bearing {
-    /// A ball bearing of steel: `count` balls of a diameter [m] on a pitch diameter [m]. Conformities 0.52, radial clearance
-    /// 5 µm, Young's modulus 207 GPa, Poisson's ratio 0.3, density 7800 kg/m³: all of them assumed, usual values.
+    /// A ball bearing of steel: `count` balls of a diameter [m] on a pitch diameter [m]. Conformities 0.52, radial
+    /// clearance 5 µm, Young's modulus 207 GPa, Poisson's ratio 0.3, density 7800 kg/m³: all of them assumed, usual
+    /// values.
     pub fn steel_balls(count: usize, element_diameter: f64, pitch_diameter: f64) -> Self {
         Self {
             element_count: count,
@@ -80,9 +81,9 @@ impl Bearing {
 }
 
 impl Ring {
-    /// The inner ring with its shaft: a free mass. Values of published models of a bearing test rig with five degrees of
-    /// freedom (attributed to Sawalhi and Randall 2008), but for the stiffness: a shaft that is held to the ground as stiffly
-    /// as a bearing is stiff would carry the load itself.
+    /// The inner ring with its shaft: a free mass. Values of published models of a bearing test rig with five degrees
+    /// of freedom (attributed to Sawalhi and Randall 2008), but for the stiffness: a shaft that is held to the ground
+    /// as stiffly as a bearing is stiff would carry the load itself.
     pub(super) fn default_shaft() -> Self {
         Self { motion: Motion::Internal, load: [0.0; 2], mass: 3.2638, damping: 1376.8, stiffness: 0.0 }
     }

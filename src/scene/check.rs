@@ -1,13 +1,15 @@
-//! What a scene must satisfy to be possible. Run once when the file is read, and again when a host has changed parameters.
+//! What a scene must satisfy to be possible. Run once when the file is read, and again when a host has changed
+//! parameters.
 //!
-//! Three kinds of limit. *Physical*: a negative mass, elements that overlap. *Of the model*: a preload beyond the elastic range,
-//! a defect deeper than an element's radius. *Of plausibility*: upper bounds far beyond any bearing built, which catch a value
-//! in the wrong unit before it becomes an overflow in the equations.
+//! Three kinds of limit. *Physical*: a negative mass, elements that overlap. *Of the model*: a preload beyond the
+//! elastic range, a defect deeper than an element's radius. *Of plausibility*: upper bounds far beyond any bearing
+//! built, which catch a value in the wrong unit before it becomes an overflow in the equations.
 //!
-//! Smallest clearance. With both rings concentric an element is squeezed by −G_r, half of it in each contact. ISO 76 puts the
-//! limit of elastic behaviour of a ball bearing at 4200 MPa. For bearing steel and conformities near 0.52 this pressure belongs
-//! to an approach of 0.0037 D_w in each contact (30 µm for D_w = 7.94 mm; Hertzian approach at a given pressure grows in
-//! proportion to size), hence G_r ≥ −0.0075 D_w. Ceramic or very open grooves would allow somewhat less; the limit is not scaled for them.
+//! Smallest clearance. With both rings concentric an element is squeezed by −G_r, half of it in each contact. ISO 76
+//! puts the limit of elastic behaviour of a ball bearing at 4200 MPa. For bearing steel and conformities near 0.52 this
+//! pressure belongs to an approach of 0.0037 D_w in each contact (30 µm for D_w = 7.94 mm; Hertzian approach at a given
+//! pressure grows in proportion to size), hence G_r ≥ −0.0075 D_w. Ceramic or very open grooves would allow somewhat
+//! less; the limit is not scaled for them.
 
 use super::error::{LONGEST_NAME, SceneError};
 use super::quantity::*;

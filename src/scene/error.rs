@@ -1,4 +1,5 @@
-//! What can be wrong with a scene. Each message gives the quantity with its key in the scene file, its value and the limit.
+//! What can be wrong with a scene. Each message gives the quantity with its key in the scene file, its value and the
+//! limit.
 
 use super::key_fault::KeyFault;
 use std::fmt;
@@ -12,7 +13,8 @@ pub(super) const LONGEST_NAME: usize = 64;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SceneError {
-    /// Broken TOML, or a value of the wrong type. The message holds the parser's; it is no source that would be shown again.
+    /// Broken TOML, or a value of the wrong type. The message holds the parser's; it is no source that would be shown
+    /// again.
     #[error("scene file: {0}")]
     Toml(toml::de::Error),
     /// Keys that are unknown, missing, or ask for what is not modelled, in the order of their lines.

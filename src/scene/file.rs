@@ -1,8 +1,8 @@
 //! The scene file: TOML with the unit in each key, converted to SI units here and nowhere else.
 //!
-//! Keys that may be left out, with what then holds. The values of the support are those of published models of a bearing test
-//! rig with five degrees of freedom (attributed to Sawalhi and Randall 2008); the shaft's stiffness is 0, because a shaft that
-//! is held to the ground as stiffly as a bearing is stiff would carry the load itself.
+//! Keys that may be left out, with what then holds. The values of the support are those of published models of a
+//! bearing test rig with five degrees of freedom (attributed to Sawalhi and Randall 2008); the shaft's stiffness is 0,
+//! because a shaft that is held to the ground as stiffly as a bearing is stiff would carry the load itself.
 //!
 //! | key | default |
 //! |---|---|

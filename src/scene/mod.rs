@@ -53,8 +53,8 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The C identifier of the scene's model: `Brinell_er16k_tb1` for the scene `er16k-tb1`. Hyphens, which a name may hold,
-    /// become underscores, and the prefix keeps a leading digit inside.
+    /// The C identifier of the scene's model: `Brinell_er16k_tb1` for the scene `er16k-tb1`. Hyphens, which a name may
+    /// hold, become underscores, and the prefix keeps a leading digit inside.
     pub fn model_identifier(&self) -> String {
         format!("Brinell_{}", self.name.replace('-', "_"))
     }
@@ -125,8 +125,8 @@ pub struct Contact {
     /// Largest force on an element near the defect that laws `map` and `love` are prepared for [N]; `None` to take it
     /// from the loads.
     pub largest_force: Option<f64>,
-    /// Cells of the contact grid of laws `map` and `love` along and across Hertz's ellipse at the largest force; `None` for
-    /// the usual ones.
+    /// Cells of the contact grid of laws `map` and `love` along and across Hertz's ellipse at the largest force; `None`
+    /// for the usual ones.
     pub cells: Option<[u32; 2]>,
     /// Largest error of the contact map, relative to the largest force; `None` for the usual one.
     pub map_accuracy: Option<f64>,
@@ -228,7 +228,8 @@ pub enum Motion {
 pub struct Ring {
     /// Who moves it.
     pub motion: Motion,
-    /// External load [N], x and y: start value of the load inputs. This and what follows: zero unless `motion` is internal.
+    /// External load [N], x and y: start value of the load inputs. This and what follows: zero unless `motion` is
+    /// internal.
     pub load: [f64; 2],
     /// Mass [kg].
     pub mass: f64,

@@ -41,8 +41,8 @@ impl Access {
     }
 }
 
-/// All classes that occur among the references, if every one is a real variable of a class in `writable` and every value
-/// is in its range.
+/// All classes that occur among the references, if every one is a real variable of a class in `writable` and every
+/// value is in its range.
 #[inline]
 pub(super) fn can_set(access: &[Access], writable: u8, references: &[u32], values: &[f64]) -> Option<u8> {
     let mut classes = 0;

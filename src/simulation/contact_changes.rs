@@ -4,9 +4,9 @@ use super::kernels::probe;
 use super::progress::Progress;
 use super::workspace::{Problem, Span, Workspace};
 
-/// Width, as a share of the step and per tolerance, to which the instant of a change is narrowed down. What is left of the
-/// approach is this share of what a step covers, itself near the error of the dense output; and forces begin with the power
-/// 1.5 of it.
+/// Width, as a share of the step and per tolerance, to which the instant of a change is narrowed down. What is left of
+/// the approach is this share of what a step covers, itself near the error of the dense output; and forces begin with
+/// the power 1.5 of it.
 const WIDTH_PER_TOLERANCE: f64 = 1e-2;
 /// Narrowest and widest such widths.
 const WIDTHS: [f64; 2] = [1e-9, 1e-5];

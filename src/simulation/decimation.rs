@@ -2,19 +2,21 @@
 //!
 //! Row k is Σ h(n − kM) · sample n: a low-pass of [`numerics::low_pass`](crate::numerics::low_pass) that reaches
 //! [`HALF`] rows to either side, so it shifts no phase and a row's time is that of its middle sample. Samples are not kept:
-//! each is added to the sums of all rows under way, of which there are fewer than [`UNDER_WAY`], so that what the future depends on
-//! is short however large M is. Before its first sample everything stood as it is there.
+//! each is added to the sums of all rows under way, of which there are fewer than [`UNDER_WAY`], so that what the
+//! future depends on is short however large M is. Before its first sample everything stood as it is there.
 //!
-//! With F rows per second, signals pass up to F/2.56, where analysers end the alias-free part of their spectra, and nothing
-//! passes from F − F/2.56 on, which is where what would fold into that part begins. Half of the amplitude passes at F/2.
+//! With F rows per second, signals pass up to F/2.56, where analysers end the alias-free part of their spectra, and
+//! nothing passes from F − F/2.56 on, which is where what would fold into that part begins. Half of the amplitude
+//! passes at F/2.
 
 use crate::numerics::lanes::{Kernel, Lanes, WIDEST, Wide, blocks, blocks_mut, dispatch};
 use crate::numerics::low_pass::low_pass;
 
-/// Rows to either side of a row that its samples come from. With this many, [`ATTENUATION`] is reached between the pass band and
-/// the stop band: (102 − 7.95)/(14.36 · 30) of the row rate is 1 − 2/2.56.
+/// Rows to either side of a row that its samples come from. With this many, [`ATTENUATION`] is reached between the pass
+/// band and the stop band: (102 − 7.95)/(14.36 · 30) of the row rate is 1 − 2/2.56.
 pub(super) const HALF: usize = 15;
-/// Slots for rows under way: row k is in slot k mod this. 2·[`HALF`] + 1 rows are under way at most, so one is always free.
+/// Slots for rows under way: row k is in slot k mod this. 2·[`HALF`] + 1 rows are under way at most, so one is always
+/// free.
 pub(super) const UNDER_WAY: usize = 32;
 /// Row rate over the end of the pass band.
 pub(super) const RATE_PER_PASS: f64 = 2.56;
@@ -26,8 +28,8 @@ const ATTENUATION: f64 = 102.0;
 pub(super) struct Decimation {
     /// Samples for a row, M.
     factor: u64,
-    /// h, phase after phase: for each place of a sample among those of a row, its weights in the slots from that of the latest row
-    /// on, twice over, so that they can be read from any slot on.
+    /// h, phase after phase: for each place of a sample among those of a row, its weights in the slots from that of the
+    /// latest row on, twice over, so that they can be read from any slot on.
     weights: Vec<[f64; 2 * UNDER_WAY]>,
     /// Sum of the weights that the first rows have before the first sample.
     before: [f64; HALF],
@@ -66,8 +68,8 @@ impl Decimation {
         begun.saturating_sub(HALF as u64)
     }
 
-    /// Adds a sample that is `phase` samples behind the middle of row number `row` to the sums of all rows that it belongs to.
-    /// `sums` has all slots of the sample's first number, then all of its second, and so on.
+    /// Adds a sample that is `phase` samples behind the middle of row number `row` to the sums of all rows that it
+    /// belongs to. `sums` has all slots of the sample's first number, then all of its second, and so on.
     pub(super) fn add(&self, (row, phase): (u64, usize), sample: &[f64], sums: &mut [f64]) {
         let latest = slot(row + HALF as u64);
         if phase == 0 {
@@ -76,8 +78,8 @@ impl Decimation {
         dispatch(Add { weights: &self.weights[phase][UNDER_WAY - latest..][..UNDER_WAY], sample, sums });
     }
 
-    /// The row in slot `latest` is one that this sample, in the middle of `row`, is the first of. So are all before it if there was
-    /// no sample before.
+    /// The row in slot `latest` is one that this sample, in the middle of `row`, is the first of. So are all before it
+    /// if there was no sample before.
     fn begin(&self, row: u64, latest: usize, sample: &[f64], sums: &mut [f64]) {
         for (sums, value) in sums.chunks_exact_mut(UNDER_WAY).zip(sample) {
             if row == 0 {

@@ -1,8 +1,9 @@
 //! Which output depends on which input or parameter, at a communication point and at the start.
 //!
 //! At a communication point only what feeds through without a step counts: states do not follow inputs at once, forces
-//! follow prescribed motion. At the start the static equilibrium ties forces, positions and paths to every load and every
-//! motion that is given; but rings are at rest whatever the inputs are, and what only matters in motion does not enter.
+//! follow prescribed motion. At the start the static equilibrium ties forces, positions and paths to every load and
+//! every motion that is given; but rings are at rest whatever the inputs are, and what only matters in motion does not
+//! enter.
 
 use super::quantity::{Parameter, Quantity as Q, RingName};
 use super::variables::{Causality, Dependencies, Variable};

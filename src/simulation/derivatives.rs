@@ -1,15 +1,16 @@
 //! Derivatives of outputs: by inputs, and by time.
 //!
 //! *By inputs at a communication point* a derivative is what a host sees when it sets an input and reads an output
-//! without a step between: states stay, and only what feeds through directly moves. *In initialization mode* the output is
-//! that of the static equilibrium, which moves with the input; rings at rest stay at rest. Cage angles follow no input in
-//! either case.
+//! without a step between: states stay, and only what feeds through directly moves. *In initialization mode* the output
+//! is that of the static equilibrium, which moves with the input; rings at rest stay at rest. Cage angles follow no
+//! input in either case.
 //!
-//! *By time* an output changes with the states' derivatives, the cage angle and the inputs, which go on as they would in
-//! the next step: prescribed rings by their velocity and acceleration, loads and speed by the derivatives set for them.
+//! *By time* an output changes with the states' derivatives, the cage angle and the inputs, which go on as they would
+//! in the next step: prescribed rings by their velocity and acceleration, loads and speed by the derivatives set for
+//! them.
 //!
-//! All follow from the first-order change of [`crate::dynamics::variation`]. Means over the last step and counts of the solver
-//! change with nothing until the next step.
+//! All follow from the first-order change of [`crate::dynamics::variation`]. Means over the last step and counts of the
+//! solver change with nothing until the next step.
 
 use super::access;
 use super::change::Change;

@@ -79,7 +79,8 @@ pub fn dense<S: Wide>(simd: S, room: &Explicit, state: &[f64], (h, share): (f64,
     room.partition.for_each(simd, [state, &room.end, first, b, c, d, e, last], out, &Dense { h, share }, &mut ());
 }
 
-/// The state at a share of a step of this length: from those at its ends and all stages but the second, whose weight is 0.
+/// The state at a share of a step of this length: from those at its ends and all stages but the second, whose weight is
+/// 0.
 struct Dense {
     h: f64,
     share: f64,

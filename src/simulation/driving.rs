@@ -4,7 +4,8 @@ use super::inputs::{Inputs, RingInputs};
 use super::state::{Ended, State};
 use crate::dynamics::drive::{Cubic, Drive, Quadratic};
 
-/// Where every external influence is from a communication point on. Derivatives of inputs act where the bearing is `stepping`.
+/// Where every external influence is from a communication point on. Derivatives of inputs act where the bearing is
+/// `stepping`.
 ///
 /// Each coefficient of a ring's motion comes from the derivative of the lowest variable that gives it: the velocity
 /// from the position's, or else from the input; the acceleration from the position's, the velocity's, or the input.

@@ -31,8 +31,8 @@ impl Explicit {
         Self { stages: std::array::from_fn(|_| zeros()), end: zeros(), trial: zeros(), positions, partition }
     }
 
-    /// Largest magnitude of the error estimate of the step tried last, each component times its weight; infinite as soon
-    /// as one is no finite number.
+    /// Largest magnitude of the error estimate of the step tried last, each component times its weight; infinite as
+    /// soon as one is no finite number.
     #[inline(always)]
     pub fn error<S: Wide>(&self, simd: S, parts: ErrorParts, h: f64, weights: &[f64]) -> f64 {
         let mut found = Found { largest: [0.0; QUAD], poison: [0.0; WIDEST] };
@@ -56,11 +56,11 @@ impl Explicit {
     }
 }
 
-/// Puts `state` + h Σ weight × stage into `to`; a row of weights for positions and one for velocities, of as many as there are
-/// stages. The stage that was worked out last is to come last: all else is ready while it is waited for.
+/// Puts `state` + h Σ weight × stage into `to`; a row of weights for positions and one for velocities, of as many as
+/// there are stages. The stage that was worked out last is to come last: all else is ready while it is waited for.
 ///
-/// Each method writes its stages out one by one, so that weights are constants there: looked up by the stage's number, they cost
-/// a step 5 to 8 % more.
+/// Each method writes its stages out one by one, so that weights are constants there: looked up by the stage's number,
+/// they cost a step 5 to 8 % more.
 #[inline(always)]
 pub(super) fn combine<S: Wide, const N: usize>(
     simd: S,
@@ -125,9 +125,9 @@ pub(super) fn row<const N: usize, const ALL: usize>(row: [f64; ALL]) -> [f64; N]
 
 /// What the methods integrate.
 pub trait RightHandSide {
-    /// Puts the derivative of `state` at the node of a stage into `out`. With a time `ahead`, what counts are the positions
-    /// that the velocities in `state` reach in that time from those in `state`. Asked for stages 1 to [`LAST`], the last one
-    /// at the end of the step and without `ahead`. To be marked `inline(always)`.
+    /// Puts the derivative of `state` at the node of a stage into `out`. With a time `ahead`, what counts are the
+    /// positions that the velocities in `state` reach in that time from those in `state`. Asked for stages 1 to
+    /// [`LAST`], the last one at the end of the step and without `ahead`. To be marked `inline(always)`.
     fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: (&[f64], Option<f64>), out: &mut [f64]);
 }
 

@@ -1,4 +1,5 @@
-//! The categories of messages that an FMU gives its host: the logger tags lines with them, the model description lists them.
+//! The categories of messages that an FMU gives its host: the logger tags lines with them, the model description lists
+//! them.
 
 use std::ffi::CStr;
 

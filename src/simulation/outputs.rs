@@ -27,8 +27,8 @@ impl<'a> Outputs<'a> {
         self.acceleration[RingName::Housing.index()]
     }
 
-    /// Those of the instant `tau` [s] after the communication point. `derivative` and `forces` are the model's for `state`;
-    /// `cage_start` is the cage angle at the communication point [rad], all turns counted.
+    /// Those of the instant `tau` [s] after the communication point. `derivative` and `forces` are the model's for
+    /// `state`; `cage_start` is the cage angle at the communication point [rad], all turns counted.
     pub fn new(
         model: &'a Model,
         (drive, tau): (&'a Drive, f64),

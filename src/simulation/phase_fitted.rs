@@ -1,16 +1,18 @@
-//! One step of an explicit pair for what oscillates: partitioned Runge–Kutta, order 4(3), phase and amplitude of order 6.
+//! One step of an explicit pair for what oscillates: partitioned Runge–Kutta, order 4(3), phase and amplitude of order
+//! 6.
 //!
-//! Positions x and velocities v take their own coefficients, and a stage's positions already use that stage's velocities:
+//! Positions x and velocities v take their own coefficients, and a stage's positions already use that stage's
+//! velocities:
 //! ```text
 //! V_i = v + h Σ_{j<i} a_ij F_j,   X_i = x + h Σ_{j≤i} â_ij G_j,   G = x'(t, V),   F = v'(t, X, V)
 //! v₁ = v + h Σ b_j F_j,           x₁ = x + h Σ b_j G_j
 //! ```
 //! with F at the end of a step the first of the next: five evaluations a step.
 //!
-//! On x'' = −ω²x the step is a matrix of determinant 1 + O((ωh)⁸) whose trace is 2 cos ωh + O((ωh)⁸), and it is stable up to
-//! ωh = 4 with a little damping. A pair of order 5 for any equation, as Dormand–Prince's, reaches 2 with six
-//! evaluations and has the phase error at ωh = 0.33 that this one has at 0.8. An element between its raceways is such an
-//! oscillator, weakly damped, and either its stability or its phase is what limits a bearing's explicit steps.
+//! On x'' = −ω²x the step is a matrix of determinant 1 + O((ωh)⁸) whose trace is 2 cos ωh + O((ωh)⁸), and it is stable
+//! up to ωh = 4 with a little damping. A pair of order 5 for any equation, as Dormand–Prince's, reaches 2 with six
+//! evaluations and has the phase error at ωh = 0.33 that this one has at 0.8. An element between its raceways is such
+//! an oscillator, weakly damped, and either its stability or its phase is what limits a bearing's explicit steps.
 //!
 //! The coefficients were found for this program, by numerical optimisation: the free ones of all that meet the order
 //! conditions were moved until phase, amplitude and reach were as above, with the residuals of order 5 as small as that
@@ -48,8 +50,8 @@ pub const POSITIONS: [[f64; 5]; 5] = [
 pub const WEIGHTS: [f64; LAST] =
     [0.10027381249783876, 0.22505168655891208, 0.28926730490770214, 0.008770811582423075, 0.376636384453124, 0.0];
 
-/// Weights of the error estimate. Up to a factor there is one set, the end of the step included, that vanishes up to order 3; the
-/// factor makes a tolerance mean what it means to Dormand–Prince's.
+/// Weights of the error estimate. Up to a factor there is one set, the end of the step included, that vanishes up to
+/// order 3; the factor makes a tolerance mean what it means to Dormand–Prince's.
 pub const ERROR: [f64; 7] = [
     -0.006627135320588654,
     0.00630963057780291,

@@ -62,7 +62,8 @@ impl Progress {
         }
     }
 
-    /// What the solver has counted. Approaches near the defect are looked up or, where the law `solves_grids`, solved for.
+    /// What the solver has counted. Approaches near the defect are looked up or, where the law `solves_grids`, solved
+    /// for.
     pub(super) fn count(&self, count: Count, solves_grids: bool) -> u64 {
         match count {
             Count::Steps => self.steps,

@@ -73,8 +73,8 @@ pub enum Parameter {
 impl Quantity {
     /// Highest order of the derivatives by time that act where a quantity is an input, and how its description says so.
     ///
-    /// What would make a higher polynomial than [`Drive`](crate::dynamics::drive::Drive) has is refused: the cage's angle is
-    /// a quadratic, so that the instants at which elements pass knots are roots of one.
+    /// What would make a higher polynomial than [`Drive`](crate::dynamics::drive::Drive) has is refused: the cage's
+    /// angle is a quadratic, so that the instants at which elements pass knots are roots of one.
     pub(super) fn input_derivatives(self) -> (i32, &'static str) {
         match self {
             Self::Position(..) => (2, "derivatives of orders 1 and 2 act, in place of velocity and acceleration"),

@@ -5,8 +5,8 @@
 //! simulation takes back the samples of the time that it takes back.
 //!
 //! Of the accelerations and the rings' forces a spectrum is wanted: they are sampled faster than rows are, and filtered
-//! (`decimation`). Of an element one wants to know where it is, when it touches and how hard, so its path and forces are
-//! those at the row's time, as is the cage's angle. A row is complete, and seen, when the filter has gone past it.
+//! (`decimation`). Of an element one wants to know where it is, when it touches and how hard, so its path and forces
+//! are those at the row's time, as is the cage's angle. A row is complete, and seen, when the filter has gone past it.
 
 use std::f64::consts::TAU;
 
@@ -22,9 +22,9 @@ use crate::scene::{self, RecorderFilter, Scene};
 /// far above the rounding of the instants, far below what a sampled signal could show.
 const ROUNDING: f64 = 1e-9;
 
-/// Samples in a period of the fastest oscillation, that of an element between its raceways. Beyond it forces and accelerations
-/// fall by 50 dB per decade, as impacts do that begin with a force ∝ t^1.5; what is left to fold at six times its frequency is
-/// 80 dB and more below the signal (docs/guide.md has the measured levels).
+/// Samples in a period of the fastest oscillation, that of an element between its raceways. Beyond it forces and
+/// accelerations fall by 50 dB per decade, as impacts do that begin with a force ∝ t^1.5; what is left to fold at six
+/// times its frequency is 80 dB and more below the signal (docs/guide.md has the measured levels).
 const OVERSAMPLING: f64 = 6.0;
 /// Highest sampling rate [Hz]: that of a recorder without a filter.
 const HIGHEST_RATE: f64 = 1e7;
@@ -38,7 +38,8 @@ pub struct Due {
     pub taken: u64,
 }
 
-/// Takes samples, filters them and keeps rows until they are fetched. All but [`Due`] and the rows under way is workspace.
+/// Takes samples, filters them and keeps rows until they are fetched. All but [`Due`] and the rows under way is
+/// workspace.
 #[derive(Debug, Clone)]
 pub struct Recorder {
     /// Rows per second.
@@ -236,8 +237,8 @@ fn fill(places: &mut [f64], signals: &[(u32, Quantity)], outputs: &Outputs) {
     }
 }
 
-/// Frequency of an element between its raceways when the largest force presses on it [Hz]: the fastest oscillation of a bearing,
-/// with dQ/dδ = 1.5 K^⅔ Q^⅓ for each contact.
+/// Frequency of an element between its raceways when the largest force presses on it [Hz]: the fastest oscillation of a
+/// bearing, with dQ/dδ = 1.5 K^⅔ Q^⅓ for each contact.
 fn element_frequency(scene: &Scene) -> f64 {
     let force = largest_force(scene);
     let HertzConstants { inner, outer } = HertzConstants::of(&scene.bearing);
@@ -250,8 +251,8 @@ fn is_vibration(quantity: Quantity) -> bool {
     matches!(quantity, Quantity::SensorAcceleration | Quantity::Acceleration(..) | Quantity::Force(..))
 }
 
-/// What is looked at instant by instant. Positions and velocities of rings and angles of elements follow from the vibrations or from
-/// the cage angle.
+/// What is looked at instant by instant. Positions and velocities of rings and angles of elements follow from the
+/// vibrations or from the cage angle.
 fn is_of_an_instant(quantity: Quantity) -> bool {
     matches!(
         quantity,

@@ -1,13 +1,13 @@
 //! One step of Rodas5P, a linearly implicit (Rosenbrock–Wanner) method of order 5(4) for stiff equations.
 //!
-//! Eight linear systems with one matrix W = 1/(hγ) − J and no iteration; stiffly accurate and L-stable, so what is stiff
-//! and has died away costs no step size. With k the stages:
+//! Eight linear systems with one matrix W = 1/(hγ) − J and no iteration; stiffly accurate and L-stable, so what is
+//! stiff and has died away costs no step size. With k the stages:
 //! ```text
 //! W k_i = f(t + c_i h, y + Σ a_ij k_j) + Σ C_ij k_j/h + h d_i ∂f/∂t,   y₁ = y + Σ a_8j k_j + k_8,   error = k_8
 //! ```
-//! Coefficients: Steinebach, *Construction of Rosenbrock–Wanner method Rodas5P and numerical benchmarks within the Julia
-//! Differential Equations package*, BIT 63 (2023) 27, in the transformed form printed by OrdinaryDiffEq.jl. The last
-//! three stages share their argument's first five weights: each adds its predecessor. Dense output of order 4.
+//! Coefficients: Steinebach, *Construction of Rosenbrock–Wanner method Rodas5P and numerical benchmarks within the
+//! Julia Differential Equations package*, BIT 63 (2023) 27, in the transformed form printed by OrdinaryDiffEq.jl. The
+//! last three stages share their argument's first five weights: each adds its predecessor. Dense output of order 4.
 //!
 //! J and ∂f/∂t must be exact for the order to hold. At the onset of a contact they jump; steps end there.
 
@@ -171,8 +171,8 @@ impl Rodas {
         partition.for_each(simd, [trial, &stages[7]], end, &Sum, &mut ());
     }
 
-    /// Largest magnitude of the error estimate of the step tried last, each component times its weight; infinite as soon
-    /// as one is no finite number.
+    /// Largest magnitude of the error estimate of the step tried last, each component times its weight; infinite as
+    /// soon as one is no finite number.
     pub fn largest_error(&self, weights: &[f64]) -> f64 {
         let (mut largest, mut poison) = (0.0f64, 0.0);
         for (error, weight) in self.stages[7].iter().zip(weights) {

@@ -12,7 +12,8 @@ pub struct Sample {
     pub values: Vec<f64>,
 }
 
-/// Steps a simulation and gives its outputs, the present ones first. It has no end but an error, after which it gives nothing.
+/// Steps a simulation and gives its outputs, the present ones first. It has no end but an error, after which it gives
+/// nothing.
 #[derive(Debug)]
 pub struct Samples<'a> {
     simulation: &'a mut Simulation,

@@ -82,8 +82,8 @@ fn ring_of(scene: &mut Scene, ring: RingName) -> &mut Ring {
     }
 }
 
-/// Error of a contact map that is still taken when the scene asks for none in particular: below what a real edge's shape
-/// leaves open.
+/// Error of a contact map that is still taken when the scene asks for none in particular: below what a real edge's
+/// shape leaves open.
 const TOLERATED: f64 = 0.02;
 
 /// Force [N] up to which the contact map of a scene reaches.
@@ -93,10 +93,10 @@ pub fn largest_force(scene: &Scene) -> f64 {
     scene.contact.largest_force.unwrap_or(assumed)
 }
 
-/// What the contact map of a scene covers: forces up to `contact.largest_force_n`, or else four times the static force on
-/// the most loaded element, 5 F/Z (Stribeck), and at least 1000 N. Δ counts the rings' and seats' compliance as well.
-/// An accuracy that the scene asks for is held; the usual one may be missed, in defects deeper than they are long, by what
-/// `TOLERATED` says.
+/// What the contact map of a scene covers: forces up to `contact.largest_force_n`, or else four times the static force
+/// on the most loaded element, 5 F/Z (Stribeck), and at least 1000 N. Δ counts the rings' and seats' compliance as
+/// well. An accuracy that the scene asks for is held; the usual one may be missed, in defects deeper than they are
+/// long, by what `TOLERATED` says.
 pub fn map_specification(scene: &Scene) -> MapSpecification {
     let force = largest_force(scene);
     let contact = libm::pow(force / HertzConstants::of(&scene.bearing).outer, 2.0 / 3.0);

@@ -1,9 +1,11 @@
-//! All that the future of a simulation depends on, and nothing else. It is what runs: taking it is a copy, putting it back another.
+//! All that the future of a simulation depends on, and nothing else. It is what runs: taking it is a copy, putting it
+//! back another.
 
 use super::progress::Progress;
 use crate::dynamics::drive::CageAngle;
 
-/// Everything that the future of a [`Simulation`](super::Simulation) depends on; taking it and putting it back changes no bit.
+/// Everything that the future of a [`Simulation`](super::Simulation) depends on; taking it and putting it back changes
+/// no bit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
     pub(super) time: f64,

@@ -165,7 +165,7 @@ impl Simulation {
         }
         let layout = &model.layout;
         if (0..layout.len).any(|i| !layout.is_used(i) && progress.state[i] != 0.0) {
-            return Some("a place that is no state's is not 0");
+            return Some("a number that is no state's is not 0");
         }
         if (0..layout.len).any(|i| !layout.is_position(i) && progress.state[i].abs() > LARGEST_VELOCITY) {
             return Some("a velocity is one that no part can have");

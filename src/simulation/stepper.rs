@@ -36,7 +36,8 @@ pub struct Control {
 
 /// Shares of a step: a contact change this close to its start is not landed on, which bounds chatter.
 const CLOSEST_CHANGE: f64 = 1e-4;
-/// How far beyond the stable step one may go to land: what grows there is taken back by the next steps, or by error control.
+/// How far beyond the stable step one may go to land: what grows there is taken back by the next steps, or by error
+/// control.
 const STABLE_SLACK: f64 = 1.15;
 /// How much longer than wanted steps may be to be one fewer.
 const EQUAL_SLACK: f64 = 1.03;
@@ -258,8 +259,8 @@ impl Stepper<'_> {
         check_rings(*problem, since, progress)
     }
 
-    /// Notes the step and perhaps chooses another method for the next. The Jacobian of an implicit step is still that of
-    /// its start.
+    /// Notes the step and perhaps chooses another method for the next. The Jacobian of an implicit step is still that
+    /// of its start.
     fn choose(&mut self, span: Span, taken: Taken) {
         let Self { problem, control: Control { method, tolerance, .. }, workspace, progress, .. } = self;
         if progress.choice.implicit {

@@ -2,16 +2,16 @@
 //!
 //! All cost a known number of right-hand sides a step, so the best one is known as soon as the steps are. An explicit
 //! method can be *stable* up to h|λ| = r only, λ the fastest eigenvalue ([`Jacobian::fastest`]) and r the reach of its
-//! stability region in that direction. While it steps, its mean h|λ|/r is looked at now and then: near 1 it is stability
-//! that limits the step, and the implicit method is tried. While that steps, each of its steps stands for
-//! max(1, h|λ|/r) explicit ones; when these would be cheaper, or have not become dearer within the first few steps,
-//! the explicit method comes back and the next trial waits twice as long.
+//! stability region in that direction. While it steps, its mean h|λ|/r is looked at now and then: near 1 it is
+//! stability that limits the step, and the implicit method is tried. While that steps, each of its steps stands for
+//! max(1, h|λ|/r) explicit ones; when these would be cheaper, or have not become dearer within the first few steps, the
+//! explicit method comes back and the next trial waits twice as long.
 //!
-//! Of the two explicit methods it is the phase-fitted one that steps where the tolerance is loose enough for its order and
-//! the fastest motion is not so strongly damped that Dormand–Prince's reaches as far.
+//! Of the two explicit methods it is the phase-fitted one that steps where the tolerance is loose enough for its order
+//! and the fastest motion is not so strongly damped that Dormand–Prince's reaches as far.
 //!
-//! Explicit steps stay within h|λ| = r of the last look. Error control alone lets them swing across it, and what grows there
-//! before it is noticed is noise as large as the tolerance: in a healthy bearing several times all other errors.
+//! Explicit steps stay within h|λ| = r of the last look. Error control alone lets them swing across it, and what grows
+//! there before it is noticed is noise as large as the tolerance: in a healthy bearing several times all other errors.
 
 use super::pair::Pair;
 use super::step_error::SMALLEST_STEP;
@@ -32,8 +32,8 @@ pub enum Method {
     Rodas,
 }
 
-/// Tolerance from which on the order of the phase-fitted method is enough: at 1e-7 it takes more time than Dormand–Prince's for
-/// the same error.
+/// Tolerance from which on the order of the phase-fitted method is enough: at 1e-7 it takes more time than
+/// Dormand–Prince's for the same error.
 const LOOSE: f64 = 1e-6;
 
 impl Method {
@@ -88,8 +88,8 @@ const LOOK: u32 = 32;
 const TRIAL: u32 = 6;
 /// Steps between two looks of the implicit method.
 const IMPLICIT_LOOK: u32 = 16;
-/// Explicit steps that cost as much as one implicit step; measured with nine elements: 4 in instructions with AVX2, 5.5 in time
-/// with AVX-512.
+/// Explicit steps that cost as much as one implicit step; measured with nine elements: 4 in instructions with AVX2, 5.5
+/// in time with AVX-512.
 const COST: f64 = 5.0;
 /// Share of the stable step above which it is stability that limits. Error control lets the step swing below the limit.
 const NEAR_LIMIT: f64 = 0.5;
@@ -97,8 +97,8 @@ const NEAR_LIMIT: f64 = 0.5;
 const MOST_PATIENCE: u32 = 64;
 
 impl Choice {
-    /// Whether counting and deciding can have led here. What is tried beyond the next look is one step's trials, a thousand at most:
-    /// each shortens it by a tenth or more.
+    /// Whether counting and deciding can have led here. What is tried beyond the next look is one step's trials, a
+    /// thousand at most: each shortens it by a tenth or more.
     pub(super) fn is_possible(&self) -> bool {
         self.tried < LOOK + 1000
             && self.limited <= self.tried.max(1)
@@ -117,8 +117,8 @@ impl Choice {
         self.tried >= LOOK
     }
 
-    /// Looks before the first step: a start at rest excites nothing, and error control alone would let steps grow far beyond
-    /// what is stable before it notices.
+    /// Looks before the first step: a start at rest excites nothing, and error control alone would let steps grow far
+    /// beyond what is stable before it notices.
     pub fn look_first(&mut self, jacobian: &Jacobian, method: Method, tolerance: f64) {
         self.damped = is_damped(jacobian);
         self.stable_step = stable_step(jacobian, method.pair(tolerance, self.damped));
@@ -146,8 +146,8 @@ impl Choice {
         if self.implicit || self.stable_step == 0.0 { step } else { step.min(self.stable_step) }
     }
 
-    /// Notes a finished implicit step of length `h` [s] and how often it was tried; decides now and then, between what there is
-    /// to choose from.
+    /// Notes a finished implicit step of length `h` [s] and how often it was tried; decides now and then, between what
+    /// there is to choose from.
     pub fn implicit_step(&mut self, h: f64, tried: u32, jacobian: &Jacobian, method: Method, tolerance: f64) {
         let trial = self.limited == 0;
         let damped = is_damped(jacobian);
@@ -191,7 +191,8 @@ fn stable_step(jacobian: &Jacobian, pair: Pair) -> f64 {
     (1.0 / rate_of_steps(jacobian, pair)).min(f64::MAX)
 }
 
-/// Whether the fastest motion is so strongly damped that the phase-fitted method does not pay: its step costs a tenth more.
+/// Whether the fastest motion is so strongly damped that the phase-fitted method does not pay: its step costs a tenth
+/// more.
 fn is_damped(jacobian: &Jacobian) -> bool {
     let (_, damping) = jacobian.fastest();
     reach(Pair::PhaseFitted, damping) < 1.1 * reach(Pair::DormandPrince, damping)

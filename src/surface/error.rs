@@ -100,7 +100,7 @@ pub enum SurfaceError {
         why: &'static str,
     },
     /// A topography that gives one place twice.
-    #[error("defect profile, line {line}: the place arc_mm = {arc_mm}, axial_mm = {axial_mm} is given a second time")]
+    #[error("defect profile, line {line}: the point arc_mm = {arc_mm}, axial_mm = {axial_mm} is given a second time")]
     RepeatedPlace {
         /// The line.
         line: usize,

@@ -1,8 +1,8 @@
 //! The outer raceway as it was measured or described.
 //!
-//! Everywhere the arc s [m] runs along the outer raceway at the groove's bottom, counter-clockwise, from the defect's centre,
-//! and the depth h [m] is that of a depression: positive into the ring. Outside the defect the raceway is smooth, h = 0.
-//! A raised rim is a negative depth.
+//! Everywhere the arc s [m] runs along the outer raceway at the groove's bottom, counter-clockwise, from the defect's
+//! centre, and the depth h [m] is that of a depression: positive into the ring. Outside the defect the raceway is
+//! smooth, h = 0. A raised rim is a negative depth.
 
 mod csv;
 mod error;
@@ -79,8 +79,8 @@ impl Surface {
         }
     }
 
-    /// Middle and length [m] of the longest interval along the raceway, and across it, between measured points of different depth; `None`
-    /// where the surface is not measured or does not change.
+    /// Middle and length [m] of the longest interval along the raceway, and across it, between measured points of
+    /// different depth; `None` where the surface is not measured or does not change.
     pub fn coarsest_intervals(&self) -> [Option<(f64, f64)>; 2] {
         match self {
             Self::Profile(profile) => [profile.coarsest(), None],

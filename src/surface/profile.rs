@@ -1,7 +1,7 @@
 //! Depth of the outer raceway along its arc, the same over the whole width: a polygon.
 //!
-//! h(s) is linear between its points. Two points at one arc are a vertical edge. Outside its points h = 0; where the first or
-//! last point is not at depth 0 the profile ends in a vertical edge.
+//! h(s) is linear between its points. Two points at one arc are a vertical edge. Outside its points h = 0; where the
+//! first or last point is not at depth 0 the profile ends in a vertical edge.
 
 use super::SurfaceError;
 
@@ -23,7 +23,8 @@ impl Profile {
     pub fn spall(length: f64, depth: f64, edge_slope: f64) -> Self {
         let half = length / 2.0;
         let run = depth / libm::tan(edge_slope);
-        // π/2 is not a number of the machine: its tangent is some 1e16, and may be negative after a conversion from degrees.
+        // π/2 is not a number of the machine: its tangent is some 1e16, and may be negative after a conversion from
+        // degrees.
         let run = if run < 1e-9 * depth { 0.0 } else { run.min(half) };
         let mut points = vec![(-half, 0.0), (-half + run, depth)];
         if run < half {
@@ -79,8 +80,8 @@ impl Profile {
         Self { points: self.points.iter().map(|&(arc, depth)| (arc, factor * depth)).collect(), ..*self }
     }
 
-    /// Upper corners of edges that are at least `steep` (tangent) and `drop` [m] deep, in ascending order: index of the point,
-    /// and +1 where the raceway falls with growing arc, −1 where it rises.
+    /// Upper corners of edges that are at least `steep` (tangent) and `drop` [m] deep, in ascending order: index of the
+    /// point, and +1 where the raceway falls with growing arc, −1 where it rises.
     fn corners(&self, steep: f64, drop: f64) -> Vec<(usize, f64)> {
         let step = |k: usize| {
             let ((s0, d0), (s1, d1)) = (self.points[k], self.points[k + 1]);
@@ -100,8 +101,8 @@ impl Profile {
         corners
     }
 
-    /// Arcs [m] of the upper corners of edges at least `steep` (tangent) and `drop` [m] deep, with +1 where the raceway falls
-    /// with growing arc and −1 where it rises.
+    /// Arcs [m] of the upper corners of edges at least `steep` (tangent) and `drop` [m] deep, with +1 where the raceway
+    /// falls with growing arc and −1 where it rises.
     pub(crate) fn upper_corners(&self, steep: f64, drop: f64) -> Vec<(f64, f64)> {
         self.corners(steep, drop).into_iter().map(|(k, fall)| (self.points[k].0, fall)).collect()
     }

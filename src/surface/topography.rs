@@ -1,11 +1,13 @@
-//! A measured topography of the outer raceway: depth over arc and width, bilinear between the points of a rectangular grid.
+//! A measured topography of the outer raceway: depth over arc and width, bilinear between the points of a rectangular
+//! grid.
 //!
-//! With the hat functions N of the grid lines, h(s, y) = Σ_ij N_i(s) N_j(y) h_ij. The mean over a cell is a sum of products of
-//! the hats' integrals, so it is exact, whatever the cell's place and size. Outside the grid h = 0, by a vertical edge where the
-//! border is not at depth 0: a patch must be at least as wide as the contact, or end on smooth raceway.
+//! With the hat functions N of the grid lines, h(s, y) = Σ_ij N_i(s) N_j(y) h_ij. The mean over a cell is a sum of
+//! products of the hats' integrals, so it is exact, whatever the cell's place and size. Outside the grid h = 0, by a
+//! vertical edge where the border is not at depth 0: a patch must be at least as wide as the contact, or end on smooth
+//! raceway.
 //!
-//! The arc is counted from the middle of its range, which is put at the defect's angle. The axial coordinate is taken as given:
-//! 0 is the groove's bottom. Nothing is assumed symmetric. Grid lines need not be evenly spaced.
+//! The arc is counted from the middle of its range, which is put at the defect's angle. The axial coordinate is taken
+//! as given: 0 is the groove's bottom. Nothing is assumed symmetric. Grid lines need not be evenly spaced.
 
 use super::csv;
 use super::trace::{ARC, DEPTH};
@@ -131,7 +133,8 @@ impl Topography {
         Profile::closed(self.arcs.iter().map(|&arc| (arc, self.depth_at(arc, axial))).collect())
     }
 
-    /// Middle and length [m] of the longest interval between two arcs, and between two axial coordinates, over which the depth changes.
+    /// Middle and length [m] of the longest interval between two arcs, and between two axial coordinates, over which
+    /// the depth changes.
     pub(super) fn coarsest(&self) -> [Option<(f64, f64)>; 2] {
         let h = |i: usize, j: usize| self.depths[i * self.axials.len() + j];
         let longest = |lines: &[f64], differ: &dyn Fn(usize) -> bool| {

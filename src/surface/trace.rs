@@ -1,7 +1,7 @@
 //! A measured trace of the outer raceway: `arc_mm`, `depth_um`.
 //!
-//! Depths are taken as they are, positive into the ring: level the trace and set its smooth ends to 0 before. The middle of the
-//! arc's range is put at the defect's angle, whatever the origin of the measurement.
+//! Depths are taken as they are, positive into the ring: level the trace and set its smooth ends to 0 before. The
+//! middle of the arc's range is put at the defect's angle, whatever the origin of the measurement.
 
 use super::csv;
 use super::{Profile, SurfaceError};

@@ -37,7 +37,8 @@ pub fn communication_steps() -> Row {
     // Errors of a thousand steps at 1e-10 add up, through the entry of one element into the spall.
     assert!(short < 1e-10 && entry < 1e-7, "{short} {entry}");
     // Elements that hang loose between the rings bounce, and small differences grow with every bounce: after four
-    // passages the bearing answers to a change of the load in its twelfth digit as it does to another splitting of time.
+    // passages the bearing answers to a change of the load in its twelfth digit as it does to another splitting of
+    // time.
     let (whole, bearing) = end(&[0.1], 0.1, 1.0);
     // One change of the load may by chance grow little; of several the largest counts.
     let changes = [1e-12, -1e-12, 2e-12, -2e-12, 3e-12];

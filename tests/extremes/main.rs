@@ -104,6 +104,7 @@ fn write_the_table_of_stability() {
     let [growth, tolerances] = predictability::tables();
     let text = text.replace("<!-- growth -->\n", &growth).replace("<!-- tolerances -->\n", &tolerances);
     let text = text.replace("<!-- random scenes -->\n", include_str!("../adversary/scenes.md"));
+    let text = text.replace("<!-- misuse -->\n", include_str!("../adversary/misuse.md"));
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/stability.md");
     std::fs::write(path, text).unwrap();
 }

@@ -79,8 +79,8 @@ impl Run {
         (pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f64>() / window.len() as f64).sqrt() / exact.rms(from, to)
     }
 
-    /// When the outer contact of the element that enters first is lost, when it strikes again, and when the acceleration is
-    /// largest in this passage [s].
+    /// When the outer contact of the element that enters first is lost, when it strikes again, and when the
+    /// acceleration is largest in this passage [s].
     fn events(&self) -> [f64; 3] {
         let outer = &self.outer[0];
         let lost = (4e-3 * RATE) as usize + outer[(4e-3 * RATE) as usize..].iter().position(|&f| f == 0.0).unwrap();

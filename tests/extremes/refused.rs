@@ -59,8 +59,8 @@ pub fn too_deep() -> Row {
     refused("spall 5 mm deep, deeper than an element's radius", "depth", found, &bearing)
 }
 
-/// A contact near the defect that has no answer gives an approach that is no number; the step must fail, and not take it for
-/// no contact.
+/// A contact near the defect that has no answer gives an approach that is no number; the step must fail, and not take
+/// it for no contact.
 pub fn contact_without_answer() -> Row {
     let mut scene = spalled();
     (scene.contact.law, scene.contact.largest_force) = (ContactLaw::Map, Some(1000.0));

@@ -132,8 +132,8 @@ fn compare(host: &Host, moment: &str) -> Vec<Vec<bool>> {
     moved
 }
 
-/// Outputs that moved against outputs that are said to depend. An element that is never loaded never moves, so what is said
-/// of elements must be true of one.
+/// Outputs that moved against outputs that are said to depend. An element that is never loaded never moves, so what is
+/// said of elements must be true of one.
 fn check_dependencies(host: &Host, moved: &[Vec<bool>], listed: impl Fn(&Dependencies) -> &[u32], moment: &str) {
     let (table, dependencies) = (&host.table()[..], host.simulation().dependencies());
     let outputs = outputs(table);

@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A module by its path within a layer; that of the layer's own file is empty.
 pub(super) type Path = Vec<String>;
 
-/// Modules of a layer that each of its files names, the file's own path first. `files` are paths and texts; tests in files
-/// do not count.
+/// Modules of a layer that each of its files names, the file's own path first. `files` are paths and texts; tests in
+/// files do not count.
 pub(super) fn graph(layer: &str, files: &[(Path, String)]) -> BTreeMap<String, BTreeSet<String>> {
     let known: BTreeSet<&Path> = files.iter().map(|(path, _)| path).collect();
     let facade = files.iter().find(|(path, _)| path.is_empty()).map_or("", |(_, text)| text);

@@ -6,12 +6,12 @@
 //! that the path of the unloaded element is at least 99 % of its greatest over the defect.
 //!
 //! The load depends on where the elements stand. *The* critical load belongs to elements placed symmetrically about the
-//! middle of the bottom, one in it or two about it, whichever needs less: there all of them begin at once, and there the
-//! stiffness is least. Any other cage angle has its own ([`StaticBearing::critical_load_at`]), that of the elements which
-//! are deepest then; on its way in or out an element is squeezed by any load at all.
+//! middle of the bottom, one in it or two about it, whichever needs less: there all of them begin at once, and there
+//! the stiffness is least. Any other cage angle has its own ([`StaticBearing::critical_load_at`]), that of the elements
+//! which are deepest then; on its way in or out an element is squeezed by any load at all.
 //!
-//! It stands on rigid rings that keep their shape: with 100 µm depth a real ring bends before. A compliance in series with
-//! the contacts is the crudest allowance for that.
+//! It stands on rigid rings that keep their shape: with 100 µm depth a real ring bends before. A compliance in series
+//! with the contacts is the crudest allowance for that.
 
 use super::static_bearing::{StaticBearing, StaticError};
 
@@ -146,7 +146,8 @@ impl StaticBearing {
     }
 }
 
-/// The load [N] at which an ascending function crosses 0, if it does; 0 where it is positive at a thousandth of `scale`.
+/// The load [N] at which an ascending function crosses 0, if it does; 0 where it is positive at a thousandth of
+/// `scale`.
 ///
 /// Approaches grow about as load^(2/3), so that is what the Illinois form of the false position runs over.
 fn crossing(function: impl Fn(f64) -> Result<f64, StaticError>, scale: f64) -> Result<Option<f64>, StaticError> {

@@ -1,12 +1,14 @@
 //! The entry of an element into a spall, in the averaged signal.
 //!
-//! **Onset.** As the contact leaves the raceway, its force falls and the housing follows smoothly, below the frequencies of
-//! impacts and with the opposite sign. When the element's centre stands over the edge, an elastic contact has lost 14 to 16 % of its
-//! force (computed with Love's half-space), so the moment at which the excursion reaches 15 % of its first extreme is the edge: later swings are
-//! the housing's answer. It is found on the straight line through 25 % and 50 %, which noise hardly reaches.
+//! **Onset.** As the contact leaves the raceway, its force falls and the housing follows smoothly, below the
+//! frequencies of impacts and with the opposite sign. When the element's centre stands over the edge, an elastic
+//! contact has lost 14 to 16 % of its force (computed with Love's half-space), so the moment at which the excursion
+//! reaches 15 % of its first extreme is the edge: later swings are the housing's answer. It is found on the straight
+//! line through 25 % and 50 %, which noise hardly reaches.
 //!
-//! **Silence before.** What still rings of the last passage is predicted from the stretch before and taken off. How well that succeeds is
-//! measured in the same stretch, by predictions from earlier moments; where it is worse than taking off nothing, nothing is taken off.
+//! **Silence before.** What still rings of the last passage is predicted from the stretch before and taken off. How
+//! well that succeeds is measured in the same stretch, by predictions from earlier moments; where it is worse than
+//! taking off nothing, nothing is taken off.
 
 use super::linear_prediction::Ringing;
 use super::spectrum;
@@ -40,8 +42,8 @@ pub struct Entry {
     pub clearness: f64,
 }
 
-/// The entry before the first impact at grid point `impact` of the averaged signal over one spacing, `degree` grid points being one degree;
-/// `span` from first to last impact [grid points].
+/// The entry before the first impact at grid point `impact` of the averaged signal over one spacing, `degree` grid
+/// points being one degree; `span` from first to last impact [grid points].
 pub fn entry(signal: &[f64], impact: f64, span: f64, degree: f64) -> Option<Entry> {
     let smooth = smooth(signal, degree);
     let index = |degrees: f64| (impact + degrees * degree).max(0.0) as usize;
@@ -111,7 +113,8 @@ fn predicted(smooth: &[f64], impact: f64, span: f64, degree: f64, count: usize) 
     (!missed.is_empty() && noise.is_finite()).then(|| Silence { base, noise, rings: (0..count).map(at).collect() })
 }
 
-/// The entry when there is one impact only, at the exit: the first excursion that leaves the silence before, however early.
+/// The entry when there is one impact only, at the exit: the first excursion that leaves the silence before, however
+/// early.
 pub fn far_entry(signal: &[f64], impact: f64, degree: f64) -> Option<Entry> {
     let smooth = smooth(signal, degree);
     let to = ((impact - FLANK * degree).max(0.0) as usize).min(smooth.len());

@@ -1,8 +1,8 @@
 //! Whether elements that pass a defect of the outer raceway can be heard, and how often one passes.
 //!
-//! Each passage excites resonances anew, so that the envelope of a band that holds one repeats with the ball pass frequency.
-//! The envelope's logarithm is taken, which no single impact can rule, and its spectrum searched near the nominal BPFO for
-//! the frequency with the strongest comb of harmonics:
+//! Each passage excites resonances anew, so that the envelope of a band that holds one repeats with the ball pass
+//! frequency. The envelope's logarithm is taken, which no single impact can rule, and its spectrum searched near the
+//! nominal BPFO for the frequency with the strongest comb of harmonics:
 //! ```text
 //! S(f) = mean over k of ln(1 + P(k f) / noise near k f),   noise = median of P between (k ± 0.4) f
 //! ```
@@ -14,7 +14,8 @@ use super::statistics;
 
 /// Harmonics in the comb. The envelope of two impacts per passage has nulls: one harmonic proves nothing.
 const HARMONICS: usize = 10;
-/// Largest deviation of the ball pass frequency from pure rolling: 3 % slip behind, 2 % ahead by inexact dimensions or speed.
+/// Largest deviation of the ball pass frequency from pure rolling: 3 % slip behind, 2 % ahead by inexact dimensions or
+/// speed.
 const SLIP: std::ops::RangeInclusive<f64> = -0.02..=0.03;
 /// Standard deviations above the chance level at which a comb is taken to exist.
 pub const SIGNIFICANT: f64 = 8.0;
@@ -59,8 +60,8 @@ pub fn find_comb(spectrum: &mut Spectrum, rate: f64, bpfo: f64, speed: f64) -> C
         .unwrap_or_else(|| comb_in(&spectrum.squared_envelope(whole), rate, bpfo, speed, whole))
 }
 
-/// The strongest comb from half to twice the nominal `bpfo` [Hz], where there is none near it: a wrong speed or rate, or another part of
-/// the bearing. Only the band of the comb near `bpfo` is searched.
+/// The strongest comb from half to twice the nominal `bpfo` [Hz], where there is none near it: a wrong speed or rate,
+/// or another part of the bearing. Only the band of the comb near `bpfo` is searched.
 pub fn find_elsewhere(spectrum: &mut Spectrum, rate: f64, bpfo: f64, speed: f64, band: Band) -> Comb {
     comb_within(&spectrum.squared_envelope(band), rate, bpfo, [0.5, 2.0], speed, band)
 }

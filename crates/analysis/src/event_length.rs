@@ -6,17 +6,16 @@
 //! ```text
 //! s_u = √(2 r_e δ),   δ = (Q/K)^(2/3),   Q = 5F/Z
 //! ```
-//! **Entry.** The edge is where 15 % of the force is lost, if it is sharp; a rounded edge lets go earlier, by at most the
-//! way s_r from there to half the excursion.
-//! **Exit.** The last impact falls when the element, squeezed between trailing edge and inner ring, takes up its load again:
-//! not before L − s_u, not after L.
-//! With both taken at the middle of their ranges, and S the way from the entry's onset to the last impact,
+//! **Entry.** The edge is where 15 % of the force is lost, if it is sharp; a rounded edge lets go earlier, by at most
+//! the way s_r from there to half the excursion. **Exit.** The last impact falls when the element, squeezed between
+//! trailing edge and inner ring, takes up its load again: not before L − s_u, not after L. With both taken at the
+//! middle of their ranges, and S the way from the entry's onset to the last impact,
 //! ```text
 //! L = S + (s_u − s_r)/2,   u² = (s_u² + s_r²)/12 + u_statistical²
 //! ```
-//! **Limit.** An element never gets free, and there are no two separate events, unless it can sink by its approach and the
-//! clearance by which the inner ring can follow: P(L/2) > δ + G_r. Shorter is unresolved.
-//! Where Q is unknown, s_u is the way from the entry's onset to its extreme, an upper bound that holds in any case.
+//! **Limit.** An element never gets free, and there are no two separate events, unless it can sink by its approach and
+//! the clearance by which the inner ring can follow: P(L/2) > δ + G_r. Shorter is unresolved. Where Q is unknown, s_u
+//! is the way from the entry's onset to its extreme, an upper bound that holds in any case.
 
 use super::continuity::Break;
 use super::entry::{self, Entry};
@@ -35,7 +34,8 @@ const JUMP: (f64, f64) = (0.25, 1.2e-4);
 const CLEAR: f64 = 3.0;
 /// The same for an entry far before a single impact, where there is more to mistake.
 const CLEAR_FAR: f64 = 8.0;
-/// Sampling rate that impacts close to each other need [Hz]: echoes fade faster the higher the band, and 5 to 11 kHz is just enough.
+/// Sampling rate that impacts close to each other need [Hz]: echoes fade faster the higher the band, and 5 to 11 kHz is
+/// just enough.
 const ENOUGH_RATE: f64 = 24_000.0;
 /// Length from which impacts are not close [degrees].
 const LONG: f64 = 3.0;
@@ -195,8 +195,8 @@ fn unclear(rows: &Rows, span: f64, clearness: f64) -> Unresolved {
     if rows.far { Unresolved::OneImpact(clearness, CLEAR_FAR) } else { Unresolved::NoEntry(span, clearness, CLEAR) }
 }
 
-/// The averaged passage that a figure shows: degrees from `from`, signal, envelope level [dB]. `from` is in degrees after the
-/// start of a passage's period.
+/// The averaged passage that a figure shows: degrees from `from`, signal, envelope level [dB]. `from` is in degrees
+/// after the start of a passage's period.
 pub fn averaged_passage(measured: &Measured, from: f64) -> [Vec<f64>; 3] {
     let grid = Grid::new(measured);
     let share = from / measured.spacing - LEAD;
@@ -221,7 +221,8 @@ impl Grid {
         let points = measured.points();
         let degree = points as f64 / measured.spacing;
         let width = ((JUMP.0).max(JUMP.1 * measured.travel()) * degree).round().max(2.0) as usize;
-        // The level of noise scatters by 5.6 dB; a jump is the difference of two means over all passages. Six deviations.
+        // The level of noise scatters by 5.6 dB; a jump is the difference of two means over all passages. Six
+        // deviations.
         let smallest = (6.0 * 5.6 / (measured.passages.starts.len() as f64).sqrt()).max(3.0);
         Self { points, degree, width, smallest }
     }

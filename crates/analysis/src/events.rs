@@ -1,20 +1,22 @@
 //! The impacts of one passage, read from passages laid over each other.
 //!
-//! **Impact.** A jump of the high-frequency envelope: the mean level over a short window after a moment against that before it.
-//! The energy that appears there, not the level, ranks it: what is left of an earlier impact does not count.
+//! **Impact.** A jump of the high-frequency envelope: the mean level over a short window after a moment against that
+//! before it. The energy that appears there, not the level, ranks it: what is left of an earlier impact does not count.
 
 use super::statistics;
 
 /// An impact brings at least this share of the strongest impact's energy; below are echoes and noise.
 const WEAKEST_BLOW: f64 = 0.12;
-/// An impact jumps at least by this share of the steepest impact's jump [dB]: it rises out of silence, or over a decaying impact, while an echo
-/// or a beat rises over what it is a part of.
+/// An impact jumps at least by this share of the steepest impact's jump [dB]: it rises out of silence, or over a
+/// decaying impact, while an echo or a beat rises over what it is a part of.
 const LOWEST_JUMP: f64 = 0.3;
 /// A jump that no late echo makes [dB].
 const STEEP: f64 = 8.0;
-/// Correlation of loudness over the passages from which a rise is an echo of the impact before: two edges are hit each in its own way.
+/// Correlation of loudness over the passages from which a rise is an echo of the impact before: two edges are hit each
+/// in its own way.
 const SAME_CAUSE: f64 = 0.6;
-/// Time after which echoes have died down [s]: 1 m of housing at the 1 km/s of slow bending waves. Later ones do not rise by [`STEEP`].
+/// Time after which echoes have died down [s]: 1 m of housing at the 1 km/s of slow bending waves. Later ones do not
+/// rise by [`STEEP`].
 const DIED_DOWN: f64 = 1e-3;
 /// Passages below which such a correlation may be chance: 0.6 of 20 passages is three standard deviations.
 const FEWEST_TO_COMPARE: usize = 20;
@@ -32,8 +34,8 @@ pub struct Impact {
 
 /// Impacts of a passage in the order of the circle of one spacing, that after the longest silence first.
 ///
-/// `level` is the averaged envelope [dB] over one spacing, `width` the window [grid points] of the jump, `smallest` the least
-/// jump that is no accident [dB].
+/// `level` is the averaged envelope [dB] over one spacing, `width` the window [grid points] of the jump, `smallest` the
+/// least jump that is no accident [dB].
 pub fn impacts(level: &[f64], width: usize, smallest: f64) -> Vec<Impact> {
     let n = level.len();
     if n < 4 * width {
@@ -56,7 +58,8 @@ pub fn impacts(level: &[f64], width: usize, smallest: f64) -> Vec<Impact> {
     after_the_longest_silence(found, n)
 }
 
-/// The impacts without echoes: rises that are loud whenever an earlier impact is loud, passage by passage, and that are not both late and steep.
+/// The impacts without echoes: rises that are loud whenever an earlier impact is loud, passage by passage, and that are
+/// not both late and steep.
 ///
 /// `envelopes` is one row per passage on the grid of the impacts, `rate` its points per second.
 pub fn without_echoes(mut impacts: Vec<Impact>, envelopes: &[Vec<f64>], width: usize, rate: f64) -> Vec<Impact> {
@@ -65,8 +68,8 @@ pub fn without_echoes(mut impacts: Vec<Impact>, envelopes: &[Vec<f64>], width: u
     };
     let loudness = |impact: &Impact| -> Vec<f64> {
         let from = n + impact.at.max(0.0) as usize - width / 2;
-        // The loudest window near the impact: a peak depends on where between two samples it falls, a fixed window on how well the passage is
-        // aligned, and both edges share that.
+        // The loudest window near the impact: a peak depends on where between two samples it falls, a fixed window on
+        // how well the passage is aligned, and both edges share that.
         let loudest = |row: &Vec<f64>| {
             let mean = |k: usize| (0..width).map(|i| row[(from + k + i) % n]).sum::<f64>() / width as f64;
             (0..=width).map(mean).fold(f64::MIN_POSITIVE, f64::max)

@@ -1,12 +1,14 @@
 //! Line or extended, and from which load on nobody can tell.
 //!
-//! An extended spall, longer than the element spacing, makes the events of a line spall that is shorter by the spacing. What differs
-//! is stiffness: while one more element is out of the bearing, the rings ring lower ([`ringing`]), unless the load is above the
-//! **critical load** of the extended spall, at which elements inside it carry again. That load depends on the depth:
+//! An extended spall, longer than the element spacing, makes the events of a line spall that is shorter by the spacing.
+//! What differs is stiffness: while one more element is out of the bearing, the rings ring lower ([`ringing`]), unless
+//! the load is above the **critical load** of the extended spall, at which elements inside it carry again. That load
+//! depends on the depth:
 //!
-//! - where the scene's own rig sounds like the recording, the depth that fits best says which side of it the recording is on;
-//! - where it does not, the depth is unknown, and the answer names the **critical depth**: were the spall shallower, the load would be above its
-//!   critical load, and an extended spall would ring like a line spall.
+//! - where the scene's own rig sounds like the recording, the depth that fits best says which side of it the recording
+//!   is on;
+//! - where it does not, the depth is unknown, and the answer names the **critical depth**: were the spall shallower,
+//!   the load would be above its critical load, and an extended spall would ring like a line spall.
 
 use super::measured::Measured;
 use super::passages;
@@ -36,7 +38,8 @@ pub(super) struct Judged {
     /// Of the spall that fits best [N], with its depth [m].
     pub(super) critical_load: Option<f64>,
     depth: Option<f64>,
-    /// Depth at which the load is the critical load of the extended spall with these events [m]; where the depth is unknown.
+    /// Depth at which the load is the critical load of the extended spall with these events [m]; where the depth is
+    /// unknown.
     pub(super) critical_depth: Option<f64>,
     spacing: f64,
 }

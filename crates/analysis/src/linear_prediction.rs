@@ -1,23 +1,26 @@
 //! A structure's own ringing, predicted from what went before.
 //!
-//! A structure that rings answers each impact with decaying oscillations, in which every sample follows from the ones before,
+//! A structure that rings answers each impact with decaying oscillations, in which every sample follows from the ones
+//! before,
 //! ```text
 //! x(i) = − Σ a(k) x(i − k) + e(i),   k = 1 … p
 //! ```
-//! The residual e holds what does not follow: the impacts themselves, and noise. The a(k) come from the recording's autocorrelation by the
-//! recursion of Levinson and Durbin, whose filter is always stable. The span of p samples must stay short against the way between two
-//! impacts, for the second would else be predicted from the first.
+//! The residual e holds what does not follow: the impacts themselves, and noise. The a(k) come from the recording's
+//! autocorrelation by the recursion of Levinson and Durbin, whose filter is always stable. The span of p samples must
+//! stay short against the way between two impacts, for the second would else be predicted from the first.
 //!
-//! In a stretch in which nothing happens e is noise, and the prediction can be carried on ([`Ringing::ahead`]): what still rings of the last
-//! passage when the next element comes is known and can be taken off. Its a(k) are those of least squares within the stretch, for decaying
-//! oscillations are no stationary process.
+//! In a stretch in which nothing happens e is noise, and the prediction can be carried on ([`Ringing::ahead`]): what
+//! still rings of the last passage when the next element comes is known and can be taken off. Its a(k) are those of
+//! least squares within the stretch, for decaying oscillations are no stationary process.
 
 use super::spectrum;
 
-/// Share of white noise added to the autocorrelation: keeps the recursion off rounding where the recorder's filter leaves nothing.
+/// Share of white noise added to the autocorrelation: keeps the recursion off rounding where the recorder's filter
+/// leaves nothing.
 const FLOOR: f64 = 1e-6;
 
-/// Share of the stretch's power added to the diagonal of the least squares: a thousandth of the amplitude is taken for noise.
+/// Share of the stretch's power added to the diagonal of the least squares: a thousandth of the amplitude is taken for
+/// noise.
 const RIDGE: f64 = 1e-6;
 
 /// The residual of a prediction from `order` samples.
@@ -123,7 +126,8 @@ mod tests {
         let mut random = Random::new(1);
         let impacts: Vec<f64> = (0..20_000).map(|i| if i % 100 == 0 { 10.0 } else { 0.1 * random.normal() }).collect();
         let left = residual(&rung(&impacts), 8);
-        // 20 000 samples give each coefficient within 1/√20 000 = 0.007, and the resonator's amplitude is six times the impact's: 0.5 of 10.
+        // 20 000 samples give each coefficient within 1/√20 000 = 0.007, and the resonator's amplitude is six times the
+        // impact's: 0.5 of 10.
         let worst = impacts.iter().zip(&left).skip(200).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         assert!(worst < 0.5, "{worst}");
     }

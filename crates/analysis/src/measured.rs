@@ -14,8 +14,8 @@ use brinell::scene::Bearing;
 const FEWEST_PASSAGES: usize = 8;
 /// Fewest samples per passage: with 64, at 40° spacing, one sample is 0.6° and a spall of a few degrees a handful.
 const FEWEST_SAMPLES: usize = 64;
-/// Span of the samples from which the structure's ringing is predicted [s], and fewest samples: a period of modes above 2.5 kHz, and short
-/// against the way between impacts (0.7 ms over 5 degrees at 40 Hz).
+/// Span of the samples from which the structure's ringing is predicted [s], and fewest samples: a period of modes above
+/// 2.5 kHz, and short against the way between impacts (0.7 ms over 5 degrees at 40 Hz).
 const PREDICTED: f64 = 4e-4;
 const FEWEST_PREDICTING: usize = 8;
 

@@ -1,9 +1,9 @@
 //! The passages of elements over the defect, found one by one and laid over each other.
 //!
-//! The cage is not a clock: slip and the elements' play in their pockets move a passage by tenths of a degree, which would
-//! blur an average taken at the mean period. Each passage is therefore shifted until the rises of its envelope agree best
-//! with the mean of all (cross-correlation, repeated), near the shift of its neighbours. Where even passages make the
-//! averaged signal stronger, the shifts were noise and even passages are kept.
+//! The cage is not a clock: slip and the elements' play in their pockets move a passage by tenths of a degree, which
+//! would blur an average taken at the mean period. Each passage is therefore shifted until the rises of its envelope
+//! agree best with the mean of all (cross-correlation, repeated), near the shift of its neighbours. Where even passages
+//! make the averaged signal stronger, the shifts were noise and even passages are kept.
 //!
 //! Angles are degrees of element travel: one ball pass period is one element spacing.
 
@@ -47,8 +47,9 @@ impl Passages {
         let even: Vec<f64> = (0..count).map(|i| (0.5 + i as f64) * period).collect();
         let aligned = align(&log, &even, period);
         let power = |starts: &[f64]| power(signal, starts, period);
-        // A cage that runs like a clock is best met by a straight line through the shifts, or, where the envelope is too
-        // smooth to give them, by the period that makes the average strongest; then by the shifts of the signal itself.
+        // A cage that runs like a clock is best met by a straight line through the shifts, or, where the envelope is
+        // too smooth to give them, by the period that makes the average strongest; then by the shifts of the signal
+        // itself.
         let mut candidates = vec![line(&aligned), clock(signal, count, period)];
         for k in 0..candidates.len() {
             let mut follows = candidates[k].clone();
@@ -62,8 +63,8 @@ impl Passages {
         Self::from_starts(best.unwrap_or_default(), period)
     }
 
-    /// The same passages, aligned anew by the envelope of the impacts' band, if that makes the averaged envelope steeper.
-    /// The averaged signal must not suffer.
+    /// The same passages, aligned anew by the envelope of the impacts' band, if that makes the averaged envelope
+    /// steeper. The averaged signal must not suffer.
     pub fn refined(self, signal: &[f64], squared_envelope: &[f64]) -> Self {
         let log = rises(squared_envelope, self.period);
         let mut shifted = self.starts.clone();
@@ -148,8 +149,9 @@ pub fn average(rows: &[Vec<f64>]) -> Vec<f64> {
     sum
 }
 
-/// What passages are aligned by: how fast the envelope's logarithm rises, over a quarter of a degree at 40° spacing; where it falls, 0.
-/// Impacts rise steeply; the decay after them, with its beats, is long and would align their echoes as gladly.
+/// What passages are aligned by: how fast the envelope's logarithm rises, over a quarter of a degree at 40° spacing;
+/// where it falls, 0. Impacts rise steeply; the decay after them, with its beats, is long and would align their echoes
+/// as gladly.
 fn rises(squared: &[f64], period: f64) -> Vec<f64> {
     let smooth = spectrum::running_mean(squared, (period / 640.0) as usize);
     let floor = statistics::quantile(&smooth, 0.05).unwrap_or(0.0) + f64::MIN_POSITIVE;
@@ -166,8 +168,8 @@ fn rises(squared: &[f64], period: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Aligns from several beginnings and keeps the result with the most contrast: from the blurred mean alone, the passages can
-/// settle in two groups, an impact's echo of one lying on the impact of the other.
+/// Aligns from several beginnings and keeps the result with the most contrast: from the blurred mean alone, the
+/// passages can settle in two groups, an impact's echo of one lying on the impact of the other.
 fn align(log: &[f64], even: &[f64], period: f64) -> Vec<f64> {
     let whole = template(log, even, period);
     let single = (1..=BEGINNINGS).map(|k| template(log, &[even[k * even.len() / (BEGINNINGS + 1)]], period));

@@ -20,7 +20,8 @@ pub enum Kind {
     Line,
     /// Longer than the element spacing.
     Extended,
-    /// Either: an extended spall sounds like a line spall one spacing shorter, unless the rig's stiffness tells them apart.
+    /// Either: an extended spall sounds like a line spall one spacing shorter, unless the rig's stiffness tells them
+    /// apart.
     Undecided,
 }
 
@@ -59,7 +60,8 @@ pub struct Report {
     pub method: Option<Method>,
     /// Smallest load at which elements inside the spall carry load again [N], where the scene's rig could be used.
     pub critical_load_n: Option<f64>,
-    /// Depth of an extended spall with these events below which the load is above its critical load [µm], where the depth is unknown.
+    /// Depth of an extended spall with these events below which the load is above its critical load [µm], where the
+    /// depth is unknown.
     pub critical_depth_um: Option<f64>,
     /// Each recording by itself.
     pub recordings: Vec<RecordingReport>,
@@ -103,8 +105,8 @@ pub struct RecordingReport {
     pub reason: Option<String>,
 }
 
-/// The averaged passage of one recording, for a figure. Angles in degrees of element travel from the first impact, or by similarity
-/// from the entry.
+/// The averaged passage of one recording, for a figure. Angles in degrees of element travel from the first impact, or
+/// by similarity from the entry.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
     /// Name of the recording.
@@ -119,6 +121,7 @@ pub struct Figure {
     pub low: Vec<f64>,
     /// The most alike simulated passage, scaled to `low`, where similarity gave the length.
     pub model: Option<Vec<f64>>,
-    /// Rigid path of an element's centre over a spall of the answer's length, deep enough that its floor is not reached [m].
+    /// Rigid path of an element's centre over a spall of the answer's length, deep enough that its floor is not reached
+    /// [m].
     pub path: Option<Vec<f64>>,
 }

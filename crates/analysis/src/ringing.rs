@@ -1,15 +1,17 @@
-//! Line or extended: how the rings sound after an entry and after an exit, against the stiffness of the scene's bearing.
+//! Line or extended: how the rings sound after an entry and after an exit, against the stiffness of the scene's
+//! bearing.
 //!
-//! The rings swing against each other on the bearing's stiffness k, softer while an element is free in the spall and softer
-//! still while two are (an extended spall, longer than the element spacing). With the rings' masses m_i, m_o (and the sensor's on
-//! the outer one) and their supports k_i, k_o, the upper frequency f of
+//! The rings swing against each other on the bearing's stiffness k, softer while an element is free in the spall and
+//! softer still while two are (an extended spall, longer than the element spacing). With the rings' masses m_i, m_o
+//! (and the sensor's on the outer one) and their supports k_i, k_o, the upper frequency f of
 //! ```text
 //! | k + k_i − (2πf)² m_i        −k          |
 //! |        −k          k + k_o − (2πf)² m_o | = 0
 //! ```
-//! is expected; k is the tangent stiffness along the load in static balance with an element halfway between the edges after an entry, and
-//! halfway between exit and next entry after an exit. Invalid for elements that carry load inside the spall: above the
-//! critical load, at which the element in the middle touches both rings again, stiffness cannot tell the two kinds.
+//! is expected; k is the tangent stiffness along the load in static balance with an element halfway between the edges
+//! after an entry, and halfway between exit and next entry after an exit. Invalid for elements that carry load inside
+//! the spall: above the critical load, at which the element in the middle touches both rings again, stiffness cannot
+//! tell the two kinds.
 
 use super::spectrum;
 use super::static_bearing::{StaticBearing, StaticError};
@@ -82,7 +84,8 @@ pub fn critical_load(scene: &Scene, trial: Trial) -> Result<Option<f64>, StaticE
     Ok(StaticBearing::new(&synthesis::with_spall(scene, trial), None)?.critical_load()?.map(|critical| critical.load))
 }
 
-/// Strongest frequency of a stretch of signal sampled at `rate` [Hz]; `None` when it is shorter than two of its periods.
+/// Strongest frequency of a stretch of signal sampled at `rate` [Hz]; `None` when it is shorter than two of its
+/// periods.
 pub fn strongest(signal: &[f64], rate: f64) -> Option<f64> {
     if signal.len() < 16 {
         return None;

@@ -1,11 +1,13 @@
 //! Length of a spall of the outer raceway from vibration recordings, with its uncertainty, or why there is none.
 //!
-//! Each recording is sized by similarity to the scene's own rig if the scene describes the rig ([`waveform_length`]), else by the
-//! events of its passages, which needs nothing but the bearing's dimensions ([`event_length`]). A rig that sounds like the
-//! recording also tells a line spall from an extended one; otherwise ringing does ([`ringing`]), or nothing does.
+//! Each recording is sized by similarity to the scene's own rig if the scene describes the rig ([`waveform_length`]),
+//! else by the events of its passages, which needs nothing but the bearing's dimensions ([`event_length`]). A rig that
+//! sounds like the recording also tells a line spall from an extended one; otherwise ringing does ([`ringing`]), or
+//! nothing does.
 //!
-//! Several recordings are of one spall: their lengths are averaged with their statistical weights, and a scatter that is larger than
-//! these explain widens the interval. What all share (what the events mean, the contact's law) is not averaged away.
+//! Several recordings are of one spall: their lengths are averaged with their statistical weights, and a scatter that
+//! is larger than these explain widens the interval. What all share (what the events mean, the contact's law) is not
+//! averaged away.
 
 use super::error::SizingError;
 use super::event_length::{self, EventLength, Unresolved};
@@ -22,8 +24,8 @@ use brinell::scene::{Bearing, Scene};
 
 /// Coverage factor of the stated interval: 95 % of a normal distribution.
 const COVERAGE: f64 = 2.0;
-/// Significance of the comb from which similarity is asked: less than the events need, for to be alike is a proof of its own. Short
-/// recordings lose many harmonics to the shaft's.
+/// Significance of the comb from which similarity is asked: less than the events need, for to be alike is a proof of
+/// its own. Short recordings lose many harmonics to the shaft's.
 const HEARD: f64 = 5.0;
 /// Scatter between recordings of one spall, as a share of the length, from which they contradict each other.
 const CONTRADICTION: f64 = 0.2;
@@ -208,7 +210,8 @@ impl Sized {
     }
 }
 
-/// The length by similarity, unless it is shorter than what can be resolved: a guessed load, clearance or edge would make as much of it.
+/// The length by similarity, unless it is shorter than what can be resolved: a guessed load, clearance or edge would
+/// make as much of it.
 fn of_waveform(waveform: &WaveformLength, scene: &Scene, kind: Kind) -> Result<Length, Unresolved> {
     let WaveformLength { length, statistical, systematic, .. } = *waveform;
     let uncertainty = statistical.hypot(systematic).hypot(FLOOR);

@@ -1,7 +1,8 @@
 //! Filters and envelopes by the Fourier transform of the whole signal.
 //!
-//! A band is cut out with raised-cosine flanks, so that the filter shifts no phase and rings little. The transform takes the
-//! signal as periodic: the first and last milliseconds are worthless, and callers leave the outer passages alone.
+//! A band is cut out with raised-cosine flanks, so that the filter shifts no phase and rings little. The transform
+//! takes the signal as periodic: the first and last milliseconds are worthless, and callers leave the outer passages
+//! alone.
 
 use realfft::num_complex::Complex;
 use realfft::{RealFftPlanner, RealToComplex};

@@ -1,18 +1,18 @@
 //! A bearing in static balance: load distribution and tangent stiffness at one cage angle, the outer ring held.
 //!
 //! The inner ring takes a given load; rings translate, nothing moves, and neither gravity nor centrifugal force acts on
-//! the elements, so that what comes out belongs to the bearing and its load alone. Supports of the rings are left out for
-//! the same reason. Elements are in balance between the rings and answer when the inner ring is displaced:
+//! the elements, so that what comes out belongs to the bearing and its load alone. Supports of the rings are left out
+//! for the same reason. Elements are in balance between the rings and answer when the inner ring is displaced:
 //! ```text
 //! K = −dF/dx,   F the elements' force on the inner ring at the position x          (2 × 2, symmetric)
 //! along the load e:   held  e·K e          transverse position held
 //!                     free  1/(e·K⁻¹ e)    no transverse force
 //! ```
-//! Both agree where the loaded elements lie symmetrically about the load. K is a tangent: it belongs to small changes of
-//! load, and jumps where an element begins to carry.
+//! Both agree where the loaded elements lie symmetrically about the load. K is a tangent: it belongs to small changes
+//! of load, and jumps where an element begins to carry.
 //!
-//! The load zone is the arc of smooth raceway on which the displaced inner ring squeezes: |ψ| < ψ_l from the direction of
-//! its displacement, cos ψ_l = G_r/|x|. It says where a healthy bearing's elements carry, with any number of them.
+//! The load zone is the arc of smooth raceway on which the displaced inner ring squeezes: |ψ| < ψ_l from the direction
+//! of its displacement, cos ψ_l = G_r/|x|. It says where a healthy bearing's elements carry, with any number of them.
 
 use brinell::contact::map::ContactMap;
 use brinell::dynamics::drive::{Drive, Quadratic};
@@ -122,8 +122,8 @@ impl StaticBearing {
         Self::with_map(scene, profile, None)
     }
 
-    /// As [`new`](Self::new), with the bytes of the contact map that was stored for the scene. Without it, law `map` computes the map
-    /// on one core.
+    /// As [`new`](Self::new), with the bytes of the contact map that was stored for the scene. Without it, law `map`
+    /// computes the map on one core.
     ///
     /// # Errors
     /// Those of `new`; a map that is damaged or belongs to something else.
@@ -218,8 +218,8 @@ impl StaticBearing {
         Self { load, ..self.clone() }
     }
 
-    /// The same bearing with another radial clearance [m]; the raceways' radii, and with them the Hertz constants, stay:
-    /// they would change by as little as the clearance is against them.
+    /// The same bearing with another radial clearance [m]; the raceways' radii, and with them the Hertz constants,
+    /// stay: they would change by as little as the clearance is against them.
     pub fn with_clearance(&self, clearance: f64) -> Self {
         let mut other = self.clone();
         other.model.radial_clearance = clearance;

@@ -33,7 +33,8 @@ pub fn rms(values: &[f64]) -> f64 {
     if values.is_empty() { 0.0 } else { (values.iter().map(|x| x * x).sum::<f64>() / values.len() as f64).sqrt() }
 }
 
-/// Correlation of two series of equal length; 0 where one of them scatters by less than 0.05, for what is equal each time tells nothing.
+/// Correlation of two series of equal length; 0 where one of them scatters by less than 0.05, for what is equal each
+/// time tells nothing.
 pub fn correlation(a: &[f64], b: &[f64]) -> f64 {
     let (mean_a, mean_b) = (mean(a), mean(b));
     let (mut ab, mut aa, mut bb) = (0.0, 0.0, 0.0);

@@ -1,13 +1,15 @@
-//! What the scene's own rig would sound like with a spall of a given length, and which length sounds most like the recording.
+//! What the scene's own rig would sound like with a spall of a given length, and which length sounds most like the
+//! recording.
 //!
-//! Where the scene describes the rig (rings that move, a sensor), the library's own simulation is the model of how an element
-//! of finite size rolls in and out: it is run with trial spalls in the load's direction, and the passage it gives, averaged and
-//! cut off above the rings' modes, is laid over the measured one:
+//! Where the scene describes the rig (rings that move, a sensor), the library's own simulation is the model of how an
+//! element of finite size rolls in and out: it is run with trial spalls in the load's direction, and the passage it
+//! gives, averaged and cut off above the rings' modes, is laid over the measured one:
 //! ```text
 //! c(L) = max over shift of |⟨measured, simulated(L)⟩| / (‖measured‖ ‖simulated(L)‖)
 //! ```
-//! The scene's defect is not looked at. A rig that is not the scene's gives a low c, and the fit is then not used. Above the
-//! cut lies the chatter of unloaded elements, which depends on the last micrometre and is no measure of length.
+//! The scene's defect is not looked at. A rig that is not the scene's gives a low c, and the fit is then not used.
+//! Above the cut lies the chatter of unloaded elements, which depends on the last micrometre and is no measure of
+//! length.
 
 use super::passages;
 use super::spectrum::{Band, Spectrum};
@@ -58,15 +60,16 @@ pub struct Rig<'a> {
 }
 
 impl<'a> Rig<'a> {
-    /// The scene at the speed at which elements pass `bpfo` times a second [Hz]; `None` when the scene leaves motion or sensor
-    /// to others and cannot be simulated by itself.
+    /// The scene at the speed at which elements pass `bpfo` times a second [Hz]; `None` when the scene leaves motion or
+    /// sensor to others and cannot be simulated by itself.
     pub fn new(scene: &Scene, bpfo: f64, maps: Maps<'a>) -> Option<Self> {
         let whole = scene.shaft.motion == Motion::Internal && scene.housing.motion != Motion::Host;
         if !whole || scene.sensor.is_none() || scene.housing.motion != Motion::Internal {
             return None;
         }
         let mut scene = scene.clone();
-        // Element 1 starts in the middle of the spall: an entry lies half the spall's length before the passage's start.
+        // Element 1 starts in the middle of the spall: an entry lies half the spall's length before the passage's
+        // start.
         scene.cage = Cage { slip: 0.0, initial_angle: load_angle(&scene) };
         scene.shaft_speed = TAU * bpfo / kinematics::frequencies(&scene.bearing, 0.0, 1.0).bpfo;
         scene.recorder = None;
@@ -142,7 +145,8 @@ pub fn similarity(measured: &[f64], simulated: &[f64]) -> f64 {
     best_shift(measured, simulated).1
 }
 
-/// Share of a period by which the simulated passage must be moved to lie over the measured one, and their similarity then.
+/// Share of a period by which the simulated passage must be moved to lie over the measured one, and their similarity
+/// then.
 ///
 /// Between grid points by a parabola: half a point off would cost more similarity than a tenth of the length.
 pub fn best_shift(measured: &[f64], simulated: &[f64]) -> (f64, f64) {

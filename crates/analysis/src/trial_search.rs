@@ -1,8 +1,9 @@
 //! The search among trial spalls for the one whose simulated passage is most like a measured one.
 //!
-//! Similarity has one top per spall but many lower ones beside it (a period of ringing off), so that a ladder of lengths comes first. From
-//! the best rungs the search climbs in length and depth together: where elements reach the floor, a micrometre of depth moves their
-//! strikes as much as a tenth of a degree of length does, and neither is found without the other.
+//! Similarity has one top per spall but many lower ones beside it (a period of ringing off), so that a ladder of
+//! lengths comes first. From the best rungs the search climbs in length and depth together: where elements reach the
+//! floor, a micrometre of depth moves their strikes as much as a tenth of a degree of length does, and neither is found
+//! without the other.
 
 use super::synthesis::{Rig, Run, Trial, similarity};
 use brinell::scene::ContactLaw;

@@ -1,9 +1,10 @@
 //! Spall length as the trial spall whose simulated passage is most like the measured one; see [`synthesis`].
 //!
-//! The search goes from coarse to fine: lengths in steps of a degree up to two element spacings (an extended spall looks like
-//! a line spall one spacing shorter, but for the frequency of its ringing), deep and, if nothing deep is alike, with floors within the
-//! elements' reach, by the cheap contact law; from the best three a climb in length and depth; the best of these with other depths and the scene's own
-//! law. A parabola through the best three lengths gives the last digits.
+//! The search goes from coarse to fine: lengths in steps of a degree up to two element spacings (an extended spall
+//! looks like a line spall one spacing shorter, but for the frequency of its ringing), deep and, if nothing deep is
+//! alike, with floors within the elements' reach, by the cheap contact law; from the best three a climb in length and
+//! depth; the best of these with other depths and the scene's own law. A parabola through the best three lengths gives
+//! the last digits.
 //!
 //! [`synthesis`]: super::synthesis
 
@@ -21,12 +22,13 @@ pub const LIKE: f64 = 0.9;
 const HOPELESS: f64 = 0.5;
 /// Depth of the first trial spalls [m]: where elements do not reach the floor, it does not matter.
 const DEPTH: f64 = 100e-6;
-/// Shallow trials, in approaches of the most loaded element: at 3.3 of them the neighbours' squeeze brings the inner ring down to the floor of
-/// an extended spall.
+/// Shallow trials, in approaches of the most loaded element: at 3.3 of them the neighbours' squeeze brings the inner
+/// ring down to the floor of an extended spall.
 const SHALLOW: [f64; 5] = [4.4, 3.4, 2.6, 2.0, 1.5];
 /// Depths tried beside the best, as shares of it.
 const OTHER_DEPTHS: [f64; 4] = [0.5, 0.25, 2.0, 4.0];
-/// Step of the ladder [degrees]; half of it where elements stand on the floor, for similarity falls off more steeply there.
+/// Step of the ladder [degrees]; half of it where elements stand on the floor, for similarity falls off more steeply
+/// there.
 const STEP: f64 = 1.0;
 /// Climbs from the ladder's best trials at most.
 const BEGINNINGS: usize = 4;
@@ -52,7 +54,8 @@ pub struct WaveformLength {
     pub by_kind: [f64; 2],
     /// Where in a period an entry begins [share of it].
     pub entry: f64,
-    /// The most alike passage, moved over the measured one and turned its way: [`POINTS`] points from the period's start, norm 1.
+    /// The most alike passage, moved over the measured one and turned its way: [`POINTS`] points from the period's
+    /// start, norm 1.
     pub model: Vec<f64>,
 }
 

@@ -43,7 +43,8 @@ fn cold(c: &mut Criterion) {
 
 fn near_an_edge(c: &mut Criterion) {
     let surface = Surface::Profile(Profile::spall(LENGTH, 100e-6, FRAC_PI_2));
-    // 64 × 16 cells over a window of 1.4 × the ellipse: 46 × 12 across the ellipse itself. Two such grids are solved, half a row apart.
+    // 64 × 16 cells over a window of 1.4 × the ellipse: 46 × 12 across the ellipse itself. Two such grids are solved,
+    // half a row apart.
     let resolution = Resolution { columns: 46, rows: 12 };
     let mut love = LoveContact::new(ER16K, &surface, LARGEST, resolution).expect("possible");
     for (name, u, from) in [("smooth", 6e-6, -0.5e-3), ("edge", 6e-6, -0.05e-3), ("on the edge only", 30e-6, 0.4e-3)] {

@@ -40,12 +40,12 @@ pub(super) unsafe fn array<'a, T>(name: &'static str, pointer: *const T, count: 
     Ok(unsafe { slice::from_raw_parts(pointer, count) })
 }
 
-/// An array that the host lets us write; `pointer` may be null when `count` is 0. A host in C may leave it uninitialised,
-/// so it is filled with zeros before anyone can read it.
+/// An array that the host lets us write; `pointer` may be null when `count` is 0. A host in C may leave it
+/// uninitialised, so it is filled with zeros before anyone can read it.
 ///
 /// # Safety
-/// If `pointer` is neither null nor misaligned, it points to memory of `count` values of a type that has zero bytes for a
-/// value, and nobody else touches it during the call.
+/// If `pointer` is neither null nor misaligned, it points to memory of `count` values of a type that has zero bytes for
+/// a value, and nobody else touches it during the call.
 #[inline]
 pub(super) unsafe fn array_mut<'a, T>(
     name: &'static str,
@@ -79,13 +79,13 @@ pub(super) unsafe fn store<T>(name: &'static str, pointer: *mut T, value: T) -> 
 /// Puts values where the host wants them, without reading what is there; `pointer` may be null when there are none.
 ///
 /// # Safety
-/// If `pointer` is neither null nor misaligned, it points to memory for as many values that nobody else touches during the
-/// call.
+/// If `pointer` is neither null nor misaligned, it points to memory for as many values that nobody else touches during
+/// the call.
 pub(super) unsafe fn store_all<T: Copy>(name: &'static str, pointer: *mut T, values: &[T]) -> Result<(), Failure> {
     if !values.is_empty() {
         check(name, pointer, values.len())?;
-        // SAFETY: not null and aligned by `check`; the values are ours, so they lie elsewhere; the rest is this function's
-        // contract.
+        // SAFETY: not null and aligned by `check`; the values are ours, so they lie elsewhere; the rest is this
+        // function's contract.
         unsafe { pointer.copy_from_nonoverlapping(values.as_ptr(), values.len()) };
     }
     Ok(())
@@ -94,8 +94,8 @@ pub(super) unsafe fn store_all<T: Copy>(name: &'static str, pointer: *mut T, val
 /// A place for the handle of a state, which holds NULL or an earlier one. A state itself is no place.
 ///
 /// # Safety
-/// If `pointer` is neither null, misaligned nor a state, it points to a handle, which may have any value and which nobody
-/// else touches during the call.
+/// If `pointer` is neither null, misaligned nor a state, it points to a handle, which may have any value and which
+/// nobody else touches during the call.
 pub(super) unsafe fn place_of_state<'a>(pointer: *mut FmuState) -> Result<&'a mut FmuState, Failure> {
     const NAME: &str = "FMUstate";
     if snapshots::is_handle(pointer.addr()) {

@@ -5,8 +5,8 @@
 //! "Brinell\0" | format u32 | checksum u64 | length u64 | GUID 38 | mode u8 | last step u8 | clock u8 + 4 f64 | ...
 //!                                         \_____________ covered by the checksum, with the simulation's state after it
 //! ```
-//! `length` is that of the whole blob. The checksum is 64-bit FNV-1a: each of its steps is a bijection of the running value, so a blob
-//! that differs in a single byte never passes.
+//! `length` is that of the whole blob. The checksum is 64-bit FNV-1a: each of its steps is a bijection of the running
+//! value, so a blob that differs in a single byte never passes.
 
 use super::c_types::Status;
 use super::clock::Clock;

@@ -1,12 +1,12 @@
 //! Communication points: where the host says it is, against where the instance is.
 //!
-//! The instance adopts the host's point, so rounding never accumulates between the two. A host that adds its steps meets
-//! the instance to the bit; one that multiplies, `start + n·step`, is off by the rounding of this point, of the last one
-//! and of the instance's own sum, 3.5 ε of the largest time in them at most: [`ROUNDINGS`]. A host that changes between
-//! adding and multiplying brings the rounding of all its additions: `n` of them at time `t` are off by at most
-//! `n·ε·t/2`, 1e-10 of `t` after a million. Ten times that passes ([`ADDED`]), but no more than a hundredth of a step
-//! ([`OF_STEP`]), which additions reach after nine million steps at the earliest: a step that was left out or done twice
-//! is a hundred times as far off, however late it is.
+//! The instance adopts the host's point, so rounding never accumulates between the two. A host that adds its steps
+//! meets the instance to the bit; one that multiplies, `start + n·step`, is off by the rounding of this point, of the
+//! last one and of the instance's own sum, 3.5 ε of the largest time in them at most: [`ROUNDINGS`]. A host that
+//! changes between adding and multiplying brings the rounding of all its additions: `n` of them at time `t` are off by
+//! at most `n·ε·t/2`, 1e-10 of `t` after a million. Ten times that passes ([`ADDED`]), but no more than a hundredth of
+//! a step ([`OF_STEP`]), which additions reach after nine million steps at the earliest: a step that was left out or
+//! done twice is a hundred times as far off, however late it is.
 //!
 //! Where a step is below 400 ε of the time, 0.15 ms at Unix time, a hundredth of it is less than the roundings of the
 //! time, and these decide. A step of a few ε itself, 1.5 µs at Unix time, is taken all the same: its length is exact,

@@ -132,7 +132,8 @@ impl Failure {
         }
     }
 
-    /// Whether the line is sent even if its category is off: whoever wants no debugging still wants to know what was lost.
+    /// Whether the line is sent even if its category is off: whoever wants no debugging still wants to know what was
+    /// lost.
     pub(super) fn must_be_told(&self) -> bool {
         matches!(self, Failure::Unstored { .. })
     }

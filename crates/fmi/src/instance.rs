@@ -54,8 +54,8 @@ impl Instance {
         }
     }
 
-    /// Back to where [`new`](Self::new) left it, and what kept samples from being stored, if anything did. Saved states and
-    /// logging stay.
+    /// Back to where [`new`](Self::new) left it, and what kept samples from being stored, if anything did. Saved states
+    /// and logging stay.
     pub(super) fn reset(&mut self) -> Result<Option<Failure>, Failure> {
         let unstored = self.finish_recording("are lost").err();
         self.recording = None;
@@ -92,8 +92,8 @@ impl Instance {
         Ok(())
     }
 
-    /// Stores what the recorder still holds. What becomes of it if that fails is told as `fate`: never more than a warning,
-    /// for the run itself is as good as it was.
+    /// Stores what the recorder still holds. What becomes of it if that fails is told as `fate`: never more than a
+    /// warning, for the run itself is as good as it was.
     pub(super) fn finish_recording(&mut self, fate: &'static str) -> Result<(), Failure> {
         let Some(recording) = &mut self.recording else { return Ok(()) };
         let Err(cause) = recording.store(&mut self.simulation) else { return Ok(()) };

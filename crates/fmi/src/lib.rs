@@ -1,7 +1,7 @@
 //! A Brinell bearing as hosts of the Functional Mock-up Interface see it: the dynamic library inside an FMU.
 //!
-//! The only crate of the workspace that exports C functions, and the only one with `unsafe` code. It touches no floating-point
-//! control state, starts no thread, keeps nothing in thread-local storage and prints nothing.
+//! The only crate of the workspace that exports C functions, and the only one with `unsafe` code. It touches no
+//! floating-point control state, starts no thread, keeps nothing in thread-local storage and prints nothing.
 //!
 //! | file | knows |
 //! |---|---|

@@ -30,8 +30,8 @@ pub(super) struct Logger {
     switched_on: u8,
 }
 
-// SAFETY: the environment is the host's. It is handed back to the host's own logger, in calls on this instance only, and a host that
-// makes those from one thread after another (FMI 2.0 allows it) expects its logger there.
+// SAFETY: the environment is the host's. It is handed back to the host's own logger, in calls on this instance only,
+// and a host that makes those from one thread after another (FMI 2.0 allows it) expects its logger there.
 unsafe impl Send for Logger {}
 
 impl Logger {
@@ -73,8 +73,8 @@ impl Logger {
         }
     }
 
-    /// Sends a line whatever is switched on: for `fmi2Instantiate`, which leaves no instance to switch logging on for, and for
-    /// what a host must not miss.
+    /// Sends a line whatever is switched on: for `fmi2Instantiate`, which leaves no instance to switch logging on for,
+    /// and for what a host must not miss.
     pub(super) fn insist(&self, status: Status, text: String) {
         self.send(status, category_of(status), text);
     }

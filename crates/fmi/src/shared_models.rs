@@ -1,11 +1,11 @@
 //! The models of this process: each is read and set up once, for all instances that have the same resources.
 //!
-//! An instance begins, and begins anew, with a copy of the set-up. Its variable table and its contact map, by far the largest parts, are
-//! not copied: nobody changes them. Two models that differ, but have equal maps, have one map too.
+//! An instance begins, and begins anew, with a copy of the set-up. Its variable table and its contact map, by far the
+//! largest parts, are not copied: nobody changes them. Two models that differ, but have equal maps, have one map too.
 //!
-//! Models are the same if their GUIDs are, a hash of scene and profile, and the labels of their maps. What is told apart so cheaply is
-//! checked as a whole only when it is read first: a copy of a map that is damaged in its middle is not looked at while an instance that
-//! uses a sound one lives.
+//! Models are the same if their GUIDs are, a hash of scene and profile, and the labels of their maps. What is told
+//! apart so cheaply is checked as a whole only when it is read first: a copy of a map that is damaged in its middle is
+//! not looked at while an instance that uses a sound one lives.
 //!
 //! A model goes with its last user, and the list with the last model, so nothing is left when the library is unloaded.
 
@@ -96,7 +96,8 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 pub(super) struct SharedModel(Arc<Model>);
 
 impl SharedModel {
-    /// The model of this GUID with the map in this file, if there is one: another user's, or what `set_up` makes of the map.
+    /// The model of this GUID with the map in this file, if there is one: another user's, or what `set_up` makes of the
+    /// map.
     pub(super) fn obtain(
         guid: String,
         map_file: &Path,

@@ -1,8 +1,8 @@
 //! Saved states (`fmi2FMUstate`): the instance owns them, the host holds handles.
 //!
 //! As with instances, a handle is a number and not an address, so a stale, foreign or uninitialised one is refused
-//! without being dereferenced. Two thousand million states are saved before a number comes again. A state that its host forgets to free goes
-//! with its instance; the memory of a freed one serves the next.
+//! without being dereferenced. Two thousand million states are saved before a number comes again. A state that its host
+//! forgets to free goes with its instance; the memory of a freed one serves the next.
 
 use std::ptr;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -29,8 +29,8 @@ pub(super) struct Snapshot {
 /// ```text
 /// handle:  00000000 | 1 | serial number (31 bits) | index (20 bits) | 1000
 /// ```
-/// No memory of a host has an address with bit 55 set and none above it, tagged pointers included: processors keep it for
-/// their kernels' half. So a handle that is passed where its address belongs is told from an address.
+/// No memory of a host has an address with bit 55 set and none above it, tagged pointers included: processors keep it
+/// for their kernels' half. So a handle that is passed where its address belongs is told from an address.
 const INDEX_BITS: u32 = 20;
 const SERIAL_BITS: u32 = 31;
 const TAG: u64 = 8;

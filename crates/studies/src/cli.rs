@@ -42,8 +42,8 @@ struct Report {
 
 #[derive(Debug, Args)]
 struct Validate {
-    /// Recordings to be sized, as FILE@HZ=DEGREES with the shaft's speed and the nominal length, 0 if healthy; without them the
-    /// table of recordings stays as it was
+    /// Recordings to be sized, as FILE@HZ=DEGREES with the shaft's speed and the nominal length, 0 if healthy; without
+    /// them the table of recordings stays as it was
     #[arg(value_name = "RECORDING")]
     recordings: Vec<String>,
     /// Sampling rate of the recordings in hertz

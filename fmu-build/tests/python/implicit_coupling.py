@@ -110,8 +110,8 @@ def main():
             _, _, error, passes = found[scheme, step]
             assert np.isfinite(error), f"{scheme} at {step} s is not stable"
             assert passes.max() < MOST, f"{scheme} at {step} s did not agree"
-        # One equation, two ways to its solution: what is left of it, a millionth of a newton on 0.1 kg, times what a run
-        # through impacts makes of it.
+        # One equation, two ways to its solution: what is left of it, a millionth of a newton on 0.1 kg, times what a
+        # run through impacts makes of it.
         difference = np.abs(found["fixed point", step][0] - found["newton", step][0])[:, :2].max()
         assert difference < 1e-9, f"the two iterations differ by {difference} m at {step} s"
         assert found["newton", step][3].mean() <= found["fixed point", step][3].mean(), "Newton takes more passes"

@@ -273,8 +273,8 @@ pub unsafe extern "C" fn fmi2Terminate(c: Component) -> Status {
     })
 }
 
-/// `fmi2Reset`: as after `fmi2Instantiate`. Saved states and the choice of log categories stay. A warning if samples of the
-/// recording could not be stored: they are lost, the instance is as good as new.
+/// `fmi2Reset`: as after `fmi2Instantiate`. Saved states and the choice of log categories stay. A warning if samples of
+/// the recording could not be stored: they are lost, the instance is as good as new.
 ///
 /// # Safety
 /// `c` may be any value.

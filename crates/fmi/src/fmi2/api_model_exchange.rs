@@ -1,7 +1,8 @@
 //! The functions of model exchange, which this FMU does not provide.
 //!
-//! The standard asks a co-simulation FMU for none of them. Some importers (fmuloader 0.1) look up the functions of both kinds when they
-//! load the binary, and fail if one is missing. So they are there, touch no argument and return `fmi2Error`.
+//! The standard asks a co-simulation FMU for none of them. Some importers (fmuloader 0.1) look up the functions of both
+//! kinds when they load the binary, and fail if one is missing. So they are there, touch no argument and return
+//! `fmi2Error`.
 
 #![allow(non_snake_case)]
 

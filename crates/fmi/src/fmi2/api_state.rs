@@ -108,8 +108,8 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
 ) -> Status {
     boundary::call(c, &functions::DESERIALIZE_FMU_STATE, |instance| {
         disjoint(serializedState, size, FMUstate, 1)?;
-        // SAFETY: this function's contract; null, misaligned and overlapping pointers are refused. The handle itself may be
-        // any value.
+        // SAFETY: this function's contract; null, misaligned and overlapping pointers are refused. The handle itself
+        // may be any value.
         let handle = unsafe { place_of_state(FMUstate)? };
         // SAFETY: as above.
         let bytes = unsafe { array("serializedState", serializedState.cast::<u8>(), size)? };

@@ -1,5 +1,6 @@
-//! In which modes each function of FMI 2.0 may be called: a transcription of the table of section 4.2.4 of FMI 2.0.x for
-//! co-simulation. `fmi2Instantiate`, `fmi2GetTypesPlatform` and `fmi2GetVersion` take no instance, so they have no row.
+//! In which modes each function of FMI 2.0 may be called: a transcription of the table of section 4.2.4 of FMI 2.0.x
+//! for co-simulation. `fmi2Instantiate`, `fmi2GetTypesPlatform` and `fmi2GetVersion` take no instance, so they have no
+//! row.
 
 use crate::mode::Mode::{Error, Initialization, Instantiated, StepComplete, Terminated};
 use crate::mode::{Function, Modes, modes};

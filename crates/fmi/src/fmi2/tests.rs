@@ -1,4 +1,5 @@
-//! The whole interface as a host in C uses it: raw pointers, memory that is not initialised, handles of any value, several threads.
+//! The whole interface as a host in C uses it: raw pointers, memory that is not initialised, handles of any value,
+//! several threads.
 //!
 //! These tests are small enough for Miri, which knows whether a pointer may be used as it is:
 //! `MIRIFLAGS=-Zmiri-disable-isolation cargo +nightly miri test -p brinell-fmi --lib`

@@ -1,8 +1,8 @@
 //! Whether the automatic choice of the method costs more than the best of its methods alone.
 //!
-//! Shipped scenes, and stiff ones made of them: light elements, strong damping, high load. The methods take turns, and of each
-//! the fastest run counts, so that what else the machine does falls on all alike. Beside the CPU time stands a count without
-//! noise: steps tried, an implicit one as so many explicit ones as it costs.
+//! Shipped scenes, and stiff ones made of them: light elements, strong damping, high load. The methods take turns, and
+//! of each the fastest run counts, so that what else the machine does falls on all alike. Beside the CPU time stands a
+//! count without noise: steps tried, an implicit one as so many explicit ones as it costs.
 
 use std::path::Path;
 use std::time::Duration;
@@ -141,8 +141,8 @@ fn compare(what: &'static str, simulation: &Simulation, stop: f64) -> Result<Row
     Ok(row)
 }
 
-/// Tried steps in explicit ones, and the share of implicit ones. Rejected steps are not counted by method: they are taken to
-/// be shared like the accepted.
+/// Tried steps in explicit ones, and the share of implicit ones. Rejected steps are not counted by method: they are
+/// taken to be shared like the accepted.
 fn counted(run: &mut Simulation) -> Result<(f64, f64)> {
     let mut rejected = [0];
     run.integers(&[run.reference("solver.rejected_steps")?], &mut rejected)?;

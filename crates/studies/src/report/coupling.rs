@@ -1,8 +1,8 @@
 //! Co-simulation with a host that is a mass on the inner ring: motion in, force out.
 //!
-//! The host's mass m carries the load F_e, has the damper c of the scene's shaft to the ground and hangs on the bearing; the
-//! housing stands. The bearing steps first, from the ring motion that the host gives it; then the host moves under the
-//! bearing's force. Three ways:
+//! The host's mass m carries the load F_e, has the damper c of the scene's shaft to the ground and hangs on the
+//! bearing; the housing stands. The bearing steps first, from the ring motion that the host gives it; then the host
+//! moves under the bearing's force. Three ways:
 //!
 //! | way | ring motion within a step | bearing's force within a step |
 //! |---|---|---|
@@ -10,18 +10,18 @@
 //! | extrapolated | x + vτ + ½aτ² | the parabola through both ends with the mean force that the FMU gives |
 //! | rolled back | as extrapolated; then the state is put back and the step repeated with the parabola that has the same mean as the motion that came out | the same, brought to that motion by the FMU's tangent stiffness |
 //!
-//! With F₀ and F₁ at the ends and F̄ as mean, and the velocity running evenly from v₀ to v₁ as far as the damper sees it, the
-//! host's motion is
+//! With F₀ and F₁ at the ends and F̄ as mean, and the velocity running evenly from v₀ to v₁ as far as the damper sees
+//! it, the host's motion is
 //! ```text
 //! v₁ = v₀ + H (F̄ + F_e)/m − c (x₁ − x₀)/m
 //! x₁ = x₀ + H v₀ + H²/m (F̄/2 + (F₀ − F₁)/12 + F_e/2 − c (v₀/3 + v₁/6))
 //! ```
-//! and momentum is kept exactly; the mean place, which the rolled back step needs, is
-//! x₀ + H v₀/2 + H²/m (F₀/20 − F₁/30 + 3F̄/20 + F_e/6 − c (v₀/8 + v₁/24)). F₀ is read anew when the host has set where the ring really is; that needs no step. The
-//! exact motion is that of one simulation with the mass inside.
+//! and momentum is kept exactly; the mean place, which the rolled back step needs, is x₀ + H v₀/2 + H²/m (F₀/20 − F₁/30
+//! + 3F̄/20 + F_e/6 − c (v₀/8 + v₁/24)). F₀ is read anew when the host has set where the ring really is; that needs no
+//! step. The exact motion is that of one simulation with the mass inside.
 //!
-//! The run begins in balance under half the load; then the whole load acts, and the ring swings with its own frequency on
-//! the bearing.
+//! The run begins in balance under half the load; then the whole load acts, and the ring swings with its own frequency
+//! on the bearing.
 
 use brinell::scene::{Motion, Ring, Scene};
 use brinell::simulation::{Simulation, SimulationError};
@@ -61,8 +61,8 @@ pub struct Row {
     pub coupling: Coupling,
     /// Communication step H [s].
     pub step: f64,
-    /// Root mean square of the error of the ring's place over that of its distance from the start; `None` if the run was
-    /// unstable: the ring was further beside its place than twice the largest distance, or out of the bearing.
+    /// Root mean square of the error of the ring's place over that of its distance from the start; `None` if the run
+    /// was unstable: the ring was further beside its place than twice the largest distance, or out of the bearing.
     pub error: Option<f64>,
 }
 
@@ -289,9 +289,9 @@ impl Host {
         (x, v)
     }
 
-    /// Mean place, end place and end velocity after a step in which the ring moved with `a`, the forces brought to where the
-    /// ring comes by the tangent stiffness K: F̄ falls by K times the distance of the mean places, F₁ by K times that of
-    /// the end places.
+    /// Mean place, end place and end velocity after a step in which the ring moved with `a`, the forces brought to
+    /// where the ring comes by the tangent stiffness K: F̄ falls by K times the distance of the mean places, F₁ by K
+    /// times that of the end places.
     fn corrected(&mut self, [mean, end]: [[f64; 2]; 2], a: [f64; 2], h: f64) -> Result<[[f64; 2]; 3], SimulationError> {
         let mut k = [0.0; 4];
         self.bearing.reals(&self.stiffness, &mut k)?;

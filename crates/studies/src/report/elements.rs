@@ -1,7 +1,7 @@
 //! What a step costs over the number of elements, and a communication step of 10 µs beside it.
 //!
-//! Elements couple to the rings only, so the cost should be a share of each element and one of the rings: O(Z). Elements are
-//! computed eight at a time, which shows below that.
+//! Elements couple to the rings only, so the cost should be a share of each element and one of the rings: O(Z).
+//! Elements are computed eight at a time, which shows below that.
 
 use std::path::Path;
 

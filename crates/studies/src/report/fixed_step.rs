@@ -1,8 +1,8 @@
 //! Fixed-step methods, for comparison: what a program does that has no error control.
 //!
-//! Classical Runge–Kutta of order 4, and velocity Verlet in the form for forces that depend on the velocity (half a kick
-//! with the force at the start, drift, half a kick with the force at the new place and the half velocity), order 1 in
-//! the damping. Neither lands on contact changes or on the edges of the defect.
+//! Classical Runge–Kutta of order 4, and velocity Verlet in the form for forces that depend on the velocity (half a
+//! kick with the force at the start, drift, half a kick with the force at the new place and the half velocity), order 1
+//! in the damping. Neither lands on contact changes or on the edges of the defect.
 
 use brinell::dynamics::drive::Drive;
 use brinell::dynamics::forces::Forces;
@@ -49,8 +49,8 @@ impl FixedRun {
         }
     }
 
-    /// Integrates to `stop` [s] in steps of 1/(`RATE`·`per_sample`); with signals if they are wanted. Stops early when a
-    /// state is no number any more.
+    /// Integrates to `stop` [s] in steps of 1/(`RATE`·`per_sample`); with signals if they are wanted. Stops early when
+    /// a state is no number any more.
     pub(super) fn run(&mut self, method: FixedStep, per_sample: usize, stop: f64, wanted: bool) -> Signals {
         let mut signals = Signals { acceleration: Vec::new(), paths: Vec::new() };
         let h = 1.0 / (RATE * per_sample as f64);

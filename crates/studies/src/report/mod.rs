@@ -43,7 +43,8 @@ pub enum Extent {
     Short,
 }
 
-/// The command: `<folder>/error-vs-run-time.md` and `<folder>/cost-of-steps.md`, their figures and, under `<folder>/data`, its CSV files.
+/// The command: `<folder>/error-vs-run-time.md` and `<folder>/cost-of-steps.md`, their figures and, under
+/// `<folder>/data`, its CSV files.
 pub fn command(project: &Project, extent: Extent, folder: &Path) -> Result<()> {
     let [data, figures] = folders(folder)?;
     let python = Python::prepare(project)?;

@@ -1,5 +1,5 @@
-//! Averaged passages and their characteristic frequencies: the paper's Figure 6, at its nominal depth and under the two assumptions by
-//! which the extended spall's floor comes to carry load between 500 and 600 N.
+//! Averaged passages and their characteristic frequencies: the paper's Figure 6, at its nominal depth and under the two
+//! assumptions by which the extended spall's floor comes to carry load between 500 and 600 N.
 
 use std::fmt::Write;
 

@@ -1,4 +1,5 @@
-//! Sizing of simulated signals: the sensor of a scene with a spall is recorded, and the spall sized by the same scene without it.
+//! Sizing of simulated signals: the sensor of a scene with a spall is recorded, and the spall sized by the same scene
+//! without it.
 
 use std::fmt::Write;
 

@@ -1,6 +1,8 @@
-//! The command `validate`: every claim of the paper beside what comes out here, into `docs/validation.md` and its figures.
+//! The command `validate`: every claim of the paper beside what comes out here, into `docs/validation.md` and its
+//! figures.
 //!
-//! The prose stands in `assets/validation.md`; `{{name}}` in it is a table that is computed. Data go to `target/validation`.
+//! The prose stands in `assets/validation.md`; `{{name}}` in it is a table that is computed. Data go to
+//! `target/validation`.
 
 pub mod averages;
 pub mod blind;

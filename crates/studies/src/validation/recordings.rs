@@ -1,7 +1,7 @@
 //! Recordings of a machine, sized singly and by group, and the scene of one of them beside it.
 //!
-//! The recordings belong to others and are not part of this project. What was found in them is: `docs/validation-recordings.md` is
-//! written anew only when recordings are given.
+//! The recordings belong to others and are not part of this project. What was found in them is:
+//! `docs/validation-recordings.md` is written anew only when recordings are given.
 
 use std::fmt::Write;
 use std::fs;
@@ -22,8 +22,8 @@ use fmu_build::project::Project;
 
 /// Scene of the rig.
 const SCENE: &str = "6205-spall-5deg";
-/// The other spall laid beside the recording: length at the surface [degrees], depth [m], slope of the flanks [degrees]. Its floor is 5 degrees
-/// long. Chosen so that impacts and null fall where the recording has them.
+/// The other spall laid beside the recording: length at the surface [degrees], depth [m], slope of the flanks
+/// [degrees]. Its floor is 5 degrees long. Chosen so that impacts and null fall where the recording has them.
 const FLANKS: [f64; 3] = [5.8, 12e-6, 4.18];
 /// Harmonics of the envelope that are drawn.
 const HARMONICS: usize = 20;

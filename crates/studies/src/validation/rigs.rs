@@ -1,7 +1,8 @@
 //! Sizing on machines that do not exist: how often a length comes out right, wrong, or not at all.
 //!
-//! Machines are numbered and each is drawn anew from its number and the length. **The first half was looked at while the method was
-//! made, the second only to write down the result.** The scene that sizes them knows the bearing, and the load within a third; it has no rig.
+//! Machines are numbered and each is drawn anew from its number and the length. **The first half was looked at while
+//! the method was made, the second only to write down the result.** The scene that sizes them knows the bearing, and
+//! the load within a third; it has no rig.
 
 use std::fmt::Write;
 use std::sync::Mutex;

@@ -137,8 +137,8 @@ impl Case {
         Ok(columns)
     }
 
-    /// Mean of the passages of a signal recorded from the start at `rate` [Hz], each from `lead` of a period before an entry on; the
-    /// first `skip` passages are left out.
+    /// Mean of the passages of a signal recorded from the start at `rate` [Hz], each from `lead` of a period before an
+    /// entry on; the first `skip` passages are left out.
     pub fn average(&self, signal: &[f64], rate: f64, length: f64, lead: f64, skip: usize) -> Vec<f64> {
         let period = rate / self.bpfo();
         let first = self.entry(length) * rate + (skip as f64 - lead) * period;

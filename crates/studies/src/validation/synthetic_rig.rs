@@ -1,15 +1,17 @@
 //! Machines that do not exist: what an accelerometer on one would record while elements pass a spall of known length.
 //!
-//! The bearing answers by the kinematics of an element of finite size; everything behind it is drawn at random. With s the way past the
-//! leading edge, L the spall's length, P = s²/(2 r_e) the way sunk and δ the approach of the most loaded element,
+//! The bearing answers by the kinematics of an element of finite size; everything behind it is drawn at random. With s
+//! the way past the leading edge, L the spall's length, P = s²/(2 r_e) the way sunk and δ the approach of the most
+//! loaded element,
 //! ```text
 //! force lost   1 − (1 − min(P(s), P(L − s))/δ)^1.5,   all of it while that is above δ;  edges rounded over a random way
 //! first impact   where the element meets the floor or, before that, the other edge (s = L/2)
 //! last impact    where a free element takes up its load again: between L − s_u and L, P(s_u) = δ; none if it never got free
 //! ```
-//! The lost force moves the housing through modes of 0.2 to 3 kHz; impacts ring modes of 1 to 12 kHz, directly and by echoes. Loudness,
-//! slip, the cage's wander, shaft harmonics, hum, a gear's tone, knocks that have nothing to do with the bearing, and noise
-//! are added. It is no simulation of a machine, and shares with the estimator only the two formulas of sinking; nothing in it was measured.
+//! The lost force moves the housing through modes of 0.2 to 3 kHz; impacts ring modes of 1 to 12 kHz, directly and by
+//! echoes. Loudness, slip, the cage's wander, shaft harmonics, hum, a gear's tone, knocks that have nothing to do with
+//! the bearing, and noise are added. It is no simulation of a machine, and shares with the estimator only the two
+//! formulas of sinking; nothing in it was measured.
 
 use brinell::geometry::hertz_constant::HertzConstants;
 use brinell::geometry::kinematics;
@@ -18,7 +20,8 @@ use brinell_analysis::statistics::Random;
 use brinell_analysis::statistics::rms;
 use std::f64::consts::TAU;
 
-/// Way before an edge at which an elastic contact begins to lose its force, in ways to get free: over the edge it has lost 15 %.
+/// Way before an edge at which an elastic contact begins to lose its force, in ways to get free: over the edge it has
+/// lost 15 %.
 const EARLY: f64 = 0.47;
 
 /// A machine, its speed and its recorder.
@@ -56,7 +59,8 @@ pub struct SyntheticRig {
     rounded: f64,
     /// Where between L − s_u and L the load is taken up, 0 to 1.
     reload: f64,
-    /// Amplitudes in shares of the signal's root mean square: shaft harmonics, hum, gear; knocks per second and their strength.
+    /// Amplitudes in shares of the signal's root mean square: shaft harmonics, hum, gear; knocks per second and their
+    /// strength.
     shaft: f64,
     hum: [f64; 2],
     gear: [f64; 2],
@@ -233,8 +237,8 @@ fn add_impact(signal: &mut [f64], at: f64, strength: f64, duration: f64, rate: f
     }
 }
 
-/// Response of resonators to a force: acceleration if asked, else velocity, which impacts excite at all frequencies alike. Each is the exact
-/// recursion of a mode that is hit by a series of impulses.
+/// Response of resonators to a force: acceleration if asked, else velocity, which impacts excite at all frequencies
+/// alike. Each is the exact recursion of a mode that is hit by a series of impulses.
 fn modal(force: &[f64], modes: &[[f64; 3]], rate: f64, acceleration: bool) -> Vec<f64> {
     let mut sum = vec![0.0; force.len()];
     for &[frequency, damping, share] in modes {
