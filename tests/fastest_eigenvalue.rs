@@ -10,7 +10,7 @@ use brinell::scene::{Damping, Motion, Scene, Sensor};
 use brinell::simulation::Method;
 use brinell::simulation::setup::build_model;
 use brinell::surface::Surface;
-use faer::Mat;
+use brinell_eigen::eigenvalues;
 use std::f64::consts::TAU;
 use support::{Named, shipped};
 
@@ -120,7 +120,8 @@ fn ratio(seed: u64, lightest: f64, damped: bool) -> (f64, String) {
     // Positions times the fastest eigenvalue are of the velocities' size.
     let scale = |i: usize| if layout.is_position(used[i]) { fastest } else { 1.0 };
     let scaled = |i: usize, k: usize| matrix[used[i]][used[k]] * scale(i) / scale(k);
-    let eigenvalues = Mat::from_fn(used.len(), used.len(), scaled).eigenvalues().unwrap();
+    let matrix: Vec<Vec<f64>> = (0..used.len()).map(|i| (0..used.len()).map(|k| scaled(i, k)).collect()).collect();
+    let eigenvalues = eigenvalues(&matrix).unwrap();
     let largest = eigenvalues.iter().map(|value| value.norm()).fold(0.0, f64::max);
     let [inner, outer] = [scene.shaft, scene.housing].map(|ring| (ring.motion, ring.mass, ring.damping));
     let elements = (scene.bearing.element_count, scene.bearing.element_mass.unwrap());

@@ -13,10 +13,12 @@ use reader::imports;
 /// The order of the layers; each may import those before it.
 const ORDER: [&str; 8] = ["numerics", "scene", "geometry", "surface", "contact", "dynamics", "simulation", "recording"];
 /// The crates of the workspace by folder, and those among them that each may depend on.
-const CRATES: [(&str, &[&str]); 6] = [
+const CRATES: [(&str, &[&str]); 8] = [
     ("", &[]),
     ("crates/fmi", &["brinell"]),
-    ("crates/analysis", &["brinell"]),
+    ("crates/eigen", &[]),
+    ("crates/spectrum", &[]),
+    ("crates/analysis", &["brinell", "brinell-eigen", "brinell-spectrum"]),
     ("crates/contact-bench", &["brinell"]),
     ("fmu-build", &["brinell", "brinell-analysis"]),
     ("crates/studies", &["brinell", "brinell-analysis", "fmu-build"]),

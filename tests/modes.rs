@@ -13,7 +13,7 @@ use brinell_analysis::mode_lines::sweep;
 use brinell_analysis::modes::{Kind, Mode, Modes};
 use brinell_analysis::modes_report::ModesReport;
 use brinell_analysis::static_bearing::StaticBearing;
-use faer::Mat;
+use brinell_eigen::eigenvalues;
 use std::f64::consts::TAU;
 use support::{Named, map_of, profile_of, shipped, shipped_as_it_is};
 
@@ -219,7 +219,8 @@ fn heavy_rings_are_masses_on_the_static_stiffness() {
             let ring = if i < 2 { both.shaft } else { both.housing };
             (if i == k { ring.stiffness } else { 0.0 } - elements_in_balance[(i, k)]) / ring.mass
         };
-        let squares = Mat::from_fn(4, 4, entry).eigenvalues().unwrap().iter().map(|square| square.re).collect();
+        let matrix: Vec<Vec<f64>> = (0..4).map(|i| (0..4).map(|k| entry(i, k)).collect()).collect();
+        let squares = eigenvalues(&matrix).unwrap().iter().map(|square| square.re).collect();
         let two = distance(&both, angle, squares);
         println!("{heavier} times heavier: one ring {one:.2e}, two rings {two:.2e} from masses on springs");
         errors.push([one, two]);

@@ -44,23 +44,31 @@ pub fn profile_of(scene: &Scene) -> Option<String> {
 /// Maps of this process, by the fingerprint of what they depend on.
 static MAPS: Mutex<BTreeMap<u64, Arc<OnceLock<Vec<u8>>>>> = Mutex::new(BTreeMap::new());
 
-/// The contact map of a scene, computed once for all test programs and kept in the target folder.
+/// The contact map of a scene, computed once for all test programs and kept where `cargo fmu` keeps and finds maps as well.
 ///
-/// The file's name carries a fingerprint of the sources that compute maps, so none outlives a change of them.
+/// Beside it a fingerprint of the sources that compute maps is kept, so that none outlives a change of them.
 pub fn map_of(scene: &Scene, profile: Option<&str>) -> Option<Vec<u8>> {
     let defect = scene.defect.as_ref().filter(|_| scene.contact.law == ContactLaw::Map)?;
     let surface = Surface::load(&defect.shape, profile, &scene.bearing).unwrap();
     let wanted = setup::map_fingerprint(scene, &surface);
     let map = Arc::clone(MAPS.lock().unwrap().entry(wanted).or_default());
     let bytes = map.get_or_init(|| {
-        let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{wanted:016x}-{:016x}.map", map_sources()));
-        fs::read(&file).unwrap_or_else(|_| {
-            let map = setup::build_map(scene, &surface, &mut Sequential(|_, _| {})).unwrap().unwrap();
-            let partial = file.with_extension(format!("{}.part", std::process::id()));
-            fs::write(&partial, map.to_bytes()).unwrap();
-            fs::rename(&partial, &file).unwrap();
-            map.to_bytes()
-        })
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).with_file_name("maps");
+        let [file, made_by] = ["bin", "sources"].map(|end| folder.join(format!("{wanted:016x}.{end}")));
+        let sources = format!("{:016x}", map_sources());
+        if fs::read_to_string(&made_by).is_ok_and(|found| found == sources)
+            && let Ok(bytes) = fs::read(&file)
+        {
+            return bytes;
+        }
+        let bytes = setup::build_map(scene, &surface, &mut Sequential(|_, _| {})).unwrap().unwrap().to_bytes();
+        fs::create_dir_all(&folder).unwrap();
+        for (path, content) in [(&file, &bytes[..]), (&made_by, sources.as_bytes())] {
+            let partial = path.with_extension(format!("{}.part", std::process::id()));
+            fs::write(&partial, content).unwrap();
+            fs::rename(&partial, path).unwrap();
+        }
+        bytes
     });
     Some(bytes.clone())
 }

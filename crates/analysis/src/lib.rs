@@ -6,7 +6,6 @@
 pub mod assembly;
 mod continuity;
 pub mod critical_load;
-pub mod eigen;
 pub mod entry;
 pub mod envelope;
 pub mod error;
@@ -28,10 +27,11 @@ pub mod report;
 pub mod ringing;
 pub mod sampling_times;
 pub mod spall_size;
-pub mod spectrum;
 pub mod static_bearing;
 pub mod statistics;
 pub mod stiffness;
 pub mod synthesis;
 mod trial_search;
 pub mod waveform_length;
+
+pub use brinell_spectrum as spectrum;

@@ -12,8 +12,8 @@
 //! freedom alone: entries are then alike, and without damping the matrix is nearly normal. A loose element is left out.
 
 use super::assembly::{Assembly, AtRest, Body, Freedom, Hold};
-use super::eigen::{self, EigenError, Eigenpair, c64};
 use super::static_bearing::StaticError;
+use brinell_eigen::{self as eigen, EigenError, Eigenpair, c64};
 use std::f64::consts::TAU;
 
 /// Why there are no modes.

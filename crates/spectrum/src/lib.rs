@@ -3,6 +3,11 @@
 //! A band is cut out with raised-cosine flanks, so that the filter shifts no phase and rings little. The transform
 //! takes the signal as periodic: the first and last milliseconds are worthless, and callers leave the outer passages
 //! alone.
+//!
+//! A crate of its own: the transforms are generic, and are compiled here once for all who use them.
+
+// Units in brackets, as in `[m]`, are no links.
+#![allow(rustdoc::broken_intra_doc_links)]
 
 use realfft::num_complex::Complex;
 use realfft::{RealFftPlanner, RealToComplex};

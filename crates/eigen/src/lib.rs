@@ -1,11 +1,17 @@
 //! Dense eigenproblems of a few dozen rows, solved by faer.
+//!
+//! A crate of its own: faer's methods are generic, and are compiled here once for all who use them.
+
+// Units in brackets, as in `[m]`, are no links.
+#![allow(rustdoc::broken_intra_doc_links)]
 
 use faer::Mat;
-pub(crate) use faer::c64;
+pub use faer::c64;
 use faer::linalg::solvers::Solve;
 
 /// Why an eigenproblem has no solution that can be trusted.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum EigenError {
     /// An entry of the matrix is no finite number.
     #[error("an entry of the matrix is not finite")]
@@ -30,16 +36,29 @@ const ROUNDING: f64 = 1e-15;
 
 /// An eigenvalue and its vector, of Euclidean length 1.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Eigenpair {
-    pub(crate) value: c64,
-    pub(crate) vector: Vec<c64>,
+pub struct Eigenpair {
+    /// The eigenvalue.
+    pub value: c64,
+    /// Its vector.
+    pub vector: Vec<c64>,
+}
+
+/// The eigenvalues of a square real matrix, rows by columns, both of each complex pair.
+///
+/// # Errors
+/// A matrix with an entry that is not finite; no convergence.
+pub fn eigenvalues(matrix: &[Vec<f64>]) -> Result<Vec<c64>, EigenError> {
+    if !matrix.iter().flatten().all(|entry| entry.is_finite()) {
+        return Err(EigenError::NotFinite);
+    }
+    to_faer(matrix, matrix.len()).eigenvalues().map_err(|_| EigenError::NoConvergence)
 }
 
 /// The eigenpairs of a square real matrix, rows by columns; of each complex pair the one with positive imaginary part.
 ///
 /// # Errors
 /// A matrix with an entry that is not finite; no convergence; pairs that miss the equation.
-pub(crate) fn eigenpairs(matrix: &[Vec<f64>]) -> Result<Vec<Eigenpair>, EigenError> {
+pub fn eigenpairs(matrix: &[Vec<f64>]) -> Result<Vec<Eigenpair>, EigenError> {
     let size = matrix.len();
     if !matrix.iter().flatten().all(|entry| entry.is_finite()) {
         return Err(EigenError::NotFinite);
@@ -96,7 +115,7 @@ fn unit(vector: Vec<c64>) -> Vec<c64> {
 ///
 /// # Errors
 /// As for [`eigenpairs`].
-pub(crate) fn null_space(matrix: &[Vec<f64>], share: f64) -> Result<Vec<Vec<f64>>, EigenError> {
+pub fn null_space(matrix: &[Vec<f64>], share: f64) -> Result<Vec<Vec<f64>>, EigenError> {
     let size = matrix.len();
     if !matrix.iter().flatten().all(|entry| entry.is_finite()) {
         return Err(EigenError::NotFinite);
@@ -114,6 +133,7 @@ fn to_faer(matrix: &[Vec<f64>], size: usize) -> Mat<f64> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]
