@@ -59,7 +59,8 @@ const ACCURACY: f64 = 2e-13;
 /// Largest tan κ with which a stretch may begin or end, 89.99°. Where the path leaps it is infinite, or 1e5 by the ends'
 /// rounding.
 const STEEPEST: f64 = 1e4;
-/// Most intervals of a stretch, which only an element that touches at more than 85° asks for.
+/// Most intervals of a stretch, which only an element that touches at more than 85° asks for. There the path is less exact, at 89.8° to
+/// 1e-10 of the element's radius; beyond [`STEEPEST`] there is none.
 const MOST: usize = 1 << 16;
 
 impl RigidPath {

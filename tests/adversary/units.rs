@@ -48,6 +48,21 @@ pub fn slope_error(bearing: &Bearing, feature: Feature, psi: f64) -> f64 {
     raceway * (truncated + rounded)
 }
 
+/// How exactly the path [m] is kept at an angle that is touched at more than 85°: a stretch has 65 536 cubics at most.
+pub fn path_error(bearing: &Bearing, feature: Feature, psi: f64) -> f64 {
+    let (Some((envelope, _)), Feature::Corner(_)) = (&bearing.defect, feature) else { return 0.0 };
+    let [from, to] = envelope.stretch(psi);
+    let width = (to - from) / 65_536.0;
+    // w⁴P⁗/384 with P⁗ as in `slope_error`, at the steeper end of the cubic.
+    let error = |psi: f64| {
+        let (path, slope) = envelope.path(feature, psi.clamp(from, to));
+        let cos = 1.0 / (slope / (bearing.rho_0 + path)).hypot(1.0);
+        let fourth = 3.0 * (5.0 - 4.0 * cos * cos) / (bearing.r.powi(3) * cos.powi(7));
+        (width * (bearing.rho_0 + bearing.r)).powi(4) * fourth / 384.0
+    };
+    error(psi - width).max(error(psi + width))
+}
+
 /// One unit of each kind of signal, for the largest approaches [m].
 pub fn units(bearing: &Bearing, case: &Case, largest: [f64; 2]) -> BTreeMap<Kind, f64> {
     let approach = largest[0].max(largest[1]).max(0.0);
