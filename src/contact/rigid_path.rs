@@ -59,8 +59,8 @@ const ACCURACY: f64 = 2e-13;
 /// Largest tan κ with which a stretch may begin or end, 89.99°. Where the path leaps it is infinite, or 1e5 by the ends'
 /// rounding.
 const STEEPEST: f64 = 1e4;
-/// Most intervals of a stretch, which only an element that touches at more than 85° asks for. There the path is less exact, at 89.8° to
-/// 1e-10 of the element's radius; beyond [`STEEPEST`] there is none.
+/// Most intervals of a stretch, which only an element that touches at more than 85° asks for. There the path is less
+/// exact, at 89.8° to 1e-10 of the element's radius; beyond [`STEEPEST`] there is none.
 const MOST: usize = 1 << 16;
 
 impl RigidPath {
@@ -246,17 +246,21 @@ mod tests {
             let points = [(-half, 0.0), (-half, depth), (half, depth), (half, 0.0)];
             let path = RigidPath::new(&points, r, raceway).unwrap();
             for i in 0..2000 {
-                let angle = half / raceway * (f64::from(i) / 1000.0 - 1.0);
+                let angle = half / raceway * ((f64::from(i) + 0.37) / 1000.0 - 1.0);
                 // tan κ by the triangle of edge, centre and the ring's centre; the element turns down from the nearer edge.
                 let d = half / raceway - angle.abs();
                 let (across, rho) = (raceway * d.sin(), path_of(r, raceway, d) + raceway - r);
                 let root = (r * r - across * across).sqrt();
                 let expected = -angle.signum() * rho * across / root;
                 let off = (value(&path, angle).slope - expected).abs() / raceway;
-                // 3.1 of the path's error over the narrowest width that it asks for, 1e-3 r cos^1.75 κ, and roundings.
-                let width = 1e-3 * r * (root / r).powf(1.75);
-                let limit = 3.1 * ACCURACY * r / width + 3.0 * f64::EPSILON * (2.0 * raceway + r) / (0.5 * width);
-                assert!(i == 1000 || off <= limit, "radius {r}, at {angle}: {off:e}, allowed {limit:e}");
+                // √3/216 width³ P⁗, a tenth more for the raceway's curvature, and at most 3.1 of the path's error over the
+                // width that this asks for, 1e-3 r cos^1.75 κ at the least; roundings over half of either.
+                let (widest, narrow) = (5e-6f64.max(1.25e-3 * r), 1e-3 * r * (root / r).powf(1.75));
+                let fourth = 3.0 * (1.0 + 4.0 * (across / r).powi(2)) / (r.powi(3) * (root / r).powi(7));
+                let truncated = 1.1 * 3f64.sqrt() / 216.0 * widest.powi(3) * fourth;
+                let rounded = 3.0 * f64::EPSILON * (2.0 * raceway + r) / (0.5 * narrow.min(widest));
+                let limit = truncated.min(3.1 * ACCURACY * r / narrow) + rounded;
+                assert!(off <= limit, "radius {r}, at {angle}: {off:e}, allowed {limit:e}");
             }
         }
     }
