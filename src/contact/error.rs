@@ -49,6 +49,22 @@ pub enum ContactError {
         /// Circumference of the outer raceway [mm].
         circumference_mm: f64,
     },
+    /// A rigid element that lies so deep beside a wall that only its side meets the edge: its path leaps there.
+    #[error(
+        "defect: {at_mm:.4} mm from its middle an element of radius {radius_mm:.4} mm lies {depth_mm:.4} mm deep beside an edge \
+         that it meets with its side; the limit is {limit_mm:.4} mm, from deeper down no rigid element rolls out: make the \
+         defect shallower or its flank gentler"
+    )]
+    NoWayOut {
+        /// Where the element's centre is, along the raceway from the defect's middle [mm].
+        at_mm: f64,
+        /// Depth to which the element's centre sinks there [mm].
+        depth_mm: f64,
+        /// Depth up to which the edge still carries it [mm].
+        limit_mm: f64,
+        /// Radius of the element [mm].
+        radius_mm: f64,
+    },
     /// An array has the wrong length.
     #[error("{quantity} has {length} values, {expected} are needed")]
     WrongLength {

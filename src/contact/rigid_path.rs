@@ -12,7 +12,8 @@
 //!
 //! The contact is Hertz's with approach u − P, directed along the path's normal, tan κ = P′/ρ. The element is rigid and
 //! the contact a point, so this is invalid within one contact half-width of a spall's edge, where it overstates the
-//! force by about 15 %, and it ignores the profile across the raceway.
+//! force by about 15 %, and it ignores the profile across the raceway. Where an element lies so deep beside a wall that only its
+//! side meets the edge, the path leaps and there is no force to climb it with: such a profile is refused.
 
 use super::error::ContactError;
 use super::rigid_roller::{Feature, Roller};
@@ -45,13 +46,21 @@ struct Piece {
     cubics: Vec<[f64; 4]>,
 }
 
-/// Widest interval of a cubic along the raceway [m]. Its error is width⁴ P⁗/384, about 1e-16 m for an element of 8 mm;
-/// narrower ones are made where that is above [`ACCURACY`].
+/// Widest interval of a cubic along the raceway [m], of which elements of more than 8 mm have a wider one. Its error is
+/// width⁴ P⁗/384, about 1e-16 m for an element of 8 mm; narrower ones are made where that is above [`ACCURACY`].
 const INTERVAL: f64 = 5e-6;
+/// The same over the element's radius. The path's roundings, some of the raceway's radius, come into the slope divided
+/// by the width.
+const INTERVAL_OF_RADIUS: f64 = 1.25e-3;
 /// Largest error of the cubics over the element's radius. P⁗ grows as 1/r³, and without end where the element touches
-/// sideways.
+/// sideways. The error of their slope is √3/216 width³ P⁗, at most 3.1 of the path's error over the width: along the
+/// raceway 3e-10/cos^1.75 κ, and as much as the damper at the element's speed makes of that is wrong with the force.
 const ACCURACY: f64 = 2e-13;
-/// Most intervals of a stretch, which only an element that touches at more than 85° asks for.
+/// Largest tan κ with which a stretch may begin or end, 89.99°. Where the path leaps it is infinite, or 1e5 by the ends'
+/// rounding.
+const STEEPEST: f64 = 1e4;
+/// Most intervals of a stretch, which only an element that touches at more than 85° asks for. There the path is less
+/// exact, at 89.8° to 1e-10 of the element's radius; beyond [`STEEPEST`] there is none.
 const MOST: usize = 1 << 16;
 
 impl RigidPath {
@@ -61,11 +70,15 @@ impl RigidPath {
     /// Depths must be below the element's radius; the surface layer sees to that.
     ///
     /// # Errors
-    /// [`ContactError::EndsMeet`] where rims at both ends lift the element at once.
+    /// [`ContactError::EndsMeet`] where rims at both ends lift the element at once, [`ContactError::NoWayOut`] where it
+    /// lies so deep that only its side meets an edge.
     pub fn new(points: &[(f64, f64)], element_radius: f64, raceway_radius: f64) -> Result<Self, ContactError> {
         let roller = Roller::new(points, element_radius, raceway_radius);
         roller.check_ends()?;
         let (first, stretches) = roller.stretches();
+        for pair in stretches.windows(2) {
+            check_climb(&roller, pair[0].0, [pair[0].1, pair[1].1])?;
+        }
         let mut knots = vec![first];
         let mut pieces = Vec::with_capacity(stretches.len());
         for (end, feature) in stretches {
@@ -87,14 +100,32 @@ impl RigidPath {
     }
 }
 
+/// Refuses a leap of the path between two features that meet at `angle`.
+fn check_climb(roller: &Roller, angle: f64, features: [Feature; 2]) -> Result<(), ContactError> {
+    let [before, behind] = features.map(|feature| roller.touch_slope(feature, angle));
+    let rho = |path: f64| roller.raceway_radius() - roller.element_radius() + path;
+    if [before, behind].iter().all(|&(path, slope)| slope.abs() <= STEEPEST * rho(path)) {
+        return Ok(());
+    }
+    Err(ContactError::NoWayOut {
+        at_mm: angle * roller.raceway_radius() * 1e3,
+        depth_mm: before.0.max(behind.0) * 1e3,
+        limit_mm: before.0.min(behind.0) * 1e3,
+        radius_mm: roller.element_radius() * 1e3,
+    })
+}
+
 impl Piece {
     fn new(roller: &Roller, feature: Feature, start: f64, end: f64) -> Self {
         if roller.is_level(feature) {
-            return Self::of_intervals(roller, feature, (start, end), 1);
+            // Not by its ends: rounding puts them beside the floor, where the slope is none of the floor's.
+            let (path, _) = roller.touch_slope(feature, 0.5 * (start + end));
+            return Self { start, per_width: 1.0 / (end - start), cubics: vec![[path, 0.0, 0.0, 0.0]] };
         }
+        let interval = INTERVAL.max(INTERVAL_OF_RADIUS * roller.element_radius());
         let limit = ACCURACY * roller.element_radius() + 4.0 * f64::EPSILON * roller.raceway_radius();
         let arc = (end - start) * roller.raceway_radius();
-        let mut count = (arc / INTERVAL).ceil().max(1.0) as usize;
+        let mut count = (arc / interval).ceil().max(1.0) as usize;
         loop {
             let piece = Self::of_intervals(roller, feature, (start, end), count);
             if count >= MOST || piece.error(roller, feature) <= limit {
@@ -164,6 +195,11 @@ mod tests {
         (R_O * d.cos() - (R * R - (R_O * d.sin()).powi(2)).sqrt() - (R_O - R)).min(depth)
     }
 
+    /// P at angle `d` past an edge, above the floor.
+    fn path_of(r: f64, raceway: f64, d: f64) -> f64 {
+        raceway * d.cos() - (r * r - (raceway * d.sin()).powi(2)).sqrt() - (raceway - r)
+    }
+
     fn value(path: &RigidPath, angle: f64) -> PathPoint {
         let knots = path.knots();
         let piece = knots.partition_point(|&k| k <= angle).clamp(1, knots.len() - 1) - 1;
@@ -196,12 +232,69 @@ mod tests {
             for i in 0..=1000 {
                 let angle = half / raceway * (i as f64 / 500.0 - 1.0);
                 let d = half / raceway - angle.abs();
-                let drop = raceway * d.cos() - (r * r - (raceway * d.sin()).powi(2)).sqrt() - (raceway - r);
-                let off = value(&path, angle).path - drop.min(depth);
+                let off = value(&path, angle).path - path_of(r, raceway, d).min(depth);
                 // The cubics', and roundings of the raceway's radius.
                 assert!(off.abs() <= 2.0 * ACCURACY * r, "radius {r}, at {angle}: {off:e} m");
             }
         }
+    }
+
+    #[test]
+    fn slopes_are_as_exact_as_the_paths_accuracy_says() {
+        for r in [25e-6, 1e-3, 3.97e-3, 0.25] {
+            let (raceway, half, depth) = (6.0 * r, 0.5 * r, 0.9 * r);
+            let points = [(-half, 0.0), (-half, depth), (half, depth), (half, 0.0)];
+            let path = RigidPath::new(&points, r, raceway).unwrap();
+            for i in 0..2000 {
+                let angle = half / raceway * ((f64::from(i) + 0.37) / 1000.0 - 1.0);
+                // tan κ by the triangle of edge, centre and the ring's centre; the element turns down from the nearer edge.
+                let d = half / raceway - angle.abs();
+                let (across, rho) = (raceway * d.sin(), path_of(r, raceway, d) + raceway - r);
+                let root = (r * r - across * across).sqrt();
+                let expected = -angle.signum() * rho * across / root;
+                let off = (value(&path, angle).slope - expected).abs() / raceway;
+                // √3/216 width³ P⁗, a tenth more for the raceway's curvature, and at most 3.1 of the path's error over the
+                // width that this asks for, 1e-3 r cos^1.75 κ at the least; roundings over half of either.
+                let (widest, narrow) = (5e-6f64.max(1.25e-3 * r), 1e-3 * r * (root / r).powf(1.75));
+                let fourth = 3.0 * (1.0 + 4.0 * (across / r).powi(2)) / (r.powi(3) * (root / r).powi(7));
+                let truncated = 1.1 * 3f64.sqrt() / 216.0 * widest.powi(3) * fourth;
+                let rounded = 3.0 * f64::EPSILON * (2.0 * raceway + r) / (0.5 * narrow.min(widest));
+                let limit = truncated.min(3.1 * ACCURACY * r / narrow) + rounded;
+                assert!(off <= limit, "radius {r}, at {angle}: {off:e}, allowed {limit:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_long_level_stretch_is_level_whatever_rounds_at_its_ends() {
+        // Its ends lie 3.6e-14 rad beside those of the straight piece: the slope there over 2.9 rad made 7e-14 m of path.
+        let (r, raceway) = (7.015216056226324e-3, 0.17926494803179768);
+        let arcs = [0.0, 512.2927440803601, 565.585532953191, 618.8783218260219, 977.0465142100691];
+        let depths = [0.0, 0.0, -0.25304031344032263e-6, 0.0, 0.0];
+        let middle = 0.5 * arcs[4];
+        let points: Vec<(f64, f64)> = arcs.iter().zip(depths).map(|(s, h)| ((s - middle) * 1e-3, h)).collect();
+        let path = RigidPath::new(&points, r, raceway).unwrap();
+        for i in 1..100 {
+            let found = value(&path, path.knots()[0] + 2.85 * f64::from(i) / 100.0);
+            // A rounding of the raceway's radius.
+            assert!(found.path.abs() <= 3e-17 && found.slope == 0.0, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn a_wall_is_refused_that_the_element_could_only_meet_with_its_side() {
+        let half = 2.0 * R;
+        // The edge is r beside the centre.
+        let limit = (R_O * R_O - R * R).sqrt() - (R_O - R);
+        let wall = |depth: f64| RigidPath::new(&[(-half, 0.0), (-half, depth), (half, depth), (half, 0.0)], R, R_O);
+        assert!(wall(0.999 * limit).is_ok());
+        let error = wall(1.001 * limit).unwrap_err();
+        let ContactError::NoWayOut { depth_mm, limit_mm, .. } = error else { panic!("{error}") };
+        // 1e-13 rad to which the leap is found, under the root.
+        assert!(
+            (depth_mm - 1.001e3 * limit).abs() < 1e-9 && (limit_mm - 1e3 * limit).abs() < 2e3 * 1e-6 * R,
+            "{error}"
+        );
     }
 
     #[test]

@@ -55,6 +55,8 @@ pub const ELEMENTS: usize = 10;
 pub struct Contact {
     pub force: f64,
     pub approach: f64,
+    /// ∂(force)/∂(rate of approach) [N s/m].
+    pub by_rate: f64,
     pub pushes: bool,
 }
 
@@ -131,10 +133,10 @@ impl Bearing {
     /// The force of a contact: with side 1, that of the outer raceway in series with its compliance.
     fn contact(&self, side: usize, approach: f64, rate: f64) -> Contact {
         if approach <= 0.0 {
-            return Contact { force: 0.0, approach, pushes: false };
+            return Contact { approach, ..Contact::default() };
         }
         let k = self.stiffness[side];
-        let (mut own, mut own_rate) = (approach, rate);
+        let (mut own, mut yields) = (approach, 1.0);
         if side == 1 && self.compliance > 0.0 {
             // Newton from above on a convex function: δ + c K δ^1.5 = Δ.
             for _ in 0..200 {
@@ -145,14 +147,15 @@ impl Bearing {
                     break;
                 }
             }
-            own_rate = rate / self.softness(k, own).powi(2);
+            yields = self.softness(k, own).powi(2);
         }
         let root = k * own.sqrt();
-        let force = match self.damping {
-            Damping::HuntCrossley(chi) => root * own * (1.0 + chi * own_rate),
-            Damping::Proportional(tau) => root * (own + 1.5 * tau * own_rate),
+        let damper = match self.damping {
+            Damping::HuntCrossley(chi) => root * own * chi,
+            Damping::Proportional(tau) => root * 1.5 * tau,
         };
-        Contact { force: force.max(0.0), approach, pushes: force > 0.0 }
+        let force = root * own + damper * (rate / yields);
+        Contact { force: force.max(0.0), approach, by_rate: damper / yields, pushes: force > 0.0 }
     }
 
     /// dΔ/dδ of a contact in series with the compliance.

@@ -27,7 +27,8 @@ impl Shape {
 
 /// A defect, and what it is called.
 pub fn random(draw: &mut Draw, around: &Around) -> (&'static str, Shape) {
-    let kinds: [(&str, fn(&mut Draw, &Around) -> Shape); 8] = [
+    type Drawn = fn(&mut Draw, &Around) -> Shape;
+    let kinds: [(&str, Drawn); 8] = [
         ("steep spall", steep),
         ("sloping spall", sloping),
         ("dent", dent),

@@ -188,6 +188,24 @@ impl Envelope {
         self.between[self.changes.partition_point(|&change| change <= psi)]
     }
 
+    /// Between which angles the same feature stays touched as at this one.
+    pub fn stretch(&self, psi: f64) -> [f64; 2] {
+        let next = self.changes.partition_point(|&change| change <= psi);
+        [next.checked_sub(1).map_or(-PI, |i| self.changes[i]), self.changes.get(next).copied().unwrap_or(PI)]
+    }
+
+    /// Whether the element meets an edge with nothing but its side, so that its centre would have to leap.
+    pub fn leaps(&self) -> bool {
+        let steep = |feature: Feature, at: f64| {
+            let (path, slope) = self.path(feature, at);
+            // 89.99°; where it leaps the side is met to within the 3e-14 rad of a change.
+            !(slope.abs() <= 1e4 * (self.raceway - self.r + path))
+        };
+        let meet = self.changes.iter().zip(self.between.windows(2));
+        meet.flat_map(|(&at, pair)| pair.iter().map(move |&feature| (feature, at)))
+            .any(|(feature, at)| steep(feature, at))
+    }
+
     fn bisect(&self, left: (f64, Feature), right: (f64, Feature), changes: &mut Vec<f64>) {
         if left.1 == right.1 {
             return;

@@ -9,7 +9,8 @@ use crate::oracle::balance;
 use crate::oracle::run::{Kind, Run, Stop, signals};
 use crate::oracle::{Bearing, Contact, ELEMENTS, SENSOR};
 use crate::subject::Subject;
-use crate::units::{HORIZON, LIMIT, differences, largest_force, rounding, units};
+use crate::units::{HORIZON, LIMIT, differences, largest_force, rounding, slope_error, units};
+use brinell::contact::error::ContactError;
 use brinell::simulation::SimulationError;
 use std::collections::BTreeMap;
 
@@ -43,6 +44,14 @@ pub fn judge(case: &Case) -> Verdict {
     let names = signals(case);
     let mut subject = match Subject::new(case) {
         Ok(subject) => subject,
+        Err(error @ SimulationError::Contact(ContactError::NoWayOut { .. })) => {
+            let leaps = Bearing::new(case).defect.is_some_and(|(envelope, _)| envelope.leaps());
+            return if leaps {
+                Verdict::Refused(error)
+            } else {
+                Verdict::Failed(format!("no edge is so steep: {error}"))
+            };
+        }
         Err(error) => return Verdict::Refused(error),
     };
     let first = match subject.start(case) {
@@ -100,13 +109,16 @@ fn start(bearing: &Bearing, case: &Case, first: &[f64], names: &[(String, Kind)]
         bearing.mass * (bearing.gravity[0].hypot(bearing.gravity[1]) + bearing.rho_0 * run.outside.cage[1].powi(2));
     let largest = contacts.fold(loads, |m, contact| m.max(contact.force));
     let limit = 1e-9 * (largest + body) + rounding(bearing) * stiffest;
-    // The path is kept as cubics that are right to 2e-13 r; where the path's normal leans by κ they are 2e-3 r cos^1.75 κ wide or half
-    // of that, and their slope, which directs the force, is right to 3 of their error over that width.
+    // The slope of the path turns the damper's rate with the cage's speed, and directs the force.
     let leaning = |j: usize| {
         let Some((envelope, _)) = &bearing.defect else { return 0.0 };
-        let slope = envelope.path(run.features[j], bearing.angle_to_defect(j, run.outside.cage[0])).1;
-        let kappa = (slope / bearing.rho_0).atan();
-        run.acting.contacts[j][1].force * kappa.sin().abs() * 1e-9 / kappa.cos().powi(2)
+        let (feature, [_, omega, _]) = (run.features[j], run.outside.cage);
+        let psi = bearing.angle_to_defect(j, run.outside.cage[0]);
+        let (path, slope) = envelope.path(feature, psi);
+        let (rho, outer) = (bearing.rho_0 + path, run.acting.contacts[j][1]);
+        let kappa = (slope / rho).atan();
+        let turns = outer.force * kappa.sin().abs() * kappa.cos().powi(2) / rho;
+        (outer.by_rate * omega.abs() + turns) * slope_error(bearing, feature, psi)
     };
     let limits: Vec<f64> = (0..bearing.count).map(|j| limit + leaning(j)).collect();
     let limit = limits.iter().fold(limit, |m, limit| m.max(*limit));
