@@ -12,8 +12,8 @@
 //!
 //! The contact is Hertz's with approach u − P, directed along the path's normal, tan κ = P′/ρ. The element is rigid and
 //! the contact a point, so this is invalid within one contact half-width of a spall's edge, where it overstates the
-//! force by about 15 %, and it ignores the profile across the raceway. Where an element lies so deep beside a wall that only its
-//! side meets the edge, the path leaps and there is no force to climb it with: such a profile is refused.
+//! force by about 15 %, and it ignores the profile across the raceway. Where an element lies so deep beside a wall that
+//! only its side meets the edge, the path leaps and there is no force to climb it with: such a profile is refused.
 
 use super::error::ContactError;
 use super::rigid_roller::{Feature, Roller};
@@ -56,8 +56,8 @@ const INTERVAL_OF_RADIUS: f64 = 1.25e-3;
 /// sideways. The error of their slope is √3/216 width³ P⁗, at most 3.1 of the path's error over the width: along the
 /// raceway 3e-10/cos^1.75 κ, and as much as the damper at the element's speed makes of that is wrong with the force.
 const ACCURACY: f64 = 2e-13;
-/// Largest tan κ with which a stretch may begin or end, 89.99°. Where the path leaps it is infinite, or 1e5 by the ends'
-/// rounding.
+/// Largest tan κ with which a stretch may begin or end, 89.99°. Where the path leaps it is infinite, or 1e5 by the
+/// ends' rounding.
 const STEEPEST: f64 = 1e4;
 /// Most intervals of a stretch, which only an element that touches at more than 85° asks for. There the path is less
 /// exact, at 89.8° to 1e-10 of the element's radius; beyond [`STEEPEST`] there is none.
@@ -247,14 +247,15 @@ mod tests {
             let path = RigidPath::new(&points, r, raceway).unwrap();
             for i in 0..2000 {
                 let angle = half / raceway * ((f64::from(i) + 0.37) / 1000.0 - 1.0);
-                // tan κ by the triangle of edge, centre and the ring's centre; the element turns down from the nearer edge.
+                // tan κ by the triangle of edge, centre and the ring's centre; the element turns down from the nearer
+                // edge.
                 let d = half / raceway - angle.abs();
                 let (across, rho) = (raceway * d.sin(), path_of(r, raceway, d) + raceway - r);
                 let root = (r * r - across * across).sqrt();
                 let expected = -angle.signum() * rho * across / root;
                 let off = (value(&path, angle).slope - expected).abs() / raceway;
-                // √3/216 width³ P⁗, a tenth more for the raceway's curvature, and at most 3.1 of the path's error over the
-                // width that this asks for, 1e-3 r cos^1.75 κ at the least; roundings over half of either.
+                // √3/216 width³ P⁗, a tenth more for the raceway's curvature, and at most 3.1 of the path's error over
+                // the width that this asks for, 1e-3 r cos^1.75 κ at the least; roundings over half of either.
                 let (widest, narrow) = (5e-6f64.max(1.25e-3 * r), 1e-3 * r * (root / r).powf(1.75));
                 let fourth = 3.0 * (1.0 + 4.0 * (across / r).powi(2)) / (r.powi(3) * (root / r).powi(7));
                 let truncated = 1.1 * 3f64.sqrt() / 216.0 * widest.powi(3) * fourth;
@@ -267,7 +268,8 @@ mod tests {
 
     #[test]
     fn a_long_level_stretch_is_level_whatever_rounds_at_its_ends() {
-        // Its ends lie 3.6e-14 rad beside those of the straight piece: the slope there over 2.9 rad made 7e-14 m of path.
+        // Its ends lie 3.6e-14 rad beside those of the straight piece: the slope there over 2.9 rad made 7e-14 m of
+        // path.
         let (r, raceway) = (7.015216056226324e-3, 0.17926494803179768);
         let arcs = [0.0, 512.2927440803601, 565.585532953191, 618.8783218260219, 977.0465142100691];
         let depths = [0.0, 0.0, -0.25304031344032263e-6, 0.0, 0.0];

@@ -16,9 +16,9 @@
 //! v₁ = v₀ + H (F̄ + F_e)/m − c (x₁ − x₀)/m
 //! x₁ = x₀ + H v₀ + H²/m (F̄/2 + (F₀ − F₁)/12 + F_e/2 − c (v₀/3 + v₁/6))
 //! ```
-//! and momentum is kept exactly; the mean place, which the rolled back step needs, is x₀ + H v₀/2 + H²/m (F₀/20 − F₁/30
-//! + 3F̄/20 + F_e/6 − c (v₀/8 + v₁/24)). F₀ is read anew when the host has set where the ring really is; that needs no
-//! step. The exact motion is that of one simulation with the mass inside.
+//! and momentum is kept exactly; the mean position, which the rolled back step needs, is x₀ + H v₀/2 + H²/m (F₀/20 −
+//! F₁/30 + 3F̄/20 + F_e/6 − c (v₀/8 + v₁/24)). F₀ is read anew when the host has set where the ring really is; that
+//! needs no step. The exact motion is that of one simulation with the mass inside.
 //!
 //! The run begins in balance under half the load; then the whole load acts, and the ring swings with its own frequency
 //! on the bearing.
