@@ -32,7 +32,7 @@ fn show(seed: u64) {
 
 #[test]
 fn random_scenes_agree_with_the_oracle() {
-    let seeds = seeds(14);
+    let seeds = seeds(6);
     if seeds.end - seeds.start == 1 {
         show(seeds.start);
     }

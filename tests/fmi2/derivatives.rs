@@ -335,10 +335,15 @@ fn derivatives_of_outputs_by_time_are_what_short_steps_show() {
             };
             // Forward differences, extrapolated to no step at all.
             let h = 2e-9;
-            let (near, far) = (after(h), after(2.0 * h));
+            let (near, far, farther) = (after(h), after(2.0 * h), after(3.0 * h));
             assert_eq!(host.restore(state), Status::Ok);
             for (i, output) in outputs.iter().enumerate() {
-                let found = (4.0 * near[i] - far[i] - 3.0 * before[i]) / (2.0 * h);
+                let found = if output.name == "cage.torque" {
+                    // It leaps where a derivative of the speed begins to act, with the step.
+                    (8.0 * far[i] - 5.0 * near[i] - 3.0 * farther[i]) / (2.0 * h)
+                } else {
+                    (4.0 * near[i] - far[i] - 3.0 * before[i]) / (2.0 * h)
+                };
                 let Kind::Real { nominal, unit, .. } = output.kind else { panic!() };
                 // The third derivative of a mode at 50 kHz over these steps; rounding, of which the sensor's spring of
                 // 9e9 N/m makes 1e-10 m/s² from positions of 10 µm.
