@@ -137,7 +137,11 @@ fn a_state_that_an_instance_takes_up_without_having_been_initialized_is_recorded
 #[test]
 #[ignore = "started by the test below, in a process of its own"]
 fn child() {
-    let host = recorder("bearing", &PathBuf::from(env::var_os(FOLDER).unwrap()));
+    let Some(folder) = env::var_os(FOLDER).map(PathBuf::from) else {
+        println!("skipped: started alone, there is no folder to record into");
+        return;
+    };
+    let host = recorder("bearing", &folder);
     host.start();
     assert_eq!(host.step(0.0, 10e-3), Status::Ok);
     println!("\nrecording");

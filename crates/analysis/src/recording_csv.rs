@@ -5,8 +5,8 @@
 //! begins with a number are a preamble, and the last of them with as many cells is the heading. Lines that begin with
 //! # or % are comments.
 //!
-//! What can be read in two ways is refused: points and commas in numbers of one file, commas that may part thousands,
-//! and `1,5` alone on its line, unless other lines tell whether it is one number or two.
+//! What can be read in two ways is refused: points and commas in numbers of one file, commas and blanks that may part
+//! thousands, and `1,5` alone on its line, unless other lines tell whether it is one number or two.
 
 /// Lines of preamble after which the file is taken for something else.
 const LONGEST_PREAMBLE: usize = 100;
@@ -34,6 +34,9 @@ pub(super) fn columns(text: &str) -> Result<Columns, String> {
     let delimiter = delimiter(preamble, rows)?;
     let width = cells(rows[0].1, delimiter).len();
     let heading = preamble.iter().rev().map(|(_, line)| cells(line, delimiter)).find(|c| c.len() == width);
+    if delimiter == ' ' && width > 1 && heading.is_none() {
+        thousands_by_blanks(rows)?;
+    }
     let names = heading.unwrap_or_default().into_iter().map(|name| name.trim_matches('"').trim().to_owned()).collect();
     let mut columns = vec![Vec::with_capacity(rows.len()); width];
     let mut decimals = Decimals::default();
@@ -51,6 +54,27 @@ pub(super) fn columns(text: &str) -> Result<Columns, String> {
     }
     decimals.check()?;
     Ok((names, columns))
+}
+
+/// Refuses rows like `2 261,5` that no heading tells to be two numbers: blanks may part thousands.
+fn thousands_by_blanks(rows: &[Line]) -> Result<(), String> {
+    let digits = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
+    let group = |cell: &str| {
+        let whole = cell.split([',', '.']).next().unwrap_or_default();
+        whole.len() == 3 && digits(whole)
+    };
+    let grouped = |line: &str| {
+        let mut cells = line.split_whitespace();
+        let first = cells.next().unwrap_or_default().trim_start_matches(['-', '+']);
+        (1..=3).contains(&first.len()) && digits(first) && cells.all(group)
+    };
+    if !rows.iter().all(|(_, line)| grouped(line)) {
+        return Ok(());
+    }
+    let (number, line) = rows[0];
+    Err(format!(
+        "line {number}: '{line}': blanks may part thousands or columns: write numbers without them, or name the columns"
+    ))
 }
 
 fn begins_with_number(line: &str) -> bool {
@@ -223,6 +247,17 @@ mod tests {
         }
         assert_eq!(columns("1.5\n2.5\n").unwrap(), (Vec::new(), vec![vec![1.5, 2.5]]));
         assert_eq!(columns("0,5\t1\n1,5\t2\n").unwrap().1, [[0.5, 1.5], [1.0, 2.0]]);
+    }
+
+    #[test]
+    fn blanks_that_may_part_thousands_are_refused() {
+        for text in ["acc\n-2 261,5\n-8 779,5\n", "2 261\n8 779\n", "1 234 567,5\n-2 345 678,5\n"] {
+            assert!(columns(text).is_err_and(|e| e.contains("line") && e.contains("part thousands")), "{text}");
+        }
+        // Names, or numbers that no groups of three are, tell that they are columns.
+        for text in ["time acc\n1 234\n2 345\n", "0 1234,5\n1 2345,5\n", "0,5 234\n1,5 345\n", "1000 234\n1001 345\n"] {
+            assert_eq!(columns(text).unwrap().1.len(), 2, "{text}");
+        }
     }
 
     #[test]
