@@ -4,6 +4,7 @@
 
 mod clocks;
 mod files;
+mod foreign;
 #[path = "../support/machine.rs"]
 mod machine;
 mod signals;
