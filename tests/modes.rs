@@ -17,7 +17,7 @@ use brinell_eigen::eigenvalues;
 use std::f64::consts::TAU;
 use support::{Named, map_of, profile_of, shipped, shipped_as_it_is};
 
-const STILL: Ring = Ring { motion: Motion::Fixed, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
+const STILL: Ring = Ring::fixed();
 
 fn assembly(scene: &Scene) -> Assembly {
     let profile = profile_of(scene);

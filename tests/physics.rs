@@ -16,8 +16,7 @@ fn without_damping(mut scene: Scene) -> Scene {
 }
 
 fn steady_housing(mut scene: Scene) -> Scene {
-    scene.housing =
-        brinell::scene::Ring { motion: Motion::Fixed, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
+    scene.housing = brinell::scene::Ring::fixed();
     scene.sensor = None;
     scene
 }
@@ -212,7 +211,7 @@ fn ring_motion_from_the_host_gives_the_forces_of_the_same_motion_computed_inside
     let mut inside = Named::started(shipped("er16k-tb1"));
     let mut scene = shipped("er16k-tb1");
     for ring in [&mut scene.shaft, &mut scene.housing] {
-        *ring = brinell::scene::Ring { motion: Motion::Host, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
+        *ring = brinell::scene::Ring::hosted();
     }
     scene.sensor = None;
     let mut hosted = Named::new(scene);

@@ -6,7 +6,7 @@ mod support;
 
 use brinell::contact::map_specification::Sequential;
 use brinell::contact::rigid_path::RigidPath;
-use brinell::scene::{ContactLaw, Defect, DefectShape, Motion, Ring, Scene};
+use brinell::scene::{ContactLaw, Defect, DefectShape, Ring, Scene};
 use brinell::simulation::{Simulation, setup};
 use brinell::surface::{Profile, Surface};
 use proptest::prelude::*;
@@ -18,7 +18,7 @@ use support::{Named, shipped};
 /// time; free ones bounce, and two such runs can be compared for a few strikes only.
 fn pressed(law: ContactLaw, shape: DefectShape) -> Scene {
     let mut scene = shipped("er16k-tb1");
-    let fixed = Ring { motion: Motion::Fixed, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
+    let fixed = Ring::fixed();
     (scene.shaft, scene.housing, scene.sensor) = (fixed, fixed, None);
     scene.bearing.radial_clearance = -25e-6;
     // 2200 N on the smooth raceway; entering and leaving the defect add to it.

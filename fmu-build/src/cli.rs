@@ -228,21 +228,13 @@ impl Command {
             Command::Stiffness(options) => {
                 let model = Model::read(&options.scene)?;
                 let folder = options.output.unwrap_or_else(|| project.target().join("stiffness"));
-                let wanted = stiffness::Options {
-                    load: options.load,
-                    points: options.points.map(|count| count as usize),
-                    figure: !options.no_figure,
-                };
+                let wanted = swept(options.load, options.points, options.no_figure);
                 stiffness::command(project, &model, wanted, &folder)
             }
             Command::Modes(options) => {
                 let model = Model::read(&options.scene)?;
                 let folder = options.output.unwrap_or_else(|| project.target().join("modes"));
-                let wanted = stiffness::Options {
-                    load: options.load,
-                    points: options.points.map(|count| count as usize),
-                    figure: !options.no_figure,
-                };
+                let wanted = swept(options.load, options.points, options.no_figure);
                 modes::command(project, &model, wanted, &folder)
             }
             Command::Size(options) => {
@@ -261,4 +253,9 @@ impl Command {
             }
         }
     }
+}
+
+/// What the commands that sweep the cage angle are told.
+fn swept(load: Option<f64>, points: Option<u32>, no_figure: bool) -> stiffness::Options {
+    stiffness::Options { load, points: points.map(|count| count as usize), figure: !no_figure }
 }

@@ -68,7 +68,6 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
     let path = beside(&stem, "-stiffness.csv");
     whole_file::write_with(&path, |mut out| write_sweep(&mut out, &plain, &healthy, &balances))?;
     println!("{}", path.display());
-    let mut paths = vec![path];
 
     let critical = if bottom.is_some() { covered(plain.critical_load())? } else { None };
     if let (Some(bottom), Some(critical)) = (&bottom, &critical) {
@@ -78,7 +77,6 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
             write_variations(&mut out, &plain, bottom, critical, radial_clearance, outer_compliance)
         })?;
         println!("{}", path.display());
-        paths.push(path);
     }
     print!("{}", summary(&plain, &balances, bottom.as_ref(), critical.as_ref())?);
     if options.figure {

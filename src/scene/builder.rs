@@ -94,12 +94,12 @@ impl Ring {
     }
 
     /// A ring whose position and velocity the host gives at each communication point.
-    pub fn hosted() -> Self {
+    pub const fn hosted() -> Self {
         Self { motion: Motion::Host, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 }
     }
 
     /// A ring that stands still.
-    pub fn fixed() -> Self {
+    pub const fn fixed() -> Self {
         Self { motion: Motion::Fixed, ..Self::hosted() }
     }
 }

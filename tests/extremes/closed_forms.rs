@@ -5,7 +5,7 @@ use crate::scenes::{healthy, hosted, loaded, spalled};
 use crate::support::Named;
 use brinell::geometry::hertz_constant::HertzConstants;
 use brinell::geometry::kinematics::cage_ratio;
-use brinell::scene::{Damping, Motion, Ring, Scene};
+use brinell::scene::{Damping, Ring, Scene};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Jump of the load by a factor, and rest in the end: the equilibrium that is solved statically.
@@ -38,7 +38,7 @@ pub fn settles(what: &'static str, scene: Scene, limit: f64) -> Row {
 pub fn load_0(what: &'static str, damping: Damping) -> Row {
     let mut scene = loaded(healthy(), 0.0, damping);
     (scene.gravity, scene.shaft_speed) = ([0.0; 2], 100.0);
-    scene.housing = Ring { motion: Motion::Fixed, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
+    scene.housing = Ring::fixed();
     scene.sensor = None;
     scene.shaft.stiffness = 1e6;
     let speed = scene.shaft_speed * cage_ratio(&scene.bearing, 0.0);
@@ -195,7 +195,7 @@ pub fn energy_without_damping() -> Row {
 pub fn energy_of_a_bearing_without_damping() -> Row {
     // The shaft free on its contacts, the housing held: a housing that moved would take work from the cage.
     let mut scene = healthy();
-    let held = Ring { motion: Motion::Fixed, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
+    let held = Ring::fixed();
     (scene.housing, scene.sensor, scene.shaft_speed) = (held, None, 0.0);
     (scene.shaft.damping, scene.contact.damping) = (0.0, Damping::HuntCrossley(0.0));
     let (shaft_mass, mass) = (scene.shaft.mass, scene.bearing.mass_of_element());

@@ -1,7 +1,7 @@
 //! The scenes that the extremes are made of.
 
 use crate::support::shipped;
-use brinell::scene::{Damping, Defect, DefectShape, Motion, Ring, Scene};
+use brinell::scene::{Damping, Defect, DefectShape, Ring, Scene};
 use std::f64::consts::FRAC_PI_2;
 
 pub fn healthy() -> Scene {
@@ -15,7 +15,7 @@ pub fn spalled() -> Scene {
 pub fn hosted() -> Scene {
     let mut scene = shipped("6205-healthy");
     for ring in [&mut scene.shaft, &mut scene.housing] {
-        *ring = Ring { motion: Motion::Host, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
+        *ring = Ring::hosted();
     }
     scene.sensor = None;
     scene

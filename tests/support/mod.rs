@@ -112,10 +112,7 @@ impl Named {
     }
 
     pub fn get(&mut self, name: &str) -> f64 {
-        let mut value = [0.0];
-        let reference = self.reference(name);
-        self.0.reals(&[reference], &mut value).unwrap();
-        value[0]
+        self.0.get(name).unwrap()
     }
 
     pub fn count(&mut self, name: &str) -> i32 {
@@ -126,8 +123,7 @@ impl Named {
     }
 
     pub fn set(&mut self, name: &str, value: f64) {
-        let reference = self.reference(name);
-        self.0.set_reals(&[reference], &[value]).unwrap();
+        self.0.set(name, value).unwrap();
     }
 
     pub fn run(&mut self, step: f64, count: usize) {

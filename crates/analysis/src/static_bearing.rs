@@ -136,7 +136,7 @@ impl StaticBearing {
             _ => None,
         };
         let load = load_on_bearing(scene);
-        let still = Ring { motion: Motion::Fixed, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
+        let still = Ring::fixed();
         let mut held = scene.clone();
         // The load goes another way; the map is to reach as far as the scene's.
         held.contact.largest_force = Some(largest_force(scene));

@@ -131,7 +131,7 @@ struct Exact {
 fn bearing(scene: &Scene, shaft: Ring) -> Result<Simulation, SimulationError> {
     let mut scene = scene.clone();
     scene.shaft = shaft;
-    scene.housing = Ring { motion: Motion::Fixed, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
+    scene.housing = Ring::fixed();
     (scene.sensor, scene.defect) = (None, None);
     scene.tolerance = TOLERANCE;
     Simulation::new(scene, None)
@@ -208,7 +208,7 @@ struct Host {
 
 impl Host {
     fn new(scene: &Scene, exact: &Exact) -> Result<Self, SimulationError> {
-        let ring = Ring { motion: Motion::Host, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
+        let ring = Ring::hosted();
         let bearing = bearing(scene, ring)?;
         let mut host = Self {
             motion: references(&bearing, ["shaft.x", "shaft.y", "shaft.vx", "shaft.vy", "shaft.ax", "shaft.ay"])?,

@@ -6,7 +6,7 @@
 use std::path::Path;
 
 use anyhow::Result;
-use brinell::scene::{ContactLaw, Motion, Ring, Scene};
+use brinell::scene::{ContactLaw, Ring, Scene};
 use brinell::simulation::{Method, Simulation};
 
 use super::Extent;
@@ -96,7 +96,7 @@ fn of_a_step(scene: &Scene, method: Method) -> Result<f64> {
 fn hosted(tolerance: f64) -> Result<Hosted> {
     let mut scene = Model::read(&scene_file("6205-healthy"))?.scene;
     for ring in [&mut scene.shaft, &mut scene.housing] {
-        *ring = Ring { motion: Motion::Host, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
+        *ring = Ring::hosted();
     }
     (scene.sensor, scene.tolerance) = (None, tolerance);
     let mut simulation = Simulation::new(scene, None)?;

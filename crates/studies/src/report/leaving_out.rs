@@ -39,7 +39,7 @@ pub(super) fn measure(extent: Extent, data: &Path) -> Result<Vec<Part>> {
     let stop = if extent == Extent::Full { 0.1 } else { 0.01 };
     let full = Model::read(&scene_file("6205-healthy"))?.scene;
     let mut bare = full.clone();
-    bare.shaft = Ring { motion: Motion::Host, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
+    bare.shaft = Ring::hosted();
     bare.housing = bare.shaft;
     bare.sensor = None;
 
