@@ -1,6 +1,6 @@
 //! Every measured surface that cannot be used is refused with the line or place, the value and the limit.
 
-use brinell::scene::{Bearing, DefectShape, Scene};
+use brinell::scene::{Bearing, Defect, DefectShape, Scene};
 use brinell::surface::{Profile, Surface};
 
 fn er16k() -> Bearing {
@@ -14,7 +14,7 @@ fn er16k() -> Bearing {
 #[track_caller]
 fn refused(text: &str, parts: &[&str]) {
     let shape = DefectShape::Profile("trace.csv".to_owned());
-    let message = match Surface::load(&shape, Some(text), &er16k()) {
+    let message = match Surface::load(&Defect::outer(0.0, shape.clone()), Some(text), &er16k()) {
         Ok(_) => panic!("`{text}` was accepted"),
         Err(error) => error.to_string(),
     };
@@ -26,7 +26,7 @@ fn refused(text: &str, parts: &[&str]) {
 #[test]
 fn a_missing_file_is_refused_with_its_name() {
     let shape = DefectShape::Profile("trace.csv".to_owned());
-    let message = Surface::load(&shape, None, &er16k()).unwrap_err().to_string();
+    let message = Surface::load(&Defect::outer(0.0, shape.clone()), None, &er16k()).unwrap_err().to_string();
     assert_eq!(message, "defect profile \"trace.csv\": the file is missing");
 }
 

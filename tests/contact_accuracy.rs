@@ -8,12 +8,21 @@ use brinell::contact::love::LoveContact;
 use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::{MapSpecification, Sequential};
 use brinell::contact::raceway_grid::{ElementOnRaceway, Resolution};
+use brinell::contact::rolling::RacewaySide;
 use brinell::surface::{Profile, Surface, Topography};
 
-const ER16K: ElementOnRaceway =
-    ElementOnRaceway { element_radius: 3.97e-3, raceway_radius: 23.6325e-3, groove_radius: 4.095e-3 };
-const SKF_6205: ElementOnRaceway =
-    ElementOnRaceway { element_radius: 3.97e-3, raceway_radius: 23.4925e-3, groove_radius: 0.52 * 7.94e-3 };
+const ER16K: ElementOnRaceway = ElementOnRaceway {
+    element_radius: 3.97e-3,
+    raceway_radius: 23.6325e-3,
+    groove_radius: 4.095e-3,
+    raceway: RacewaySide::Outer,
+};
+const SKF_6205: ElementOnRaceway = ElementOnRaceway {
+    element_radius: 3.97e-3,
+    raceway_radius: 23.4925e-3,
+    groove_radius: 0.52 * 7.94e-3,
+    raceway: RacewaySide::Outer,
+};
 
 fn line_spall() -> Surface {
     Surface::Profile(Profile::spall(6.517e-3, 100e-6, std::f64::consts::FRAC_PI_2))

@@ -12,12 +12,18 @@ use brinell::contact::love::LoveContact;
 use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::{MapSpecification, Sequential};
 use brinell::contact::raceway_grid::{ElementOnRaceway, Resolution};
+use brinell::contact::rolling::RacewaySide;
 use brinell::surface::{Profile, Surface};
 use counting::allocations;
 
 #[test]
 fn contacts_of_an_element_that_passes_an_edge_allocate_nothing() {
-    let element = ElementOnRaceway { element_radius: 3.97e-3, raceway_radius: 23.6325e-3, groove_radius: 4.095e-3 };
+    let element = ElementOnRaceway {
+        element_radius: 3.97e-3,
+        raceway_radius: 23.6325e-3,
+        groove_radius: 4.095e-3,
+        raceway: RacewaySide::Outer,
+    };
     let surface = Surface::Profile(Profile::spall(6.517e-3, 100e-6, FRAC_PI_2));
     let resolution = Resolution { columns: 32, rows: 16 };
     let specification = MapSpecification { accuracy: 3e-2, resolution, ..MapSpecification::new(10e-6) };

@@ -77,7 +77,7 @@ fn scene(draw: &mut Draw, lightest: f64, damped: bool) -> Scene {
 
 /// A state in motion, the inner ring pushed against some of the elements.
 fn jacobian(draw: &mut Draw, scene: &Scene) -> (Model, Jacobian) {
-    let surface = scene.defect.as_ref().map(|defect| Surface::load(&defect.shape, None, &scene.bearing).unwrap());
+    let surface = scene.defect.as_ref().map(|defect| Surface::load(defect, None, &scene.bearing).unwrap());
     let model = build_model(scene, surface.as_ref(), None).unwrap();
     let layout = model.layout;
     let cage = Quadratic([0.0, draw.between(1.0, 300.0), 0.0]);
@@ -102,7 +102,7 @@ fn jacobian(draw: &mut Draw, scene: &Scene) -> (Model, Jacobian) {
         let pressed = reach * (cos * angle.cos() + sin * angle.sin()) - model.radial_clearance;
         state[j] += model.resting_path(j, drive.cage_start) + 0.5 * pressed.max(0.0);
     }
-    let cells: Vec<u32> = (0..model.element_count).map(|j| model.cell_at(j, drive.cage_start)).collect();
+    let cells = model.cells_at(&drive, 0.0, &vec![0.0; model.layout.len]);
     let mut jacobian = Jacobian::new(&model);
     model.linearize(&drive, 0.0, &cells, &state, &mut jacobian, &mut vec![0.0; layout.len]);
     (model, jacobian)

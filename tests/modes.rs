@@ -4,7 +4,8 @@
 mod support;
 
 use brinell::dynamics::jacobian::Jacobian;
-use brinell::dynamics::raceway::SMOOTH;
+use brinell::dynamics::kinematics::Kinematics;
+use brinell::dynamics::raceway::Cells;
 use brinell::geometry::hertz_constant::HertzConstants;
 use brinell::numerics::plane::Vector;
 use brinell::scene::{Damping, Motion, Ring, Scene};
@@ -213,8 +214,8 @@ fn heavy_rings_are_masses_on_the_static_stiffness() {
         let (state, layout) = (standing.0.state_vector(), &model.layout);
         let [shaft, housing] = [layout.shaft, layout.housing].map(Option::unwrap);
         let [x, y] = [0, 1].map(|axis| state[housing + axis] - state[shaft + axis]);
-        let cells = vec![SMOOTH; model.element_count];
-        let elements_in_balance = model.ring_jacobian(&state[..model.element_count], &cells, Vector::new(x, y), angle);
+        let (cells, now) = (Cells::smooth(model.element_count, 0), Kinematics::at_rest(angle, Vector::new(x, y)));
+        let elements_in_balance = model.ring_jacobian(&state[..model.element_count], &cells, &now);
         let entry = |i: usize, k: usize| {
             let ring = if i < 2 { both.shaft } else { both.housing };
             (if i == k { ring.stiffness } else { 0.0 } - elements_in_balance[(i, k)]) / ring.mass
@@ -248,9 +249,9 @@ fn eigenvalues_sum_to_the_trace() {
             .sum();
         let bearing = standing(&scene, angle);
         let (model, drive) = bearing.0.equations();
-        let cells: Vec<u32> = (0..model.element_count).map(|j| model.cell_at(j, angle)).collect();
         let mut jacobian = Jacobian::new(model);
         let state = bearing.0.state_vector();
+        let cells = model.cells_at(&drive, 0.0, state);
         model.linearize(&drive, 0.0, &cells, state, &mut jacobian, &mut vec![0.0; state.len()]);
         let matrix = jacobian.matrix(state.len());
         let trace: f64 = (0..state.len()).map(|i| matrix[i][i]).sum();

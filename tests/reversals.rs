@@ -6,6 +6,7 @@ mod support;
 
 use brinell::contact::map_specification::Sequential;
 use brinell::contact::rigid_path::RigidPath;
+use brinell::contact::rolling::Rolling;
 use brinell::scene::{ContactLaw, Defect, DefectShape, Ring, Scene};
 use brinell::simulation::{Simulation, setup};
 use brinell::surface::{Profile, Surface};
@@ -24,7 +25,7 @@ fn pressed(law: ContactLaw, shape: DefectShape) -> Scene {
     // 2200 N on the smooth raceway; entering and leaving the defect add to it.
     scene.contact.largest_force = Some(4000.0);
     (scene.contact.law, scene.tolerance) = (law, 1e-9);
-    scene.defect = Some(Defect { angle: -FRAC_PI_2, shape });
+    scene.defect = Some(Defect::outer(-FRAC_PI_2, shape));
     scene
 }
 
@@ -134,7 +135,7 @@ fn knots(scene: &Scene) -> Vec<f64> {
     let profile = Profile::spall(length, depth, edge_slope);
     let bearing = &scene.bearing;
     let (element, raceway) = (bearing.element_radius(), bearing.outer_raceway_radius());
-    RigidPath::new(profile.points(), element, raceway).unwrap().knots().to_vec()
+    RigidPath::new(profile.points(), Rolling::outer_ring(element, raceway)).unwrap().knots().to_vec()
 }
 
 proptest! {
@@ -169,7 +170,7 @@ fn swings_over_a_map_are_the_same_in_one_step_and_in_many() {
 fn map(scene: &Scene) -> &'static [u8] {
     static MAP: OnceLock<Vec<u8>> = OnceLock::new();
     MAP.get_or_init(|| {
-        let surface = Surface::load(&scene.defect.as_ref().unwrap().shape, None, &scene.bearing).unwrap();
+        let surface = Surface::load(scene.defect.as_ref().unwrap(), None, &scene.bearing).unwrap();
         setup::build_map(scene, &surface, &mut Sequential(|_, _| ())).unwrap().unwrap().to_bytes()
     })
 }

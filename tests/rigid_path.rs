@@ -8,6 +8,7 @@
 #![allow(clippy::unwrap_used)]
 
 use brinell::contact::rigid_path::RigidPath;
+use brinell::contact::rolling::Rolling;
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
@@ -45,7 +46,7 @@ struct Case {
 
 impl Case {
     fn new(element: f64, raceway: f64, points: Points) -> Self {
-        Self { path: RigidPath::new(&points, element, raceway).unwrap(), element, raceway, points }
+        Self { path: RigidPath::new(&points, Rolling::outer_ring(element, raceway)).unwrap(), element, raceway, points }
     }
 
     /// The same seen in a mirror.

@@ -50,7 +50,7 @@ fn every_surface_of_a_shipped_scene_can_be_loaded() {
             brinell::scene::DefectShape::Profile(file) => Some(fs::read_to_string(folder().join(file)).unwrap()),
             brinell::scene::DefectShape::Spall { .. } => None,
         };
-        let surface = Surface::load(&defect.shape, profile.as_deref(), &scene.bearing)
+        let surface = Surface::load(&defect, profile.as_deref(), &scene.bearing)
             .unwrap_or_else(|error| panic!("{name}: {error}"));
         let (first, last) = surface.extent();
         assert!(last > first, "{name}");

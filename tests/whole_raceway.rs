@@ -6,6 +6,7 @@ mod support;
 
 use brinell::contact::error::ContactError;
 use brinell::contact::rigid_path::RigidPath;
+use brinell::contact::rolling::Rolling;
 use brinell::scene::{ContactLaw, Defect, DefectShape, Motion, Scene};
 use brinell::simulation::{Simulation, SimulationError};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -17,7 +18,7 @@ const DEPTH: f64 = 100e-6;
 fn standing(law: ContactLaw, shape: DefectShape, angle: f64) -> Scene {
     let mut scene = shipped("er16k-tb1");
     (scene.contact.law, scene.contact.largest_force) = (law, Some(1500.0));
-    scene.defect = Some(Defect { angle, shape });
+    scene.defect = Some(Defect::outer(angle, shape));
     (scene.bearing.element_count, scene.cage.initial_angle, scene.shaft_speed) = (1, -FRAC_PI_2, 0.0);
     (scene.shaft.motion, scene.shaft.load, scene.housing.motion) = (Motion::Host, [0.0; 2], Motion::Fixed);
     scene.sensor = None;
@@ -104,7 +105,10 @@ fn raised_rims_that_lift_an_element_at_both_ends_at_once_are_refused() {
     let (element, radius) = (3.97e-3, circumference() / TAU);
     let rimmed = |share: f64| {
         let half = 0.5 * share * circumference();
-        RigidPath::new(&[(-half, 0.0), (-half + 1e-4, -2e-6), (half - 1e-4, -2e-6), (half, 0.0)], element, radius)
+        RigidPath::new(
+            &[(-half, 0.0), (-half + 1e-4, -2e-6), (half - 1e-4, -2e-6), (half, 0.0)],
+            Rolling::outer_ring(element, radius),
+        )
     };
     // 2 µm lift an element over 0.14 mm on either side.
     let message = rimmed(0.999).unwrap_err().to_string();

@@ -8,8 +8,8 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 use anyhow::Result;
+use brinell::contact::contact_maps::ContactMaps;
 use brinell::contact::error::ContactError;
-use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::Runner;
 use brinell::scene::{ContactLaw, Scene};
 use brinell::simulation::setup;
@@ -22,11 +22,11 @@ use crate::whole_file;
 /// The bytes of a scene's contact map, `None` where its law or its healthy raceway needs none.
 pub fn of(scene: &Scene, profile: Option<&str>, project: &Project) -> Result<Option<Vec<u8>>> {
     let Some(defect) = scene.defect.as_ref().filter(|_| scene.contact.law == ContactLaw::Map) else { return Ok(None) };
-    let surface = Surface::load(&defect.shape, profile, &scene.bearing)?;
+    let surface = Surface::load(defect, profile, &scene.bearing)?;
     let fingerprint = setup::map_fingerprint(scene, &surface);
     let file = cache_file(project, fingerprint);
     if let Ok(bytes) = fs::read(&file)
-        && ContactMap::from_bytes(&bytes, fingerprint).is_ok()
+        && ContactMaps::from_bytes(&bytes, fingerprint).is_ok()
     {
         return Ok(Some(bytes));
     }
@@ -34,7 +34,7 @@ pub fn of(scene: &Scene, profile: Option<&str>, project: &Project) -> Result<Opt
     let map = setup::build_map(scene, &surface, &mut cores)?;
     cores.bar.finish_and_clear();
     let Some(map) = map else { return Ok(None) };
-    let (reached, wanted) = (map.accuracy().max(), setup::map_specification(scene).accuracy);
+    let (reached, wanted) = (map.accuracy().max(), setup::map_accuracy(scene));
     if reached > 1.5 * wanted {
         eprintln!(
             "contact map of {}: error up to {reached:.1e} of the largest force, {wanted:.0e} was wanted; more cells \

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 use brinell::contact::rigid_path::RigidPath;
+use brinell::contact::rolling::Rolling;
 use brinell::surface::Surface;
 
 use crate::csv;
@@ -44,12 +45,12 @@ fn raceway_csv(model: &Model) -> Result<Vec<u8>> {
     let bearing = &model.scene.bearing;
     let defect = model.scene.defect.as_ref().context("the scene has no defect to demonstrate")?;
     let text = model.profile.as_ref().map(|profile| profile.text.as_str());
-    let profile = match Surface::load(&defect.shape, text, bearing)? {
+    let profile = match Surface::load(defect, text, bearing)? {
         Surface::Profile(profile) => profile,
         Surface::Topography(topography) => topography.profile_at(0.0),
     };
     let radius = bearing.outer_raceway_radius();
-    let path = RigidPath::new(profile.points(), bearing.element_radius(), radius)?;
+    let path = RigidPath::new(profile.points(), Rolling::outer_ring(bearing.element_radius(), radius))?;
     let rigid = |arc: f64| {
         let after = path.knots().partition_point(|&knot| knot <= arc / radius);
         if after == 0 || after == path.knots().len() { 0.0 } else { path.at(after - 1, arc / radius).path }

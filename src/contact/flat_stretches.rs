@@ -13,7 +13,7 @@ const SMALLEST_GAP: f64 = 1e-8;
 /// Refuses a defect of this `extent` (first and last arc [m]) that elements feel between the arcs `felt` [m], for the
 /// reason `why`, if that is the whole raceway: laws near the defect know what is beyond one of its ends, not what is
 /// beyond both.
-pub(super) fn check_ends(
+pub(crate) fn check_ends(
     extent: (f64, f64),
     felt: (f64, f64),
     raceway_radius: f64,

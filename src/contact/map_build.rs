@@ -11,6 +11,7 @@ use super::{
     map_plan::MapPlan,
     map_specification::{MapSpecification, Runner},
     raceway_grid::ElementOnRaceway,
+    rolling::RacewaySide,
 };
 
 /// The map follows the grid, and the grid's own steps may be larger than the accuracy: a map is refused when its error
@@ -47,6 +48,10 @@ impl ContactMap {
         let mut number = |value: f64| hash.write(&value.to_bits().to_le_bytes());
         for value in [element.element_radius, element.raceway_radius, element.groove_radius] {
             number(value);
+        }
+        // Maps of the outer raceway are older than those of the inner one, and their fingerprints stay.
+        if element.raceway == RacewaySide::Inner {
+            number(-1.0);
         }
         number(specification.largest_approach);
         number(specification.accuracy);

@@ -15,7 +15,7 @@ pub const HEAD: usize = 8 + 4 + 8;
 /// Length of what follows them: the checksum.
 pub const TAIL: usize = 8;
 
-fn refused(reason: &str) -> ContactError {
+pub(super) fn refused(reason: &str) -> ContactError {
     ContactError::MapRefused { reason: reason.to_owned() }
 }
 

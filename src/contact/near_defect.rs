@@ -1,8 +1,10 @@
-//! The outer contact of an element near the defect, whatever the contact law.
+//! The contact of an element near a defect, whatever the contact law and whichever surface bears the defect.
 //!
 //! Each law gives an *equivalent approach* Δ(u, ψ): the force law of the smooth contact applied to Δ gives the normal
 //! force, and a direction says how it acts on the element. On the smooth raceway Δ = u and the direction is radial.
-//! The raceway around the defect is cut at knots into cells inside which Δ is smooth.
+//! Here u is the approach of the element to the smooth raceway, on which side ever, and ψ the direction in which the
+//! two bodies touch, seen in the frame of the one that bears the defect, from the defect's centre. The surface around
+//! the defect is cut at knots into cells inside which Δ is smooth.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -13,16 +15,16 @@ use super::love::LoveContact;
 use super::map::ContactMap;
 use super::rigid_path::RigidPath;
 
-/// Equivalent approach of one element to the outer raceway, and the direction of the contact force on the element.
+/// Equivalent approach of one element to a raceway, and the direction of the contact force on the element.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OuterApproach {
+pub struct Approach {
     /// Δ [m]; negative when there is a gap.
     pub value: f64,
     /// ∂Δ/∂u
     pub by_path: f64,
     /// ∂Δ/∂ψ [m/rad]
     pub by_angle: f64,
-    /// Radial part of the direction, inwards.
+    /// Part of the direction away from the raceway: inwards from the outer one, outwards from the inner one.
     pub radial: f64,
     /// Tangential part of the direction, counter-clockwise.
     pub tangential: f64,
@@ -32,8 +34,8 @@ pub struct OuterApproach {
     pub tangential_by_path: f64,
 }
 
-impl OuterApproach {
-    /// That of the smooth raceway at radial path `u` [m].
+impl Approach {
+    /// That of the smooth raceway at approach `u` [m].
     pub fn smooth(u: f64) -> Self {
         Self {
             value: u,
@@ -51,23 +53,32 @@ impl OuterApproach {
         Self { value: f64::NAN, radial: f64::NAN, tangential: f64::NAN, ..Self::smooth(f64::NAN) }
     }
 
-    /// From a potential's Δ(u, s): forces are its gradient. Per turning angle s = R_o ψ, and the tangential force acts
-    /// at ρ.
-    fn of(approach: &EquivalentApproach, raceway_radius: f64, rho: f64) -> Self {
-        let lever = raceway_radius / rho;
+    /// From a potential's Δ(u, s): forces are its gradient. Per turning angle s = B ψ, B the radius of the body that
+    /// bears the defect, and the tangential force acts at the lever.
+    fn of(approach: &EquivalentApproach, bearer_radius: f64, lever: Lever) -> Self {
+        let share = bearer_radius / lever.distance;
         Self {
             value: approach.value,
             by_path: approach.du,
-            by_angle: approach.ds * raceway_radius,
+            by_angle: approach.ds * bearer_radius,
             radial: approach.du,
-            tangential: -approach.ds * lever,
+            tangential: -approach.ds * share,
             radial_by_path: approach.duu,
-            tangential_by_path: lever * (approach.ds / rho - approach.dus),
+            tangential_by_path: share * (lever.by_approach * approach.ds / lever.distance - approach.dus),
         }
     }
 }
 
-/// The raceway near the defect under one contact law.
+/// Distance of an element's centre from that of a ring.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lever {
+    /// Distance [m].
+    pub distance: f64,
+    /// Its change with the approach: 1 outside, where it grows, and −1 inside.
+    pub by_approach: f64,
+}
+
+/// A surface near its defect under one contact law.
 #[derive(Debug, Clone)]
 pub enum NearDefect {
     /// The earlier model: a rigid element's path.
@@ -78,39 +89,39 @@ pub enum NearDefect {
     Love(Box<NearLove>),
 }
 
-/// A contact map on its raceway.
+/// A contact map on its surface.
 #[derive(Debug, Clone)]
 pub struct NearMap {
     map: Arc<ContactMap>,
-    raceway_radius: f64,
+    bearer_radius: f64,
     knots: Vec<f64>,
 }
 
 impl NearMap {
-    /// A map for a raceway of this radius [m].
-    pub fn new(map: Arc<ContactMap>, raceway_radius: f64) -> Self {
-        let knots = map.knots().iter().map(|arc| arc / raceway_radius).collect();
-        Self { map, raceway_radius, knots }
+    /// A map for a defect on a body of this radius [m].
+    pub fn new(map: Arc<ContactMap>, bearer_radius: f64) -> Self {
+        let knots = map.knots().iter().map(|arc| arc / bearer_radius).collect();
+        Self { map, bearer_radius, knots }
     }
 }
 
-/// A grid on its raceway, solved where the raceway is neither smooth nor flat.
+/// A grid on its surface, solved where that is neither smooth nor flat.
 #[derive(Debug, Clone)]
 pub struct NearLove {
     /// The last contact is where the solution of the next one starts, and nothing else.
     contact: RefCell<LoveContact>,
-    raceway_radius: f64,
+    bearer_radius: f64,
     knots: Vec<f64>,
     /// Depth of each cell that is flat.
     flats: Vec<Option<f64>>,
 }
 
 impl NearLove {
-    /// A grid for a raceway of this radius [m]. Between the ascending arcs `knots` [m] the raceway is flat at a depth
-    /// [m] or the grid is solved.
-    pub fn new(contact: LoveContact, knots: &[f64], flats: Vec<Option<f64>>, raceway_radius: f64) -> Self {
-        let knots = knots.iter().map(|arc| arc / raceway_radius).collect();
-        Self { contact: RefCell::new(contact), raceway_radius, knots, flats }
+    /// A grid for a defect on a body of this radius [m]. Between the ascending arcs `knots` [m] the surface is flat at a
+    /// depth [m] or the grid is solved.
+    pub fn new(contact: LoveContact, knots: &[f64], flats: Vec<Option<f64>>, bearer_radius: f64) -> Self {
+        let knots = knots.iter().map(|arc| arc / bearer_radius).collect();
+        Self { contact: RefCell::new(contact), bearer_radius, knots, flats }
     }
 
     fn solve(&self, cell: usize, u: f64, s: f64) -> Result<EquivalentApproach, ContactError> {
@@ -132,36 +143,35 @@ impl NearDefect {
         }
     }
 
-    /// Approach in `cell` for radial path `u` [m] at `angle` [rad] from the defect's centre, which may lie slightly
-    /// beyond the cell's ends; `rho` [m] is the distance of the element's centre from the outer ring's.
+    /// Approach in `cell` at the approach `u` [m] to the smooth raceway and at `angle` [rad] from the defect's centre,
+    /// which may lie slightly beyond the cell's ends; `lever` is that of the element about the ring's centre.
     ///
     /// # Errors
     /// Where the law was not prepared for so large an approach, or the grid cannot be solved.
     #[inline(always)]
-    pub fn approach(&self, cell: usize, u: f64, angle: f64, rho: f64) -> Result<OuterApproach, ContactError> {
+    pub fn approach(&self, cell: usize, u: f64, angle: f64, lever: Lever) -> Result<Approach, ContactError> {
         match self {
-            Self::Map(near) => Ok(OuterApproach::of(
-                &near.map.lookup_in(cell, u, angle * near.raceway_radius)?,
-                near.raceway_radius,
-                rho,
-            )),
+            Self::Map(near) => {
+                let found = near.map.lookup_in(cell, u, angle * near.bearer_radius)?;
+                Ok(Approach::of(&found, near.bearer_radius, lever))
+            }
             Self::Love(near) => {
-                Ok(OuterApproach::of(&near.solve(cell, u, angle * near.raceway_radius)?, near.raceway_radius, rho))
+                Ok(Approach::of(&near.solve(cell, u, angle * near.bearer_radius)?, near.bearer_radius, lever))
             }
             Self::Hertz(path) => {
                 let point = path.at(cell, angle);
-                let tan = point.slope / rho;
+                let tan = point.slope / lever.distance;
                 let radial = 1.0 / (1.0 + tan * tan).sqrt();
                 let tangential = tan * radial;
-                Ok(OuterApproach {
+                Ok(Approach {
                     value: u - point.path,
                     by_path: 1.0,
                     by_angle: -point.slope,
                     radial,
                     tangential,
-                    // κ = atan(P′/ρ): ∂κ/∂u = −sin κ cos κ/ρ
-                    radial_by_path: tangential * tangential * radial / rho,
-                    tangential_by_path: -tangential * radial * radial / rho,
+                    // κ = atan(P′/ρ): ∂κ/∂u = −sin κ cos κ/ρ outside, where ρ grows with u
+                    radial_by_path: lever.by_approach * (tangential * tangential * radial / lever.distance),
+                    tangential_by_path: lever.by_approach * (-tangential * radial * radial / lever.distance),
                 })
             }
         }

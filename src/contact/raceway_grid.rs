@@ -1,11 +1,15 @@
-//! A grid of cells fixed to the outer raceway, and the gap between it and an element above it.
+//! A grid of cells fixed to the surface that bears a defect, and the gap between it and the body above it.
 //!
 //! Gap for zero approach with the element at arc s, circles and not paraboloids (Larizza et al. 2018, eq. 4, corrected:
 //! the groove's curvature is added and a depression *opens* the gap):
 //!
 //! ```text
-//! h(x, y; s) = c(r, x−s) − c(R_o, x−s) + c(r, y) − c(r_g, y) + d(x, y),   c(R, t) = R − √(R² − t²)
+//! h(x, y; s) = c(r, x−s) ∓ c(R, x−s) + c(r, y) − c(r_g, y) + d(x, y),   c(R, t) = R − √(R² − t²)
 //! ```
+//!
+//! with − for the concave outer raceway and + for the convex inner one, whose sag adds to the element's. Which of the
+//! two bodies bears the defect does not matter: in the half-space a defect of the element is the same problem as one of
+//! the raceway with the same depth over arc.
 //!
 //! d is the exact mean depth of a cell, so a sharp edge counts where it is; cell borders lie on the first and the last
 //! sharp edge, because an edge 0.17 cell off costs fifty times the error. The grid does not move with the element: one
@@ -19,40 +23,49 @@ use crate::numerics::elliptic;
 use crate::scene::Bearing;
 use crate::surface::Surface;
 
-use super::{active_set::Mirror, error::ContactError};
+use super::{active_set::Mirror, error::ContactError, rolling::RacewaySide};
 
-/// Radii of an element and of the outer raceway it runs on.
+/// Radii of an element and of the raceway it runs on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ElementOnRaceway {
     /// Radius of the element r [m].
     pub element_radius: f64,
-    /// Radius of the raceway at the groove's bottom R_o [m].
+    /// Radius of the raceway at the groove's bottom, R_o or R_i [m].
     pub raceway_radius: f64,
     /// Radius of the groove r_g [m].
     pub groove_radius: f64,
+    /// Which raceway: the outer one is concave, the inner one convex.
+    pub raceway: RacewaySide,
 }
 
 impl ElementOnRaceway {
-    /// Element and outer raceway of a bearing.
-    pub fn outer(bearing: &Bearing) -> Self {
+    /// Element and one raceway of a bearing.
+    pub fn of(bearing: &Bearing, raceway: RacewaySide) -> Self {
+        let conformity = match raceway {
+            RacewaySide::Inner => bearing.conformity_inner,
+            RacewaySide::Outer => bearing.conformity_outer,
+        };
         Self {
             element_radius: bearing.element_radius(),
-            raceway_radius: bearing.outer_raceway_radius(),
-            groove_radius: bearing.conformity_outer * bearing.element_diameter,
+            raceway_radius: raceway.radius(bearing),
+            groove_radius: conformity * bearing.element_diameter,
+            raceway,
         }
     }
-}
 
-impl ElementOnRaceway {
     /// Checks the radii.
     ///
     /// # Errors
-    /// When a raceway is not wider than the element or a number is not finite.
+    /// When a groove or an outer raceway is not wider than the element or a number is not finite.
     pub fn checked(self) -> Result<Self, ContactError> {
         let r = self.element_radius;
+        let (least, limit) = match self.raceway {
+            RacewaySide::Inner => (0.0, "positive"),
+            RacewaySide::Outer => (r, "larger than the element's radius"),
+        };
         let checks = [
             ("element radius", r, 0.0, "positive"),
-            ("raceway radius", self.raceway_radius, r, "larger than the element's radius"),
+            ("raceway radius", self.raceway_radius, least, limit),
             ("groove radius", self.groove_radius, r, "larger than the element's radius"),
         ];
         for (quantity, value, above, limit) in checks {
@@ -66,7 +79,11 @@ impl ElementOnRaceway {
     /// Curvatures of the gap along and across the raceway [1/m].
     pub fn curvatures(&self) -> [f64; 2] {
         let r = 1.0 / self.element_radius;
-        [r - 1.0 / self.raceway_radius, r - 1.0 / self.groove_radius]
+        let along = match self.raceway {
+            RacewaySide::Inner => r + 1.0 / self.raceway_radius,
+            RacewaySide::Outer => r - 1.0 / self.raceway_radius,
+        };
+        [along, r - 1.0 / self.groove_radius]
     }
 
     /// Half-axes of Hertz's contact ellipse along and across the raceway [m] at the approach δ [m]: with A ≤ B half the
@@ -85,8 +102,11 @@ impl ElementOnRaceway {
     /// Part of the gap along the raceway with its slope, at distance t [m] from the element.
     #[inline]
     fn along(&self, t: f64) -> [f64; 2] {
-        let (inner, outer) = (circle(self.element_radius, t), circle(self.raceway_radius, t));
-        [inner[0] - outer[0], inner[1] - outer[1]]
+        let (element, raceway) = (circle(self.element_radius, t), circle(self.raceway_radius, t));
+        match self.raceway {
+            RacewaySide::Inner => [element[0] + raceway[0], element[1] + raceway[1]],
+            RacewaySide::Outer => [element[0] - raceway[0], element[1] - raceway[1]],
+        }
     }
 
     fn across(&self, t: f64) -> f64 {

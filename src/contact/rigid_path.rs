@@ -6,7 +6,9 @@
 //! P(ψ) = min_φ [R(φ) cos(φ−ψ) − √(r² − R(φ)² sin²(φ−ψ))] − (R_o − r),   R(φ) = R_o + h(φ)
 //! ```
 //! the upper envelope of the rolling circle; for one sharp edge and a flat floor it is the closed form of
-//! Moazen-Ahmadi, Petersen and Howard (2015). Between two changes of the touched feature (a vertex of the profile, a
+//! Moazen-Ahmadi, Petersen and Howard (2015). Defects of the inner ring and of elements have the forms that
+//! [`Rolling`] gives; ψ is then the direction in which the two bodies touch, in the frame of the one that bears the
+//! defect. Between two changes of the touched feature (a vertex of the profile, a
 //! straight piece of it, the smooth raceway) the path is smooth; there it is tabulated with cubic Hermite pieces whose
 //! end values and slopes are exact. The changes are the path's *knots*: at a pair of vertices the path has a cusp.
 //!
@@ -17,6 +19,7 @@
 
 use super::error::ContactError;
 use super::rigid_roller::{Feature, Roller};
+use super::rolling::Rolling;
 use crate::numerics::hermite;
 
 /// Path of a rigid element over a profile, as pieces between knots.
@@ -64,16 +67,16 @@ const STEEPEST: f64 = 1e4;
 const MOST: usize = 1 << 16;
 
 impl RigidPath {
-    /// Rolls an element of radius `element_radius` over `points`, (arc, depth) [m] with non-decreasing arc, on a
-    /// raceway of radius `raceway_radius` whose depth is 0 elsewhere.
+    /// Rolls two bodies over each other of which one bears the profile `points`, (arc, depth) [m] with non-decreasing
+    /// arc; its depth is 0 elsewhere.
     ///
     /// Depths must be below the element's radius; the surface layer sees to that.
     ///
     /// # Errors
     /// [`ContactError::EndsMeet`] where rims at both ends lift the element at once, [`ContactError::NoWayOut`] where it
     /// lies so deep that only its side meets an edge.
-    pub fn new(points: &[(f64, f64)], element_radius: f64, raceway_radius: f64) -> Result<Self, ContactError> {
-        let roller = Roller::new(points, element_radius, raceway_radius);
+    pub fn new(points: &[(f64, f64)], rolling: Rolling) -> Result<Self, ContactError> {
+        let roller = Roller::new(points, rolling);
         roller.check_ends()?;
         let (first, stretches) = roller.stretches();
         for pair in stretches.windows(2) {
@@ -103,15 +106,15 @@ impl RigidPath {
 /// Refuses a leap of the path between two features that meet at `angle`.
 fn check_climb(roller: &Roller, angle: f64, features: [Feature; 2]) -> Result<(), ContactError> {
     let [before, behind] = features.map(|feature| roller.touch_slope(feature, angle));
-    let rho = |path: f64| roller.raceway_radius() - roller.element_radius() + path;
-    if [before, behind].iter().all(|&(path, slope)| slope.abs() <= STEEPEST * rho(path)) {
+    let rolling = roller.rolling();
+    if [before, behind].iter().all(|&(path, slope)| slope.abs() <= STEEPEST * rolling.distance(path)) {
         return Ok(());
     }
     Err(ContactError::NoWayOut {
-        at_mm: angle * roller.raceway_radius() * 1e3,
+        at_mm: angle * rolling.bearer_radius() * 1e3,
         depth_mm: before.0.max(behind.0) * 1e3,
         limit_mm: before.0.min(behind.0) * 1e3,
-        radius_mm: roller.element_radius() * 1e3,
+        radius_mm: rolling.element_radius * 1e3,
     })
 }
 
@@ -122,9 +125,10 @@ impl Piece {
             let (path, _) = roller.touch_slope(feature, 0.5 * (start + end));
             return Self { start, per_width: 1.0 / (end - start), cubics: vec![[path, 0.0, 0.0, 0.0]] };
         }
-        let interval = INTERVAL.max(INTERVAL_OF_RADIUS * roller.element_radius());
-        let limit = ACCURACY * roller.element_radius() + 4.0 * f64::EPSILON * roller.raceway_radius();
-        let arc = (end - start) * roller.raceway_radius();
+        let rolling = roller.rolling();
+        let interval = INTERVAL.max(INTERVAL_OF_RADIUS * rolling.element_radius);
+        let limit = ACCURACY * rolling.element_radius + 4.0 * f64::EPSILON * rolling.raceway_radius;
+        let arc = (end - start) * rolling.bearer_radius();
         let mut count = (arc / interval).ceil().max(1.0) as usize;
         loop {
             let piece = Self::of_intervals(roller, feature, (start, end), count);
@@ -187,7 +191,8 @@ mod tests {
 
     fn spall(length: f64, depth: f64) -> RigidPath {
         let half = 0.5 * length;
-        RigidPath::new(&[(-half, 0.0), (-half, depth), (half, depth), (half, 0.0)], R, R_O).unwrap()
+        RigidPath::new(&[(-half, 0.0), (-half, depth), (half, depth), (half, 0.0)], Rolling::outer_ring(R, R_O))
+            .unwrap()
     }
 
     /// P = min(depth, R_o cos d − √(r² − R_o² sin² d) − (R_o − r)) at angle d past an edge.
@@ -228,7 +233,7 @@ mod tests {
         for r in [25e-6, 250e-6] {
             let (raceway, half, depth) = (6.0 * r, 0.5 * r, 0.9 * r);
             let points = [(-half, 0.0), (-half, depth), (half, depth), (half, 0.0)];
-            let path = RigidPath::new(&points, r, raceway).unwrap();
+            let path = RigidPath::new(&points, Rolling::outer_ring(r, raceway)).unwrap();
             for i in 0..=1000 {
                 let angle = half / raceway * (i as f64 / 500.0 - 1.0);
                 let d = half / raceway - angle.abs();
@@ -244,7 +249,7 @@ mod tests {
         for r in [25e-6, 1e-3, 3.97e-3, 0.25] {
             let (raceway, half, depth) = (6.0 * r, 0.5 * r, 0.9 * r);
             let points = [(-half, 0.0), (-half, depth), (half, depth), (half, 0.0)];
-            let path = RigidPath::new(&points, r, raceway).unwrap();
+            let path = RigidPath::new(&points, Rolling::outer_ring(r, raceway)).unwrap();
             for i in 0..2000 {
                 let angle = half / raceway * ((f64::from(i) + 0.37) / 1000.0 - 1.0);
                 // tan κ by the triangle of edge, centre and the ring's centre; the element turns down from the nearer
@@ -275,7 +280,7 @@ mod tests {
         let depths = [0.0, 0.0, -0.25304031344032263e-6, 0.0, 0.0];
         let middle = 0.5 * arcs[4];
         let points: Vec<(f64, f64)> = arcs.iter().zip(depths).map(|(s, h)| ((s - middle) * 1e-3, h)).collect();
-        let path = RigidPath::new(&points, r, raceway).unwrap();
+        let path = RigidPath::new(&points, Rolling::outer_ring(r, raceway)).unwrap();
         for i in 1..100 {
             let found = value(&path, path.knots()[0] + 2.85 * f64::from(i) / 100.0);
             // A rounding of the raceway's radius.
@@ -288,7 +293,9 @@ mod tests {
         let half = 2.0 * R;
         // The edge is r beside the centre.
         let limit = (R_O * R_O - R * R).sqrt() - (R_O - R);
-        let wall = |depth: f64| RigidPath::new(&[(-half, 0.0), (-half, depth), (half, depth), (half, 0.0)], R, R_O);
+        let wall = |depth: f64| {
+            RigidPath::new(&[(-half, 0.0), (-half, depth), (half, depth), (half, 0.0)], Rolling::outer_ring(R, R_O))
+        };
         assert!(wall(0.999 * limit).is_ok());
         let error = wall(1.001 * limit).unwrap_err();
         let ContactError::NoWayOut { depth_mm, limit_mm, .. } = error else { panic!("{error}") };
@@ -308,7 +315,9 @@ mod tests {
     #[test]
     fn a_ball_wider_than_the_spall_never_reaches_its_floor() {
         // 0.8 mm on a 6205: the drop is 16.8 µm with a cusp in the middle, whatever the depth.
-        let path = RigidPath::new(&[(-4e-4, 0.0), (-4e-4, 1e-3), (4e-4, 1e-3), (4e-4, 0.0)], R, 23.49e-3).unwrap();
+        let path =
+            RigidPath::new(&[(-4e-4, 0.0), (-4e-4, 1e-3), (4e-4, 1e-3), (4e-4, 0.0)], Rolling::outer_ring(R, 23.49e-3))
+                .unwrap();
         assert_eq!(path.knots().len(), 3);
         let cusp = path.at(0, 0.0);
         // The source prints three digits.
@@ -318,7 +327,7 @@ mod tests {
 
     #[test]
     fn a_raised_rim_lifts_the_element_before_it_gets_there() {
-        let path = RigidPath::new(&[(0.0, 0.0), (1e-4, -2e-6), (2e-4, 0.0)], R, R_O).unwrap();
+        let path = RigidPath::new(&[(0.0, 0.0), (1e-4, -2e-6), (2e-4, 0.0)], Rolling::outer_ring(R, R_O)).unwrap();
         let top = value(&path, 1e-4 / R_O);
         assert!((top.path + 2e-6).abs() < 1e-12, "on the rim: {}", top.path);
         assert!(path.knots()[0] < -1e-5 / R_O);
@@ -335,7 +344,7 @@ mod tests {
                 (i as f64 * 20e-6, if i == 0 || i == 59 { 0.0 } else { 3e-6 * share })
             })
             .collect();
-        let path = RigidPath::new(&points, R, R_O).unwrap();
+        let path = RigidPath::new(&points, Rolling::outer_ring(R, R_O)).unwrap();
         let height = |arc: f64| {
             let i = points.partition_point(|p| p.0 <= arc);
             if i == 0 || i == points.len() {

@@ -1,10 +1,11 @@
-//! A rigid circle that rolls over a profile from inside: which feature it touches, and how far out its centre then is.
+//! Two rigid circles, one of which bears a profile, that roll over each other: which feature of it touches the other
+//! circle, and by how much they then come together.
 //!
 //! Equations and limits are those of `rigid_path`, which makes a table of what is found here.
 
 use super::error::ContactError;
 use super::flat_stretches::check_ends;
-use crate::numerics::sin_cos;
+use super::rolling::Rolling;
 
 /// What the element touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,29 +20,31 @@ pub(super) enum Feature {
 
 /// The profile in polar form and the circle that rolls over it.
 pub(super) struct Roller {
-    element_radius: f64,
-    raceway_radius: f64,
-    /// (φ, R), φ non-decreasing; starts and ends on the raceway.
+    rolling: Rolling,
+    /// (φ, B), φ non-decreasing; starts and ends on the smooth body.
     vertices: Vec<(f64, f64)>,
     shallowest: f64,
+    deepest: f64,
 }
 
 impl Roller {
-    /// `points` as (arc, depth) [m], and both radii [m].
-    pub(super) fn new(points: &[(f64, f64)], element_radius: f64, raceway_radius: f64) -> Self {
+    /// `points` as (arc, depth) [m].
+    pub(super) fn new(points: &[(f64, f64)], rolling: Rolling) -> Self {
+        let radius = rolling.bearer_radius();
         let mut vertices: Vec<(f64, f64)> =
-            points.iter().map(|&(arc, depth)| (arc / raceway_radius, raceway_radius + depth)).collect();
+            points.iter().map(|&(arc, depth)| (arc / radius, rolling.radius_at(depth))).collect();
         if let (Some(&first), Some(&last)) = (vertices.first(), vertices.last()) {
             // A profile that does not start or end at depth 0 has a wall there.
-            if first.1 != raceway_radius {
-                vertices.insert(0, (first.0, raceway_radius));
+            if first.1 != radius {
+                vertices.insert(0, (first.0, radius));
             }
-            if last.1 != raceway_radius {
-                vertices.push((last.0, raceway_radius));
+            if last.1 != radius {
+                vertices.push((last.0, radius));
             }
         }
-        let shallowest = vertices.iter().map(|v| v.1 - raceway_radius).fold(0.0, f64::min);
-        Self { element_radius, raceway_radius, vertices, shallowest }
+        let depths = || vertices.iter().map(|v| rolling.depth_of(v.1));
+        let (shallowest, deepest) = (depths().fold(0.0, f64::min), depths().fold(0.0, f64::max));
+        Self { rolling, vertices, shallowest, deepest }
     }
 
     /// First and last angle of the profile.
@@ -49,30 +52,26 @@ impl Roller {
         (self.vertices.first().map_or(0.0, |v| v.0), self.vertices.last().map_or(0.0, |v| v.0))
     }
 
-    /// Refuses a profile around the whole raceway.
+    /// Refuses a profile around the whole body.
     pub(super) fn check_ends(&self) -> Result<(), ContactError> {
-        let arcs = |(first, last)| (first * self.raceway_radius, last * self.raceway_radius);
-        check_ends(arcs(self.ends()), arcs(self.extent()), self.raceway_radius, "where raised rims may lift them")
+        let radius = self.rolling.bearer_radius();
+        let arcs = |(first, last)| (first * radius, last * radius);
+        check_ends(arcs(self.ends()), arcs(self.extent()), radius, "where raised rims may lift them")
     }
 
     /// Angles between which the path may differ from 0: the profile, and beyond it what a raised rim touches.
     fn extent(&self) -> (f64, f64) {
         let (first, last) = self.ends();
-        let gap = self.raceway_radius - self.element_radius;
-        // A rim that rises by e lifts the element over √(2 e r R/(R−r)) on either side; 1 % more to be clear of it.
-        let reach = (2.0 * -self.shallowest * self.element_radius * self.raceway_radius / gap).sqrt()
-            * (1.01 / self.raceway_radius);
+        // A rim that rises by e lifts the element over √(2 e r R/(R∓r)) on either side; 1 % more to be clear of it.
+        let Rolling { element_radius, raceway_radius, .. } = self.rolling;
+        let reach = (2.0 * -self.shallowest * element_radius * raceway_radius / self.rolling.smooth_distance()).sqrt()
+            * (1.01 / self.rolling.bearer_radius());
         (first - reach, last + reach)
     }
 
-    /// Radius of the element [m].
-    pub(super) fn element_radius(&self) -> f64 {
-        self.element_radius
-    }
-
-    /// Radius of the raceway [m].
-    pub(super) fn raceway_radius(&self) -> f64 {
-        self.raceway_radius
+    /// The two bodies.
+    pub(super) fn rolling(&self) -> &Rolling {
+        &self.rolling
     }
 
     /// Whether the path over a feature has the same height everywhere.
@@ -147,7 +146,7 @@ impl Roller {
             if self.lower_bound(phi - angle) > best.0 {
                 return false;
             }
-            if self.lower_bound(phi - angle) + radius - self.raceway_radius - self.shallowest < best.0
+            if self.lower_bound(phi - angle) + self.rolling.depth_of(radius) - self.shallowest < best.0
                 && let Some(path) = self.vertex(index, angle)
                 && path < best.0
             {
@@ -168,30 +167,18 @@ impl Roller {
 
     /// A bound from below of the path over a point at angular distance `d` and beyond.
     fn lower_bound(&self, d: f64) -> f64 {
-        // The path rises with the point's radius, and for one at radius R_s it is at least ½ R_s (R_s−r)/r d² + R_s −
-        // R; a tenth less is clear of rounding.
-        let radius = self.raceway_radius + self.shallowest;
-        0.45 * radius * (radius - self.element_radius) / self.element_radius * d * d + self.shallowest
+        self.rolling.least_rise(d, self.shallowest, self.deepest) + self.shallowest
     }
 
     fn vertex(&self, index: usize, angle: f64) -> Option<f64> {
         let (phi, radius) = self.vertices[index];
-        self.centre(radius, phi - angle).map(|rho| rho - (self.raceway_radius - self.element_radius))
-    }
-
-    /// ρ of the centre over the point at radius `radius` and angular distance `d`; `None` beyond the element's reach,
-    /// the far side of the ring included.
-    fn centre(&self, radius: f64, d: f64) -> Option<f64> {
-        let (sin, cos) = sin_cos(d);
-        let square = self.element_radius * self.element_radius - radius * radius * sin * sin;
-        (square > 0.0 && cos > 0.0).then(|| radius * cos - square.sqrt())
+        self.rolling.path_over(radius, phi - angle)
     }
 
     /// The path over the straight piece after vertex `index`, if the element touches its inside.
     fn stretch(&self, index: usize, angle: f64) -> Option<f64> {
         let phi = self.stretch_touch(index, angle)?;
-        let radius = self.radius_on(index, phi);
-        self.centre(radius, phi - angle).map(|rho| rho - (self.raceway_radius - self.element_radius))
+        self.rolling.path_over(self.radius_on(index, phi), phi - angle)
     }
 
     fn radius_on(&self, index: usize, phi: f64) -> f64 {
@@ -211,13 +198,8 @@ impl Roller {
             return (angle > phi0 && angle < phi1).then_some(angle);
         }
         let derivative = |phi: f64| {
-            let radius = self.radius_on(index, phi);
-            let (sin, cos) = sin_cos(phi - angle);
-            let square = self.element_radius * self.element_radius - radius * radius * sin * sin;
-            if square <= 0.0 || cos <= 0.0 {
-                return if phi < angle { f64::NEG_INFINITY } else { f64::INFINITY };
-            }
-            slope * cos - radius * sin + (radius * slope * sin * sin + radius * radius * sin * cos) / square.sqrt()
+            let side = if phi < angle { f64::NEG_INFINITY } else { f64::INFINITY };
+            self.rolling.change_along(self.radius_on(index, phi), slope, phi - angle).unwrap_or(side)
         };
         if derivative(phi0) >= 0.0 || derivative(phi1) <= 0.0 {
             return None;
@@ -232,8 +214,7 @@ impl Roller {
         }
     }
 
-    /// P and dP/dψ over one feature. By the envelope theorem only the direct dependence on ψ counts: with d = φ−ψ,
-    /// dP/dψ = R sin d − R² sin d cos d/√(r² − R² sin² d).
+    /// P and dP/dψ over one feature. By the envelope theorem only the direct dependence on ψ counts.
     pub(super) fn touch_slope(&self, feature: Feature, angle: f64) -> (f64, f64) {
         let (phi, radius) = match feature {
             Feature::Raceway => return (0.0, 0.0),
@@ -241,17 +222,14 @@ impl Roller {
             // At the ends of a stretch rounding may put the touched point just outside it: then its end is touched.
             Feature::Stretch(index) => {
                 let phi = self.stretch_touch(index, angle).unwrap_or_else(|| {
-                    let reach = |v: (f64, f64)| self.centre(v.1, v.0 - angle).unwrap_or(f64::INFINITY);
+                    let reach = |v: (f64, f64)| self.rolling.path_over(v.1, v.0 - angle).unwrap_or(f64::INFINITY);
                     let (from, to) = (self.vertices[index], self.vertices[index + 1]);
                     if reach(from) <= reach(to) { from.0 } else { to.0 }
                 });
                 (phi, self.radius_on(index, phi))
             }
         };
-        let (sin, cos) = sin_cos(phi - angle);
-        let root = (self.element_radius * self.element_radius - radius * radius * sin * sin).max(0.0).sqrt();
-        let path = radius * cos - root - (self.raceway_radius - self.element_radius);
-        (path, radius * sin - radius * radius * sin * cos / root)
+        self.rolling.path_and_slope(radius, phi - angle)
     }
 }
 
@@ -277,7 +255,7 @@ mod tests {
                         (arc, if i == 0 || i == 49 { 0.0 } else { depth * (random() - 0.1) })
                     })
                     .collect();
-                let roller = Roller::new(&points, 3.97e-3, 23.6325e-3);
+                let roller = Roller::new(&points, Rolling::outer_ring(3.97e-3, 23.6325e-3));
                 let (first, stretches) = roller.stretches();
                 let last = stretches[stretches.len() - 1].0;
                 let mut stretch = 0;

@@ -94,10 +94,11 @@ mod tests {
     use super::*;
     use crate::dynamics::forces::Forces;
     use crate::dynamics::jacobian::tests::{lively, moving};
+    use crate::dynamics::raceway::Cells;
     use crate::scene::{Damping, Motion};
 
     /// The state after `time`, by many classical Runge–Kutta steps.
-    fn integrated(model: &Model, drive: &Drive, (state, cells): (&[f64], &[u32]), time: f64) -> Vec<f64> {
+    fn integrated(model: &Model, drive: &Drive, (state, cells): (&[f64], &Cells), time: f64) -> Vec<f64> {
         let (mut y, mut forces, count) = (state.to_vec(), Forces::new(model.element_count), 50);
         let h = time / f64::from(count);
         for step in 0..count {

@@ -52,16 +52,69 @@ impl Cubic {
     }
 }
 
-/// Cage angle kept as whole turns and the rest, so that it does not lose digits in a long run.
+/// What defects turn with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Frame {
+    /// The inner ring.
+    Shaft,
+    /// The outer ring.
+    Housing,
+    /// An element about its own axis.
+    Spin,
+}
+
+impl Frame {
+    /// That of the inner ring, 0, or of the outer, 1.
+    pub fn of_ring(index: usize) -> Self {
+        if index == 0 { Self::Shaft } else { Self::Housing }
+    }
+}
+
+/// Angle and speed of a frame at one instant.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct CageAngle {
+pub struct Turn {
+    /// Angle [rad].
+    pub angle: f64,
+    /// Speed [rad/s].
+    pub speed: f64,
+}
+
+/// All frames at one instant, in the order of [`Frame`].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Frames(pub [Turn; 3]);
+
+impl Frames {
+    /// One of them.
+    #[inline]
+    pub fn of(&self, frame: Frame) -> Turn {
+        self.0[frame as usize]
+    }
+
+    /// Frames that stand still at these angles.
+    pub fn at_rest(&self) -> Self {
+        Self(self.0.map(|turn| Turn { speed: 0.0, ..turn }))
+    }
+}
+
+/// How a frame turns during one communication step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Turning {
+    /// Its angle at the start [rad], within one turn.
+    pub start: f64,
+    /// Its angle since the start [rad], with its value 0, its speed and its acceleration.
+    pub since: Quadratic,
+}
+
+/// An angle kept as whole turns and the rest, so that it does not lose digits in a long run.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct WholeAngle {
     /// Whole turns.
     pub turns: i64,
     /// The rest [rad], in [−π, π].
     pub rest: f64,
 }
 
-impl CageAngle {
+impl WholeAngle {
     /// From an angle [rad].
     pub fn new(angle: f64) -> Self {
         Self::default().advanced(angle)
@@ -87,6 +140,8 @@ pub struct Drive {
     pub cage_start: f64,
     /// Cage angle since the start [rad], with its value 0, its speed and its acceleration.
     pub cage: Quadratic,
+    /// How the frames of defects turn, in the order of [`Frame`].
+    pub frames: [Turning; 3],
     /// Prescribed position of the inner ring [m], x and y; zero when it is not prescribed.
     pub shaft: [Cubic; 2],
     /// Prescribed position of the outer ring [m].
@@ -98,10 +153,28 @@ pub struct Drive {
 }
 
 impl Drive {
+    /// Nothing moves: element 1 is at `cage_angle` and the frames of defects are at `frames` [rad].
+    pub fn standing(cage_angle: f64, frames: [f64; 3]) -> Self {
+        let frames = frames.map(|start| Turning { start, ..Turning::default() });
+        Self { cage_start: cage_angle, frames, ..Self::default() }
+    }
+
     /// Cage angle at `tau` [rad].
     #[inline]
     pub fn cage_angle(&self, tau: f64) -> f64 {
         self.cage_start + self.cage.at(tau)
+    }
+
+    /// The frames of defects at `tau`.
+    pub fn frames_at(&self, tau: f64) -> Frames {
+        let turn = |frame: &Turning| Turn { angle: frame.start + frame.since.at(tau), speed: frame.since.rate_at(tau) };
+        let [shaft, housing, spin] = &self.frames;
+        Frames([turn(shaft), turn(housing), turn(spin)])
+    }
+
+    /// Speed [rad/s] and acceleration [rad/s²] of each frame at `tau`.
+    pub fn frame_rates(&self, tau: f64) -> [[f64; 2]; 3] {
+        self.frames.map(|frame| [frame.since.rate_at(tau), frame.since.0[2]])
     }
 }
 
@@ -112,7 +185,7 @@ mod tests {
     #[test]
     fn a_minute_of_small_advances_keeps_the_cage_angle() {
         let step = 2.0 * std::f64::consts::PI * 4.0 * 1e-4;
-        let mut angle = CageAngle::new(-1.0);
+        let mut angle = WholeAngle::new(-1.0);
         for _ in 0..600_000 {
             angle = angle.advanced(step);
         }

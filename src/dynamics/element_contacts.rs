@@ -1,9 +1,12 @@
-//! Where an element stands to the two raceways: its gap to the inner one and its approach to the outer one.
+//! Where an element stands to the two raceways: its gap to the inner one, and its approach to either near a defect.
 
+use super::drive::Frames;
+use super::kinematics::Kinematics;
 use super::model::Model;
-use super::raceway::SMOOTH;
+use super::raceway::{Cells, Near, SMOOTH};
 use crate::contact::error::ContactError;
-use crate::contact::near_defect::OuterApproach;
+use crate::contact::near_defect::Lever;
+use crate::contact::rolling::RacewaySide;
 use crate::numerics::plane::{Vector, turned};
 
 /// An element seen from the inner ring's centre.
@@ -15,6 +18,29 @@ pub(super) struct InnerGap {
     pub(super) n: Vector,
     /// |q| [m]
     pub(super) distance: f64,
+}
+
+/// One contact of an element: where it is and in which cells.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Meeting {
+    /// The element, from 0.
+    pub(super) element: usize,
+    /// Cell of the raceway, and cell of the element's own defect.
+    pub(super) cells: [u32; 2],
+    /// Approach to the smooth raceway [m].
+    pub(super) u: f64,
+    /// Direction of the element from the ring's centre [rad].
+    pub(super) direction: f64,
+    /// Distance of the element from the ring's centre [m].
+    pub(super) distance: f64,
+}
+
+impl InnerGap {
+    /// Angle φ − θ [rad] between the element's directions from the inner ring's centre and from the outer's.
+    #[inline]
+    pub(super) fn lead(&self) -> f64 {
+        libm::atan2(self.n.y, self.n.x)
+    }
 }
 
 impl Model {
@@ -30,30 +56,86 @@ impl Model {
         InnerGap { approach, n: Vector::new(q_r / distance, t / distance), distance }
     }
 
-    /// Approach of element `j` to the outer raceway in a cell of the defect; `None` on the smooth raceway.
+    /// Direction φ [rad] of element `j` at path `u` from the inner ring's centre.
+    pub fn inner_direction_of(&self, j: usize, u: f64, now: &Kinematics) -> f64 {
+        now.cage.angle + self.element_offset(j) + self.inner_lead(j, u, now)
+    }
+
+    /// What that direction is ahead of the element's angle θ about the outer ring's centre [rad].
+    pub fn inner_lead(&self, j: usize, u: f64, now: &Kinematics) -> f64 {
+        self.inner_gap(u, now.offset(), self.direction(j, now.cage.direction)).lead()
+    }
+
+    /// Element `j` at path `u` where it meets the outer raceway.
+    #[inline]
+    pub(super) fn outer_meeting(&self, j: usize, cells: [u32; 2], u: f64, cage_angle: f64) -> Meeting {
+        let direction = cage_angle + self.element_offset(j);
+        Meeting { element: j, cells, u, direction, distance: self.outer_centre_radius + u }
+    }
+
+    /// Element `j` with this gap where it meets the inner raceway.
+    #[inline]
+    pub(super) fn inner_meeting(&self, j: usize, cells: [u32; 2], gap: &InnerGap, cage_angle: f64) -> Meeting {
+        let direction = cage_angle + self.element_offset(j) + gap.lead();
+        Meeting { element: j, cells, u: gap.approach, direction, distance: gap.distance }
+    }
+
+    /// Approach of an element near a defect, its own or the raceway's; of both the one that carries less. `None` where
+    /// both bodies are smooth.
     ///
     /// Inlined, so that what its caller does not use is not worked out.
     #[inline(always)]
     pub(super) fn near_defect(
         &self,
-        j: usize,
-        cell: u32,
-        u: f64,
-        cage_angle: f64,
-        rho: f64,
-    ) -> Option<Result<OuterApproach, ContactError>> {
-        if cell == SMOOTH {
-            return None;
+        side: RacewaySide,
+        at: &Meeting,
+        frames: &Frames,
+    ) -> Option<Result<Near, ContactError>> {
+        let [ring, own] = at.cells;
+        let (raceway, by_approach) = match side {
+            RacewaySide::Inner => (&self.inner, -1.0),
+            RacewaySide::Outer => (&self.outer, 1.0),
+        };
+        let lever = Lever { distance: at.distance, by_approach };
+        let on_ring = raceway.defects.approach(ring, at.u, at.direction, frames, lever);
+        if own == SMOOTH {
+            return on_ring;
         }
-        let defect = self.outer.defect.as_ref()?;
-        Some(defect.surface.approach(cell as usize, u, defect.angle(cage_angle + self.element_offset(j)), rho))
+        let defective = self.defective.iter().find(|defective| defective.element == at.element);
+        let on_element =
+            defective.and_then(|found| found.defects[side as usize].approach(own, at.u, at.direction, frames, lever));
+        match (on_ring, on_element) {
+            (Some(Ok(ring)), Some(Ok(own))) => {
+                Some(Ok(if own.approach.value < ring.approach.value { own } else { ring }))
+            }
+            (Some(Err(error)), _) => Some(Err(error)),
+            (ring, own) => own.or(ring),
+        }
     }
 
     /// As [`Self::near_defect`], the smooth raceway included.
-    pub(super) fn outer_approach(&self, j: usize, cell: u32, u: f64, cage_angle: f64, rho: f64) -> OuterApproach {
-        match self.near_defect(j, cell, u, cage_angle, rho) {
-            None => OuterApproach::smooth(u),
-            Some(near) => near.unwrap_or_else(|_| OuterApproach::unsolved()),
+    pub(super) fn approach(&self, side: RacewaySide, at: &Meeting, frames: &Frames) -> Near {
+        match self.near_defect(side, at, frames) {
+            None => Near::smooth(at.u),
+            Some(near) => near.unwrap_or_else(|_| Near::unsolved()),
         }
+    }
+
+    /// Angle [rad] of a contact from the centre of the defect that it is at, or else of the raceway's nearest.
+    pub(super) fn angle_from_defect(&self, side: RacewaySide, at: &Meeting, frames: &Frames) -> f64 {
+        let raceway = match side {
+            RacewaySide::Inner => &self.inner,
+            RacewaySide::Outer => &self.outer,
+        };
+        let own = self.defective.iter().find(|defective| defective.element == at.element && at.cells[1] != SMOOTH);
+        let defects = own.map_or(&raceway.defects, |defective| &defective.defects[side as usize]);
+        defects.angle(at.direction - frames.of(defects.frame).angle)
+    }
+
+    /// Cells of the contacts of element `j` with the inner and with the outer raceway: of the raceway, then its own.
+    pub(super) fn cells_of(&self, cells: &Cells, j: usize) -> [[u32; 2]; 2] {
+        let own = self.defective.iter().position(|defective| defective.element == j);
+        let own = own.map_or([SMOOTH; 2], |k| cells.own[k]);
+        [[cells.inner[j], own[0]], [cells.outer[j], own[1]]]
     }
 }

@@ -10,12 +10,14 @@
 //! An element that nothing pushes rests against the outer raceway without force.
 
 use super::drive::{Drive, Quadratic};
+use super::element_contacts::Meeting;
 use super::kinematics::Kinematics;
 use super::linearized::{Bends, Linearized};
 use super::model::Model;
-use super::raceway::SMOOTH;
+use super::raceway::{Cells, SMOOTH};
 use super::tangent::{Rings, stacked};
 use crate::contact::error::ContactError;
+use crate::contact::rolling::RacewaySide;
 use crate::numerics::plane::Vector;
 
 /// Why no equilibrium was found.
@@ -82,11 +84,13 @@ const LONGEST_STEP: f64 = 50e-6;
 /// them.
 const DOUBLING: i32 = 50;
 const ITERATIONS: i32 = 500;
+/// Times that cells are looked up anew for the equilibrium found.
+const CELLS: u32 = 8;
 
 impl Model {
     /// Writes the static equilibrium under `drive` at τ = 0 into `state`; velocities are those of rings at rest, or of
     /// prescribed rings that carry the elements along.
-    pub fn equilibrium(&self, drive: &Drive, cells: &[u32], state: &mut [f64]) -> Result<(), EquilibriumError> {
+    pub fn equilibrium(&self, drive: &Drive, cells: &Cells, state: &mut [f64]) -> Result<(), EquilibriumError> {
         state.fill(0.0);
         let mut u = vec![0.0; self.element_count];
         let given = Given { drive, cells, still: self.kinematics(drive, 0.0, state) };
@@ -117,16 +121,41 @@ impl Model {
         Ok(())
     }
 
-    /// The path [m] of element `j` (from 0) where it rests against the outer raceway without force.
-    pub fn resting_path(&self, j: usize, cage_angle: f64) -> f64 {
-        self.touching_path(j, self.cell_at(j, cage_angle), cage_angle)
+    /// As [`equilibrium`](Self::equilibrium), the cells of all contacts found with it: in which cell an inner contact is
+    /// depends on where the rings come to rest.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn equilibrium_with_cells(&self, drive: &Drive, state: &mut [f64]) -> Result<Cells, EquilibriumError> {
+        state.fill(0.0);
+        let mut cells = self.cells_at(drive, 0.0, state);
+        for _ in 0..CELLS {
+            self.equilibrium(drive, &cells, state)?;
+            let there = self.cells_at(drive, 0.0, state);
+            // A contact on a knot may be in either cell.
+            if there == cells || !self.has_inner_defects() {
+                break;
+            }
+            cells = there;
+        }
+        Ok(cells)
     }
 
-    /// Over the defect the path of an element without force is where the approach vanishes.
-    fn touching_path(&self, j: usize, cell: u32, cage_angle: f64) -> f64 {
+    /// The path [m] of element `j` (from 0) where it rests against the outer raceway without force, with element 1 at
+    /// `cage_angle` [rad] and all else as at the start.
+    pub fn resting_path(&self, j: usize, cage_angle: f64) -> f64 {
+        let now = Kinematics::at_rest(cage_angle, Vector::zeros());
+        let cell = self.outer.defects.cell_at(cage_angle + self.element_offset(j));
+        self.touching_path(j, [cell, SMOOTH], &now)
+    }
+
+    /// Over a defect the path of an element without force is where the approach vanishes.
+    fn touching_path(&self, j: usize, cells: [u32; 2], now: &Kinematics) -> f64 {
         let mut u = 0.0;
         for _ in 0..20 {
-            let near = self.outer_approach(j, cell, u, cage_angle, self.outer_centre_radius + u);
+            let near = self
+                .approach(RacewaySide::Outer, &self.outer_meeting(j, cells, u, now.cage.angle), &now.frames)
+                .approach;
             let step = near.value / near.by_path;
             u -= step;
             if step.abs() < 1e-15 {
@@ -137,15 +166,15 @@ impl Model {
     }
 
     /// Element `j` in radial balance, and its path, looked for from `guess` on.
-    fn balanced_element(&self, j: usize, cell: u32, guess: f64, now: &Kinematics) -> (f64, Linearized) {
+    fn balanced_element(&self, j: usize, cells: [[u32; 2]; 2], guess: f64, now: &Kinematics) -> (f64, Linearized) {
         // u' = 0. Without second derivatives of the approach the slope is that of another damping, which Newton's
         // method bears.
         let element = |u: f64| {
-            let element = self.linearized_at(j, cell, (u, 0.0), now, Bends::LeftOut);
+            let element = self.linearized_at(j, cells, (u, 0.0), now, Bends::LeftOut);
             let (force, slope) = self.radial_balance(&element);
             (force, slope, element)
         };
-        let touch = if cell == SMOOTH { 0.0 } else { self.touching_path(j, cell, now.cage.angle) };
+        let touch = if cells[1] == [SMOOTH; 2] { 0.0 } else { self.touching_path(j, cells[1], now) };
         let (at_touch, _, touching) = element(touch);
         if at_touch == 0.0 {
             return (touch, touching);
@@ -189,15 +218,21 @@ impl Model {
     /// there.
     fn check_contacts(&self, given: &Given, rings: Rings, u: &[f64]) -> Result<(), EquilibriumError> {
         let now = given.placed(rings);
-        for (j, (&cell, &u)) in given.cells.iter().zip(u).enumerate() {
-            let further = self.near_defect(j, cell, u + FURTHER, now.cage.angle, self.outer_centre_radius + u);
-            let Some(Err(cause)) = further else { continue };
-            // The search may have ended on the far side, where all is no number.
-            let element = self.linearized_at(j, cell, (u - FURTHER, 0.0), &now, Bends::LeftOut);
-            let residual = self.radial_balance(&element).0;
-            if !(residual.abs() <= UNBALANCED * element.inner.norm()) {
-                let angle_deg = self.angle_from_defect(j, now.cage.angle).to_degrees();
-                return Err(EquilibriumError::Contact { element: j + 1, angle_deg, residual, cause });
+        for (j, &u) in u.iter().enumerate() {
+            let cells = self.cells_of(given.cells, j);
+            let angle = now.cage.angle;
+            let gap = self.inner_gap(u - FURTHER, now.offset(), self.direction(j, now.cage.direction));
+            let inner = self.inner_meeting(j, cells[0], &gap, angle);
+            let outer = Meeting { u: u + FURTHER, ..self.outer_meeting(j, cells[1], u, angle) };
+            for (side, at) in [(RacewaySide::Outer, outer), (RacewaySide::Inner, inner)] {
+                let Some(Err(cause)) = self.near_defect(side, &at, &now.frames) else { continue };
+                // The search may have ended on the far side, where all is no number.
+                let element = self.linearized_at(j, cells, (u - FURTHER, 0.0), &now, Bends::LeftOut);
+                let residual = self.radial_balance(&element).0;
+                if !(residual.abs() <= UNBALANCED * element.inner.norm()) {
+                    let angle_deg = self.angle_from_defect(side, &at, &now.frames).to_degrees();
+                    return Err(EquilibriumError::Contact { element: j + 1, angle_deg, residual, cause });
+                }
             }
         }
         Ok(())
@@ -207,7 +242,7 @@ impl Model {
     fn check_elements(&self, given: &Given, rings: Rings, u: &[f64]) -> Result<(), EquilibriumError> {
         let now = given.placed(rings);
         for (j, &path) in u.iter().enumerate() {
-            let element = self.linearized_at(j, given.cells[j], (path, 0.0), &now, Bends::LeftOut);
+            let element = self.linearized_at(j, self.cells_of(given.cells, j), (path, 0.0), &now, Bends::LeftOut);
             let (force, slope) = self.radial_balance(&element);
             let omega = now.cage.speed;
             let body = self.element_mass * (self.gravity.norm() + element.rho * omega * omega);
@@ -227,7 +262,7 @@ impl Model {
         let (mut force, mut largest, mut contact_sum, mut rounding) = (Rings::zeros(), 0.0f64, 0.0, 0.0);
         let play = now.offset().norm() + self.radial_clearance.abs();
         for j in 0..self.element_count {
-            let (path, element) = self.balanced_element(j, cells[j], u[j], &now);
+            let (path, element) = self.balanced_element(j, self.cells_of(cells, j), u[j], &now);
             u[j] = path;
             rounding += self.radial_balance(&element).1.abs() * (path.abs() + play) * 4.0 * f64::EPSILON;
             contact_sum += element.inner.norm();
@@ -245,7 +280,7 @@ impl Model {
 
     /// A step of the free rings from the condensed tangent: (−J + μ) step = force.
     fn newton_step(&self, given: &Given, rings: Rings, u: &[f64], balance: &Balance, iteration: i32) -> Rings {
-        let jacobian = self.ring_jacobian(u, given.cells, given.placed(rings).offset(), given.still.cage.angle);
+        let jacobian = self.ring_jacobian(u, given.cells, &given.placed(rings));
         // The turning of contact forces makes a lightly held ring's tangent indefinite; its bound ΣQ/|q| takes that
         // out. The second term lets a loose ring move by the longest step, and vanishes with the residual.
         let longest = longest_step(iteration);
@@ -323,7 +358,7 @@ fn longest_step(iteration: i32) -> f64 {
 /// What the search is given. Velocities in `still` stay; where the rings are follows in each iteration.
 struct Given<'a> {
     drive: &'a Drive,
-    cells: &'a [u32],
+    cells: &'a Cells,
     still: Kinematics,
 }
 

@@ -11,6 +11,7 @@ use super::drive::Drive;
 use super::kinematics::Kinematics;
 use super::linearized::{Bends, ElementVariation, Linearized};
 use super::model::Model;
+use super::raceway::Cells;
 use super::tangent::{RingJacobian, Rings};
 use super::variation::Variation;
 use crate::numerics::plane::Vector;
@@ -22,7 +23,7 @@ impl Model {
     pub fn vary_equilibrium(
         &self,
         drive: &Drive,
-        cells: &[u32],
+        cells: &Cells,
         state: &[f64],
         loads: Rings,
         by: &mut Variation,
@@ -32,11 +33,12 @@ impl Model {
             offset: by.offset(),
             drift: by.drift(),
             cage_speed: by.cage_speed,
+            frames: by.frames,
             ..ElementVariation::default()
         };
         let (mut jacobian, mut force) = (RingJacobian::zeros(), loads);
         for j in 0..self.element_count {
-            let element = self.at_start(j, cells[j], state, &now);
+            let element = self.at_start(j, cells, state, &now);
             self.add_balanced(&element, &mut jacobian);
             force += self.balanced(&element, &given).rings;
         }
@@ -48,14 +50,15 @@ impl Model {
         by.housing.position += Vector::new(moved[2], moved[3]);
         let whole = ElementVariation { offset: by.offset(), ..given };
         for j in 0..self.element_count {
-            let element = self.at_start(j, cells[j], state, &now);
+            let element = self.at_start(j, cells, state, &now);
             by.path[j] = self.balanced(&element, &whole).path;
             by.radial_velocity[j] = by.housing.velocity.dot(&element.e_r);
         }
         Some(())
     }
 
-    fn at_start(&self, j: usize, cell: u32, state: &[f64], now: &Kinematics) -> Linearized {
-        self.linearized(j, cell, (state[j], state[self.layout.radial_velocity + j]), now, Bends::Wanted)
+    fn at_start(&self, j: usize, cells: &Cells, state: &[f64], now: &Kinematics) -> Linearized {
+        let cells = self.cells_of(cells, j);
+        self.linearized(j, cells, (state[j], state[self.layout.radial_velocity + j]), now, Bends::Wanted)
     }
 }

@@ -1,9 +1,10 @@
 //! What an evaluation of the equations of motion finds on its way: forces on the rings, and each contact if asked for.
 
 use super::contact_lanes::Record;
+use super::drive::Frame;
 use super::element_block::ElementBlock;
 use super::model::Model;
-use super::raceway::SMOOTH;
+use super::raceway::{Cells, SMOOTH};
 use crate::contact::error::ContactError;
 use crate::numerics::lanes::{Each, Lanes, Lists, QUAD, WIDEST, Wide, largest_of, padded};
 use crate::numerics::plane::Vector;
@@ -15,21 +16,24 @@ pub struct Forces {
     pub contacts: Record,
     /// The elements, with what follows from the raceway that each is on.
     pub(super) elements: Vec<ElementBlock>,
-    /// Elements that are not on the smooth rigid raceway, with their cells.
-    pub(super) others: Vec<(usize, u32)>,
-    /// Their outer contacts.
-    pub(super) other_contacts: Vec<OtherContact>,
+    /// Elements with a contact that is not one of smooth rigid raceways.
+    pub(super) others: Vec<Other>,
+    /// Those contacts, the inner ones and the outer ones.
+    pub(super) other_contacts: [Vec<OtherContact>; 2],
     /// Number of elements.
     count: usize,
     /// The bearing's force on the inner ring, then on the outer [N].
     pub rings: [f64; 4],
+    /// Torques of contacts near defects on the bodies that bear them [N m]: on the inner ring, on the outer ring, each
+    /// about its centre, and on elements about their own axes.
+    pub(super) torques: [f64; 3],
     /// Number of approaches near the defect that were asked for.
     pub defect_lookups: u64,
-    /// The last contact near the defect that could not be computed, of an element whose place is a number.
+    /// The last contact near a defect that could not be computed, of an element whose place is a number.
     pub unsolved: Option<UnsolvedContact>,
 }
 
-/// A contact near the defect that could not be computed.
+/// A contact near a defect that could not be computed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UnsolvedContact {
     /// The element, from 0.
@@ -52,8 +56,10 @@ impl Clone for Forces {
             ..Self::new(self.count)
         };
         copy.others.extend_from_slice(&self.others);
-        copy.other_contacts.extend_from_slice(&self.other_contacts);
-        (copy.rings, copy.defect_lookups) = (self.rings, self.defect_lookups);
+        for (copy, contacts) in copy.other_contacts.iter_mut().zip(&self.other_contacts) {
+            copy.extend_from_slice(contacts);
+        }
+        (copy.rings, copy.torques, copy.defect_lookups) = (self.rings, self.torques, self.defect_lookups);
         copy
     }
 }
@@ -67,20 +73,33 @@ impl Forces {
             contacts: Record::new(places),
             elements: vec![ElementBlock::default(); places / WIDEST],
             others: Vec::with_capacity(count),
-            other_contacts: Vec::with_capacity(count),
+            other_contacts: [(); 2].map(|()| Vec::with_capacity(count)),
             ..Self::default()
         }
     }
 
-    /// Sorts the elements by the raceway they are on. What follows inside kernels is for these cells.
-    pub(super) fn enter(&mut self, model: &Model, cells: &[u32]) {
+    /// Sorts the elements by the surfaces they are on. What follows inside kernels is for these cells.
+    pub(super) fn enter(&mut self, model: &Model, cells: &Cells) {
         let rigid = model.outer.contact.compliance == 0.0;
         self.others.clear();
+        self.torques = [0.0; 3];
         self.elements.copy_from_slice(&model.elements);
-        for (j, &cell) in cells.iter().enumerate() {
-            if !(rigid && cell == SMOOTH) {
-                self.others.push((j, cell));
-                self.elements[j / WIDEST].outer[j % WIDEST] = 0.0;
+        for j in 0..model.element_count {
+            let [inner, outer] = model.cells_of(cells, j);
+            let other = Other {
+                element: j,
+                inner: (inner != [SMOOTH; 2]).then_some(inner),
+                outer: (!rigid || outer != [SMOOTH; 2]).then_some(outer),
+            };
+            let block = &mut self.elements[j / WIDEST];
+            if other.inner.is_some() {
+                block.inner[j % WIDEST] = 0.0;
+            }
+            if other.outer.is_some() {
+                block.outer[j % WIDEST] = 0.0;
+            }
+            if other.inner.is_some() || other.outer.is_some() {
+                self.others.push(other);
             }
         }
     }
@@ -88,7 +107,18 @@ impl Forces {
     /// Puts what [`Model::other_contacts`] found among the contacts that are kept.
     pub(super) fn record_others(&mut self) {
         let record = &mut self.contacts;
-        for other in &self.other_contacts {
+        let [inner, outer] = &self.other_contacts;
+        for other in inner {
+            let j = other.element;
+            record.inner_approach[j] = other.approach;
+            record.inner_pushing[j] = other.pushing;
+            let [magnitude, radial, tangential] = other.force;
+            record.inner[j] = magnitude;
+            if magnitude > 0.0 {
+                (record.normal_radial[j], record.normal_tangential[j]) = (radial / magnitude, tangential / magnitude);
+            }
+        }
+        for other in outer {
             let j = other.element;
             record.outer_approach[j] = other.approach;
             record.outer_pushing[j] = other.pushing;
@@ -104,6 +134,11 @@ impl Forces {
     /// The bearing's force on the outer ring [N].
     pub fn housing(&self) -> Vector {
         Vector::new(self.rings[2], self.rings[3])
+    }
+
+    /// Torque of contacts near defects on the bodies that turn with a frame and bear them [N m].
+    pub fn torque_on(&self, frame: Frame) -> f64 {
+        self.torques[frame as usize]
     }
 
     /// Notes which contacts push: 1 for those that do, −1 for the others, the inner contacts before the outer.
@@ -148,14 +183,29 @@ impl Forces {
     }
 }
 
-/// An outer contact that is not that of the smooth rigid raceway.
+/// An element with a contact that is not one of smooth rigid raceways.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Other {
+    pub(super) element: usize,
+    /// Cells of the raceway and of the element's own defect, where the inner contact is such a one.
+    pub(super) inner: Option<[u32; 2]>,
+    /// Those of the outer contact.
+    pub(super) outer: Option<[u32; 2]>,
+}
+
+/// A contact that is not one of smooth rigid raceways.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct OtherContact {
     pub(super) element: usize,
     pub(super) approach: f64,
     pub(super) pushing: f64,
-    /// Magnitude [N], and the parts inwards and counter-clockwise on the element.
+    /// Magnitude [N]; then the parts on the element: of an inner contact outwards and counter-clockwise, as seen from
+    /// the outer ring's centre, of an outer contact inwards and counter-clockwise.
     pub(super) force: [f64; 3],
+    /// Torque [N m] on the body that bears the defect, about its own centre.
+    pub(super) torque: f64,
+    /// The frame of that body.
+    pub(super) frame: Frame,
 }
 
 /// How far the contact that has changed most is beyond its change.

@@ -17,6 +17,7 @@ use super::drive::Drive;
 use super::kinematics::{Kinematics, RingState, prescribed_rate};
 use super::linearized::{Bends, ElementVariation, Linearized};
 use super::model::{Layout, Model};
+use super::raceway::Cells;
 use super::supports::{BODIES, Bodies, BodyMatrix};
 use super::tangent::{Rings, stacked};
 use crate::numerics::plane::Vector;
@@ -178,6 +179,8 @@ struct Shared {
     prescribed: [RingState; 2],
     /// 1/mass of the rings' coordinates [1/kg].
     inverse_masses: Rings,
+    /// Speed and acceleration of the frames of defects.
+    frames: [[f64; 2]; 3],
 }
 
 impl Model {
@@ -186,7 +189,7 @@ impl Model {
         &self,
         drive: &Drive,
         tau: f64,
-        cells: &[u32],
+        cells: &Cells,
         state: &[f64],
         jacobian: &mut Jacobian,
         by_time: &mut [f64],
@@ -199,10 +202,12 @@ impl Model {
             now: self.kinematics(drive, tau, state),
             prescribed: [host(self.shaft.motion, &drive.shaft), host(self.housing.motion, &drive.housing)],
             inverse_masses: self.supports.inverse_masses().fixed_rows::<4>(0).into(),
+            frames: drive.frame_rates(tau),
         };
         self.add_supports(drive, tau, &shared, jacobian, by_time);
         for j in 0..self.element_count {
-            let element = self.linearized(j, cells[j], (state[j], state[start + j]), &shared.now, Bends::Wanted);
+            let element =
+                self.linearized(j, self.cells_of(cells, j), (state[j], state[start + j]), &shared.now, Bends::Wanted);
             self.add_element(j, &element, &shared, jacobian);
             self.add_element_by_time(j, &element, &shared, &jacobian.places, by_time);
         }
@@ -263,6 +268,7 @@ impl Model {
             path_rate,
             cage_angle: omega,
             cage_speed: alpha,
+            frames: shared.frames,
         });
         by_time[j] = path_rate;
         by_time[self.layout.radial_velocity + j] = (with_time.inner.dot(&e_r) + omega * element.inner.dot(&e_t)
@@ -286,7 +292,7 @@ impl Model {
         by_time[2 * self.layout.radial_velocity..].fill(0.0);
         // Prescribed rings move the sensor; on the rings themselves nothing but their loads depends on time.
         let [shaft, housing] = &shared.prescribed;
-        let moves = Kinematics { cage: shared.now.cage, shaft: *shaft, housing: *housing };
+        let moves = Kinematics { shaft: *shaft, housing: *housing, ..shared.now };
         let [velocity, acceleration] = moves.bodies(0.0, 0.0);
         let loads = drive.shaft_load.iter().chain(&drive.housing_load).map(|load| load.rate_at(tau)).chain([0.0]);
         let forces = self.supports.forces(&velocity, &acceleration) + Bodies::from_iterator(loads);

@@ -3,7 +3,7 @@
 //! The cage is known before the state is, so its part is worked out first, for several instants of a step together.
 //! Rings follow from the state where it has them, else from the host.
 
-use super::drive::{Cubic, Drive};
+use super::drive::{Cubic, Drive, Frames};
 use crate::numerics::plane::Vector;
 use crate::numerics::sin_cos;
 
@@ -40,6 +40,8 @@ pub struct Kinematics {
     pub shaft: RingState,
     /// The outer ring.
     pub housing: RingState,
+    /// The frames of defects; not worked out within the step's kernels, where few contacts ask for them.
+    pub frames: Frames,
 }
 
 /// What the right-hand side is evaluated at.
@@ -69,10 +71,18 @@ impl CageState {
 }
 
 impl Kinematics {
-    /// Nothing moves; the outer ring's centre is `offset` [m] from the inner's.
+    /// Nothing moves; the outer ring's centre is `offset` [m] from the inner's, frames are at their angles of the start.
     pub fn at_rest(cage_angle: f64, offset: Vector) -> Self {
         let housing = RingState { position: offset, ..RingState::default() };
-        Self { cage: CageState::at_rest(cage_angle), shaft: RingState::default(), housing }
+        let (cage, shaft) = (CageState::at_rest(cage_angle), RingState::default());
+        Self { cage, shaft, housing, frames: Frames::default() }
+    }
+
+    /// The same positions with nothing moving.
+    pub fn standing(&self) -> Self {
+        let still = |ring: &RingState| RingState { velocity: Vector::zeros(), ..*ring };
+        let cage = CageState { speed: 0.0, acceleration: 0.0, ..self.cage };
+        Self { cage, shaft: still(&self.shaft), housing: still(&self.housing), frames: self.frames.at_rest() }
     }
 
     /// Position of the outer ring's centre seen from the inner's [m].

@@ -18,17 +18,25 @@
 //! dF  = (Q_Δ dΔ + Q_Δ̇ dΔ̇) (radial, tangential) + Q d(radial, tangential)
 //! dΔ  = Δ_u du + Δ_ψ dθ              dΔ̇ = Δ_u du' + Δ_ψ dω + (Δ_uu u' + Δ_uψ ω) du + (Δ_uψ u' + Δ_ψψ ω) dθ
 //! ```
-//! F is the outer contact's force, inwards and counter-clockwise, at the equivalent approach Δ(u, ψ). Where Δ is not u
+//! F is the outer contact's force, inwards and counter-clockwise, at the equivalent approach Δ(u, ψ). Near a defect of
+//! the inner raceway, or of the element on its inner side, with v_n = n·q̇, v_t = t·q̇ and the frame's speed ω_f,
+//! ```text
+//! f = Q(Δ, Δ̇) (R n + T t),   Δ(δ, ψ),   dδ = −n·dq,   dψ = t·dq/|q| − dα,   dn = t (t·dq)/|q|,   dt = −n (t·dq)/|q|
+//! dδ̇ = −n·dq̇ − v_t (t·dq)/|q|,   dψ̇ = t·dq̇/|q| − v_t (n·dq)/|q|² − v_n (t·dq)/|q|² − dω_f
+//! ``` Where Δ is not u
 //! itself, its second derivatives and derivatives of the direction by the angle are central differences over
 //! [`DIFFERENCE`], wrong by less than 1e-6 of themselves.
 //!
 //! Derivatives are those of the branch that each contact is in; at the onset of a contact there are two. At rest all of
 //! it is elastic: G is symmetric, and no damping enters.
 
+use super::drive::Frame;
+use super::element_contacts::{InnerGap, Meeting};
 use super::kinematics::Kinematics;
 use super::model::Model;
-use super::raceway::SMOOTH;
-use crate::contact::near_defect::OuterApproach;
+use super::raceway::{Near, SMOOTH};
+use crate::contact::near_defect::Approach;
+use crate::contact::rolling::RacewaySide;
 use crate::numerics::plane::{Matrix, Vector, turned};
 
 /// How far apart along path and raceway the approach near the defect is looked at for its second derivatives [m].
@@ -56,6 +64,13 @@ pub(super) struct Linearized {
     pub(super) inner: Vector,
     pub(super) by_q: Matrix,
     pub(super) by_q_rate: Matrix,
+    /// Its derivatives by angle and speed of the body that bears the defect.
+    by_inner_frame: [Vector; 2],
+    /// The frames of the bodies that bear the defects under the inner and the outer contact.
+    pub(super) frames: [Frame; 2],
+    /// Direction and length of q [m].
+    pub(super) n: Vector,
+    pub(super) distance: f64,
     /// Force of the outer contact on the element, inwards and counter-clockwise [N].
     pub(super) outer: Vector,
     /// Direction of the outer force, inwards and counter-clockwise, and its derivatives by path and angle.
@@ -81,6 +96,8 @@ pub(super) struct ElementVariation {
     pub(super) path_rate: f64,
     pub(super) cage_angle: f64,
     pub(super) cage_speed: f64,
+    /// Of angle and speed of the frames of defects, in the order of [`Frame`].
+    pub(super) frames: [[f64; 2]; 3],
 }
 
 /// Change of one element's contact forces, in the directions of [`Linearized::inner`] and [`Linearized::outer`].
@@ -142,8 +159,11 @@ impl Linearized {
         let q = by.offset + e_r * by.path + e_t * turned;
         let q_rate = by.drift + e_r * radial + e_t * around;
         let (amount, turn) = self.outer_change(by);
+        let [angle, speed] = by.frames[self.frames[0] as usize];
         ElementChange {
-            inner: self.by_q * q + self.by_q_rate * q_rate,
+            inner: self.by_q * q
+                + self.by_q_rate * q_rate
+                + (self.by_inner_frame[0] * angle + self.by_inner_frame[1] * speed),
             outer: self.direction * amount + turn * self.amount,
         }
     }
@@ -163,34 +183,34 @@ impl Linearized {
     /// Change of the outer force per unit of direction, and of the direction.
     #[inline]
     fn outer_change(&self, by: &ElementVariation) -> (f64, Vector) {
-        let amount = self.by_path * by.path
-            + self.by_path_rate * by.path_rate
-            + self.by_angle * by.cage_angle
-            + self.by_speed * by.cage_speed;
-        let turn = self.direction_by_path * by.path + self.direction_by_angle * by.cage_angle;
+        let [angle, speed] = by.frames[self.frames[1] as usize];
+        let (angle, speed) = (by.cage_angle - angle, by.cage_speed - speed);
+        let amount =
+            self.by_path * by.path + self.by_path_rate * by.path_rate + self.by_angle * angle + self.by_speed * speed;
+        let turn = self.direction_by_path * by.path + self.direction_by_angle * angle;
         (amount, turn)
     }
 }
 
 impl Model {
-    /// Element `j` at path `u` and absolute radial velocity `w`.
+    /// Element `j` at path `u` and absolute radial velocity `w`, its contacts in these cells (see `Model::cells_of`).
     pub(super) fn linearized(
         &self,
         j: usize,
-        cell: u32,
+        cells: [[u32; 2]; 2],
         (u, w): (f64, f64),
         now: &Kinematics,
         bends: Bends,
     ) -> Linearized {
         let path_rate = w - now.housing.velocity.dot(&self.direction(j, now.cage.direction));
-        self.linearized_at(j, cell, (u, path_rate), now, bends)
+        self.linearized_at(j, cells, (u, path_rate), now, bends)
     }
 
     /// Element `j` at path and path rate `(u, u')`.
     pub(super) fn linearized_at(
         &self,
         j: usize,
-        cell: u32,
+        cells: [[u32; 2]; 2],
         (u, path_rate): (f64, f64),
         now: &Kinematics,
         bends: Bends,
@@ -202,19 +222,17 @@ impl Model {
         let gap = self.inner_gap(u, now.offset(), e_r);
         let n = e_r * gap.n.x + e_t * gap.n.y;
         let q_rate = now.drift() + e_r * path_rate + e_t * (rho * omega);
-        let rate = -n.dot(&q_rate);
-        let force = self.inner.contact.law.with_derivatives(gap.approach, rate);
-        // P q̇/|q| and Q/|q|
-        let turn = (q_rate + n * rate) / gap.distance;
-        let across = force.value / gap.distance;
-        let by_q = Matrix::from_diagonal_element(across)
-            - n * (n * (force.by_approach + across) + turn * force.by_rate).transpose();
-        let by_q_rate = n * n.transpose() * -force.by_rate;
+        let inner = match cells[0] {
+            [SMOOTH, SMOOTH] => self.smooth_inner(&gap, n, q_rate),
+            cells => self.near_inner(&self.inner_meeting(j, cells, &gap, now.cage.angle), n, q_rate, now, bends),
+        };
 
-        let bent = bends == Bends::Wanted && cell != SMOOTH;
-        let bend = if bent { self.bend(j, cell, u, now.cage.angle) } else { Bend::default() };
-        let near = self.outer_approach(j, cell, u, now.cage.angle, rho);
-        let law = self.outer.contact.with_derivatives(near.value, near.by_path * path_rate + near.by_angle * omega);
+        let at = self.outer_meeting(j, cells[1], u, now.cage.angle);
+        let bent = bends == Bends::Wanted && cells[1] != [SMOOTH; 2];
+        let bend = if bent { self.bend(RacewaySide::Outer, &at, now) } else { Bend::default() };
+        let Near { approach: near, frame_speed, frame } = self.approach(RacewaySide::Outer, &at, &now.frames);
+        let turning = omega - frame_speed;
+        let law = self.outer.contact.with_derivatives(near.value, near.by_path * path_rate + near.by_angle * turning);
         let direction = Vector::new(near.radial, near.tangential);
         Linearized {
             e_r,
@@ -222,31 +240,96 @@ impl Model {
             rho,
             omega,
             path_rate,
-            inner: n * force.value,
-            by_q,
-            by_q_rate,
+            inner: inner.force,
+            by_q: inner.by_q,
+            by_q_rate: inner.by_q_rate,
+            by_inner_frame: inner.by_frame,
+            frames: [inner.frame, frame],
+            n,
+            distance: gap.distance,
             outer: direction * law.value,
             direction,
             direction_by_path: Vector::new(near.radial_by_path, near.tangential_by_path),
             direction_by_angle: bend.direction_by_angle,
             amount: law.value,
             by_path: law.by_approach * near.by_path
-                + law.by_rate * (bend.path_path * path_rate + bend.path_angle * omega),
+                + law.by_rate * (bend.path_path * path_rate + bend.path_angle * turning),
             by_path_rate: law.by_rate * near.by_path,
             by_angle: law.by_approach * near.by_angle
-                + law.by_rate * (bend.path_angle * path_rate + bend.angle_angle * omega),
+                + law.by_rate * (bend.path_angle * path_rate + bend.angle_angle * turning),
             by_speed: law.by_rate * near.by_angle,
         }
     }
 
-    /// Second derivatives of the approach of element `j`, which is near the defect.
-    fn bend(&self, j: usize, cell: u32, u: f64, cage_angle: f64) -> Bend {
-        let look = |u: f64, angle: f64| self.outer_approach(j, cell, u, angle, self.outer_centre_radius + u);
+    /// The inner contact of an element on the smooth raceway, q changing at `q_rate`.
+    fn smooth_inner(&self, gap: &InnerGap, n: Vector, q_rate: Vector) -> InnerContact {
+        let rate = -n.dot(&q_rate);
+        let force = self.inner.contact.law.with_derivatives(gap.approach, rate);
+        // P q̇/|q| and Q/|q|
+        let turn = (q_rate + n * rate) / gap.distance;
+        let across = force.value / gap.distance;
+        InnerContact {
+            force: n * force.value,
+            by_q: Matrix::from_diagonal_element(across)
+                - n * (n * (force.by_approach + across) + turn * force.by_rate).transpose(),
+            by_q_rate: n * n.transpose() * -force.by_rate,
+            by_frame: [Vector::zeros(); 2],
+            frame: Frame::Shaft,
+        }
+    }
+
+    /// The inner contact of an element near a defect, q in direction `n` changing at `q_rate`.
+    fn near_inner(&self, at: &Meeting, n: Vector, q_rate: Vector, now: &Kinematics, bends: Bends) -> InnerContact {
+        let (t, distance) = (turned(n), at.distance);
+        let (v_n, v_t) = (n.dot(&q_rate), t.dot(&q_rate));
+        let bend = if bends == Bends::Wanted { self.bend(RacewaySide::Inner, at, now) } else { Bend::default() };
+        let Near { approach: near, frame_speed, frame } = self.approach(RacewaySide::Inner, at, &now.frames);
+        let turning = v_t / distance - frame_speed;
+        let law = self.inner.contact.law.with_derivatives(near.value, -near.by_path * v_n + near.by_angle * turning);
+        // Δ̇ by the approach and by the angle at constant rates of both.
+        let rate_by_approach = -bend.path_path * v_n + bend.path_angle * turning;
+        let rate_by_angle = -bend.path_angle * v_n + bend.angle_angle * turning;
+        let per_length = 1.0 / distance;
+        // dΔ, dΔ̇ and the force's amount as rows by dq.
+        let value = n * -near.by_path + t * (near.by_angle * per_length);
+        let rate = n * (-rate_by_approach - near.by_angle * v_t * per_length * per_length)
+            + t * (per_length * (rate_by_angle - near.by_path * v_t - near.by_angle * v_n * per_length));
+        let amount = value * law.by_approach + rate * law.by_rate;
+        let direction = n * near.radial + t * near.tangential;
+        // What turns the direction: the approach, the angle, and n and t themselves.
+        let by_approach = n * near.radial_by_path + t * near.tangential_by_path;
+        let by_angle = n * bend.direction_by_angle.x + t * bend.direction_by_angle.y;
+        let turned = by_angle + t * near.radial - n * near.tangential;
+        let by_q = direction * amount.transpose() - by_approach * n.transpose() * law.value
+            + turned * t.transpose() * (law.value * per_length);
+        let along = n * -near.by_path + t * (near.by_angle * per_length);
+        let by_turn = law.by_approach * near.by_angle + law.by_rate * rate_by_angle;
+        InnerContact {
+            force: direction * law.value,
+            by_q,
+            by_q_rate: direction * along.transpose() * law.by_rate,
+            by_frame: [-(direction * by_turn + by_angle * law.value), -direction * (law.by_rate * near.by_angle)],
+            frame,
+        }
+    }
+
+    /// Second derivatives of the approach of a contact near a defect.
+    fn bend(&self, side: RacewaySide, at: &Meeting, now: &Kinematics) -> Bend {
         let angle = DIFFERENCE / self.outer_centre_radius;
-        let (inside, outside) = (look(u - DIFFERENCE, cage_angle), look(u + DIFFERENCE, cage_angle));
-        let (behind, ahead) = (look(u, cage_angle - angle), look(u, cage_angle + angle));
-        let by_path = |of: fn(&OuterApproach) -> f64| (of(&outside) - of(&inside)) / (2.0 * DIFFERENCE);
-        let by_angle = |of: fn(&OuterApproach) -> f64| (of(&ahead) - of(&behind)) / (2.0 * angle);
+        let look = |du: f64, turn: f64| {
+            let u = at.u + du;
+            let (direction, distance) = match side {
+                RacewaySide::Inner => (at.direction + turn, at.distance - du),
+                RacewaySide::Outer => {
+                    ((now.cage.angle + turn) + self.element_offset(at.element), self.outer_centre_radius + u)
+                }
+            };
+            self.approach(side, &Meeting { u, distance, direction, ..*at }, &now.frames).approach
+        };
+        let (inside, outside) = (look(-DIFFERENCE, 0.0), look(DIFFERENCE, 0.0));
+        let (behind, ahead) = (look(0.0, -angle), look(0.0, angle));
+        let by_path = |of: fn(&Approach) -> f64| (of(&outside) - of(&inside)) / (2.0 * DIFFERENCE);
+        let by_angle = |of: fn(&Approach) -> f64| (of(&ahead) - of(&behind)) / (2.0 * angle);
         Bend {
             path_path: by_path(|near| near.by_path),
             path_angle: by_path(|near| near.by_angle),
@@ -254,4 +337,13 @@ impl Model {
             direction_by_angle: Vector::new(by_angle(|near| near.radial), by_angle(|near| near.tangential)),
         }
     }
+}
+
+/// The inner contact of an element to first order.
+struct InnerContact {
+    force: Vector,
+    by_q: Matrix,
+    by_q_rate: Matrix,
+    by_frame: [Vector; 2],
+    frame: Frame,
 }

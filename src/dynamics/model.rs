@@ -6,16 +6,16 @@
 //! ρ the distance of the element's centre from the *outer ring's* centre), w the radial component of the element's
 //! absolute velocity.
 
+use super::drive::{Drive, Frame};
 use super::element_block::{ElementBlock, blocks};
-use super::raceway::{Placed, Raceway, SMOOTH};
+use super::raceway::{Cells, DefectiveElement, Defects, Raceway};
 use super::supports::Supports;
 use crate::contact::compliant::CompliantContact;
 use crate::contact::force_law::ForceLaw;
 use crate::geometry::hertz_constant::HertzConstants;
-use crate::geometry::kinematics::cage_ratio;
+use crate::geometry::kinematics::Ratios;
 use crate::numerics::lanes::{Partition, QUAD, WIDEST, padded};
 use crate::numerics::plane::Vector;
-use crate::numerics::wrap;
 use crate::scene::{Motion, Ring, Scene};
 use std::f64::consts::TAU;
 
@@ -38,6 +38,8 @@ pub struct Model {
     pub inner: Raceway,
     /// The outer raceway.
     pub outer: Raceway,
+    /// Elements with defects.
+    pub defective: Vec<DefectiveElement>,
     /// Gravity on the elements [m/s²].
     pub gravity: Vector,
     /// The inner ring.
@@ -46,8 +48,8 @@ pub struct Model {
     pub housing: Ring,
     /// What holds rings and sensor.
     pub supports: Supports,
-    /// Cage speed per shaft speed.
-    pub cage_ratio: f64,
+    /// Speeds of cage and elements per speed of the rings.
+    pub ratios: Ratios,
     /// Places of the state vector.
     pub layout: Layout,
     /// What differs from element to element, eight at a time.
@@ -137,13 +139,14 @@ impl Layout {
 }
 
 impl Model {
-    /// Works the parameters out. `defect` is the scene's, under its contact law.
-    pub fn new(scene: &Scene, defect: Option<Placed>) -> Self {
+    /// Works the parameters out. `defects` are those of the inner and of the outer raceway, under the scene's contact
+    /// law, and of `defective` elements.
+    pub fn new(scene: &Scene, [inner, outer]: [Defects; 2], defective: Vec<DefectiveElement>) -> Self {
         let bearing = &scene.bearing;
         let hertz = HertzConstants::of(bearing);
-        let raceway = |stiffness, compliance, defect| {
+        let raceway = |stiffness, compliance, defects| {
             let law = ForceLaw { stiffness, damping: scene.contact.damping };
-            Raceway { contact: CompliantContact { law, compliance }, defect }
+            Raceway { contact: CompliantContact { law, compliance }, defects }
         };
         let element_radius = bearing.element_radius();
         Self {
@@ -153,41 +156,90 @@ impl Model {
             element_radius,
             outer_centre_radius: bearing.outer_raceway_radius() - element_radius,
             radial_clearance: bearing.radial_clearance,
-            inner: raceway(hertz.inner, 0.0, None),
-            outer: raceway(hertz.outer, bearing.outer_compliance, defect),
+            inner: raceway(hertz.inner, 0.0, inner),
+            outer: raceway(hertz.outer, bearing.outer_compliance, outer),
+            defective,
             gravity: scene.gravity.into(),
             shaft: scene.shaft,
             housing: scene.housing,
             supports: Supports::new(scene),
-            cage_ratio: cage_ratio(bearing, scene.cage.slip),
+            ratios: Ratios::new(bearing, scene.cage.slip, scene.cage.spin_slip),
             layout: Layout::new(scene),
             elements: blocks(bearing.element_count, 1.0 / bearing.mass_of_element(), hertz),
         }
     }
 
-    /// Makes contacts near the defect independent of what was computed before, rounding included.
+    /// The scene's model without its defects.
+    pub fn smooth(scene: &Scene) -> Self {
+        Self::new(scene, [Frame::Shaft, Frame::Housing].map(|frame| Defects::new(frame, [])), Vec::new())
+    }
+
+    /// Makes contacts near defects independent of what was computed before, rounding included.
     pub fn forget_contacts(&self) {
-        for defect in [&self.inner.defect, &self.outer.defect].into_iter().flatten() {
-            defect.surface.forget();
+        self.all_defects().for_each(Defects::forget);
+    }
+
+    /// The defects of all bodies.
+    pub fn all_defects(&self) -> impl Iterator<Item = &Defects> {
+        [&self.inner.defects, &self.outer.defects]
+            .into_iter()
+            .chain(self.defective.iter().flat_map(|element| &element.defects))
+    }
+
+    /// Whether the model has all of these cells.
+    pub fn has_cells(&self, cells: &Cells) -> bool {
+        let own = self.defective.iter().zip(&cells.own);
+        cells.inner.iter().all(|&cell| self.inner.defects.has_cell(cell))
+            && cells.outer.iter().all(|&cell| self.outer.defects.has_cell(cell))
+            && own.into_iter().all(|(own, cells)| own.defects.iter().zip(cells).all(|(on, &cell)| on.has_cell(cell)))
+    }
+
+    /// Number of contacts of elements with raceways.
+    pub fn contact_count(&self) -> usize {
+        2 * self.element_count
+    }
+
+    /// Whether what a defect meets depends on where the rings are, and not on time alone.
+    pub fn has_inner_defects(&self) -> bool {
+        !self.inner.defects.is_empty() || !self.defective.is_empty()
+    }
+
+    /// Cells of all contacts at `tau` for a state.
+    pub fn cells_at(&self, drive: &Drive, tau: f64, state: &[f64]) -> Cells {
+        let (now, mut cells) =
+            (self.kinematics(drive, tau, state), Cells::smooth(self.element_count, self.defective.len()));
+        for j in 0..self.element_count {
+            let theta = now.cage.angle + self.element_offset(j);
+            let directions = [self.inner_direction_of(j, state[j], &now), theta];
+            let cell =
+                |defects: &Defects, direction: f64| defects.cell_at(direction - now.frames.of(defects.frame).angle);
+            cells.inner[j] = cell(&self.inner.defects, directions[0]);
+            cells.outer[j] = cell(&self.outer.defects, directions[1]);
+            for (k, defective) in self.defective.iter().enumerate().filter(|(_, own)| own.element == j) {
+                cells.own[k] = [0, 1].map(|side| cell(&defective.defects[side], directions[side]));
+            }
         }
-    }
-
-    /// Angle [rad] of element `j` from the centre of the outer raceway's defect, within half a turn; from +x without
-    /// one.
-    #[inline]
-    pub fn angle_from_defect(&self, j: usize, cage_angle: f64) -> f64 {
-        let angle = cage_angle + self.element_offset(j);
-        self.outer.defect.as_ref().map_or_else(|| wrap(angle), |defect| defect.angle(angle))
-    }
-
-    /// Cell of the outer raceway's defect in which element `j` is at a cage angle [rad].
-    pub fn cell_at(&self, j: usize, cage_angle: f64) -> u32 {
-        self.outer.defect.as_ref().map_or(SMOOTH, |defect| defect.cell_at(self.angle_from_defect(j, cage_angle)))
+        cells
     }
 
     /// Angle of element `j` (from 0) ahead of element 1 [rad].
     pub fn element_offset(&self, j: usize) -> f64 {
         j as f64 * TAU / self.element_count as f64
+    }
+
+    /// Angle [rad] by which elements spin while the cage turns by `cage` [rad] and the rings as they must for it, the
+    /// outer one standing.
+    pub fn spin_with_cage(&self, cage: f64) -> f64 {
+        let Ratios { cage: [by_shaft, _], spin: [spin, _] } = self.ratios;
+        if by_shaft == 0.0 { 0.0 } else { cage / by_shaft * spin }
+    }
+
+    /// Angle χ [rad] by which the defect of element `j` has turned from the direction of the element's centre, for the
+    /// angles of frames and cage; 0 where it faces the outer raceway, the turns since then counted.
+    pub fn spin_angle(&self, j: usize, frames: &[f64; 3], cage: f64) -> f64 {
+        let own = self.defective.iter().find(|defective| defective.element == j);
+        let centre = own.and_then(|own| own.defects[1].iter().next()).map_or(0.0, |placed| placed.centre);
+        centre + frames[Frame::Spin as usize] - (cage + self.element_offset(j))
     }
 
     /// Radial direction of element `j` for that of element 1.

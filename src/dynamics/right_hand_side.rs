@@ -10,24 +10,27 @@
 //! m_o x_o'' = F_o + Σ (F_r e_r − F_t e_t) − c_p v_o − k_p x_o + f_s,   m_s y_s'' = −f_s
 //! ```
 //! F_r and F_t are what the outer raceway exerts on the element, inwards and counter-clockwise; on the smooth raceway
-//! F_r = Q(u, u') and F_t = 0. As w is the element's *absolute* radial velocity, no ring acceleration enters.
+//! F_r = Q(u, u') and F_t = 0. Near a defect of the inner raceway, or of the element on its inner side, Q_i n gives way
+//! to Q (R n + T t), with the direction (R, T) of that contact and t = ẑ×n. As w is the element's *absolute* radial velocity, no ring acceleration enters.
 //! The cage is kinematic: it takes up every tangential force on the elements. What it takes is the cage torque.
 
-use super::drive::Drive;
+use super::drive::{Drive, Frame};
+use super::element_contacts::{InnerGap, Meeting};
 use super::forces::{Forces, OtherContact, UnsolvedContact};
 use super::kinematics::{Kinematics, Stage, moved};
 use super::model::Model;
-use crate::contact::near_defect::OuterApproach;
+use super::raceway::{Cells, Near};
+use crate::contact::rolling::RacewaySide;
 use crate::numerics::lanes::{Kernel, Lanes, WIDEST, Wide, dispatch};
 use crate::numerics::plane::{Vector, turned};
 
 impl Model {
-    /// Derivative of `state` at `tau`, and each contact; `cells` says in which cell of the defect each element is.
+    /// Derivative of `state` at `tau`, and each contact; `cells` says in which cell each contact is.
     pub fn derivative(
         &self,
         drive: &Drive,
         tau: f64,
-        cells: &[u32],
+        cells: &Cells,
         state: &[f64],
         derivative: &mut [f64],
         forces: &mut Forces,
@@ -51,14 +54,16 @@ impl Model {
         let (now, tau) = (self.kinematics_of(stage), cage.tau);
         // A copy for the call, so that what is known of the instant can stay in registers: what is written to memory in
         // parts and read together soon after is read late.
-        let others = if forces.others.is_empty() {
-            Vector::zeros()
+        let [on_shaft, on_housing] = if forces.others.is_empty() {
+            [Vector::zeros(); 2]
         } else {
-            self.other_contacts::<RECORD>(&{ now }, state, ahead, forces)
+            let now = Kinematics { frames: drive.frames_at(tau), ..now };
+            self.other_contacts::<RECORD>(&now, state, ahead, forces)
         };
         let [shaft_x, shaft_y, housing_x, housing_y] =
             self.smooth_contacts::<S, RECORD>(simd, &now, stage, derivative, (&forces.elements, &mut forces.contacts));
-        let (housing_x, housing_y) = (housing_x + others.x, housing_y + others.y);
+        let (shaft_x, shaft_y) = (shaft_x + on_shaft.x, shaft_y + on_shaft.y);
+        let (housing_x, housing_y) = (housing_x + on_housing.x, housing_y + on_housing.y);
         if RECORD && !forces.others.is_empty() {
             forces.record_others();
         }
@@ -81,7 +86,7 @@ impl Model {
         }
     }
 
-    /// The outer contacts that are not those of the smooth rigid raceway; gives their force on the outer ring.
+    /// The contacts that are not those of smooth rigid raceways; gives their forces on the inner ring and on the outer.
     ///
     /// They come first, so that what they add to an element's acceleration is long written when all elements' are read.
     #[inline(never)]
@@ -91,53 +96,110 @@ impl Model {
         state: &[f64],
         ahead: Option<f64>,
         forces: &mut Forces,
-    ) -> Vector {
-        let (compliant, start) = (self.outer.contact.compliance != 0.0, self.layout.radial_velocity);
-        let mut on_housing = Vector::zeros();
-        let Forces { others, other_contacts, elements, defect_lookups, unsolved, .. } = forces;
-        other_contacts.clear();
-        for &(j, cell) in others.iter() {
+    ) -> [Vector; 2] {
+        let start = self.layout.radial_velocity;
+        let (mut on_shaft, mut on_housing) = (Vector::zeros(), Vector::zeros());
+        let Forces { others, other_contacts, elements, torques, defect_lookups, unsolved, .. } = forces;
+        let [inner_contacts, outer_contacts] = other_contacts;
+        *torques = [0.0; 3];
+        inner_contacts.clear();
+        outer_contacts.clear();
+        for other in others.iter() {
+            let j = other.element;
             let e_r = self.direction(j, now.cage.direction);
             let path_rate = state[start + j] - now.housing.velocity.dot(&e_r);
             let u = moved(state[j], path_rate, ahead);
-            let near = self.near_defect(j, cell, u, now.cage.angle, self.outer_centre_radius + u);
-            *defect_lookups += u64::from(near.is_some());
-            let near = near.unwrap_or_else(|| Ok(OuterApproach::smooth(u))).unwrap_or_else(|cause| {
-                // What is no number here has its cause elsewhere.
-                if (u + now.cage.angle).is_finite() {
-                    let angle = self.angle_from_defect(j, now.cage.angle);
-                    *unsolved = Some(UnsolvedContact { element: j, angle, offset: now.offset().into(), cause });
+            let mut contact = |side: RacewaySide, at: Meeting| {
+                let near = self.near_defect(side, &at, &now.frames);
+                *defect_lookups += u64::from(near.is_some());
+                near.unwrap_or_else(|| Ok(Near::smooth(at.u))).unwrap_or_else(|cause| {
+                    // What is no number here has its cause elsewhere.
+                    if (at.u + now.cage.angle).is_finite() {
+                        let angle = self.angle_from_defect(side, &at, &now.frames);
+                        *unsolved = Some(UnsolvedContact { element: j, angle, offset: now.offset().into(), cause });
+                    }
+                    Near::unsolved()
+                })
+            };
+            let mut acceleration = 0.0;
+            if let Some(cells) = other.outer {
+                let at = self.outer_meeting(j, cells, u, now.cage.angle);
+                let found =
+                    self.outer_contact(&contact(RacewaySide::Outer, at), [path_rate, now.cage.speed], at.distance);
+                let [_, f_r, f_t] = found.force;
+                acceleration = -f_r * self.inverse_element_mass;
+                on_housing += e_r * f_r - turned(e_r) * f_t;
+                if RECORD {
+                    torques[found.frame as usize] += found.torque;
+                    outer_contacts.push(OtherContact { element: j, ..found });
                 }
-                OuterApproach::unsolved()
-            });
-            let rate = near.by_path * path_rate + near.by_angle * now.cage.speed;
-            let (part, part_rate) =
-                if compliant { self.outer.contact.of_contact(near.value, rate) } else { (near.value, rate) };
-            let outer = self.outer.contact.law.force(part, part_rate);
-            let (f_r, f_t) = (outer * near.radial, outer * near.tangential);
-            elements[j / WIDEST].other[j % WIDEST] = -f_r * self.inverse_element_mass;
-            on_housing += e_r * f_r - turned(e_r) * f_t;
-            if !RECORD {
-                continue;
             }
-            let magnitude = outer * (near.radial * near.radial + near.tangential * near.tangential).sqrt();
-            other_contacts.push(OtherContact {
-                element: j,
-                approach: near.value,
-                pushing: self.outer.contact.law.pushing(part, part_rate),
-                force: [magnitude, f_r, f_t],
-            });
+            if let Some(cells) = other.inner {
+                let gap = self.inner_gap(u, now.offset(), e_r);
+                let at = self.inner_meeting(j, cells, &gap, now.cage.angle);
+                let (drift, e_t) = (now.drift(), turned(e_r));
+                let around = (self.outer_centre_radius + u) * now.cage.speed;
+                let q_rate = [drift.dot(&e_r) + path_rate, drift.dot(&e_t) + around];
+                let found = self.inner_contact(&contact(RacewaySide::Inner, at), &gap, q_rate);
+                let [_, f_r, f_t] = found.force;
+                acceleration += f_r * self.inverse_element_mass;
+                on_shaft -= e_r * f_r + turned(e_r) * f_t;
+                if RECORD {
+                    torques[found.frame as usize] += found.torque;
+                    inner_contacts.push(OtherContact { element: j, ..found });
+                }
+            }
+            elements[j / WIDEST].other[j % WIDEST] = acceleration;
         }
-        on_housing
+        [on_shaft, on_housing]
+    }
+
+    /// An outer contact at this approach and distance from the ring's centre; path and cage angle change at `rates`.
+    #[inline]
+    fn outer_contact(&self, near: &Near, [path_rate, speed]: [f64; 2], distance: f64) -> OtherContact {
+        let Near { approach: near, frame_speed, frame } = near;
+        let compliant = self.outer.contact.compliance != 0.0;
+        let rate = near.by_path * path_rate + near.by_angle * (speed - frame_speed);
+        let (part, part_rate) =
+            if compliant { self.outer.contact.of_contact(near.value, rate) } else { (near.value, rate) };
+        let outer = self.outer.contact.law.force(part, part_rate);
+        let (f_r, f_t) = (outer * near.radial, outer * near.tangential);
+        let magnitude = outer * (near.radial * near.radial + near.tangential * near.tangential).sqrt();
+        let pushing = self.outer.contact.law.pushing(part, part_rate);
+        let force = [magnitude, f_r, f_t];
+        OtherContact { element: 0, approach: near.value, pushing, force, torque: -f_t * distance, frame: *frame }
+    }
+
+    /// An inner contact at this approach, q changing at `q_rate` (radial and tangential as seen from the outer ring).
+    fn inner_contact(&self, near: &Near, gap: &InnerGap, q_rate: [f64; 2]) -> OtherContact {
+        let Near { approach: near, frame_speed, frame } = near;
+        let (n, [radial, tangential]) = (gap.n, q_rate);
+        let opening = n.x * radial + n.y * tangential;
+        let turning = (n.x * tangential - n.y * radial) / gap.distance;
+        let rate = -near.by_path * opening + near.by_angle * (turning - frame_speed);
+        let law = &self.inner.contact.law;
+        let amount = law.force(near.value, rate);
+        let (along, across) = (amount * near.radial, amount * near.tangential);
+        let (f_r, f_t) = (along * n.x - across * n.y, along * n.y + across * n.x);
+        let magnitude = amount * (near.radial * near.radial + near.tangential * near.tangential).sqrt();
+        OtherContact {
+            element: 0,
+            approach: near.value,
+            pushing: law.pushing(near.value, rate),
+            force: [magnitude, f_r, f_t],
+            torque: -across * gap.distance,
+            frame: *frame,
+        }
     }
 
     /// Torque of the elements on the cage about the outer ring's centre [N m], counter-clockwise.
     ///
     /// The kinematic cage forces each element to the tangential acceleration a_o·e_t + 2 u' ω + ρ ω'; what contacts and
-    /// gravity do not supply, it does. `acceleration` is the outer ring's [m/s²].
+    /// gravity do not supply, it does. It also takes up the torque of an element's defect on that element, whose spin is
+    /// forced as well. `acceleration` is the outer ring's [m/s²].
     pub fn cage_torque(&self, drive: &Drive, tau: f64, state: &[f64], acceleration: Vector, forces: &Forces) -> f64 {
         let cage = drive.cage_at(tau);
-        (0..self.element_count)
+        let of_paths: f64 = (0..self.element_count)
             .map(|j| {
                 let e_t = turned(self.direction(j, cage.direction));
                 let rho = self.outer_centre_radius + state[j];
@@ -147,7 +209,8 @@ impl Model {
                 let contacts = contacts.inner[j] * contacts.normal_tangential[j] + contacts.outer_tangential[j];
                 rho * (contacts + self.element_mass * (self.gravity.dot(&e_t) - inertia))
             })
-            .sum()
+            .sum();
+        of_paths + forces.torque_on(Frame::Spin)
     }
 }
 

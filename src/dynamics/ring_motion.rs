@@ -1,6 +1,6 @@
 //! How the rings of a model move: from the state where it has them, else as the host prescribes.
 
-use super::drive::{Cubic, Drive};
+use super::drive::{Cubic, Drive, Frames};
 use super::kinematics::{Kinematics, RingState, Stage, moved, prescribed_rate};
 use super::model::Model;
 use crate::numerics::plane::Vector;
@@ -9,8 +9,11 @@ use crate::scene::Motion;
 impl Model {
     /// Cage and rings at `tau`.
     pub fn kinematics(&self, drive: &Drive, tau: f64, state: &[f64]) -> Kinematics {
-        self.kinematics_of(&Stage { drive, cage: &drive.cage_at(tau), state, ahead: None })
+        let now = self.kinematics_of(&Stage { drive, cage: &drive.cage_at(tau), state, ahead: None });
+        Kinematics { frames: drive.frames_at(tau), ..now }
     }
+
+    /// As [`kinematics`](Self::kinematics), without the frames of defects.
 
     #[inline(always)]
     pub(super) fn kinematics_of(&self, at: &Stage) -> Kinematics {
@@ -20,6 +23,7 @@ impl Model {
             cage: *cage,
             shaft: ring_state(self.layout.shaft, shaft, &drive.shaft, cage.tau, state, ahead),
             housing: ring_state(self.layout.housing, housing, &drive.housing, cage.tau, state, ahead),
+            frames: Frames::default(),
         }
     }
 

@@ -9,6 +9,7 @@
 use super::kinematics::Kinematics;
 use super::linearized::{Bends, ElementVariation, Linearized};
 use super::model::Model;
+use super::raceway::Cells;
 use crate::numerics::plane::Vector;
 use crate::scene::Motion;
 
@@ -58,12 +59,12 @@ impl Model {
         }
     }
 
-    /// Elastic Jacobian of the rings' forces at the element paths `u`, the rings' centres being `offset` (outer minus
-    /// inner) apart.
-    pub fn ring_jacobian(&self, u: &[f64], cells: &[u32], offset: Vector, cage_angle: f64) -> RingJacobian {
-        let (mut jacobian, at) = (RingJacobian::zeros(), Kinematics::at_rest(cage_angle, offset));
+    /// Elastic Jacobian of the rings' forces at the element paths `u`, everything standing where it is in `now`.
+    pub fn ring_jacobian(&self, u: &[f64], cells: &Cells, now: &Kinematics) -> RingJacobian {
+        let (mut jacobian, at) = (RingJacobian::zeros(), now.standing());
         for j in 0..self.element_count {
-            self.add_balanced(&self.linearized_at(j, cells[j], (u[j], 0.0), &at, Bends::LeftOut), &mut jacobian);
+            let element = self.linearized_at(j, self.cells_of(cells, j), (u[j], 0.0), &at, Bends::LeftOut);
+            self.add_balanced(&element, &mut jacobian);
         }
         jacobian
     }

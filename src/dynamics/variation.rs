@@ -8,11 +8,12 @@
 //! equilibrium, and by time along the motion. Derivatives are those of the branch that each contact is in; at the
 //! onset of a contact there are two.
 
-use super::drive::Drive;
-use super::kinematics::{Kinematics, RingState};
-use super::linearized::{Bends, DIFFERENCE, ElementVariation, Linearized};
+use super::drive::{Drive, Frame};
+use super::kinematics::{CageState, Kinematics, RingState};
+use super::linearized::{Bends, DIFFERENCE, ElementChange, ElementVariation, Linearized};
 use super::model::Model;
-use super::raceway::SMOOTH;
+use super::raceway::{Cells, SMOOTH};
+use crate::contact::rolling::RacewaySide;
 use crate::numerics::plane::{Matrix, Vector, turned};
 
 /// A small change of state and inputs.
@@ -22,6 +23,8 @@ pub struct Variation {
     pub cage_angle: f64,
     /// Of the cage speed [rad/s].
     pub cage_speed: f64,
+    /// Of angle [rad] and speed [rad/s] of the frames of defects, in the order of [`super::drive::Frame`].
+    pub frames: [[f64; 2]; 3],
     /// Of the inner ring.
     pub shaft: RingState,
     /// Of the outer ring.
@@ -45,6 +48,8 @@ pub struct ForceChange {
     pub housing: Vector,
     /// Of the cage torque [N m] while the outer ring's acceleration does not change.
     pub cage_torque: f64,
+    /// Of the torque of contacts near its defects on the inner ring [N m].
+    pub shaft_torque: f64,
     /// Cage torque by the outer ring's acceleration [kg m].
     pub torque_by_acceleration: Vector,
 }
@@ -57,7 +62,7 @@ impl Variation {
 
     /// Makes it no change again; allocates nothing.
     pub fn clear(&mut self) {
-        (self.cage_angle, self.cage_speed) = (0.0, 0.0);
+        (self.cage_angle, self.cage_speed, self.frames) = (0.0, 0.0, [[0.0; 2]; 3]);
         (self.shaft, self.housing) = (RingState::default(), RingState::default());
         self.path.fill(0.0);
         self.radial_velocity.fill(0.0);
@@ -86,7 +91,7 @@ impl Model {
     pub fn vary(
         &self,
         drive: &Drive,
-        cells: &[u32],
+        cells: &Cells,
         state: &[f64],
         acceleration: Vector,
         by: &Variation,
@@ -95,12 +100,14 @@ impl Model {
         let now = self.kinematics(drive, 0.0, state);
         let none = Vector::zeros();
         (change.shaft, change.housing, change.torque_by_acceleration) = (none, none, none);
-        change.cage_torque = 0.0;
-        let moves = by.cage_angle != 0.0;
+        (change.cage_torque, change.shaft_torque) = (0.0, 0.0);
+        let moves = by.cage_angle != 0.0 || by.frames.iter().any(|turn| turn[0] != 0.0);
         for j in 0..self.element_count {
-            let bends = if moves || by.path[j] != 0.0 { Bends::Wanted } else { Bends::LeftOut };
+            let in_cells = self.cells_of(cells, j);
+            let rings_move = in_cells[0] != [SMOOTH; 2] && by.offset() != none;
+            let bends = if moves || rings_move || by.path[j] != 0.0 { Bends::Wanted } else { Bends::LeftOut };
             let place = (state[j], state[self.layout.radial_velocity + j]);
-            let element = self.linearized(j, cells[j], place, &now, bends);
+            let element = self.linearized(j, in_cells, place, &now, bends);
             let Linearized { e_r, e_t, rho, omega, .. } = element;
             let turn = by.cage_angle;
             let path_rate =
@@ -112,6 +119,7 @@ impl Model {
                 path_rate,
                 cage_angle: turn,
                 cage_speed: by.cage_speed,
+                frames: by.frames,
             };
             let d = element.change(&seen);
             let amount = element.inner.norm();
@@ -130,35 +138,88 @@ impl Model {
             let force_change =
                 d.inner.dot(&e_t) - element.inner.dot(&e_r) * turn + d.outer.y + self.element_mass * inertia_change;
             change.cage_torque += by.path[j] * force + rho * force_change;
+            self.vary_torques(&element, &seen, &d, change);
+        }
+    }
+
+    /// Adds the change of the torques on bodies with defects: on the inner ring, and on elements, whose spin the cage
+    /// forces.
+    fn vary_torques(&self, element: &Linearized, seen: &ElementVariation, d: &ElementChange, change: &mut ForceChange) {
+        let Linearized { n, distance, .. } = *element;
+        let t = turned(n);
+        let q = seen.offset + element.e_r * seen.path + element.e_t * (element.rho * seen.cage_angle);
+        // −|q| f·t, of which t turns by t·dq/|q|.
+        let inner =
+            -(n.dot(&q) * element.inner.dot(&t) - element.inner.dot(&n) * t.dot(&q) + distance * d.inner.dot(&t));
+        match element.frames[0] {
+            Frame::Shaft => change.shaft_torque += inner,
+            Frame::Spin => change.cage_torque += inner,
+            Frame::Housing => {}
+        }
+        if element.frames[1] == Frame::Spin {
+            change.cage_torque -= seen.path * element.outer.y + element.rho * d.outer.y;
         }
     }
 
     /// Change of the inner ring's elastic force by its own position, [`Model::ring_jacobian`]'s first block [N/m], for
-    /// a small change at the cage angle of `drive` at τ = 0.
-    pub fn vary_stiffness(&self, drive: &Drive, cells: &[u32], state: &[f64], by: &Variation) -> Matrix {
+    /// a small change at the instant τ = 0 of `drive`.
+    pub fn vary_stiffness(&self, drive: &Drive, cells: &Cells, state: &[f64], by: &Variation) -> Matrix {
         let now = self.kinematics(drive, 0.0, state);
-        let (cage_angle, offset) = (now.cage.angle, now.offset());
-        let (mut sum, still) = (Matrix::zeros(), Kinematics::at_rest(cage_angle, offset));
+        let mut still = now.standing();
+        let offset = now.offset();
+        (still.shaft.position, still.housing.position) = (Vector::zeros(), offset);
+        let mut sum = Matrix::zeros();
         for j in 0..self.element_count {
-            let (cell, u, turn) = (cells[j], state[j], by.cage_angle);
+            let (in_cells, u, turn) = (self.cells_of(cells, j), state[j], by.cage_angle);
             let rho = self.outer_centre_radius + u;
-            let element = self.linearized_at(j, cell, (u, 0.0), &still, Bends::LeftOut);
+            let element = self.linearized_at(j, in_cells, (u, 0.0), &still, Bends::LeftOut);
             let (_, radial) = self.radial_balance(&element);
             if radial == 0.0 {
                 continue;
             }
             let Linearized { e_r, e_t, by_q: g, .. } = element;
             let q = by.offset() + e_r * by.path[j] + e_t * (rho * turn);
-            let dg = self.vary_inner_stiffness(u, offset, e_r, q);
+            let dg = match in_cells[0] {
+                [SMOOTH, SMOOTH] => self.vary_inner_stiffness(u, offset, e_r, q),
+                _ => self.vary_near_inner_stiffness(j, in_cells, (u, &still), by),
+            };
             let across = g * e_r;
             let d_across = dg * e_r + g * e_t * turn;
             let d_radial = e_t.dot(&across) * turn + e_r.dot(&d_across)
-                - self.vary_outer_stiffness(j, cell, u, cage_angle, (by.path[j], turn));
+                - self.vary_outer_stiffness(j, in_cells, u, &still, (by.path[j], turn, by.frames));
             let mixed = d_across * across.transpose();
             sum += dg - (mixed + mixed.transpose()) / radial
                 + across * across.transpose() * (d_radial / (radial * radial));
         }
         sum
+    }
+
+    /// As [`Self::vary_inner_stiffness`] near a defect, by a central difference along the change.
+    fn vary_near_inner_stiffness(
+        &self,
+        j: usize,
+        cells: [[u32; 2]; 2],
+        (u, still): (f64, &Kinematics),
+        by: &Variation,
+    ) -> Matrix {
+        // As long as a change of any part of it stays within a difference.
+        let turns = by.frames.iter().map(|turn| turn[0].abs()).fold(by.cage_angle.abs(), f64::max);
+        let length = by.offset().norm() + by.path[j].abs() + self.outer_centre_radius * turns;
+        if length == 0.0 {
+            return Matrix::zeros();
+        }
+        let step = DIFFERENCE / length;
+        let at = |share: f64| {
+            let mut moved = *still;
+            let angle = still.cage.angle + share * by.cage_angle;
+            moved.cage = CageState::at_rest(angle);
+            moved.housing.position += by.offset() * share;
+            for (turn, by) in moved.frames.0.iter_mut().zip(by.frames) {
+                turn.angle += share * by[0];
+            }
+            self.linearized_at(j, cells, (u + share * by.path[j], 0.0), &moved, Bends::LeftOut).by_q
+        };
+        (at(step) - at(-step)) / (2.0 * step)
     }
 
     /// Change of G = −(k + Q/|q|) n nᵀ + Q/|q| of an inner contact when the element moves by `q` from the inner ring.
@@ -179,26 +240,39 @@ impl Model {
         Matrix::from_diagonal_element(dc) - n * n.transpose() * (dk + dc) - (mixed + mixed.transpose()) * (k + c)
     }
 
-    /// Change of an outer contact's radial tangent stiffness by path [m] and cage angle [rad]; near the defect and
+    /// Change of an outer contact's radial tangent stiffness by path [m], cage angle [rad] and frames; near a defect and
     /// where the raceway yields by central differences, like the second derivatives of the approach.
-    fn vary_outer_stiffness(&self, j: usize, cell: u32, u: f64, cage_angle: f64, by: (f64, f64)) -> f64 {
-        if cell == SMOOTH && self.outer.contact.compliance == 0.0 {
-            return if u > 0.0 { 0.75 * self.outer.contact.law.stiffness / u.sqrt() * by.0 } else { 0.0 };
+    fn vary_outer_stiffness(
+        &self,
+        j: usize,
+        cells: [[u32; 2]; 2],
+        u: f64,
+        still: &Kinematics,
+        (path, turn, frames): (f64, f64, [[f64; 2]; 3]),
+    ) -> f64 {
+        if cells[1] == [SMOOTH; 2] && self.outer.contact.compliance == 0.0 {
+            return if u > 0.0 { 0.75 * self.outer.contact.law.stiffness / u.sqrt() * path } else { 0.0 };
         }
         let radial = |u: f64, angle: f64| {
             // Nothing moves and the rings' offset does not matter to the outer contact.
-            let still = Kinematics::at_rest(angle, Vector::zeros());
-            self.linearized_at(j, cell, (u, 0.0), &still, Bends::LeftOut).change(&ElementVariation::of_path()).outer.x
+            let still = Kinematics { frames: still.frames, ..Kinematics::at_rest(angle, Vector::zeros()) };
+            self.linearized_at(j, cells, (u, 0.0), &still, Bends::LeftOut).change(&ElementVariation::of_path()).outer.x
         };
+        let angle = still.cage.angle;
         let mut change = 0.0;
-        if by.0 != 0.0 {
-            let (inside, outside) = (radial(u - DIFFERENCE, cage_angle), radial(u + DIFFERENCE, cage_angle));
-            change += (outside - inside) / (2.0 * DIFFERENCE) * by.0;
+        if path != 0.0 {
+            let (inside, outside) = (radial(u - DIFFERENCE, angle), radial(u + DIFFERENCE, angle));
+            change += (outside - inside) / (2.0 * DIFFERENCE) * path;
         }
-        if by.1 != 0.0 && cell != SMOOTH {
+        if cells[1] == [SMOOTH; 2] {
+            return change;
+        }
+        let at = self.outer_meeting(j, cells[1], u, angle);
+        let turn = turn - frames[self.approach(RacewaySide::Outer, &at, &still.frames).frame as usize][0];
+        if turn != 0.0 {
             let step = DIFFERENCE / self.outer_centre_radius;
-            let (behind, ahead) = (radial(u, cage_angle - step), radial(u, cage_angle + step));
-            change += (ahead - behind) / (2.0 * step) * by.1;
+            let (behind, ahead) = (radial(u, angle - step), radial(u, angle + step));
+            change += (ahead - behind) / (2.0 * step) * turn;
         }
         change
     }

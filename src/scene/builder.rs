@@ -42,11 +42,14 @@ impl Scene {
                 cells: None,
                 map_accuracy: None,
             },
-            cage: Cage { slip: 0.0, initial_angle: -FRAC_PI_2 },
+            cage: Cage { slip: 0.0, spin_slip: 0.0, initial_angle: -FRAC_PI_2 },
             defect: None,
             shaft: Ring::default_shaft(),
             shaft_speed: 0.0,
+            shaft_initial_angle: 0.0,
             housing: Ring::default_housing(),
+            housing_speed: None,
+            housing_initial_angle: 0.0,
             sensor: None,
             tolerance: 1e-5,
             max_steps: 10_000_000,
@@ -157,10 +160,10 @@ impl SceneBuilder {
     /// A spall of the outer raceway with vertical edges: angle of its centre [rad], length [m] and depth [m].
     #[must_use]
     pub fn spall(self, angle: f64, length: f64, depth: f64) -> Self {
-        self.defect(Defect { angle, shape: DefectShape::Spall { length, depth, edge_slope: FRAC_PI_2 } })
+        self.defect(Defect::outer(angle, DefectShape::Spall { length, depth, edge_slope: FRAC_PI_2 }))
     }
 
-    /// A defect of the outer raceway.
+    /// A defect of either raceway or of an element.
     #[must_use]
     pub fn defect(mut self, defect: Defect) -> Self {
         self.scene.defect = Some(defect);
@@ -184,7 +187,7 @@ impl SceneBuilder {
     /// The cage: its slip, and the angle of element 1 at the start [rad].
     #[must_use]
     pub fn cage(mut self, slip: f64, initial_angle: f64) -> Self {
-        self.scene.cage = Cage { slip, initial_angle };
+        self.scene.cage = Cage { slip, initial_angle, spin_slip: 0.0 };
         self
     }
 

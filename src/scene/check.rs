@@ -13,8 +13,8 @@
 
 use super::error::{LONGEST_NAME, SceneError};
 use super::quantity::*;
-use super::{Bearing, Contact, Damping, Defect, DefectShape, Motion, Recorder, RecorderFilter, Ring, Scene};
-use std::f64::consts::{PI, TAU};
+use super::{Bearing, Contact, Damping, Defect, DefectOn, DefectShape, Motion, Recorder, RecorderFilter, Ring, Scene};
+use std::f64::consts::PI;
 
 /// Smallest clearance over element diameter; see the head of this file.
 const SMALLEST_RELATIVE_CLEARANCE: f64 = -0.0075;
@@ -31,6 +31,9 @@ impl Scene {
         self.contact.check()?;
         CAGE_SLIP.check(self.cage.slip)?;
         INITIAL_ANGLE.check(self.cage.initial_angle)?;
+        SPIN_SLIP.check(self.cage.spin_slip)?;
+        SHAFT_INITIAL_ANGLE.check(self.shaft_initial_angle)?;
+        HOUSING_INITIAL_ANGLE.check(self.housing_initial_angle)?;
         if let Some(defect) = &self.defect {
             defect.check(&self.bearing)?;
         }
@@ -51,6 +54,7 @@ impl Scene {
         check_ring(&self.shaft, "shaft", &SHAFT)?;
         check_ring(&self.housing, "housing", &HOUSING)?;
         SPEED.check(self.shaft_speed)?;
+        HOUSING_SPEED.check_all(self.housing_speed.as_slice())?;
         let free = |ring: &Ring| ring.motion == Motion::Internal && ring.stiffness == 0.0;
         if free(&self.shaft) && free(&self.housing) {
             return Err(SceneError::NothingHolds);
@@ -165,33 +169,65 @@ impl Contact {
 impl Defect {
     fn check(&self, bearing: &Bearing) -> Result<(), SceneError> {
         DEFECT_ANGLE.check(self.angle)?;
+        if let DefectOn::Element { element, tilt } = self.on {
+            if element >= bearing.element_count {
+                let (element, count) = (element as i64 + 1, bearing.element_count);
+                return Err(SceneError::NoSuchElement { element, count });
+            }
+            TILT.check(tilt)?;
+        }
         match &self.shape {
-            DefectShape::Spall { length, depth, edge_slope } => check_spall(*length, *depth, *edge_slope, bearing),
-            DefectShape::Profile(name) => check_profile_name(name),
+            DefectShape::Spall { length, depth, edge_slope } => {
+                self.check_spall([*length, *depth, *edge_slope], bearing)
+            }
+            DefectShape::Profile(name) => self.check_profile(name),
         }
     }
-}
 
-fn check_spall(length: f64, depth: f64, edge_slope: f64, bearing: &Bearing) -> Result<(), SceneError> {
-    SPALL_LENGTH.check(length)?;
-    SPALL_DEPTH.check(depth)?;
-    EDGE_SLOPE.check(edge_slope)?;
-    let (length_mm, depth_um) = (shown(length * 1e3), shown(depth * 1e6));
-    let limit_mm = shown(TAU * bearing.outer_raceway_radius() * 1e3);
-    if length_mm >= limit_mm {
-        return Err(SceneError::SpallTooLong { length_mm, limit_mm });
+    fn check_spall(&self, [length, depth, edge_slope]: [f64; 3], bearing: &Bearing) -> Result<(), SceneError> {
+        SPALL_LENGTH.check(length)?;
+        SPALL_DEPTH.check(depth)?;
+        EDGE_SLOPE.check(edge_slope)?;
+        let (length_mm, depth_um) = (shown(length * 1e3), shown(depth * 1e6));
+        let (longest, limit) = self.on.longest(bearing);
+        let limit_mm = shown(longest * 1e3);
+        if length_mm >= limit_mm {
+            return Err(SceneError::SpallTooLong { length_mm, limit_mm, limit });
+        }
+        let (deepest, limit) = self.on.deepest(bearing);
+        let limit_um = shown(deepest * 1e6);
+        if depth_um >= limit_um {
+            return Err(SceneError::SpallTooDeep { depth_um, limit_um, limit });
+        }
+        let met = self.on.met_length(length, bearing);
+        if met <= 0.0 {
+            return Err(SceneError::PitNotMet { length_mm, limit_mm: shown(self.off_track(bearing) * 1e3) });
+        }
+        // tan of the right angle is large, not infinite, which is all that is asked of it here.
+        let limit_um = shown(0.5 * met * libm::tan(edge_slope).abs() * 1e6);
+        if depth_um > limit_um {
+            let edge_slope_deg = shown(edge_slope.to_degrees());
+            return Err(SceneError::FlanksMeet { depth_um, edge_slope_deg, limit_um, length_mm: shown(met * 1e3) });
+        }
+        Ok(())
     }
-    let limit_um = shown(bearing.element_radius() * 1e6);
-    if depth_um >= limit_um {
-        return Err(SceneError::SpallTooDeep { depth_um, limit_um });
+
+    fn check_profile(&self, name: &str) -> Result<(), SceneError> {
+        if let DefectOn::Element { tilt, .. } = self.on
+            && tilt != 0.0
+        {
+            return Err(SceneError::TiltedProfile { tilt_deg: shown(tilt.to_degrees()) });
+        }
+        check_profile_name(name)
     }
-    // tan of the right angle is large, not infinite, which is all that is asked of it here.
-    let limit_um = shown(0.5 * length * libm::tan(edge_slope).abs() * 1e6);
-    if depth_um > limit_um {
-        let edge_slope_deg = shown(edge_slope.to_degrees());
-        return Err(SceneError::FlanksMeet { depth_um, edge_slope_deg, limit_um, length_mm });
+
+    /// Diameter of a pit whose rim the rolling track touches [m].
+    fn off_track(&self, bearing: &Bearing) -> f64 {
+        match self.on {
+            DefectOn::Element { tilt, .. } => 2.0 * bearing.element_radius() * libm::sin(tilt).abs(),
+            _ => 0.0,
+        }
     }
-    Ok(())
 }
 
 fn check_name(name: &str) -> Result<(), SceneError> {

@@ -154,21 +154,60 @@ pub enum SceneError {
     /// A spall as long as the raceway or longer.
     #[error(
         "spall length (defect.length_deg or defect.length_mm) is {length_mm} mm: it must be below {limit_mm} mm, the \
-         circumference of the outer raceway"
+         {limit}"
     )]
     SpallTooLong {
         /// Length [mm].
         length_mm: f64,
-        /// Circumference of the outer raceway [mm].
+        /// Limit [mm].
         limit_mm: f64,
+        /// What that is.
+        limit: &'static str,
     },
     /// A spall as deep as the element's radius or deeper.
-    #[error("spall depth (defect.depth_um) is {depth_um}: it must be below {limit_um}, the radius of an element")]
+    #[error("spall depth (defect.depth_um) is {depth_um}: it must be below {limit_um}, {limit}")]
     SpallTooDeep {
         /// Depth [µm].
         depth_um: f64,
-        /// Radius of an element [µm].
+        /// Limit [µm].
         limit_um: f64,
+        /// What that is.
+        limit: &'static str,
+    },
+    /// A defect of an element that the bearing does not have.
+    #[error("defect.element is {element}: the bearing has elements 1 to {count}")]
+    NoSuchElement {
+        /// Number given, from 1.
+        element: i64,
+        /// Number of elements.
+        count: usize,
+    },
+    /// A pit so far off the rolling track that the track does not cross it.
+    #[error(
+        "defect length (defect.length_mm) is {length_mm}: at this defect.tilt_deg the rolling track crosses a pit only if \
+         it is more than {limit_mm} across"
+    )]
+    PitNotMet {
+        /// Diameter [mm].
+        length_mm: f64,
+        /// Diameter at which its rim touches the track [mm].
+        limit_mm: f64,
+    },
+    /// A measured profile off the rolling track.
+    #[error(
+        "defect.tilt_deg is {tilt_deg}: it must be 0 with defect.profile, which is measured along the rolling track"
+    )]
+    TiltedProfile {
+        /// Tilt [°].
+        tilt_deg: f64,
+    },
+    /// A key that belongs to a defect of an element.
+    #[error("{key} is {value}: only a defect with defect.on = \"element\" has it")]
+    NotOnElement {
+        /// The key.
+        key: &'static str,
+        /// What was given.
+        value: f64,
     },
     /// Flanks that meet before they reach the floor.
     #[error(

@@ -18,10 +18,12 @@
 //! | `contact.map_accuracy` | 1e-3 of the largest force; without the key up to 2e-2 is tolerated and reported |
 //! | `contact.damping` | `"hunt-crossley"`; its `damping_chi_s_m` 0.5 |
 //! | `cage.slip`, `cage.initial_angle_deg` | 0, −90 |
-//! | `defect` | none; its `edge_slope_deg` 90 |
+//! | `defect` | none; its `on` `"outer"`, `edge_slope_deg` 90; on an element `tilt_deg` 0 |
 //! | `shaft.mass_kg`, `.damping_n_s_m`, `.stiffness_n_m` (internal only) | 3.2638, 1376.8, 0 |
 //! | `housing.mass_kg`, `.damping_n_s_m`, `.stiffness_n_m` (internal only) | 6.638, 2210.7, 1.51056e7 |
 //! | `shaft.load_n`, `housing.load_n` (internal only) | `[0, 0]` |
+//! | `shaft.initial_angle_deg`, `housing.initial_angle_deg` | 0 |
+//! | `housing.speed_hz` | none: the outer ring does not turn |
 //! | `sensor` | none; its `mass_kg`, `stiffness_n_m`, `damping_n_s_m` 1, 8.8826e9, 9424.8 |
 //! | `solver.tolerance`, `.max_steps` | 1e-5, 10 000 000 |
 //! | `recorder` | none; its `filter` `"linear-phase"`, or `"none"` |
@@ -33,8 +35,8 @@ mod rings;
 
 use super::error::SceneError;
 use super::{
-    Bearing, Cage, Contact, ContactLaw, Damping, Defect, DefectShape, Experiment, Recorder, RecorderFilter, Scene,
-    Sensor,
+    Bearing, Cage, Contact, ContactLaw, Damping, Defect, DefectOn, DefectShape, Experiment, Recorder, RecorderFilter,
+    Scene, Sensor,
 };
 use rings::{HousingTable, SensorTable, ShaftTable};
 use serde::Deserialize;
@@ -84,17 +86,26 @@ impl SceneFile {
         let contact = self.contact.into_contact(self.defect.is_some())?;
         let defect = self.defect.map(|table| table.into_defect(&bearing)).transpose()?;
         let shaft_speed = self.shaft.speed_hz * TAU;
+        let shaft_initial_angle = self.shaft.initial_angle_deg.to_radians();
+        let (housing_speed, housing_angle) = (self.housing.speed_hz, self.housing.initial_angle_deg);
         Ok(Scene {
             name: self.name,
             description: self.description,
             gravity: self.gravity_m_s2,
             bearing,
             contact,
-            cage: Cage { slip: self.cage.slip, initial_angle: self.cage.initial_angle_deg.to_radians() },
+            cage: Cage {
+                slip: self.cage.slip,
+                spin_slip: 0.0,
+                initial_angle: self.cage.initial_angle_deg.to_radians(),
+            },
             defect,
             shaft: self.shaft.into_ring()?,
             shaft_speed,
+            shaft_initial_angle,
             housing: self.housing.into_ring()?,
+            housing_speed: housing_speed.map(|speed| speed * TAU),
+            housing_initial_angle: housing_angle.to_radians(),
             sensor: self.sensor.map(|table| Sensor {
                 mass: table.mass_kg,
                 stiffness: table.stiffness_n_m,
@@ -260,6 +271,11 @@ impl Default for CageTable {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct DefectTable {
+    #[serde(default)]
+    on: Body,
+    /// From 1.
+    element: Option<i64>,
+    tilt_deg: Option<f64>,
     angle_deg: f64,
     /// Turned into a length with the scene's own clearance: a host that sets another one leaves the length as it is.
     length_deg: Option<f64>,
@@ -269,8 +285,41 @@ struct DefectTable {
     profile: Option<String>,
 }
 
+/// The body that bears a defect.
+#[derive(Deserialize, Default, Clone, Copy, PartialEq)]
+#[serde(rename_all = "kebab-case")]
+enum Body {
+    #[default]
+    Outer,
+    Inner,
+    Element,
+}
+
 impl DefectTable {
+    fn on(&self, bearing: &Bearing) -> Result<DefectOn, SceneError> {
+        if self.on != Body::Element {
+            let given =
+                [("defect.element", self.element.map(|number| number as f64)), ("defect.tilt_deg", self.tilt_deg)];
+            if let Some((key, value)) = given.into_iter().find_map(|(key, value)| value.map(|value| (key, value))) {
+                return Err(SceneError::NotOnElement { key, value });
+            }
+        }
+        Ok(match self.on {
+            Body::Outer => DefectOn::Outer,
+            Body::Inner => DefectOn::Inner,
+            Body::Element => {
+                const MISSING: SceneError =
+                    SceneError::Missing { key: "defect.element", why: "defect.on is \"element\"" };
+                let (number, count) = (self.element.ok_or(MISSING)?, bearing.element_count);
+                let element = usize::try_from(number).ok().filter(|number| (1..=count).contains(number));
+                let element = element.ok_or(SceneError::NoSuchElement { element: number, count })? - 1;
+                DefectOn::Element { element, tilt: self.tilt_deg.unwrap_or(0.0).to_radians() }
+            }
+        })
+    }
+
     fn into_defect(self, bearing: &Bearing) -> Result<Defect, SceneError> {
+        let on = self.on(bearing)?;
         let angle = self.angle_deg.to_radians();
         let shape = match self.profile {
             Some(name) => {
@@ -286,7 +335,7 @@ impl DefectTable {
                 DefectShape::Profile(name)
             }
             None => DefectShape::Spall {
-                length: spall_length(self.length_deg, self.length_mm, bearing)?,
+                length: spall_length(self.length_deg, self.length_mm, on.radius(bearing))?,
                 depth: self
                     .depth_um
                     .ok_or(SceneError::Neither { first: "defect.depth_um", second: "defect.profile" })?
@@ -294,15 +343,15 @@ impl DefectTable {
                 edge_slope: self.edge_slope_deg.unwrap_or(90.0).to_radians(),
             },
         };
-        Ok(Defect { angle, shape })
+        Ok(Defect { on, angle, shape })
     }
 }
 
-fn spall_length(degrees: Option<f64>, millimetres: Option<f64>, bearing: &Bearing) -> Result<f64, SceneError> {
+fn spall_length(degrees: Option<f64>, millimetres: Option<f64>, radius: f64) -> Result<f64, SceneError> {
     const DEGREES: &str = "defect.length_deg";
     const MILLIMETRES: &str = "defect.length_mm";
     match (degrees, millimetres) {
-        (Some(degrees), None) => Ok(degrees.to_radians() * bearing.outer_raceway_radius()),
+        (Some(degrees), None) => Ok(degrees.to_radians() * radius),
         (None, Some(millimetres)) => Ok(millimetres / 1e3),
         (Some(_), Some(_)) => Err(SceneError::Both { first: DEGREES, second: MILLIMETRES }),
         (None, None) => Err(SceneError::Neither { first: DEGREES, second: MILLIMETRES }),

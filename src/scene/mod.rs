@@ -4,6 +4,7 @@
 
 mod builder;
 mod check;
+mod defect;
 mod error;
 mod file;
 mod key_fault;
@@ -11,6 +12,7 @@ mod quantity;
 mod remark;
 
 pub use builder::SceneBuilder;
+pub use defect::{Defect, DefectOn, DefectShape};
 pub use error::{Bound, Limits, SceneError};
 pub use key_fault::{Hint, KeyFault};
 pub use remark::Remark;
@@ -32,14 +34,21 @@ pub struct Scene {
     pub contact: Contact,
     /// The cage's kinematics.
     pub cage: Cage,
-    /// The defect of the outer raceway; `None` for a healthy bearing.
+    /// The defect; `None` for a healthy bearing.
     pub defect: Option<Defect>,
     /// The inner ring.
     pub shaft: Ring,
     /// Shaft speed [rad/s], the start value of the input `shaft.speed`.
     pub shaft_speed: f64,
+    /// Angle of the inner ring at the start [rad].
+    pub shaft_initial_angle: f64,
     /// The outer ring.
     pub housing: Ring,
+    /// Speed of an outer ring that turns [rad/s], the start value of the input `housing.speed`; `None` for one that
+    /// does not.
+    pub housing_speed: Option<f64>,
+    /// Angle of the outer ring at the start [rad].
+    pub housing_initial_angle: f64,
     /// Accelerometer on the housing; `None` for none.
     pub sensor: Option<Sensor>,
     /// Relative tolerance of the time integration.
@@ -182,33 +191,10 @@ pub enum Damping {
 pub struct Cage {
     /// Slip: the cage's lag behind pure rolling, 0 for none, 1 for a cage that stands.
     pub slip: f64,
+    /// The elements' lag behind the spin of pure rolling.
+    pub spin_slip: f64,
     /// Angle of element 1 at the start [rad], counter-clockwise from +x.
     pub initial_angle: f64,
-}
-
-/// A defect of the outer raceway.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Defect {
-    /// Angle of its centre [rad], counter-clockwise from +x.
-    pub angle: f64,
-    /// Its shape.
-    pub shape: DefectShape,
-}
-
-/// Shape of a defect.
-#[derive(Debug, Clone, PartialEq)]
-pub enum DefectShape {
-    /// A trapezoid: flat floor, straight flanks, the full width of the raceway.
-    Spall {
-        /// Length along the raceway at its surface [m].
-        length: f64,
-        /// Depth of the floor [m].
-        depth: f64,
-        /// Steepness of the flanks [rad]; π/2 for vertical edges.
-        edge_slope: f64,
-    },
-    /// A measured profile: file name beside the scene file.
-    Profile(String),
 }
 
 /// Who moves a ring.

@@ -110,6 +110,15 @@ pub(super) const MAP_ACCURACY: Quantity =
 pub(super) const CAGE_SLIP: Quantity = quantity("cage slip", "cage.slip", 1.0, Inclusive(0.0), Inclusive(1.0));
 pub(super) const INITIAL_ANGLE: Quantity =
     quantity("initial cage angle", "cage.initial_angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3));
+pub(super) const SPIN_SLIP: Quantity =
+    quantity("slip of the elements' spin", "element.spin_slip", 1.0, Inclusive(-1.0), Inclusive(1.0));
+pub(super) const SHAFT_INITIAL_ANGLE: Quantity =
+    quantity("initial angle of the shaft", "shaft.initial_angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3));
+pub(super) const HOUSING_INITIAL_ANGLE: Quantity =
+    quantity("initial angle of the housing", "housing.initial_angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3));
+/// Beyond it the track is nowhere near the pit of any ball.
+pub(super) const TILT: Quantity =
+    quantity("tilt of the defect off the rolling track", "defect.tilt_deg", DEG, Inclusive(-90.0), Inclusive(90.0));
 pub(super) const DEFECT_ANGLE: Quantity =
     quantity("defect angle", "defect.angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3));
 pub(super) const SPALL_LENGTH: Quantity =
@@ -132,6 +141,8 @@ pub(super) const HOUSING: RingQuantities = RingQuantities {
     stiffness: quantity("housing stiffness", "housing.stiffness_n_m", 1.0, Inclusive(0.0), Inclusive(1e15)),
 };
 /// 10 kHz are 600 000 rev/min: a steel ring of any size bursts before.
+pub(super) const HOUSING_SPEED: Quantity =
+    quantity("speed of the housing", "housing.speed_hz", HZ, Inclusive(-1e4), Inclusive(1e4));
 pub(super) const SPEED: Quantity = quantity("shaft speed", "shaft.speed_hz", HZ, Inclusive(-1e4), Inclusive(1e4));
 pub(super) const SENSOR_MASS: Quantity =
     quantity("sensor mass", "sensor.mass_kg", 1.0, Inclusive(1e-9), Inclusive(1e9));

@@ -7,14 +7,14 @@
 
 use super::quantity::{Parameter, Quantity as Q, RingName};
 use super::variables::{Causality, Dependencies, Variable};
-use crate::scene::{Motion, Scene};
+use crate::scene::{DefectOn, Motion, Scene};
 
 /// The dependencies of all outputs, in the order of the table.
 pub(super) fn of(table: &[Variable], quantities: &[Q], scene: &Scene) -> Vec<Dependencies> {
     let rows = || table.iter().zip(quantities);
     let known = |variable: &Variable| matches!(variable.causality, Causality::Input | Causality::Parameter);
     let knowns: Vec<_> = rows().filter(|(variable, _)| known(variable)).collect();
-    let defect = scene.defect.is_some();
+    let defect = scene.defect.as_ref().is_some_and(|defect| defect.on != DefectOn::Inner);
     let sensor_follows_input = scene.housing.motion == Motion::Host;
     rows()
         .filter(|(variable, _)| variable.causality == Causality::Output)
@@ -38,7 +38,7 @@ fn follows(output: Q, input: Q, defect: bool, sensor_follows_input: bool) -> boo
     use RingName::{Housing, Shaft};
     let place = matches!(input, Q::Position(..));
     let pace = matches!(input, Q::Velocity(..));
-    let speed = input == Q::ShaftSpeed;
+    let speed = matches!(input, Q::Speed(_));
     match output {
         // Inner contacts see both rings, and the cage speed through the rate of approach.
         Q::Force(Shaft, _) | Q::ElementInnerForce(_) => place || pace || speed,
@@ -61,8 +61,11 @@ fn follows(output: Q, input: Q, defect: bool, sensor_follows_input: bool) -> boo
         | Q::MeanForce(..)
         | Q::CageAngle
         | Q::ElementAngle(_)
+        | Q::RingAngle(_)
+        | Q::ElementSpinAngle(_)
         | Q::ElementPath(_) => false,
-        Q::ShaftSpeed | Q::Load(..) | Q::Count(_) | Q::Parameter(_) => false,
+        Q::ShaftTorque => place || pace || speed,
+        Q::Speed(_) | Q::Load(..) | Q::Count(_) | Q::Parameter(_) => false,
     }
 }
 
@@ -70,7 +73,9 @@ fn follows(output: Q, input: Q, defect: bool, sensor_follows_input: bool) -> boo
 fn starts_from(output: Q, known: Q) -> bool {
     match output {
         Q::CageAngle | Q::ElementAngle(_) => known == Q::Parameter(Parameter::CageInitialAngle),
-        Q::CageSpeed => matches!(known, Q::ShaftSpeed | Q::Parameter(Parameter::CageSlip)),
+        Q::RingAngle(ring) => known == Q::Parameter(Parameter::RingInitialAngle(ring)),
+        Q::ElementSpinAngle(_) => known == Q::Parameter(Parameter::DefectAngle),
+        Q::CageSpeed => matches!(known, Q::Speed(_) | Q::Parameter(Parameter::CageSlip)),
         // At rest.
         Q::Velocity(..) | Q::Acceleration(..) | Q::SensorAcceleration => false,
         _ => match known {

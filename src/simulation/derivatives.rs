@@ -19,7 +19,7 @@ use super::quantity::{Quantity, RingName};
 use super::values::{out_of_range, wrong_type};
 use super::variables::{Causality, Kind, Variable};
 use super::{SimulationError, VariableError};
-use crate::dynamics::drive::Drive;
+use crate::dynamics::drive::{Drive, Frame, Frames};
 use crate::dynamics::kinematics::Kinematics;
 use crate::dynamics::supports::Bodies;
 use crate::numerics::plane::Vector;
@@ -121,7 +121,12 @@ impl Simulation {
         change.clear();
         for (&reference, &value) in knowns.iter().zip(seed) {
             match self.quantities[reference as usize] {
-                Quantity::ShaftSpeed => change.variation.cage_speed += self.model.cage_ratio * value,
+                Quantity::Speed(ring) => {
+                    let (ratios, i) = (&self.model.ratios, ring.index());
+                    change.variation.cage_speed += ratios.cage[i] * value;
+                    change.variation.frames[Frame::of_ring(i) as usize][1] += value;
+                    change.variation.frames[Frame::Spin as usize][1] += ratios.spin[i] * value;
+                }
                 Quantity::Load(RingName::Shaft, axis) => change.loads[axis] += value,
                 Quantity::Load(RingName::Housing, axis) => change.loads[2 + axis] += value,
                 Quantity::Position(name, axis) => change.ring(name).position[axis] += value,
@@ -140,6 +145,7 @@ impl Simulation {
         let z = layout.element_count;
         let variation = &mut change.variation;
         (variation.cage_angle, variation.cage_speed) = (drive.cage.0[1], drive.cage.0[2]);
+        variation.frames = drive.frame_rates(0.0);
         variation.path.copy_from_slice(&self.derivative[..z]);
         variation.radial_velocity.copy_from_slice(&self.derivative[layout.radial_velocity..][..z]);
         [variation.shaft, variation.housing] = self.model.ring_rates(drive, 0.0, &self.derivative);
@@ -165,7 +171,8 @@ impl Simulation {
         if self.state.started {
             let (variation, forces) = (&change.variation, &change.forces);
             let cage = drive.cage_at(0.0);
-            let moved = Kinematics { cage, shaft: variation.shaft, housing: variation.housing };
+            let (shaft, housing) = (variation.shaft, variation.housing);
+            let moved = Kinematics { cage, shaft, housing, frames: Frames::default() };
             let [x, v] = moved.bodies(change.sensor[0], change.sensor[1]);
             let (supports, [shaft, housing]) = (&self.model.supports, [forces.shaft, forces.housing]);
             let contacts = Bodies::from([shaft.x, shaft.y, housing.x, housing.y, 0.0]);
@@ -204,11 +211,15 @@ impl Simulation {
             Quantity::CageAngle | Quantity::ElementAngle(_) => variation.cage_angle,
             Quantity::CageSpeed => variation.cage_speed,
             Quantity::CageTorque => self.change.cage_torque,
+            Quantity::ShaftTorque => forces.shaft_torque,
+            Quantity::RingAngle(name) => variation.frames[name.index()][0],
+            // The spin angle is that of the defect against the element's own direction.
+            Quantity::ElementSpinAngle(_) => variation.frames[Frame::Spin as usize][0] - variation.cage_angle,
             Quantity::ElementPath(j) => variation.path[j],
             Quantity::ElementInnerForce(j) => forces.inner[j],
             Quantity::ElementOuterForce(j) => forces.outer[j],
             Quantity::MeanForce(..) | Quantity::Count(_) => 0.0,
-            Quantity::ShaftSpeed | Quantity::Load(..) | Quantity::Parameter(_) => 0.0,
+            Quantity::Speed(_) | Quantity::Load(..) | Quantity::Parameter(_) => 0.0,
         }
     }
 }

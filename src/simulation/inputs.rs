@@ -14,7 +14,8 @@ pub(super) struct RingInputs {
 /// Where in the table the inputs stand, and the tolerance.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Inputs {
-    pub(super) speed: Option<usize>,
+    /// Speed of the inner ring, and of an outer ring that turns.
+    pub(super) speeds: [Option<usize>; 2],
     pub(super) tolerance: Option<usize>,
     /// Inputs are the first so many rows.
     pub(super) count: usize,
@@ -32,7 +33,7 @@ impl Inputs {
         };
         for (index, &quantity) in quantities.iter().take(input_count).enumerate() {
             let place = match quantity {
-                Quantity::ShaftSpeed => &mut inputs.speed,
+                Quantity::Speed(ring) => &mut inputs.speeds[ring.index()],
                 Quantity::Load(ring, axis) => &mut inputs.ring(ring).load[axis],
                 Quantity::Position(ring, axis) => &mut inputs.ring(ring).position[axis],
                 Quantity::Velocity(ring, axis) => &mut inputs.ring(ring).velocity[axis],

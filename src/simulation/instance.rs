@@ -7,7 +7,7 @@ use super::driving;
 use super::error::{SimulationError, VariableError};
 use super::inputs::Inputs;
 use super::progress::Progress;
-use super::quantity::{Parameter, Quantity};
+use super::quantity::{Parameter, Quantity, RingName};
 use super::recorder::{Due, Recorder};
 use super::setup;
 use super::state::{Ended, State};
@@ -16,11 +16,10 @@ use super::switching::Method;
 use super::table;
 use super::variables::{Causality, Dependencies, Variable};
 use super::workspace::{Problem, Workspace};
-use crate::contact::map::ContactMap;
-use crate::dynamics::drive::{CageAngle, Drive};
+use crate::contact::contact_maps::ContactMaps;
+use crate::dynamics::drive::{Drive, WholeAngle};
 use crate::dynamics::forces::Forces;
 use crate::dynamics::model::Model;
-use crate::dynamics::raceway::SMOOTH;
 use crate::numerics::plane::Vector;
 use crate::scene::{ContactLaw, Scene};
 use crate::surface::Surface;
@@ -34,8 +33,8 @@ use std::sync::Arc;
 pub struct Simulation {
     pub(super) scene: Arc<Scene>,
     pub(super) surface: Option<Arc<Surface>>,
-    /// The contact map stored with the scene.
-    pub(super) map: Option<Arc<ContactMap>>,
+    /// The contact maps stored with the scene.
+    pub(super) map: Option<Arc<ContactMaps>>,
     /// Shared by clones, as what follows from the table is.
     pub(super) table: Arc<[Variable]>,
     pub(super) quantities: Arc<[Quantity]>,
@@ -86,22 +85,21 @@ impl Simulation {
     /// An impossible scene or profile; a map that is damaged or belongs to something else.
     pub fn with_map(scene: Scene, profile: Option<&str>, map: Option<&[u8]>) -> Result<Self, SimulationError> {
         // Without a defect there is nothing to look up.
-        let map = map.filter(|_| scene.defect.is_some()).map(ContactMap::decode).transpose()?;
+        let map = map.filter(|_| scene.defect.is_some()).map(ContactMaps::decode).transpose()?;
         Self::with_shared_map(scene, profile, map.map(Arc::new))
     }
 
-    /// As [`with_map`](Self::with_map), with a map that others may use as well.
+    /// As [`with_map`](Self::with_map), with maps that others may use as well.
     ///
     /// # Errors
     /// As [`with_map`](Self::with_map).
     pub fn with_shared_map(
         scene: Scene,
         profile: Option<&str>,
-        map: Option<Arc<ContactMap>>,
+        map: Option<Arc<ContactMaps>>,
     ) -> Result<Self, SimulationError> {
         scene.check()?;
-        let surface =
-            scene.defect.as_ref().map(|defect| Surface::load(&defect.shape, profile, &scene.bearing)).transpose()?;
+        let surface = scene.defect.as_ref().map(|defect| Surface::load(defect, profile, &scene.bearing)).transpose()?;
         let (table, quantities): (Vec<_>, Vec<_>) = table::rows(&scene).into_iter().unzip();
         let access = table.iter().zip(&quantities).map(|(row, &quantity)| Access::new(row, quantity)).collect();
         let (reals, integers) = setup::start_values(&table);
@@ -118,7 +116,7 @@ impl Simulation {
             };
         let model = setup::build_model(&scene, surface.as_ref().filter(|_| is_complete), map.as_ref())?;
         let recorder = Recorder::of(&scene, &table, &quantities);
-        let progress = Progress::new(model.layout.len, model.element_count, under_way(&recorder));
+        let progress = new_progress(&model, &recorder);
         let inputs = Inputs::new(&quantities, table.iter().take_while(|v| v.causality == Causality::Input).count());
         Ok(Self {
             inputs,
@@ -132,7 +130,8 @@ impl Simulation {
             state: State {
                 time: 0.0,
                 started: false,
-                cage: CageAngle::new(scene.cage.initial_angle),
+                cage: WholeAngle::new(scene.cage.initial_angle),
+                frames: [scene.shaft_initial_angle, scene.housing_initial_angle, 0.0].map(WholeAngle::new),
                 ended: Ended::default(),
                 progress,
                 reals,
@@ -247,7 +246,7 @@ impl Simulation {
         self.model.forget_contacts();
         let mut recorder = self.recorder.as_mut().filter(|recorder| recorder.is_on());
         match &mut recorder {
-            Some(recorder) => recorder.begin(self.state.time, self.state.cage.total()),
+            Some(recorder) => recorder.begin(self.state.time, self.state.angles()),
             // What is not sampled cannot be made up for: whoever records on from here begins anew.
             None => self.state.progress.due = Due::default(),
         }
@@ -257,8 +256,11 @@ impl Simulation {
             .advance(step)
             .map_err(|cause| SimulationError::Step { time, cause })?;
         self.state.cage = self.state.cage.advanced(drive.cage.at(step));
+        for (angle, turning) in self.state.frames.iter_mut().zip(&drive.frames) {
+            *angle = angle.advanced(turning.since.at(step));
+        }
         self.state.time += step;
-        driving::follow(&mut self.state, &self.inputs, self.model.cage_ratio, &drive, step);
+        driving::follow(&mut self.state, &self.inputs, &self.model.ratios, &drive, step);
         Ok(())
     }
 
@@ -289,9 +291,7 @@ impl Simulation {
             return Ok(());
         }
         self.rebuild()?;
-        let defect = self.model.outer.defect.as_ref();
-        let exists = |&cell: &u32| defect.map_or(cell == SMOOTH, |defect| defect.has_cell(cell));
-        if self.state.progress.cells.iter().all(exists) {
+        if self.model.has_cells(&self.state.progress.cells) {
             self.fresh = Fresh::State;
             Ok(())
         } else {
@@ -306,22 +306,25 @@ impl Simulation {
 
     /// Where every external influence is, during the next step if `stepping`.
     pub(super) fn drive(&self, stepping: bool) -> Drive {
-        driving::drive(&self.state, &self.inputs, self.model.cage_ratio, stepping)
+        driving::drive(&self.state, &self.inputs, &self.model.ratios, stepping)
     }
 
     /// Rebuilds the model if parameters were set, and finds the equilibrium.
     pub(super) fn find_equilibrium(&mut self) -> Result<(), SimulationError> {
         self.rebuild()?;
-        let angle = setup::parameter(&self.quantities, &self.state.reals, Parameter::CageInitialAngle);
-        self.state.cage = CageAngle::new(angle.unwrap_or(self.scene.cage.initial_angle));
+        let angle = |parameter| setup::parameter(&self.quantities, &self.state.reals, parameter);
+        let (shaft, housing) = (RingName::Shaft, RingName::Housing);
+        let [cage, shaft, housing] = [
+            angle(Parameter::CageInitialAngle).unwrap_or(self.scene.cage.initial_angle),
+            angle(Parameter::RingInitialAngle(shaft)).unwrap_or(self.scene.shaft_initial_angle),
+            angle(Parameter::RingInitialAngle(housing)).unwrap_or(self.scene.housing_initial_angle),
+        ];
+        self.state.cage = WholeAngle::new(cage);
+        self.state.frames = [shaft, housing, 0.0].map(WholeAngle::new);
         let drive = self.drive(false);
-        let cage_angle = drive.cage_angle(0.0);
         let progress = &mut self.state.progress;
-        *progress = Progress::new(self.model.layout.len, self.model.element_count, under_way(&self.recorder));
-        for j in 0..self.model.element_count {
-            progress.cells[j] = self.model.cell_at(j, cage_angle);
-        }
-        self.model.equilibrium(&drive, &progress.cells, &mut progress.state)?;
+        *progress = new_progress(&self.model, &self.recorder);
+        progress.cells = self.model.equilibrium_with_cells(&drive, &mut progress.state)?;
         self.model.forget_contacts();
         self.model.derivative(&drive, 0.0, &progress.cells, &progress.state, &mut self.derivative, &mut self.forces);
         self.forces.note_pushing(&mut progress.pushing);
@@ -342,7 +345,8 @@ impl Simulation {
     }
 }
 
-/// Length of the rows that a recorder has under way.
-fn under_way(recorder: &Option<Recorder>) -> usize {
-    recorder.as_ref().map_or(0, Recorder::under_way)
+/// A state at rest of this model.
+fn new_progress(model: &Model, recorder: &Option<Recorder>) -> Progress {
+    let under_way = recorder.as_ref().map_or(0, Recorder::under_way);
+    Progress::new(model.layout.len, [model.element_count, model.defective.len()], under_way)
 }

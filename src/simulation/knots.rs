@@ -1,18 +1,20 @@
-//! Knots: the instants at which an element enters another cell of the defect, found from whole cells, never by
-//! comparing times.
+//! Knots whose instants are known beforehand: those at which an element enters another cell of a defect of the outer
+//! raceway, or of its own on its outer side. They are found from whole cells, never by comparing times. The angles that
+//! count are those of the elements about the outer ring's centre, which follow from time alone; passages that depend on
+//! where the inner ring is are those of [`super::crossings`].
 //!
-//! The cage angle is a quadratic of time within a communication step, so the cage turns back at most once, and before
-//! and after that it goes one way only. Which of these two *legs* it is on is, like a cell, no question of times: the
-//! way back begins with the first passage that only it can make. On a leg an element meets the knot ahead of its cell
-//! and no other. The knot that it has just passed, from which rounding leaves it at an angle of about 0, therefore
-//! neither fires again nor is missed when the cage comes back; and a knot on which the cage turns is passed both ways
-//! or not at all.
+//! The angle of the elements against what bears the defect is a quadratic of time within a communication step, so it
+//! turns back at most once, and before and after that it goes one way only. Which of these two *legs* it is on is, like
+//! a cell, no question of times: the way back begins with the first passage that only it can make. On a leg an element
+//! meets the knot ahead of its cell and no other. The knot that it has just passed, from which rounding leaves it at an
+//! angle of about 0, therefore neither fires again nor is missed when the cage comes back; and a knot on which the cage
+//! turns is passed both ways or not at all.
 
-use crate::dynamics::drive::Drive;
+use crate::dynamics::drive::{Drive, Frame, Quadratic};
 use crate::dynamics::model::Model;
-use crate::dynamics::raceway::Ahead;
+use crate::dynamics::raceway::{Ahead, Cells, Defects};
 
-/// Part of a communication step on which the cage turns one way.
+/// Part of a communication step on which elements turn one way against what bears a defect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Leg {
     /// The way on which the step begins.
@@ -21,50 +23,136 @@ pub(super) enum Leg {
     Back,
 }
 
+/// The legs of motion against the outer ring and against the elements' own spin.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Legs {
+    pub(super) ring: Leg,
+    pub(super) spin: Leg,
+}
+
+impl Legs {
+    /// Those on which a communication step begins.
+    pub(super) const OUT: Self = Self { ring: Leg::Out, spin: Leg::Out };
+}
+
+/// A contact that may enter another cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Contact {
+    /// That of an element, from 0, with the outer raceway.
+    Outer(usize),
+    /// That of an element with the inner raceway.
+    Inner(usize),
+    /// That of a defective element, counted among those, with the inner (0) or the outer (1) raceway.
+    Own(usize, usize),
+}
+
 /// The next knot to land on.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Knot {
     /// When [s] since the communication point.
     pub(super) tau: f64,
-    /// Which element, from 0.
-    pub(super) element: usize,
+    /// Which contact.
+    pub(super) contact: Contact,
     /// The cell it enters.
     pub(super) cell: u32,
-    /// On which leg.
-    pub(super) leg: Leg,
+    /// On which legs.
+    pub(super) legs: Legs,
 }
 
-/// The earliest passage of an element into another cell between `tau`, on `leg`, and `end`.
-pub(super) fn next_knot(model: &Model, drive: &Drive, (tau, leg): (f64, Leg), end: f64, cells: &[u32]) -> Option<Knot> {
-    let [_, speed, acceleration] = drive.cage.0;
+impl Contact {
+    /// Puts the contact into a cell.
+    pub(super) fn enter(self, cell: u32, cells: &mut Cells) {
+        match self {
+            Self::Outer(j) => cells.outer[j] = cell,
+            Self::Inner(j) => cells.inner[j] = cell,
+            Self::Own(k, side) => cells.own[k][side] = cell,
+        }
+    }
+}
+
+/// The earliest scheduled passage of a contact into another cell between `tau`, on `legs`, and `end`.
+pub(super) fn next_knot(
+    model: &Model,
+    drive: &Drive,
+    (tau, legs): (f64, Legs),
+    end: f64,
+    cells: &Cells,
+) -> Option<Knot> {
+    let ring = passages(drive, Frame::Housing, (tau, legs.ring), |way, leg| {
+        let on = |(j, &cell): (usize, &u32)| Way {
+            defects: &model.outer.defects,
+            element: j,
+            cell,
+            contact: Contact::Outer(j),
+        };
+        let found = earliest(model, drive, (tau, leg), (way, end), cells.outer.iter().enumerate().map(on));
+        found.map(|(tau, contact, cell)| Knot { tau, contact, cell, legs: Legs { ring: leg, ..legs } })
+    });
+    if model.defective.is_empty() {
+        return ring;
+    }
+    let spin = passages(drive, Frame::Spin, (tau, legs.spin), |way, leg| {
+        let own = model.defective.iter().zip(&cells.own).enumerate();
+        let own = own.map(|(k, (defective, cells))| Way {
+            defects: &defective.defects[1],
+            element: defective.element,
+            cell: cells[1],
+            contact: Contact::Own(k, 1),
+        });
+        let found = earliest(model, drive, (tau, leg), (way, end), own);
+        found.map(|(tau, contact, cell)| Knot { tau, contact, cell, legs: Legs { spin: leg, ..legs } })
+    });
+    match (ring, spin) {
+        (Some(ring), Some(spin)) => Some(if spin.tau < ring.tau { spin } else { ring }),
+        (ring, spin) => ring.or(spin),
+    }
+}
+
+/// Angle of element 1 against a frame since the start of the communication step.
+fn against(drive: &Drive, frame: Frame) -> Quadratic {
+    let of = drive.frames[frame as usize].since.0;
+    Quadratic(std::array::from_fn(|i| drive.cage.0[i] - of[i]))
+}
+
+/// The first knot that `on` finds on the legs that are left, asked with the way of each.
+fn passages(drive: &Drive, frame: Frame, (_, leg): (f64, Leg), on: impl Fn(f64, Leg) -> Option<Knot>) -> Option<Knot> {
+    let [_, speed, acceleration] = against(drive, frame).0;
     let out = if speed == 0.0 { acceleration } else { speed };
-    let on = |leg: Leg, way: f64| earliest(model, drive, (tau, leg), (way, end), cells);
-    let found = if leg == Leg::Out && out != 0.0 { on(Leg::Out, out.signum()) } else { None };
+    let found = if leg == Leg::Out && out != 0.0 { on(out.signum(), Leg::Out) } else { None };
     // Every passage on the way out comes before every one on the way back.
-    if found.is_none() && speed * acceleration < 0.0 { on(Leg::Back, acceleration.signum()) } else { found }
+    if found.is_none() && speed * acceleration < 0.0 { on(acceleration.signum(), Leg::Back) } else { found }
+}
+
+/// A contact on its way over defects.
+struct Way<'a> {
+    defects: &'a Defects,
+    element: usize,
+    cell: u32,
+    contact: Contact,
 }
 
 /// The earliest passage by `end` on a leg that goes `way`, 1 or −1.
-fn earliest(
+fn earliest<'a>(
     model: &Model,
     drive: &Drive,
     (tau, leg): (f64, Leg),
     (way, end): (f64, f64),
-    cells: &[u32],
-) -> Option<Knot> {
-    let defect = model.outer.defect.as_ref()?;
-    let cage_angle = drive.cage_angle(tau);
-    let (mut speed, acceleration) = (way * drive.cage.rate_at(tau), way * drive.cage.0[2]);
-    if leg == Leg::Out {
-        // Where the cage is about to turn, rounding may show it on its way back already.
-        speed = speed.max(0.0);
-    }
-    let mut earliest: Option<Knot> = None;
-    for (element, &cell) in cells.iter().enumerate() {
-        let Ahead { angle, beyond } = defect.ahead(cell, model.angle_from_defect(element, cage_angle), way > 0.0);
+    contacts: impl Iterator<Item = Way<'a>>,
+) -> Option<(f64, Contact, u32)> {
+    let mut earliest: Option<(f64, Contact, u32)> = None;
+    for on in contacts.filter(|on| !on.defects.is_empty()) {
+        let (frame, against) = (on.defects.frame, against(drive, on.defects.frame));
+        let angle = drive.cage_angle(tau) + model.element_offset(on.element);
+        let direction = angle - drive.frames_at(tau).of(frame).angle;
+        let (mut speed, acceleration) = (way * against.rate_at(tau), way * against.0[2]);
+        if leg == Leg::Out {
+            // Where the cage is about to turn, rounding may show it on its way back already.
+            speed = speed.max(0.0);
+        }
+        let Some(Ahead { angle, beyond }) = on.defects.ahead(on.cell, direction, way > 0.0) else { continue };
         let at = tau + passage(speed, acceleration, angle.max(0.0));
-        if at <= end && earliest.is_none_or(|e| at < e.tau) {
-            earliest = Some(Knot { tau: at, element, cell: beyond, leg });
+        if at <= end && earliest.is_none_or(|e| at < e.0) {
+            earliest = Some((at, on.contact, beyond));
         }
     }
     earliest
@@ -88,9 +176,9 @@ fn passage(speed: f64, acceleration: f64, angle: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::drive::{CageAngle, Quadratic};
+    use crate::dynamics::drive::WholeAngle;
     use crate::dynamics::jacobian::tests::lively;
-    use crate::dynamics::raceway::SMOOTH;
+    use crate::dynamics::raceway::{Placed, SMOOTH};
     use crate::scene::{Damping, Motion};
     use proptest::prelude::*;
 
@@ -139,21 +227,29 @@ mod tests {
     }
 
     /// Passes the knots of one communication step; gives how many.
-    fn walk(model: &Model, drive: &Drive, end: f64, cells: &mut [u32]) -> usize {
-        let (mut tau, mut leg, mut count) = (0.0, Leg::Out, 0);
-        while let Some(knot) = next_knot(model, drive, (tau, leg), end, cells) {
-            (tau, leg) = (knot.tau.max(tau), knot.leg);
-            cells[knot.element] = knot.cell;
+    fn walk(model: &Model, drive: &Drive, end: f64, cells: &mut Cells) -> usize {
+        let (mut tau, mut legs, mut count) = (0.0, Legs::OUT, 0);
+        while let Some(knot) = next_knot(model, drive, (tau, legs), end, cells) {
+            (tau, legs) = (knot.tau.max(tau), knot.legs);
+            knot.contact.enter(knot.cell, cells);
             count += 1;
             assert!(count < 100_000, "{drive:?}: passages without end");
         }
         count
     }
 
+    fn placed(model: &Model) -> &Placed {
+        model.outer.defects.iter().next().unwrap()
+    }
+
+    /// Cell of element `j` at a cage angle.
+    fn cell_at(model: &Model, j: usize, cage_angle: f64) -> u32 {
+        model.outer.defects.cell_at(cage_angle + model.element_offset(j))
+    }
+
     /// How far the angle of element `j` is outside its cell [rad]; negative inside.
     fn outside(model: &Model, j: usize, cage_angle: f64, cell: u32) -> f64 {
-        let defect = model.outer.defect.as_ref().unwrap();
-        let (knots, angle) = (defect.knots(), model.angle_from_defect(j, cage_angle));
+        let (knots, angle) = (placed(model).knots(), placed(model).angle(cage_angle + model.element_offset(j)));
         match cell {
             SMOOTH => (angle - knots[0]).min(knots[knots.len() - 1] - angle),
             cell => (knots[cell as usize] - angle).max(angle - knots[cell as usize + 1]),
@@ -174,20 +270,21 @@ mod tests {
             on_knot in prop::option::of((0..20usize, 0..9usize)),
         ) {
             let model = model();
-            let defect = model.outer.defect.as_ref().unwrap();
+            let defect = placed(&model);
             // Perhaps an element begins exactly on a knot.
             let start = on_knot.map_or(start, |(k, j)| {
                 defect.knots()[k % defect.knots().len()] + defect.centre - model.element_offset(j)
             });
-            let mut angle = CageAngle::new(start);
-            let mut cells: Vec<u32> = (0..9).map(|j| model.cell_at(j, angle.rest)).collect();
+            let mut angle = WholeAngle::new(start);
+            let outer: Vec<u32> = (0..9).map(|j| cell_at(&model, j, angle.rest)).collect();
+            let mut cells = Cells { outer, ..Cells::smooth(9, 0) };
             let mut speed = speed;
             for (acceleration, time) in steps {
                 let cage = Quadratic([0.0, speed, acceleration]);
                 let drive = Drive { cage_start: angle.rest, cage, ..Drive::default() };
                 walk(&model, &drive, time, &mut cells);
                 angle = angle.advanced(cage.at(time));
-                for (j, &cell) in cells.iter().enumerate() {
+                for (j, &cell) in cells.outer.iter().enumerate() {
                     // Rounding of the way made, turns included, and of times within the step.
                     let blur = 16.0 * f64::EPSILON * (10.0 + time * (speed.abs() + acceleration.abs() * time));
                     let outside = outside(&model, j, angle.rest, cell);
@@ -201,7 +298,7 @@ mod tests {
     #[test]
     fn a_knot_on_which_the_cage_turns_is_passed_both_ways_or_not_at_all() {
         let model = model();
-        let defect = model.outer.defect.as_ref().unwrap();
+        let defect = placed(&model);
         let mut passed = [0; 3];
         for (k, &knot) in defect.knots().iter().enumerate() {
             for way in [1.0, -1.0] {
@@ -210,13 +307,12 @@ mod tests {
                     let (speed, acceleration) = (way * f64::from(n) * 0.013, -way * 1e3 / f64::from(n));
                     let turn = -0.5 * speed * speed / acceleration;
                     let cage_start = knot + defect.centre - turn;
-                    let before = model.cell_at(0, cage_start);
-                    let mut cells = [SMOOTH; 9];
-                    cells[0] = before;
+                    let before = cell_at(&model, 0, cage_start);
+                    let mut cells = Cells { outer: vec![before], ..Cells::default() };
                     let cage = Quadratic([0.0, speed, acceleration]);
                     let drive = Drive { cage_start, cage, ..Drive::default() };
-                    let met = walk(&model, &drive, -2.5 * speed / acceleration, &mut cells[..1]);
-                    assert!(cells[0] == before || turn.abs() > 1e-3, "knot {k}: {drive:?}");
+                    let met = walk(&model, &drive, -2.5 * speed / acceleration, &mut cells);
+                    assert!(cells.outer[0] == before || turn.abs() > 1e-3, "knot {k}: {drive:?}");
                     passed[met.min(2)] += usize::from(turn.abs() <= 1e-3);
                 }
             }

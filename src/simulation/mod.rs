@@ -6,6 +6,7 @@ mod access;
 pub mod arrow;
 mod change;
 mod contact_changes;
+mod crossings;
 mod decimation;
 mod dependencies;
 pub mod derivatives;

@@ -1,11 +1,20 @@
 //! What outputs are at one instant.
 
 use super::quantity::{Quantity, RingName};
-use crate::dynamics::drive::Drive;
+use crate::dynamics::drive::{Drive, Frame};
 use crate::dynamics::forces::Forces;
 use crate::dynamics::kinematics::RingState;
 use crate::dynamics::model::Model;
 use crate::numerics::plane::Vector;
+
+/// Angles of the cage and of the frames of defects [rad], all turns counted.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Angles {
+    /// Of element 1.
+    pub cage: f64,
+    /// In the order of [`Frame`].
+    pub frames: [f64; 3],
+}
 
 /// All that the outputs of one instant are computed from.
 #[derive(Debug)]
@@ -15,7 +24,7 @@ pub struct Outputs<'a> {
     ring: [RingState; 2],
     acceleration: [Vector; 2],
     sensor: f64,
-    cage_angle: f64,
+    angles: Angles,
     model: &'a Model,
     drive: &'a Drive,
     tau: f64,
@@ -28,13 +37,13 @@ impl<'a> Outputs<'a> {
     }
 
     /// Those of the instant `tau` [s] after the communication point. `derivative` and `forces` are the model's for
-    /// `state`; `cage_start` is the cage angle at the communication point [rad], all turns counted.
+    /// `state`; `start` are the angles at the communication point.
     pub fn new(
         model: &'a Model,
         (drive, tau): (&'a Drive, f64),
         (state, derivative): (&'a [f64], &[f64]),
         forces: &'a Forces,
-        cage_start: f64,
+        start: Angles,
     ) -> Self {
         Self {
             state,
@@ -42,7 +51,10 @@ impl<'a> Outputs<'a> {
             ring: [model.shaft_state(drive, tau, state), model.housing_state(drive, tau, state)],
             acceleration: model.ring_rates(drive, tau, derivative).map(|ring| ring.velocity),
             sensor: model.layout.sensor.map_or(0.0, |i| derivative[i + 1]),
-            cage_angle: cage_start + drive.cage.at(tau),
+            angles: Angles {
+                cage: start.cage + drive.cage.at(tau),
+                frames: std::array::from_fn(|i| start.frames[i] + drive.frames[i].since.at(tau)),
+            },
             model,
             drive,
             tau,
@@ -57,19 +69,22 @@ impl<'a> Outputs<'a> {
             Quantity::Acceleration(ring, axis) => self.acceleration[ring.index()][axis],
             Quantity::Force(ring, axis) => [self.forces.shaft(), self.forces.housing()][ring.index()][axis],
             Quantity::SensorAcceleration => self.sensor,
-            Quantity::CageAngle => self.cage_angle,
+            Quantity::CageAngle => self.angles.cage,
+            Quantity::RingAngle(ring) => self.angles.frames[ring.index()],
+            Quantity::ShaftTorque => self.forces.torque_on(Frame::Shaft),
             Quantity::CageSpeed => self.drive.cage.rate_at(self.tau),
             // A sum over all elements, and recorders do not ask for it.
             Quantity::CageTorque => {
                 let acceleration = self.acceleration[RingName::Housing.index()];
                 self.model.cage_torque(self.drive, self.tau, self.state, acceleration, self.forces)
             }
-            Quantity::ElementAngle(j) => self.cage_angle + self.model.element_offset(j),
+            Quantity::ElementAngle(j) => self.angles.cage + self.model.element_offset(j),
+            Quantity::ElementSpinAngle(j) => self.model.spin_angle(j, &self.angles.frames, self.angles.cage),
             Quantity::ElementPath(j) => self.state[j],
             Quantity::ElementInnerForce(j) => self.forces.contacts.inner[j],
             Quantity::ElementOuterForce(j) => self.forces.contacts.outer[j],
             Quantity::MeanForce(..) | Quantity::Stiffness(..) => return None,
-            Quantity::ShaftSpeed | Quantity::Load(..) | Quantity::Count(_) | Quantity::Parameter(_) => return None,
+            Quantity::Speed(_) | Quantity::Load(..) | Quantity::Count(_) | Quantity::Parameter(_) => return None,
         })
     }
 }

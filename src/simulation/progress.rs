@@ -3,7 +3,7 @@
 use super::quantity::Count;
 use super::recorder::Due;
 use super::switching::Choice;
-use crate::dynamics::raceway::SMOOTH;
+use crate::dynamics::raceway::Cells;
 use crate::numerics::lanes::padded;
 use crate::numerics::row::Row;
 
@@ -15,8 +15,8 @@ const FIRST_STEP: f64 = 1e-6;
 pub struct Progress {
     /// State vector, as [`crate::dynamics::model::Layout`] lays it out.
     pub state: Row,
-    /// Cell of the defect in which each element is.
-    pub cells: Vec<u32>,
+    /// Cells of defects in which all contacts are.
+    pub cells: Cells,
     /// 1 where a contact pushes and −1 where it does not, the inner ones and then the outer; each list filled up to a
     /// multiple of eight.
     pub pushing: Row,
@@ -43,11 +43,12 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// A state at rest in `len` places for `count` elements, with so many places for rows of the recorder.
-    pub fn new(len: usize, count: usize, under_way: usize) -> Self {
+    /// A state at rest in `len` places for `count` elements, so many of them defective, with so many places for rows of
+    /// the recorder.
+    pub fn new(len: usize, [count, defective]: [usize; 2], under_way: usize) -> Self {
         Self {
             state: Row::zeros(len),
-            cells: vec![SMOOTH; count],
+            cells: Cells::smooth(count, defective),
             pushing: Row::from_fn(2 * padded(count), |_| -1.0),
             next_step: FIRST_STEP,
             last_error: 1.0,
@@ -78,7 +79,7 @@ impl Progress {
     pub fn copy_from(&mut self, other: &Progress) {
         let Self { state, cells, pushing, under_way, .. } = self;
         state.copy_from_slice(&other.state);
-        cells.copy_from_slice(&other.cells);
+        cells.copy_from(&other.cells);
         pushing.copy_from_slice(&other.pushing);
         under_way.copy_from_slice(&other.under_way);
         (self.next_step, self.last_error, self.choice) = (other.next_step, other.last_error, other.choice);

@@ -23,7 +23,9 @@ impl RingName {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub enum Quantity {
-    ShaftSpeed,
+    Speed(RingName),
+    RingAngle(RingName),
+    ShaftTorque,
     Load(RingName, usize),
     Position(RingName, usize),
     Velocity(RingName, usize),
@@ -39,6 +41,7 @@ pub enum Quantity {
     ElementPath(usize),
     ElementInnerForce(usize),
     ElementOuterForce(usize),
+    ElementSpinAngle(usize),
     Count(Count),
     Parameter(Parameter),
 }
@@ -62,6 +65,8 @@ pub enum Parameter {
     ContactLaw,
     CageSlip,
     CageInitialAngle,
+    RingInitialAngle(RingName),
+    SpinSlip,
     DefectAngle,
     RingMass(RingName),
     RingDamping(RingName),

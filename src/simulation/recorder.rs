@@ -11,7 +11,7 @@
 use std::f64::consts::TAU;
 
 use super::decimation::{Decimation, HALF, RATE_PER_PASS, UNDER_WAY, slot};
-use super::outputs::Outputs;
+use super::outputs::{Angles, Outputs};
 use super::quantity::Quantity;
 use super::setup::largest_force;
 use super::variables::{Causality, Variable};
@@ -58,8 +58,8 @@ pub struct Recorder {
     values: Vec<f64>,
     /// Folder that the host wants the recording in; empty for no recording.
     pub(super) folder: String,
-    /// Time and cage angle at the communication point.
-    start: (f64, f64),
+    /// Time and angles at the communication point.
+    start: (f64, Angles),
 }
 
 /// Rows that have not been fetched yet.
@@ -101,7 +101,7 @@ impl Recorder {
             first: 0,
             values: Vec::new(),
             folder: String::new(),
-            start: (0.0, 0.0),
+            start: (0.0, Angles::default()),
         })
     }
 
@@ -178,9 +178,9 @@ impl Recorder {
         }
     }
 
-    /// A communication step begins at `time` [s] and `cage_angle` [rad].
-    pub(super) fn begin(&mut self, time: f64, cage_angle: f64) {
-        self.start = (time, cage_angle);
+    /// A communication step begins at `time` [s] and these angles.
+    pub(super) fn begin(&mut self, time: f64, angles: Angles) {
+        self.start = (time, angles);
     }
 
     /// A communication step of `step` [s] is done.
@@ -193,8 +193,8 @@ impl Recorder {
         (due.delay < end - ROUNDING * self.interval).then(|| due.delay.max(0.0))
     }
 
-    /// Cage angle at the communication point [rad], all turns counted.
-    pub(super) fn cage_angle(&self) -> f64 {
+    /// Angles at the communication point.
+    pub(super) fn angles(&self) -> Angles {
         self.start.1
     }
 

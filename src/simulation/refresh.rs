@@ -4,6 +4,7 @@ use super::SimulationError;
 use super::instance::{Fresh, Simulation};
 use super::outputs::Outputs;
 use super::quantity::Quantity;
+use crate::dynamics::raceway::Defects;
 
 impl Simulation {
     /// Computes all outputs but the stiffness, unless they are still those of the values set.
@@ -28,10 +29,10 @@ impl Simulation {
             (&drive, 0.0),
             (&progress.state, &self.derivative),
             &self.forces,
-            self.state.cage.total(),
+            self.state.angles(),
         );
         self.present_acceleration = outputs.housing_acceleration();
-        let solves_grids = self.model.outer.defect.as_ref().is_some_and(|defect| defect.surface.solves_grids());
+        let solves_grids = self.model.all_defects().flat_map(Defects::iter).any(|defect| defect.surface.solves_grids());
         for (i, quantity) in self.quantities.iter().enumerate().skip(self.inputs.count) {
             let value = match *quantity {
                 Quantity::MeanForce(ring, axis) => Some(progress.mean_force[2 * ring.index() + axis]),
@@ -68,7 +69,7 @@ impl Simulation {
             let progress = &self.state.progress;
             let now = self.model.kinematics(&drive, 0.0, &progress.state);
             let (state, cells) = (&progress.state, &progress.cells);
-            let jacobian = self.model.ring_jacobian(state, cells, now.offset(), now.cage.angle);
+            let jacobian = self.model.ring_jacobian(state, cells, &now);
             for (value, quantity) in self.state.reals.iter_mut().zip(self.quantities.iter()) {
                 if let Quantity::Stiffness(row, column) = *quantity {
                     *value = -jacobian[(row, column)];

@@ -5,17 +5,22 @@ use std::sync::Arc;
 use super::SimulationError;
 use super::quantity::{Parameter, Quantity, RingName};
 use super::variables::{Kind, Variable};
+use crate::contact::contact_maps::ContactMaps;
+use crate::contact::flat_stretches::check_ends;
 use crate::contact::map::ContactMap;
 use crate::contact::map_plan::MapPlan;
 use crate::contact::map_specification::{MapSpecification, Runner, Sequential};
 use crate::contact::near_defect::{NearDefect, NearLove, NearMap};
 use crate::contact::raceway_grid::{ElementOnRaceway, Resolution};
 use crate::contact::rigid_path::RigidPath;
+use crate::contact::rolling::{RacewaySide, Rolling};
+use crate::dynamics::drive::Frame;
 use crate::dynamics::model::Model;
-use crate::dynamics::raceway::Placed;
+use crate::dynamics::raceway::{DefectiveElement, Defects};
 use crate::geometry::hertz_constant::HertzConstants;
-use crate::scene::{ContactLaw, Damping, Ring, Scene};
+use crate::scene::{ContactLaw, Damping, DefectOn, Ring, Scene};
 use crate::surface::Surface;
+use std::f64::consts::{PI, TAU};
 
 /// Start values of the table: reals, and beside them integers.
 pub(super) fn start_values(table: &[Variable]) -> (Vec<f64>, Vec<i32>) {
@@ -58,6 +63,9 @@ pub(super) fn with_parameters(
             }
             Parameter::CageSlip => changed.cage.slip = value,
             Parameter::CageInitialAngle => changed.cage.initial_angle = value,
+            Parameter::SpinSlip => changed.cage.spin_slip = value,
+            Parameter::RingInitialAngle(RingName::Shaft) => changed.shaft_initial_angle = value,
+            Parameter::RingInitialAngle(RingName::Housing) => changed.housing_initial_angle = value,
             Parameter::DefectAngle => {
                 if let Some(defect) = &mut changed.defect {
                     defect.angle = value;
@@ -93,14 +101,27 @@ pub fn largest_force(scene: &Scene) -> f64 {
     scene.contact.largest_force.unwrap_or(assumed)
 }
 
-/// What the contact map of a scene covers: forces up to `contact.largest_force_n`, or else four times the static force
-/// on the most loaded element, 5 F/Z (Stribeck), and at least 1000 N. Δ counts the rings' and seats' compliance as
-/// well. An accuracy that the scene asks for is held; the usual one may be missed, in defects deeper than they are
-/// long, by what `TOLERATED` says.
-pub fn map_specification(scene: &Scene) -> MapSpecification {
-    let force = largest_force(scene);
-    let contact = libm::pow(force / HertzConstants::of(&scene.bearing).outer, 2.0 / 3.0);
-    let usual = MapSpecification::new(contact + scene.bearing.outer_compliance * force);
+/// The raceways that a scene's defect meets, the inner one first.
+fn sides(scene: &Scene) -> &'static [RacewaySide] {
+    match scene.defect.as_ref().map(|defect| defect.on) {
+        None => &[],
+        Some(DefectOn::Outer) => &[RacewaySide::Outer],
+        Some(DefectOn::Inner) => &[RacewaySide::Inner],
+        Some(DefectOn::Element { .. }) => &[RacewaySide::Inner, RacewaySide::Outer],
+    }
+}
+
+/// What the contact map of a scene covers on one raceway: forces up to `contact.largest_force_n`, or else four times the
+/// static force on the most loaded element, 5 F/Z (Stribeck), and at least 1000 N. Outside Δ counts the rings' and
+/// seats' compliance as well. An accuracy that the scene asks for is held; the usual one may be missed, in defects
+/// deeper than they are long, by what `TOLERATED` says.
+fn specification_of(scene: &Scene, side: RacewaySide) -> MapSpecification {
+    let (force, hertz) = (largest_force(scene), HertzConstants::of(&scene.bearing));
+    let (stiffness, compliance) = match side {
+        RacewaySide::Inner => (hertz.inner, 0.0),
+        RacewaySide::Outer => (hertz.outer, scene.bearing.outer_compliance),
+    };
+    let usual = MapSpecification::new(libm::pow(force / stiffness, 2.0 / 3.0) + compliance * force);
     MapSpecification {
         accuracy: scene.contact.map_accuracy.unwrap_or(usual.accuracy),
         tolerated: if scene.contact.map_accuracy.is_none() { Some(TOLERATED) } else { None },
@@ -112,7 +133,12 @@ pub fn map_specification(scene: &Scene) -> MapSpecification {
     }
 }
 
-/// Computes the contact map of a scene, `None` where its law needs none. `runner` says on how many cores.
+/// Error that the contact maps of a scene are to keep, relative to the largest force.
+pub fn map_accuracy(scene: &Scene) -> f64 {
+    specification_of(scene, RacewaySide::Outer).accuracy
+}
+
+/// Computes the contact maps of a scene, `None` where its law needs none. `runner` says on how many cores.
 ///
 /// # Errors
 /// Where a contact cannot be solved or the accuracy is not reached.
@@ -120,59 +146,95 @@ pub fn build_map(
     scene: &Scene,
     surface: &Surface,
     runner: &mut impl Runner,
-) -> Result<Option<ContactMap>, SimulationError> {
+) -> Result<Option<ContactMaps>, SimulationError> {
     if scene.contact.law != ContactLaw::Map {
         return Ok(None);
     }
-    Ok(Some(ContactMap::build(surface, ElementOnRaceway::outer(&scene.bearing), map_specification(scene), runner)?))
+    let maps = sides(scene).iter().map(|&side| {
+        ContactMap::build(surface, ElementOnRaceway::of(&scene.bearing, side), specification_of(scene, side), runner)
+    });
+    Ok(Some(ContactMaps::new(maps.collect::<Result<Vec<_>, _>>()?)))
 }
 
-/// Fingerprint of all that the contact map of a scene depends on.
+/// Fingerprint of all that the contact maps of a scene depend on.
 pub fn map_fingerprint(scene: &Scene, surface: &Surface) -> u64 {
-    ContactMap::fingerprint_of(surface, ElementOnRaceway::outer(&scene.bearing), map_specification(scene))
+    let each: Vec<u64> = sides(scene).iter().map(|&side| fingerprint_on(scene, surface, side)).collect();
+    ContactMaps::fingerprint_of(&each)
 }
 
-/// A map that was stored with the scene; refused when it is damaged or belongs to something else.
-pub fn stored_map(scene: &Scene, surface: &Surface, bytes: &[u8]) -> Result<ContactMap, SimulationError> {
-    Ok(ContactMap::from_bytes(bytes, map_fingerprint(scene, surface))?)
+fn fingerprint_on(scene: &Scene, surface: &Surface, side: RacewaySide) -> u64 {
+    let element = ElementOnRaceway::of(&scene.bearing, side);
+    ContactMap::fingerprint_of(surface, element, specification_of(scene, side))
 }
 
-/// The raceway near the defect under law `map`: the stored map if it is that of this scene, or else one made now.
-fn near_map(scene: &Scene, surface: &Surface, stored: Option<&Arc<ContactMap>>) -> Result<NearDefect, SimulationError> {
-    let (element, specification) = (ElementOnRaceway::outer(&scene.bearing), map_specification(scene));
-    let map = match stored {
-        Some(map) if map.fingerprint() == map_fingerprint(scene, surface) => Arc::clone(map),
-        _ => Arc::new(ContactMap::build(surface, element, specification, &mut Sequential(|_, _| {}))?),
+/// Maps that were stored with the scene; refused when they are damaged or belong to something else.
+pub fn stored_map(scene: &Scene, surface: &Surface, bytes: &[u8]) -> Result<ContactMaps, SimulationError> {
+    Ok(ContactMaps::from_bytes(bytes, map_fingerprint(scene, surface))?)
+}
+
+/// The surface near the defect in contact with one raceway, of number `index` among those that it meets.
+fn near(
+    scene: &Scene,
+    surface: &Surface,
+    stored: Option<&Arc<ContactMaps>>,
+    (index, side): (usize, RacewaySide),
+) -> Result<NearDefect, SimulationError> {
+    let on_element = matches!(scene.defect.as_ref().map(|defect| defect.on), Some(DefectOn::Element { .. }));
+    let rolling = Rolling::of(&scene.bearing, side, on_element);
+    let (element, specification) = (ElementOnRaceway::of(&scene.bearing, side), specification_of(scene, side));
+    let near = match (scene.contact.law, surface) {
+        (ContactLaw::Hertz, Surface::Profile(profile)) => NearDefect::Hertz(RigidPath::new(profile.points(), rolling)?),
+        (ContactLaw::Hertz, Surface::Topography(_)) => {
+            return Err(SimulationError::LawNotAvailable { law: scene.contact.law });
+        }
+        (ContactLaw::Map, _) => {
+            let wanted = fingerprint_on(scene, surface, side);
+            let map = match stored.and_then(|stored| stored.get(index)) {
+                Some(map) if map.fingerprint() == wanted => Arc::clone(map),
+                _ => Arc::new(ContactMap::build(surface, element, specification, &mut Sequential(|_, _| {}))?),
+            };
+            NearDefect::Map(NearMap::new(map, rolling.bearer_radius()))
+        }
+        (ContactLaw::Love, _) => {
+            let (contact, knots, flats) = MapPlan::new(surface, element, specification)?.into_love();
+            NearDefect::Love(Box::new(NearLove::new(contact, &knots, flats, rolling.bearer_radius())))
+        }
     };
-    Ok(NearDefect::Map(NearMap::new(map, element.raceway_radius)))
-}
-
-fn near_love(scene: &Scene, surface: &Surface) -> Result<NearDefect, SimulationError> {
-    let element = ElementOnRaceway::outer(&scene.bearing);
-    let (contact, knots, flats) = MapPlan::new(surface, element, map_specification(scene))?.into_love();
-    Ok(NearDefect::Love(Box::new(NearLove::new(contact, &knots, flats, element.raceway_radius))))
+    let (knots, radius) = (near.knots(), rolling.bearer_radius());
+    if let (Some(first), Some(last)) = (knots.first(), knots.last()) {
+        // The contact's own check is for a raceway; an element is shorter around.
+        check_ends(surface.extent(), (first * radius, last * radius), radius, "where contacts reach it")?;
+    }
+    Ok(near)
 }
 
 /// The equations' parameters, with what the contact law needs near the defect.
 pub fn build_model(
     scene: &Scene,
     surface: Option<&Surface>,
-    map: Option<&Arc<ContactMap>>,
+    map: Option<&Arc<ContactMaps>>,
 ) -> Result<Model, SimulationError> {
-    let near = surface
-        .map(|surface| match (scene.contact.law, surface) {
-            (ContactLaw::Hertz, Surface::Profile(profile)) => Ok(NearDefect::Hertz(RigidPath::new(
-                profile.points(),
-                scene.bearing.element_radius(),
-                scene.bearing.outer_raceway_radius(),
-            )?)),
-            (ContactLaw::Hertz, Surface::Topography(_)) => {
-                Err(SimulationError::LawNotAvailable { law: scene.contact.law })
+    let (Some(surface), Some(defect)) = (surface, &scene.defect) else { return Ok(Model::smooth(scene)) };
+    let mut surfaces = Vec::new();
+    for (index, &side) in sides(scene).iter().enumerate() {
+        surfaces.push(near(scene, surface, map, (index, side))?);
+    }
+    let (mut inner, mut outer) = (Defects::new(Frame::Shaft, []), Defects::new(Frame::Housing, []));
+    let mut defective = Vec::new();
+    match defect.on {
+        DefectOn::Inner => inner = Defects::new(Frame::Shaft, surfaces.into_iter().map(|near| (near, defect.angle))),
+        DefectOn::Outer => outer = Defects::new(Frame::Housing, surfaces.into_iter().map(|near| (near, defect.angle))),
+        DefectOn::Element { element, .. } => {
+            // At the start the defect is at its angle from the direction of its element, and the spin is counted from
+            // there; the inner raceway is met with the opposite side.
+            let facing = scene.cage.initial_angle + element as f64 * TAU / scene.bearing.element_count as f64;
+            let mut centres = [facing + defect.angle - PI, facing + defect.angle].into_iter();
+            let mut sides =
+                surfaces.into_iter().map(|near| Defects::new(Frame::Spin, [near].into_iter().zip(&mut centres)));
+            if let (Some(inner), Some(outer)) = (sides.next(), sides.next()) {
+                defective.push(DefectiveElement { element, defects: [inner, outer] });
             }
-            (ContactLaw::Map, _) => near_map(scene, surface, map),
-            (ContactLaw::Love, _) => near_love(scene, surface),
-        })
-        .transpose()?;
-    let placed = near.zip(scene.defect.as_ref()).map(|(surface, defect)| Placed { surface, centre: defect.angle });
-    Ok(Model::new(scene, placed))
+        }
+    }
+    Ok(Model::new(scene, [inner, outer], defective))
 }

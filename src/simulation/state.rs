@@ -1,8 +1,9 @@
 //! All that the future of a simulation depends on, and nothing else. It is what runs: taking it is a copy, putting it
 //! back another.
 
+use super::outputs::Angles;
 use super::progress::Progress;
-use crate::dynamics::drive::CageAngle;
+use crate::dynamics::drive::WholeAngle;
 
 /// Everything that the future of a [`Simulation`](super::Simulation) depends on; taking it and putting it back changes
 /// no bit.
@@ -10,7 +11,9 @@ use crate::dynamics::drive::CageAngle;
 pub struct State {
     pub(super) time: f64,
     pub(super) started: bool,
-    pub(super) cage: CageAngle,
+    pub(super) cage: WholeAngle,
+    /// Angles of the frames of defects, in the order of [`crate::dynamics::drive::Frame`].
+    pub(super) frames: [WholeAngle; 3],
     pub(super) ended: Ended,
     pub(super) progress: Progress,
     /// Values of the table's real variables, by index; outputs are those computed last.
@@ -32,10 +35,16 @@ pub(super) struct Ended {
 }
 
 impl State {
+    /// Angles of cage and frames.
+    pub(super) fn angles(&self) -> Angles {
+        Angles { cage: self.cage.total(), frames: self.frames.map(WholeAngle::total) }
+    }
+
     /// Copies another state of the same model; allocates nothing.
     pub(super) fn copy_from(&mut self, other: &Self) {
-        let Self { time, started, cage, ended, progress, reals, integers, input_rates } = self;
-        (*time, *started, *cage, *ended) = (other.time, other.started, other.cage, other.ended);
+        let Self { time, started, cage, frames, ended, progress, reals, integers, input_rates } = self;
+        (*time, *started, *ended) = (other.time, other.started, other.ended);
+        (*cage, *frames) = (other.cage, other.frames);
         progress.copy_from(&other.progress);
         reals.copy_from_slice(&other.reals);
         integers.copy_from_slice(&other.integers);

@@ -9,6 +9,7 @@ use super::recorder::Recorder;
 use super::state::State;
 use super::step_error::SMALLEST_STEP;
 use super::variables::{Causality, Kind, Variable};
+use crate::dynamics::drive::WholeAngle;
 use crate::numerics::bytes::Reader;
 
 impl State {
@@ -28,10 +29,14 @@ impl State {
     /// Number of bytes of [`to_bytes`](Self::to_bytes).
     pub fn byte_count(&self) -> usize {
         let progress = &self.progress;
-        let fixed = 8 + 1 + 8 + 8 + 3 * 8 + 2 * 8 + (1 + 4 * 4 + 2 * 8 + 1) + 4 * 8 + 4 * 8 + 2 * 8;
+        let fixed = 8 + 1 + 4 * (8 + 8) + 3 * 8 + 2 * 8 + (1 + 4 * 4 + 2 * 8 + 1) + 4 * 8 + 4 * 8 + 2 * 8;
         let real = progress.state.len() + progress.under_way.len() + self.reals.len();
         let rates = self.input_rates.as_flattened().len();
-        fixed + 8 * real + 9 * rates + 4 * (progress.cells.len() + self.integers.len()) + progress.pushing.len()
+        fixed
+            + 8 * real
+            + 9 * rates
+            + 4 * (progress.cells.iter().count() + self.integers.len())
+            + progress.pushing.len()
     }
 
     /// Shows every field as bytes to `field`, and takes what `field` has made of them. `None` as soon as `field`
@@ -40,10 +45,12 @@ impl State {
         let progress = &mut self.progress;
         real(&mut self.time, field)?;
         flag(&mut self.started, field)?;
-        let mut turns = self.cage.turns.to_le_bytes();
-        field(&mut turns)?;
-        self.cage.turns = i64::from_le_bytes(turns);
-        real(&mut self.cage.rest, field)?;
+        for angle in [&mut self.cage].into_iter().chain(&mut self.frames) {
+            let mut turns = angle.turns.to_le_bytes();
+            field(&mut turns)?;
+            angle.turns = i64::from_le_bytes(turns);
+            real(&mut angle.rest, field)?;
+        }
         let [x, y] = &mut self.ended.housing;
         for value in [&mut self.ended.cage, x, y] {
             real(value, field)?;
@@ -69,7 +76,7 @@ impl State {
             real(&mut value, field)?;
             *rate = given.then_some(value);
         }
-        for cell in &mut progress.cells {
+        for cell in progress.cells.iter_mut() {
             count32(cell, field)?;
         }
         for integer in &mut self.integers {
@@ -126,6 +133,7 @@ impl Simulation {
         let numbers = [
             &[state.time, state.cage.rest, progress.last_error][..],
             &[state.ended.cage],
+            &state.frames.map(|frame| frame.rest),
             &state.ended.housing,
             &[progress.choice.gained, progress.choice.stable_step],
             &[progress.next_step, progress.due.delay],
@@ -155,8 +163,10 @@ impl Simulation {
         if !self.recorder.as_ref().is_none_or(possible) {
             return Some("the next sample is due at no time at which one can be");
         }
-        if state.cage.rest.abs() > std::f64::consts::PI || state.cage.turns.unsigned_abs() >= MOST_TURNS {
-            return Some("the cage has an angle that it cannot have");
+        let possible =
+            |angle: &WholeAngle| angle.rest.abs() <= std::f64::consts::PI && angle.turns.unsigned_abs() < MOST_TURNS;
+        if !possible(&state.cage) || !state.frames.iter().all(possible) {
+            return Some("cage, ring or element have an angle that they cannot have");
         }
         let model = &self.model;
         let paths = &progress.state[..model.element_count];
@@ -193,7 +203,7 @@ impl Simulation {
 const LARGEST_VELOCITY: f64 = 1e4;
 /// Samples of the recorder in ten thousand years.
 const MOST_SAMPLES: u64 = 1 << 60;
-/// Turns of the cage beyond which the angle has no digits left behind the point.
+/// Turns beyond which the angle has no digits left behind the point.
 const MOST_TURNS: u64 = 1 << 50;
 
 fn real(value: &mut f64, field: &mut impl FnMut(&mut [u8]) -> Option<()>) -> Option<()> {

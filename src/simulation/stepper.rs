@@ -1,7 +1,8 @@
 //! Advances the state by one communication step: error control, and steps that land on what is not smooth.
 //!
-//! Three kinds of instants end a step exactly: the communication point; a *knot*, where an element enters another cell
-//! of the defect; a *contact change*, where a contact begins or ceases to push. Within a step every element stays in
+//! Four kinds of instants end a step exactly: the communication point; a *knot*, where a contact enters another cell of a
+//! defect at an instant known beforehand; a *crossing*, where it does so at one that is not; a *contact change*, where a
+//! contact begins or ceases to push. Within a step every element stays in
 //! its cell and the right-hand side is smooth, but for the C¹ onset of a contact force.
 //!
 //! Knots are whole numbers (the cell of each element), never recognised by comparing times, so a restored state
@@ -10,9 +11,10 @@
 //! Three methods step, one at a time ([`super::switching`]); error control and landing are the same for all.
 
 use super::contact_changes::first_change;
+use super::crossings::{Crossing, first_crossing};
 use super::failing::{check_rings, check_step, worst};
 use super::kernels::{probe, try_step};
-use super::knots::{Knot, Leg, next_knot};
+use super::knots::{Knot, Legs, next_knot};
 use super::outputs::Outputs;
 use super::pair::Pair;
 use super::progress::Progress;
@@ -20,6 +22,7 @@ use super::recorder::Recorder;
 use super::step_error::StepError;
 use super::switching::Method;
 use super::workspace::{Problem, Span, Workspace};
+use crate::dynamics::raceway::Defects;
 use crate::numerics::rough_power;
 use crate::scene::Motion;
 
@@ -77,7 +80,7 @@ impl Stepper<'_> {
         let mut impulse = [0.0; 4];
         let first_count = self.progress.steps + self.progress.rejected_steps;
         self.begin()?;
-        let mut knot = self.next_knot((tau, Leg::Out), step);
+        let mut knot = self.next_knot((tau, Legs::OUT), step);
         let mut at_once = 0;
         while tau < step {
             if let Some(at) = knot
@@ -143,7 +146,7 @@ impl Stepper<'_> {
         Ok(())
     }
 
-    fn next_knot(&self, from: (f64, Leg), end: f64) -> Option<Knot> {
+    fn next_knot(&self, from: (f64, Legs), end: f64) -> Option<Knot> {
         next_knot(self.problem.model, self.problem.drive, from, end, &self.progress.cells)
     }
 
@@ -151,13 +154,13 @@ impl Stepper<'_> {
     fn pass(&mut self, at: Knot, tau: f64, end: f64, at_once: &mut usize) -> Result<Option<Knot>, StepError> {
         *at_once += 1;
         let model = self.problem.model;
-        let knots = model.outer.defect.as_ref().map_or(0, |defect| defect.knots().len());
+        let knots: usize = model.all_defects().map(Defects::knot_count).sum();
         // Each element can pass each knot once.
         if *at_once > model.element_count * knots {
             return Err(StepError::TooFast { count: *at_once, since: tau });
         }
-        self.progress.cells[at.element] = at.cell;
-        Ok(self.next_knot((tau, at.leg), end))
+        at.contact.enter(at.cell, &mut self.progress.cells);
+        Ok(self.next_knot((tau, at.legs), end))
     }
 
     /// Takes one step from `from` that goes no further than `to`, as long as error control and contact changes allow,
@@ -165,9 +168,10 @@ impl Stepper<'_> {
     fn accepted_step(&mut self, from: f64, to: f64) -> Result<f64, StepError> {
         let remaining = to - from;
         let tolerance = self.control.tolerance;
-        // A landing on a contact change: the step that ends there.
+        // A landing on a contact change or a crossing: the step that ends there.
         let mut landing = None;
-        let mut tried = 0;
+        let mut crossing: Option<Crossing> = None;
+        let (mut tried, mut at_once) = (0, 0);
         loop {
             let Self { problem, workspace, progress, .. } = self;
             let wanted = progress.choice.limited(progress.next_step);
@@ -188,19 +192,41 @@ impl Stepper<'_> {
                 let factor =
                     if error.is_finite() { step_factor(workspace, error, 1.0, progress).clamp(0.1, 0.9) } else { 0.1 };
                 progress.next_step = h * factor;
-                landing = None;
+                (landing, crossing) = (None, None);
                 check_step(workspace, *problem, span, error, progress)?;
                 continue;
             }
+            if landing.is_none() && problem.model.has_inner_defects() {
+                crossing = first_crossing(workspace, *problem, span, progress);
+            }
+            if let Some(found) = crossing.filter(|found| landing.is_none() && found.share <= CLOSEST_CHANGE) {
+                crossing = None;
+                at_once += 1;
+                // Each contact enters a cell and perhaps leaves it again; what goes on for longer than that stands on
+                // the knot, and its motion is the same in both cells.
+                if at_once <= 2 * problem.model.contact_count() {
+                    progress.rejected_steps += 1;
+                    found.contact.enter(found.cell, &mut progress.cells);
+                    workspace.first_stage(*problem, from, progress);
+                    continue;
+                }
+            }
             if workspace.changed && landing.is_none() {
                 let share = first_change(workspace, *problem, span, tolerance, progress);
-                if share > CLOSEST_CHANGE && share < 1.0 {
+                let before = crossing.is_none_or(|crossing| share < crossing.share);
+                if share > CLOSEST_CHANGE && share < 1.0 && before {
+                    crossing = None;
                     progress.rejected_steps += 1;
                     landing = Some(share * h);
                     // The contacts that change there, by the dense output: the shorter step may end a hair before.
                     workspace.forces.note_pushing(&mut progress.pushing);
                     continue;
                 }
+            }
+            if let Some(found) = crossing.filter(|_| landing.is_none()) {
+                progress.rejected_steps += 1;
+                landing = Some(found.share * h);
+                continue;
             }
             if workspace.changed && landing.is_none() {
                 workspace.forces.note_pushing(&mut progress.pushing);
@@ -213,6 +239,10 @@ impl Stepper<'_> {
             self.record(span);
             self.accept(span)?;
             self.choose(span, Taken { tried, short });
+            if let Some(found) = crossing {
+                found.contact.enter(found.cell, &mut self.progress.cells);
+                self.workspace.first_stage(self.problem, span.end(), self.progress);
+            }
             return Ok(h);
         }
     }
@@ -226,7 +256,7 @@ impl Stepper<'_> {
             probe(workspace, *problem, span, (tau - span.from).max(0.0) / span.length, progress);
             let Workspace { dense, scratch, forces, .. } = &**workspace;
             let outputs =
-                Outputs::new(problem.model, (problem.drive, tau), (dense, scratch), forces, recorder.cage_angle());
+                Outputs::new(problem.model, (problem.drive, tau), (dense, scratch), forces, recorder.angles());
             recorder.take(&mut progress.due, &mut progress.under_way, &outputs);
         }
         // What the recorder looks up is not the solver's work.

@@ -4,7 +4,7 @@
 
 use super::quantity::{Count, Parameter, Quantity, Quantity as Q, RingName};
 use super::variables::{Causality, Kind, Unit, Variability, Variable};
-use crate::scene::{ContactLaw, Damping, Motion, Scene};
+use crate::scene::{ContactLaw, Damping, DefectOn, Motion, Scene};
 
 /// Items of the enumeration type of `contact.law`, the first having value 1.
 pub const CONTACT_LAWS: &[(&str, &str)] = &{
@@ -56,11 +56,16 @@ impl Builder<'_> {
         self.input(
             "shaft.speed",
             "Speed of the inner ring, counter-clockwise",
-            Q::ShaftSpeed,
+            Q::Speed(RingName::Shaft),
             Unit::RadianPerSecond,
             scene.shaft_speed,
             (1e5, 100.0),
         );
+        if let Some(speed) = scene.housing_speed {
+            let text = "Speed of the outer ring, counter-clockwise";
+            let (quantity, unit) = (Q::Speed(RingName::Housing), Unit::RadianPerSecond);
+            self.input("housing.speed", text, quantity, unit, speed, (1e5, 100.0));
+        }
         for ring in RINGS {
             let (name, what, load) = match ring {
                 RingName::Shaft => ("shaft", "inner ring", scene.shaft.load),
@@ -103,6 +108,7 @@ impl Builder<'_> {
         for ring in RINGS {
             self.ring_outputs(ring);
         }
+        self.turning_outputs();
         for (row, a) in AXES.iter().enumerate() {
             for (column, b) in AXES.iter().enumerate() {
                 self.output(
@@ -138,6 +144,36 @@ impl Builder<'_> {
         self.counters();
     }
 
+    /// Angles of rings that bear a defect or turn, and the torque on one with a defect.
+    fn turning_outputs(&mut self) {
+        if self.defect_on() == Some(DefectOn::Inner) {
+            self.ring_angle(RingName::Shaft);
+            self.output(
+                "shaft.torque",
+                "Torque of contacts at the defect on the inner ring about its centre",
+                Q::ShaftTorque,
+                Unit::NewtonMetre,
+                0.1,
+            );
+        }
+        if self.scene.housing_speed.is_some() {
+            self.ring_angle(RingName::Housing);
+        }
+    }
+
+    fn ring_angle(&mut self, ring: RingName) {
+        let (name, what) = match ring {
+            RingName::Shaft => ("shaft.angle", "inner ring"),
+            RingName::Housing => ("housing.angle", "outer ring"),
+        };
+        let text = ["Angle of the ", what, ", counter-clockwise"].concat();
+        self.output(name, &text, Q::RingAngle(ring), Unit::Radian, 1.0);
+    }
+
+    fn defect_on(&self) -> Option<DefectOn> {
+        self.scene.defect.as_ref().map(|defect| defect.on)
+    }
+
     fn element_outputs(&mut self, j: usize) {
         let n = (j + 1).to_string();
         // Concatenated: setting up an instance is mostly writing names.
@@ -171,6 +207,17 @@ impl Builder<'_> {
             Unit::Newton,
             100.0,
         );
+        if let Some(DefectOn::Element { element, .. }) = self.defect_on()
+            && element == j
+        {
+            self.output(
+                &name("].spin_angle"),
+                &text("Angle of the defect of element ", ", counter-clockwise from where it faces the outer raceway"),
+                Q::ElementSpinAngle(j),
+                Unit::Radian,
+                1.0,
+            );
+        }
     }
 
     fn counters(&mut self) {
@@ -267,12 +314,17 @@ impl Builder<'_> {
         if let Some(defect) = &scene.defect {
             self.parameter(
                 "defect.angle",
-                "Angle of the defect's centre, counter-clockwise from +x",
+                match defect.on {
+                    DefectOn::Outer => "Angle of the defect's centre, counter-clockwise from +x",
+                    DefectOn::Inner => "Angle of the defect's centre at the start, counter-clockwise from +x",
+                    DefectOn::Element { .. } => "Angle of the defect's centre at the start, 0 facing the outer raceway",
+                },
                 Q::Parameter(Parameter::DefectAngle),
                 Unit::Radian,
                 limited(defect.angle, -1e3, 1e3, 1.0),
             );
         }
+        self.turning_parameters();
         for ring in RINGS {
             if self.motion(ring) == Motion::Internal {
                 self.ring_parameters(ring);
@@ -292,6 +344,32 @@ impl Builder<'_> {
                 Kind::Text { start: String::new() },
                 (Causality::Parameter, Variability::Fixed),
                 Q::Parameter(Parameter::RecorderFolder),
+            );
+        }
+    }
+
+    /// Where rings that bear a defect or turn begin, and how much spin is lost.
+    fn turning_parameters(&mut self) {
+        let (scene, on) = (self.scene, self.defect_on());
+        let mut angle = |name: &str, what: &str, ring, start| {
+            let (quantity, unit) = (Q::Parameter(Parameter::RingInitialAngle(ring)), Unit::Radian);
+            self.parameter(name, what, quantity, unit, limited(start, -1e3, 1e3, 1.0));
+        };
+        if on == Some(DefectOn::Inner) {
+            let what = "Angle of the inner ring at the start, counter-clockwise";
+            angle("shaft.initial_angle", what, RingName::Shaft, scene.shaft_initial_angle);
+        }
+        if scene.housing_speed.is_some() {
+            let what = "Angle of the outer ring at the start, counter-clockwise";
+            angle("housing.initial_angle", what, RingName::Housing, scene.housing_initial_angle);
+        }
+        if matches!(on, Some(DefectOn::Element { .. })) {
+            self.parameter(
+                "element.spin_slip",
+                "Lag of the elements' spin behind pure rolling",
+                Q::Parameter(Parameter::SpinSlip),
+                Unit::One,
+                limited(scene.cage.spin_slip, -1.0, 1.0, 0.01),
             );
         }
     }

@@ -129,14 +129,14 @@ pub enum SurfaceError {
         needed: usize,
     },
     /// A measurement as long as the raceway or longer.
-    #[error(
-        "defect profile: it is {length_mm:.6} mm long, it must be below {limit_mm:.6} mm, the circumference of the outer raceway"
-    )]
+    #[error("defect profile: it is {length_mm:.6} mm long, it must be below {limit_mm:.6} mm, {limit}")]
     TooLong {
         /// Length [mm].
         length_mm: f64,
-        /// Circumference of the outer raceway [mm].
+        /// Limit [mm].
         limit_mm: f64,
+        /// What that is.
+        limit: &'static str,
     },
     /// A rim so far above the deepest point that an element there would meet it with its side.
     #[error(
@@ -152,14 +152,16 @@ pub enum SurfaceError {
     /// A depth, or a rim, as large as an element's radius.
     #[error(
         "defect profile: the depth is {depth_um:.3} um, {arc_mm:.6} mm from the middle of the trace: its magnitude must be \
-         below {limit_um:.3} um, the radius of an element"
+         below {limit_um:.3} um, {limit}"
     )]
     TooDeep {
         /// Arc from the middle [mm].
         arc_mm: f64,
         /// Depth [µm].
         depth_um: f64,
-        /// Radius of an element [µm].
+        /// Limit [µm].
         limit_um: f64,
+        /// What that is.
+        limit: &'static str,
     },
 }

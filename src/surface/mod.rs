@@ -1,8 +1,8 @@
-//! The outer raceway as it was measured or described.
+//! A raceway or an element as it was measured or described.
 //!
-//! Everywhere the arc s [m] runs along the outer raceway at the groove's bottom, counter-clockwise, from the defect's
-//! centre, and the depth h [m] is that of a depression: positive into the ring. Outside the defect the raceway is
-//! smooth, h = 0. A raised rim is a negative depth.
+//! Everywhere the arc s [m] runs along the body's surface at the groove's bottom or on the element's track,
+//! counter-clockwise in the body's own sense, from the defect's centre, and the depth h [m] is that of a depression:
+//! positive into the body. Outside the defect the surface is smooth, h = 0. A raised rim is a negative depth.
 
 mod csv;
 mod error;
@@ -14,10 +14,9 @@ pub use error::SurfaceError;
 pub use profile::Profile;
 pub use topography::Topography;
 
-use crate::scene::{Bearing, DefectShape};
-use std::f64::consts::TAU;
+use crate::scene::{Bearing, Defect, DefectOn, DefectShape};
 
-/// The defect of an outer raceway.
+/// The surface of a defect.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Surface {
     /// The same depth over the whole width of the raceway.
@@ -27,16 +26,17 @@ pub enum Surface {
 }
 
 impl Surface {
-    /// The surface of a defect in this bearing. `profile_text` is the text of the file that the shape names.
+    /// The surface of a defect in this bearing. `profile_text` is the text of the file that its shape names.
     ///
     /// A file with a column `axial_mm` is a topography, one without a trace.
     ///
     /// # Errors
-    /// A file that is missing, cannot be read, is longer than the raceway or deeper than an element's radius.
-    pub fn load(shape: &DefectShape, profile_text: Option<&str>, bearing: &Bearing) -> Result<Self, SurfaceError> {
-        let name = match shape {
+    /// A file that is missing, cannot be read, is longer than the body is around or deeper than it may be.
+    pub fn load(defect: &Defect, profile_text: Option<&str>, bearing: &Bearing) -> Result<Self, SurfaceError> {
+        let name = match &defect.shape {
             DefectShape::Spall { length, depth, edge_slope } => {
-                return Ok(Self::Profile(Profile::spall(*length, *depth, *edge_slope)));
+                let met = defect.on.met_length(*length, bearing);
+                return Ok(Self::Profile(Profile::spall(met, *depth, *edge_slope)));
             }
             DefectShape::Profile(name) => name,
         };
@@ -46,7 +46,7 @@ impl Surface {
         } else {
             Self::Profile(Profile::from_csv(text)?)
         };
-        surface.check_fits(TAU * bearing.outer_raceway_radius(), bearing.element_radius())?;
+        surface.check_fits(defect.on, bearing)?;
         Ok(surface)
     }
 
@@ -54,12 +54,12 @@ impl Surface {
     ///
     /// # Errors
     /// A surface that becomes deeper than an element's radius.
-    pub fn scaled(&self, factor: f64, bearing: &Bearing) -> Result<Self, SurfaceError> {
+    pub fn scaled(&self, factor: f64, on: DefectOn, bearing: &Bearing) -> Result<Self, SurfaceError> {
         let scaled = match self {
             Self::Profile(profile) => Self::Profile(profile.scaled(factor)),
             Self::Topography(topography) => Self::Topography(topography.scaled(factor)),
         };
-        scaled.check_fits(TAU * bearing.outer_raceway_radius(), bearing.element_radius())?;
+        scaled.check_fits(on, bearing)?;
         Ok(scaled)
     }
 
@@ -104,21 +104,24 @@ impl Surface {
         }
     }
 
-    /// Refuses a surface that is not possible on a raceway of this circumference [m] under elements of this radius [m].
-    fn check_fits(&self, circumference: f64, element_radius: f64) -> Result<(), SurfaceError> {
+    /// Refuses a surface that is not possible on a body of this bearing.
+    fn check_fits(&self, on: DefectOn, bearing: &Bearing) -> Result<(), SurfaceError> {
+        let ((longest, limit), element_radius) = (on.longest(bearing), bearing.element_radius());
         let (first, last) = self.extent();
-        if last - first >= circumference {
-            return Err(SurfaceError::TooLong { length_mm: (last - first) * 1e3, limit_mm: circumference * 1e3 });
+        if last - first >= longest {
+            return Err(SurfaceError::TooLong { length_mm: (last - first) * 1e3, limit_mm: longest * 1e3, limit });
         }
         let (arc, depth) = match self {
             Self::Profile(profile) => profile.farthest(),
             Self::Topography(topography) => topography.farthest(),
         };
-        if depth.abs() >= element_radius {
+        let (deepest, limit) = on.deepest(bearing);
+        if depth.abs() >= deepest {
             return Err(SurfaceError::TooDeep {
                 arc_mm: arc * 1e3,
                 depth_um: depth * 1e6,
-                limit_um: element_radius * 1e6,
+                limit_um: deepest * 1e6,
+                limit,
             });
         }
         let (shallowest, deepest) = self.depths().fold((0.0_f64, 0.0_f64), |(low, high), h| (low.min(h), high.max(h)));

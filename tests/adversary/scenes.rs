@@ -9,6 +9,7 @@ use crate::draw::{Draw, for_seeds, seeds};
 use crate::oracle::Bearing;
 use crate::subject::Subject;
 use brinell::contact::error::ContactError;
+use brinell::contact::near_defect::Lever;
 use brinell::simulation::SimulationError;
 use judge::judge;
 use report::{Came, Entry, Tally};
@@ -115,7 +116,9 @@ fn random_rigid_paths_are_the_envelope() {
         if envelope.leaps() {
             return Err("an element that only its side holds is not refused".to_owned());
         }
-        let Some(defect) = &simulation.equations().0.outer.defect else { return Err("no defect".to_owned()) };
+        let Some(defect) = &simulation.equations().0.outer.defects.iter().next().cloned() else {
+            return Err("no defect".to_owned());
+        };
         let near = &defect.surface;
         let (knots, rho) = (near.knots(), oracle.rho_0);
         // Around each knot and change, along the defect, and anywhere.
@@ -128,7 +131,10 @@ fn random_rigid_paths_are_the_envelope() {
             let found = if cell == 0 || cell == knots.len() {
                 0.0
             } else {
-                -near.approach(cell - 1, 0.0, psi, rho).map_err(|error| error.to_string())?.value
+                -near
+                    .approach(cell - 1, 0.0, psi, Lever { distance: rho, by_approach: 1.0 })
+                    .map_err(|error| error.to_string())?
+                    .value
             };
             let expected = envelope.touched(psi).1 - rho;
             // Roundings of the radii, and the polynomials that the path is kept as.

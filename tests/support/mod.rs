@@ -50,7 +50,7 @@ static MAPS: Mutex<BTreeMap<u64, Arc<OnceLock<Vec<u8>>>>> = Mutex::new(BTreeMap:
 /// Beside it a fingerprint of the sources that compute maps is kept, so that none outlives a change of them.
 pub fn map_of(scene: &Scene, profile: Option<&str>) -> Option<Vec<u8>> {
     let defect = scene.defect.as_ref().filter(|_| scene.contact.law == ContactLaw::Map)?;
-    let surface = Surface::load(&defect.shape, profile, &scene.bearing).unwrap();
+    let surface = Surface::load(defect, profile, &scene.bearing).unwrap();
     let wanted = setup::map_fingerprint(scene, &surface);
     let map = Arc::clone(MAPS.lock().unwrap().entry(wanted).or_default());
     let bytes = map.get_or_init(|| {

@@ -10,6 +10,7 @@ use brinell::dynamics::equilibrium::EquilibriumError;
 use brinell::dynamics::forces::Forces;
 use brinell::dynamics::jacobian::Jacobian;
 use brinell::dynamics::model::Model;
+use brinell::dynamics::raceway::Cells;
 use brinell::numerics::wrap;
 use brinell::scene::{Motion, Scene};
 use brinell::simulation::setup::{build_model, largest_force, stored_map};
@@ -24,6 +25,8 @@ pub struct Assembly {
     /// The same with a shaft that moves under its load, where a held shaft has one: says where it is held.
     seat: Option<Model>,
     loads: [[f64; 2]; 2],
+    /// Angles of cage, inner and outer ring at the start of the scene [rad].
+    angles: [f64; 3],
     /// Length of the defect [rad] and the angle of its centre.
     defect: Option<(f64, f64)>,
 }
@@ -110,7 +113,7 @@ impl Assembly {
             // Prescribed, at the position that is found for it.
             still.shaft.motion = Motion::Host;
         }
-        let load = |surface: &brinell::scene::Defect| Surface::load(&surface.shape, profile, &scene.bearing);
+        let load = |surface: &brinell::scene::Defect| Surface::load(surface, profile, &scene.bearing);
         let surface = scene.defect.as_ref().map(load).transpose()?;
         let map = match (&surface, map) {
             (Some(surface), Some(bytes)) => Some(Arc::new(stored_map(scene, surface, bytes)?)),
@@ -125,12 +128,13 @@ impl Assembly {
             (seat.shaft.stiffness, seat.shaft.damping) = (0.0, 0.0);
             build_model(&seat, surface.as_ref(), map.as_ref())
         });
-        let radius = scene.bearing.outer_raceway_radius();
+        let radius = scene.defect.as_ref().map_or(1.0, |defect| defect.on.radius(&scene.bearing));
         let extent = surface.as_ref().map(Surface::extent).map(|(first, last)| (last - first) / radius);
         Ok(Self {
             model,
             seat: seat.transpose()?,
             loads: [scene.shaft.load, scene.housing.load],
+            angles: [scene.cage.initial_angle, scene.shaft_initial_angle, scene.housing_initial_angle],
             defect: extent.zip(scene.defect.as_ref().map(|defect| defect.angle)),
         })
     }
@@ -200,15 +204,15 @@ impl Assembly {
     pub(super) fn at_rest(&self, cage_angle: f64) -> Result<AtRest, StaticError> {
         let model = &self.model;
         let count = model.element_count;
-        let cells: Vec<u32> = (0..count).map(|j| model.cell_at(j, cage_angle)).collect();
         let [shaft_load, housing_load] = self.loads.map(|load| load.map(Quadratic::constant));
-        let mut drive = Drive { cage_start: cage_angle, shaft_load, housing_load, ..Drive::default() };
+        let frames = [self.angles[1], self.angles[2], model.spin_with_cage(cage_angle - self.angles[0])];
+        let mut drive = Drive { shaft_load, housing_load, ..Drive::standing(cage_angle, frames) };
         if let Some(seat) = &self.seat {
-            let state = self.equilibrium(seat, &drive, &cells)?;
+            let (_, state) = self.equilibrium(seat, &drive)?;
             let position = seat.shaft_state(&drive, 0.0, &state).position;
             drive.shaft = [position.x, position.y].map(|x| Cubic([x, 0.0, 0.0, 0.0]));
         }
-        let state = self.equilibrium(model, &drive, &cells)?;
+        let (cells, state) = self.equilibrium(model, &drive)?;
         let mut forces = Forces::new(count);
         model.derivative(&drive, 0.0, &cells, &state, &mut vec![0.0; state.len()], &mut forces);
         let mut jacobian = Jacobian::new(model);
@@ -230,13 +234,14 @@ impl Assembly {
         })
     }
 
-    fn equilibrium(&self, model: &Model, drive: &Drive, cells: &[u32]) -> Result<Vec<f64>, StaticError> {
+    fn equilibrium(&self, model: &Model, drive: &Drive) -> Result<(Cells, Vec<f64>), StaticError> {
         let mut state = vec![0.0; model.layout.len];
-        model.equilibrium(drive, cells, &mut state).map_err(|cause: EquilibriumError| StaticError::Equilibrium {
+        let found = model.equilibrium_with_cells(drive, &mut state);
+        let cells = found.map_err(|cause: EquilibriumError| StaticError::Equilibrium {
             cage_angle_deg: drive.cage_start.to_degrees(),
             load: self.loads[0],
             cause,
         })?;
-        Ok(state)
+        Ok((cells, state))
     }
 }

@@ -14,13 +14,13 @@
 //! The load zone is the arc of smooth raceway on which the displaced inner ring squeezes: |ψ| < ψ_l from the direction
 //! of its displacement, cos ψ_l = G_r/|x|. It says where a healthy bearing's elements carry, with any number of them.
 
-use brinell::contact::map::ContactMap;
+use brinell::contact::contact_maps::ContactMaps;
 use brinell::dynamics::drive::{Drive, Quadratic};
 use brinell::dynamics::equilibrium::EquilibriumError;
 use brinell::dynamics::forces::Forces;
 use brinell::dynamics::model::Model;
 use brinell::numerics::wrap;
-use brinell::scene::{Motion, Ring, Scene, SceneError};
+use brinell::scene::{DefectOn, Motion, Ring, Scene, SceneError};
 use brinell::simulation::SimulationError;
 use brinell::simulation::setup::{build_model, largest_force, stored_map};
 use brinell::surface::{Surface, SurfaceError};
@@ -129,8 +129,7 @@ impl StaticBearing {
     /// Those of `new`; a map that is damaged or belongs to something else.
     pub fn with_map(scene: &Scene, profile: Option<&str>, map: Option<&[u8]>) -> Result<Self, StaticError> {
         scene.check()?;
-        let surface =
-            scene.defect.as_ref().map(|defect| Surface::load(&defect.shape, profile, &scene.bearing)).transpose()?;
+        let surface = scene.defect.as_ref().map(|defect| Surface::load(defect, profile, &scene.bearing)).transpose()?;
         let map = match (&surface, map) {
             (Some(surface), Some(bytes)) => Some(Arc::new(stored_map(scene, surface, bytes)?)),
             _ => None,
@@ -150,9 +149,9 @@ impl StaticBearing {
     fn with_surface(
         scene: Scene,
         surface: Option<Surface>,
-        map: Option<&Arc<ContactMap>>,
+        map: Option<&Arc<ContactMaps>>,
     ) -> Result<Self, StaticError> {
-        let radius = scene.bearing.outer_raceway_radius();
+        let radius = scene.defect.as_ref().map_or(1.0, |defect| defect.on.radius(&scene.bearing));
         let model = build_model(&scene, surface.as_ref(), map)?;
         let extent = surface.as_ref().map(Surface::extent).map(|(first, last)| [first / radius, last / radius]);
         Ok(Self { model, extent, surface, scene, load: [0.0; 2] })
@@ -182,26 +181,25 @@ impl StaticBearing {
             return Err(StaticError::NoLoad { load });
         }
         let model = &self.model;
-        let drive = Drive { cage_start: cage_angle, shaft_load: load.map(Quadratic::constant), ..Drive::default() };
-        let cells: Vec<u32> = (0..model.element_count).map(|j| model.cell_at(j, cage_angle)).collect();
+        let spin = model.spin_with_cage(cage_angle - self.scene.cage.initial_angle);
+        let frames = [self.scene.shaft_initial_angle, self.scene.housing_initial_angle, spin];
+        let drive = Drive { shaft_load: load.map(Quadratic::constant), ..Drive::standing(cage_angle, frames) };
         let mut state = vec![0.0; model.layout.len];
-        model.equilibrium(&drive, &cells, &mut state).map_err(|cause| StaticError::Equilibrium {
-            cage_angle_deg: cage_angle.to_degrees(),
-            load,
-            cause,
-        })?;
+        let found = model.equilibrium_with_cells(&drive, &mut state);
+        let cells =
+            found.map_err(|cause| StaticError::Equilibrium { cage_angle_deg: cage_angle.to_degrees(), load, cause })?;
         let mut forces = Forces::new(model.element_count);
         model.derivative(&drive, 0.0, &cells, &state, &mut vec![0.0; state.len()], &mut forces);
         let displacement = model.shaft_state(&drive, 0.0, &state).position;
         let paths = &state[..model.element_count];
-        let jacobian = model.ring_jacobian(paths, &cells, -displacement, cage_angle);
+        let jacobian = model.ring_jacobian(paths, &cells, &model.kinematics(&drive, 0.0, &state));
         let elements = (0..model.element_count).map(|j| LoadedElement {
             angle: wrap(cage_angle + model.element_offset(j)),
             path: paths[j],
             inner_force: forces.contacts.inner[j],
             outer_force: forces.contacts.outer[j],
             inner_approach: forces.contacts.inner_approach[j],
-            in_defect: self.is_in_defect(j, cage_angle),
+            in_defect: self.is_in_defect(cage_angle + model.element_offset(j)),
         });
         Ok(Balance {
             cage_angle,
@@ -238,7 +236,11 @@ impl StaticBearing {
     /// # Errors
     /// No defect; a defect that becomes deeper than an element's radius.
     pub fn with_depth_times(&self, factor: f64) -> Result<Self, StaticError> {
-        let surface = self.surface.as_ref().ok_or(StaticError::NoDefect)?.scaled(factor, &self.scene.bearing)?;
+        let surface = self.surface.as_ref().ok_or(StaticError::NoDefect)?.scaled(
+            factor,
+            self.defect_on(),
+            &self.scene.bearing,
+        )?;
         let mut other = Self::with_surface(self.scene.clone(), Some(surface), None)?;
         other.load = self.load;
         Ok(other.with_clearance(self.model.radial_clearance).with_outer_compliance(self.model.outer.contact.compliance))
@@ -246,7 +248,7 @@ impl StaticBearing {
 
     /// First and last angle of the defect [rad] from its centre, and the angle of its centre.
     pub(super) fn extent(&self) -> Option<([f64; 2], f64)> {
-        self.extent.zip(self.model.outer.defect.as_ref().map(|defect| defect.centre))
+        self.extent.zip(self.model.outer.defects.iter().next().map(|defect| defect.centre))
     }
 
     /// Length of the defect along the raceway [rad]; `None` without one.
@@ -254,9 +256,14 @@ impl StaticBearing {
         self.extent.map(|[first, last]| last - first)
     }
 
-    fn is_in_defect(&self, j: usize, cage_angle: f64) -> bool {
+    /// The body that bears the defect.
+    fn defect_on(&self) -> DefectOn {
+        self.scene.defect.as_ref().map_or(DefectOn::Outer, |defect| defect.on)
+    }
+
+    fn is_in_defect(&self, direction: f64) -> bool {
         self.extent().is_some_and(|([first, last], _)| {
-            let angle = self.model.angle_from_defect(j, cage_angle);
+            let angle = self.model.outer.defects.angle(direction);
             angle >= first && angle <= last
         })
     }

@@ -15,7 +15,7 @@ use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::resources::ResourceError;
-use brinell::contact::map::ContactMap;
+use brinell::contact::contact_maps::ContactMaps;
 use brinell::contact::map_format::{HEAD, TAIL};
 use brinell::simulation::{Simulation, SimulationError};
 
@@ -60,11 +60,11 @@ impl<'p> StoredMap<'p> {
     }
 
     /// Reads and checks all of the file.
-    fn read(&mut self) -> Result<ContactMap, ResourceError> {
+    fn read(&mut self) -> Result<ContactMaps, ResourceError> {
         let mut bytes = Vec::new();
         let all = self.file.rewind().and_then(|()| self.file.read_to_end(&mut bytes));
         all.map_err(|cause| ResourceError::unreadable(self.path, cause))?;
-        Ok(ContactMap::decode(&bytes).map_err(SimulationError::from)?)
+        Ok(ContactMaps::decode(&bytes).map_err(SimulationError::from)?)
     }
 }
 
@@ -73,7 +73,7 @@ impl<'p> StoredMap<'p> {
 struct Model {
     guid: String,
     label: Option<Label>,
-    map: Option<Arc<ContactMap>>,
+    map: Option<Arc<ContactMaps>>,
     /// Every variable at its start value.
     prototype: Mutex<Simulation>,
 }
@@ -101,7 +101,7 @@ impl SharedModel {
     pub(super) fn obtain(
         guid: String,
         map_file: &Path,
-        set_up: impl FnOnce(Option<Arc<ContactMap>>) -> Result<Simulation, SimulationError>,
+        set_up: impl FnOnce(Option<Arc<ContactMaps>>) -> Result<Simulation, SimulationError>,
     ) -> Result<Self, ResourceError> {
         let mut stored = StoredMap::find(map_file)?;
         let label = stored.as_ref().map(|stored| stored.label);

@@ -14,7 +14,7 @@ struct Asked {
 
 /// What is said to several defects, or to one elsewhere.
 pub(super) const DEFECTS: &str =
-    "defects on the outer raceway only, so far: one table [defect], without a key for the raceway";
+    "one defect so far: one table [defect], whose key `on` is \"outer\", \"inner\" or \"element\"";
 const BALLS: &str = "rolling elements are balls, so far; rollers with their line contacts are not";
 const PLANE: &str = "the rings move in one plane, so far: no axial load, no contact angle, no tilt";
 const DRY: &str = "contacts without lubricant and friction, so far";
@@ -23,7 +23,7 @@ const ASKED: [Asked; 5] = [
     Asked { tables: &[""], names: &["race"], parts: &["defect", "spall", "raceway", "_race"], only: DEFECTS },
     Asked {
         tables: &["defect"],
-        names: &["on", "race", "side", "where", "location", "position", "ring", "surface", "part", "element", "ball"],
+        names: &["race", "side", "where", "location", "position", "ring", "surface", "part", "ball", "on_ring"],
         parts: &["raceway", "inner", "outer", "defect", "spall"],
         only: DEFECTS,
     },

@@ -8,6 +8,8 @@ use serde::Deserialize;
 pub(super) struct ShaftTable {
     motion: Motion,
     pub(super) speed_hz: f64,
+    #[serde(default)]
+    pub(super) initial_angle_deg: f64,
     load_n: Option<[f64; 2]>,
     mass_kg: Option<f64>,
     damping_n_s_m: Option<f64>,
@@ -18,6 +20,9 @@ pub(super) struct ShaftTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct HousingTable {
     motion: Motion,
+    pub(super) speed_hz: Option<f64>,
+    #[serde(default)]
+    pub(super) initial_angle_deg: f64,
     load_n: Option<[f64; 2]>,
     mass_kg: Option<f64>,
     damping_n_s_m: Option<f64>,

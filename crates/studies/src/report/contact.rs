@@ -12,6 +12,7 @@ use brinell::contact::love::LoveContact;
 use brinell::contact::map_plan::MapPlan;
 use brinell::contact::map_specification::{MapSpecification, Sequential};
 use brinell::contact::raceway_grid::{ElementOnRaceway, Resolution};
+use brinell::contact::rolling::RacewaySide;
 use brinell::surface::{Profile, Surface};
 use cpu_time::ThreadTime;
 
@@ -23,8 +24,12 @@ use fmu_build::whole_file;
 const LARGEST: f64 = 10e-6;
 /// Length of the spall [m]: 15.8°.
 const LENGTH: f64 = 6.517e-3;
-const ELEMENT: ElementOnRaceway =
-    ElementOnRaceway { element_radius: 3.97e-3, raceway_radius: 23.6325e-3, groove_radius: 4.095e-3 };
+const ELEMENT: ElementOnRaceway = ElementOnRaceway {
+    element_radius: 3.97e-3,
+    raceway_radius: 23.6325e-3,
+    groove_radius: 4.095e-3,
+    raceway: RacewaySide::Outer,
+};
 /// Contacts timed together.
 const GRID_CONTACTS: usize = 50;
 const MAP_CONTACTS: usize = 100_000;

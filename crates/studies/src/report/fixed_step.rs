@@ -7,6 +7,7 @@
 use brinell::dynamics::drive::Drive;
 use brinell::dynamics::forces::Forces;
 use brinell::dynamics::model::Model;
+use brinell::dynamics::raceway::Cells;
 use brinell::simulation::Simulation;
 
 use super::run::{RATE, Signals};
@@ -25,7 +26,7 @@ pub(super) enum FixedStep {
 pub(super) struct FixedRun {
     model: Model,
     drive: Drive,
-    cells: Vec<u32>,
+    cells: Cells,
     forces: Forces,
     state: Vec<f64>,
     moved: Vec<f64>,
@@ -41,7 +42,7 @@ impl FixedRun {
         Self {
             model: model.clone(),
             drive,
-            cells: vec![0; model.element_count],
+            cells: Cells::smooth(model.element_count, model.defective.len()),
             forces: Forces::new(model.element_count),
             moved: zeros.clone(),
             slopes: [zeros.clone(), zeros.clone(), zeros.clone(), zeros],
@@ -84,14 +85,7 @@ impl FixedRun {
 
     /// Derivative of `moved` at `tau` into slope `k`.
     fn slope(&mut self, k: usize, tau: f64) {
-        let angle = self.drive.cage_angle(tau);
-        if self.model.outer.defect.is_some() {
-            for j in 0..self.model.element_count {
-                self.cells[j] = self.model.cell_at(j, angle);
-            }
-        } else {
-            self.cells.fill(brinell::dynamics::raceway::SMOOTH);
-        }
+        self.cells = self.model.cells_at(&self.drive, tau, &self.moved);
         self.model.derivative(&self.drive, tau, &self.cells, &self.moved, &mut self.slopes[k], &mut self.forces);
     }
 

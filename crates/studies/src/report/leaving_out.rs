@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use anyhow::Result;
-use brinell::scene::{ContactLaw, Defect, DefectShape, Motion, Recorder, RecorderFilter, Ring, Scene, Sensor};
+use brinell::scene::{
+    ContactLaw, Defect, DefectOn, DefectShape, Motion, Recorder, RecorderFilter, Ring, Scene, Sensor,
+};
 use brinell::simulation::Simulation;
 
 use super::Extent;
@@ -57,6 +59,7 @@ pub(super) fn measure(extent: Extent, data: &Path) -> Result<Vec<Part>> {
     scene.sensor = full.sensor.or(Some(Sensor { mass: 1.0, stiffness: 8.8826e9, damping: 9424.8 }));
     add("+ accelerometer", &scene, Seen::Nothing)?;
     scene.defect = Some(Defect {
+        on: DefectOn::Outer,
         angle: -std::f64::consts::FRAC_PI_2,
         shape: DefectShape::Spall { length: 0.8e-3, depth: 50e-6, edge_slope: std::f64::consts::FRAC_PI_2 },
     });

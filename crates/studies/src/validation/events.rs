@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use anyhow::{Context, Result};
 use brinell::contact::rigid_path::RigidPath;
+use brinell::contact::rolling::{RacewaySide, Rolling};
 use brinell::scene::ContactLaw;
 use brinell::surface::Surface;
 use brinell_analysis::{ringing, synthesis};
@@ -142,9 +143,9 @@ fn rings_after(project: &Project, case: &Case, length: f64) -> Result<String> {
 fn path_of(case: &Case) -> Result<(Surface, RigidPath)> {
     let bearing = &case.scene.bearing;
     let defect = case.scene.defect.as_ref().context("no defect")?;
-    let surface = Surface::load(&defect.shape, case.profile(), bearing)?;
+    let surface = Surface::load(defect, case.profile(), bearing)?;
     let Surface::Profile(profile) = &surface else { anyhow::bail!("a topography has no one path") };
-    let path = RigidPath::new(profile.points(), bearing.element_radius(), bearing.outer_raceway_radius())?;
+    let path = RigidPath::new(profile.points(), Rolling::of(bearing, RacewaySide::Outer, false))?;
     Ok((surface, path))
 }
 

@@ -1,0 +1,119 @@
+//! The contact maps of one scene: one for a defect of a ring, two for one of an element, which meets both raceways.
+//!
+//! As bytes one map is itself; two are kept together, with a head and a checksum like a map's.
+
+use std::hash::Hasher;
+use std::sync::Arc;
+
+use super::error::ContactError;
+use super::map::{Accuracy, ContactMap};
+use super::map_format::refused;
+use crate::numerics::bytes::Reader;
+use crate::numerics::checksum::{Checksum, checksum};
+
+const MAGIC: &[u8; 8] = b"BRNL-MPS";
+const VERSION: u32 = 1;
+
+/// Maps in the order of the raceways, the inner one first.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ContactMaps(Vec<Arc<ContactMap>>);
+
+impl ContactMaps {
+    /// One map or two.
+    pub fn new(maps: impl IntoIterator<Item = ContactMap>) -> Self {
+        Self(maps.into_iter().map(Arc::new).collect())
+    }
+
+    /// The map of this number.
+    pub fn get(&self, index: usize) -> Option<&Arc<ContactMap>> {
+        self.0.get(index)
+    }
+
+    /// Fingerprint of maps with these fingerprints.
+    pub fn fingerprint_of(fingerprints: &[u64]) -> u64 {
+        if let [one] = fingerprints {
+            return *one;
+        }
+        let mut hash = Checksum::default();
+        fingerprints.iter().for_each(|part| hash.write(&part.to_le_bytes()));
+        hash.finish()
+    }
+
+    /// Fingerprint of all inputs.
+    pub fn fingerprint(&self) -> u64 {
+        let each: Vec<u64> = self.0.iter().map(|map| map.fingerprint()).collect();
+        Self::fingerprint_of(&each)
+    }
+
+    /// Accuracy of the worst of them.
+    pub fn accuracy(&self) -> Accuracy {
+        let each = self.0.iter().map(|map| map.accuracy());
+        each.reduce(|worst, other| if other.max() > worst.max() { other } else { worst }).unwrap_or_default()
+    }
+
+    /// The maps as bytes for [`from_bytes`](Self::from_bytes).
+    pub fn to_bytes(&self) -> Vec<u8> {
+        if let [one] = &self.0[..] {
+            return one.to_bytes();
+        }
+        let mut out = MAGIC.to_vec();
+        out.extend(VERSION.to_le_bytes());
+        out.extend(self.fingerprint().to_le_bytes());
+        for map in &self.0 {
+            let bytes = map.to_bytes();
+            out.extend((bytes.len() as u64).to_le_bytes());
+            out.extend(bytes);
+        }
+        let sum = checksum(&out);
+        out.extend(sum.to_le_bytes());
+        out
+    }
+
+    /// Reads maps made from the inputs with this fingerprint.
+    ///
+    /// # Errors
+    /// [`ContactError::MapRefused`] for bytes that are damaged, of another version, or made from other inputs.
+    pub fn from_bytes(bytes: &[u8], fingerprint: u64) -> Result<Self, ContactError> {
+        let maps = Self::decode(bytes)?;
+        maps.check_fingerprint(fingerprint)?;
+        Ok(maps)
+    }
+
+    /// Refuses maps that were not made from the inputs with this fingerprint.
+    ///
+    /// # Errors
+    /// [`ContactError::MapRefused`].
+    pub fn check_fingerprint(&self, wanted: u64) -> Result<(), ContactError> {
+        if self.fingerprint() == wanted {
+            return Ok(());
+        }
+        Err(refused("it was made for another defect, bearing, load range, accuracy or version"))
+    }
+
+    /// Reads maps, whatever they were made from.
+    ///
+    /// # Errors
+    /// [`ContactError::MapRefused`] for bytes that are damaged or of another version.
+    pub fn decode(bytes: &[u8]) -> Result<Self, ContactError> {
+        let Some(rest) = bytes.strip_prefix(MAGIC) else { return Ok(Self::new([ContactMap::decode(bytes)?])) };
+        let short = || refused("the file is too short");
+        let body = bytes.split_last_chunk::<8>();
+        let (body, sum) = body.filter(|(body, _)| body.len() >= MAGIC.len() + 12).ok_or_else(short)?;
+        let mut rest = Reader(&rest[..body.len() - MAGIC.len()]);
+        let version = rest.u32().ok_or_else(short)?;
+        if version != VERSION {
+            return Err(refused(&format!("the file has format {version}, this library reads {VERSION}")));
+        }
+        if checksum(body) != u64::from_le_bytes(*sum) {
+            return Err(refused("the checksum does not fit, the file is damaged"));
+        }
+        let fingerprint = rest.u64().ok_or_else(short)?;
+        let mut maps = Vec::new();
+        while !rest.0.is_empty() {
+            let length = rest.u64().and_then(|length| usize::try_from(length).ok()).ok_or_else(short)?;
+            maps.push(ContactMap::decode(rest.bytes(length).ok_or_else(short)?)?);
+        }
+        let maps = Self::new(maps);
+        if maps.fingerprint() == fingerprint { Ok(maps) } else { Err(refused("its contents contradict each other")) }
+    }
+}

@@ -1,0 +1,152 @@
+//! Crossings: passages of contacts with the inner raceway into another cell of a defect, found on the dense output of a
+//! step.
+//!
+//! In which direction an element is seen from the inner ring's centre depends on where that is, so these instants are
+//! roots and no known times. A step that ends beyond one is taken again to end on it, and the contact then changes its
+//! cell, a whole number that nothing else decides. As on known knots, a contact meets the knot ahead of its cell on its
+//! way and no other; the one it has just passed does not count again unless it comes back.
+
+use super::kernels::probe;
+use super::knots::Contact;
+use super::progress::Progress;
+use super::workspace::{Problem, Span, Workspace};
+use crate::dynamics::kinematics::Kinematics;
+use crate::dynamics::raceway::{Ahead, Defects};
+
+/// Width of a step, as a share, to which the instant of a crossing is narrowed down: at the speed of an element on its
+/// way a millionth of a nanometre.
+const NARROW: f64 = 1e-11;
+/// Most looks at the dense output: halving alone reaches the width in 37.
+const MOST: usize = 60;
+
+/// A passage into another cell within a step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Crossing {
+    /// Share of the step at which it happens.
+    pub(super) share: f64,
+    pub(super) contact: Contact,
+    /// The cell beyond.
+    pub(super) cell: u32,
+}
+
+/// A contact with the inner raceway that defects concern.
+#[derive(Clone, Copy)]
+struct Watched<'a> {
+    defects: &'a Defects,
+    element: usize,
+    cell: u32,
+    contact: Contact,
+}
+
+/// The first crossing within the step tried last.
+pub(super) fn first_crossing(
+    workspace: &mut Workspace,
+    problem: Problem,
+    span: Span,
+    progress: &Progress,
+) -> Option<Crossing> {
+    let model = problem.model;
+    let end = if progress.choice.implicit { &workspace.implicit.end } else { &workspace.explicit.end };
+    let [start, end] = [(span.from, &progress.state), (span.end(), end)].map(|(tau, state)| Instant {
+        now: model.kinematics(problem.drive, tau, state),
+        tau,
+        paths: state,
+    });
+    let mut first: Option<(f64, Watched, f64, u32)> = None;
+    for at in watched(problem, progress) {
+        let travel = travel(problem, &at, &start, &end);
+        let Some(Ahead { angle, beyond }) = at.defects.ahead(at.cell, direction(problem, &at, &start), travel > 0.0)
+        else {
+            continue;
+        };
+        let way = angle.max(0.0);
+        if travel != 0.0 && travel.abs() >= way {
+            let share = way / travel.abs();
+            if first.is_none_or(|(least, ..)| share < least) {
+                first = Some((share, at, way * travel.signum(), beyond));
+            }
+        }
+    }
+    let (guess, at, way, cell) = first?;
+    let start = Instant { paths: &[], ..start };
+    let share = root(workspace, (problem, span, progress), &at, start, (guess, way));
+    Some(Crossing { share, contact: at.contact, cell })
+}
+
+/// Share of the step at which a contact has made its `way` [rad], bracketed by secants; on the far side.
+fn root(
+    workspace: &mut Workspace,
+    (problem, span, progress): (Problem, Span, &Progress),
+    at: &Watched,
+    start: Instant,
+    (guess, way): (f64, f64),
+) -> f64 {
+    let model = problem.model;
+    let path = progress.state[at.element];
+    let (mut low, mut high) = (0.0f64, 1.0f64);
+    let mut share = guess;
+    for look in 0..MOST {
+        if high - low <= NARROW || !(share > 0.0 && share < 1.0) {
+            break;
+        }
+        probe(workspace, problem, span, share, progress);
+        let tau = span.from + share * span.length;
+        let now = model.kinematics(problem.drive, tau, &workspace.dense);
+        let there = Instant { now, tau, paths: &workspace.dense };
+        let made = travel_from(problem, at, (&start, path), &there) / way;
+        let beyond = made >= 1.0;
+        if beyond {
+            high = share
+        } else {
+            low = share
+        }
+        // Motion over a step is nearly even. A look on either side of the root closes the bracket; every fourth look
+        // halves it, whatever the secant says.
+        let secant = share / made.max(f64::MIN_POSITIVE) + if beyond { -0.4 * NARROW } else { 0.4 * NARROW };
+        share = if look % 4 != 3 && secant > low && secant < high { secant } else { 0.5 * (low + high) };
+    }
+    if guess <= 0.0 { 0.0 } else { high }
+}
+
+/// Positions at one instant.
+#[derive(Clone, Copy)]
+struct Instant<'a> {
+    now: Kinematics,
+    tau: f64,
+    paths: &'a [f64],
+}
+
+/// All contacts with the inner raceway that may meet a defect.
+fn watched<'a>(problem: Problem<'a>, progress: &'a Progress) -> impl Iterator<Item = Watched<'a>> {
+    let (model, cells) = (problem.model, &progress.cells);
+    let inner = &model.inner.defects;
+    let of_ring = cells.inner.iter().enumerate().filter(|_| !inner.is_empty());
+    let of_ring = of_ring.map(|(j, &cell)| Watched { defects: inner, element: j, cell, contact: Contact::Inner(j) });
+    let own = model.defective.iter().zip(&cells.own).enumerate();
+    of_ring.chain(own.map(|(k, (defective, cells))| Watched {
+        defects: &defective.defects[0],
+        element: defective.element,
+        cell: cells[0],
+        contact: Contact::Own(k, 0),
+    }))
+}
+
+/// Direction of a contact in the frame of what bears its defect [rad].
+fn direction(problem: Problem, at: &Watched, instant: &Instant) -> f64 {
+    let Instant { now, paths, .. } = instant;
+    problem.model.inner_direction_of(at.element, paths[at.element], now) - now.frames.of(at.defects.frame).angle
+}
+
+/// Angle that a contact has gone between two instants [rad], against what bears its defect.
+fn travel(problem: Problem, at: &Watched, from: &Instant, to: &Instant) -> f64 {
+    travel_from(problem, at, (from, from.paths[at.element]), to)
+}
+
+fn travel_from(problem: Problem, at: &Watched, (from, path): (&Instant, f64), to: &Instant) -> f64 {
+    let Problem { model, drive } = problem;
+    // Of the whole angles only the change, so that no turns are to be counted and no digits are lost.
+    let frame = &drive.frames[at.defects.frame as usize].since;
+    let even = (drive.cage.at(to.tau) - drive.cage.at(from.tau)) - (frame.at(to.tau) - frame.at(from.tau));
+    let lead = |path: f64, now: &Kinematics| model.inner_lead(at.element, path, now);
+    even + (lead(to.paths[at.element], &to.now) - lead(path, &from.now))
+}
