@@ -273,9 +273,10 @@ mod tests {
                         let angle = from + (to - from) * (f64::from(k) + 0.37) / 60.0;
                         let piece = path.knots().partition_point(|&knot| knot <= angle) - 1;
                         let direct = envelope(&rolling, radius, &points, angle);
-                        // Sampling of 0.2 µm beside a vertex, at slopes up to 0.3, misses 30 nm at most.
+                        // Vertices are among the points; between them 0.1 µm beside the touched one is 2e-12 m, and
+                        // more where a piece bends with the polar angle.
                         let off = path.at(piece, angle).path - direct;
-                        assert!((-3e-8..1e-14).contains(&off), "{rolling:?} at {angle}: {off:e}");
+                        assert!((-1e-11..1e-14).contains(&off), "{rolling:?} at {angle}: {off:e}");
                     }
                 }
             }
@@ -294,8 +295,8 @@ mod tests {
         };
         let (r, ring) = (rolling.element_radius, rolling.raceway_radius);
         let mut least = f64::INFINITY;
-        for k in -8000..=8000 {
-            let arc = radius * angle + f64::from(k) * 0.2e-6;
+        let samples = (-8000..=8000).map(|k| radius * angle + f64::from(k) * 0.2e-6);
+        for arc in samples.chain(points.iter().map(|point| point.0)) {
             let (d, h) = (arc / radius - angle, depth(arc));
             let path = match (rolling.raceway, rolling.on_element) {
                 (RacewaySide::Outer, false) => {

@@ -20,6 +20,7 @@ use crate::contact::contact_maps::ContactMaps;
 use crate::dynamics::drive::{Drive, WholeAngle};
 use crate::dynamics::forces::Forces;
 use crate::dynamics::model::Model;
+use crate::dynamics::raceway::Cells;
 use crate::numerics::plane::Vector;
 use crate::scene::{ContactLaw, Scene};
 use crate::surface::Surface;
@@ -217,6 +218,11 @@ impl Simulation {
     /// The state vector, laid out as [`crate::dynamics::model::Layout`] says.
     pub fn state_vector(&self) -> &[f64] {
         &self.state.progress.state
+    }
+
+    /// Cells of defects in which all contacts are, for studies.
+    pub fn cells(&self) -> &Cells {
+        &self.state.progress.cells
     }
 
     /// Solves the static equilibrium at `start` [s] and ends the setting of parameters.
