@@ -8,7 +8,8 @@
 //! |---|---|
 //! | `description` | empty |
 //! | `gravity_m_s2` | `[0, -9.81]` |
-//! | `bearing.radial_clearance_um` | 5 |
+//! | `bearing.radial_clearance_um` | 5: what separates a raceway from an element pressed to the other, R_o − R_i − 2r |
+//! | `bearing.internal_clearance_um` | instead: a catalogue's radial internal clearance (ISO 5753), twice as much |
 //! | `bearing.outer_compliance_m_n` | 0: rings and seats are rigid |
 //! | `bearing.density_kg_m3` | from `element_mass_g`, which is then needed |
 //! | `bearing.element_mass_g`, `hertz_inner_n_m1_5`, `hertz_outer_n_m1_5` | computed |
@@ -132,8 +133,8 @@ struct BearingTable {
     groove_diameter_mm: Option<f64>,
     conformity_inner: Option<f64>,
     conformity_outer: Option<f64>,
-    #[serde(default = "default_clearance")]
-    radial_clearance_um: f64,
+    radial_clearance_um: Option<f64>,
+    internal_clearance_um: Option<f64>,
     youngs_modulus_gpa: f64,
     poissons_ratio: f64,
     density_kg_m3: Option<f64>,
@@ -144,13 +145,13 @@ struct BearingTable {
     outer_compliance_m_n: f64,
 }
 
-fn default_clearance() -> f64 {
-    5.0
-}
+/// Clearance where the file says none [µm].
+const DEFAULT_CLEARANCE_UM: f64 = 5.0;
 
 impl BearingTable {
     // 1e3 is exact and 1e-3 is not, so a division rounds once and a product twice.
     fn into_bearing(self) -> Result<Bearing, SceneError> {
+        let clearance = self.clearance()?;
         let (conformity_inner, conformity_outer) = self.conformities()?;
         Ok(Bearing {
             element_count: self.element_count,
@@ -158,7 +159,7 @@ impl BearingTable {
             pitch_diameter: self.pitch_diameter_mm / 1e3,
             conformity_inner,
             conformity_outer,
-            radial_clearance: self.radial_clearance_um / 1e6,
+            radial_clearance: clearance,
             youngs_modulus: self.youngs_modulus_gpa * 1e9,
             poissons_ratio: self.poissons_ratio,
             density: self.density()?,
@@ -187,6 +188,20 @@ impl BearingTable {
             }
             (None, Some(_), None) => {
                 Err(SceneError::Missing { key: OUTER, why: "conformity_inner is given without it" })
+            }
+        }
+    }
+
+    /// G = R_o − R_i − 2r [m]. What a catalogue calls the radial internal clearance is how far one ring can be moved
+    /// against the other, from stop to stop: 2 G.
+    fn clearance(&self) -> Result<f64, SceneError> {
+        match (self.radial_clearance_um, self.internal_clearance_um) {
+            (Some(radial), None) => Ok(radial / 1e6),
+            (None, Some(internal)) => Ok(internal / 2e6),
+            (None, None) => Ok(DEFAULT_CLEARANCE_UM / 1e6),
+            (Some(_), Some(_)) => {
+                let (first, second) = ("bearing.radial_clearance_um", "bearing.internal_clearance_um");
+                Err(SceneError::Both { first, second })
             }
         }
     }
