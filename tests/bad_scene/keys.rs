@@ -49,10 +49,10 @@ fn an_empty_file_is_told_all_that_it_needs() {
 }
 
 #[test]
-fn a_defect_elsewhere_than_on_the_outer_raceway_is_answered_with_where_it_can_be() {
-    let only = "not modelled: defects on the outer raceway only, so far";
+fn a_defect_said_in_other_words_is_answered_with_how_it_is_said() {
+    let only = "not modelled: one defect so far: one table [defect], whose key `on` is \"outer\", \"inner\" or \"element\"";
     let angle = "angle_deg = -90.0\nlength_deg";
-    for key in ["on", "race", "raceway", "location", "ring", "inner"] {
+    for key in ["race", "raceway", "location", "ring", "inner", "on_ring"] {
         let more = format!("angle_deg = -90.0\n{key} = \"inner\"\nlength_deg");
         refused(angle, &more, &[&format!("line 22: defect.{key} is {only}")]);
     }
