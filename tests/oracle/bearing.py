@@ -2,9 +2,9 @@
 
 Written from the equations, without looking at the Rust code. SI units, y up, angles counter-clockwise from +x.
 
-Assumed: rigid rings that translate, turn evenly and do not tilt; a kinematic cage (every element has the cage's angle); elements
-that spin as if they rolled on both raceways; no friction, lubricant or axial motion. Invalid beside a spall's edge, where Hertz's
-paraboloids are not what touches.
+Assumed: rigid rings that translate, turn evenly and do not tilt; a kinematic cage (every element has the cage's angle);
+elements that spin as if they rolled on both raceways; no friction, lubricant or axial motion. Invalid beside a spall's
+edge, where Hertz's paraboloids are not what touches.
 
 States: shaft x y vx vy | housing x y vx vy (each only if that ring is `internal`) | resonator y vy (if any) | u[Z] | w[Z].
 u is how far an element's centre lies outside its path on the smooth outer raceway, w its absolute radial velocity.
@@ -88,7 +88,7 @@ class Bearing:
 
         shaft, housing, gamma = scene["shaft"], scene.get("housing", {"motion": "fixed"}), d_w / d_pw
         self.omega_i, self.omega_o = (2 * np.pi * ring.get("speed_hz", 0.0) for ring in (shaft, housing))
-        self.alpha_i, self.alpha_o = (np.radians(ring.get("initial_angle_deg", 0.0)) for ring in (shaft, housing))  # at the start
+        self.alpha_i, self.alpha_o = (np.radians(ring.get("initial_angle_deg", 0.0)) for ring in (shaft, housing))
         inner, outer = self.omega_i * (1 - gamma), self.omega_o * (1 + gamma)
         self.omega_c = 0.5 * (inner + outer) * (1 - cage.get("slip", 0.0))
         self.omega_b = (outer - inner) / (2 * gamma)  # absolute
@@ -112,7 +112,7 @@ class Bearing:
         return self.theta0 + self.omega_c * t + 2 * np.pi * np.arange(self.z) / self.z
 
     def knots(self, start, stop):
-        """Times at which some element passes a corner of the outer path. Corners of the inner path are met by the rings' motion too."""
+        """Times at which some element passes a corner of the outer path; the inner's depend on the rings' motion."""
         if not self.spall or "outer" not in self.spall.paths or self.omega_c == self.spall.omega:
             return []
         rate, times = self.omega_c - self.spall.omega, []
@@ -159,8 +159,8 @@ class Bearing:
             q_i[j] = q_o[j] = 0.0
         tan_i, tan_o = slope_i / q_length, slope_o / rho
         cos_i, cos_o = 1 / np.sqrt(1 + tan_i * tan_i), 1 / np.sqrt(1 + tan_o * tan_o)
-        return Contacts(e_r, e_t, n, t_i, q_length, q_i, q_o, q_i * cos_i, q_i * cos_i * tan_i, q_o * cos_o, q_o * cos_o * tan_o,
-                        inner, outer, switch_i, switch_o, corners)
+        return Contacts(e_r, e_t, n, t_i, q_length, q_i, q_o, q_i * cos_i, q_i * cos_i * tan_i, q_o * cos_o,
+                        q_o * cos_o * tan_o, inner, outer, switch_i, switch_o, corners)
 
     def split(self, t, y):
         """x_i, v_i, x_o, v_o, u, w of a state."""
@@ -204,7 +204,10 @@ class Bearing:
 
 @dataclass
 class Contacts:
-    """Contact forces of all elements; arrays over elements, directions as 2 × Z. Components are of the force on the element; `q_o_radial` inwards."""
+    """Contact forces of all elements; arrays over elements, directions as 2 × Z.
+
+    Components are those of the force on the element, `q_o_radial` inwards.
+    """
 
     e_r: np.ndarray
     e_t: np.ndarray
@@ -225,7 +228,8 @@ class Contacts:
 
     def on_elements(self):
         """Net force of each element's contacts, radially outwards."""
-        return self.q_i_normal * (self.n * self.e_r).sum(0) + self.q_i_tangential * (self.t * self.e_r).sum(0) - self.q_o_radial
+        inner = self.q_i_normal * (self.n * self.e_r).sum(0) + self.q_i_tangential * (self.t * self.e_r).sum(0)
+        return inner - self.q_o_radial
 
     def on_shaft(self):
         return -(self.n * self.q_i_normal + self.t * self.q_i_tangential).sum(1)

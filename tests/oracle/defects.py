@@ -1,15 +1,15 @@
-"""Rectangular spalls with 90° edges on a raceway or on an element: where they are, and the rigid paths of elements over them.
+"""Rectangular spalls with 90° edges on a raceway or an element: where they are, and the rigid paths over them.
 
-Written from the equations, without looking at the Rust code. Radii are positive where a surface is convex and negative where it is
-concave, as the outer raceway is. So one expression is the path of all four contacts, at an angle d past an edge:
-P = own + other - own cos d - √(other² - own² sin²d), the root with the sign of `other`.
+Written from the equations, without looking at the Rust code. Radii are positive where a surface is convex and negative
+where it is concave, as the outer raceway is. So one expression is the path of all four contacts, at an angle d past an
+edge: P = own + other - own cos d - √(other² - own² sin²d), the root with the sign of `other`.
 """
 
 import numpy as np
 
 
 class Path:
-    """Rigid path of an element over a spall: P ≥ 0 opens the gap. `own` is the radius of the body that has the spall."""
+    """Rigid path over a spall: P ≥ 0 opens the gap. `own` is the radius of the body that has the spall."""
 
     def __init__(self, own, other, half_length, depth):
         self.own, self.other, self.half_length, self.depth = own, other, half_length, depth
@@ -36,8 +36,8 @@ class Path:
 class Spall:
     """The spall of a scene: a path for each side it meets, on a body that turns evenly with `omega`.
 
-    A contact's direction points from the ring's centre to the element's, θ outside and φ inside. Its angle ψ from the spall's middle
-    is that of the equations on a ring, and -χ on an element; therefore dP/dψ here is dP_ring/dψ - dP_el/dχ there.
+    A contact's direction points from the ring's centre to the element's, θ outside and φ inside. Its angle ψ from the
+    spall's middle is ψ of the equations on a ring and -χ on an element: dP/dψ here is dP_ring/dψ - dP_el/dχ there.
     """
 
     def __init__(self, table, bearing):
@@ -57,8 +57,9 @@ class Spall:
         self.angle_0 = np.radians(table.get("angle_deg", 0.0 if self.on == "element" else -90.0))
         self.middle = self.angle_0 + body_angle  # absolute, at the start
         radius = abs(next(iter(radii.values()))[0])
-        self.half_length = (np.radians(table["length_deg"]) if "length_deg" in table else table["length_mm"] * 1e-3 / radius) / 2
-        self.paths = {side: Path(*pair, self.half_length, table["depth_um"] * 1e-6) for side, pair in radii.items()}
+        length = np.radians(table["length_deg"]) if "length_deg" in table else table["length_mm"] * 1e-3 / radius
+        self.half_length, depth = length / 2, table["depth_um"] * 1e-6
+        self.paths = {side: Path(*pair, self.half_length, depth) for side, pair in radii.items()}
 
     def angle(self, side, direction, t):
         """Angle of contacts from the middle of the spall, in (-π, π]."""

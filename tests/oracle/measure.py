@@ -41,7 +41,7 @@ def fit_ringing(t, signal):
 
 
 def outer_spall(bearing):
-    assert bearing.spall and bearing.spall.on == "outer" and not bearing.omega_o, "only a spall of an outer ring at rest"
+    assert bearing.spall and bearing.spall.on == "outer" and not bearing.omega_o, "a spall of an outer ring at rest only"
     return bearing.spall
 
 
@@ -51,7 +51,8 @@ def passage(bearing, stop, rtol):
     spall = outer_spall(bearing)
     length = 2 * spall.half_length / bearing.omega_c
     for j in range(bearing.z):
-        start = np.remainder(-spall.half_length - spall.angle("outer", bearing.angles(0.0), 0.0)[j], 2 * np.pi) / bearing.omega_c
+        to_edge = -spall.half_length - spall.angle("outer", bearing.angles(0.0), 0.0)[j]
+        start = np.remainder(to_edge, 2 * np.pi) / bearing.omega_c
         if start + length + 5e-3 > stop:
             continue
         changes = [((at - start) * 1e3, side, gained) for at, side, k, gained in run.changes

@@ -5,8 +5,8 @@
         [--rtol 1e-12] [--method DOP853|Radau] [--check]
 
 DOP853 with steps that end on output times, on corners of the paths, and on every gain or loss of a contact, because the
-right-hand side is smooth only in between. Corners of the outer path are at known times; of the inner path, whose contacts turn
-with the rings' motion too, they are located as changes of contact are.
+right-hand side is smooth only in between. An outer path's corners come at known times. An inner path's are located as
+changes of contact are, because the rings' motion turns the inner contacts too.
 """
 
 import argparse
@@ -69,7 +69,8 @@ class Reference:
                             solver.t_old, solver.t, xtol=1e-17, rtol=1e-15) for k in changed]
             at, k = min(zip(times, changed))
             if k < 2 * self.bearing.z:
-                self.changes.append((at, "outer" if k >= self.bearing.z else "inner", int(k % self.bearing.z), bool(after[k])))
+                side = "outer" if k >= self.bearing.z else "inner"
+                self.changes.append((at, side, int(k % self.bearing.z), bool(after[k])))
             if at - self.t > SAME_EVENT and solver.t - at > SAME_EVENT:
                 self.land(at)
                 self.step_size = None
