@@ -2,8 +2,9 @@
 
 Written from the equations, without looking at the Rust code. SI units, y up, angles counter-clockwise from +x.
 
-Assumed: rigid rings that translate and do not tilt; a kinematic cage (every element has the cage's angle); outer ring not
-turning; no friction, lubricant or axial motion. Invalid beside a spall's edge, where Hertz's paraboloids are not what touches.
+Assumed: rigid rings that translate, turn evenly and do not tilt; a kinematic cage (every element has the cage's angle);
+elements that spin as if they rolled on both raceways; no friction, lubricant or axial motion. Invalid beside a spall's
+edge, where Hertz's paraboloids are not what touches.
 
 States: shaft x y vx vy | housing x y vx vy (each only if that ring is `internal`) | resonator y vy (if any) | u[Z] | w[Z].
 u is how far an element's centre lies outside its path on the smooth outer raceway, w its absolute radial velocity.
@@ -12,6 +13,7 @@ u is how far an element's centre lies outside its path on the smooth outer racew
 from dataclasses import dataclass, field
 
 import numpy as np
+from defects import Spall
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipkm1
 
@@ -84,23 +86,16 @@ class Bearing:
         self.law = contact.get("damping", "hunt-crossley")
         self.chi, self.tau = contact.get("damping_chi_s_m", 0.5), contact.get("damping_tau_s", 0.0)
 
-        omega_i = 2 * np.pi * scene["shaft"].get("speed_hz", 0.0)
-        self.omega_c = 0.5 * omega_i * (1 - d_w / d_pw) * (1 - cage.get("slip", 0.0))
+        shaft, housing, gamma = scene["shaft"], scene.get("housing", {"motion": "fixed"}), d_w / d_pw
+        self.omega_i, self.omega_o = (2 * np.pi * ring.get("speed_hz", 0.0) for ring in (shaft, housing))
+        self.alpha_i, self.alpha_o = (np.radians(ring.get("initial_angle_deg", 0.0)) for ring in (shaft, housing))
+        inner, outer = self.omega_i * (1 - gamma), self.omega_o * (1 + gamma)
+        self.omega_c = 0.5 * (inner + outer) * (1 - cage.get("slip", 0.0))
+        self.omega_b = (outer - inner) / (2 * gamma)  # absolute
         self.theta0 = np.radians(cage.get("initial_angle_deg", 0.0))
+        self.spall = Spall(scene["defect"], self) if "defect" in scene else None
 
-        defect = scene.get("defect")
-        self.half_length = 0.0
-        if defect:
-            assert defect.get("edge_slope_deg", 90.0) == 90.0 and "profile" not in defect, "only rectangular spalls"
-            self.defect_angle = np.radians(defect.get("angle_deg", -90.0))
-            self.depth = defect["depth_um"] * MICRO
-            length = np.radians(defect["length_deg"]) if "length_deg" in defect else defect["length_mm"] * 1e-3 / self.r_o
-            self.half_length = length / 2
-            # Past an edge by this angle the element has come down to the floor: |centre - edge| = r at ρ = ρ0 + depth.
-            rho = self.rho0 + self.depth
-            self.roll_in = np.arccos((rho**2 + self.r_o**2 - self.r**2) / (2 * rho * self.r_o))
-
-        self.shaft, self.housing = Ring.from_scene(scene["shaft"]), Ring.from_scene(scene.get("housing", {"motion": "fixed"}))
+        self.shaft, self.housing = Ring.from_scene(shaft), Ring.from_scene(housing)
         sensor = scene.get("sensor")
         self.sensor = (sensor["mass_kg"], sensor["stiffness_n_m"], sensor["damping_n_s_m"]) if sensor else None
         self.n_rings = 4 * (self.shaft.motion == "internal") + 4 * (self.housing.motion == "internal")
@@ -116,35 +111,15 @@ class Bearing:
     def angles(self, t):
         return self.theta0 + self.omega_c * t + 2 * np.pi * np.arange(self.z) / self.z
 
-    def spall_angle(self, theta):
-        """Angle from the middle of the spall, in (-π, π]."""
-        return -np.remainder(self.defect_angle - theta + np.pi, 2 * np.pi) + np.pi
-
-    def path(self, theta):
-        """Rigid path P(θ) of the elements' centres over the spall, and P' = dP/dθ."""
-        p, slope = np.zeros_like(theta), np.zeros_like(theta)
-        if not self.half_length:
-            return p, slope
-        psi = self.spall_angle(theta)
-        d = self.half_length - np.abs(psi)  # angle past the nearer edge
-        p[d > 0], rolling = self.depth, (d > 0) & (d < self.roll_in)
-        c, s = np.cos(d[rolling]), np.sin(d[rolling])
-        root = np.sqrt(self.r**2 - (self.r_o * s) ** 2)
-        # R_o c - root - (R_o - r), with both differences of nearly equal numbers written out.
-        p[rolling] = -2 * self.r_o * np.sin(d[rolling] / 2) ** 2 + (self.r_o * s) ** 2 / (self.r + root)
-        slope[rolling] = -np.sign(psi[rolling]) * (-self.r_o * s + self.r_o**2 * s * c / root)
-        return p, slope
-
     def knots(self, start, stop):
-        """Times at which some element passes a corner of the path."""
-        if not self.half_length or not self.omega_c:
+        """Times at which some element passes a corner of the outer path; the inner's depend on the rings' motion."""
+        if not self.spall or "outer" not in self.spall.paths or self.omega_c == self.spall.omega:
             return []
-        inner = max(self.half_length - self.roll_in, 0.0)
-        times = []
-        for corner in {-self.half_length, -inner, inner, self.half_length}:
-            phase = self.spall_angle(self.angles(0.0)) - corner
-            for turn in range(int(-2 - abs(self.omega_c) * stop), int(3 + abs(self.omega_c) * stop)):
-                times.extend((2 * np.pi * turn - phase) / self.omega_c)
+        rate, times = self.omega_c - self.spall.omega, []
+        for corner in self.spall.paths["outer"].corners:
+            phase = self.spall.angle("outer", self.angles(0.0), 0.0)[self.spall.elements] - corner
+            for turn in range(int(-2 - abs(rate) * stop), int(3 + abs(rate) * stop)):
+                times.extend((2 * np.pi * turn - phase) / rate)
         return sorted(t for t in times if start < t < stop)
 
     # --- forces -------------------------------------------------------------------------------------------------
@@ -166,18 +141,26 @@ class Bearing:
         q = self.rho0 * e_r + s
         q_length = np.sqrt((q * q).sum(0))
         n = q / q_length
+        t_i = np.array([-n[1], n[0]])
         # R_i + r - |q| without cancellation: R_i + r = ρ0 - G_r, and ρ0 - |q| = (ρ0² - |q|²)/(ρ0 + |q|).
         inner = -self.clearance - (2 * self.rho0 * (e_r * s).sum(0) + (s * s).sum(0)) / (self.rho0 + q_length)
         inner_rate = -((n * ((v_o - v_i)[:, None] + u_dot * e_r)).sum(0) + rho * self.omega_c * (s * e_t).sum(0) / q_length)
-        p, slope = self.path(theta)
-        outer, outer_rate = u - p, u_dot - slope * self.omega_c
+        outer, outer_rate, slope_i, slope_o, corners = u, u_dot, 0.0, 0.0, np.empty(0)
+        if self.spall:
+            phi = np.arctan2(q[1], q[0])
+            phi_dot = (t_i * ((v_o - v_i)[:, None] + u_dot * e_r + rho * self.omega_c * e_t)).sum(0) / q_length
+            (p_i, slope_i), (p_o, slope_o) = self.spall.path("inner", phi, t), self.spall.path("outer", theta, t)
+            inner, inner_rate = inner - p_i, inner_rate - slope_i * (phi_dot - self.spall.omega)
+            outer, outer_rate = outer - p_o, outer_rate - slope_o * (self.omega_c - self.spall.omega)
+            corners = self.spall.past_corners("inner", phi, t)
         q_i, switch_i = self.contact_force(self.k_i, inner, inner_rate)
         q_o, switch_o = self.contact_force(self.k_o, outer, outer_rate)
         for j in self.removed:
             q_i[j] = q_o[j] = 0.0
-        tan = slope / rho
-        cos = 1 / np.sqrt(1 + tan * tan)
-        return Contacts(e_r, e_t, n, q_i, q_o, q_o * cos, q_o * cos * tan, inner, outer, switch_i, switch_o)
+        tan_i, tan_o = slope_i / q_length, slope_o / rho
+        cos_i, cos_o = 1 / np.sqrt(1 + tan_i * tan_i), 1 / np.sqrt(1 + tan_o * tan_o)
+        return Contacts(e_r, e_t, n, t_i, q_length, q_i, q_o, q_i * cos_i, q_i * cos_i * tan_i, q_o * cos_o,
+                        q_o * cos_o * tan_o, inner, outer, switch_i, switch_o, corners)
 
     def split(self, t, y):
         """x_i, v_i, x_o, v_o, u, w of a state."""
@@ -213,7 +196,7 @@ class Bearing:
             own = self.housing.load - self.housing.damping * v_o - self.housing.stiffness * x_o
             dy[at:at + 2] = v_o
             dy[at + 2:at + 4] = (c.on_housing() + own + resonator) / self.housing.mass
-        radial = (c.q_i * (c.n * c.e_r).sum(0) - c.q_o_radial) / self.mass + self.gravity @ c.e_r
+        radial = c.on_elements() / self.mass + self.gravity @ c.e_r
         dy[self.n_front:self.n_front + self.z] = w - v_o @ c.e_r
         dy[self.n_front + self.z:] = radial + self.omega_c * (v_o @ c.e_t + (self.rho0 + u) * self.omega_c)
         return dy
@@ -221,22 +204,39 @@ class Bearing:
 
 @dataclass
 class Contacts:
-    """Contact forces of all elements; arrays over elements, directions as 2 × Z."""
+    """Contact forces of all elements; arrays over elements, directions as 2 × Z.
+
+    Components are those of the force on the element, `q_o_radial` inwards.
+    """
 
     e_r: np.ndarray
     e_t: np.ndarray
     n: np.ndarray
+    t: np.ndarray
+    length: np.ndarray
     q_i: np.ndarray
     q_o: np.ndarray
+    q_i_normal: np.ndarray
+    q_i_tangential: np.ndarray
     q_o_radial: np.ndarray
     q_o_tangential: np.ndarray
     inner: np.ndarray
     outer: np.ndarray
     switch_i: np.ndarray
     switch_o: np.ndarray
+    corners: np.ndarray
+
+    def on_elements(self):
+        """Net force of each element's contacts, radially outwards."""
+        inner = self.q_i_normal * (self.n * self.e_r).sum(0) + self.q_i_tangential * (self.t * self.e_r).sum(0)
+        return inner - self.q_o_radial
 
     def on_shaft(self):
-        return -(self.n * self.q_i).sum(1)
+        return -(self.n * self.q_i_normal + self.t * self.q_i_tangential).sum(1)
+
+    def torque_on_shaft(self):
+        """About the shaft's centre, counter-clockwise: the tilted forces pass through the elements' centres."""
+        return -(self.q_i_tangential * self.length).sum()
 
     def on_housing(self):
         return (self.e_r * self.q_o_radial - self.e_t * self.q_o_tangential).sum(1)

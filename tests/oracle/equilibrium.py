@@ -22,7 +22,7 @@ def element_positions(bearing, t, x_i, x_o, upper=5e-3):
     def push(u):
         c = static_contacts(bearing, t, u, x_i, x_o)
         body = bearing.gravity @ c.e_r + bearing.omega_c**2 * (bearing.rho0 + u)
-        return c.q_i * (c.n * c.e_r).sum(0) - c.q_o_radial + bearing.mass * body
+        return c.on_elements() + bearing.mass * body
 
     low, high = np.zeros(bearing.z), np.full(bearing.z, upper)
     loose = push(low) <= 0

@@ -40,12 +40,19 @@ def fit_ringing(t, signal):
     return best.x[0] * 1000, best.x[1] * 100, np.sqrt(np.mean(best.fun**2)) / np.std(signal)
 
 
+def outer_spall(bearing):
+    assert bearing.spall and bearing.spall.on == "outer" and not bearing.omega_o, "a spall of an outer ring at rest only"
+    return bearing.spall
+
+
 def passage(bearing, stop, rtol):
     rows, run = simulate(bearing, stop, 1e-5, rtol=rtol)
     a = {k: np.array([r[k] for r in rows]) for k in rows[0]}
-    length = 2 * bearing.half_length / bearing.omega_c
+    spall = outer_spall(bearing)
+    length = 2 * spall.half_length / bearing.omega_c
     for j in range(bearing.z):
-        start = np.remainder(-bearing.half_length - bearing.spall_angle(bearing.angles(0.0))[j], 2 * np.pi) / bearing.omega_c
+        to_edge = -spall.half_length - spall.angle("outer", bearing.angles(0.0), 0.0)[j]
+        start = np.remainder(to_edge, 2 * np.pi) / bearing.omega_c
         if start + length + 5e-3 > stop:
             continue
         changes = [((at - start) * 1e3, side, gained) for at, side, k, gained in run.changes
@@ -109,9 +116,10 @@ def stiffness_over_cage_angle(bearing, points):
 def critical_loads(bearing, t):
     """(angle from the spall's middle, load that squeezes it against the floor) of each element on the floor at time t."""
     way = bearing.shaft.load / np.linalg.norm(bearing.shaft.load)
-    psi = bearing.spall_angle(bearing.angles(t))
+    spall = outer_spall(bearing)
+    psi = spall.angle("outer", bearing.angles(t), t)
     found = []
-    for j in np.flatnonzero(np.abs(psi) < bearing.half_length - bearing.roll_in):
+    for j in np.flatnonzero(np.abs(psi) < spall.half_length - spall.paths["outer"].roll_in):
         def approach(load):
             bearing.shaft.load = way * load
             return Equilibrium(bearing, t).contacts.inner[j] + 1e-13

@@ -4,8 +4,9 @@
         [--shaft-motion=X0,Y0,AX,AY,HZ] [--housing-motion=X0,Y0,AX,AY,HZ]   x0 + A sin(2πft), for rings of motion `host`
         [--rtol 1e-12] [--method DOP853|Radau] [--check]
 
-DOP853 with steps that end on output times, on corners of the path, and on every gain or loss of a contact, because the
-right-hand side is smooth only in between.
+DOP853 with steps that end on output times, on corners of the paths, and on every gain or loss of a contact, because the
+right-hand side is smooth only in between. An outer path's corners come at known times. An inner path's are located as
+changes of contact are, because the rings' motion turns the inner contacts too.
 """
 
 import argparse
@@ -19,7 +20,7 @@ from scipy.integrate import DOP853, Radau
 from scipy.optimize import brentq
 
 METHODS = {"DOP853": DOP853, "Radau": Radau}
-SAME_EVENT = 1e-12  # s; a contact change nearer than this to the last one is that one
+SAME_EVENT = 1e-12  # s; an event nearer than this to the last one is that one
 
 
 class Reference:
@@ -36,7 +37,7 @@ class Reference:
 
     def switches(self, t, y):
         c = self.bearing.contacts_at(t, y)
-        return np.concatenate([c.switch_i, c.switch_o])
+        return np.concatenate([c.switch_i, c.switch_o, c.corners])
 
     def advance(self, stop):
         """To time `stop` exactly."""
@@ -49,7 +50,7 @@ class Reference:
         return self.method(self.bearing.rhs, self.t, self.y, bound, rtol=self.rtol, atol=self.atol, first_step=first)
 
     def segment(self, bound):
-        """To `bound`, or to the first contact change before it."""
+        """To `bound`, or to the first contact change or corner of an inner path before it."""
         solver = self.solver(bound, self.step_size)
         before = self.switches(self.t, self.y) > 0
         while solver.status == "running":
@@ -67,7 +68,9 @@ class Reference:
             times = [brentq(lambda t: self.switches(t, dense(t))[k] if t > solver.t_old else (1.0 if before[k] else -1.0),
                             solver.t_old, solver.t, xtol=1e-17, rtol=1e-15) for k in changed]
             at, k = min(zip(times, changed))
-            self.changes.append((at, "outer" if k >= self.bearing.z else "inner", int(k % self.bearing.z), bool(after[k])))
+            if k < 2 * self.bearing.z:
+                side = "outer" if k >= self.bearing.z else "inner"
+                self.changes.append((at, side, int(k % self.bearing.z), bool(after[k])))
             if at - self.t > SAME_EVENT and solver.t - at > SAME_EVENT:
                 self.land(at)
                 self.step_size = None
@@ -78,7 +81,7 @@ class Reference:
             return
 
     def land(self, at):
-        """Steps to `at` without looking for contact changes: the state there is a step's end, not an interpolation."""
+        """Steps to `at` without looking for events: the state there is a step's end, not an interpolation."""
         solver = self.solver(at, None if at - self.t > SAME_EVENT else at - self.t)
         while solver.status == "running":
             solver.step()
@@ -101,6 +104,12 @@ def row(bearing, t, y):
         out[f"{name}.force.x"], out[f"{name}.force.y"] = force
     if bearing.sensor:
         out["sensor.acceleration"] = dy[bearing.n_front - 1]
+    spall = bearing.spall
+    if spall and spall.on == "inner":
+        out["shaft.angle"], out["shaft.torque"] = bearing.alpha_i + bearing.omega_i * t, c.torque_on_shaft()
+    if spall and spall.on == "element":
+        j = np.flatnonzero(spall.elements)[0]
+        out[f"element[{j + 1}].spin_angle"] = spall.angle_0 + (spall.omega - bearing.omega_c) * t
     for j in range(bearing.z):
         out[f"element[{j + 1}].path"] = u[j]
         out[f"element[{j + 1}].force.inner"], out[f"element[{j + 1}].force.outer"] = c.q_i[j], c.q_o[j]
