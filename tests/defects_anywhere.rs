@@ -347,18 +347,19 @@ fn amplitude(signal: &[f64], frequency: f64) -> f64 {
 /// Share of the power from 5 to 300 Hz that lies within 0.2 Hz of the lines m·`carrier` + k·`sideband` with m in `orders`,
 /// and the share of that range which these lines take up.
 fn comb_share(signal: &[f64], carrier: f64, sideband: f64, orders: std::ops::RangeInclusive<i32>) -> [f64; 2] {
-    // Means over 1 ms are enough for 300 Hz.
-    let signal: Vec<f64> = signal.chunks_exact(10).map(|part| part.iter().sum::<f64>() / 10.0).collect();
     let mean = signal.iter().sum::<f64>() / signal.len() as f64;
+    let window = |k: usize| 0.5 - 0.5 * (TAU * k as f64 / signal.len() as f64).cos();
+    let windowed: Vec<f64> = signal.iter().enumerate().map(|(k, value)| window(k) * (value - mean)).collect();
     let (resolution, near) = (0.1, 0.2);
     let (mut on, mut all, mut bins) = (0.0, 0.0, [0.0; 2]);
     for bin in 50..3000 {
         let frequency = f64::from(bin) * resolution;
-        let (mut re, mut im) = (0.0, 0.0);
-        for (k, value) in signal.iter().enumerate() {
-            let window = 0.5 - 0.5 * (TAU * k as f64 / signal.len() as f64).cos();
-            let (sin, cos) = (TAU * frequency * k as f64 * 10.0 * STEP).sin_cos();
-            (re, im) = (re + window * (value - mean) * cos, im - window * (value - mean) * sin);
+        let (sin, cos) = (TAU * frequency * STEP).sin_cos();
+        let (mut re, mut im, mut c, mut s) = (0.0, 0.0, 1.0, 0.0);
+        for value in &windowed {
+            (re, im) = (re + value * c, im - value * s);
+            // A turn further; 100 000 of them lose some 1e-11.
+            (c, s) = (c * cos - s * sin, s * cos + c * sin);
         }
         let power = re * re + im * im;
         let line = |order: i32| {

@@ -8,8 +8,9 @@ use std::f64::consts::TAU;
 pub struct Defect {
     /// The body that bears it.
     pub on: DefectOn,
-    /// Angle of its centre [rad] at the start: on a ring counter-clockwise from +x; on an element counter-clockwise from
-    /// where it faces the outer raceway.
+    /// Angle of its centre [rad]: on a ring counter-clockwise in the ring's own sense, from +x at the start unless the
+    /// ring has another initial angle; on an element counter-clockwise from where it faces the outer raceway at the
+    /// start.
     pub angle: f64,
     /// Its shape.
     pub shape: DefectShape,

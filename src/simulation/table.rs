@@ -316,7 +316,9 @@ impl Builder<'_> {
                 "defect.angle",
                 match defect.on {
                     DefectOn::Outer => "Angle of the defect's centre, counter-clockwise from +x",
-                    DefectOn::Inner => "Angle of the defect's centre at the start, counter-clockwise from +x",
+                    DefectOn::Inner => {
+                        "Angle of the defect's centre on the inner ring, counter-clockwise from shaft.initial_angle"
+                    }
                     DefectOn::Element { .. } => "Angle of the defect's centre at the start, 0 facing the outer raceway",
                 },
                 Q::Parameter(Parameter::DefectAngle),

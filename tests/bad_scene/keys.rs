@@ -50,7 +50,8 @@ fn an_empty_file_is_told_all_that_it_needs() {
 
 #[test]
 fn a_defect_said_in_other_words_is_answered_with_how_it_is_said() {
-    let only = "not modelled: one defect so far: one table [defect], whose key `on` is \"outer\", \"inner\" or \"element\"";
+    let only =
+        "not modelled: one defect so far: one table [defect], whose key `on` is \"outer\", \"inner\" or \"element\"";
     let angle = "angle_deg = -90.0\nlength_deg";
     for key in ["race", "raceway", "location", "ring", "inner", "on_ring"] {
         let more = format!("angle_deg = -90.0\n{key} = \"inner\"\nlength_deg");

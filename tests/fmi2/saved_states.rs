@@ -246,10 +246,11 @@ fn damaged_short_long_and_foreign_bytes_are_refused() {
 fn contents_that_no_run_leaves_behind_are_refused_with_the_reason_even_if_the_checksum_is_right() {
     let host = Host::started("6205-healthy");
     let good = host.serialize(host.save());
-    // Magic 8, format 4, checksum 8; then length 8, GUID 38, three bytes, four times; then time 8, started 1, the
-    // cage's turns and rest, three accelerations at the end of the last step.
+    // Magic 8, format 4, checksum 8; then length 8, GUID 38, three bytes, four times; then time 8, started 1, turns and
+    // rest of the cage and of three frames, three accelerations at the end of the last step.
     let (checked, simulation) = (20, 20 + 8 + 38 + 3 + 32);
-    let next_step = simulation + 8 + 1 + 8 + 8 + 3 * 8;
+    let cage_rest = simulation + 8 + 1 + 8;
+    let next_step = cage_rest + 8 + 3 * 16 + 3 * 8;
     let gained = next_step + 3 * 8 + 1 + 4 * 4;
     let path = gained + 2 * 8 + 1 + 4 * 8;
     let velocity = path + 16 * 8;
@@ -258,7 +259,8 @@ fn contents_that_no_run_leaves_behind_are_refused_with_the_reason_even_if_the_ch
         (next_step, -1e-6, "integration step is shorter"),
         (next_step, f64::NAN, "not finite"),
         (next_step + 8, 1e30, "error of the last integration step"),
-        (next_step - 4 * 8, 7.0, "cage has an angle"),
+        (cage_rest, 7.0, "an angle that they cannot have"),
+        (cage_rest + 3 * 16, 7.0, "an angle that they cannot have"),
         (gained, -1.0, "choice of the integration method"),
         (gained + 8, 1e-300, "choice of the integration method"),
         (path, 1.0, "outside the bearing"),
