@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import step_by_step
 from bearing import Bearing
-from rotor_ross import RIGHT, exact, fmus_in, with_ross
+from rotor_ross import exact, fmus_in, shown, with_ross
 
 SPEED = 2 * np.pi * 30.0
 TOLERANCE = 1e-8
@@ -55,7 +55,8 @@ def rigid(fmus, h, stop, passes):
 
 
 def ross(run, fmu, h, stop, **options):
-    return run(fmu, SPEED, h, stop, tolerance=TOLERANCE, **options)[1][:, 4 * RIGHT + 1]
+    machine = shown()
+    return run(machine, fmu, SPEED, h, stop, tolerance=TOLERANCE, **options)[1][:, 4 * machine.bearing + 1]
 
 
 def check(q, t):

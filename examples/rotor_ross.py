@@ -19,6 +19,8 @@ Two hosts:
   `exact`  ours: ROSS's matrices propagated exactly over a step. The FMU is told the motion that the rotor makes if d goes
            on changing as it did, and gives its mean force and that at the end. Then it goes back and is told the motion
            found, unless --passes is 1: that is faster, and a coarse step leaves a floor of noise in the spectra.
+
+For a rotor of your own write another `Machine`, as `shown` is one; `exact` and `with_ross` take any.
 """
 
 import argparse
@@ -27,7 +29,9 @@ import io
 import json
 import sys
 import time
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Callable
 
 import numpy as np
 from bearing import SCENES, Bearing, build, changed_scene
@@ -38,47 +42,72 @@ if sys.version_info < (3, 10):
 with contextlib.redirect_stdout(sys.stderr):  # it greets on standard output
     import ross
 
-NODES, LEFT, DAMPER, DISK, RIGHT = 13, 0, 5, 6, 12  # 12 elements of 50 mm
 GRAVITY = 9.81
-PRESSED = np.array([0.0, -300.0])  # N on the shaft at the bearing under study
-ECCENTRIC = 5e-4  # kg m: a disk that should be balanced; grade G 36 at 50 Hz
-STEEL = 5e-6  # s, assumed: damping over stiffness of the shaft; 8 % of critical at 5 kHz, 0.1 % at the first critical
 SIMPSON = np.array([1.0, 4.0, 1.0]) / 6  # weights of start, middle and end in a mean
-HOUSING = {"mass": 6.638, "damping": 2210.7, "stiffness": 1.51056e7}  # as in the scene
 
 
-def shaft(extra):
-    steel = ross.Material("steel", rho=7810, E=211e9, G_s=81.2e9)
-    elements = [ross.ShaftElement(L=0.05, idl=0.0, odl=0.025, material=steel, beta=STEEL) for _ in range(NODES - 1)]
-    disk = ross.DiskElement.from_geometry(n=DISK, material=steel, width=0.04, i_d=0.025, o_d=0.135)
-    left = ross.BearingElement(n=LEFT, kxx=5e7, cxx=100.0, kzz=1e6)
-    damper = ross.BearingElement(n=DAMPER, kxx=0.0, cxx=60.0)
-    return elements, [disk], [left, damper, *extra]
+@dataclass(frozen=True)
+class Machine:
+    """A rotor of ROSS without the bearing that the FMU computes: all that another rotor changes."""
+
+    parts: Callable  # gives new lists of shaft elements, disks, and all other bearings
+    nodes: int  # of the shaft
+    disk: int  # node that is driven and watched
+    bearing: int  # node in the bearing under study
+    pressed: tuple  # N on the shaft at that bearing, x and y
+    eccentric: float  # kg m: the disk's mass times the eccentricity of its centre
+    housing: dict  # mass, damping and stiffness to ground, as in the bearing's scene
+
+    def rotor(self, coefficients=None, housing=False):
+        """The rotor; with stiffness and damping of the bearing under study, to ground or to its housing on springs."""
+        elements, disks, bearings = self.parts()
+        masses = []
+        if coefficients is not None:
+            k, c = coefficients
+            names = {"kxx": k[0, 0], "kxy": k[0, 1], "kyx": k[1, 0], "kyy": k[1, 1]}
+            names.update({"cxx": c[0, 0], "cxy": c[0, 1], "cyx": c[1, 0], "cyy": c[1, 1]})
+            to = {"n_link": self.nodes} if housing else {}
+            bearings.append(ross.BearingElement(n=self.bearing, **names, **to))
+        if housing:
+            support = {"kxx": self.housing["stiffness"], "cxx": self.housing["damping"]}
+            bearings.append(ross.BearingElement(n=self.nodes, **support))
+            masses.append(ross.PointMass(n=self.nodes, m=self.housing["mass"]))
+        return ross.Rotor(elements, disks, bearings, masses)
 
 
-def rotor_with(bearing_coefficients=None, housing=False):
-    """The rotor; with stiffness and damping of a bearing on the right, to ground or to a housing on springs."""
-    extra, masses = [], []
-    if bearing_coefficients is not None:
-        k, c = bearing_coefficients
-        names = {"kxx": k[0, 0], "kxy": k[0, 1], "kyx": k[1, 0], "kyy": k[1, 1]}
-        names.update({"cxx": c[0, 0], "cxy": c[0, 1], "cyx": c[1, 0], "cyy": c[1, 1]})
-        extra.append(ross.BearingElement(n=RIGHT, **names, **({"n_link": NODES} if housing else {})))
-    if housing:
-        extra.append(ross.BearingElement(n=NODES, kxx=HOUSING["stiffness"], cxx=HOUSING["damping"]))
-        masses.append(ross.PointMass(n=NODES, m=HOUSING["mass"]))
-    elements, disks, bearings = shaft(extra)
-    return ross.Rotor(elements, disks, bearings, masses)
+def shown():
+    """The rotor described above, in 12 elements of 50 mm."""
+    left, damper, disk, right = 0, 5, 6, 12
+
+    def parts():
+        # beta: damping over stiffness of the shaft, assumed; 8 % of critical at 5 kHz, 0.1 % at the first critical speed
+        steel = ross.Material("steel", rho=7810, E=211e9, G_s=81.2e9)
+        elements = [ross.ShaftElement(L=0.05, idl=0.0, odl=0.025, material=steel, beta=5e-6) for _ in range(right)]
+        disks = [ross.DiskElement.from_geometry(n=disk, material=steel, width=0.04, i_d=0.025, o_d=0.135)]
+        return elements, disks, [
+            ross.BearingElement(n=left, kxx=5e7, cxx=100.0, kzz=1e6),
+            ross.BearingElement(n=damper, kxx=0.0, cxx=60.0),
+        ]
+
+    return Machine(
+        parts,
+        nodes=right + 1,
+        disk=disk,
+        bearing=right,
+        pressed=(0.0, -300.0),
+        eccentric=5e-4,  # a disk that should be balanced; grade G 36 at 50 Hz
+        housing={"mass": 6.638, "damping": 2210.7, "stiffness": 1.51056e7},
+    )
 
 
 class Lateral:
     """ROSS's matrices of a rotor for x, y and the two tilts of each node."""
 
-    def __init__(self, rotor, speed):
+    def __init__(self, machine, rotor, speed):
         per_node = rotor.number_dof
         keep = [0, 1, 3, 4] if per_node == 6 else [0, 1, 2, 3]
-        rows = [n * per_node + k for n in range(NODES) for k in keep]
-        rows += list(range(NODES * per_node, rotor.ndof))  # a housing: x, y (and z, which nothing moves)
+        rows = [n * per_node + k for n in range(machine.nodes) for k in keep]
+        rows += list(range(machine.nodes * per_node, rotor.ndof))  # a housing: x, y (and z, which nothing moves)
         at = np.ix_(rows, rows)
         self.rows = rows
         self.M, self.K = rotor.M(speed)[at], rotor.K(speed)[at]
@@ -89,7 +118,7 @@ class Lateral:
         return slice(4 * n, 4 * n + 2)
 
 
-def unbalance(t, speed, eccentric=ECCENTRIC):
+def unbalance(t, speed, eccentric):
     """Force at the disk; it grows from zero over the first turn, so that nothing is struck."""
     turn = np.clip(np.asarray(t) * speed / (2 * np.pi), 0.0, 1.0)
     size = eccentric * speed**2 * turn * turn * (3 - 2 * turn)
@@ -99,19 +128,20 @@ def unbalance(t, speed, eccentric=ECCENTRIC):
 class Coupled:
     """The bearing's FMU at rest below the rotor, and its linear stand-in."""
 
-    def __init__(self, fmu, speed, tolerance=1e-5, initial_angle=None):
+    def __init__(self, machine, fmu, speed, tolerance=1e-5, initial_angle=None):
         start = {"shaft.speed": speed, "housing.load.x": 0.0, "housing.load.y": 0.0, "solver.tolerance": tolerance}
         if initial_angle is not None:
             start["cage.initial_angle"] = initial_angle
         self.fmu = Bearing(fmu, start=start)
         # What the rotor's weight and the load ask of a bearing that hardly yields.
         hold = 1e9
-        system = Lateral(rotor_with((hold * np.eye(2), np.zeros((2, 2)))), speed)
+        system = Lateral(machine, machine.rotor((hold * np.eye(2), np.zeros((2, 2)))), speed)
         up = np.zeros(system.size)
         up[1::4] = 1.0
         weight = -GRAVITY * system.M @ up
-        weight[system.node(RIGHT)] += PRESSED
-        self.load = hold * np.linalg.solve(system.K, weight)[system.node(RIGHT)]
+        node = system.node(machine.bearing)
+        weight[node] += machine.pressed
+        self.load = hold * np.linalg.solve(system.K, weight)[node]
         self.place = self.fmu.rest(self.load)
         self.rest_force = self.fmu.force_at(self.place)
         self.stiffness, self.damping = self.fmu.linear()
@@ -129,17 +159,16 @@ class Coupled:
         return mean, end
 
 
-def with_ross(fmu, speed, h, stop, seen=(), tolerance=1e-5, stand_in=True):
+def with_ross(machine, fmu, speed, h, stop, seen=(), tolerance=1e-5, stand_in=True):
     """ROSS integrates; gives time, motion of all nodes, and the FMU's outputs named in `seen`."""
-    coupled = Coupled(fmu, speed, tolerance)
+    coupled = Coupled(machine, fmu, speed, tolerance)
     if not stand_in:
         coupled.stiffness, coupled.damping = np.zeros((2, 2)), np.zeros((2, 2))
-    rotor = rotor_with((coupled.stiffness, coupled.damping) if stand_in else None)
+    rotor = machine.rotor((coupled.stiffness, coupled.damping) if stand_in else None)
     t = h * np.arange(round(stop / h) + 1)
     force = np.zeros((len(t), rotor.ndof))
-    first = rotor.number_dof * DISK
-    force[:, first : first + 2] = unbalance(t, speed).T
-    node = slice(rotor.number_dof * RIGHT, rotor.number_dof * RIGHT + 2)
+    disk, node = (slice(rotor.number_dof * n, rotor.number_dof * n + 2) for n in (machine.disk, machine.bearing))
+    force[:, disk] = unbalance(t, speed, machine.eccentric).T
     rows, given = [coupled.fmu.read(seen)], []
 
     def beyond(step, time_step, disp_resp, velc_resp, accl_resp):
@@ -159,7 +188,7 @@ def with_ross(fmu, speed, h, stop, seen=(), tolerance=1e-5, stand_in=True):
     coupled.fmu.close()
     if len(given) != len(t) - 1 or not np.array_equal(given, motion[:-1, node]):
         raise RuntimeError("ROSS asked with another state than the last accepted one")
-    return t, motion[:, Lateral(rotor, speed).rows], np.array(rows)
+    return t, motion[:, Lateral(machine, rotor, speed).rows], np.array(rows)
 
 
 class Propagator:
@@ -187,17 +216,21 @@ class Propagator:
         self.by_end = -2 * slope + 3 * curve
 
 
-def exact(fmu, speed, h, stop, passes=1, seen=(), tolerance=1e-5, at_disk=unbalance):
-    """Our host; `at_disk` is the force there. Gives time, motion of all nodes, and the FMU's outputs named in `seen`."""
-    coupled = Coupled(fmu, speed, tolerance)
-    system = Lateral(rotor_with((coupled.stiffness, coupled.damping)), speed)
-    node, disk, n = system.node(RIGHT), system.node(DISK), system.size
+def exact(machine, fmu, speed, h, stop, passes=1, seen=(), tolerance=1e-5, at_disk=None):
+    """Our host; `at_disk` is the force there, by default the unbalance's.
+
+    Gives time, motion of all nodes, and the FMU's outputs named in `seen`.
+    """
+    coupled = Coupled(machine, fmu, speed, tolerance)
+    system = Lateral(machine, machine.rotor((coupled.stiffness, coupled.damping)), speed)
+    node, disk, n = system.node(machine.bearing), system.node(machine.disk), system.size
     over = Propagator(system, h, [node.start, node.start + 1, disk.start, disk.start + 1])
     speeds = slice(n + node.start, n + node.stop)
     count = round(stop / h)
     z = np.zeros(2 * n)
     motion, rows = np.zeros((count + 1, n)), [coupled.fmu.read(seen)]
-    drive = at_disk(0.5 * h * np.arange(2 * count + 1), speed).T
+    half_steps = 0.5 * h * np.arange(2 * count + 1)
+    drive = (at_disk(half_steps, speed) if at_disk else unbalance(half_steps, speed, machine.eccentric)).T
     beyond, change = np.zeros(2), np.zeros(2)
     for step in range(count):
         start, _, later = drive[2 * step : 2 * step + 3]
@@ -237,11 +270,11 @@ def spectrum(signal, h, turns):
     return np.fft.rfftfreq(len(signal), h) / turns, amplitudes
 
 
-def summary(runs, passage, h, turns, settle):
-    """Amplitudes of the shaft's place in the bearing [µm] at shaft speed, at multiples of BPFO, and their sidebands."""
+def summary(machine, runs, passage, h, turns, settle):
+    """Amplitudes of the shaft's position in the bearing [µm] at shaft speed, at multiples of BPFO, and their sidebands."""
     found = {"bpfo_order": passage}
     for name, (t, motion, _) in runs.items():
-        order, amplitude = spectrum(motion[t >= settle, 4 * RIGHT + 1] * 1e6, h, turns)
+        order, amplitude = spectrum(motion[t >= settle, 4 * machine.bearing + 1] * 1e6, h, turns)
         lines = [1.0, *(k * passage + side for k in (1, 2) for side in (-1, 0, 1))]
         near = max(0.06, order[1])
         found[f"place_um_{name}"] = {f"{x:.3f}": float(amplitude[np.abs(order - x) <= near].max()) for x in lines}
@@ -251,17 +284,17 @@ def summary(runs, passage, h, turns, settle):
     return found
 
 
-def draw(runs, passage, h, turns, settle, stem):
+def draw(machine, runs, passage, h, turns, settle, stem):
     from figures import BLACK, BLUE, ORANGE, legend, plots, save
 
     figure, axes = plots(4, 11)
     for name, colour in (("spalled", ORANGE), ("healthy", BLUE)):
         t, motion, outputs = runs[name]
         part = t >= max(t[-1] - 4 / turns, settle)
-        axes[0].plot((t[part] - t[-1]) * turns, motion[part, 4 * RIGHT + 1] * 1e6, color=colour, label=name)
-        axes[1].plot((t[part] - t[-1]) * turns, motion[part, 4 * DISK + 1] * 1e6, color=colour)
+        axes[0].plot((t[part] - t[-1]) * turns, motion[part, 4 * machine.bearing + 1] * 1e6, color=colour, label=name)
+        axes[1].plot((t[part] - t[-1]) * turns, motion[part, 4 * machine.disk + 1] * 1e6, color=colour)
         late = t >= settle
-        for axis, signal in ((axes[2], motion[late, 4 * RIGHT + 1] * 1e6), (axes[3], outputs[late, 0])):
+        for axis, signal in ((axes[2], motion[late, 4 * machine.bearing + 1] * 1e6), (axes[3], outputs[late, 0])):
             order, amplitude = spectrum(signal, h, turns)
             axis.semilogy(order[order < 11], amplitude[order < 11], color=colour, linewidth=0.8)
     for axis in axes[2:]:
@@ -293,6 +326,7 @@ def main():
     parser.add_argument("--stop", type=float, default=4.0, help="end [s]")
     parser.add_argument("-o", "--output", type=Path, default=Path("target/examples"))
     options = parser.parse_args()
+    machine = shown()
     healthy, spalled = fmus_in(options.output)
     speed, settle = 2 * np.pi * options.speed, min(0.3, 0.4 * options.stop)
     h = options.step or {"exact": 5e-5, "ross": 1e-5}[options.host]
@@ -301,14 +335,14 @@ def main():
     for name, fmu in (("healthy", healthy), ("spalled", spalled)):
         begin = time.perf_counter()
         if options.host == "ross":
-            runs[name] = with_ross(fmu, speed, h, options.stop, seen)
+            runs[name] = with_ross(machine, fmu, speed, h, options.stop, seen)
         else:
-            runs[name] = exact(fmu, speed, h, options.stop, options.passes, seen)
+            runs[name] = exact(machine, fmu, speed, h, options.stop, options.passes, seen)
         took[name] = round(time.perf_counter() - begin, 2)
     passage = 9 * runs["spalled"][2][0, 1] / speed  # of an element over a place on the outer ring, per shaft turn
     stem = options.output / f"rotor_{options.host}"
-    draw(runs, passage, h, options.speed, settle, stem)
-    found = summary(runs, passage, h, options.speed, settle)
+    draw(machine, runs, passage, h, options.speed, settle, stem)
+    found = summary(machine, runs, passage, h, options.speed, settle)
     print(json.dumps({**found, "seconds": took, "files": f"{stem}.svg .png"}))
 
 

@@ -11,6 +11,7 @@ use RecorderFilter::{LinearPhase, None};
 use brinell::numerics::low_pass::low_pass;
 use brinell::scene::{Recorder, RecorderFilter, Scene};
 use brinell_analysis::spectrum::power;
+use std::ops::Range;
 use support::{Named, shipped};
 
 fn started(mut scene: Scene, rate: f64, filter: RecorderFilter) -> Named {
@@ -33,17 +34,17 @@ fn columns(run: &Named, names: &[&str]) -> Vec<Vec<f64>> {
     names.iter().map(column).collect()
 }
 
-fn recorded(scene: &str, (rate, filter): (f64, RecorderFilter), stop: f64, names: &[&str]) -> Vec<Vec<f64>> {
+fn recorded(scene: &str, rate: f64, filter: RecorderFilter, stop: f64, names: &[&str]) -> Vec<Vec<f64>> {
     let mut run = started(shipped(scene), rate, filter);
     run.run(1e-3, (stop * 1e3).round() as usize);
     columns(&run, names)
 }
 
-/// Level of a signal in a band [dB].
-fn level(signal: &[f64], rate: f64, (from, to): (f64, f64), (low, high): (f64, f64)) -> f64 {
-    let part = &signal[(from * rate).round() as usize..(to * rate).round() as usize];
+/// Level of a signal in a part of its time [s], in a band [Hz]: [dB].
+fn level(signal: &[f64], rate: f64, time: &Range<f64>, band: &Range<f64>) -> f64 {
+    let part = &signal[(time.start * rate).round() as usize..(time.end * rate).round() as usize];
     let (power, bin) = power(part, rate, 0);
-    let band = &power[(low / bin).ceil() as usize..(high / bin).floor() as usize];
+    let band = &power[(band.start / bin).ceil() as usize..(band.end / bin).floor() as usize];
     let density = band.iter().sum::<f64>() / (band.len() as f64 * part.len() as f64 * rate);
     10.0 * libm::log10(density)
 }
@@ -52,17 +53,17 @@ const VIBRATIONS: [&str; 4] = ["sensor.acceleration", "housing.ay", "shaft.ay", 
 
 #[test]
 fn no_aliases_reach_the_band_below_the_rate_over_2_56() {
-    let (fine, stop, window) = (819_200.0, 0.25, (0.05, 0.24));
-    let truth = recorded("er16k-tb1", (fine, None), stop, &VIBRATIONS);
+    let (fine, stop, window) = (819_200.0, 0.25, 0.05..0.24);
+    let truth = recorded("er16k-tb1", fine, None, stop, &VIBRATIONS);
     for rate in [12_800.0, 25_600.0, 51_200.0] {
-        let runs = [None, LinearPhase].map(|filter| recorded("er16k-tb1", (rate, filter), stop, &VIBRATIONS));
+        let runs = [None, LinearPhase].map(|filter| recorded("er16k-tb1", rate, filter, stop, &VIBRATIONS));
         let mut most = f64::NEG_INFINITY;
         for (i, name) in VIBRATIONS.into_iter().enumerate() {
             // At 25.6 kHz the last one is 8 to 10 kHz.
             for (low, high) in [(0.08, 0.2), (0.2, 0.3125), (0.3125, 0.390_625)] {
-                let band = (low * rate, high * rate);
-                let there = level(&truth[i], fine, window, band);
-                let [before, after] = runs.each_ref().map(|run| level(&run[i], rate, window, band) - there);
+                let band = low * rate..high * rate;
+                let there = level(&truth[i], fine, &window, &band);
+                let [before, after] = runs.each_ref().map(|run| level(&run[i], rate, &window, &band) - there);
                 println!("{rate} Hz, {name} at {band:.0?} Hz: {before:+.2} dB without, {after:+.3} dB with the filter");
                 // Aliases at -40 dB of a band would add 0.0004 dB if they were alone; the two grids of bins end a band
                 // differently, which alone makes 0.013 dB.
@@ -78,9 +79,9 @@ fn no_aliases_reach_the_band_below_the_rate_over_2_56() {
 fn rows_are_the_low_pass_of_the_signal_and_what_the_fast_samples_fold_is_80_db_below_it() {
     let (rate, per_row, half, names) =
         (51_200.0, 16, 15, ["housing.ay", "shaft.ay", "shaft.force.y", "housing.force.x"]);
-    let rows = recorded("er16k-tb1", (rate, LinearPhase), 0.05, &names);
+    let rows = recorded("er16k-tb1", rate, LinearPhase, 0.05, &names);
     // Twice as fast as the recorder samples; what that folds is another 15 dB lower.
-    let fine = recorded("er16k-tb1", (rate * per_row as f64, None), 0.05, &names);
+    let fine = recorded("er16k-tb1", rate * per_row as f64, None, 0.05, &names);
     let h = low_pass(half * per_row, 0.5 / per_row as f64, 102.0);
     for ((name, rows), fine) in names.iter().zip(&rows).zip(&fine) {
         assert_eq!(rows.len(), 2560 - half);
@@ -99,7 +100,7 @@ fn rows_are_the_low_pass_of_the_signal_and_what_the_fast_samples_fold_is_80_db_b
 #[test]
 fn a_filtered_row_has_no_delay() {
     let names = ["shaft.force.y", "sensor.acceleration", "housing.ay"];
-    let [plain, filtered] = [None, LinearPhase].map(|f| recorded("6205-healthy", (51_200.0, f), 0.05, &names));
+    let [plain, filtered] = [None, LinearPhase].map(|f| recorded("6205-healthy", 51_200.0, f, 0.05, &names));
     for ((name, plain), filtered) in names.iter().zip(&plain).zip(&filtered) {
         let plain = &plain[256..filtered.len()];
         let mean = plain.iter().sum::<f64>() / plain.len() as f64;
@@ -115,7 +116,7 @@ fn a_filtered_row_has_no_delay() {
 #[test]
 fn the_first_row_is_the_balance_that_the_run_starts_from() {
     let names = ["shaft.force.y", "housing.force.y", "sensor.acceleration"];
-    let found = recorded("er16k-tb1", (51_200.0, LinearPhase), 2e-3, &names);
+    let found = recorded("er16k-tb1", 51_200.0, LinearPhase, 2e-3, &names);
     // The load is 500 N, and the elements weigh 0.18 N. The run starts at rest, and what the filter assumes of the time
     // before is just that.
     for (column, value) in found.iter().zip([500.0, -500.18, 0.0]) {

@@ -21,6 +21,11 @@ def event(axis, at, text, height=0.97):
     axis.annotate(text, (at, height), xycoords=axis.get_xaxis_transform(), xytext=(3, 0), textcoords="offset points", va="top", fontsize=9)
 
 
+def legend_above(axis, *what, **options):
+    """Above the axis on the right, where no curve is."""
+    axis.legend(*what, loc="lower right", bbox_to_anchor=(1, 0.97), borderaxespad=0, **options)
+
+
 def four_events():
     data = read("four-events")
     time = data["time"] * 1e3
@@ -60,7 +65,7 @@ def epps():
     top.set_xlabel("arc from the middle of the spall (mm)")
     top.set_ylabel("depth (µm)")
     top.set_title("Etched spall of 0.8 mm on a 6205, 1500 N, 25 Hz")
-    top.legend(loc="center right")
+    legend_above(top, ncols=2)
     time = data["time"] * 1e3
     panels = (("housing.ay", 1.0, "housing, y\n(m/s²)"), ("element[1].path", 1e6, "path of the\nelement (µm)"), ("element[1].force.outer", 1.0, "outer force on\nthe element (N)"))
     curves = (("trace hertz", GREEN, "-", "trace, law hertz"), ("sharp hertz", ORANGE, ":", "90° edges, law hertz"), ("trace map", BLUE, "-", "trace, law map"), ("sharp map", SKY, ":", "90° edges, law map"))
@@ -72,9 +77,7 @@ def epps():
         for edge in (0.0, 0.5447):
             axis.axvline(edge, color="black", linewidth=0.8, linestyle=":")
     axes[2].invert_yaxis()
-    low, high = axes[1].get_ylim()
-    axes[1].set_ylim(low, high + 0.35 * (high - low))
-    axes[1].legend(loc="upper right", ncols=4, fontsize=8)
+    legend_above(axes[1], ncols=4)
     axes[-1].set_xlabel("time from the leading edge (ms); dotted: both edges")
     figure.align_ylabels()
     plotting.save(figure, figures / "validation-epps")
@@ -143,7 +146,7 @@ def beside():
                 other.set_ylabel("envelope (dB)")
             if row == 0 and column == 0:
                 lines = axis.get_lines()[:1] + other.get_lines()[:1]
-                axis.legend(lines, [line.get_label() for line in lines], loc="upper left")
+                legend_above(axis, lines, [line.get_label() for line in lines], ncols=2)
             if row == len(speeds) - 1:
                 axis.set_xlabel("element travel from the first impact (degrees)")
     bottom = figure.add_subplot(grid[len(speeds), :])

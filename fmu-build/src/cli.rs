@@ -1,5 +1,6 @@
 //! The commands: what a user types, and the order of work behind each.
 
+use std::env;
 use std::path::PathBuf;
 
 use anyhow::Result;
@@ -177,7 +178,7 @@ pub struct Demo {
 
 #[derive(Debug, Args)]
 struct LibraryChoice {
-    /// Compiled model library to pack, instead of building it from source
+    /// Compiled model library to pack, instead of building it from source; so does the environment's BRINELL_LIBRARY
     #[arg(long, value_name = "PATH", conflicts_with = "target")]
     library: Option<PathBuf>,
     /// Platform to compile for: linux64, win64, darwin64, aarch64-linux, or Rust's name of it; may be given several
@@ -189,7 +190,8 @@ struct LibraryChoice {
 
 impl From<LibraryChoice> for library::Choice {
     fn from(choice: LibraryChoice) -> Self {
-        Self { file: choice.library, platforms: choice.target }
+        let named = || env::var_os("BRINELL_LIBRARY").map(PathBuf::from).filter(|_| choice.target.is_empty());
+        Self { file: choice.library.or_else(named), platforms: choice.target }
     }
 }
 

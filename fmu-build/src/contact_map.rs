@@ -11,6 +11,7 @@ use anyhow::Result;
 use brinell::contact::contact_maps::ContactMaps;
 use brinell::contact::error::ContactError;
 use brinell::contact::map_specification::Runner;
+use brinell::contact::rolling::RacewaySide;
 use brinell::scene::{ContactLaw, Scene};
 use brinell::simulation::setup;
 use brinell::surface::Surface;
@@ -34,7 +35,7 @@ pub fn of(scene: &Scene, profile: Option<&str>, project: &Project) -> Result<Opt
     let map = setup::build_map(scene, &surface, &mut cores)?;
     cores.bar.finish_and_clear();
     let Some(map) = map else { return Ok(None) };
-    let (reached, wanted) = (map.accuracy().max(), setup::map_accuracy(scene));
+    let (reached, wanted) = (map.accuracy().max(), setup::map_specification(scene, RacewaySide::Outer).accuracy);
     if reached > 1.5 * wanted {
         eprintln!(
             "contact map of {}: error up to {reached:.1e} of the largest force, {wanted:.0e} was wanted; more cells \

@@ -125,11 +125,17 @@ fn get(simulation: &mut Simulation, name: &str) -> f64 {
     value[0]
 }
 
+/// Variables by what they are: paths of elements, positions of a ring.
+struct Compared<'n> {
+    paths: &'n [&'n str],
+    rings: &'n [&'n str],
+}
+
 /// Largest differences from the oracle over a run: element path, ring position [m].
 fn compare(
     simulation: &mut Simulation,
     reference: &Reference,
-    (paths, rings): (&[&str], &[&str]),
+    compared: Compared,
     mut advance: impl FnMut(&mut Simulation, f64, f64),
 ) -> [f64; 2] {
     let mut worst = [0.0f64; 2];
@@ -138,7 +144,7 @@ fn compare(
             let (from, to) = (reference.value(row - 1, "time"), reference.value(row, "time"));
             advance(simulation, from, to - from);
         }
-        for (names, worst) in [paths, rings].into_iter().zip(&mut worst) {
+        for (names, worst) in [compared.paths, compared.rings].into_iter().zip(&mut worst) {
             for name in names {
                 *worst = worst.max((get(simulation, name) - reference.value(row, name)).abs());
             }
@@ -165,7 +171,8 @@ fn one_element_between_prescribed_rings_moves_as_the_oracle_says() {
     };
     set(&mut simulation, 0.0);
     simulation.initialize(0.0).unwrap();
-    let [path, _] = compare(&mut simulation, &reference, (&["element[1].path"], &[]), |simulation, from, step| {
+    let compared = Compared { paths: &["element[1].path"], rings: &[] };
+    let [path, _] = compare(&mut simulation, &reference, compared, |simulation, from, step| {
         // Within 1 µs the motion is wrong by 1/6 of its third derivative: 6e-15 m.
         let count = 50;
         for i in 0..count {
@@ -185,10 +192,10 @@ fn nine_elements_and_a_free_shaft_move_as_the_oracle_says() {
     simulation.initialize(0.0).unwrap();
     let paths: Vec<String> = (1..=9).map(|j| format!("element[{j}].path")).collect();
     let paths: Vec<&str> = paths.iter().map(String::as_str).collect();
-    let [path, ring] =
-        compare(&mut simulation, &reference, (&paths, &["shaft.x", "shaft.y"]), |simulation, _, step| {
-            simulation.step(step).unwrap();
-        });
+    let compared = Compared { paths: &paths, rings: &["shaft.x", "shaft.y"] };
+    let [path, ring] = compare(&mut simulation, &reference, compared, |simulation, _, step| {
+        simulation.step(step).unwrap();
+    });
     assert!(path < 1e-10, "path differs by {path:e} m");
     assert!(ring < 1e-12, "ring differs by {ring:e} m");
     println!("nine elements: path within {path:.1e} m, ring within {ring:.1e} m");
@@ -203,10 +210,14 @@ fn follows(name: &str, scene: &str, stop: f64) {
     simulation.initialize(0.0).unwrap();
     let paths: Vec<String> = (1..=9).map(|j| format!("element[{j}].path")).collect();
     let paths: Vec<&str> = paths.iter().map(String::as_str).collect();
-    let [path, ring] =
-        compare(&mut simulation, &reference, (&paths, &["shaft.x", "shaft.y"]), |simulation, _, step| {
+    let [path, ring] = compare(
+        &mut simulation,
+        &reference,
+        Compared { paths: &paths, rings: &["shaft.x", "shaft.y"] },
+        |simulation, _, step| {
             simulation.step(step).unwrap();
-        });
+        },
+    );
     println!("{name}: path within {path:.1e} m, ring within {ring:.1e} m");
     assert!(path < 1e-10, "{name}: path differs by {path:e} m");
     assert!(ring < 1e-12, "{name}: ring differs by {ring:e} m");

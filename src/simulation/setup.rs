@@ -115,7 +115,7 @@ fn sides(scene: &Scene) -> &'static [RacewaySide] {
 /// static force on the most loaded element, 5 F/Z (Stribeck), and at least 1000 N. Outside Δ counts the rings' and
 /// seats' compliance as well. An accuracy that the scene asks for is held; the usual one may be missed, in defects
 /// deeper than they are long, by what `TOLERATED` says.
-fn specification_of(scene: &Scene, side: RacewaySide) -> MapSpecification {
+pub fn map_specification(scene: &Scene, side: RacewaySide) -> MapSpecification {
     let (force, hertz) = (largest_force(scene), HertzConstants::of(&scene.bearing));
     let (stiffness, compliance) = match side {
         RacewaySide::Inner => (hertz.inner, 0.0),
@@ -133,11 +133,6 @@ fn specification_of(scene: &Scene, side: RacewaySide) -> MapSpecification {
     }
 }
 
-/// Error that the contact maps of a scene are to keep, relative to the largest force.
-pub fn map_accuracy(scene: &Scene) -> f64 {
-    specification_of(scene, RacewaySide::Outer).accuracy
-}
-
 /// Computes the contact maps of a scene, `None` where its law needs none. `runner` says on how many cores.
 ///
 /// # Errors
@@ -151,7 +146,7 @@ pub fn build_map(
         return Ok(None);
     }
     let maps = sides(scene).iter().map(|&side| {
-        ContactMap::build(surface, ElementOnRaceway::of(&scene.bearing, side), specification_of(scene, side), runner)
+        ContactMap::build(surface, ElementOnRaceway::of(&scene.bearing, side), map_specification(scene, side), runner)
     });
     Ok(Some(ContactMaps::new(maps.collect::<Result<Vec<_>, _>>()?)))
 }
@@ -164,7 +159,7 @@ pub fn map_fingerprint(scene: &Scene, surface: &Surface) -> u64 {
 
 fn fingerprint_on(scene: &Scene, surface: &Surface, side: RacewaySide) -> u64 {
     let element = ElementOnRaceway::of(&scene.bearing, side);
-    ContactMap::fingerprint_of(surface, element, specification_of(scene, side))
+    ContactMap::fingerprint_of(surface, element, map_specification(scene, side))
 }
 
 /// Maps that were stored with the scene; refused when they are damaged or belong to something else.
@@ -181,7 +176,7 @@ fn near(
 ) -> Result<NearDefect, SimulationError> {
     let on_element = matches!(scene.defect.as_ref().map(|defect| defect.on), Some(DefectOn::Element { .. }));
     let rolling = Rolling::of(&scene.bearing, side, on_element);
-    let (element, specification) = (ElementOnRaceway::of(&scene.bearing, side), specification_of(scene, side));
+    let (element, specification) = (ElementOnRaceway::of(&scene.bearing, side), map_specification(scene, side));
     let near = match (scene.contact.law, surface) {
         (ContactLaw::Hertz, Surface::Profile(profile)) => NearDefect::Hertz(RigidPath::new(profile.points(), rolling)?),
         (ContactLaw::Hertz, Surface::Topography(_)) => {

@@ -80,7 +80,7 @@ extremes! {
     a_spall_of_one_cell_agrees = case("spall 50 µm long, 1 µm deep");
     a_spall_on_the_unloaded_side_agrees = case("spall on the unloaded side");
     vertical_edges_agree = case("edges of 90 degrees, 100 µm deep");
-    gentle_edges_agree_with_the_other_method = methods::agree("edges of 1 degree", gentle(), (1e-4, 100), 1e-3);
+    gentle_edges_agree_with_the_other_method = methods::agree("edges of 1 degree", gentle(), 1e-4, 100, 1e-3);
     an_element_without_contact_falls_freely = closed_forms::free_fall();
     a_jump_of_a_micrometre_agrees = case("host jumps by 1 µm");
     a_jump_of_a_hundred_micrometres_agrees = case("host jumps by 100 µm");

@@ -8,7 +8,7 @@ use brinell::simulation::Method;
 
 /// Runs a scene that the oracle does not have as it is, and by the implicit method alone at a tolerance 100 times
 /// tighter.
-pub fn agree(what: &'static str, scene: Scene, (step, count): (f64, usize), limit: f64) -> Row {
+pub fn agree(what: &'static str, scene: Scene, step: f64, count: usize, limit: f64) -> Row {
     const NAMES: [&str; 4] = ["shaft.force.y", "housing.force.y", "element[1].force.outer", "element[2].force.inner"];
     let run = |bearing: &mut Named| -> Vec<f64> {
         let mut found = Vec::new();

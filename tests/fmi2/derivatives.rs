@@ -1,27 +1,26 @@
-//! Derivatives: what the functions give is what a host finds by differences.
+//! Derivatives by inputs: what the functions give is what a host finds by differences.
 
 use crate::host::Host;
 use brinell::simulation::variables::{Causality, Dependencies, Kind, Unit, Variable};
 use brinell_fmi::fmi2::*;
-use std::ptr;
 
 /// All that may move: rings inside, one ring or both from the host, sound, spalled, spalled and compliant.
-const SCENES: [&str; 6] =
+pub(crate) const SCENES: [&str; 6] =
     ["6205-healthy", "6205-hosted", "6205-epps", "er16k-tb1", "er16k-tb1-hosted-shaft", "er16k-tb2-compliant"];
 
 fn is_real(variable: &&Variable) -> bool {
     matches!(variable.kind, Kind::Real { .. })
 }
 
-fn inputs(table: &[Variable]) -> Vec<&Variable> {
+pub(crate) fn inputs(table: &[Variable]) -> Vec<&Variable> {
     table.iter().filter(|v| v.causality == Causality::Input).collect()
 }
 
-fn outputs(table: &[Variable]) -> Vec<&Variable> {
+pub(crate) fn outputs(table: &[Variable]) -> Vec<&Variable> {
     table.iter().filter(|v| v.causality == Causality::Output).filter(is_real).collect()
 }
 
-fn references(variables: &[&Variable]) -> Vec<u32> {
+pub(crate) fn references(variables: &[&Variable]) -> Vec<u32> {
     variables.iter().map(|v| v.reference).collect()
 }
 
@@ -43,7 +42,7 @@ impl Host {
         if status == Status::Ok { Ok(values) } else { Err(status) }
     }
 
-    fn by_time(&self, unknowns: &[u32], order: i32) -> Result<Vec<f64>, Status> {
+    pub(crate) fn by_time(&self, unknowns: &[u32], order: i32) -> Result<Vec<f64>, Status> {
         let (orders, mut values) = (vec![order; unknowns.len()], vec![f64::NAN; unknowns.len()]);
         // SAFETY: the arrays are as long as said.
         let status = unsafe {
@@ -53,13 +52,13 @@ impl Host {
         if status == Status::Ok { Ok(values) } else { Err(status) }
     }
 
-    fn rate(&self, reference: u32, order: i32, value: f64) -> Status {
+    pub(crate) fn rate(&self, reference: u32, order: i32, value: f64) -> Status {
         // SAFETY: one element each.
         unsafe { fmi2SetRealInputDerivatives(self.c, &raw const reference, 1, &raw const order, &raw const value) }
     }
 
     /// Presses the inner ring into the elements, moving and sliding a little, where the host moves it.
-    fn press(&self) {
+    pub(crate) fn press(&self) {
         let table = self.table();
         let values = [
             ("shaft.x", 3e-6),
@@ -299,88 +298,6 @@ fn a_loose_ring_has_an_output_but_no_derivative_in_initialization_mode() {
     assert_eq!(host.directional(&[y], &[load], &[1.0]), Err(Status::Discard));
     assert!(host.lines().pop().unwrap().message.contains("no derivative"));
     assert!(host.get(&[y]).is_ok());
-}
-
-#[test]
-fn derivatives_of_outputs_by_time_are_what_short_steps_show() {
-    for scene in SCENES {
-        let host = Host::of(scene);
-        host.press();
-        host.start();
-        let table = host.table();
-        let outputs: Vec<_> = outputs(&table).into_iter().filter(|v| !v.name.contains("mean_force")).collect();
-        let unknowns = references(&outputs);
-        let mut time = 0.0;
-        for point in 0..8 {
-            let step = 1.3e-3 + 1e-5 * f64::from(point);
-            assert_eq!(host.step(time, step), Status::Ok);
-            time += step;
-            host.press();
-            for input in inputs(&table) {
-                match input.name.as_str() {
-                    "shaft.speed" => assert_eq!(host.rate(input.reference, 1, 40.0), Status::Ok),
-                    name if name.contains("load") => assert_eq!(host.rate(input.reference, 1, 1e3), Status::Ok),
-                    // In place of 0.3 m/s²: damping makes 10 N/s and more of it.
-                    "shaft.vx" => assert_eq!(host.rate(input.reference, 1, 0.8), Status::Ok),
-                    _ => {}
-                }
-            }
-            let given = host.by_time(&unknowns, 1).unwrap();
-            let before = host.get(&unknowns).unwrap();
-            let state = host.save();
-            let after = |h: f64| {
-                assert_eq!(host.restore(state), Status::Ok);
-                assert_eq!(host.step(time, h), Status::Ok);
-                host.get(&unknowns).unwrap()
-            };
-            // Forward differences, extrapolated to no step at all.
-            let h = 2e-9;
-            let (near, far, farther) = (after(h), after(2.0 * h), after(3.0 * h));
-            assert_eq!(host.restore(state), Status::Ok);
-            for (i, output) in outputs.iter().enumerate() {
-                let found = if output.name == "cage.torque" {
-                    // It leaps where a derivative of the speed begins to act, with the step.
-                    (8.0 * far[i] - 5.0 * near[i] - 3.0 * farther[i]) / (2.0 * h)
-                } else {
-                    (4.0 * near[i] - far[i] - 3.0 * before[i]) / (2.0 * h)
-                };
-                let Kind::Real { nominal, unit, .. } = output.kind else { panic!() };
-                // The third derivative of a mode at 50 kHz over these steps; rounding, of which the sensor's spring of
-                // 9e9 N/m makes 1e-10 m/s² from positions of 10 µm.
-                let rounding = if unit == Unit::MetrePerSecondSquared { 1e-10 } else { 1e-12 };
-                let tolerance = 1e-4 * given[i].abs() + rounding * before[i].abs().max(nominal) / h;
-                assert!(
-                    (given[i] - found).abs() <= tolerance,
-                    "{scene} at {time}: {} changes by {} /s, found {found}, allowed {tolerance:e}",
-                    output.name,
-                    given[i]
-                );
-            }
-        }
-    }
-}
-
-#[test]
-fn derivatives_by_time_of_another_order_or_variable_are_errors() {
-    let host = Host::started("er16k-tb1");
-    let state = host.save();
-    let force = host.reference("shaft.force.y");
-    for (reference, order, words) in [
-        (force, 0, "order 0"),
-        (force, 2, "order 2"),
-        (force, -1, "order -1"),
-        (host.reference("shaft.speed"), 1, "no output"),
-        (host.reference("solver.steps"), 1, "not of type Real"),
-        (u32::MAX, 1, "unknown"),
-    ] {
-        host.lines();
-        assert_eq!(host.by_time(&[reference], order), Err(Status::Error), "{words}");
-        assert!(host.lines()[0].message.contains(words), "{words}");
-        assert_eq!(host.restore(state), Status::Ok);
-    }
-    // SAFETY: NULL goes with no variables.
-    let status = unsafe { fmi2GetRealOutputDerivatives(host.c, ptr::null(), 0, ptr::null(), ptr::null_mut()) };
-    assert_eq!(status, Status::Ok);
 }
 
 #[test]

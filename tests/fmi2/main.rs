@@ -12,6 +12,7 @@ mod input_derivatives;
 mod instantiate;
 mod logging;
 mod modes;
+mod output_derivatives;
 mod panics;
 mod processes;
 mod recordings;

@@ -1,6 +1,7 @@
-//! What the tests of this crate share: the shipped scenes, one compiled library, one Python environment.
+//! What the tests of this crate share: the shipped scenes, a compiled library, one Python environment.
 #![allow(dead_code, clippy::unwrap_used)] // each test binary uses a part of this
 
+use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -31,14 +32,24 @@ pub(crate) fn model(name: &str) -> Model {
     Model::read(&root().join("scenes").join(name).with_extension("toml")).unwrap()
 }
 
-/// The compiled library, built once for this test binary.
+/// The library that was built along with the tests; in tests built with `--release` the one that FMUs are shipped with.
+/// Both are of the same source, the latter optimised as a whole and linked for old systems, which takes a minute.
 pub(crate) fn library() -> &'static Library {
     static LIBRARY: OnceLock<Library> = OnceLock::new();
     LIBRARY.get_or_init(|| {
-        // The linker that makes a portable library is in the environment.
-        python();
-        Library::obtain(&Project::find(), &Choice::default()).unwrap()
+        let choice = Choice { file: built_with_the_tests(), platforms: Vec::new() };
+        if choice.file.is_none() {
+            // The linker that makes a portable library is in the environment.
+            python();
+        }
+        Library::obtain(&Project::find(), &choice).unwrap()
     })
+}
+
+/// The library that was built along with this test, unless the shipped one is to be tested.
+pub(crate) fn built_with_the_tests() -> Option<PathBuf> {
+    let name = format!("{}brinell_fmi{}", env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX);
+    cfg!(debug_assertions).then(|| env::current_exe().unwrap().with_file_name(name))
 }
 
 /// The Python environment.

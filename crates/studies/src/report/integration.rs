@@ -114,14 +114,14 @@ pub(super) fn measure(python: &Python, extent: Extent, data: &Path) -> Result<In
         for (label, method) in METHODS {
             for &tolerance in tolerances {
                 bar.set_message(format!("{name}: {label}, {tolerance:e}"));
-                found.rows.push(controlled(&subject, (label, method), tolerance, &reference)?);
+                found.rows.push(controlled(&subject, label, method, tolerance, &reference)?);
                 bar.inc(1);
             }
         }
         for (label, method) in [("RK4", FixedStep::RungeKutta4), ("Verlet", FixedStep::Verlet)] {
             for &per_sample in fixed {
                 bar.set_message(format!("{name}: {label}, {per_sample} steps in 10 µs"));
-                found.rows.push(fixed_step(&subject, (label, method), per_sample, &reference)?);
+                found.rows.push(fixed_step(&subject, label, method, per_sample, &reference)?);
                 bar.inc(1);
             }
         }
@@ -141,7 +141,8 @@ fn bar(length: u64) -> ProgressBar {
 
 fn controlled(
     subject: &Subject,
-    (label, method): (&'static str, Method),
+    label: &'static str,
+    method: Method,
     tolerance: f64,
     reference: &Signals,
 ) -> Result<Row> {
@@ -169,7 +170,8 @@ fn controlled(
 
 fn fixed_step(
     subject: &Subject,
-    (label, method): (&'static str, FixedStep),
+    label: &'static str,
+    method: FixedStep,
     per_sample: usize,
     reference: &Signals,
 ) -> Result<Row> {
