@@ -61,9 +61,14 @@ impl Model {
     /// Elastic Jacobian of the rings' forces at the element paths `u`, the rings' centres being `offset` (outer minus
     /// inner) apart.
     pub fn ring_jacobian(&self, u: &[f64], cells: &[u32], offset: Vector, cage_angle: f64) -> RingJacobian {
-        let (mut jacobian, at) = (RingJacobian::zeros(), Kinematics::at_rest(cage_angle, offset));
+        self.ring_jacobian_at(u, cells, &Kinematics::at_rest(cage_angle, offset))
+    }
+
+    /// The same with the dampers' part at the velocities of `now`, each u' being 0.
+    pub(super) fn ring_jacobian_at(&self, u: &[f64], cells: &[u32], now: &Kinematics) -> RingJacobian {
+        let mut jacobian = RingJacobian::zeros();
         for j in 0..self.element_count {
-            self.add_balanced(&self.linearized_at(j, cells[j], (u[j], 0.0), &at, Bends::LeftOut), &mut jacobian);
+            self.add_balanced(&self.linearized_at(j, cells[j], (u[j], 0.0), now, Bends::LeftOut), &mut jacobian);
         }
         jacobian
     }
