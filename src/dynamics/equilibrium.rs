@@ -78,8 +78,8 @@ const ELEMENT_RESIDUAL: f64 = 1e-9;
 const ROUNDING: f64 = 1e-14;
 /// Longest step of a ring between two iterations at first [m]; a soft support may have a long way to go.
 const LONGEST_STEP: f64 = 50e-6;
-/// Iterations after which the longest step doubles, after which rings may go together as far as their supports let them,
-/// and after which the tangent is that of the damped contacts.
+/// Iterations after which the longest step doubles, rings may go together as far as their supports let them, and the
+/// tangent is that of the damped contacts.
 const DOUBLING: i32 = 50;
 const ITERATIONS: i32 = 500;
 
@@ -246,8 +246,8 @@ impl Model {
     /// A step of the free rings from the condensed tangent: (−J + μ) step = force.
     fn newton_step(&self, given: &Given, rings: Rings, u: &[f64], balance: &Balance, iteration: i32) -> Rings {
         let now = given.placed(rings);
-        // Where a host draws the rings apart so fast that dampers leave nothing of their contacts' forces, the elastic tangent
-        // is far too stiff.
+        // Where a host draws the rings apart so fast that dampers leave nothing of their contacts' forces, the elastic
+        // tangent is far too stiff.
         let jacobian = if iteration > DOUBLING {
             self.ring_jacobian_at(u, given.cells, &now)
         } else {

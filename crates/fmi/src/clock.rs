@@ -69,8 +69,8 @@ pub(super) enum ClockError {
     },
     /// A little off in every step.
     #[error(
-        "communication point {point:?} s: the start and all steps since are {drift:e} s away from it (allowed difference \
-         {allowed:e} s)"
+        "communication point {point:?} s: the start and all steps since are {drift:e} s away from it \
+         (allowed difference {allowed:e} s)"
     )]
     Drift {
         /// Point given.

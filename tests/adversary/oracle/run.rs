@@ -1,6 +1,6 @@
-//! Classical Runge–Kutta steps of one length, cut where an element comes to touch another feature and where a contact begins or
-//! ceases to push. After such a change of contact, and at each communication point, the steps begin small and double, because a
-//! force sets in as δ^1.5 or √δ.
+//! Classical Runge–Kutta steps of one length, cut where an element comes to touch another feature and where a contact
+//! begins or ceases to push. After such a change of contact, and at each communication point, the steps begin small and
+//! double, because a force sets in as δ^1.5 or √δ.
 
 use super::envelope::Feature;
 use super::{Acting, Bearing, ELEMENTS, Outside, SENSOR, quadratic};
@@ -147,8 +147,8 @@ impl<'a> Run<'a> {
         &self.stages[0]
     }
 
-    /// Acceleration with which the outer ring carries element `j` outwards [m/s²]: no balance counts the host's, nor, by the
-    /// little that is left of a balance, that of a ring much lighter than its elements.
+    /// Acceleration with which the outer ring carries element `j` outwards [m/s²]: no balance counts the host's, nor that
+    /// of a light ring by the little that is left of its own balance.
     pub fn carried(&self, j: usize) -> f64 {
         let (sin, cos) = (self.outside.cage[0] + TAU * j as f64 / self.bearing.count as f64).sin_cos();
         self.acting.accelerations[1][0] * cos + self.acting.accelerations[1][1] * sin

@@ -161,8 +161,8 @@ fn what_one_element_leaves_on_a_light_housing_is_no_push_on_the_others() {
     }
 }
 
-/// A communication step shorter than half a step of the oracle was one step in both of its runs, so that it took its own error
-/// for none: up to 2 % of a mean force where a contact begins as √t.
+/// A communication step shorter than half a step of the oracle was one step in both of its runs, so that it took its own
+/// error for none: up to 2 % of a mean force where a contact begins as √t.
 #[test]
 fn the_oracle_knows_its_own_error_in_the_shortest_steps() {
     for seed in [1552, 6854, 7240] {
@@ -170,8 +170,9 @@ fn the_oracle_knows_its_own_error_in_the_shortest_steps() {
     }
 }
 
-/// A host draws the housing off at 1.5 m/s, so that dampers leave nothing of the inner contacts' forces and the support holds
-/// the shaft alone. The search took the contacts' elastic stiffness for it, 49 times too much, and was given up with 3e-3 N left.
+/// A host draws the housing off at 1.5 m/s, so that dampers leave nothing of the inner contacts' forces and the support
+/// holds the shaft alone. The search took the contacts' elastic stiffness for it, 49 times too much, and was given up with
+/// 3e-3 N left.
 #[test]
 fn a_shaft_that_dampers_let_go_finds_the_balance_of_its_support() {
     agrees(7186);
