@@ -156,7 +156,7 @@ fn strong_dampers_at_high_speed_start_within_what_the_slope_is_known_to() {
 /// elements, by 630 times what those on the smooth raceway are allowed. The test had left it in.
 #[test]
 fn what_one_element_leaves_on_a_light_housing_is_no_push_on_the_others() {
-    for seed in [1721, 2787, 6729, 7211] {
+    for seed in [1721, 2787, 4146, 6729, 7211] {
         starts(seed);
     }
 }
@@ -165,7 +165,7 @@ fn what_one_element_leaves_on_a_light_housing_is_no_push_on_the_others() {
 /// error for none: up to 2 % of a mean force where a contact begins as √t.
 #[test]
 fn the_oracle_knows_its_own_error_in_the_shortest_steps() {
-    for seed in [1552, 6854, 7240] {
+    for seed in [1552, 4086, 6854, 7240] {
         agrees(seed);
     }
 }
