@@ -3,9 +3,9 @@
 //! Rings are at rest or move as prescribed, elements keep their distance from the outer ring (u' = 0) and go round with
 //! the cage: they feel gravity, the centrifugal force and the contacts' damping at those rates, so that no acceleration
 //! is left at the start. Each element's radial balance is solved inside (its force falls monotonically with u), then
-//! the internal rings' by Newton's method on the elastic [tangent](super::tangent) with a shift that keeps a loose
-//! ring's step bounded, and a search along the step for the point at which the residual no longer pushes forward: in a
-//! convex potential that is the minimum along the line.
+//! the internal rings' by Newton's method on the elastic [tangent](super::tangent), after many steps on that of the
+//! damped contacts, with a shift that keeps a loose ring's step bounded, and a search along the step for the point at
+//! which the residual no longer pushes forward: in a convex potential that is the minimum along the line.
 //!
 //! An element that nothing pushes rests against the outer raceway without force.
 
@@ -80,8 +80,8 @@ const ELEMENT_RESIDUAL: f64 = 1e-9;
 const ROUNDING: f64 = 1e-14;
 /// Longest step of a ring between two iterations at first [m]; a soft support may have a long way to go.
 const LONGEST_STEP: f64 = 50e-6;
-/// Iterations after which the longest step doubles, and after which rings may go together as far as their supports let
-/// them.
+/// Iterations after which the longest step doubles, rings may go together as far as their supports let them, and the
+/// tangent is that of the damped contacts.
 const DOUBLING: i32 = 50;
 const ITERATIONS: i32 = 500;
 /// Times that cells are looked up anew for the equilibrium found.
@@ -280,7 +280,14 @@ impl Model {
 
     /// A step of the free rings from the condensed tangent: (−J + μ) step = force.
     fn newton_step(&self, given: &Given, rings: Rings, u: &[f64], balance: &Balance, iteration: i32) -> Rings {
-        let jacobian = self.ring_jacobian(u, given.cells, &given.placed(rings));
+        let now = given.placed(rings);
+        // Where a host draws the rings apart so fast that dampers leave nothing of their contacts' forces, the elastic
+        // tangent is far too stiff.
+        let jacobian = if iteration > DOUBLING {
+            self.ring_jacobian_at(u, given.cells, &now)
+        } else {
+            self.ring_jacobian(u, given.cells, &now)
+        };
         // The turning of contact forces makes a lightly held ring's tangent indefinite; its bound ΣQ/|q| takes that
         // out. The second term lets a loose ring move by the longest step, and vanishes with the residual.
         let longest = longest_step(iteration);

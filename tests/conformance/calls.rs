@@ -22,6 +22,8 @@ pub(super) const RULES: &[Rule] = &[
             T("a_step_left_out_or_done_twice_is_an_error_however_late"),
             T("ten_million_added_steps_are_accepted_and_end_on_the_stop_time"),
             T("a_host_that_multiplies_is_met_from_any_start_with_any_step"),
+            T("a_host_whose_points_drift_away_from_its_steps_is_refused"),
+            T("a_host_whose_points_drift_away_from_the_sum_of_its_steps_is_refused_however_late"),
         ],
     ),
     (

@@ -246,9 +246,9 @@ fn damaged_short_long_and_foreign_bytes_are_refused() {
 fn contents_that_no_run_leaves_behind_are_refused_with_the_reason_even_if_the_checksum_is_right() {
     let host = Host::started("6205-healthy");
     let good = host.serialize(host.save());
-    // Magic 8, format 4, checksum 8; then length 8, GUID 38, three bytes, four times; then time 8, started 1, turns and
+    // Magic 8, format 4, checksum 8; then length 8, GUID 38, three bytes, six times; then time 8, started 1, turns and
     // rest of the cage and of three frames, three accelerations at the end of the last step.
-    let (checked, simulation) = (20, 20 + 8 + 38 + 3 + 32);
+    let (checked, simulation) = (20, 20 + 8 + 38 + 3 + 6 * 8);
     let cage_rest = simulation + 8 + 1 + 8;
     let next_step = cage_rest + 8 + 3 * 16 + 3 * 8;
     let gained = next_step + 3 * 8 + 1 + 4 * 4;

@@ -125,6 +125,26 @@ fn a_step_left_out_or_done_twice_is_an_error_however_late() {
 }
 
 #[test]
+fn a_host_whose_points_drift_away_from_its_steps_is_refused() {
+    // Each point half a percent of a step beyond the end of the step before.
+    let host = Host::of("6205-healthy");
+    assert_eq!(host.setup(None, 1e3, None), Status::Ok);
+    assert_eq!((host.enter(), host.exit()), (Status::Ok, Status::Ok));
+    let step = |host: &Host, n: u32| host.step(1e3 + f64::from(n) * 1.005e-4, 1e-4);
+    for n in 0..=2 {
+        assert_eq!(step(&host, n), Status::Ok, "{:?}", host.lines());
+    }
+    // A state that is put back brings the drift along, as bytes too.
+    let bytes = host.serialize(host.save());
+    assert_eq!(step(&host, 3), Status::Error);
+    assert!(host.lines().last().unwrap().message.contains("all steps since"), "{:?}", host.lines());
+    let other = Host::started("6205-healthy");
+    let state = other.deserialize(&bytes).unwrap();
+    assert_eq!(other.restore(state), Status::Ok);
+    assert_eq!(step(&other, 3), Status::Error);
+}
+
+#[test]
 fn a_whole_step_past_a_late_stop_time_is_an_error() {
     for start in [1e5, 1e7, 1.7e9] {
         let host = Host::of("6205-healthy");

@@ -2,7 +2,7 @@
 //! byte order or not: everything is little-endian.
 //!
 //! ```text
-//! "Brinell\0" | format u32 | checksum u64 | length u64 | GUID 38 | mode u8 | last step u8 | clock u8 + 4 f64 | ...
+//! "Brinell\0" | format u32 | checksum u64 | length u64 | GUID 38 | mode u8 | last step u8 | clock u8 + 6 f64 | ...
 //!                                         \_____________ covered by the checksum, with the simulation's state after it
 //! ```
 //! `length` is that of the whole blob. The checksum is 64-bit FNV-1a: each of its steps is a bijection of the running
@@ -21,6 +21,8 @@ const MAGIC: &[u8; 8] = b"Brinell\0";
 const FORMAT: u32 = 5;
 const GUID_LENGTH: usize = 38;
 const CHECKED_FROM: usize = 8 + 4 + 8;
+/// Numbers of the clock.
+const TIMES: usize = 6;
 
 /// Why bytes are refused as a state.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -75,9 +77,10 @@ pub(super) fn encode(snapshot: &Snapshot, guid: &str) -> Vec<u8> {
     bytes.push(snapshot.mode as u8);
     bytes.push(snapshot.last_step as u8);
     let (present, times) = match snapshot.clock {
-        None => (0, [0.0; 4]),
-        Some(Clock { start, stop: None, time, last }) => (1, [start, 0.0, time, last]),
-        Some(Clock { start, stop: Some(stop), time, last }) => (2, [start, stop, time, last]),
+        None => (0, [0.0; TIMES]),
+        Some(Clock { start, stop, time, last, drift, rounded }) => {
+            (1 + u8::from(stop.is_some()), [start, stop.unwrap_or(0.0), time, last, drift, rounded])
+        }
     };
     bytes.push(present);
     for value in times {
@@ -127,22 +130,26 @@ fn contents(mut rest: Reader, simulation: &Simulation) -> Result<Snapshot, &'sta
 
 fn instance_part(rest: &mut Reader) -> Option<(Mode, Status, Option<Clock>)> {
     let [mode, last_step, clock] = rest.array()?;
-    let (start, stop, time, last) = (rest.f64()?, rest.f64()?, rest.f64()?, rest.f64()?);
+    let mut times = [0.0; TIMES];
+    for time in &mut times {
+        *time = rest.f64()?;
+    }
+    let [start, stop, time, last, drift, rounded] = times;
     let last_step = [Status::Ok, Status::Warning, Status::Discard, Status::Error]
         .into_iter()
         .find(|status| *status as u8 == last_step)?;
-    let possible = start.is_finite() && time.is_finite() && last.is_finite() && last >= 0.0;
+    let possible = times.iter().all(|time| time.is_finite()) && last >= 0.0 && rounded >= 0.0;
     let clock = match clock {
         0 => None,
-        1 if possible => Some(Clock { start, stop: None, time, last }),
-        2 if possible && stop > start => Some(Clock { start, stop: Some(stop), time, last }),
+        1 if possible => Some(Clock { start, stop: None, time, last, drift, rounded }),
+        2 if possible && stop > start => Some(Clock { start, stop: Some(stop), time, last, drift, rounded }),
         _ => return None,
     };
     Some((Mode::from_number(mode)?, last_step, clock))
 }
 
 fn encoded_length(simulation: usize) -> usize {
-    CHECKED_FROM + 8 + GUID_LENGTH + 3 + 4 * 8 + simulation
+    CHECKED_FROM + 8 + GUID_LENGTH + 3 + TIMES * 8 + simulation
 }
 
 fn guid_field(guid: &str) -> [u8; GUID_LENGTH] {

@@ -12,6 +12,12 @@
 //! time, and these decide. A step of a few ε itself, 1.5 µs at Unix time, is taken all the same: its length is exact,
 //! and the last step of a run may well be what rounding has left. Whether such a step was left out is nothing that
 //! times could show.
+//!
+//! As the instance adopts the host's point, a host that is off by a little in each step would drift away unseen. Its
+//! points are therefore held against the exact sum of its steps as well. A host that multiplies, or counts in whole
+//! nanoseconds, stays within a few roundings of it; one that adds is off by the roundings of its sums, half an ε of the
+//! time at each. Beyond both, and a hundredth of a step or 1e-9 of the time as above, points and steps contradict each
+//! other: of steps above some ε of the time a drift of 1 % is found within two or three.
 
 /// Largest difference that the rounding of a multiplying host makes, in ε of the largest time.
 const ROUNDINGS: f64 = 4.0;
@@ -31,6 +37,10 @@ pub(super) struct Clock {
     pub(super) time: f64,
     /// The step that led there [s]; 0 before the first.
     pub(super) last: f64,
+    /// How far `time` is beyond the start and the exact sum of all steps since [s].
+    pub(super) drift: f64,
+    /// What the roundings of so many additions may come to [s].
+    pub(super) rounded: f64,
 }
 
 /// Why an experiment or a step is refused.
@@ -57,6 +67,19 @@ pub(super) enum ClockError {
         /// Difference that would pass for rounding.
         allowed: f64,
     },
+    /// A little off in every step.
+    #[error(
+        "communication point {point:?} s: the start and all steps since are {drift:e} s away from it \
+         (allowed difference {allowed:e} s)"
+    )]
+    Drift {
+        /// Point given.
+        point: f64,
+        /// How far it is beyond them.
+        drift: f64,
+        /// Difference that would pass for rounding.
+        allowed: f64,
+    },
     /// Zero, negative, not a number or infinite.
     #[error("communication step size {0:?} s: it must be finite and above 0")]
     Step(f64),
@@ -80,7 +103,7 @@ impl Clock {
         }
         match stop {
             Some(stop) if !(stop.is_finite() && stop > start) => Err(ClockError::Stop { stop, start }),
-            _ => Ok(Self { start, stop, time: start, last: 0.0 }),
+            _ => Ok(Self { start, stop, time: start, last: 0.0, drift: 0.0, rounded: 0.0 }),
         }
     }
 
@@ -96,13 +119,21 @@ impl Clock {
         if difference > allowed || difference.is_nan() {
             return Err(ClockError::Point { point, time: self.time, allowed });
         }
+        let drift = self.drift + (point - self.time);
+        let allowed = self.rounded + self.allowed(step, step.max(self.last));
+        if drift.abs() > allowed {
+            return Err(ClockError::Drift { point, drift, allowed });
+        }
         let end = point + step;
         if !end.is_finite() {
             return Err(ClockError::Step(step));
         }
         match self.stop {
             Some(stop) if end > stop + self.allowed(step, step) => Err(ClockError::PastStop { point, step, stop }),
-            _ => Ok(Self { time: end, last: step, ..*self }),
+            _ => {
+                let rounded = self.rounded + 0.5 * f64::EPSILON * end.abs();
+                Ok(Self { time: end, last: step, drift: drift + rounding_of(point, step, end), rounded, ..*self })
+            }
         }
     }
 
@@ -113,13 +144,21 @@ impl Clock {
     }
 }
 
+/// By how much `sum` is more than `a + b`, exactly (Knuth's two-sum).
+#[inline]
+fn rounding_of(a: f64, b: f64, sum: f64) -> f64 {
+    let b_kept = sum - a;
+    let a_kept = sum - b_kept;
+    (a_kept - a) + (b_kept - b)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     /// A clock that has come to `time` by a step.
     fn at(time: f64, last: f64) -> Clock {
-        Clock { start: 0.0, stop: None, time, last }
+        Clock { start: 0.0, stop: None, time, last, drift: 0.0, rounded: 0.0 }
     }
 
     #[test]
@@ -176,6 +215,48 @@ mod tests {
         }
     }
 
+    /// Steps that a host takes until it is refused, whose points move on by `share` of a step more; 1000 at most.
+    fn steps_of_a_drifting_host(start: f64, step: f64, share: f64) -> u32 {
+        let mut clock = Clock::new(start, None).unwrap();
+        for n in 0..1000 {
+            let point = start + f64::from(n) * (1.0 + share) * step;
+            match clock.after(point, step) {
+                Ok(after) => clock = after,
+                Err(_) => return n,
+            }
+        }
+        1000
+    }
+
+    #[test]
+    fn a_host_whose_points_drift_away_from_the_sum_of_its_steps_is_refused_however_late() {
+        for start in [0.0, 1e3, 1e4, 1e5, 1e6] {
+            for share in [0.009, -0.009, 0.005, -0.005, 0.001, -0.001] {
+                // What passes is a hundredth of a step, and some roundings of 1e6 s.
+                let taken = steps_of_a_drifting_host(start, 1e-3, share);
+                assert!(f64::from(taken - 1) * share.abs() <= 0.011, "{start} s, {share}: refused after {taken} steps");
+            }
+        }
+        // At Unix time a number is 0.02 % of 1 ms, and additions alone make half of that in each step.
+        for share in [0.009, -0.009] {
+            assert!(steps_of_a_drifting_host(1.7e9, 1e-3, share) <= 4);
+        }
+    }
+
+    #[test]
+    fn the_drift_is_that_of_the_exact_sum() {
+        let step = 1.0 + f64::EPSILON;
+        let mut clock = Clock::new(0.5 * f64::EPSILON, None).unwrap();
+        for n in 1..=4u32 {
+            clock = clock.after(clock.time, step).unwrap();
+            // Multiples of 2^-53: start 1, steps 2^53 + 2.
+            let exact = i128::from(n) * ((1 << 53) + 2) + 1;
+            let kept = (clock.time * 9_007_199_254_740_992.0) as i128;
+            assert_eq!(clock.drift, (kept - exact) as f64 / 9_007_199_254_740_992.0, "after {n} steps");
+            assert!(clock.drift.abs() <= clock.rounded);
+        }
+    }
+
     #[test]
     fn a_short_step_done_twice_before_a_long_one_is_refused() {
         assert!(at(1e4, 1e-6).after(1e4 - 1e-6, 1e-3).is_err());
@@ -186,7 +267,7 @@ mod tests {
     #[test]
     fn a_step_past_the_stop_time_is_refused_however_late_and_rounding_is_not() {
         for stop in [1.0, 1e5, 1e7, 1.7e9] {
-            let clock = Clock { start: 0.0, stop: Some(stop), time: stop, last: 1e-4 };
+            let clock = Clock { stop: Some(stop), ..at(stop, 1e-4) };
             assert!(matches!(clock.after(stop, 1e-4), Err(ClockError::PastStop { .. })), "{stop}");
             assert!(matches!(clock.after(stop, 1e-5), Err(ClockError::PastStop { .. })), "{stop}");
             // What one rounding has left of the run.

@@ -159,14 +159,14 @@ fn the_map_agrees_with_the_grid_that_it_was_made_of() {
             let place = draw.between(-1.0, 1.0) * length;
             let at = |law| {
                 let mut case = over(&pressed(&case, approach), shape.clone(), place);
-                (case.law, case.grid) = (law, Some(grid(&case, approach, [12, 8])));
-                let largest = case.grid.unwrap().0;
+                let (largest, cells, _) = grid(&case, approach, [12, 8]);
+                (case.law, case.grid) = (law, Some((largest, cells, 0.005)));
                 force(&case).map(|force| (force, largest))
             };
             let ((love, largest), (map, _)) = (at("love")?, at("map")?);
-            // The map's accuracy is 2 % of the largest force, along either direction.
+            // The map's accuracy is 0.5 % of the largest force, along either direction.
             for i in 1..3 {
-                if !((love[i] - map[i]).abs() <= 0.03 * largest) {
+                if !((love[i] - map[i]).abs() <= 0.0075 * largest) {
                     return Err(format!("love {love:?}, map {map:?} of {largest:e}"));
                 }
             }

@@ -4,6 +4,7 @@
 //! them (Levenberg and Marquardt, with difference quotients).
 
 use super::envelope::Feature;
+use super::run::{Pace, Run};
 use super::{Acting, Bearing, ELEMENTS, Outside};
 use crate::case::{Case, Motion};
 use std::f64::consts::TAU;
@@ -19,7 +20,7 @@ struct Search<'a> {
 
 /// Largest net force [N] that is left on a free ring or an element at the best stable balance found, and the largest force in play.
 pub fn best(bearing: &Bearing, case: &Case) -> (f64, f64) {
-    let run = super::run::Run::new(bearing, vec![0.0; bearing.len()], case.steps[0].host.as_ref(), (1.0, 0));
+    let run = Run::new(bearing, vec![0.0; bearing.len()], case.steps[0].host.as_ref(), Pace::STANDING);
     let free = (0..2).filter(|&which| case.rings[which].motion == Motion::Internal);
     let free = free.flat_map(|which| [4 * which, 4 * which + 1]).collect();
     // At the start the host's derivatives of loads and speed are not at work yet.

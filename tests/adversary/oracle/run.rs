@@ -1,5 +1,6 @@
-//! Classical Runge–Kutta steps of one length, cut where an element comes to touch another feature and where a contact begins or
-//! ceases to push. After such a change of contact the steps begin small and double, because a force sets in as δ^1.5 or √δ.
+//! Classical Runge–Kutta steps of one length, cut where an element comes to touch another feature and where a contact
+//! begins or ceases to push. After such a change of contact, and at each communication point, the steps begin small and
+//! double, because a force sets in as δ^1.5 or √δ.
 
 use super::envelope::Feature;
 use super::{Acting, Bearing, ELEMENTS, Outside, SENSOR, quadratic};
@@ -69,14 +70,35 @@ pub struct Run<'a> {
     pub features: Vec<Feature>,
     /// Largest approach in any inner and any outer contact so far [m].
     pub largest: [f64; 2],
-    h: f64,
+    pace: Pace,
     left: usize,
     stages: [Vec<f64>; 5],
 }
 
+/// How fast a run goes.
+#[derive(Debug, Clone, Copy)]
+pub struct Pace {
+    /// Longest step [s].
+    pub h: f64,
+    /// Steps at least between two passages; eight times as many in a communication step.
+    pub fewest: u32,
+    /// Steps at most in all.
+    pub budget: usize,
+}
+
+impl Pace {
+    /// No step at all.
+    pub const STANDING: Self = Self { h: 1.0, fewest: 1, budget: 0 };
+
+    /// With twice as many steps wherever there are any.
+    pub fn halved(self) -> Self {
+        Self { h: 0.5 * self.h, fewest: 2 * self.fewest, budget: 2 * self.budget }
+    }
+}
+
 impl<'a> Run<'a> {
-    /// From a state, with steps of length `h` [s], `budget` of them at most.
-    pub fn new(bearing: &'a Bearing, y: Vec<f64>, host: Option<&Host>, (h, budget): (f64, usize)) -> Self {
+    /// From a state.
+    pub fn new(bearing: &'a Bearing, y: Vec<f64>, host: Option<&Host>, pace: Pace) -> Self {
         let loads = [0, 1].map(|which| bearing.rings[which].load.map(|load| [load, 0.0, 0.0]));
         let speed = [bearing.speed, 0.0];
         let Host { speed, rings } = *host.unwrap_or(&Host { speed, rings: loads });
@@ -89,8 +111,8 @@ impl<'a> Run<'a> {
             acting: Acting::default(),
             features: vec![Feature::Raceway; bearing.count],
             largest: [0.0; 2],
-            h,
-            left: budget,
+            pace,
+            left: pace.budget,
             stages: std::array::from_fn(|_| vec![0.0; len]),
         };
         run.feel(0.0, 0.0);
@@ -125,11 +147,9 @@ impl<'a> Run<'a> {
         &self.stages[0]
     }
 
-    /// Acceleration with which the host carries element `j` outwards [m/s²]: no balance counts it.
+    /// Acceleration with which the outer ring carries element `j` outwards [m/s²]: no balance counts the host's, nor that
+    /// of a light ring by the little that is left of its own balance.
     pub fn carried(&self, j: usize) -> f64 {
-        if self.bearing.rings[1].motion != Motion::Host {
-            return 0.0;
-        }
         let (sin, cos) = (self.outside.cage[0] + TAU * j as f64 / self.bearing.count as f64).sin_cos();
         self.acting.accelerations[1][0] * cos + self.acting.accelerations[1][1] * sin
     }
@@ -171,7 +191,7 @@ impl<'a> Run<'a> {
         let mut from = 0.0;
         for to in self.passages(length) {
             self.feel(from, 0.5 * (from + to));
-            self.smooth(from, to)?;
+            self.smooth(length, (from, to))?;
             from = to;
         }
         self.outside.cage = quadratic(self.outside.cage, length);
@@ -225,14 +245,16 @@ impl<'a> Run<'a> {
         high
     }
 
-    /// Integrates between two passages.
-    fn smooth(&mut self, from: f64, to: f64) -> Result<(), Stop> {
-        let (mut t, mut since) = (from, f64::INFINITY);
+    /// Integrates between two passages of a communication step.
+    fn smooth(&mut self, step: f64, (from, to): (f64, f64)) -> Result<(), Stop> {
+        let Pace { h, fewest, .. } = self.pace;
+        let longest = h.min(step / f64::from(8 * fewest)).min((to - from) / f64::from(fewest));
+        let (mut t, mut since) = (from, if from == 0.0 { 0.0 } else { f64::INFINITY });
         while t < to {
             if self.left == 0 {
                 return Err(Stop::Budget);
             }
-            let wanted = self.h.min((self.h / 1024.0).max(since));
+            let wanted = longest.min((longest / 1024.0).max(since));
             let remaining = to - t;
             let count = (remaining / wanted).ceil();
             let h = if count <= 1.0 { remaining } else { (remaining / count).min(wanted) };

@@ -1,9 +1,10 @@
 //! Scenes that have failed once, each with what was wrong.
 
-use super::judge::{Verdict, judge};
+use super::judge::{Verdict, judge, start};
 use crate::case::{Case, Damping, Grooves, Motion, Ring, Step, random};
 use crate::draw::Draw;
 use crate::oracle::Bearing;
+use crate::oracle::run::signals;
 use crate::subject::Subject;
 use brinell::contact::error::ContactError;
 use brinell::simulation::SimulationError;
@@ -145,6 +146,44 @@ fn elements_far_out_on_a_level_stretch_stand_on_it() {
 fn strong_dampers_at_high_speed_start_within_what_the_slope_is_known_to() {
     for seed in [232, 1090] {
         agrees(seed);
+    }
+    for seed in [237, 1042, 5157, 5174, 5234, 5432, 5550, 5961, 5981, 6013, 6052] {
+        starts(seed);
+    }
+}
+
+/// What the slope of the path leaves on a housing of a few grams accelerates it; in the housing's frame that pushed all
+/// elements, by 630 times what those on the smooth raceway are allowed. The test had left it in.
+#[test]
+fn what_one_element_leaves_on_a_light_housing_is_no_push_on_the_others() {
+    for seed in [1721, 2787, 4146, 6729, 7211] {
+        starts(seed);
+    }
+}
+
+/// A communication step shorter than half a step of the oracle was one step in both of its runs, so that it took its own
+/// error for none: up to 2 % of a mean force where a contact begins as √t.
+#[test]
+fn the_oracle_knows_its_own_error_in_the_shortest_steps() {
+    for seed in [1552, 4086, 6854, 7240] {
+        agrees(seed);
+    }
+}
+
+/// A host draws the housing off at 1.5 m/s, so that dampers leave nothing of the inner contacts' forces and the support
+/// holds the shaft alone. The search took the contacts' elastic stiffness for it, 49 times too much, and was given up with
+/// 3e-3 N left.
+#[test]
+fn a_shaft_that_dampers_let_go_finds_the_balance_of_its_support() {
+    agrees(7186);
+}
+
+/// The start alone, which is a balance and has the oracle's forces.
+fn starts(seed: u64) {
+    let case = scene_of(seed);
+    let first = Subject::new(&case).unwrap().start(&case).unwrap();
+    if let Err(why) = start(&Bearing::new(&case), &case, &first, &signals(&case)) {
+        panic!("seed {seed}: {why}");
     }
 }
 

@@ -6,7 +6,7 @@
 
 use crate::case::{Case, Motion, Step, fastest};
 use crate::oracle::balance;
-use crate::oracle::run::{Kind, Run, Stop, signals};
+use crate::oracle::run::{Kind, Pace, Run, Stop, signals};
 use crate::oracle::{Bearing, Contact, ELEMENTS, SENSOR};
 use crate::subject::Subject;
 use crate::units::{HORIZON, LIMIT, differences, largest_force, rounding, slope_error, units};
@@ -96,8 +96,8 @@ fn start_state(case: &Case, names: &[(String, Kind)], sample: &[f64]) -> Vec<f64
 }
 
 /// Whether the start is a balance, and its forces are the oracle's: largest force, and largest difference over it.
-fn start(bearing: &Bearing, case: &Case, first: &[f64], names: &[(String, Kind)]) -> Result<(f64, f64), String> {
-    let run = Run::new(bearing, start_state(case, names, first), case.steps[0].host.as_ref(), (1.0, 0));
+pub fn start(bearing: &Bearing, case: &Case, first: &[f64], names: &[(String, Kind)]) -> Result<(f64, f64), String> {
+    let run = Run::new(bearing, start_state(case, names, first), case.steps[0].host.as_ref(), Pace::STANDING);
     let contacts = run.acting.contacts.iter().flatten();
     let elastic =
         (0..2).map(|side| 1.5 * bearing.stiffness[side] * run.largest[side].max(0.0).sqrt()).fold(0.0, f64::max);
@@ -121,7 +121,7 @@ fn start(bearing: &Bearing, case: &Case, first: &[f64], names: &[(String, Kind)]
         (outer.by_rate * omega.abs() + turns) * slope_error(bearing, feature, psi)
     };
     let limits: Vec<f64> = (0..bearing.count).map(|j| limit + leaning(j)).collect();
-    let limit = limits.iter().fold(limit, |m, limit| m.max(*limit));
+    let limit: f64 = limits.iter().sum();
     for j in 0..bearing.count {
         let limit = limits[j];
         let along = bearing.mass * (run.rates()[ELEMENTS + 2 * j + 1] + run.carried(j));
@@ -137,7 +137,7 @@ fn start(bearing: &Bearing, case: &Case, first: &[f64], names: &[(String, Kind)]
     for (which, ring) in case.rings.iter().enumerate().filter(|(_, ring)| ring.motion == Motion::Internal) {
         for a in 0..2 {
             let net = ring.mass * run.acting.accelerations[which][a];
-            if !(net.abs() <= limit * bearing.count as f64) {
+            if !(net.abs() <= limit) {
                 return Err(format!("at the start {net:e} N push ring {which} along {a} (limit {limit:e} N)"));
             }
         }
@@ -146,7 +146,7 @@ fn start(bearing: &Bearing, case: &Case, first: &[f64], names: &[(String, Kind)]
     for (((name, kind), a), b) in names.iter().zip(first).zip(run.values(0.0)) {
         if *kind == Kind::Force {
             worst = worst.max((a - b).abs());
-            if !((a - b).abs() <= limit * bearing.count as f64) {
+            if !((a - b).abs() <= limit) {
                 return Err(format!("at the start {name} is {a:e} N, the oracle says {b:e} N"));
             }
         }
@@ -164,13 +164,13 @@ struct Oracles<'a> {
 impl<'a> Oracles<'a> {
     fn new(bearing: &'a Bearing, case: &Case, start: &[f64]) -> Self {
         let host = case.steps[0].host.as_ref();
-        let first = Run::new(bearing, start.to_vec(), host, (1.0, 0)).largest;
+        let first = Run::new(bearing, start.to_vec(), host, Pace::STANDING).largest;
         let h = PHASE / fastest(case, first.map(|approach| 1.5 * approach.max(1e-9)));
-        let budget = (WORK / case.count as f64) as usize;
+        let pace = Pace { h, fewest: 1, budget: (WORK / case.count as f64) as usize };
         let units = units(bearing, case, first);
         let moved = Run::moved(bearing, start, units[&Kind::Length], units[&Kind::Velocity]);
-        let run = |y: &[f64], h: f64, budget: usize| Run::new(bearing, y.to_vec(), host, (h, budget));
-        let runs = [run(start, h, budget), run(start, 0.5 * h, 2 * budget), run(&moved, h, budget)];
+        let run = |y: &[f64], pace: Pace| Run::new(bearing, y.to_vec(), host, pace);
+        let runs = [run(start, pace), run(start, pace.halved()), run(&moved, pace)];
         Self { runs, own: BTreeMap::new(), grown: BTreeMap::new() }
     }
 
