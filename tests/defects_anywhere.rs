@@ -9,6 +9,7 @@ use brinell::dynamics::forces::Forces;
 use brinell::dynamics::raceway::SMOOTH;
 use brinell::geometry::hertz_constant::HertzConstants;
 use brinell::scene::{ContactLaw, Damping, Defect, DefectOn, DefectShape, Ring, Scene};
+use brinell_analysis::static_bearing::StaticBearing;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use support::{Named, map_of, shipped};
 
@@ -237,6 +238,25 @@ fn energy_goes_nowhere_but_into_the_forced_motions_under_law_map() {
         // Trapezoids of 1 µs over forces that swing in some 10 µs; the exchange is what makes the figure say something.
         assert!(moved > 1e-5 && drift < 2e-4 * moved, "{drift:e} J of {moved:e} J are lost");
     }
+}
+
+#[test]
+fn a_balance_is_found_with_elements_anywhere_over_an_inner_defect() {
+    let mut scene = inner();
+    scene.contact.law = ContactLaw::Map;
+    scene.contact.cells = Some([24, 16]);
+    scene.contact.map_accuracy = Some(1e-2);
+    let map = map_of(&scene, None);
+    let bearing = StaticBearing::with_map(&scene, None, map.as_deref()).unwrap();
+    let smooth = StaticBearing::new(&Scene { defect: None, ..scene }, None).unwrap();
+    let (mut least, mut whole) = (f64::INFINITY, f64::INFINITY);
+    for k in 0..=80 {
+        let cage = (-130.0 + f64::from(k)).to_radians();
+        let stiffness = |bearing: &StaticBearing| bearing.balance(cage, bearing.load()).unwrap().stiffness[1][1];
+        (least, whole) = (least.min(stiffness(&bearing)), whole.min(stiffness(&smooth)));
+    }
+    // One element less carries when the spall is under the load.
+    assert!(least < 0.9 * whole && least > 0.3 * whole, "{least} N/m, {whole} N/m without the spall");
 }
 
 #[test]

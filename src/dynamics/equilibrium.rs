@@ -97,7 +97,8 @@ impl Model {
         let mut rings = stacked(given.still.shaft.position, given.still.housing.position);
         let mut balance = self.balance(&given, rings, &mut u);
         let mut iteration = 0;
-        while balance.residual() > balance.limit {
+        // An element without a balance where the rings are to begin with is told by the checks below.
+        while balance.residual() > balance.limit && balance.residual().is_finite() {
             iteration += 1;
             let step = self.newton_step(&given, rings, &u, &balance, iteration);
             let next = self.along(&given, rings, &mut u, &balance, step).filter(|_| iteration <= ITERATIONS);
@@ -172,7 +173,10 @@ impl Model {
         let element = |u: f64| {
             let element = self.linearized_at(j, cells, (u, 0.0), now, Bends::LeftOut);
             let (force, slope) = self.radial_balance(&element);
-            (force, slope, element)
+            // An inner contact too deep for its law pushes outwards, whatever its force. One outside is taken for one
+            // that pushes inwards: no number is not above 0.
+            let too_deep = element.inner.x.is_nan() && !element.outer.x.is_nan();
+            (if too_deep { f64::INFINITY } else { force }, slope, element)
         };
         let touch = if cells[1] == [SMOOTH; 2] { 0.0 } else { self.touching_path(j, cells[1], now) };
         let (at_touch, _, touching) = element(touch);
@@ -300,7 +304,7 @@ impl Model {
                 self.couple(&mut matrix, -share * turning);
             }
             let solved = matrix.lu().solve(&balance.force);
-            solved.filter(|step| step.amax().is_finite() && step.dot(&balance.force) > 0.0)
+            solved.filter(|step| step.iter().all(|part| part.is_finite()) && step.dot(&balance.force) > 0.0)
         };
         // |q| is less than the centres' radius by some of the clearance: on top of an element a little is left of the turning.
         let step = solve(1.0).or_else(|| solve(2.0));
@@ -389,7 +393,8 @@ struct Balance {
 }
 
 impl Balance {
+    /// Infinite where an element found no balance: nalgebra's largest passes over what is no number.
     fn residual(&self) -> f64 {
-        self.force.amax()
+        if self.force.iter().all(|force| force.is_finite()) { self.force.amax() } else { f64::INFINITY }
     }
 }

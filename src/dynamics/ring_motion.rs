@@ -14,7 +14,6 @@ impl Model {
     }
 
     /// As [`kinematics`](Self::kinematics), without the frames of defects.
-
     #[inline(always)]
     pub(super) fn kinematics_of(&self, at: &Stage) -> Kinematics {
         let Stage { drive, cage, state, ahead } = *at;
