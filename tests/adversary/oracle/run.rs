@@ -1,6 +1,6 @@
 //! Classical Runge–Kutta steps of one length, cut where an element comes to touch another feature and where a contact
 //! begins or ceases to push. After such a change of contact, and at each communication point, the steps begin small and
-//! double, because a force sets in as δ^1.5 or √δ.
+//! grow, because a force sets in as δ^1.5 or √δ.
 
 use super::envelope::Feature;
 use super::{Acting, Bearing, ELEMENTS, Outside, SENSOR, quadratic};
@@ -254,7 +254,8 @@ impl<'a> Run<'a> {
             if self.left == 0 {
                 return Err(Stop::Budget);
             }
-            let wanted = longest.min((longest / 1024.0).max(since));
+            // A part of the time since, so that these steps are halved as well.
+            let wanted = longest.min((longest / 1024.0).max(since / f64::from(fewest)));
             let remaining = to - t;
             let count = (remaining / wanted).ceil();
             let h = if count <= 1.0 { remaining } else { (remaining / count).min(wanted) };

@@ -162,10 +162,11 @@ fn what_one_element_leaves_on_a_light_housing_is_no_push_on_the_others() {
 }
 
 /// A communication step shorter than half a step of the oracle was one step in both of its runs, so that it took its own
-/// error for none: up to 2 % of a mean force where a contact begins as √t.
+/// error for none: up to 2 % of a mean force where a contact begins as √t. So it did where the steps
+/// that grow after a change of contact were the same in both (832).
 #[test]
 fn the_oracle_knows_its_own_error_in_the_shortest_steps() {
-    for seed in [1552, 4086, 6854, 7240] {
+    for seed in [832, 1552, 4086, 6854, 7240] {
         agrees(seed);
     }
 }
