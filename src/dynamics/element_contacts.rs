@@ -3,7 +3,7 @@
 use super::drive::Frames;
 use super::kinematics::Kinematics;
 use super::model::Model;
-use super::raceway::{Cells, Near, SMOOTH};
+use super::raceway::{Cells, Defects, Near, Raceway, SMOOTH};
 use crate::contact::error::ContactError;
 use crate::contact::near_defect::Lever;
 use crate::contact::rolling::RacewaySide;
@@ -80,53 +80,57 @@ impl Model {
         Meeting { element: j, cells, u: gap.approach, direction, distance: gap.distance }
     }
 
-    /// Approach of an element near a defect, its own or the raceway's; of both the one that carries less. `None` where
-    /// both bodies are smooth.
+    /// Approach of an element in some cell near a defect, its own or the raceway's; of both the one that carries less.
     ///
     /// Inlined, so that what its caller does not use is not worked out.
     #[inline(always)]
-    pub(super) fn near_defect(
-        &self,
-        side: RacewaySide,
-        at: &Meeting,
-        frames: &Frames,
-    ) -> Option<Result<Near, ContactError>> {
+    pub(super) fn near_defect(&self, side: RacewaySide, at: &Meeting, frames: &Frames) -> Result<Near, ContactError> {
         let [ring, own] = at.cells;
-        let (raceway, by_approach) = match side {
+        if own != SMOOTH {
+            return self.near_own_defect(side, at, frames);
+        }
+        let (raceway, by_approach) = self.raceway(side);
+        let lever = Lever { distance: at.distance, by_approach };
+        raceway.defects.approach(ring, at.u, at.direction, frames, lever)
+    }
+
+    /// As [`Self::near_defect`], of an element in a cell of its own defect.
+    #[inline(never)]
+    fn near_own_defect(&self, side: RacewaySide, at: &Meeting, frames: &Frames) -> Result<Near, ContactError> {
+        let [ring, own] = at.cells;
+        let (raceway, by_approach) = self.raceway(side);
+        let lever = Lever { distance: at.distance, by_approach };
+        let approach = |defects: &Defects, cell| defects.approach(cell, at.u, at.direction, frames, lever);
+        let defective = self.defective.iter().find(|defective| defective.element == at.element);
+        let own =
+            defective.map_or(Ok(Near::smooth(at.u)), |defective| approach(&defective.defects[side as usize], own))?;
+        if ring == SMOOTH {
+            return Ok(own);
+        }
+        let ring = approach(&raceway.defects, ring)?;
+        Ok(if own.approach.value < ring.approach.value { own } else { ring })
+    }
+
+    /// A raceway, and how an element's distance from the ring's centre changes with its approach.
+    #[inline]
+    fn raceway(&self, side: RacewaySide) -> (&Raceway, f64) {
+        match side {
             RacewaySide::Inner => (&self.inner, -1.0),
             RacewaySide::Outer => (&self.outer, 1.0),
-        };
-        let lever = Lever { distance: at.distance, by_approach };
-        let on_ring = raceway.defects.approach(ring, at.u, at.direction, frames, lever);
-        if own == SMOOTH {
-            return on_ring;
-        }
-        let defective = self.defective.iter().find(|defective| defective.element == at.element);
-        let on_element =
-            defective.and_then(|found| found.defects[side as usize].approach(own, at.u, at.direction, frames, lever));
-        match (on_ring, on_element) {
-            (Some(Ok(ring)), Some(Ok(own))) => {
-                Some(Ok(if own.approach.value < ring.approach.value { own } else { ring }))
-            }
-            (Some(Err(error)), _) => Some(Err(error)),
-            (ring, own) => own.or(ring),
         }
     }
 
     /// As [`Self::near_defect`], the smooth raceway included.
     pub(super) fn approach(&self, side: RacewaySide, at: &Meeting, frames: &Frames) -> Near {
-        match self.near_defect(side, at, frames) {
-            None => Near::smooth(at.u),
-            Some(near) => near.unwrap_or_else(|_| Near::unsolved()),
+        if at.cells == [SMOOTH; 2] {
+            return Near::smooth(at.u);
         }
+        self.near_defect(side, at, frames).unwrap_or_else(|_| Near::unsolved())
     }
 
     /// Angle [rad] of a contact from the centre of the defect that it is at, or else of the raceway's nearest.
     pub(super) fn angle_from_defect(&self, side: RacewaySide, at: &Meeting, frames: &Frames) -> f64 {
-        let raceway = match side {
-            RacewaySide::Inner => &self.inner,
-            RacewaySide::Outer => &self.outer,
-        };
+        let (raceway, _) = self.raceway(side);
         let own = self.defective.iter().find(|defective| defective.element == at.element && at.cells[1] != SMOOTH);
         let defects = own.map_or(&raceway.defects, |defective| &defective.defects[side as usize]);
         defects.angle(at.direction - frames.of(defects.frame).angle)

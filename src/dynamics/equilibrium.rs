@@ -229,7 +229,10 @@ impl Model {
             let inner = self.inner_meeting(j, cells[0], &gap, angle);
             let outer = Meeting { u: u + FURTHER, ..self.outer_meeting(j, cells[1], u, angle) };
             for (side, at) in [(RacewaySide::Outer, outer), (RacewaySide::Inner, inner)] {
-                let Some(Err(cause)) = self.near_defect(side, &at, &now.frames) else { continue };
+                if at.cells == [SMOOTH; 2] {
+                    continue;
+                }
+                let Err(cause) = self.near_defect(side, &at, &now.frames) else { continue };
                 // The search may have ended on the far side, where all is no number.
                 let element = self.linearized_at(j, cells, (u - FURTHER, 0.0), &now, Bends::LeftOut);
                 let residual = self.radial_balance(&element).0;

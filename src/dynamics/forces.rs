@@ -4,7 +4,7 @@ use super::contact_lanes::Record;
 use super::drive::Frame;
 use super::element_block::ElementBlock;
 use super::model::Model;
-use super::raceway::{Cells, SMOOTH};
+use super::raceway::{Cells, Defects, SMOOTH};
 use crate::contact::error::ContactError;
 use crate::numerics::lanes::{Each, Lanes, Lists, QUAD, WIDEST, Wide, largest_of, padded};
 use crate::numerics::plane::Vector;
@@ -84,6 +84,9 @@ impl Forces {
         self.others.clear();
         self.torques = [0.0; 3];
         self.elements.copy_from_slice(&model.elements);
+        if rigid && model.all_defects().all(Defects::is_empty) {
+            return;
+        }
         for j in 0..model.element_count {
             let [inner, outer] = model.cells_of(cells, j);
             let other = Other {

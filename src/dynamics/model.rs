@@ -52,6 +52,8 @@ pub struct Model {
     pub ratios: Ratios,
     /// Places of the state vector.
     pub layout: Layout,
+    /// Whether any contact asks for the frames of defects: all but those of an outer ring that does not turn.
+    pub has_frames: bool,
     /// What differs from element to element, eight at a time.
     pub(super) elements: Vec<ElementBlock>,
 }
@@ -149,6 +151,8 @@ impl Model {
             Raceway { contact: CompliantContact { law, compliance }, defects }
         };
         let element_radius = bearing.element_radius();
+        let turns = scene.turns();
+        let has_frames = turns && !(inner.is_empty() && outer.is_empty() && defective.is_empty());
         Self {
             element_count: bearing.element_count,
             element_mass: bearing.mass_of_element(),
@@ -165,6 +169,7 @@ impl Model {
             supports: Supports::new(scene),
             ratios: Ratios::new(bearing, scene.cage.slip, scene.cage.spin_slip),
             layout: Layout::new(scene),
+            has_frames,
             elements: blocks(bearing.element_count, 1.0 / bearing.mass_of_element(), hertz),
         }
     }

@@ -172,8 +172,8 @@ impl Defects {
         ahead.reduce(|near, other| if other.angle < near.angle { other } else { near })
     }
 
-    /// Approach in `cell` at the smooth approach `u` [m], at a direction [rad] against the axes. `None` on the smooth
-    /// surface.
+    /// Approach in `cell`, which is not the smooth one, at the smooth approach `u` [m] and a direction [rad] against the
+    /// axes.
     #[inline(always)]
     pub fn approach(
         &self,
@@ -182,15 +182,21 @@ impl Defects {
         direction: f64,
         frames: &Frames,
         lever: Lever,
-    ) -> Option<Result<Near, ContactError>> {
-        if cell == SMOOTH {
-            return None;
-        }
+    ) -> Result<Near, ContactError> {
         let turn = frames.of(self.frame);
-        let placed = self.placed.iter().find(|placed| placed.holds(cell))?;
+        let Some(placed) = self.holding(cell) else { return Ok(Near::smooth(u)) };
         let angle = placed.angle(direction - turn.angle);
-        let found = placed.surface.approach((cell - placed.first) as usize, u, angle, lever);
-        Some(found.map(|approach| Near { approach, frame_speed: turn.speed, frame: self.frame }))
+        let approach = placed.surface.approach((cell - placed.first) as usize, u, angle, lever)?;
+        Ok(Near { approach, frame_speed: turn.speed, frame: self.frame })
+    }
+
+    /// The defect that a cell belongs to.
+    #[inline(always)]
+    fn holding(&self, cell: u32) -> Option<&Placed> {
+        match &self.placed[..] {
+            [one] => Some(one),
+            several => several.iter().find(|placed| placed.holds(cell)),
+        }
     }
 
     /// Angle [rad] of a direction in the body's frame from the centre of the nearest defect, within half a turn; from

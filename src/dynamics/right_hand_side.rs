@@ -14,12 +14,13 @@
 //! to Q (R n + T t), with the direction (R, T) of that contact and t = ẑ×n. As w is the element's *absolute* radial velocity, no ring acceleration enters.
 //! The cage is kinematic: it takes up every tangential force on the elements. What it takes is the cage torque.
 
-use super::drive::{Drive, Frame};
+use super::drive::{Drive, Frame, Frames};
 use super::element_contacts::{InnerGap, Meeting};
 use super::forces::{Forces, OtherContact, UnsolvedContact};
 use super::kinematics::{Kinematics, Stage, moved};
 use super::model::Model;
-use super::raceway::{Cells, Near};
+use super::raceway::{Cells, Near, SMOOTH};
+use crate::contact::error::ContactError;
 use crate::contact::rolling::RacewaySide;
 use crate::numerics::lanes::{Kernel, Lanes, WIDEST, Wide, dispatch};
 use crate::numerics::plane::{Vector, turned};
@@ -57,7 +58,8 @@ impl Model {
         let [on_shaft, on_housing] = if forces.others.is_empty() {
             [Vector::zeros(); 2]
         } else {
-            let now = Kinematics { frames: drive.frames_at(tau), ..now };
+            let frames = if self.has_frames { drive.frames_at(tau) } else { Frames::default() };
+            let now = Kinematics { frames, ..now };
             self.other_contacts::<RECORD>(&now, state, ahead, forces)
         };
         let [shaft_x, shaft_y, housing_x, housing_y] =
@@ -109,23 +111,17 @@ impl Model {
             let e_r = self.direction(j, now.cage.direction);
             let path_rate = state[start + j] - now.housing.velocity.dot(&e_r);
             let u = moved(state[j], path_rate, ahead);
-            let mut contact = |side: RacewaySide, at: Meeting| {
-                let near = self.near_defect(side, &at, &now.frames);
-                *defect_lookups += u64::from(near.is_some());
-                near.unwrap_or_else(|| Ok(Near::smooth(at.u))).unwrap_or_else(|cause| {
-                    // What is no number here has its cause elsewhere.
-                    if (at.u + now.cage.angle).is_finite() {
-                        let angle = self.angle_from_defect(side, &at, &now.frames);
-                        *unsolved = Some(UnsolvedContact { element: j, angle, offset: now.offset().into(), cause });
-                    }
-                    Near::unsolved()
-                })
-            };
             let mut acceleration = 0.0;
             if let Some(cells) = other.outer {
-                let at = self.outer_meeting(j, cells, u, now.cage.angle);
-                let found =
-                    self.outer_contact(&contact(RacewaySide::Outer, at), [path_rate, now.cage.speed], at.distance);
+                let near = if cells == [SMOOTH; 2] {
+                    Near::smooth(u)
+                } else {
+                    *defect_lookups += 1;
+                    let at = self.outer_meeting(j, cells, u, now.cage.angle);
+                    let near = self.near_defect(RacewaySide::Outer, &at, &now.frames);
+                    near.unwrap_or_else(|cause| self.without_answer(RacewaySide::Outer, (&at, now), cause, unsolved))
+                };
+                let found = self.outer_contact(&near, [path_rate, now.cage.speed], self.outer_centre_radius + u);
                 let [_, f_r, f_t] = found.force;
                 acceleration = -f_r * self.inverse_element_mass;
                 on_housing += e_r * f_r - turned(e_r) * f_t;
@@ -135,18 +131,14 @@ impl Model {
                 }
             }
             if let Some(cells) = other.inner {
-                let gap = self.inner_gap(u, now.offset(), e_r);
-                let at = self.inner_meeting(j, cells, &gap, now.cage.angle);
-                let (drift, e_t) = (now.drift(), turned(e_r));
-                let around = (self.outer_centre_radius + u) * now.cage.speed;
-                let q_rate = [drift.dot(&e_r) + path_rate, drift.dot(&e_t) + around];
-                let found = self.inner_contact(&contact(RacewaySide::Inner, at), &gap, q_rate);
+                *defect_lookups += 1;
+                let found = self.other_inner_contact(j, cells, (u, path_rate), now, unsolved);
                 let [_, f_r, f_t] = found.force;
                 acceleration += f_r * self.inverse_element_mass;
                 on_shaft -= e_r * f_r + turned(e_r) * f_t;
                 if RECORD {
                     torques[found.frame as usize] += found.torque;
-                    inner_contacts.push(OtherContact { element: j, ..found });
+                    inner_contacts.push(found);
                 }
             }
             elements[j / WIDEST].other[j % WIDEST] = acceleration;
@@ -154,8 +146,45 @@ impl Model {
         [on_shaft, on_housing]
     }
 
+    /// What stands for a contact near a defect that has no answer, which is kept.
+    #[cold]
+    fn without_answer(
+        &self,
+        side: RacewaySide,
+        (at, now): (&Meeting, &Kinematics),
+        cause: ContactError,
+        unsolved: &mut Option<UnsolvedContact>,
+    ) -> Near {
+        // What is no number here has its cause elsewhere.
+        if (at.u + now.cage.angle).is_finite() {
+            let angle = self.angle_from_defect(side, at, &now.frames);
+            *unsolved = Some(UnsolvedContact { element: at.element, angle, offset: now.offset().into(), cause });
+        }
+        Near::unsolved()
+    }
+
+    /// The inner contact near a defect of element `j` at this path and path rate.
+    #[inline(never)]
+    fn other_inner_contact(
+        &self,
+        j: usize,
+        cells: [u32; 2],
+        (u, path_rate): (f64, f64),
+        now: &Kinematics,
+        unsolved: &mut Option<UnsolvedContact>,
+    ) -> OtherContact {
+        let e_r = self.direction(j, now.cage.direction);
+        let gap = self.inner_gap(u, now.offset(), e_r);
+        let at = self.inner_meeting(j, cells, &gap, now.cage.angle);
+        let near = self.near_defect(RacewaySide::Inner, &at, &now.frames);
+        let near = near.unwrap_or_else(|cause| self.without_answer(RacewaySide::Inner, (&at, now), cause, unsolved));
+        let around = (self.outer_centre_radius + u) * now.cage.speed;
+        let q_rate = [now.drift().dot(&e_r) + path_rate, now.drift().dot(&turned(e_r)) + around];
+        OtherContact { element: j, ..self.inner_contact(&near, &gap, q_rate) }
+    }
+
     /// An outer contact at this approach and distance from the ring's centre; path and cage angle change at `rates`.
-    #[inline]
+    #[inline(always)]
     fn outer_contact(&self, near: &Near, [path_rate, speed]: [f64; 2], distance: f64) -> OtherContact {
         let Near { approach: near, frame_speed, frame } = near;
         let compliant = self.outer.contact.compliance != 0.0;

@@ -39,7 +39,11 @@ pub(super) fn drive(state: &State, inputs: &Inputs, ratios: &Ratios, stepping: b
     let mut drive = Drive {
         cage_start: cage.start,
         cage: cage.since,
-        frames: [turning(shaft_frame, [1.0, 0.0]), turning(housing_frame, [0.0, 1.0]), turning(spin, ratios.spin)],
+        frames: if inputs.frames {
+            [turning(shaft_frame, [1.0, 0.0]), turning(housing_frame, [0.0, 1.0]), turning(spin, ratios.spin)]
+        } else {
+            Default::default()
+        },
         shaft: [motion(&shaft, 0), motion(&shaft, 1)],
         housing: [motion(&housing, 0), motion(&housing, 1)],
         shaft_load: shaft.load.map(load),

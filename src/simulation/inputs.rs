@@ -17,6 +17,8 @@ pub(super) struct Inputs {
     /// Speed of the inner ring, and of an outer ring that turns.
     pub(super) speeds: [Option<usize>; 2],
     pub(super) tolerance: Option<usize>,
+    /// Whether anything asks for the frames of defects: a defect that is not of an outer ring at rest, or an output.
+    pub(super) frames: bool,
     /// Inputs are the first so many rows.
     pub(super) count: usize,
     pub(super) shaft: RingInputs,

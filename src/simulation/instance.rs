@@ -118,7 +118,10 @@ impl Simulation {
         let model = setup::build_model(&scene, surface.as_ref().filter(|_| is_complete), map.as_ref())?;
         let recorder = Recorder::of(&scene, &table, &quantities);
         let progress = new_progress(&model, &recorder);
-        let inputs = Inputs::new(&quantities, table.iter().take_while(|v| v.causality == Causality::Input).count());
+        let inputs = Inputs {
+            frames: scene.turns(),
+            ..Inputs::new(&quantities, table.iter().take_while(|v| v.causality == Causality::Input).count())
+        };
         Ok(Self {
             inputs,
             workspace: Workspace::new(&model),
@@ -262,8 +265,10 @@ impl Simulation {
             .advance(step)
             .map_err(|cause| SimulationError::Step { time, cause })?;
         self.state.cage = self.state.cage.advanced(drive.cage.at(step));
-        for (angle, turning) in self.state.frames.iter_mut().zip(&drive.frames) {
-            *angle = angle.advanced(turning.since.at(step));
+        if self.inputs.frames {
+            for (angle, turning) in self.state.frames.iter_mut().zip(&drive.frames) {
+                *angle = angle.advanced(turning.since.at(step));
+            }
         }
         self.state.time += step;
         driving::follow(&mut self.state, &self.inputs, &self.model.ratios, &drive, step);
