@@ -4,7 +4,7 @@
 mod support;
 
 use brinell::dynamics::jacobian::Jacobian;
-use brinell::dynamics::kinematics::Kinematics;
+use brinell::dynamics::kinematics::FramedKinematics;
 use brinell::dynamics::raceway::Cells;
 use brinell::geometry::hertz_constant::HertzConstants;
 use brinell::numerics::plane::Vector;
@@ -214,7 +214,7 @@ fn heavy_rings_are_masses_on_the_static_stiffness() {
         let (state, layout) = (standing.0.state_vector(), &model.layout);
         let [shaft, housing] = [layout.shaft, layout.housing].map(Option::unwrap);
         let [x, y] = [0, 1].map(|axis| state[housing + axis] - state[shaft + axis]);
-        let (cells, now) = (Cells::smooth(model.element_count, 0), Kinematics::at_rest(angle, Vector::new(x, y)));
+        let (cells, now) = (Cells::smooth(model.element_count, 0), FramedKinematics::at_rest(angle, Vector::new(x, y)));
         let elements_in_balance = model.ring_jacobian(&state[..model.element_count], &cells, &now);
         let entry = |i: usize, k: usize| {
             let ring = if i < 2 { both.shaft } else { both.housing };

@@ -11,7 +11,7 @@
 
 use super::drive::{Drive, Quadratic};
 use super::element_contacts::Meeting;
-use super::kinematics::Kinematics;
+use super::kinematics::{FramedKinematics, Kinematics};
 use super::linearized::{Bends, Linearized};
 use super::model::Model;
 use super::raceway::{Cells, SMOOTH};
@@ -145,13 +145,13 @@ impl Model {
     /// The path [m] of element `j` (from 0) where it rests against the outer raceway without force, with element 1 at
     /// `cage_angle` [rad] and all else as at the start.
     pub fn resting_path(&self, j: usize, cage_angle: f64) -> f64 {
-        let now = Kinematics::at_rest(cage_angle, Vector::zeros());
+        let now = FramedKinematics::at_rest(cage_angle, Vector::zeros());
         let cell = self.outer.defects.cell_at(cage_angle + self.element_offset(j));
         self.touching_path(j, [cell, SMOOTH], &now)
     }
 
     /// Over a defect the path of an element without force is where the approach vanishes.
-    fn touching_path(&self, j: usize, cells: [u32; 2], now: &Kinematics) -> f64 {
+    fn touching_path(&self, j: usize, cells: [u32; 2], now: &FramedKinematics) -> f64 {
         let mut u = 0.0;
         for _ in 0..20 {
             let near = self
@@ -167,7 +167,13 @@ impl Model {
     }
 
     /// Element `j` in radial balance, and its path, looked for from `guess` on.
-    fn balanced_element(&self, j: usize, cells: [[u32; 2]; 2], guess: f64, now: &Kinematics) -> (f64, Linearized) {
+    fn balanced_element(
+        &self,
+        j: usize,
+        cells: [[u32; 2]; 2],
+        guess: f64,
+        now: &FramedKinematics,
+    ) -> (f64, Linearized) {
         // u' = 0. Without second derivatives of the approach the slope is that of another damping, which Newton's
         // method bears.
         let element = |u: f64| {
@@ -354,7 +360,7 @@ impl Model {
             }
         }
         // At rest against the outer ring: u' = 0.
-        let Kinematics { cage, housing, .. } = self.kinematics(drive, 0.0, state);
+        let Kinematics { cage, housing, .. } = self.kinematics(drive, 0.0, state).motion;
         for j in 0..self.element_count {
             state[w + j] = housing.velocity.dot(&self.direction(j, cage.direction));
         }
@@ -373,12 +379,12 @@ fn longest_step(iteration: i32) -> f64 {
 struct Given<'a> {
     drive: &'a Drive,
     cells: &'a Cells,
-    still: Kinematics,
+    still: FramedKinematics,
 }
 
 impl Given<'_> {
     /// The instant `still` with the rings there.
-    fn placed(&self, rings: Rings) -> Kinematics {
+    fn placed(&self, rings: Rings) -> FramedKinematics {
         let mut now = self.still;
         (now.shaft.position, now.housing.position) = (Vector::new(rings[0], rings[1]), Vector::new(rings[2], rings[3]));
         now

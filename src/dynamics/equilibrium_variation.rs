@@ -8,7 +8,7 @@
 //! equilibrium of their own; their derivative does not exist.
 
 use super::drive::Drive;
-use super::kinematics::Kinematics;
+use super::kinematics::FramedKinematics;
 use super::linearized::{Bends, ElementVariation, Linearized};
 use super::model::Model;
 use super::raceway::Cells;
@@ -57,7 +57,7 @@ impl Model {
         Some(())
     }
 
-    fn at_start(&self, j: usize, cells: &Cells, state: &[f64], now: &Kinematics) -> Linearized {
+    fn at_start(&self, j: usize, cells: &Cells, state: &[f64], now: &FramedKinematics) -> Linearized {
         let cells = self.cells_of(cells, j);
         self.linearized(j, cells, (state[j], state[self.layout.radial_velocity + j]), now, Bends::Wanted)
     }

@@ -14,7 +14,7 @@
 //! The derivatives are those of the branch that the state is in; at the onset of a contact there are two.
 
 use super::drive::Drive;
-use super::kinematics::{Kinematics, RingState, prescribed_rate};
+use super::kinematics::{FramedKinematics, Kinematics, RingState, prescribed_rate};
 use super::linearized::{Bends, ElementVariation, Linearized};
 use super::model::{Layout, Model};
 use super::raceway::Cells;
@@ -174,7 +174,7 @@ impl Default for ElementBlock {
 
 /// What all elements share while the Jacobian is put together.
 struct Shared {
-    now: Kinematics,
+    now: FramedKinematics,
     /// Prescribed velocity and acceleration of each ring, the inner first; zero where the state has them.
     prescribed: [RingState; 2],
     /// 1/mass of the rings' coordinates [1/kg].
@@ -292,7 +292,7 @@ impl Model {
         by_time[2 * self.layout.radial_velocity..].fill(0.0);
         // Prescribed rings move the sensor; on the rings themselves nothing but their loads depends on time.
         let [shaft, housing] = &shared.prescribed;
-        let moves = Kinematics { shaft: *shaft, housing: *housing, ..shared.now };
+        let moves = Kinematics { shaft: *shaft, housing: *housing, ..*shared.now };
         let [velocity, acceleration] = moves.bodies(0.0, 0.0);
         let loads = drive.shaft_load.iter().chain(&drive.housing_load).map(|load| load.rate_at(tau)).chain([0.0]);
         let forces = self.supports.forces(&velocity, &acceleration) + Bodies::from_iterator(loads);

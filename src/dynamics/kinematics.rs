@@ -6,6 +6,7 @@
 use super::drive::{Cubic, Drive, Frames};
 use crate::numerics::plane::Vector;
 use crate::numerics::sin_cos;
+use std::ops::{Deref, DerefMut};
 
 /// The cage at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,8 +41,29 @@ pub struct Kinematics {
     pub shaft: RingState,
     /// The outer ring.
     pub housing: RingState,
-    /// The frames of defects; not worked out within the step's kernels, where few contacts ask for them.
+}
+
+/// Cage and rings at one instant, and the frames of defects, for which few contacts ask within a step's kernels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FramedKinematics {
+    /// Cage and rings.
+    pub motion: Kinematics,
+    /// The frames of defects.
     pub frames: Frames,
+}
+
+impl Deref for FramedKinematics {
+    type Target = Kinematics;
+
+    fn deref(&self) -> &Kinematics {
+        &self.motion
+    }
+}
+
+impl DerefMut for FramedKinematics {
+    fn deref_mut(&mut self) -> &mut Kinematics {
+        &mut self.motion
+    }
 }
 
 /// What the right-hand side is evaluated at.
@@ -70,21 +92,24 @@ impl CageState {
     }
 }
 
-impl Kinematics {
+impl FramedKinematics {
     /// Nothing moves; the outer ring's centre is `offset` [m] from the inner's, frames are at their angles of the start.
     pub fn at_rest(cage_angle: f64, offset: Vector) -> Self {
         let housing = RingState { position: offset, ..RingState::default() };
         let (cage, shaft) = (CageState::at_rest(cage_angle), RingState::default());
-        Self { cage, shaft, housing, frames: Frames::default() }
+        Self { motion: Kinematics { cage, shaft, housing }, frames: Frames::default() }
     }
 
     /// The same positions with nothing moving.
     pub fn standing(&self) -> Self {
         let still = |ring: &RingState| RingState { velocity: Vector::zeros(), ..*ring };
         let cage = CageState { speed: 0.0, acceleration: 0.0, ..self.cage };
-        Self { cage, shaft: still(&self.shaft), housing: still(&self.housing), frames: self.frames.at_rest() }
+        let motion = Kinematics { cage, shaft: still(&self.shaft), housing: still(&self.housing) };
+        Self { motion, frames: self.frames.at_rest() }
     }
+}
 
+impl Kinematics {
     /// Position of the outer ring's centre seen from the inner's [m].
     #[inline(always)]
     pub fn offset(&self) -> Vector {

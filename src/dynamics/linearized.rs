@@ -32,7 +32,7 @@
 
 use super::drive::Frame;
 use super::element_contacts::{InnerGap, Meeting};
-use super::kinematics::Kinematics;
+use super::kinematics::FramedKinematics;
 use super::model::Model;
 use super::raceway::{Near, SMOOTH};
 use crate::contact::near_defect::Approach;
@@ -199,7 +199,7 @@ impl Model {
         j: usize,
         cells: [[u32; 2]; 2],
         (u, w): (f64, f64),
-        now: &Kinematics,
+        now: &FramedKinematics,
         bends: Bends,
     ) -> Linearized {
         let path_rate = w - now.housing.velocity.dot(&self.direction(j, now.cage.direction));
@@ -212,7 +212,7 @@ impl Model {
         j: usize,
         cells: [[u32; 2]; 2],
         (u, path_rate): (f64, f64),
-        now: &Kinematics,
+        now: &FramedKinematics,
         bends: Bends,
     ) -> Linearized {
         let e_r = self.direction(j, now.cage.direction);
@@ -279,7 +279,14 @@ impl Model {
     }
 
     /// The inner contact of an element near a defect, q in direction `n` changing at `q_rate`.
-    fn near_inner(&self, at: &Meeting, n: Vector, q_rate: Vector, now: &Kinematics, bends: Bends) -> InnerContact {
+    fn near_inner(
+        &self,
+        at: &Meeting,
+        n: Vector,
+        q_rate: Vector,
+        now: &FramedKinematics,
+        bends: Bends,
+    ) -> InnerContact {
         let (t, distance) = (turned(n), at.distance);
         let (v_n, v_t) = (n.dot(&q_rate), t.dot(&q_rate));
         let bend = if bends == Bends::Wanted { self.bend(RacewaySide::Inner, at, now) } else { Bend::default() };
@@ -314,7 +321,7 @@ impl Model {
     }
 
     /// Second derivatives of the approach of a contact near a defect.
-    fn bend(&self, side: RacewaySide, at: &Meeting, now: &Kinematics) -> Bend {
+    fn bend(&self, side: RacewaySide, at: &Meeting, now: &FramedKinematics) -> Bend {
         let angle = DIFFERENCE / self.outer_centre_radius;
         let look = |du: f64, turn: f64| {
             let u = at.u + du;

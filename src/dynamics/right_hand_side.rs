@@ -59,8 +59,7 @@ impl Model {
             [Vector::zeros(); 2]
         } else {
             let frames = if self.has_frames { drive.frames_at(tau) } else { Frames::default() };
-            let now = Kinematics { frames, ..now };
-            self.other_contacts::<RECORD>(&now, state, ahead, forces)
+            self.other_contacts::<RECORD>(&now, &frames, (state, ahead), forces)
         };
         let [shaft_x, shaft_y, housing_x, housing_y] =
             self.smooth_contacts::<S, RECORD>(simd, &now, stage, derivative, (&forces.elements, &mut forces.contacts));
@@ -95,17 +94,19 @@ impl Model {
     fn other_contacts<const RECORD: bool>(
         &self,
         now: &Kinematics,
-        state: &[f64],
-        ahead: Option<f64>,
+        frames: &Frames,
+        (state, ahead): (&[f64], Option<f64>),
         forces: &mut Forces,
     ) -> [Vector; 2] {
         let start = self.layout.radial_velocity;
         let (mut on_shaft, mut on_housing) = (Vector::zeros(), Vector::zeros());
         let Forces { others, other_contacts, elements, torques, defect_lookups, unsolved, .. } = forces;
         let [inner_contacts, outer_contacts] = other_contacts;
-        *torques = [0.0; 3];
-        inner_contacts.clear();
-        outer_contacts.clear();
+        if RECORD {
+            *torques = [0.0; 3];
+            inner_contacts.clear();
+            outer_contacts.clear();
+        }
         for other in others.iter() {
             let j = other.element;
             let e_r = self.direction(j, now.cage.direction);
@@ -118,8 +119,10 @@ impl Model {
                 } else {
                     *defect_lookups += 1;
                     let at = self.outer_meeting(j, cells, u, now.cage.angle);
-                    let near = self.near_defect(RacewaySide::Outer, &at, &now.frames);
-                    near.unwrap_or_else(|cause| self.without_answer(RacewaySide::Outer, (&at, now), cause, unsolved))
+                    let near = self.near_defect(RacewaySide::Outer, &at, frames);
+                    near.unwrap_or_else(|cause| {
+                        self.without_answer(RacewaySide::Outer, (&at, now, frames), cause, unsolved)
+                    })
                 };
                 let found = self.outer_contact(&near, [path_rate, now.cage.speed], self.outer_centre_radius + u);
                 let [_, f_r, f_t] = found.force;
@@ -132,7 +135,7 @@ impl Model {
             }
             if let Some(cells) = other.inner {
                 *defect_lookups += 1;
-                let found = self.other_inner_contact(j, cells, (u, path_rate), now, unsolved);
+                let found = self.other_inner_contact(j, cells, (u, path_rate), (now, frames), unsolved);
                 let [_, f_r, f_t] = found.force;
                 acceleration += f_r * self.inverse_element_mass;
                 on_shaft -= e_r * f_r + turned(e_r) * f_t;
@@ -151,13 +154,13 @@ impl Model {
     fn without_answer(
         &self,
         side: RacewaySide,
-        (at, now): (&Meeting, &Kinematics),
+        (at, now, frames): (&Meeting, &Kinematics, &Frames),
         cause: ContactError,
         unsolved: &mut Option<UnsolvedContact>,
     ) -> Near {
         // What is no number here has its cause elsewhere.
         if (at.u + now.cage.angle).is_finite() {
-            let angle = self.angle_from_defect(side, at, &now.frames);
+            let angle = self.angle_from_defect(side, at, frames);
             *unsolved = Some(UnsolvedContact { element: at.element, angle, offset: now.offset().into(), cause });
         }
         Near::unsolved()
@@ -170,14 +173,15 @@ impl Model {
         j: usize,
         cells: [u32; 2],
         (u, path_rate): (f64, f64),
-        now: &Kinematics,
+        (now, frames): (&Kinematics, &Frames),
         unsolved: &mut Option<UnsolvedContact>,
     ) -> OtherContact {
         let e_r = self.direction(j, now.cage.direction);
         let gap = self.inner_gap(u, now.offset(), e_r);
         let at = self.inner_meeting(j, cells, &gap, now.cage.angle);
-        let near = self.near_defect(RacewaySide::Inner, &at, &now.frames);
-        let near = near.unwrap_or_else(|cause| self.without_answer(RacewaySide::Inner, (&at, now), cause, unsolved));
+        let near = self.near_defect(RacewaySide::Inner, &at, frames);
+        let near =
+            near.unwrap_or_else(|cause| self.without_answer(RacewaySide::Inner, (&at, now, frames), cause, unsolved));
         let around = (self.outer_centre_radius + u) * now.cage.speed;
         let q_rate = [now.drift().dot(&e_r) + path_rate, now.drift().dot(&turned(e_r)) + around];
         OtherContact { element: j, ..self.inner_contact(&near, &gap, q_rate) }

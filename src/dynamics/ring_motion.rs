@@ -1,16 +1,16 @@
 //! How the rings of a model move: from the state where it has them, else as the host prescribes.
 
-use super::drive::{Cubic, Drive, Frames};
-use super::kinematics::{Kinematics, RingState, Stage, moved, prescribed_rate};
+use super::drive::{Cubic, Drive};
+use super::kinematics::{FramedKinematics, Kinematics, RingState, Stage, moved, prescribed_rate};
 use super::model::Model;
 use crate::numerics::plane::Vector;
 use crate::scene::Motion;
 
 impl Model {
     /// Cage and rings at `tau`.
-    pub fn kinematics(&self, drive: &Drive, tau: f64, state: &[f64]) -> Kinematics {
-        let now = self.kinematics_of(&Stage { drive, cage: &drive.cage_at(tau), state, ahead: None });
-        Kinematics { frames: drive.frames_at(tau), ..now }
+    pub fn kinematics(&self, drive: &Drive, tau: f64, state: &[f64]) -> FramedKinematics {
+        let motion = self.kinematics_of(&Stage { drive, cage: &drive.cage_at(tau), state, ahead: None });
+        FramedKinematics { motion, frames: drive.frames_at(tau) }
     }
 
     /// As [`kinematics`](Self::kinematics), without the frames of defects.
@@ -22,7 +22,6 @@ impl Model {
             cage: *cage,
             shaft: ring_state(self.layout.shaft, shaft, &drive.shaft, cage.tau, state, ahead),
             housing: ring_state(self.layout.housing, housing, &drive.housing, cage.tau, state, ahead),
-            frames: Frames::default(),
         }
     }
 

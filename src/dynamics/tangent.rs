@@ -6,7 +6,7 @@
 //!
 //! An element that nothing touches does not answer.
 
-use super::kinematics::Kinematics;
+use super::kinematics::FramedKinematics;
 use super::linearized::{Bends, ElementVariation, Linearized};
 use super::model::Model;
 use super::raceway::Cells;
@@ -60,12 +60,12 @@ impl Model {
     }
 
     /// Elastic Jacobian of the rings' forces at the element paths `u`, everything standing where it is in `now`.
-    pub fn ring_jacobian(&self, u: &[f64], cells: &Cells, now: &Kinematics) -> RingJacobian {
+    pub fn ring_jacobian(&self, u: &[f64], cells: &Cells, now: &FramedKinematics) -> RingJacobian {
         self.ring_jacobian_at(u, cells, &now.standing())
     }
 
     /// The same with the dampers' part at the velocities of `now`, each u' being 0.
-    pub(super) fn ring_jacobian_at(&self, u: &[f64], cells: &Cells, now: &Kinematics) -> RingJacobian {
+    pub(super) fn ring_jacobian_at(&self, u: &[f64], cells: &Cells, now: &FramedKinematics) -> RingJacobian {
         let mut jacobian = RingJacobian::zeros();
         for j in 0..self.element_count {
             let element = self.linearized_at(j, self.cells_of(cells, j), (u[j], 0.0), now, Bends::LeftOut);

@@ -9,7 +9,7 @@
 //! onset of a contact there are two.
 
 use super::drive::{Drive, Frame};
-use super::kinematics::{CageState, Kinematics, RingState};
+use super::kinematics::{CageState, FramedKinematics, RingState};
 use super::linearized::{Bends, DIFFERENCE, ElementChange, ElementVariation, Linearized};
 use super::model::Model;
 use super::raceway::{Cells, SMOOTH};
@@ -199,7 +199,7 @@ impl Model {
         &self,
         j: usize,
         cells: [[u32; 2]; 2],
-        (u, still): (f64, &Kinematics),
+        (u, still): (f64, &FramedKinematics),
         by: &Variation,
     ) -> Matrix {
         // As long as a change of any part of it stays within a difference.
@@ -247,7 +247,7 @@ impl Model {
         j: usize,
         cells: [[u32; 2]; 2],
         u: f64,
-        still: &Kinematics,
+        still: &FramedKinematics,
         (path, turn, frames): (f64, f64, [[f64; 2]; 3]),
     ) -> f64 {
         if cells[1] == [SMOOTH; 2] && self.outer.contact.compliance == 0.0 {
@@ -255,7 +255,7 @@ impl Model {
         }
         let radial = |u: f64, angle: f64| {
             // Nothing moves and the rings' offset does not matter to the outer contact.
-            let still = Kinematics { frames: still.frames, ..Kinematics::at_rest(angle, Vector::zeros()) };
+            let still = FramedKinematics { frames: still.frames, ..FramedKinematics::at_rest(angle, Vector::zeros()) };
             self.linearized_at(j, cells, (u, 0.0), &still, Bends::LeftOut).change(&ElementVariation::of_path()).outer.x
         };
         let angle = still.cage.angle;

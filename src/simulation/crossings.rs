@@ -10,7 +10,7 @@ use super::kernels::probe;
 use super::knots::Contact;
 use super::progress::Progress;
 use super::workspace::{Problem, Span, Workspace};
-use crate::dynamics::kinematics::Kinematics;
+use crate::dynamics::kinematics::{FramedKinematics, Kinematics};
 use crate::dynamics::raceway::{Ahead, Defects};
 
 /// Width of a step, as a share, to which the instant of a crossing is narrowed down: at the speed of an element on its
@@ -111,7 +111,7 @@ fn root(
 /// Positions at one instant.
 #[derive(Clone, Copy)]
 struct Instant<'a> {
-    now: Kinematics,
+    now: FramedKinematics,
     tau: f64,
     paths: &'a [f64],
 }

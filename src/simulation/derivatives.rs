@@ -19,7 +19,7 @@ use super::quantity::{Quantity, RingName};
 use super::values::{out_of_range, wrong_type};
 use super::variables::{Causality, Kind, Variable};
 use super::{SimulationError, VariableError};
-use crate::dynamics::drive::{Drive, Frame, Frames};
+use crate::dynamics::drive::{Drive, Frame};
 use crate::dynamics::kinematics::Kinematics;
 use crate::dynamics::supports::Bodies;
 use crate::numerics::plane::Vector;
@@ -172,7 +172,7 @@ impl Simulation {
             let (variation, forces) = (&change.variation, &change.forces);
             let cage = drive.cage_at(0.0);
             let (shaft, housing) = (variation.shaft, variation.housing);
-            let moved = Kinematics { cage, shaft, housing, frames: Frames::default() };
+            let moved = Kinematics { cage, shaft, housing };
             let [x, v] = moved.bodies(change.sensor[0], change.sensor[1]);
             let (supports, [shaft, housing]) = (&self.model.supports, [forces.shaft, forces.housing]);
             let contacts = Bodies::from([shaft.x, shaft.y, housing.x, housing.y, 0.0]);
