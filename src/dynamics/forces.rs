@@ -16,9 +16,11 @@ pub struct Forces {
     pub contacts: Record,
     /// The elements, with what follows from the raceway that each is on.
     pub(super) elements: Vec<ElementBlock>,
-    /// Elements with a contact that is not one of smooth rigid raceways.
-    pub(super) others: Vec<Other>,
-    /// Those contacts, the inner ones and the outer ones.
+    /// Outer contacts that are not those of the smooth rigid raceway.
+    pub(super) other_outer: Vec<Other>,
+    /// Inner contacts near defects.
+    pub(super) other_inner: Vec<Other>,
+    /// What was found of the inner ones and of the outer ones.
     pub(super) other_contacts: [Vec<OtherContact>; 2],
     /// Number of elements.
     count: usize,
@@ -55,7 +57,8 @@ impl Clone for Forces {
             unsolved: self.unsolved.clone(),
             ..Self::new(self.count)
         };
-        copy.others.extend_from_slice(&self.others);
+        copy.other_outer.extend_from_slice(&self.other_outer);
+        copy.other_inner.extend_from_slice(&self.other_inner);
         for (copy, contacts) in copy.other_contacts.iter_mut().zip(&self.other_contacts) {
             copy.extend_from_slice(contacts);
         }
@@ -72,7 +75,8 @@ impl Forces {
             count,
             contacts: Record::new(places),
             elements: vec![ElementBlock::default(); places / WIDEST],
-            others: Vec::with_capacity(count),
+            other_outer: Vec::with_capacity(count),
+            other_inner: Vec::with_capacity(count),
             other_contacts: [(); 2].map(|()| Vec::with_capacity(count)),
             ..Self::default()
         }
@@ -81,7 +85,11 @@ impl Forces {
     /// Sorts the elements by the surfaces they are on. What follows inside kernels is for these cells.
     pub(super) fn enter(&mut self, model: &Model, cells: &Cells) {
         let rigid = model.outer.contact.compliance == 0.0;
-        self.others.clear();
+        self.other_outer.clear();
+        self.other_inner.clear();
+        for contacts in &mut self.other_contacts {
+            contacts.clear();
+        }
         self.torques = [0.0; 3];
         self.elements.copy_from_slice(&model.elements);
         if rigid && model.all_defects().all(Defects::is_empty) {
@@ -89,20 +97,14 @@ impl Forces {
         }
         for j in 0..model.element_count {
             let [inner, outer] = model.cells_of(cells, j);
-            let other = Other {
-                element: j,
-                inner: (inner != [SMOOTH; 2]).then_some(inner),
-                outer: (!rigid || outer != [SMOOTH; 2]).then_some(outer),
-            };
             let block = &mut self.elements[j / WIDEST];
-            if other.inner.is_some() {
+            if inner != [SMOOTH; 2] {
                 block.inner[j % WIDEST] = 0.0;
+                self.other_inner.push(Other { element: j, cells: inner });
             }
-            if other.outer.is_some() {
+            if !rigid || outer != [SMOOTH; 2] {
                 block.outer[j % WIDEST] = 0.0;
-            }
-            if other.inner.is_some() || other.outer.is_some() {
-                self.others.push(other);
+                self.other_outer.push(Other { element: j, cells: outer });
             }
         }
     }
@@ -186,14 +188,12 @@ impl Forces {
     }
 }
 
-/// An element with a contact that is not one of smooth rigid raceways.
+/// A contact that is not one of smooth rigid raceways, and where it is.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Other {
     pub(super) element: usize,
-    /// Cells of the raceway and of the element's own defect, where the inner contact is such a one.
-    pub(super) inner: Option<[u32; 2]>,
-    /// Those of the outer contact.
-    pub(super) outer: Option<[u32; 2]>,
+    /// Cells of the raceway and of the element's own defect.
+    pub(super) cells: [u32; 2],
 }
 
 /// A contact that is not one of smooth rigid raceways.

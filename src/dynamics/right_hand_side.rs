@@ -16,7 +16,7 @@
 
 use super::drive::{Drive, Frame, Frames};
 use super::element_contacts::{InnerGap, Meeting};
-use super::forces::{Forces, OtherContact, UnsolvedContact};
+use super::forces::{Forces, Other, OtherContact, UnsolvedContact};
 use super::kinematics::{Kinematics, Stage, moved};
 use super::model::Model;
 use super::raceway::{Cells, Near, SMOOTH};
@@ -55,17 +55,26 @@ impl Model {
         let (now, tau) = (self.kinematics_of(stage), cage.tau);
         // A copy for the call, so that what is known of the instant can stay in registers: what is written to memory in
         // parts and read together soon after is read late.
-        let [on_shaft, on_housing] = if forces.others.is_empty() {
-            [Vector::zeros(); 2]
-        } else {
+        let [outer, inner] = [forces.other_outer.is_empty(), forces.other_inner.is_empty()].map(|none| !none);
+        let (mut on_shaft, mut on_housing) = (Vector::zeros(), Vector::zeros());
+        if outer || inner {
             let frames = if self.has_frames { drive.frames_at(tau) } else { Frames::default() };
-            self.other_contacts::<RECORD>(&now, &frames, (state, ahead), forces)
-        };
+            let state = (state, ahead);
+            if RECORD {
+                forces.torques = [0.0; 3];
+            }
+            if outer {
+                on_housing = self.other_outer_contacts::<RECORD>(&{ now }, &frames, state, forces);
+            }
+            if inner {
+                on_shaft = self.other_inner_contacts::<RECORD>(&{ now }, &frames, state, forces);
+            }
+        }
         let [shaft_x, shaft_y, housing_x, housing_y] =
             self.smooth_contacts::<S, RECORD>(simd, &now, stage, derivative, (&forces.elements, &mut forces.contacts));
         let (shaft_x, shaft_y) = (shaft_x + on_shaft.x, shaft_y + on_shaft.y);
         let (housing_x, housing_y) = (housing_x + on_housing.x, housing_y + on_housing.y);
-        if RECORD && !forces.others.is_empty() {
+        if RECORD && (outer || inner) {
             forces.record_others();
         }
         Lanes::of(simd, [shaft_x, shaft_y, housing_x, housing_y]).store(&mut forces.rings, 0);
@@ -87,66 +96,91 @@ impl Model {
         }
     }
 
-    /// The contacts that are not those of smooth rigid raceways; gives their forces on the inner ring and on the outer.
+    /// The outer contacts that are not those of the smooth rigid raceway; gives their force on the outer ring.
     ///
     /// They come first, so that what they add to an element's acceleration is long written when all elements' are read.
     #[inline(never)]
-    fn other_contacts<const RECORD: bool>(
+    fn other_outer_contacts<const RECORD: bool>(
         &self,
         now: &Kinematics,
         frames: &Frames,
         (state, ahead): (&[f64], Option<f64>),
         forces: &mut Forces,
-    ) -> [Vector; 2] {
+    ) -> Vector {
         let start = self.layout.radial_velocity;
-        let (mut on_shaft, mut on_housing) = (Vector::zeros(), Vector::zeros());
-        let Forces { others, other_contacts, elements, torques, defect_lookups, unsolved, .. } = forces;
-        let [inner_contacts, outer_contacts] = other_contacts;
+        let mut on_housing = Vector::zeros();
+        let Forces { other_outer, other_contacts: [_, contacts], elements, torques, defect_lookups, unsolved, .. } =
+            forces;
         if RECORD {
-            *torques = [0.0; 3];
-            inner_contacts.clear();
-            outer_contacts.clear();
+            contacts.clear();
         }
-        for other in others.iter() {
-            let j = other.element;
+        for &Other { element: j, cells } in other_outer.iter() {
             let e_r = self.direction(j, now.cage.direction);
             let path_rate = state[start + j] - now.housing.velocity.dot(&e_r);
             let u = moved(state[j], path_rate, ahead);
-            let mut acceleration = 0.0;
-            if let Some(cells) = other.outer {
-                let near = if cells == [SMOOTH; 2] {
-                    Near::smooth(u)
-                } else {
-                    *defect_lookups += 1;
-                    let at = self.outer_meeting(j, cells, u, now.cage.angle);
-                    let near = self.near_defect(RacewaySide::Outer, &at, frames);
-                    near.unwrap_or_else(|cause| {
-                        self.without_answer(RacewaySide::Outer, (&at, now, frames), cause, unsolved)
-                    })
-                };
-                let found = self.outer_contact(&near, [path_rate, now.cage.speed], self.outer_centre_radius + u);
-                let [_, f_r, f_t] = found.force;
-                acceleration = -f_r * self.inverse_element_mass;
-                on_housing += e_r * f_r - turned(e_r) * f_t;
-                if RECORD {
-                    torques[found.frame as usize] += found.torque;
-                    outer_contacts.push(OtherContact { element: j, ..found });
-                }
-            }
-            if let Some(cells) = other.inner {
+            let near = if cells == [SMOOTH; 2] {
+                Near::smooth(u)
+            } else {
                 *defect_lookups += 1;
-                let found = self.other_inner_contact(j, cells, (u, path_rate), (now, frames), unsolved);
-                let [_, f_r, f_t] = found.force;
-                acceleration += f_r * self.inverse_element_mass;
-                on_shaft -= e_r * f_r + turned(e_r) * f_t;
-                if RECORD {
-                    torques[found.frame as usize] += found.torque;
-                    inner_contacts.push(found);
-                }
+                let at = self.outer_meeting(j, cells, u, now.cage.angle);
+                let near = self.near_defect(RacewaySide::Outer, &at, frames);
+                near.unwrap_or_else(|cause| {
+                    self.without_answer(RacewaySide::Outer, (&at, now, frames), cause, unsolved)
+                })
+            };
+            let found = self.outer_contact(&near, [path_rate, now.cage.speed], self.outer_centre_radius + u);
+            let [_, f_r, f_t] = found.force;
+            elements[j / WIDEST].other[j % WIDEST] = -f_r * self.inverse_element_mass;
+            on_housing += e_r * f_r - turned(e_r) * f_t;
+            if RECORD {
+                torques[found.frame as usize] += found.torque;
+                contacts.push(OtherContact { element: j, ..found });
             }
-            elements[j / WIDEST].other[j % WIDEST] = acceleration;
         }
-        [on_shaft, on_housing]
+        on_housing
+    }
+
+    /// The inner contacts near defects; gives their force on the inner ring. After the outer ones, to whose part of an
+    /// element's acceleration they add.
+    #[inline(never)]
+    fn other_inner_contacts<const RECORD: bool>(
+        &self,
+        now: &Kinematics,
+        frames: &Frames,
+        (state, ahead): (&[f64], Option<f64>),
+        forces: &mut Forces,
+    ) -> Vector {
+        let start = self.layout.radial_velocity;
+        let mut on_shaft = Vector::zeros();
+        let Forces { other_inner, other_outer, other_contacts: [contacts, _], elements, .. } = forces;
+        let (torques, lookups, unsolved) = (&mut forces.torques, &mut forces.defect_lookups, &mut forces.unsolved);
+        if RECORD {
+            contacts.clear();
+        }
+        for &Other { element: j, cells } in other_inner.iter() {
+            let e_r = self.direction(j, now.cage.direction);
+            let path_rate = state[start + j] - now.housing.velocity.dot(&e_r);
+            let u = moved(state[j], path_rate, ahead);
+            *lookups += 1;
+            let gap = self.inner_gap(u, now.offset(), e_r);
+            let at = self.inner_meeting(j, cells, &gap, now.cage.angle);
+            let near = self.near_defect(RacewaySide::Inner, &at, frames);
+            let near = near
+                .unwrap_or_else(|cause| self.without_answer(RacewaySide::Inner, (&at, now, frames), cause, unsolved));
+            let around = (self.outer_centre_radius + u) * now.cage.speed;
+            let q_rate = [now.drift().dot(&e_r) + path_rate, now.drift().dot(&turned(e_r)) + around];
+            let found = self.inner_contact(&near, &gap, q_rate);
+            let [_, f_r, f_t] = found.force;
+            let acceleration = &mut elements[j / WIDEST].other[j % WIDEST];
+            let of_outer = if other_outer.iter().any(|other| other.element == j) { *acceleration } else { 0.0 };
+            *acceleration = of_outer + f_r * self.inverse_element_mass;
+            on_shaft -= e_r * f_r + turned(e_r) * f_t;
+            if RECORD {
+                torques[found.frame as usize] += found.torque;
+                contacts.push(OtherContact { element: j, ..found });
+            }
+        }
+        on_shaft
     }
 
     /// What stands for a contact near a defect that has no answer, which is kept.
@@ -164,27 +198,6 @@ impl Model {
             *unsolved = Some(UnsolvedContact { element: at.element, angle, offset: now.offset().into(), cause });
         }
         Near::unsolved()
-    }
-
-    /// The inner contact near a defect of element `j` at this path and path rate.
-    #[inline(never)]
-    fn other_inner_contact(
-        &self,
-        j: usize,
-        cells: [u32; 2],
-        (u, path_rate): (f64, f64),
-        (now, frames): (&Kinematics, &Frames),
-        unsolved: &mut Option<UnsolvedContact>,
-    ) -> OtherContact {
-        let e_r = self.direction(j, now.cage.direction);
-        let gap = self.inner_gap(u, now.offset(), e_r);
-        let at = self.inner_meeting(j, cells, &gap, now.cage.angle);
-        let near = self.near_defect(RacewaySide::Inner, &at, frames);
-        let near =
-            near.unwrap_or_else(|cause| self.without_answer(RacewaySide::Inner, (&at, now, frames), cause, unsolved));
-        let around = (self.outer_centre_radius + u) * now.cage.speed;
-        let q_rate = [now.drift().dot(&e_r) + path_rate, now.drift().dot(&turned(e_r)) + around];
-        OtherContact { element: j, ..self.inner_contact(&near, &gap, q_rate) }
     }
 
     /// An outer contact at this approach and distance from the ring's centre; path and cage angle change at `rates`.
