@@ -1,11 +1,11 @@
 //! Where an element stands to the two raceways: its gap to the inner one, and its approach to either near a defect.
 
-use super::drive::Frames;
+use super::drive::{Frame, Frames};
 use super::kinematics::Kinematics;
 use super::model::Model;
 use super::raceway::{Cells, Defects, Near, Raceway, SMOOTH};
 use crate::contact::error::ContactError;
-use crate::contact::near_defect::Lever;
+use crate::contact::near_defect::{Approach, Lever};
 use crate::contact::rolling::RacewaySide;
 use crate::numerics::plane::{Vector, turned};
 
@@ -80,35 +80,49 @@ impl Model {
         Meeting { element: j, cells, u: gap.approach, direction, distance: gap.distance }
     }
 
-    /// Approach of an element in some cell near a defect, its own or the raceway's; of both the one that carries less.
+    /// Approach of an element in some cell near a defect, its own or the raceway's, of both the one that carries less;
+    /// and the frame of the body that bears it.
     ///
     /// Inlined, so that what its caller does not use is not worked out.
     #[inline(always)]
-    pub(super) fn near_defect(&self, side: RacewaySide, at: &Meeting, frames: &Frames) -> Result<Near, ContactError> {
+    pub(super) fn near_defect(
+        &self,
+        side: RacewaySide,
+        at: &Meeting,
+        frames: &Frames,
+    ) -> (Result<Approach, ContactError>, Frame) {
         let [ring, own] = at.cells;
         if own != SMOOTH {
             return self.near_own_defect(side, at, frames);
         }
         let (raceway, by_approach) = self.raceway(side);
         let lever = Lever { distance: at.distance, by_approach };
-        raceway.defects.approach(ring, at.u, at.direction, frames, lever)
+        (raceway.defects.approach(ring, at.u, at.direction, frames, lever), raceway.defects.frame)
     }
 
     /// As [`Self::near_defect`], of an element in a cell of its own defect.
     #[inline(never)]
-    fn near_own_defect(&self, side: RacewaySide, at: &Meeting, frames: &Frames) -> Result<Near, ContactError> {
+    fn near_own_defect(
+        &self,
+        side: RacewaySide,
+        at: &Meeting,
+        frames: &Frames,
+    ) -> (Result<Approach, ContactError>, Frame) {
         let [ring, own] = at.cells;
         let (raceway, by_approach) = self.raceway(side);
         let lever = Lever { distance: at.distance, by_approach };
         let approach = |defects: &Defects, cell| defects.approach(cell, at.u, at.direction, frames, lever);
         let defective = self.defective.iter().find(|defective| defective.element == at.element);
         let own =
-            defective.map_or(Ok(Near::smooth(at.u)), |defective| approach(&defective.defects[side as usize], own))?;
+            defective.map_or(Ok(Approach::smooth(at.u)), |defective| approach(&defective.defects[side as usize], own));
         if ring == SMOOTH {
-            return Ok(own);
+            return (own, Frame::Spin);
         }
-        let ring = approach(&raceway.defects, ring)?;
-        Ok(if own.approach.value < ring.approach.value { own } else { ring })
+        match (own, approach(&raceway.defects, ring)) {
+            (Ok(own), Ok(ring)) if own.value < ring.value => (Ok(own), Frame::Spin),
+            (Err(error), _) => (Err(error), Frame::Spin),
+            (_, ring) => (ring, raceway.defects.frame),
+        }
     }
 
     /// A raceway, and how an element's distance from the ring's centre changes with its approach.
@@ -125,7 +139,8 @@ impl Model {
         if at.cells == [SMOOTH; 2] {
             return Near::smooth(at.u);
         }
-        self.near_defect(side, at, frames).unwrap_or_else(|_| Near::unsolved())
+        let (near, frame) = self.near_defect(side, at, frames);
+        near.map_or_else(|_| Near::unsolved(), |approach| Near::new(approach, frame, frames))
     }
 
     /// Angle [rad] of a contact from the centre of the defect that it is at, or else of the raceway's nearest.

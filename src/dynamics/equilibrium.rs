@@ -238,7 +238,7 @@ impl Model {
                 if at.cells == [SMOOTH; 2] {
                     continue;
                 }
-                let Err(cause) = self.near_defect(side, &at, &now.frames) else { continue };
+                let (Err(cause), _) = self.near_defect(side, &at, &now.frames) else { continue };
                 // The search may have ended on the far side, where all is no number.
                 let element = self.linearized_at(j, cells, (u - FURTHER, 0.0), &now, Bends::LeftOut);
                 let residual = self.radial_balance(&element).0;

@@ -85,6 +85,12 @@ pub struct Cells {
 }
 
 impl Near {
+    /// An approach to a surface that turns with `frame`.
+    #[inline(always)]
+    pub fn new(approach: Approach, frame: Frame, frames: &Frames) -> Self {
+        Self { approach, frame_speed: frames.of(frame).speed, frame }
+    }
+
     /// That of the smooth raceway at approach `u` [m].
     pub fn smooth(u: f64) -> Self {
         Self { approach: Approach::smooth(u), frame_speed: 0.0, frame: Frame::Housing }
@@ -182,12 +188,10 @@ impl Defects {
         direction: f64,
         frames: &Frames,
         lever: Lever,
-    ) -> Result<Near, ContactError> {
-        let turn = frames.of(self.frame);
-        let Some(placed) = self.holding(cell) else { return Ok(Near::smooth(u)) };
-        let angle = placed.angle(direction - turn.angle);
-        let approach = placed.surface.approach((cell - placed.first) as usize, u, angle, lever)?;
-        Ok(Near { approach, frame_speed: turn.speed, frame: self.frame })
+    ) -> Result<Approach, ContactError> {
+        let Some(placed) = self.holding(cell) else { return Ok(Approach::smooth(u)) };
+        let angle = placed.angle(direction - frames.of(self.frame).angle);
+        placed.surface.approach((cell - placed.first) as usize, u, angle, lever)
     }
 
     /// The defect that a cell belongs to.

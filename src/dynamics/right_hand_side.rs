@@ -21,6 +21,7 @@ use super::kinematics::{Kinematics, Stage, moved};
 use super::model::Model;
 use super::raceway::{Cells, Near, SMOOTH};
 use crate::contact::error::ContactError;
+use crate::contact::near_defect::Approach;
 use crate::contact::rolling::RacewaySide;
 use crate::numerics::lanes::{Kernel, Lanes, WIDEST, Wide, dispatch};
 use crate::numerics::plane::{Vector, turned};
@@ -118,17 +119,17 @@ impl Model {
             let e_r = self.direction(j, now.cage.direction);
             let path_rate = state[start + j] - now.housing.velocity.dot(&e_r);
             let u = moved(state[j], path_rate, ahead);
-            let near = if cells == [SMOOTH; 2] {
-                Near::smooth(u)
+            let found = if cells == [SMOOTH; 2] {
+                self.yielding_contact(u, path_rate)
             } else {
                 *defect_lookups += 1;
                 let at = self.outer_meeting(j, cells, u, now.cage.angle);
-                let near = self.near_defect(RacewaySide::Outer, &at, frames);
-                near.unwrap_or_else(|cause| {
+                let (near, frame) = self.near_defect(RacewaySide::Outer, &at, frames);
+                let near = near.unwrap_or_else(|cause| {
                     self.without_answer(RacewaySide::Outer, (&at, now, frames), cause, unsolved)
-                })
+                });
+                self.outer_contact(&Near::new(near, frame, frames), [path_rate, now.cage.speed], at.distance)
             };
-            let found = self.outer_contact(&near, [path_rate, now.cage.speed], self.outer_centre_radius + u);
             let [_, f_r, f_t] = found.force;
             elements[j / WIDEST].other[j % WIDEST] = -f_r * self.inverse_element_mass;
             on_housing += e_r * f_r - turned(e_r) * f_t;
@@ -164,9 +165,10 @@ impl Model {
             *lookups += 1;
             let gap = self.inner_gap(u, now.offset(), e_r);
             let at = self.inner_meeting(j, cells, &gap, now.cage.angle);
-            let near = self.near_defect(RacewaySide::Inner, &at, frames);
+            let (near, frame) = self.near_defect(RacewaySide::Inner, &at, frames);
             let near = near
                 .unwrap_or_else(|cause| self.without_answer(RacewaySide::Inner, (&at, now, frames), cause, unsolved));
+            let near = Near::new(near, frame, frames);
             let around = (self.outer_centre_radius + u) * now.cage.speed;
             let q_rate = [now.drift().dot(&e_r) + path_rate, now.drift().dot(&turned(e_r)) + around];
             let found = self.inner_contact(&near, &gap, q_rate);
@@ -191,13 +193,23 @@ impl Model {
         (at, now, frames): (&Meeting, &Kinematics, &Frames),
         cause: ContactError,
         unsolved: &mut Option<UnsolvedContact>,
-    ) -> Near {
+    ) -> Approach {
         // What is no number here has its cause elsewhere.
         if (at.u + now.cage.angle).is_finite() {
             let angle = self.angle_from_defect(side, at, frames);
             *unsolved = Some(UnsolvedContact { element: at.element, angle, offset: now.offset().into(), cause });
         }
-        Near::unsolved()
+        Approach::unsolved()
+    }
+
+    /// The outer contact of an element on a smooth raceway that yields.
+    #[inline(always)]
+    fn yielding_contact(&self, u: f64, path_rate: f64) -> OtherContact {
+        let law = &self.outer.contact;
+        let (part, part_rate) = law.of_contact(u, path_rate);
+        let force = law.law.force(part, part_rate);
+        let (force, pushing) = ([force, force, 0.0], law.law.pushing(part, part_rate));
+        OtherContact { element: 0, approach: u, pushing, force, torque: 0.0, frame: Frame::Housing }
     }
 
     /// An outer contact at this approach and distance from the ring's centre; path and cage angle change at `rates`.
