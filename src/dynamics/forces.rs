@@ -1,7 +1,7 @@
 //! What an evaluation of the equations of motion finds on its way: forces on the rings, and each contact if asked for.
 
 use super::contact_lanes::Record;
-use super::drive::Frame;
+use super::drive::{Frame, Frames};
 use super::element_block::ElementBlock;
 use super::model::Model;
 use super::raceway::{Cells, Defects, SMOOTH};
@@ -26,6 +26,8 @@ pub struct Forces {
     count: usize,
     /// The bearing's force on the inner ring, then on the outer [N].
     pub rings: [f64; 4],
+    /// The frames of defects, where any contact asks for them.
+    pub(super) frames: Frames,
     /// Torques of contacts near defects on the bodies that bear them [N m]: on the inner ring, on the outer ring, each
     /// about its centre, and on elements about their own axes.
     pub(super) torques: [f64; 3],

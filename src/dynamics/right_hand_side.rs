@@ -59,16 +59,18 @@ impl Model {
         let [outer, inner] = [forces.other_outer.is_empty(), forces.other_inner.is_empty()].map(|none| !none);
         let (mut on_shaft, mut on_housing) = (Vector::zeros(), Vector::zeros());
         if outer || inner {
-            let frames = if self.has_frames { drive.frames_at(tau) } else { Frames::default() };
+            if self.has_frames {
+                forces.frames = drive.frames_at(tau);
+            }
             let state = (state, ahead);
             if RECORD {
                 forces.torques = [0.0; 3];
             }
             if outer {
-                on_housing = self.other_outer_contacts::<RECORD>(&{ now }, &frames, state, forces);
+                on_housing = self.other_outer_contacts::<RECORD>(&{ now }, state, forces);
             }
             if inner {
-                on_shaft = self.other_inner_contacts::<RECORD>(&{ now }, &frames, state, forces);
+                on_shaft = self.other_inner_contacts::<RECORD>(&{ now }, state, forces);
             }
         }
         let [shaft_x, shaft_y, housing_x, housing_y] =
@@ -104,14 +106,13 @@ impl Model {
     fn other_outer_contacts<const RECORD: bool>(
         &self,
         now: &Kinematics,
-        frames: &Frames,
         (state, ahead): (&[f64], Option<f64>),
         forces: &mut Forces,
     ) -> Vector {
         let start = self.layout.radial_velocity;
         let mut on_housing = Vector::zeros();
-        let Forces { other_outer, other_contacts: [_, contacts], elements, torques, defect_lookups, unsolved, .. } =
-            forces;
+        let Forces { other_outer, other_contacts: [_, contacts], elements, torques, .. } = forces;
+        let (frames, defect_lookups, unsolved) = (&forces.frames, &mut forces.defect_lookups, &mut forces.unsolved);
         if RECORD {
             contacts.clear();
         }
@@ -147,7 +148,6 @@ impl Model {
     fn other_inner_contacts<const RECORD: bool>(
         &self,
         now: &Kinematics,
-        frames: &Frames,
         (state, ahead): (&[f64], Option<f64>),
         forces: &mut Forces,
     ) -> Vector {
@@ -155,6 +155,7 @@ impl Model {
         let mut on_shaft = Vector::zeros();
         let Forces { other_inner, other_outer, other_contacts: [contacts, _], elements, .. } = forces;
         let (torques, lookups, unsolved) = (&mut forces.torques, &mut forces.defect_lookups, &mut forces.unsolved);
+        let frames = &forces.frames;
         if RECORD {
             contacts.clear();
         }
