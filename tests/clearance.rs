@@ -6,7 +6,8 @@ use brinell::scene::Scene;
 use brinell_analysis::static_bearing::StaticBearing;
 use std::f64::consts::TAU;
 
-/// Seven balls under 1000 N through one of them: the ball bearing of the tests of minzhun's implementation of ISO/TS 16281.
+/// Seven balls under 1000 N through one of them: the ball bearing of the tests of minzhun's implementation of ISO/TS
+/// 16281.
 fn scene(clearance: &str) -> Result<Scene, String> {
     let text = format!(
         "name = \"iso\"\n[bearing]\nelement_count = 7\nelement_diameter_mm = 11.5\npitch_diameter_mm = 43.5\n\
@@ -50,8 +51,8 @@ fn a_catalogues_clearance_is_twice_the_radial_one_and_gives_the_published_displa
         let standard = by_the_standard(clearance);
         // Printed digits; the constants differ by some 1e-5.
         assert!((standard - expected).abs() < 3e-4, "{clearance}: {standard}, not {expected}");
-        // Here an element beside the load is pushed along q, which a ring displaced by d turns by d sin(ψ)/|q|: 5e-4 rad
-        // at 51°, and 3 nm of its approach go with it.
+        // Here an element beside the load is pushed along q, which a ring displaced by d turns by d sin(ψ)/|q|: 5e-4
+        // rad at 51°, and 3 nm of its approach go with it.
         let found = displacement(clearance);
         assert!((found / standard - 1.0).abs() < 4e-4, "{clearance}: {found}, not {standard}");
     }

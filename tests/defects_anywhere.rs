@@ -8,44 +8,11 @@ use brinell::dynamics::drive::Frame;
 use brinell::dynamics::forces::Forces;
 use brinell::dynamics::raceway::SMOOTH;
 use brinell::geometry::hertz_constant::HertzConstants;
-use brinell::scene::{ContactLaw, Damping, Defect, DefectOn, DefectShape, Ring, Scene};
+use brinell::scene::{ContactLaw, Damping, Defect, DefectOn, Ring, Scene};
 use brinell_analysis::static_bearing::StaticBearing;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use support::{Named, map_of, shipped};
-
-/// Speeds of the ER16K at 10 Hz against the inner raceway and of an element's own turning against the cage [rad/s].
-const PAST_INNER: f64 = 37.7598;
-const SPIN: f64 = 149.2322;
-
-fn spall(length: f64, depth: f64) -> DefectShape {
-    DefectShape::Spall { length, depth, edge_slope: FRAC_PI_2 }
-}
-
-/// ER16K under law `hertz` with its outer ring held, so that runs do not become chaotic at once.
-fn held(defect: Defect) -> Scene {
-    let mut scene = shipped("er16k-tb1");
-    (scene.housing, scene.sensor) = (Ring::fixed(), None);
-    scene.tolerance = 1e-9;
-    scene.defect = Some(defect);
-    scene
-}
-
-/// A spall of 10° in the inner raceway that element 1, under the load at the start, enters after 5 ms.
-fn inner() -> Scene {
-    let mut scene = held(Defect::inner(-105.8f64.to_radians(), DefectShape::Profile(String::new())));
-    let length = 10f64.to_radians() * scene.bearing.inner_raceway_radius();
-    scene.defect.as_mut().unwrap().shape = spall(length, 100e-6);
-    scene.cage.initial_angle = -FRAC_PI_2;
-    scene
-}
-
-/// A spall on element 1 that faces the outer raceway under the load after 5 ms.
-fn element(length: f64) -> Scene {
-    let on = DefectOn::Element { element: 0, tilt: 0.0 };
-    let mut scene = held(Defect { on, angle: SPIN * 5e-3, shape: spall(length, 100e-6) });
-    scene.cage.initial_angle = -100f64.to_radians();
-    scene
-}
+use support::defects::{PAST_INNER, SPIN, element, inner, spall};
+use support::{Named, map_of};
 
 #[test]
 fn frequencies_of_the_elements_spin_are_those_of_pure_rolling() {
@@ -261,8 +228,8 @@ fn a_balance_is_found_with_elements_anywhere_over_an_inner_defect() {
 
 #[test]
 fn turning_the_frame_changes_nothing_but_centrifugal_forces() {
-    // The inner ring turns in a ring that stands, or the outer one turns the other way about one that does not; the host
-    // holds the inner ring eccentric, and turns it about with the frame.
+    // The inner ring turns in a ring that stands, or the outer one turns the other way about one that does not; the
+    // host holds the inner ring eccentric, and turns it about with the frame.
     let mut scene = inner();
     scene.gravity = [0.0; 2];
     scene.shaft = Ring::hosted();
@@ -332,126 +299,4 @@ fn radii_and_lengths_are_those_of_the_body_that_bears_the_defect() {
     let expected = (1e-3f64.powi(2) - (2.0 * bearing.element_radius() * 0.1f64.sin()).powi(2)).sqrt();
     assert!((tilted.met_length(1e-3, bearing) - expected).abs() < 1e-15);
     assert!(TAU * bearing.inner_raceway_radius() * 0.9 == DefectOn::Inner.longest(bearing).0);
-}
-
-/// Mean force on the outer ring, x and y, in every 20 µs of a run of some seconds [N].
-fn housing_force(mut scene: Scene, seconds: f64) -> [Vec<f64>; 2] {
-    // Held by the host, which gives means over steps.
-    scene.housing = Ring::hosted();
-    scene.tolerance = 1e-6;
-    let mut bearing = Named::started(scene);
-    let mut force = [Vec::new(), Vec::new()];
-    for _ in 0..(seconds / STEP).round() as usize {
-        bearing.0.step(STEP).unwrap();
-        for (force, axis) in force.iter_mut().zip(["x", "y"]) {
-            force.push(bearing.get(&format!("housing.mean_force.{axis}")));
-        }
-    }
-    force
-}
-
-const STEP: f64 = 2e-5;
-
-/// Amplitude of a line [N], by Hann's window.
-fn amplitude(signal: &[f64], frequency: f64) -> f64 {
-    let count = signal.len() as f64;
-    let (mut re, mut im, mut sum) = (0.0, 0.0, 0.0);
-    for (k, value) in signal.iter().enumerate() {
-        let window = 0.5 - 0.5 * (TAU * k as f64 / count).cos();
-        let (sin, cos) = (TAU * frequency * k as f64 * STEP).sin_cos();
-        (re, im, sum) = (re + window * value * cos, im - window * value * sin, sum + window);
-    }
-    2.0 * re.hypot(im) / sum
-}
-
-/// Share of the power from 5 to 300 Hz that lies within 0.14 Hz of the lines m·`carrier` + k·`sideband` with m in `orders`,
-/// and the share of that range which these lines take up.
-fn comb_share(signal: &[f64], carrier: f64, sideband: f64, orders: std::ops::RangeInclusive<i32>) -> [f64; 2] {
-    // Three means over 0.5 ms before every 25th is kept: of what is at 1.7 to 2.3 kHz less than 0.6 % comes down to 300 Hz.
-    let mut signal = signal.to_vec();
-    for _ in 0..3 {
-        let mut sum = signal[..24].iter().sum::<f64>();
-        signal = (24..signal.len())
-            .map(|k| {
-                sum += signal[k];
-                let mean = sum / 25.0;
-                sum -= signal[k - 24];
-                mean
-            })
-            .collect();
-    }
-    let (signal, step): (Vec<f64>, _) = (signal.into_iter().step_by(25).collect(), 25.0 * STEP);
-    let mean = signal.iter().sum::<f64>() / signal.len() as f64;
-    let window = |k: usize| 0.5 - 0.5 * (TAU * k as f64 / signal.len() as f64).cos();
-    let windowed: Vec<f64> = signal.iter().enumerate().map(|(k, value)| window(k) * (value - mean)).collect();
-    let (resolution, near) = (0.1, 0.14);
-    let (mut on, mut all, mut bins) = (0.0, 0.0, [0.0; 2]);
-    for bin in 50..3000 {
-        let frequency = f64::from(bin) * resolution;
-        let (sin, cos) = (TAU * frequency * step).sin_cos();
-        let (mut re, mut im, mut c, mut s) = (0.0, 0.0, 1.0, 0.0);
-        for value in &windowed {
-            (re, im) = (re + value * c, im - value * s);
-            // A turn further; 20 000 of them lose some 1e-12.
-            (c, s) = (c * cos - s * sin, s * cos + c * sin);
-        }
-        let power = re * re + im * im;
-        let line = |order: i32| {
-            let off = frequency - f64::from(order) * carrier;
-            (off - (off / sideband).round() * sideband).abs() <= near
-        };
-        let belongs = orders.clone().any(line);
-        (on, all) = (on + if belongs { power } else { 0.0 }, all + power);
-        bins[usize::from(belongs)] += 1.0;
-    }
-    [on / all, bins[1] / (bins[0] + bins[1])]
-}
-
-#[test]
-#[ignore = "ten seconds of two bearings"]
-fn lines_of_a_steady_run_are_those_that_an_independent_simulation_found() {
-    // Lines of the outer ring's force by a simulation in Python with its own equations, 10 s, law hertz [N]: BPFI and
-    // twice that, with sidebands −3 to 3 times the shaft's frequency, along y and x.
-    let (shaft, cage) = (10.0, 3.990_335_7);
-    let (bpfi, bsf) = (9.0 * (shaft - cage), 23.751_038);
-    let [x, y] = housing_force(inner(), 10.0);
-    let table = [
-        (&y, 1.0, [0.041, 0.104, 0.197, 0.286, 0.319, 0.273, 0.163]),
-        (&x, 1.0, [0.077, 0.141, 0.150, 0.095, 0.196, 0.345, 0.347]),
-        (&y, 2.0, [0.172, 0.357, 0.556, 0.684, 0.672, 0.512, 0.274]),
-        (&x, 2.0, [0.333, 0.481, 0.422, 0.123, 0.337, 0.624, 0.593]),
-    ];
-    for (signal, order, expected) in table {
-        let found: Vec<f64> = (-3..=3).map(|k| amplitude(signal, order * bpfi + f64::from(k) * shaft)).collect();
-        println!("{order} BPFI: {found:.3?}");
-        for (found, expected) in found.iter().zip(expected) {
-            // Ten times tighter tolerances move these by 1e-3 of themselves; how the other simulation's spectrum was taken
-            // (window, start) is not known, and weak lines beside strong ones show it.
-            assert!((found - expected).abs() < 0.02 * expected + 0.004, "{found} for {expected}");
-        }
-    }
-    let [share, axis] = comb_share(&y, bpfi, shaft, -6..=6);
-    println!("{share:.3} of the power on {axis:.3} of the axis");
-    assert!(share > 0.95 && axis < 0.4, "{share} {axis}");
-    let [_, y] = housing_force(element(1.2e-3), 10.0);
-    let [share, axis] = comb_share(&y, bsf, cage, 0..=8);
-    println!("{share:.3} of the power on {axis:.3} of the axis");
-    assert!(share > 0.95 && axis < 0.7, "{share} {axis}");
-    let lines =
-        |order: f64| -> Vec<f64> { (-3..=3).map(|k| amplitude(&y, order * bsf + f64::from(k) * cage)).collect() };
-    let table = [
-        (2.0, [0.025, 0.044, 0.058, 0.077, 0.080, 0.069, 0.048]),
-        (4.0, [0.072, 0.118, 0.192, 0.214, 0.220, 0.169, 0.097]),
-    ];
-    for (order, expected) in table {
-        let found = lines(order);
-        println!("{order} BSF: {found:.3?}");
-        // A ball that bounces loose is chaotic over 10 s.
-        for (found, expected) in found.iter().zip(expected) {
-            assert!((found / expected - 1.0).abs() < 0.2 || (found - expected).abs() < 0.01, "{found} for {expected}");
-        }
-    }
-    // The two raceways are struck half a turn apart: odd multiples are weak.
-    let (odd, even) = (lines(1.0)[3], lines(2.0)[3]);
-    assert!(odd < even / 3.0, "{odd} N at BSF, {even} N at twice that");
 }

@@ -5,7 +5,7 @@
 use std::sync::Arc;
 
 use brinell::contact::map::ContactMap;
-use brinell::contact::near_defect::{NearDefect, NearMap};
+use brinell::contact::near_defect::{Lever, NearDefect, NearMap};
 use libfuzzer_sys::fuzz_target;
 
 const RACEWAY: f64 = 23.6e-3;
@@ -29,7 +29,9 @@ fn look(bytes: &[u8]) {
         for share in [0.0, 0.3, 1.0] {
             let angle = knots[cell] + share * (knots[cell + 1] - knots[cell]);
             for path in [-1e-5, 0.0, 1e-7, 1e-5, 2e-4] {
-                let _ = near.approach(cell, path, angle, RACEWAY);
+                for by_approach in [1.0, -1.0] {
+                    let _ = near.approach(cell, path, angle, Lever { distance: RACEWAY, by_approach });
+                }
             }
         }
     }

@@ -6,6 +6,7 @@ pub mod cholesky;
 pub mod compliant;
 pub mod conjugate_gradients;
 pub mod contact_maps;
+pub mod element_on_raceway;
 pub mod equivalent;
 pub mod error;
 pub mod fft_product;

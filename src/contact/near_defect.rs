@@ -117,8 +117,8 @@ pub struct NearLove {
 }
 
 impl NearLove {
-    /// A grid for a defect on a body of this radius [m]. Between the ascending arcs `knots` [m] the surface is flat at a
-    /// depth [m] or the grid is solved.
+    /// A grid for a defect on a body of this radius [m]. Between the ascending arcs `knots` [m] the surface is flat at
+    /// a depth [m] or the grid is solved.
     pub fn new(contact: LoveContact, knots: &[f64], flats: Vec<Option<f64>>, bearer_radius: f64) -> Self {
         let knots = knots.iter().map(|arc| arc / bearer_radius).collect();
         Self { contact: RefCell::new(contact), bearer_radius, knots, flats }

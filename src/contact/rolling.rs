@@ -100,8 +100,8 @@ impl Rolling {
         self.raceway == RacewaySide::Outer && !self.on_element
     }
 
-    /// sin d, cos d and √(C² − B² sin² d) over a point at radius B = `radius` and angle `d`; `None` beyond reach, the far
-    /// side included.
+    /// sin d, cos d and √(C² − B² sin² d) over a point at radius B = `radius` and angle `d`; `None` beyond reach, the
+    /// far side included.
     fn triangle(&self, radius: f64, d: f64) -> Option<(f64, f64, f64)> {
         let (sin, cos) = sin_cos(d);
         let other = self.other_radius();

@@ -11,60 +11,14 @@
 
 use super::drive::{Drive, Quadratic};
 use super::element_contacts::Meeting;
+pub use super::equilibrium_error::EquilibriumError;
 use super::kinematics::{FramedKinematics, Kinematics};
 use super::linearized::{Bends, Linearized};
 use super::model::Model;
 use super::raceway::{Cells, SMOOTH};
 use super::tangent::{Rings, stacked};
-use crate::contact::error::ContactError;
 use crate::contact::rolling::RacewaySide;
 use crate::numerics::plane::Vector;
-
-/// Why no equilibrium was found.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum EquilibriumError {
-    /// The residual did not vanish.
-    #[error(
-        "no static equilibrium: a net force of {residual:.3e} N stays on the rings (limit {limit:.1e} N); \
-         give the internal rings a support stiffness that can carry their load"
-    )]
-    NotFound {
-        /// Force left [N].
-        residual: f64,
-        /// Largest force allowed [N].
-        limit: f64,
-    },
-    /// An element ends where the contact law near the defect has no answer any more.
-    #[error(
-        "no static equilibrium: element {element}, {angle_deg:.4} degrees from the defect's centre, finds no balance, \
-         {residual:.3e} N are left: {cause}"
-    )]
-    Contact {
-        /// Number of the element, from 1.
-        element: usize,
-        /// Its angle from the defect's centre [°].
-        angle_deg: f64,
-        /// Force left on it [N].
-        residual: f64,
-        /// Why there is no answer.
-        cause: ContactError,
-    },
-    /// An element that nothing holds.
-    #[error(
-        "no static equilibrium: element {element} finds no balance between the raceways, {force:.3e} N are left on it at a path of \
-         {path:.3e} m; nothing carries it, or the contact's damping is more than its force at this speed: start it \
-         elsewhere with cage.initial_angle, or load or hold the rings"
-    )]
-    Element {
-        /// Number of the element, from 1.
-        element: usize,
-        /// Where the search ended, its path u [m].
-        path: f64,
-        /// Radial force left there [N].
-        force: f64,
-    },
-}
 
 /// Share of the largest force in play that may remain as residual: a few roundings of a sum of Z forces.
 const RESIDUAL: f64 = 1e-12;
@@ -122,8 +76,8 @@ impl Model {
         Ok(())
     }
 
-    /// As [`equilibrium`](Self::equilibrium), the cells of all contacts found with it: in which cell an inner contact is
-    /// depends on where the rings come to rest.
+    /// As [`equilibrium`](Self::equilibrium), the cells of all contacts found with it: in which cell an inner contact
+    /// is depends on where the rings come to rest.
     ///
     /// # Errors
     /// As there.

@@ -9,6 +9,7 @@ pub mod drive;
 mod element_block;
 mod element_contacts;
 pub mod equilibrium;
+mod equilibrium_error;
 pub mod equilibrium_variation;
 pub mod forces;
 pub mod jacobian;

@@ -178,8 +178,8 @@ impl Defects {
         ahead.reduce(|near, other| if other.angle < near.angle { other } else { near })
     }
 
-    /// Approach in `cell`, which is not the smooth one, at the smooth approach `u` [m] and a direction [rad] against the
-    /// axes.
+    /// Approach in `cell`, which is not the smooth one, at the smooth approach `u` [m] and a direction [rad] against
+    /// the axes.
     #[inline(always)]
     pub fn approach(
         &self,

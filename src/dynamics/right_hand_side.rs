@@ -11,8 +11,9 @@
 //! ```
 //! F_r and F_t are what the outer raceway exerts on the element, inwards and counter-clockwise; on the smooth raceway
 //! F_r = Q(u, u') and F_t = 0. Near a defect of the inner raceway, or of the element on its inner side, Q_i n gives way
-//! to Q (R n + T t), with the direction (R, T) of that contact and t = ẑ×n. As w is the element's *absolute* radial velocity, no ring acceleration enters.
-//! The cage is kinematic: it takes up every tangential force on the elements. What it takes is the cage torque.
+//! to Q (R n + T t), with the direction (R, T) of that contact and t = ẑ×n. As w is the element's *absolute* radial
+//! velocity, no ring acceleration enters. The cage is kinematic: it takes up every tangential force on the elements.
+//! What it takes is the cage torque.
 
 use super::drive::{Drive, Frame, Frames};
 use super::element_contacts::{InnerGap, Meeting};
@@ -254,8 +255,8 @@ impl Model {
     /// Torque of the elements on the cage about the outer ring's centre [N m], counter-clockwise.
     ///
     /// The kinematic cage forces each element to the tangential acceleration a_o·e_t + 2 u' ω + ρ ω'; what contacts and
-    /// gravity do not supply, it does. It also takes up the torque of an element's defect on that element, whose spin is
-    /// forced as well. `acceleration` is the outer ring's [m/s²].
+    /// gravity do not supply, it does. It also takes up the torque of an element's defect on that element, whose spin
+    /// is forced as well. `acceleration` is the outer ring's [m/s²].
     pub fn cage_torque(&self, drive: &Drive, tau: f64, state: &[f64], acceleration: Vector, forces: &Forces) -> f64 {
         let cage = drive.cage_at(tau);
         let of_paths: f64 = (0..self.element_count)

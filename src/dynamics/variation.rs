@@ -240,8 +240,8 @@ impl Model {
         Matrix::from_diagonal_element(dc) - n * n.transpose() * (dk + dc) - (mixed + mixed.transpose()) * (k + c)
     }
 
-    /// Change of an outer contact's radial tangent stiffness by path [m], cage angle [rad] and frames; near a defect and
-    /// where the raceway yields by central differences, like the second derivatives of the approach.
+    /// Change of an outer contact's radial tangent stiffness by path [m], cage angle [rad] and frames; near a defect
+    /// and where the raceway yields by central differences, like the second derivatives of the approach.
     fn vary_outer_stiffness(
         &self,
         j: usize,

@@ -62,8 +62,8 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Whether a ring that turns, or an element's spin, matters: for a defect anywhere but on an outer ring at rest, and
-    /// for an outer ring that turns.
+    /// Whether a ring that turns, or an element's spin, matters: for a defect anywhere but on an outer ring at rest,
+    /// and for an outer ring that turns.
     pub fn turns(&self) -> bool {
         let elsewhere = self.defect.as_ref().is_some_and(|defect| defect.on != DefectOn::Outer);
         elsewhere || self.housing_speed.is_some() || self.housing_initial_angle != 0.0

@@ -37,6 +37,7 @@ pub mod step_error;
 pub mod stepper;
 pub mod switching;
 pub mod table;
+mod table_parameters;
 mod values;
 pub mod variables;
 pub mod workspace;

@@ -2,9 +2,9 @@
 //!
 //! Inputs come first, then outputs, then parameters. A variable's index is its FMI value reference.
 
-use super::quantity::{Count, Parameter, Quantity, Quantity as Q, RingName};
+use super::quantity::{Count, Quantity, Quantity as Q, RingName};
 use super::variables::{Causality, Kind, Unit, Variability, Variable};
-use crate::scene::{ContactLaw, Damping, DefectOn, Motion, Scene};
+use crate::scene::{ContactLaw, DefectOn, Motion, Scene};
 
 /// Items of the enumeration type of `contact.law`, the first having value 1.
 pub const CONTACT_LAWS: &[(&str, &str)] = &{
@@ -22,12 +22,12 @@ pub fn rows(scene: &Scene) -> Vec<(Variable, Quantity)> {
     builder.rows
 }
 
-struct Builder<'a> {
-    scene: &'a Scene,
+pub(super) struct Builder<'a> {
+    pub(super) scene: &'a Scene,
     rows: Vec<(Variable, Quantity)>,
 }
 
-const RINGS: [RingName; 2] = [RingName::Shaft, RingName::Housing];
+pub(super) const RINGS: [RingName; 2] = [RingName::Shaft, RingName::Housing];
 const AXES: [&str; 2] = ["x", "y"];
 
 /// Inputs of a prescribed ring: prefix of the name, noun, quantity, unit, largest value and nominal.
@@ -38,13 +38,8 @@ const PRESCRIBED: [Prescribed; 3] = [
     ("a", "Acceleration", Q::Acceleration, Unit::MetrePerSecondSquared, (1e9, 10.0)),
 ];
 
-/// Start value, limits and nominal value of a parameter.
-fn limited(start: f64, min: f64, max: f64, nominal: f64) -> (f64, Option<f64>, Option<f64>, f64) {
-    (start, Some(min), Some(max), nominal)
-}
-
 impl Builder<'_> {
-    fn motion(&self, ring: RingName) -> Motion {
+    pub(super) fn motion(&self, ring: RingName) -> Motion {
         match ring {
             RingName::Shaft => self.scene.shaft.motion,
             RingName::Housing => self.scene.housing.motion,
@@ -170,7 +165,7 @@ impl Builder<'_> {
         self.output(name, &text, Q::RingAngle(ring), Unit::Radian, 1.0);
     }
 
-    fn defect_on(&self) -> Option<DefectOn> {
+    pub(super) fn defect_on(&self) -> Option<DefectOn> {
         self.scene.defect.as_ref().map(|defect| defect.on)
     }
 
@@ -279,145 +274,6 @@ impl Builder<'_> {
         }
     }
 
-    fn parameters(&mut self) {
-        let scene = self.scene;
-        let bearing = &scene.bearing;
-        self.parameter(
-            "bearing.radial_clearance",
-            "Radial internal clearance; negative is a preload",
-            Q::Parameter(Parameter::RadialClearance),
-            Unit::Metre,
-            limited(bearing.radial_clearance, -bearing.element_diameter, bearing.element_diameter, 1e-5),
-        );
-        self.damping();
-        self.push(
-            "contact.law",
-            "Law of the outer contact near the defect",
-            Kind::Enumeration { type_name: "ContactLaw", items: CONTACT_LAWS, start: scene.contact.law.number() },
-            (Causality::Parameter, Variability::Fixed),
-            Q::Parameter(Parameter::ContactLaw),
-        );
-        self.parameter(
-            "cage.slip",
-            "Lag of the cage behind pure rolling",
-            Q::Parameter(Parameter::CageSlip),
-            Unit::One,
-            limited(scene.cage.slip, 0.0, 1.0, 0.01),
-        );
-        self.parameter(
-            "cage.initial_angle",
-            "Angle of element 1 at the start, counter-clockwise from +x",
-            Q::Parameter(Parameter::CageInitialAngle),
-            Unit::Radian,
-            limited(scene.cage.initial_angle, -1e3, 1e3, 1.0),
-        );
-        if let Some(defect) = &scene.defect {
-            self.parameter(
-                "defect.angle",
-                match defect.on {
-                    DefectOn::Outer => "Angle of the defect's centre, counter-clockwise from +x",
-                    DefectOn::Inner => {
-                        "Angle of the defect's centre on the inner ring, counter-clockwise from shaft.initial_angle"
-                    }
-                    DefectOn::Element { .. } => "Angle of the defect's centre at the start, 0 facing the outer raceway",
-                },
-                Q::Parameter(Parameter::DefectAngle),
-                Unit::Radian,
-                limited(defect.angle, -1e3, 1e3, 1.0),
-            );
-        }
-        self.turning_parameters();
-        for ring in RINGS {
-            if self.motion(ring) == Motion::Internal {
-                self.ring_parameters(ring);
-            }
-        }
-        self.parameter(
-            "solver.tolerance",
-            "Relative tolerance of the time integration",
-            Q::Parameter(Parameter::Tolerance),
-            Unit::One,
-            limited(scene.tolerance, 1e-12, 0.1, 1e-5),
-        );
-        if scene.recorder.is_some() {
-            self.push(
-                "recorder.folder",
-                "Folder for the recording, <instance name>.npy; empty for none",
-                Kind::Text { start: String::new() },
-                (Causality::Parameter, Variability::Fixed),
-                Q::Parameter(Parameter::RecorderFolder),
-            );
-        }
-    }
-
-    /// Where rings that bear a defect or turn begin, and how much spin is lost.
-    fn turning_parameters(&mut self) {
-        let (scene, on) = (self.scene, self.defect_on());
-        let mut angle = |name: &str, what: &str, ring, start| {
-            let (quantity, unit) = (Q::Parameter(Parameter::RingInitialAngle(ring)), Unit::Radian);
-            self.parameter(name, what, quantity, unit, limited(start, -1e3, 1e3, 1.0));
-        };
-        if on == Some(DefectOn::Inner) {
-            let what = "Angle of the inner ring at the start, counter-clockwise";
-            angle("shaft.initial_angle", what, RingName::Shaft, scene.shaft_initial_angle);
-        }
-        if scene.housing_speed.is_some() {
-            let what = "Angle of the outer ring at the start, counter-clockwise";
-            angle("housing.initial_angle", what, RingName::Housing, scene.housing_initial_angle);
-        }
-        if matches!(on, Some(DefectOn::Element { .. })) {
-            self.parameter(
-                "element.spin_slip",
-                "Lag of the elements' spin behind pure rolling",
-                Q::Parameter(Parameter::SpinSlip),
-                Unit::One,
-                limited(scene.cage.spin_slip, -1.0, 1.0, 0.01),
-            );
-        }
-    }
-
-    fn damping(&mut self) {
-        let (damping, unit, what, nominal) = match self.scene.contact.damping {
-            Damping::HuntCrossley(chi) => (chi, Unit::SecondPerMetre, "Hunt-Crossley constant chi", 0.5),
-            Damping::Proportional(tau) => (tau, Unit::Second, "time constant tau of proportional damping", 1e-6),
-        };
-        self.parameter(
-            "contact.damping",
-            &format!("Contact damping: {what}"),
-            Q::Parameter(Parameter::ContactDamping),
-            unit,
-            limited(damping, 0.0, 1e6, nominal),
-        );
-    }
-
-    fn ring_parameters(&mut self, ring: RingName) {
-        let (name, what, parts) = match ring {
-            RingName::Shaft => ("shaft", "inner ring", self.scene.shaft),
-            RingName::Housing => ("housing", "outer ring", self.scene.housing),
-        };
-        self.parameter(
-            &format!("{name}.mass"),
-            &format!("Mass of the {what} and what moves with it"),
-            Q::Parameter(Parameter::RingMass(ring)),
-            Unit::Kilogram,
-            limited(parts.mass, 1e-6, 1e9, 1.0),
-        );
-        self.parameter(
-            &format!("{name}.damping"),
-            &format!("Viscous damping of the {what} to ground"),
-            Q::Parameter(Parameter::RingDamping(ring)),
-            Unit::NewtonSecondPerMetre,
-            limited(parts.damping, 0.0, 1e12, 1000.0),
-        );
-        self.parameter(
-            &format!("{name}.stiffness"),
-            &format!("Support stiffness of the {what} to ground"),
-            Q::Parameter(Parameter::RingStiffness(ring)),
-            Unit::NewtonPerMetre,
-            limited(parts.stiffness, 0.0, 1e15, 1e7),
-        );
-    }
-
     fn input(&mut self, name: &str, text: &str, quantity: Quantity, unit: Unit, start: f64, range: (f64, f64)) {
         let kind = Kind::Real { unit, start: Some(start), min: Some(-range.0), max: Some(range.0), nominal: range.1 };
         let text = [text, "; ", quantity.input_derivatives().1].concat();
@@ -439,7 +295,7 @@ impl Builder<'_> {
         self.push(name, text, Kind::Integer, (Causality::Local, Variability::Discrete), quantity);
     }
 
-    fn parameter(
+    pub(super) fn parameter(
         &mut self,
         name: &str,
         text: &str,
@@ -451,7 +307,14 @@ impl Builder<'_> {
         self.push(name, text, kind, (Causality::Parameter, Variability::Fixed), quantity);
     }
 
-    fn push(&mut self, name: &str, text: &str, kind: Kind, causality: (Causality, Variability), quantity: Quantity) {
+    pub(super) fn push(
+        &mut self,
+        name: &str,
+        text: &str,
+        kind: Kind,
+        causality: (Causality, Variability),
+        quantity: Quantity,
+    ) {
         let variable = Variable {
             name: name.to_owned(),
             description: text.to_owned(),

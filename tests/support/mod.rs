@@ -1,6 +1,8 @@
 //! What tests of the model share: scenes written in a few lines, and named access to variables.
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used)] // each test program uses a part of this
 
+pub mod defects;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::hash::Hasher;

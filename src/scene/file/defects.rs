@@ -1,0 +1,94 @@
+//! The table `[defect]` of the scene file.
+
+use crate::scene::{Bearing, Defect, DefectOn, DefectShape, SceneError};
+use serde::Deserialize;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct DefectTable {
+    #[serde(default)]
+    on: Body,
+    /// From 1.
+    element: Option<i64>,
+    tilt_deg: Option<f64>,
+    angle_deg: f64,
+    /// Turned into a length with the scene's own clearance: a host that sets another one leaves the length as it is.
+    length_deg: Option<f64>,
+    length_mm: Option<f64>,
+    depth_um: Option<f64>,
+    edge_slope_deg: Option<f64>,
+    profile: Option<String>,
+}
+
+/// The body that bears a defect.
+#[derive(Deserialize, Default, Clone, Copy, PartialEq)]
+#[serde(rename_all = "kebab-case")]
+enum Body {
+    #[default]
+    Outer,
+    Inner,
+    Element,
+}
+
+impl DefectTable {
+    fn on(&self, bearing: &Bearing) -> Result<DefectOn, SceneError> {
+        if self.on != Body::Element {
+            let given =
+                [("defect.element", self.element.map(|number| number as f64)), ("defect.tilt_deg", self.tilt_deg)];
+            if let Some((key, value)) = given.into_iter().find_map(|(key, value)| value.map(|value| (key, value))) {
+                return Err(SceneError::NotOnElement { key, value });
+            }
+        }
+        Ok(match self.on {
+            Body::Outer => DefectOn::Outer,
+            Body::Inner => DefectOn::Inner,
+            Body::Element => {
+                const MISSING: SceneError =
+                    SceneError::Missing { key: "defect.element", why: "defect.on is \"element\"" };
+                let (number, count) = (self.element.ok_or(MISSING)?, bearing.element_count);
+                let element = usize::try_from(number).ok().filter(|number| (1..=count).contains(number));
+                let element = element.ok_or(SceneError::NoSuchElement { element: number, count })? - 1;
+                DefectOn::Element { element, tilt: self.tilt_deg.unwrap_or(0.0).to_radians() }
+            }
+        })
+    }
+
+    pub(super) fn into_defect(self, bearing: &Bearing) -> Result<Defect, SceneError> {
+        let on = self.on(bearing)?;
+        let angle = self.angle_deg.to_radians();
+        let shape = match self.profile {
+            Some(name) => {
+                let given = [
+                    ("defect.length_deg", self.length_deg),
+                    ("defect.length_mm", self.length_mm),
+                    ("defect.depth_um", self.depth_um),
+                    ("defect.edge_slope_deg", self.edge_slope_deg),
+                ];
+                if let Some((second, _)) = given.into_iter().find(|(_, value)| value.is_some()) {
+                    return Err(SceneError::Both { first: "defect.profile", second });
+                }
+                DefectShape::Profile(name)
+            }
+            None => DefectShape::Spall {
+                length: spall_length(self.length_deg, self.length_mm, on.radius(bearing))?,
+                depth: self
+                    .depth_um
+                    .ok_or(SceneError::Neither { first: "defect.depth_um", second: "defect.profile" })?
+                    / 1e6,
+                edge_slope: self.edge_slope_deg.unwrap_or(90.0).to_radians(),
+            },
+        };
+        Ok(Defect { on, angle, shape })
+    }
+}
+
+fn spall_length(degrees: Option<f64>, millimetres: Option<f64>, radius: f64) -> Result<f64, SceneError> {
+    const DEGREES: &str = "defect.length_deg";
+    const MILLIMETRES: &str = "defect.length_mm";
+    match (degrees, millimetres) {
+        (Some(degrees), None) => Ok(degrees.to_radians() * radius),
+        (None, Some(millimetres)) => Ok(millimetres / 1e3),
+        (Some(_), Some(_)) => Err(SceneError::Both { first: DEGREES, second: MILLIMETRES }),
+        (None, None) => Err(SceneError::Neither { first: DEGREES, second: MILLIMETRES }),
+    }
+}

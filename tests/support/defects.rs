@@ -1,0 +1,39 @@
+//! Scenes with a defect of the inner raceway or of a ball.
+
+use super::shipped;
+use brinell::scene::{Defect, DefectOn, DefectShape, Ring, Scene};
+use std::f64::consts::FRAC_PI_2;
+
+/// Speeds of the ER16K at 10 Hz against the inner raceway and of an element's own turning against the cage [rad/s].
+pub const PAST_INNER: f64 = 37.7598;
+pub const SPIN: f64 = 149.2322;
+
+pub fn spall(length: f64, depth: f64) -> DefectShape {
+    DefectShape::Spall { length, depth, edge_slope: FRAC_PI_2 }
+}
+
+/// ER16K under law `hertz` with its outer ring held, so that runs do not become chaotic at once.
+pub fn held(defect: Defect) -> Scene {
+    let mut scene = shipped("er16k-tb1");
+    (scene.housing, scene.sensor) = (Ring::fixed(), None);
+    scene.tolerance = 1e-9;
+    scene.defect = Some(defect);
+    scene
+}
+
+/// A spall of 10° in the inner raceway that element 1, under the load at the start, enters after 5 ms.
+pub fn inner() -> Scene {
+    let mut scene = held(Defect::inner(-105.8f64.to_radians(), DefectShape::Profile(String::new())));
+    let length = 10f64.to_radians() * scene.bearing.inner_raceway_radius();
+    scene.defect.as_mut().unwrap().shape = spall(length, 100e-6);
+    scene.cage.initial_angle = -FRAC_PI_2;
+    scene
+}
+
+/// A spall on element 1 that faces the outer raceway under the load after 5 ms.
+pub fn element(length: f64) -> Scene {
+    let on = DefectOn::Element { element: 0, tilt: 0.0 };
+    let mut scene = held(Defect { on, angle: SPIN * 5e-3, shape: spall(length, 100e-6) });
+    scene.cage.initial_angle = -100f64.to_radians();
+    scene
+}
