@@ -68,7 +68,8 @@ impl Model {
                 forces.torques = [0.0; 3];
             }
             if outer {
-                on_housing = self.other_outer_contacts::<RECORD>(&{ now }, state, forces);
+                on_housing =
+                    simd.outlined(OtherOuter::<RECORD> { model: self, now: &{ now }, state, forces: &mut *forces });
             }
             if inner {
                 on_shaft = self.other_inner_contacts::<RECORD>(&{ now }, state, forces);
@@ -103,7 +104,7 @@ impl Model {
     /// The outer contacts that are not those of the smooth rigid raceway; gives their force on the outer ring.
     ///
     /// They come first, so that what they add to an element's acceleration is long written when all elements' are read.
-    #[inline(never)]
+    #[inline(always)]
     fn other_outer_contacts<const RECORD: bool>(
         &self,
         now: &Kinematics,
@@ -271,6 +272,24 @@ impl Model {
             })
             .sum();
         of_paths + forces.torque_on(Frame::Spin)
+    }
+}
+
+/// The outer contacts that are not those of the smooth rigid raceway, as a function of its own for the machine's
+/// instructions: what mixes with wide registers and is made for others waits for them.
+struct OtherOuter<'a, const RECORD: bool> {
+    model: &'a Model,
+    now: &'a Kinematics,
+    state: (&'a [f64], Option<f64>),
+    forces: &'a mut Forces,
+}
+
+impl<const RECORD: bool> Kernel for OtherOuter<'_, RECORD> {
+    type Output = Vector;
+
+    #[inline(always)]
+    fn run<S: Wide>(self, _: S) -> Vector {
+        self.model.other_outer_contacts::<RECORD>(self.now, self.state, self.forces)
     }
 }
 
