@@ -22,7 +22,7 @@ use super::kinematics::{Kinematics, Stage, moved};
 use super::model::Model;
 use super::raceway::{Cells, Near, SMOOTH};
 use crate::contact::error::ContactError;
-use crate::contact::near_defect::Approach;
+use crate::contact::near_defect::{Approach, Lever};
 use crate::contact::rolling::RacewaySide;
 use crate::numerics::lanes::{Kernel, Lanes, WIDEST, Wide, dispatch};
 use crate::numerics::plane::{Vector, turned};
@@ -122,16 +122,24 @@ impl Model {
             let e_r = self.direction(j, now.cage.direction);
             let path_rate = state[start + j] - now.housing.velocity.dot(&e_r);
             let u = moved(state[j], path_rate, ahead);
-            let found = if cells == [SMOOTH; 2] {
-                self.yielding_contact(u, path_rate)
-            } else {
-                *defect_lookups += 1;
-                let at = self.outer_meeting(j, cells, u, now.cage.angle);
-                let (near, frame) = self.near_defect(RacewaySide::Outer, &at, frames);
-                let near = near.unwrap_or_else(|cause| {
-                    self.without_answer(RacewaySide::Outer, (&at, now, frames), cause, unsolved)
-                });
-                self.outer_contact(&Near::new(near, frame, frames), [path_rate, now.cage.speed], at.distance)
+            // Each way its own numbers: an approach that is one or another is written to memory and read late.
+            let found = match cells {
+                [SMOOTH, SMOOTH] => self.yielding_contact(u, path_rate),
+                [cell, SMOOTH] => {
+                    *defect_lookups += 1;
+                    let at = self.outer_meeting(j, cells, u, now.cage.angle);
+                    let (defects, lever) = (&self.outer.defects, Lever { distance: at.distance, by_approach: 1.0 });
+                    let near = defects.approach(cell, u, at.direction, frames, lever).unwrap_or_else(|cause| {
+                        self.without_answer(RacewaySide::Outer, (&at, now, frames), cause, unsolved)
+                    });
+                    let turning = now.cage.speed - frames.of(defects.frame).speed;
+                    self.outer_contact(&near, defects.frame, [path_rate, turning], at.distance)
+                }
+                _ => {
+                    *defect_lookups += 1;
+                    let at = self.outer_meeting(j, cells, u, now.cage.angle);
+                    self.own_outer_contact(&at, path_rate, (now, frames), unsolved)
+                }
             };
             let [_, f_r, f_t] = found.force;
             elements[j / WIDEST].other[j % WIDEST] = -f_r * self.inverse_element_mass;
@@ -215,12 +223,29 @@ impl Model {
         OtherContact { element: 0, approach: u, pushing, force, torque: 0.0, frame: Frame::Housing }
     }
 
-    /// An outer contact at this approach and distance from the ring's centre; path and cage angle change at `rates`.
+    /// The outer contact of an element with its own defect.
+    #[inline(never)]
+    fn own_outer_contact(
+        &self,
+        at: &Meeting,
+        path_rate: f64,
+        (now, frames): (&Kinematics, &Frames),
+        unsolved: &mut Option<UnsolvedContact>,
+    ) -> OtherContact {
+        let (near, frame) = self.near_defect(RacewaySide::Outer, at, frames);
+        let near =
+            near.unwrap_or_else(|cause| self.without_answer(RacewaySide::Outer, (at, now, frames), cause, unsolved));
+        let turning = now.cage.speed - frames.of(frame).speed;
+        self.outer_contact(&near, frame, [path_rate, turning], at.distance)
+    }
+
+    /// An outer contact at this approach and distance from the ring's centre; the path, and the angle against the body
+    /// that bears the defect, change at `rates`.
     #[inline(always)]
-    fn outer_contact(&self, near: &Near, [path_rate, speed]: [f64; 2], distance: f64) -> OtherContact {
-        let Near { approach: near, frame_speed, frame } = near;
+    fn outer_contact(&self, near: &Approach, frame: Frame, rates: [f64; 2], distance: f64) -> OtherContact {
+        let [path_rate, turning] = rates;
         let compliant = self.outer.contact.compliance != 0.0;
-        let rate = near.by_path * path_rate + near.by_angle * (speed - frame_speed);
+        let rate = near.by_path * path_rate + near.by_angle * turning;
         let (part, part_rate) =
             if compliant { self.outer.contact.of_contact(near.value, rate) } else { (near.value, rate) };
         let outer = self.outer.contact.law.force(part, part_rate);
@@ -228,7 +253,7 @@ impl Model {
         let magnitude = outer * (near.radial * near.radial + near.tangential * near.tangential).sqrt();
         let pushing = self.outer.contact.law.pushing(part, part_rate);
         let force = [magnitude, f_r, f_t];
-        OtherContact { element: 0, approach: near.value, pushing, force, torque: -f_t * distance, frame: *frame }
+        OtherContact { element: 0, approach: near.value, pushing, force, torque: -f_t * distance, frame }
     }
 
     /// An inner contact at this approach, q changing at `q_rate` (radial and tangential as seen from the outer ring).
