@@ -53,23 +53,34 @@ pub struct UnsolvedContact {
 impl Clone for Forces {
     /// With the room that the lists have: a copy allocates no more in a step than the original.
     fn clone(&self) -> Self {
-        let mut copy = Self {
+        Self {
             contacts: self.contacts.clone(),
             elements: self.elements.clone(),
             unsolved: self.unsolved.clone(),
-            ..Self::new(self.count)
-        };
-        copy.other_outer.extend_from_slice(&self.other_outer);
-        copy.other_inner.extend_from_slice(&self.other_inner);
-        for (copy, contacts) in copy.other_contacts.iter_mut().zip(&self.other_contacts) {
-            copy.extend_from_slice(contacts);
+            other_outer: with_its_room(&self.other_outer),
+            other_inner: with_its_room(&self.other_inner),
+            other_contacts: [0, 1].map(|side: usize| with_its_room(&self.other_contacts[side])),
+            ..*self
         }
-        (copy.rings, copy.torques, copy.defect_lookups) = (self.rings, self.torques, self.defect_lookups);
-        copy
     }
 }
 
+fn with_its_room<T: Copy>(list: &Vec<T>) -> Vec<T> {
+    let mut copy = Vec::with_capacity(list.capacity());
+    copy.extend_from_slice(list);
+    copy
+}
+
 impl Forces {
+    /// Room for the contacts of a model, which is less where it has no defect inside.
+    pub fn of(model: &Model) -> Self {
+        let mut forces = Self::new(model.element_count);
+        if !model.may_have_inner_defects {
+            (forces.other_inner, forces.other_contacts[0]) = (Vec::new(), Vec::new());
+        }
+        forces
+    }
+
     /// Room for `count` elements.
     pub fn new(count: usize) -> Self {
         let places = padded(count);

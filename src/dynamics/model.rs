@@ -16,7 +16,7 @@ use crate::geometry::hertz_constant::HertzConstants;
 use crate::geometry::kinematics::Ratios;
 use crate::numerics::lanes::{Partition, QUAD, WIDEST, padded};
 use crate::numerics::plane::Vector;
-use crate::scene::{Motion, Ring, Scene};
+use crate::scene::{DefectOn, Motion, Ring, Scene};
 use std::f64::consts::TAU;
 
 /// Parameters of the equations of motion.
@@ -52,6 +52,8 @@ pub struct Model {
     pub ratios: Ratios,
     /// Places of the state vector.
     pub layout: Layout,
+    /// Whether the scene has a defect that contacts with the inner raceway meet, be it computed yet or not.
+    pub may_have_inner_defects: bool,
     /// Whether any contact asks for the frames of defects: all but those of an outer ring that does not turn.
     pub has_frames: bool,
     /// What differs from element to element, eight at a time.
@@ -169,6 +171,7 @@ impl Model {
             supports: Supports::new(scene),
             ratios: Ratios::new(bearing, scene.cage.slip, scene.cage.spin_slip),
             layout: Layout::new(scene),
+            may_have_inner_defects: scene.defect.as_ref().is_some_and(|defect| defect.on != DefectOn::Outer),
             has_frames,
             elements: blocks(bearing.element_count, 1.0 / bearing.mass_of_element(), hertz),
         }

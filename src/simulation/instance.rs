@@ -127,7 +127,7 @@ impl Simulation {
             workspace: Workspace::new(&model),
             recorder,
             method: Method::Automatic,
-            forces: Forces::new(model.element_count),
+            forces: Forces::of(&model),
             derivative: vec![0.0; model.layout.len],
             change: Change::new(model.element_count),
             present_acceleration: Vector::zeros(),

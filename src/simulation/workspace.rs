@@ -89,7 +89,7 @@ impl Workspace {
             by_time: Row::zeros(len),
             linearized: false,
             arrow: Arrow::new(model.element_count),
-            forces: Forces::new(model.element_count),
+            forces: Forces::of(model),
             dense: Row::zeros(len),
             scratch: Row::zeros(len),
             weighted_force: [0.0; 4],
