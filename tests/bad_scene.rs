@@ -2,6 +2,8 @@
 //!
 //! Each test changes one good scene in one place and reads the message as a user would.
 
+#[path = "bad_scene/bodies.rs"]
+mod bodies;
 #[path = "bad_scene/defect.rs"]
 mod defect;
 #[path = "bad_scene/keys.rs"]

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::error::ContactError;
 use super::map::{Accuracy, ContactMap};
-use super::map_format::refused;
+use super::map_format::{check_inputs, refused};
 use crate::numerics::bytes::Reader;
 use crate::numerics::checksum::{Checksum, checksum};
 
@@ -84,10 +84,7 @@ impl ContactMaps {
     /// # Errors
     /// [`ContactError::MapRefused`].
     pub fn check_fingerprint(&self, wanted: u64) -> Result<(), ContactError> {
-        if self.fingerprint() == wanted {
-            return Ok(());
-        }
-        Err(refused("it was made for another defect, bearing, load range, accuracy or version"))
+        check_inputs(self.fingerprint(), wanted)
     }
 
     /// Reads maps, whatever they were made from.

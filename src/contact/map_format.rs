@@ -88,10 +88,7 @@ impl ContactMap {
     /// # Errors
     /// [`ContactError::MapRefused`] for a map made from other inputs.
     pub fn check_fingerprint(&self, wanted: u64) -> Result<(), ContactError> {
-        if self.fingerprint == wanted {
-            return Ok(());
-        }
-        Err(refused("it was made for another defect, bearing, load range, accuracy or version"))
+        check_inputs(self.fingerprint, wanted)
     }
 
     /// Reads a map, whatever it was made from.
@@ -112,6 +109,14 @@ impl ContactMap {
         let Some(own) = rest.u64() else { return Err(refused("the file is too short")) };
         read(rest.0, own).filter(consistent).ok_or_else(|| refused("its contents contradict each other"))
     }
+}
+
+/// Refuses what was made from inputs with another fingerprint than the one wanted.
+pub(super) fn check_inputs(found: u64, wanted: u64) -> Result<(), ContactError> {
+    if found == wanted {
+        return Ok(());
+    }
+    Err(refused("it was made for another defect, bearing, load range, accuracy or version"))
 }
 
 /// Finite numbers one after the other.

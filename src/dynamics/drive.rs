@@ -63,13 +63,6 @@ pub enum Frame {
     Spin,
 }
 
-impl Frame {
-    /// That of the inner ring, 0, or of the outer, 1.
-    pub fn of_ring(index: usize) -> Self {
-        if index == 0 { Self::Shaft } else { Self::Housing }
-    }
-}
-
 /// Angle and speed of a frame at one instant.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Turn {

@@ -3,7 +3,7 @@
 use super::drive::{Frame, Frames};
 use super::kinematics::Kinematics;
 use super::model::Model;
-use super::raceway::{Cells, Defects, Near, Raceway, SMOOTH};
+use super::raceway::{Cells, Near, Raceway, SMOOTH};
 use crate::contact::error::ContactError;
 use crate::contact::near_defect::{Approach, Lever};
 use crate::contact::rolling::RacewaySide;
@@ -91,13 +91,23 @@ impl Model {
         at: &Meeting,
         frames: &Frames,
     ) -> (Result<Approach, ContactError>, Frame) {
-        let [ring, own] = at.cells;
-        if own != SMOOTH {
+        if at.cells[1] != SMOOTH {
             return self.near_own_defect(side, at, frames);
         }
+        (self.near_ring_defect(side, at, frames), self.raceway(side).0.defects.frame)
+    }
+
+    /// As [`Self::near_defect`], of an element in a cell of the raceway's defects and in none of its own.
+    #[inline(always)]
+    pub(super) fn near_ring_defect(
+        &self,
+        side: RacewaySide,
+        at: &Meeting,
+        frames: &Frames,
+    ) -> Result<Approach, ContactError> {
         let (raceway, by_approach) = self.raceway(side);
         let lever = Lever { distance: at.distance, by_approach };
-        (raceway.defects.approach(ring, at.u, at.direction, frames, lever), raceway.defects.frame)
+        raceway.defects.approach(at.cells[0], at.u, at.direction, frames, lever)
     }
 
     /// As [`Self::near_defect`], of an element in a cell of its own defect.
@@ -111,14 +121,14 @@ impl Model {
         let [ring, own] = at.cells;
         let (raceway, by_approach) = self.raceway(side);
         let lever = Lever { distance: at.distance, by_approach };
-        let approach = |defects: &Defects, cell| defects.approach(cell, at.u, at.direction, frames, lever);
         let defective = self.defective.iter().find(|defective| defective.element == at.element);
-        let own =
-            defective.map_or(Ok(Approach::smooth(at.u)), |defective| approach(&defective.defects[side as usize], own));
+        let own = defective.map_or(Ok(Approach::smooth(at.u)), |defective| {
+            defective.defects[side as usize].approach(own, at.u, at.direction, frames, lever)
+        });
         if ring == SMOOTH {
             return (own, Frame::Spin);
         }
-        match (own, approach(&raceway.defects, ring)) {
+        match (own, self.near_ring_defect(side, at, frames)) {
             (Ok(own), Ok(ring)) if own.value < ring.value => (Ok(own), Frame::Spin),
             (Err(error), _) => (Err(error), Frame::Spin),
             (_, ring) => (ring, raceway.defects.frame),

@@ -16,7 +16,7 @@ use crate::geometry::hertz_constant::HertzConstants;
 use crate::geometry::kinematics::Ratios;
 use crate::numerics::lanes::{Partition, QUAD, WIDEST, padded};
 use crate::numerics::plane::Vector;
-use crate::scene::{DefectOn, Motion, Ring, Scene};
+use crate::scene::{Motion, Ring, Scene};
 use std::f64::consts::TAU;
 
 /// Parameters of the equations of motion.
@@ -171,7 +171,7 @@ impl Model {
             supports: Supports::new(scene),
             ratios: Ratios::new(bearing, scene.cage.slip, scene.cage.spin_slip),
             layout: Layout::new(scene),
-            may_have_inner_defects: scene.defect.as_ref().is_some_and(|defect| defect.on != DefectOn::Outer),
+            may_have_inner_defects: scene.has_defect_inside(),
             has_frames,
             elements: blocks(bearing.element_count, 1.0 / bearing.mass_of_element(), hertz),
         }

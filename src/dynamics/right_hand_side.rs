@@ -22,7 +22,7 @@ use super::kinematics::{Kinematics, Stage, moved};
 use super::model::Model;
 use super::raceway::{Cells, Near, SMOOTH};
 use crate::contact::error::ContactError;
-use crate::contact::near_defect::{Approach, Lever};
+use crate::contact::near_defect::Approach;
 use crate::contact::rolling::RacewaySide;
 use crate::numerics::lanes::{Kernel, Lanes, WIDEST, Wide, dispatch};
 use crate::numerics::plane::{Vector, turned};
@@ -55,8 +55,6 @@ impl Model {
     ) {
         let Stage { drive, cage, state, ahead } = *stage;
         let (now, tau) = (self.kinematics_of(stage), cage.tau);
-        // A copy for the call, so that what is known of the instant can stay in registers: what is written to memory in
-        // parts and read together soon after is read late.
         let [outer, inner] = [forces.other_outer.is_empty(), forces.other_inner.is_empty()].map(|none| !none);
         let (mut on_shaft, mut on_housing) = (Vector::zeros(), Vector::zeros());
         if outer || inner {
@@ -67,6 +65,8 @@ impl Model {
             if RECORD {
                 forces.torques = [0.0; 3];
             }
+            // A copy for each call, so that what is known of the instant can stay in registers: what is written to memory
+            // in parts and read together soon after is read late.
             if outer {
                 on_housing =
                     simd.outlined(OtherOuter::<RECORD> { model: self, now: &{ now }, state, forces: &mut *forces });
@@ -108,10 +108,9 @@ impl Model {
     fn other_outer_contacts<const RECORD: bool>(
         &self,
         now: &Kinematics,
-        (state, ahead): (&[f64], Option<f64>),
+        state: (&[f64], Option<f64>),
         forces: &mut Forces,
     ) -> Vector {
-        let start = self.layout.radial_velocity;
         let mut on_housing = Vector::zeros();
         let Forces { other_outer, other_contacts: [_, contacts], elements, torques, .. } = forces;
         let (frames, defect_lookups, unsolved) = (&forces.frames, &mut forces.defect_lookups, &mut forces.unsolved);
@@ -119,21 +118,18 @@ impl Model {
             contacts.clear();
         }
         for &Other { element: j, cells } in other_outer.iter() {
-            let e_r = self.direction(j, now.cage.direction);
-            let path_rate = state[start + j] - now.housing.velocity.dot(&e_r);
-            let u = moved(state[j], path_rate, ahead);
+            let OnPath { e_r, u, path_rate } = self.on_path(j, now, state);
             // Each way its own numbers: an approach that is one or another is written to memory and read late.
             let found = match cells {
                 [SMOOTH, SMOOTH] => self.yielding_contact(u, path_rate),
-                [cell, SMOOTH] => {
+                [_, SMOOTH] => {
                     *defect_lookups += 1;
-                    let at = self.outer_meeting(j, cells, u, now.cage.angle);
-                    let (defects, lever) = (&self.outer.defects, Lever { distance: at.distance, by_approach: 1.0 });
-                    let near = defects.approach(cell, u, at.direction, frames, lever).unwrap_or_else(|cause| {
+                    let (at, frame) = (self.outer_meeting(j, cells, u, now.cage.angle), self.outer.defects.frame);
+                    let near = self.near_ring_defect(RacewaySide::Outer, &at, frames).unwrap_or_else(|cause| {
                         self.without_answer(RacewaySide::Outer, (&at, now, frames), cause, unsolved)
                     });
-                    let turning = now.cage.speed - frames.of(defects.frame).speed;
-                    self.outer_contact(&near, defects.frame, [path_rate, turning], at.distance)
+                    let turning = now.cage.speed - frames.of(frame).speed;
+                    self.outer_contact(&near, frame, [path_rate, turning], at.distance)
                 }
                 _ => {
                     *defect_lookups += 1;
@@ -152,16 +148,23 @@ impl Model {
         on_housing
     }
 
+    /// Where element `j` is, its path moved on by the time that is still `ahead`.
+    #[inline(always)]
+    fn on_path(&self, j: usize, now: &Kinematics, (state, ahead): (&[f64], Option<f64>)) -> OnPath {
+        let e_r = self.direction(j, now.cage.direction);
+        let path_rate = state[self.layout.radial_velocity + j] - now.housing.velocity.dot(&e_r);
+        OnPath { e_r, u: moved(state[j], path_rate, ahead), path_rate }
+    }
+
     /// The inner contacts near defects; gives their force on the inner ring. After the outer ones, to whose part of an
     /// element's acceleration they add.
     #[inline(never)]
     fn other_inner_contacts<const RECORD: bool>(
         &self,
         now: &Kinematics,
-        (state, ahead): (&[f64], Option<f64>),
+        state: (&[f64], Option<f64>),
         forces: &mut Forces,
     ) -> Vector {
-        let start = self.layout.radial_velocity;
         let mut on_shaft = Vector::zeros();
         let Forces { other_inner, other_outer, other_contacts: [contacts, _], elements, .. } = forces;
         let (torques, lookups, unsolved) = (&mut forces.torques, &mut forces.defect_lookups, &mut forces.unsolved);
@@ -170,9 +173,7 @@ impl Model {
             contacts.clear();
         }
         for &Other { element: j, cells } in other_inner.iter() {
-            let e_r = self.direction(j, now.cage.direction);
-            let path_rate = state[start + j] - now.housing.velocity.dot(&e_r);
-            let u = moved(state[j], path_rate, ahead);
+            let OnPath { e_r, u, path_rate } = self.on_path(j, now, state);
             *lookups += 1;
             let gap = self.inner_gap(u, now.offset(), e_r);
             let at = self.inner_meeting(j, cells, &gap, now.cage.angle);
@@ -298,6 +299,13 @@ impl Model {
             .sum();
         of_paths + forces.torque_on(Frame::Spin)
     }
+}
+
+/// An element on its path.
+struct OnPath {
+    e_r: Vector,
+    u: f64,
+    path_rate: f64,
 }
 
 /// The outer contacts that are not those of the smooth rigid raceway, as a function of its own for the machine's

@@ -165,9 +165,7 @@ impl Model {
     /// a small change at the instant τ = 0 of `drive`.
     pub fn vary_stiffness(&self, drive: &Drive, cells: &Cells, state: &[f64], by: &Variation) -> Matrix {
         let now = self.kinematics(drive, 0.0, state);
-        let mut still = now.standing();
-        let offset = now.offset();
-        (still.shaft.position, still.housing.position) = (Vector::zeros(), offset);
+        let (still, offset) = (now.standing(), now.offset());
         let mut sum = Matrix::zeros();
         for j in 0..self.element_count {
             let (in_cells, u, turn) = (self.cells_of(cells, j), state[j], by.cage_angle);

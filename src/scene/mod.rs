@@ -62,11 +62,15 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Whether contacts with the inner raceway meet a defect: of the inner ring or of an element.
+    pub fn has_defect_inside(&self) -> bool {
+        self.defect.as_ref().is_some_and(|defect| defect.on != DefectOn::Outer)
+    }
+
     /// Whether a ring that turns, or an element's spin, matters: for a defect anywhere but on an outer ring at rest,
     /// and for an outer ring that turns.
     pub fn turns(&self) -> bool {
-        let elsewhere = self.defect.as_ref().is_some_and(|defect| defect.on != DefectOn::Outer);
-        elsewhere || self.housing_speed.is_some() || self.housing_initial_angle != 0.0
+        self.has_defect_inside() || self.housing_speed.is_some() || self.housing_initial_angle != 0.0
     }
 
     /// The C identifier of the scene's model: `Brinell_er16k_tb1` for the scene `er16k-tb1`. Hyphens, which a name may

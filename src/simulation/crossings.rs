@@ -10,7 +10,7 @@ use super::kernels::probe;
 use super::knots::Contact;
 use super::progress::Progress;
 use super::workspace::{Problem, Span, Workspace};
-use crate::dynamics::kinematics::{FramedKinematics, Kinematics};
+use crate::dynamics::kinematics::FramedKinematics;
 use crate::dynamics::raceway::{Ahead, Defects};
 
 /// Width of a step, as a share, to which the instant of a crossing is narrowed down: at the speed of an element on its
@@ -38,6 +38,15 @@ struct Watched<'a> {
     contact: Contact,
 }
 
+/// A contact at the start of the step.
+#[derive(Clone, Copy)]
+struct Begun<'a> {
+    at: Watched<'a>,
+    tau: f64,
+    /// Angle by which its element is seen ahead from the inner ring [rad].
+    lead: f64,
+}
+
 /// The first crossing within the step tried last.
 pub(super) fn first_crossing(
     workspace: &mut Workspace,
@@ -52,10 +61,13 @@ pub(super) fn first_crossing(
         tau,
         paths: state,
     });
-    let mut first: Option<(f64, Watched, f64, u32)> = None;
+    let mut first: Option<(f64, Begun, f64, u32)> = None;
     for at in watched(problem, progress) {
-        let travel = travel(problem, &at, &start, &end);
-        let Some(Ahead { angle, beyond }) = at.defects.ahead(at.cell, direction(problem, &at, &start), travel > 0.0)
+        let frame = start.now.frames.of(at.defects.frame).angle;
+        let direction = start.now.cage.angle + model.element_offset(at.element);
+        let begun = Begun { at, tau: start.tau, lead: start.lead(problem, at.element) };
+        let travel = begun.travel(problem, &end);
+        let Some(Ahead { angle, beyond }) = at.defects.ahead(at.cell, direction + begun.lead - frame, travel > 0.0)
         else {
             continue;
         };
@@ -63,26 +75,23 @@ pub(super) fn first_crossing(
         if travel != 0.0 && travel.abs() >= way {
             let share = way / travel.abs();
             if first.is_none_or(|(least, ..)| share < least) {
-                first = Some((share, at, way * travel.signum(), beyond));
+                first = Some((share, begun, way * travel.signum(), beyond));
             }
         }
     }
-    let (guess, at, way, cell) = first?;
-    let start = Instant { paths: &[], ..start };
-    let share = root(workspace, (problem, span, progress), &at, start, (guess, way));
-    Some(Crossing { share, contact: at.contact, cell })
+    let (guess, begun, way, cell) = first?;
+    let share = root(workspace, (problem, span, progress), &begun, (guess, way));
+    Some(Crossing { share, contact: begun.at.contact, cell })
 }
 
 /// Share of the step at which a contact has made its `way` [rad], bracketed by secants; on the far side.
 fn root(
     workspace: &mut Workspace,
     (problem, span, progress): (Problem, Span, &Progress),
-    at: &Watched,
-    start: Instant,
+    begun: &Begun,
     (guess, way): (f64, f64),
 ) -> f64 {
     let model = problem.model;
-    let path = progress.state[at.element];
     let (mut low, mut high) = (0.0f64, 1.0f64);
     let mut share = guess;
     for look in 0..MOST {
@@ -93,7 +102,7 @@ fn root(
         let tau = span.from + share * span.length;
         let now = model.kinematics(problem.drive, tau, &workspace.dense);
         let there = Instant { now, tau, paths: &workspace.dense };
-        let made = travel_from(problem, at, (&start, path), &there) / way;
+        let made = begun.travel(problem, &there) / way;
         let beyond = made >= 1.0;
         if beyond {
             high = share
@@ -131,22 +140,19 @@ fn watched<'a>(problem: Problem<'a>, progress: &'a Progress) -> impl Iterator<It
     }))
 }
 
-/// Direction of a contact in the frame of what bears its defect [rad].
-fn direction(problem: Problem, at: &Watched, instant: &Instant) -> f64 {
-    let Instant { now, paths, .. } = instant;
-    problem.model.inner_direction_of(at.element, paths[at.element], now) - now.frames.of(at.defects.frame).angle
+impl Instant<'_> {
+    /// Angle by which element `j` is seen ahead from the inner ring [rad].
+    fn lead(&self, problem: Problem, j: usize) -> f64 {
+        problem.model.inner_lead(j, self.paths[j], &self.now)
+    }
 }
 
-/// Angle that a contact has gone between two instants [rad], against what bears its defect.
-fn travel(problem: Problem, at: &Watched, from: &Instant, to: &Instant) -> f64 {
-    travel_from(problem, at, (from, from.paths[at.element]), to)
-}
-
-fn travel_from(problem: Problem, at: &Watched, (from, path): (&Instant, f64), to: &Instant) -> f64 {
-    let Problem { model, drive } = problem;
-    // Of the whole angles only the change, so that no turns are to be counted and no digits are lost.
-    let frame = &drive.frames[at.defects.frame as usize].since;
-    let even = (drive.cage.at(to.tau) - drive.cage.at(from.tau)) - (frame.at(to.tau) - frame.at(from.tau));
-    let lead = |path: f64, now: &Kinematics| model.inner_lead(at.element, path, now);
-    even + (lead(to.paths[at.element], &to.now) - lead(path, &from.now))
+impl Begun<'_> {
+    /// Angle that the contact has gone since [rad], against what bears its defect.
+    fn travel(&self, problem: Problem, to: &Instant) -> f64 {
+        // Of the whole angles only the change, so that no turns are to be counted and no digits are lost.
+        let (cage, frame) = (&problem.drive.cage, &problem.drive.frames[self.at.defects.frame as usize].since);
+        let even = (cage.at(to.tau) - cage.at(self.tau)) - (frame.at(to.tau) - frame.at(self.tau));
+        even + (to.lead(problem, self.at.element) - self.lead)
+    }
 }

@@ -124,7 +124,7 @@ impl Simulation {
                 Quantity::Speed(ring) => {
                     let (ratios, i) = (&self.model.ratios, ring.index());
                     change.variation.cage_speed += ratios.cage[i] * value;
-                    change.variation.frames[Frame::of_ring(i) as usize][1] += value;
+                    change.variation.frames[ring.frame() as usize][1] += value;
                     change.variation.frames[Frame::Spin as usize][1] += ratios.spin[i] * value;
                 }
                 Quantity::Load(RingName::Shaft, axis) => change.loads[axis] += value,
@@ -212,7 +212,7 @@ impl Simulation {
             Quantity::CageSpeed => variation.cage_speed,
             Quantity::CageTorque => self.change.cage_torque,
             Quantity::ShaftTorque => forces.shaft_torque,
-            Quantity::RingAngle(name) => variation.frames[name.index()][0],
+            Quantity::RingAngle(name) => variation.frames[name.frame() as usize][0],
             // The spin angle is that of the defect against the element's own direction.
             Quantity::ElementSpinAngle(_) => variation.frames[Frame::Spin as usize][0] - variation.cage_angle,
             Quantity::ElementPath(j) => variation.path[j],

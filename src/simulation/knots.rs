@@ -78,20 +78,21 @@ pub(super) fn next_knot(
     end: f64,
     cells: &Cells,
 ) -> Option<Knot> {
-    let ring = passages(drive, Frame::Housing, (tau, legs.ring), |way, leg| {
+    let ring = passages(drive, Frame::Housing, legs.ring, |way, leg| {
         let on = |(j, &cell): (usize, &u32)| Way {
             defects: &model.outer.defects,
             element: j,
             cell,
             contact: Contact::Outer(j),
         };
-        let found = earliest(model, drive, (tau, leg), (way, end), cells.outer.iter().enumerate().map(on));
+        let found =
+            earliest((model, drive, Frame::Housing), (tau, leg), (way, end), cells.outer.iter().enumerate().map(on));
         found.map(|(tau, contact, cell)| Knot { tau, contact, cell, legs: Legs { ring: leg, ..legs } })
     });
     if model.defective.is_empty() {
         return ring;
     }
-    let spin = passages(drive, Frame::Spin, (tau, legs.spin), |way, leg| {
+    let spin = passages(drive, Frame::Spin, legs.spin, |way, leg| {
         let own = model.defective.iter().zip(&cells.own).enumerate();
         let own = own.map(|(k, (defective, cells))| Way {
             defects: &defective.defects[1],
@@ -99,7 +100,7 @@ pub(super) fn next_knot(
             cell: cells[1],
             contact: Contact::Own(k, 1),
         });
-        let found = earliest(model, drive, (tau, leg), (way, end), own);
+        let found = earliest((model, drive, Frame::Spin), (tau, leg), (way, end), own);
         found.map(|(tau, contact, cell)| Knot { tau, contact, cell, legs: Legs { spin: leg, ..legs } })
     });
     match (ring, spin) {
@@ -115,7 +116,7 @@ fn against(drive: &Drive, frame: Frame) -> Quadratic {
 }
 
 /// The first knot that `on` finds on the legs that are left, asked with the way of each.
-fn passages(drive: &Drive, frame: Frame, (_, leg): (f64, Leg), on: impl Fn(f64, Leg) -> Option<Knot>) -> Option<Knot> {
+fn passages(drive: &Drive, frame: Frame, leg: Leg, on: impl Fn(f64, Leg) -> Option<Knot>) -> Option<Knot> {
     let [_, speed, acceleration] = against(drive, frame).0;
     let out = if speed == 0.0 { acceleration } else { speed };
     let found = if leg == Leg::Out && out != 0.0 { on(out.signum(), Leg::Out) } else { None };
@@ -131,24 +132,23 @@ struct Way<'a> {
     contact: Contact,
 }
 
-/// The earliest passage by `end` on a leg that goes `way`, 1 or −1.
+/// The earliest passage by `end` on a leg that goes `way`, 1 or −1, of contacts over defects that turn with `frame`.
 fn earliest<'a>(
-    model: &Model,
-    drive: &Drive,
+    (model, drive, frame): (&Model, &Drive, Frame),
     (tau, leg): (f64, Leg),
     (way, end): (f64, f64),
     contacts: impl Iterator<Item = Way<'a>>,
 ) -> Option<(f64, Contact, u32)> {
+    let (cage_angle, turned, against) =
+        (drive.cage_angle(tau), drive.frames_at(tau).of(frame).angle, against(drive, frame));
+    let (mut speed, acceleration) = (way * against.rate_at(tau), way * against.0[2]);
+    if leg == Leg::Out {
+        // Where the cage is about to turn, rounding may show it on its way back already.
+        speed = speed.max(0.0);
+    }
     let mut earliest: Option<(f64, Contact, u32)> = None;
     for on in contacts.filter(|on| !on.defects.is_empty()) {
-        let (frame, against) = (on.defects.frame, against(drive, on.defects.frame));
-        let angle = drive.cage_angle(tau) + model.element_offset(on.element);
-        let direction = angle - drive.frames_at(tau).of(frame).angle;
-        let (mut speed, acceleration) = (way * against.rate_at(tau), way * against.0[2]);
-        if leg == Leg::Out {
-            // Where the cage is about to turn, rounding may show it on its way back already.
-            speed = speed.max(0.0);
-        }
+        let direction = cage_angle + model.element_offset(on.element) - turned;
         let Some(Ahead { angle, beyond }) = on.defects.ahead(on.cell, direction, way > 0.0) else { continue };
         let at = tau + passage(speed, acceleration, angle.max(0.0));
         if at <= end && earliest.is_none_or(|e| at < e.0) {

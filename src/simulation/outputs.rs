@@ -70,7 +70,7 @@ impl<'a> Outputs<'a> {
             Quantity::Force(ring, axis) => [self.forces.shaft(), self.forces.housing()][ring.index()][axis],
             Quantity::SensorAcceleration => self.sensor,
             Quantity::CageAngle => self.angles.cage,
-            Quantity::RingAngle(ring) => self.angles.frames[ring.index()],
+            Quantity::RingAngle(ring) => self.angles.frames[ring.frame() as usize],
             Quantity::ShaftTorque => self.forces.torque_on(Frame::Shaft),
             Quantity::CageSpeed => self.drive.cage.rate_at(self.tau),
             // A sum over all elements, and recorders do not ask for it.

@@ -1,5 +1,7 @@
 //! What a variable stands for in the model, apart from its name.
 
+use crate::dynamics::drive::Frame;
+
 /// One of the two rings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RingName {
@@ -15,6 +17,14 @@ impl RingName {
         match self {
             Self::Shaft => 0,
             Self::Housing => 1,
+        }
+    }
+
+    /// The frame of its defects.
+    pub(super) fn frame(self) -> Frame {
+        match self {
+            Self::Shaft => Frame::Shaft,
+            Self::Housing => Frame::Housing,
         }
     }
 }

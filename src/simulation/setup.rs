@@ -210,25 +210,22 @@ pub fn build_model(
     map: Option<&Arc<ContactMaps>>,
 ) -> Result<Model, SimulationError> {
     let (Some(surface), Some(defect)) = (surface, &scene.defect) else { return Ok(Model::smooth(scene)) };
-    let mut surfaces = Vec::new();
-    for (index, &side) in sides(scene).iter().enumerate() {
-        surfaces.push(near(scene, surface, map, (index, side))?);
-    }
+    let near = |index: usize, side| near(scene, surface, map, (index, side));
     let (mut inner, mut outer) = (Defects::new(Frame::Shaft, []), Defects::new(Frame::Housing, []));
     let mut defective = Vec::new();
     match defect.on {
-        DefectOn::Inner => inner = Defects::new(Frame::Shaft, surfaces.into_iter().map(|near| (near, defect.angle))),
-        DefectOn::Outer => outer = Defects::new(Frame::Housing, surfaces.into_iter().map(|near| (near, defect.angle))),
+        DefectOn::Inner => inner = Defects::new(Frame::Shaft, [(near(0, RacewaySide::Inner)?, defect.angle)]),
+        DefectOn::Outer => outer = Defects::new(Frame::Housing, [(near(0, RacewaySide::Outer)?, defect.angle)]),
         DefectOn::Element { element, .. } => {
             // At the start the defect is at its angle from the direction of its element, and the spin is counted from
             // there; the inner raceway is met with the opposite side.
             let facing = scene.cage.initial_angle + element as f64 * TAU / scene.bearing.element_count as f64;
-            let mut centres = [facing + defect.angle - PI, facing + defect.angle].into_iter();
-            let mut sides =
-                surfaces.into_iter().map(|near| Defects::new(Frame::Spin, [near].into_iter().zip(&mut centres)));
-            if let (Some(inner), Some(outer)) = (sides.next(), sides.next()) {
-                defective.push(DefectiveElement { element, defects: [inner, outer] });
-            }
+            let centre = facing + defect.angle;
+            let defects = [
+                Defects::new(Frame::Spin, [(near(0, RacewaySide::Inner)?, centre - PI)]),
+                Defects::new(Frame::Spin, [(near(1, RacewaySide::Outer)?, centre)]),
+            ];
+            defective.push(DefectiveElement { element, defects });
         }
     }
     Ok(Model::new(scene, [inner, outer], defective))
