@@ -8,7 +8,7 @@
 use std::error::Error;
 use std::time::Instant;
 
-use brinell::scene::{ContactLaw, DefectShape, Scene};
+use brinell::scene::{ContactLaw, Scene};
 use brinell::simulation::Simulation;
 
 const RATE: f64 = 51_200.0;
@@ -69,11 +69,9 @@ fn run(scene: &Scene, law: ContactLaw, finer: bool, stop: f64) -> Result<Run, Bo
     if finer {
         scene.contact.cells = Some([96, 64]);
     }
-    let profile = match scene.defect.as_ref().map(|defect| &defect.shape) {
-        Some(DefectShape::Profile(file)) => Some(std::fs::read_to_string(format!("scenes/{file}"))?),
-        _ => None,
-    };
-    let mut simulation = Simulation::new(scene, profile.as_deref())?;
+    let read = |file: &&str| std::fs::read_to_string(format!("scenes/{file}"));
+    let profiles: Vec<String> = scene.profile_names().iter().map(read).collect::<Result<_, _>>()?;
+    let mut simulation = Simulation::new(scene, profiles.iter().map(String::as_str))?;
     let references = [simulation.reference("element[1].force.outer")?, simulation.reference("housing.ay")?];
     let start = Instant::now();
     simulation.initialize(0.0)?;

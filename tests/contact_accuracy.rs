@@ -80,9 +80,10 @@ fn demonstrate(name: &str, map: &ContactMap, surface: &Surface, element: Element
 fn demonstrate_shipped(name: &str) {
     let scene = support::shipped_as_it_is(name);
     let profile = support::profile_of(&scene);
-    let surface = Surface::load(scene.defect.as_ref().unwrap(), profile.as_deref(), &scene.bearing).unwrap();
+    let surface = Surface::load(&scene.defects[0], profile.as_deref(), &scene.bearing).unwrap();
     let bytes = support::map_of(&scene, profile.as_deref()).unwrap();
-    let map = ContactMap::from_bytes(&bytes, setup::map_fingerprint(&scene, &surface)).unwrap();
+    let map = ContactMap::from_bytes(&bytes, setup::map_fingerprint(&scene, std::slice::from_ref(&surface)).unwrap())
+        .unwrap();
     let (element, side) = (ElementOnRaceway::of(&scene.bearing, RacewaySide::Outer), RacewaySide::Outer);
     demonstrate(name, &map, &surface, element, setup::map_specification(&scene, side));
 }

@@ -20,7 +20,7 @@ fn frequencies_of_the_elements_spin_are_those_of_pure_rolling() {
         // All in contact, so that the rings' swing leaves the rate alone.
         scene.bearing.radial_clearance = -5e-6;
         let mut bearing = Named::started(scene.clone());
-        let angle = |bearing: &mut Named| match scene.defect.as_ref().unwrap().on {
+        let angle = |bearing: &mut Named| match scene.defects[0].on {
             DefectOn::Inner => bearing.get("element[1].angle") - bearing.get("shaft.angle"),
             _ => bearing.get("element[1].spin_angle"),
         };
@@ -97,7 +97,7 @@ fn turning_the_whole_scene_turns_the_result() {
         (other.gravity, other.shaft.load) = (turned(scene.gravity), turned(scene.shaft.load));
         other.cage.initial_angle += by;
         // The angle on an element is counted from the element's own direction.
-        if scene.defect.as_ref().unwrap().on == DefectOn::Inner {
+        if scene.defects[0].on == DefectOn::Inner {
             other.shaft_initial_angle += by;
         }
         for (a, b) in course(scene, 1e-4, 120).iter().zip(course(other, 1e-4, 120)) {
@@ -116,7 +116,7 @@ fn a_mirror_mirrors_the_result() {
         let mut other = scene.clone();
         other.shaft_speed = -scene.shaft_speed;
         other.cage.initial_angle = PI - scene.cage.initial_angle;
-        let defect = other.defect.as_mut().unwrap();
+        let defect = &mut other.defects[0];
         defect.angle = if on_element { -defect.angle } else { PI - defect.angle };
         let z = scene.bearing.element_count;
         for (a, b) in course(scene, 1e-4, 120).iter().zip(course(other, 1e-4, 120)) {
@@ -215,7 +215,7 @@ fn a_balance_is_found_with_elements_anywhere_over_an_inner_defect() {
     scene.contact.map_accuracy = Some(1e-2);
     let map = map_of(&scene, None);
     let bearing = StaticBearing::with_map(&scene, None, map.as_deref()).unwrap();
-    let smooth = StaticBearing::new(&Scene { defect: None, ..scene }, None).unwrap();
+    let smooth = StaticBearing::new(&Scene { defects: Vec::new(), ..scene }, None).unwrap();
     let (mut least, mut whole) = (f64::INFINITY, f64::INFINITY);
     for k in 0..=80 {
         let cage = (-130.0 + f64::from(k)).to_radians();
@@ -234,7 +234,7 @@ fn turning_the_frame_changes_nothing_but_centrifugal_forces() {
     scene.gravity = [0.0; 2];
     scene.shaft = Ring::hosted();
     // Bridged: a ball that flew free would go where centrifugal forces take it.
-    scene.defect = Some(Defect::outer(-FRAC_PI_2, spall(0.6e-3, 100e-6)));
+    scene.defects = vec![Defect::outer(-FRAC_PI_2, spall(0.6e-3, 100e-6))];
     scene.cage.initial_angle = -97f64.to_radians();
     let mut other = scene.clone();
     (other.housing_speed, other.shaft_speed) = (Some(-scene.shaft_speed), 0.0);

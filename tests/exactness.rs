@@ -23,7 +23,7 @@ fn passing(law: ContactLaw) -> Named {
     scene.contact.law = law;
     scene.contact.largest_force = Some(1000.0);
     let shape = DefectShape::Spall { length: 2e-4, depth: 2e-6, edge_slope: FRAC_PI_2 };
-    scene.defect = Some(Defect::outer(-FRAC_PI_2, shape));
+    scene.defects = vec![Defect::outer(-FRAC_PI_2, shape)];
     // The spall's half length and half a contact's.
     scene.cage.initial_angle = -FRAC_PI_2 - 3e-4 / scene.bearing.outer_raceway_radius();
     Named::started(scene)

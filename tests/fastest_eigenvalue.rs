@@ -51,7 +51,7 @@ impl Draw {
 /// An assembly with rings of at least `lightest` [kg]; without any damper unless `damped`.
 fn scene(draw: &mut Draw, lightest: f64, damped: bool) -> Scene {
     let mut scene = shipped(if draw.chance(0.5) { "er16k-tb1" } else { "6205-healthy" });
-    if scene.defect.is_none() {
+    if scene.defects.is_empty() {
         scene.bearing.element_count = 3 + (20.0 * draw.part()) as usize;
     }
     scene.bearing.element_mass = Some(draw.between(1e-4, 1e-1));
@@ -77,8 +77,7 @@ fn scene(draw: &mut Draw, lightest: f64, damped: bool) -> Scene {
 
 /// A state in motion, the inner ring pushed against some of the elements.
 fn jacobian(draw: &mut Draw, scene: &Scene) -> (Model, Jacobian) {
-    let surface = scene.defect.as_ref().map(|defect| Surface::load(defect, None, &scene.bearing).unwrap());
-    let model = build_model(scene, surface.as_ref(), None).unwrap();
+    let model = build_model(scene, &Surface::load_all(scene, None).unwrap(), None).unwrap();
     let layout = model.layout;
     let cage = Quadratic([0.0, draw.between(1.0, 300.0), 0.0]);
     let drive = Drive { cage_start: TAU * draw.part(), cage, ..Drive::default() };
@@ -162,7 +161,7 @@ fn with_damping_the_factor_of_two_holds_for_rings_heavier_than_their_elements() 
 #[test]
 fn explicit_steps_stay_stable_with_an_outer_ring_lighter_than_its_elements() {
     for method in [Method::PhaseFitted, Method::DormandPrince] {
-        let mut scene = Scene { defect: None, sensor: None, ..shipped("er16k-tb1") };
+        let mut scene = Scene { defects: Vec::new(), sensor: None, ..shipped("er16k-tb1") };
         (scene.housing.mass, scene.housing.damping) = (1e-5, 0.0);
         scene.contact.damping = Damping::HuntCrossley(0.05);
         let mut bearing = Named::new(scene);

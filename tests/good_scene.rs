@@ -38,7 +38,7 @@ fn quantities_arrive_in_si_units() {
     assert_eq!(scene.bearing.conformity_inner, scene.bearing.conformity_outer);
     assert!(near(scene.shaft_speed, 20.0 * PI));
     assert!(near(scene.cage.initial_angle, -PI / 2.0));
-    let defect = scene.defect.unwrap();
+    let defect = &scene.defects[0];
     assert!(near(defect.angle, -PI / 2.0));
     let DefectShape::Spall { length, depth, edge_slope } = defect.shape else { panic!("not a spall") };
     assert!(near(length, 15.8 / 180.0 * PI * 23.6325e-3), "{length}");
@@ -56,7 +56,7 @@ fn the_raceways_of_the_er16k_have_their_radii() {
 
 #[test]
 fn a_length_in_millimetres_equals_the_same_arc_in_degrees() {
-    let length = |text: &str| match Scene::from_toml(text).unwrap().defect.unwrap().shape {
+    let length = |text: &str| match Scene::from_toml(text).unwrap().defects.remove(0).shape {
         DefectShape::Spall { length, .. } => length,
         DefectShape::Profile(_) => panic!("not a spall"),
     };
@@ -74,7 +74,7 @@ fn what_is_left_out_gets_the_documented_default() {
     assert_eq!(scene.contact.law, ContactLaw::Hertz);
     assert_eq!(scene.contact.damping, Damping::HuntCrossley(0.5));
     assert_eq!(scene.cage.slip, 0.0);
-    assert_eq!(scene.defect, None);
+    assert_eq!(scene.defects, []);
     assert_eq!((scene.shaft.mass, scene.shaft.damping, scene.shaft.stiffness), (3.2638, 1376.8, 0.0));
     assert_eq!((scene.housing.mass, scene.housing.damping, scene.housing.stiffness), (6.638, 2210.7, 1.51056e7));
     assert_eq!(scene.shaft.load, [0.0, 0.0]);

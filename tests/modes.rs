@@ -28,7 +28,8 @@ fn assembly(scene: &Scene) -> Assembly {
 
 /// A healthy bearing on a fixed housing, its elements without weight, nothing damped.
 fn bare() -> Scene {
-    let mut scene = Scene { defect: None, sensor: None, gravity: [0.0; 2], housing: STILL, ..shipped("er16k-tb1") };
+    let mut scene =
+        Scene { defects: Vec::new(), sensor: None, gravity: [0.0; 2], housing: STILL, ..shipped("er16k-tb1") };
     scene.contact.damping = Damping::HuntCrossley(0.0);
     scene.shaft.damping = 0.0;
     scene

@@ -66,7 +66,7 @@ fn recording_changes_no_bit_of_a_run_whose_contacts_are_solved_on_a_grid() {
     scene.contact.largest_force = Some(1000.0);
     // Element 1 enters a short shallow spall 0.1 mm from where it starts.
     let shape = DefectShape::Spall { length: 2e-4, depth: 2e-6, edge_slope: FRAC_PI_2 };
-    scene.defect = Some(Defect::outer(-FRAC_PI_2, shape));
+    scene.defects = vec![Defect::outer(-FRAC_PI_2, shape)];
     scene.cage.initial_angle = -FRAC_PI_2 - 3e-4 / scene.bearing.outer_raceway_radius();
     let (mut with, mut without) = (recorded(scene.clone()), Named::started(scene));
     with.run(2e-5, 20);

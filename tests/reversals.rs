@@ -25,7 +25,7 @@ fn pressed(law: ContactLaw, shape: DefectShape) -> Scene {
     // 2200 N on the smooth raceway; entering and leaving the defect add to it.
     scene.contact.largest_force = Some(4000.0);
     (scene.contact.law, scene.tolerance) = (law, 1e-9);
-    scene.defect = Some(Defect::outer(-FRAC_PI_2, shape));
+    scene.defects = vec![Defect::outer(-FRAC_PI_2, shape)];
     scene
 }
 
@@ -131,7 +131,7 @@ fn an_element_that_turns_on_a_knot_stays_on_either_side_of_it() {
 
 /// Knots of law `hertz` [rad] from the defect's centre.
 fn knots(scene: &Scene) -> Vec<f64> {
-    let DefectShape::Spall { length, depth, edge_slope } = scene.defect.as_ref().unwrap().shape else { panic!() };
+    let DefectShape::Spall { length, depth, edge_slope } = scene.defects[0].shape else { panic!() };
     let profile = Profile::spall(length, depth, edge_slope);
     let bearing = &scene.bearing;
     let (element, raceway) = (bearing.element_radius(), bearing.outer_raceway_radius());
@@ -170,7 +170,7 @@ fn swings_over_a_map_are_the_same_in_one_step_and_in_many() {
 fn map(scene: &Scene) -> &'static [u8] {
     static MAP: OnceLock<Vec<u8>> = OnceLock::new();
     MAP.get_or_init(|| {
-        let surface = Surface::load(scene.defect.as_ref().unwrap(), None, &scene.bearing).unwrap();
+        let surface = Surface::load_all(scene, None).unwrap();
         setup::build_map(scene, &surface, &mut Sequential(|_, _| ())).unwrap().unwrap().to_bytes()
     })
 }

@@ -45,15 +45,12 @@ fn every_shipped_scene_can_be_read_and_is_named_like_its_file() {
 fn every_surface_of_a_shipped_scene_can_be_loaded() {
     for (name, text) in scenes() {
         let scene = Scene::from_toml(&text).unwrap();
-        let Some(defect) = scene.defect else { continue };
-        let profile = match &defect.shape {
-            brinell::scene::DefectShape::Profile(file) => Some(fs::read_to_string(folder().join(file)).unwrap()),
-            brinell::scene::DefectShape::Spall { .. } => None,
-        };
-        let surface = Surface::load(&defect, profile.as_deref(), &scene.bearing)
-            .unwrap_or_else(|error| panic!("{name}: {error}"));
-        let (first, last) = surface.extent();
-        assert!(last > first, "{name}");
+        let profiles: Vec<_> =
+            scene.profile_names().iter().map(|file| fs::read_to_string(folder().join(file)).unwrap()).collect();
+        let surfaces = Surface::load_all(&scene, profiles.iter().map(String::as_str));
+        let surfaces = surfaces.unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_eq!(surfaces.len(), scene.defects.len(), "{name}");
+        assert!(surfaces.iter().all(|surface| surface.extent().1 > surface.extent().0), "{name}");
     }
 }
 

@@ -108,7 +108,7 @@ fn simulated_deep(scene: &Scene, length: f64, depth: f64, seconds: f64) -> Vec<f
         depth,
         edge_slope: FRAC_PI_2,
     };
-    scene.defect = Some(Defect::outer(-FRAC_PI_2, shape));
+    scene.defects = vec![Defect::outer(-FRAC_PI_2, shape)];
     let mut simulation = Simulation::new(scene, None).unwrap();
     let sensor = simulation.reference("sensor.acceleration").unwrap();
     simulation.initialize(0.0).unwrap();
@@ -148,7 +148,7 @@ fn the_depth_below_which_an_extended_spall_would_ring_like_a_line_spall_is_that_
     let length = (report.length_deg.unwrap() + 40.0).to_radians() * extended.bearing.outer_raceway_radius();
     let depth = 1e-6 * report.critical_depth_um.unwrap();
     let shape = DefectShape::Spall { length, depth, edge_slope: FRAC_PI_2 };
-    extended.defect = Some(Defect::outer(-FRAC_PI_2, shape));
+    extended.defects = vec![Defect::outer(-FRAC_PI_2, shape)];
     extended.contact.law = ContactLaw::Hertz;
     let critical = StaticBearing::new(&extended, None).unwrap().critical_load().unwrap().unwrap();
     // The depth is halved down to a thousandth of itself; the load goes with about its 1.5th power.

@@ -16,13 +16,13 @@ fn bearing(scene: &Scene) -> StaticBearing {
 }
 
 fn healthy() -> Scene {
-    Scene { defect: None, ..shipped("er16k-tb1") }
+    Scene { defects: Vec::new(), ..shipped("er16k-tb1") }
 }
 
 /// The extended spall with another depth [m].
 fn extended(depth_of_floor: f64) -> Scene {
     let mut scene = shipped("er16k-tb2");
-    let Some(defect) = &mut scene.defect else { panic!("no defect") };
+    let Some(defect) = scene.defects.first_mut() else { panic!("no defect") };
     let DefectShape::Spall { depth, .. } = &mut defect.shape else { panic!("no spall") };
     *depth = depth_of_floor;
     scene

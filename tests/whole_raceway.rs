@@ -18,7 +18,7 @@ const DEPTH: f64 = 100e-6;
 fn standing(law: ContactLaw, shape: DefectShape, angle: f64) -> Scene {
     let mut scene = shipped("er16k-tb1");
     (scene.contact.law, scene.contact.largest_force) = (law, Some(1500.0));
-    scene.defect = Some(Defect::outer(angle, shape));
+    scene.defects = vec![Defect::outer(angle, shape)];
     (scene.bearing.element_count, scene.cage.initial_angle, scene.shaft_speed) = (1, -FRAC_PI_2, 0.0);
     (scene.shaft.motion, scene.shaft.load, scene.housing.motion) = (Motion::Host, [0.0; 2], Motion::Fixed);
     scene.sensor = None;

@@ -21,10 +21,16 @@ use crate::project::Project;
 use crate::whole_file;
 
 /// The bytes of a scene's contact map, `None` where its law or its healthy raceway needs none.
-pub fn of(scene: &Scene, profile: Option<&str>, project: &Project) -> Result<Option<Vec<u8>>> {
-    let Some(defect) = scene.defect.as_ref().filter(|_| scene.contact.law == ContactLaw::Map) else { return Ok(None) };
-    let surface = Surface::load(defect, profile, &scene.bearing)?;
-    let fingerprint = setup::map_fingerprint(scene, &surface);
+pub fn of<'p>(
+    scene: &Scene,
+    profiles: impl IntoIterator<Item = &'p str>,
+    project: &Project,
+) -> Result<Option<Vec<u8>>> {
+    if scene.defects.is_empty() || scene.contact.law != ContactLaw::Map {
+        return Ok(None);
+    }
+    let surfaces = Surface::load_all(scene, profiles)?;
+    let fingerprint = setup::map_fingerprint(scene, &surfaces)?;
     let file = cache_file(project, fingerprint);
     if let Ok(bytes) = fs::read(&file)
         && ContactMaps::from_bytes(&bytes, fingerprint).is_ok()
@@ -32,7 +38,7 @@ pub fn of(scene: &Scene, profile: Option<&str>, project: &Project) -> Result<Opt
         return Ok(Some(bytes));
     }
     let mut cores = AllCores { bar: bar(&scene.name) };
-    let map = setup::build_map(scene, &surface, &mut cores)?;
+    let map = setup::build_map(scene, &surfaces, &mut cores)?;
     cores.bar.finish_and_clear();
     let Some(map) = map else { return Ok(None) };
     let (reached, wanted) = (map.accuracy().max(), setup::map_specification(scene, RacewaySide::Outer).accuracy);

@@ -43,9 +43,8 @@ pub fn command(project: &Project, library: &Choice, folder: &Path) -> Result<()>
 /// Profile and rigid path around the defect: `arc`, `depth`, `path`, each in metres, every micrometre.
 fn raceway_csv(model: &Model) -> Result<Vec<u8>> {
     let bearing = &model.scene.bearing;
-    let defect = model.scene.defect.as_ref().context("the scene has no defect to demonstrate")?;
-    let text = model.profile.as_ref().map(|profile| profile.text.as_str());
-    let profile = match Surface::load(defect, text, bearing)? {
+    let first = Surface::load_all(&model.scene, model.profile_texts())?.into_iter().next();
+    let profile = match first.context("the scene has no defect to demonstrate")? {
         Surface::Profile(profile) => profile,
         Surface::Topography(topography) => topography.profile_at(0.0),
     };

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use brinell::scene::{Damping, DefectOn, DefectShape, Motion, Ring, Scene};
+use brinell::scene::{Damping, Defect, DefectOn, DefectShape, Motion, Ring, Scene};
 use brinell::simulation::Method;
 use brinell::simulation::variables::{Causality, Kind, Variable};
 use quick_xml::escape::escape;
@@ -105,27 +105,11 @@ fn facts(page: &mut String, scene: &Scene) {
         Damping::HuntCrossley(chi) => format!("Hunt and Crossley, χ = {chi} s/m"),
         Damping::Proportional(tau) => format!("proportional to stiffness, τ = {tau} s"),
     };
-    let defect_of = match scene.defect.as_ref().map(|defect| defect.on) {
-        None => "Defect",
-        Some(DefectOn::Outer) => "Defect of the outer raceway",
-        Some(DefectOn::Inner) => "Defect of the inner raceway, which turns with the shaft",
-        Some(DefectOn::Element { .. }) => "Defect of a rolling element, angle from where it faces outwards",
-    };
-    let defect = match scene.defect.as_ref().map(|defect| (defect.angle, &defect.shape)) {
-        None => "none".to_owned(),
-        Some((angle, DefectShape::Spall { length, depth, edge_slope })) => format!(
-            "spall at {}, {} mm long, {} µm deep, edges of {}",
-            degrees(angle),
-            digits(length * 1e3),
-            digits(depth * 1e6),
-            degrees(*edge_slope)
-        ),
-        Some((angle, DefectShape::Profile(file))) => {
-            format!("profile <code>resources/{}</code> at {}", escape(file), degrees(angle))
-        }
-    };
+    let defects: Vec<(&str, String)> = scene.defects.iter().map(defect_row).collect();
+    let healthy = [("Defect", "none".to_owned())];
+    let defects = if defects.is_empty() { &healthy[..] } else { &defects };
     let mm = |length: f64| format!("{} mm", digits(length * 1e3));
-    let rows = [
+    let mut rows = vec![
         ("Rolling elements", format!("{} balls", bearing.element_count)),
         ("Ball diameter", mm(bearing.element_diameter)),
         ("Pitch diameter", mm(bearing.pitch_diameter)),
@@ -136,18 +120,47 @@ fn facts(page: &mut String, scene: &Scene) {
         ("Radial clearance", format!("{} µm", digits(bearing.radial_clearance * 1e6))),
         ("Contact law near the defect", law.to_owned()),
         ("Contact damping", damping),
-        (defect_of, defect),
+    ];
+    rows.extend(defects.iter().cloned());
+    rows.extend([
         ("Shaft (inner ring)", ring(&scene.shaft)),
         ("Shaft speed at the start", format!("{} Hz", digits(scene.shaft_speed / std::f64::consts::TAU))),
         ("Housing (outer ring)", ring(&scene.housing)),
         ("Accelerometer", scene.sensor.map_or("none", |_| "on the housing, along y").to_owned()),
         ("Default run", format!("{} s in steps of {} s", scene.experiment.stop, scene.experiment.step)),
-    ];
+    ]);
     page.push_str("<table>\n");
     for (what, value) in rows {
         line(page, format_args!("<tr><th>{what}</th><td>{value}</td></tr>"));
     }
     page.push_str("</table>\n");
+}
+
+/// What bears a defect, and what it is.
+fn defect_row(defect: &Defect) -> (&'static str, String) {
+    let on = match defect.on {
+        DefectOn::Outer => "Defect of the outer raceway",
+        DefectOn::Inner => "Defect of the inner raceway, which turns with the shaft",
+        DefectOn::Element { .. } => "Defect of a rolling element, angle from where it faces outwards",
+    };
+    let element = match defect.on {
+        DefectOn::Element { element, .. } => format!("element {}: ", element + 1),
+        _ => String::new(),
+    };
+    let (angle, shape) = (
+        degrees(defect.angle),
+        match defect.shape {
+            DefectShape::Spall { length, depth, edge_slope } => format!(
+                "{} mm long, {} µm deep, edges of {}",
+                digits(length * 1e3),
+                digits(depth * 1e6),
+                degrees(edge_slope)
+            ),
+            DefectShape::Profile(ref file) => format!("<code>resources/{}</code>", escape(file)),
+        },
+    );
+    let what = if matches!(defect.shape, DefectShape::Profile(_)) { "profile" } else { "spall" };
+    (on, format!("{element}{what} at {angle}, {shape}"))
 }
 
 fn ring(ring: &Ring) -> String {

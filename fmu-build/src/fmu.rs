@@ -27,7 +27,7 @@ pub fn pack(model: &Model, library: &Library) -> Result<Vec<u8>> {
         archive.add(file, binary.bytes.as_slice())?;
     }
     archive.add("resources/scene.toml", model.scene_text.as_str())?;
-    if let Some(profile) = &model.profile {
+    for profile in &model.profiles {
         archive.add(format!("resources/{}", profile.name), profile.text.as_str())?;
     }
     if let Some(map) = &model.map {

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use brinell::scene::{DefectShape, Scene};
+use brinell::scene::Scene;
 use brinell::simulation::Simulation;
 use brinell::simulation::guid::guid;
 
@@ -18,8 +18,8 @@ pub struct Model {
     pub scene: Scene,
     /// The scene file's text, as it goes into the FMU.
     pub scene_text: String,
-    /// Name and text of the defect's profile file, when the scene names one.
-    pub profile: Option<Profile>,
+    /// The profile files that defects name, in the order of the defects.
+    pub profiles: Vec<Profile>,
     /// The contact map, where the scene's law needs one.
     pub map: Option<Vec<u8>>,
     /// A simulation of the scene, not initialized.
@@ -44,22 +44,25 @@ impl Model {
         for remark in scene.remarks() {
             eprintln!("note: {}: {remark}", about());
         }
-        let profile = match scene.defect.as_ref().map(|defect| &defect.shape) {
-            Some(DefectShape::Profile(name)) => {
-                let file = path.parent().unwrap_or(Path::new("")).join(name);
-                let text = fs::read_to_string(&file).with_context(|| file.display().to_string())?;
-                Some(Profile { name: name.clone(), text })
-            }
-            _ => None,
+        let profile = |name: &str| {
+            let file = path.parent().unwrap_or(Path::new("")).join(name);
+            let text = fs::read_to_string(&file).with_context(|| file.display().to_string())?;
+            anyhow::Ok(Profile { name: name.to_owned(), text })
         };
-        let text = profile.as_ref().map(|profile| profile.text.as_str());
-        let map = contact_map::of(&scene, text, &Project::find()).with_context(about)?;
-        let simulation = Simulation::with_map(scene.clone(), text, map.as_deref()).with_context(about)?;
-        Ok(Self { scene, scene_text, profile, map, simulation })
+        let profiles: Vec<Profile> = scene.profile_names().into_iter().map(profile).collect::<Result<_>>()?;
+        let texts = || profiles.iter().map(|profile| profile.text.as_str());
+        let map = contact_map::of(&scene, texts(), &Project::find()).with_context(about)?;
+        let simulation = Simulation::with_map(scene.clone(), texts(), map.as_deref()).with_context(about)?;
+        Ok(Self { scene, scene_text, profiles, map, simulation })
+    }
+
+    /// Texts of the profile files.
+    pub fn profile_texts(&self) -> impl Iterator<Item = &str> {
+        self.profiles.iter().map(|profile| profile.text.as_str())
     }
 
     /// The identity that library and description agree on; it changes with every byte of scene or profile.
     pub fn guid(&self) -> String {
-        guid(&self.scene_text, self.profile.as_ref().map(|profile| profile.text.as_str()))
+        guid(&self.scene_text, self.profile_texts())
     }
 }

@@ -20,9 +20,8 @@ use crate::whole_file;
 pub fn command(project: &Project, model: &Model, options: Options, folder: &Path) -> Result<()> {
     options.check()?;
     let scene = options.load.map_or_else(|| model.scene.clone(), |amount| loaded(&model.scene, amount));
-    let profile = model.profile.as_ref().map(|profile| profile.text.as_str());
-    let map = contact_map::of(&scene, profile, project)?;
-    let assembly = Assembly::new(&scene, profile, map.as_deref())?;
+    let map = contact_map::of(&scene, model.profile_texts(), project)?;
+    let assembly = Assembly::new(&scene, model.profile_texts(), map.as_deref())?;
     let [[x, y], [x_o, y_o]] = assembly.loads();
     let direction = if [x, y] == [0.0; 2] { libm::atan2(0.0 - y_o, 0.0 - x_o) } else { libm::atan2(y, x) };
     // In the middle of the sweep element 1 is in the middle of the defect, at its ends two elements are about it.

@@ -48,14 +48,11 @@ const VARIATIONS: usize = 21;
 /// The command: `<folder>/<scene>-stiffness.csv`, with a defect `<scene>-critical-load.csv`, and, if wanted, a figure.
 pub fn command(project: &Project, model: &Model, options: Options, folder: &Path) -> Result<()> {
     options.check()?;
-    let profile = model.profile.as_ref().map(|profile| profile.text.as_str());
-    let map = contact_map::of(&model.scene, profile, project)?;
-    let bearing = loaded(StaticBearing::with_map(&model.scene, profile, map.as_deref())?, options.load)?;
-    let healthy = loaded(
-        StaticBearing::new(&brinell::scene::Scene { defect: None, ..model.scene.clone() }, None)?,
-        options.load,
-    )?;
-    let plain = plain(&bearing, &model.scene, profile, options.load)?;
+    let map = contact_map::of(&model.scene, model.profile_texts(), project)?;
+    let bearing = loaded(StaticBearing::with_map(&model.scene, model.profile_texts(), map.as_deref())?, options.load)?;
+    let healthy =
+        loaded(StaticBearing::new(&Scene { defects: Vec::new(), ..model.scene.clone() }, None)?, options.load)?;
+    let plain = plain(&bearing, model, options.load)?;
     let [x, y] = bearing.load();
     let bottom = bottom_of(&bearing)?;
     // In the middle of the sweep element 1 is in the middle of the defect, at its ends two elements are about it.
@@ -88,10 +85,10 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
 
 /// The bearing that is asked for critical loads. The bottom of a spall is flat: every law is Hertz's there. With
 /// `hertz` a variation needs no new map, and no map ends below the load.
-fn plain(bearing: &StaticBearing, scene: &Scene, profile: Option<&str>, load: Option<f64>) -> Result<StaticBearing> {
-    let mut scene = scene.clone();
+fn plain(bearing: &StaticBearing, model: &Model, load: Option<f64>) -> Result<StaticBearing> {
+    let mut scene = model.scene.clone();
     scene.contact.law = ContactLaw::Hertz;
-    match StaticBearing::new(&scene, profile) {
+    match StaticBearing::new(&scene, model.profile_texts()) {
         Ok(plain) => loaded(plain, load),
         // Law `hertz` knows no topography.
         Err(_) => Ok(bearing.clone()),

@@ -9,7 +9,7 @@ use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {
     let mut scene = Scene::from_toml(brinell_fuzz::SCENES[0]).unwrap();
-    if let Some(defect) = &mut scene.defect {
+    if let Some(defect) = scene.defects.first_mut() {
         defect.shape = DefectShape::Profile("trace.csv".to_owned());
         let element = DefectOn::Element { element: 0, tilt: 0.0 };
         defect.on = [DefectOn::Outer, DefectOn::Inner, element][text.len() % 3];

@@ -1,6 +1,6 @@
-//! The contact maps of one scene: one for a defect of a ring, two for one of an element, which meets both raceways.
+//! The contact maps of one scene: one for each surface on a ring, two for one on an element, which meets both raceways.
 //!
-//! As bytes one map is itself; two are kept together, with a head and a checksum like a map's.
+//! As bytes one map is itself; several are kept together, with a head and a checksum like a map's.
 
 use std::hash::Hasher;
 use std::sync::Arc;
@@ -14,19 +14,24 @@ use crate::numerics::checksum::{Checksum, checksum};
 const MAGIC: &[u8; 8] = b"BRNL-MPS";
 const VERSION: u32 = 1;
 
-/// Maps in the order of the raceways, the inner one first.
+/// Maps in the order of the surfaces, of each the inner raceway's first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactMaps(Vec<Arc<ContactMap>>);
 
 impl ContactMaps {
-    /// One map or two.
+    /// One map or several.
     pub fn new(maps: impl IntoIterator<Item = ContactMap>) -> Self {
         Self(maps.into_iter().map(Arc::new).collect())
     }
 
-    /// The map of this number.
-    pub fn get(&self, index: usize) -> Option<&Arc<ContactMap>> {
-        self.0.get(index)
+    /// The map made from the inputs with this fingerprint.
+    pub fn find(&self, fingerprint: u64) -> Option<&Arc<ContactMap>> {
+        self.0.iter().find(|map| map.fingerprint() == fingerprint)
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.0.len()
     }
 
     /// Fingerprint of maps with these fingerprints.

@@ -242,12 +242,11 @@ impl Model {
         if by_shaft == 0.0 { 0.0 } else { cage / by_shaft * spin }
     }
 
-    /// Angle χ [rad] by which the defect of element `j` has turned from the direction of the element's centre, for the
+    /// Angle χ [rad] by which the first defect of element `j` has turned from the direction of the element's centre, for the
     /// angles of frames and cage; 0 where it faces the outer raceway, the turns since then counted.
     pub fn spin_angle(&self, j: usize, frames: &[f64; 3], cage: f64) -> f64 {
         let own = self.defective.iter().find(|defective| defective.element == j);
-        let centre = own.and_then(|own| own.defects[1].iter().next()).map_or(0.0, |placed| placed.centre);
-        centre + frames[Frame::Spin as usize] - (cage + self.element_offset(j))
+        own.map_or(0.0, |own| own.mark) + frames[Frame::Spin as usize] - (cage + self.element_offset(j))
     }
 
     /// Radial direction of element `j` for that of element 1.

@@ -30,8 +30,10 @@ pub struct Raceway {
 pub struct DefectiveElement {
     /// Number of the element, from 0.
     pub element: usize,
-    /// Its defect in contact with the inner and with the outer raceway.
+    /// Its defects in contact with the inner and with the outer raceway.
     pub defects: [Defects; 2],
+    /// Angle of the centre of the first of them in contact with the outer raceway [rad], from which its spin is counted.
+    pub mark: f64,
 }
 
 /// The defects of one body, as one contact meets them; no two of them are under one contact.
@@ -129,13 +131,15 @@ impl Cells {
 impl Defects {
     /// Defects of a body that turns with `frame`, each with the angle of its centre [rad] in that frame.
     pub fn new(frame: Frame, surfaces: impl IntoIterator<Item = (NearDefect, f64)>) -> Self {
-        let mut first = 0;
-        let placed = surfaces.into_iter().map(|(surface, centre)| {
-            let placed = Placed { surface, centre, first };
-            first += placed.cell_count();
-            placed
-        });
-        Self { placed: placed.collect(), frame }
+        let mut defects = Self { placed: Vec::new(), frame };
+        surfaces.into_iter().for_each(|one| defects.add(one));
+        defects
+    }
+
+    /// One more, with the angle of its centre [rad] in the body's frame.
+    pub fn add(&mut self, (surface, centre): (NearDefect, f64)) {
+        let first = self.placed.last().map_or(0, |last| last.first + last.cell_count());
+        self.placed.push(Placed { surface, centre, first });
     }
 
     /// Whether there is none.

@@ -43,7 +43,7 @@ impl Scene {
                 map_accuracy: None,
             },
             cage: Cage { slip: 0.0, spin_slip: 0.0, initial_angle: -FRAC_PI_2 },
-            defect: None,
+            defects: Vec::new(),
             shaft: Ring::default_shaft(),
             shaft_speed: 0.0,
             shaft_initial_angle: 0.0,
@@ -163,10 +163,10 @@ impl SceneBuilder {
         self.defect(Defect::outer(angle, DefectShape::Spall { length, depth, edge_slope: FRAC_PI_2 }))
     }
 
-    /// A defect of either raceway or of an element.
+    /// One defect more, of either raceway or of an element.
     #[must_use]
     pub fn defect(mut self, defect: Defect) -> Self {
-        self.scene.defect = Some(defect);
+        self.scene.defects.push(defect);
         self
     }
 
@@ -218,7 +218,7 @@ impl SceneBuilder {
     /// Whatever [`Scene::check`] refuses.
     pub fn build(self) -> Result<Scene, SceneError> {
         let Self { mut scene, law } = self;
-        let usual = if scene.defect.is_some() { ContactLaw::Map } else { ContactLaw::Hertz };
+        let usual = if scene.defects.is_empty() { ContactLaw::Hertz } else { ContactLaw::Map };
         scene.contact.law = law.unwrap_or(usual);
         scene.check()?;
         Ok(scene)

@@ -34,8 +34,8 @@ impl Scene {
         SPIN_SLIP.check(self.cage.spin_slip)?;
         SHAFT_INITIAL_ANGLE.check(self.shaft_initial_angle)?;
         HOUSING_INITIAL_ANGLE.check(self.housing_initial_angle)?;
-        if let Some(defect) = &self.defect {
-            defect.check(&self.bearing)?;
+        for (index, defect) in self.defects.iter().enumerate() {
+            defect.check(&self.bearing).map_err(|of| of.in_defect(index, self.defects.len()))?;
         }
         self.check_rings()?;
         self.check_sensor()?;

@@ -79,6 +79,14 @@ pub enum SceneError {
         "defect profile (defect.profile) \"{0}\": it must be the name of a file beside the scene file, without a folder"
     )]
     ProfileName(String),
+    /// Something wrong with one of several defects.
+    #[error("[[defect]] number {number}: {of}")]
+    InDefect {
+        /// Its number in the scene file, from 1.
+        number: usize,
+        /// What is wrong with it.
+        of: Box<SceneError>,
+    },
     /// A quantity outside its limits, or not finite.
     #[error("{quantity} ({key}) is {value}: it must be {limits}")]
     OutOfRange {
@@ -251,6 +259,13 @@ pub enum SceneError {
         /// Stop time [s].
         stop: f64,
     },
+}
+
+impl SceneError {
+    /// This error of the defect of a number, from 0, said to belong to it where there are several.
+    pub(super) fn in_defect(self, index: usize, count: usize) -> Self {
+        if count > 1 { Self::InDefect { number: index + 1, of: Box::new(self) } } else { self }
+    }
 }
 
 /// Limits of a quantity.

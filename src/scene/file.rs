@@ -19,7 +19,7 @@
 //! | `contact.map_accuracy` | 1e-3 of the largest force; without the key up to 2e-2 is tolerated and reported |
 //! | `contact.damping` | `"hunt-crossley"`; its `damping_chi_s_m` 0.5 |
 //! | `cage.slip`, `cage.initial_angle_deg` | 0, −90 |
-//! | `defect` | none; its `on` `"outer"`, `edge_slope_deg` 90; on an element `tilt_deg` 0 |
+//! | `defect` | none; its `on` `"outer"`, `edge_slope_deg` 90; on an element `tilt_deg` 0; several as `[[defect]]` |
 //! | `shaft.mass_kg`, `.damping_n_s_m`, `.stiffness_n_m` (internal only) | 3.2638, 1376.8, 0 |
 //! | `housing.mass_kg`, `.damping_n_s_m`, `.stiffness_n_m` (internal only) | 6.638, 2210.7, 1.51056e7 |
 //! | `shaft.load_n`, `housing.load_n` (internal only) | `[0, 0]` |
@@ -37,7 +37,7 @@ mod rings;
 
 use super::error::SceneError;
 use super::{Bearing, Cage, Contact, ContactLaw, Damping, Experiment, Recorder, RecorderFilter, Scene, Sensor};
-use defects::DefectTable;
+use defects::{DefectTable, DefectTables};
 use rings::{HousingTable, SensorTable, ShaftTable};
 use serde::Deserialize;
 use std::f64::consts::{PI, TAU};
@@ -69,7 +69,8 @@ struct SceneFile {
     contact: ContactTable,
     #[serde(default)]
     cage: CageTable,
-    defect: Option<DefectTable>,
+    #[serde(default)]
+    defect: DefectTables,
     shaft: ShaftTable,
     housing: HousingTable,
     sensor: Option<SensorTable>,
@@ -83,8 +84,8 @@ struct SceneFile {
 impl SceneFile {
     fn into_scene(self) -> Result<Scene, SceneError> {
         let bearing = self.bearing.into_bearing()?;
-        let contact = self.contact.into_contact(self.defect.is_some())?;
-        let defect = self.defect.map(|table| table.into_defect(&bearing)).transpose()?;
+        let contact = self.contact.into_contact(!self.defect.0.is_empty())?;
+        let defects = self.defect.into_defects(&bearing)?;
         let shaft_speed = self.shaft.speed_hz * TAU;
         let shaft_initial_angle = self.shaft.initial_angle_deg.to_radians();
         let (housing_speed, housing_angle) = (self.housing.speed_hz, self.housing.initial_angle_deg);
@@ -99,7 +100,7 @@ impl SceneFile {
                 spin_slip: 0.0,
                 initial_angle: self.cage.initial_angle_deg.to_radians(),
             },
-            defect,
+            defects,
             shaft: self.shaft.into_ring()?,
             shaft_speed,
             shaft_initial_angle,

@@ -34,8 +34,8 @@ pub struct Scene {
     pub contact: Contact,
     /// The cage's kinematics.
     pub cage: Cage,
-    /// The defect; `None` for a healthy bearing.
-    pub defect: Option<Defect>,
+    /// The defects; none for a healthy bearing.
+    pub defects: Vec<Defect>,
     /// The inner ring.
     pub shaft: Ring,
     /// Shaft speed [rad/s], the start value of the input `shaft.speed`.
@@ -64,7 +64,29 @@ pub struct Scene {
 impl Scene {
     /// Whether contacts with the inner raceway meet a defect: of the inner ring or of an element.
     pub fn has_defect_inside(&self) -> bool {
-        self.defect.as_ref().is_some_and(|defect| defect.on != DefectOn::Outer)
+        self.defects.iter().any(|defect| defect.on != DefectOn::Outer)
+    }
+
+    /// Whether the inner ring bears a defect.
+    pub fn has_defect_of_inner_ring(&self) -> bool {
+        self.defects.iter().any(|defect| defect.on == DefectOn::Inner)
+    }
+
+    /// The first defect of an element, from 0.
+    pub fn defect_of_element(&self, element: usize) -> Option<&Defect> {
+        self.defects.iter().find(|defect| matches!(defect.on, DefectOn::Element { element: j, .. } if j == element))
+    }
+
+    /// The profile files that defects name, each once, in the order of the defects.
+    pub fn profile_names(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = Vec::new();
+        for defect in &self.defects {
+            match &defect.shape {
+                DefectShape::Profile(name) if !names.contains(&name.as_str()) => names.push(name),
+                _ => {}
+            }
+        }
+        names
     }
 
     /// Whether a ring that turns, or an element's spin, matters: for a defect anywhere but on an outer ring at rest,

@@ -14,7 +14,7 @@ pub(super) fn of(table: &[Variable], quantities: &[Q], scene: &Scene) -> Vec<Dep
     let rows = || table.iter().zip(quantities);
     let known = |variable: &Variable| matches!(variable.causality, Causality::Input | Causality::Parameter);
     let knowns: Vec<_> = rows().filter(|(variable, _)| known(variable)).collect();
-    let defect = scene.defect.as_ref().is_some_and(|defect| defect.on != DefectOn::Inner);
+    let defect = scene.defects.iter().any(|defect| defect.on != DefectOn::Inner);
     let sensor_follows_input = scene.housing.motion == Motion::Host;
     rows()
         .filter(|(variable, _)| variable.causality == Causality::Output)
@@ -27,7 +27,7 @@ pub(super) fn of(table: &[Variable], quantities: &[Q], scene: &Scene) -> Vec<Dep
                 direct: listed(&|known, quantity| {
                     known.causality == Causality::Input && follows(output, quantity, defect, sensor_follows_input)
                 }),
-                initial: listed(&|_, quantity| starts_from(output, quantity)),
+                initial: listed(&|_, quantity| starts_from(output, quantity, scene)),
             }
         })
         .collect()
@@ -70,11 +70,14 @@ fn follows(output: Q, input: Q, defect: bool, sensor_follows_input: bool) -> boo
 }
 
 /// Whether an output depends on an input or a parameter in initialization mode.
-fn starts_from(output: Q, known: Q) -> bool {
+fn starts_from(output: Q, known: Q, scene: &Scene) -> bool {
     match output {
         Q::CageAngle | Q::ElementAngle(_) => known == Q::Parameter(Parameter::CageInitialAngle),
         Q::RingAngle(ring) => known == Q::Parameter(Parameter::RingInitialAngle(ring)),
-        Q::ElementSpinAngle(_) => known == Q::Parameter(Parameter::DefectAngle),
+        Q::ElementSpinAngle(j) => match known {
+            Q::Parameter(Parameter::DefectAngle(index)) => first_of(scene, j) == Some(index),
+            _ => false,
+        },
         Q::CageSpeed => matches!(known, Q::Speed(_) | Q::Parameter(Parameter::CageSlip)),
         // At rest.
         Q::Velocity(..) | Q::Acceleration(..) | Q::SensorAcceleration => false,
@@ -89,4 +92,9 @@ fn starts_from(output: Q, known: Q) -> bool {
             _ => true,
         },
     }
+}
+
+/// The first defect of element `j`, both from 0.
+fn first_of(scene: &Scene, j: usize) -> Option<usize> {
+    scene.defects.iter().position(|defect| matches!(defect.on, DefectOn::Element { element, .. } if element == j))
 }

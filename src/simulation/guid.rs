@@ -6,11 +6,16 @@
 
 use crate::numerics::checksum::wide_checksum;
 
-/// The GUID of a scene's text and the text of its profile, as in `{01234567-89ab-cdef-0123-456789abcdef}`.
-pub fn guid(scene_text: &str, profile: Option<&str>) -> String {
-    let parts = [Some(env!("CARGO_PKG_VERSION")), Some(scene_text), profile];
+/// The GUID of a scene's text and the texts of its profiles, as in `{01234567-89ab-cdef-0123-456789abcdef}`.
+pub fn guid<'p>(scene_text: &'p str, profiles: impl IntoIterator<Item = &'p str>) -> String {
+    let mut parts = vec![Some(env!("CARGO_PKG_VERSION")), Some(scene_text)];
+    parts.extend(profiles.into_iter().map(Some));
+    if parts.len() == 2 {
+        parts.push(None);
+    }
     // Lengths keep apart what would read the same when joined; an absent part is not an empty one.
-    let lengths = parts.map(|part| part.map_or(u64::MAX, |text| text.len() as u64).to_le_bytes());
+    let lengths: Vec<_> =
+        parts.iter().map(|part| part.map_or(u64::MAX, |text| text.len() as u64).to_le_bytes()).collect();
     let hash = wide_checksum(
         lengths.iter().zip(parts).flat_map(|(length, part)| [&length[..], part.unwrap_or_default().as_bytes()]),
     );

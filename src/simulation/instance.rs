@@ -1,6 +1,7 @@
 //! One bearing from its scene on: its life from setting up to stepping, and its state taken and put back.
 
 use super::access::Access;
+use super::arrangement::arranged;
 use super::change::Change;
 use super::dependencies;
 use super::driving;
@@ -33,7 +34,7 @@ use std::sync::Arc;
 #[derive(Debug, Clone)]
 pub struct Simulation {
     pub(super) scene: Arc<Scene>,
-    pub(super) surface: Option<Arc<Surface>>,
+    pub(super) surfaces: Arc<[Surface]>,
     /// The contact maps stored with the scene.
     pub(super) map: Option<Arc<ContactMaps>>,
     /// Shared by clones, as what follows from the table is.
@@ -71,12 +72,13 @@ pub(super) enum Fresh {
 }
 
 impl Simulation {
-    /// Sets up the scene. `profile` is the text of the defect's profile file, when the scene names one.
+    /// Sets up the scene. `profiles` are the texts of the files that its defects name, in the order of
+    /// [`Scene::profile_names`]; `None` or `Some` text do for a scene with one file at most.
     ///
     /// # Errors
     /// An impossible scene or profile.
-    pub fn new(scene: Scene, profile: Option<&str>) -> Result<Self, SimulationError> {
-        Self::with_map(scene, profile, None)
+    pub fn new<'p>(scene: Scene, profiles: impl IntoIterator<Item = &'p str>) -> Result<Self, SimulationError> {
+        Self::with_map(scene, profiles, None)
     }
 
     /// As [`new`](Self::new), with the bytes of the contact map that was stored for the scene. Without it, law `map`
@@ -84,38 +86,52 @@ impl Simulation {
     ///
     /// # Errors
     /// An impossible scene or profile; a map that is damaged or belongs to something else.
-    pub fn with_map(scene: Scene, profile: Option<&str>, map: Option<&[u8]>) -> Result<Self, SimulationError> {
+    pub fn with_map<'p>(
+        scene: Scene,
+        profiles: impl IntoIterator<Item = &'p str>,
+        map: Option<&[u8]>,
+    ) -> Result<Self, SimulationError> {
         // Without a defect there is nothing to look up.
-        let map = map.filter(|_| scene.defect.is_some()).map(ContactMaps::decode).transpose()?;
-        Self::with_shared_map(scene, profile, map.map(Arc::new))
+        let map = map.filter(|_| !scene.defects.is_empty()).map(ContactMaps::decode).transpose()?;
+        Self::with_shared_map(scene, profiles, map.map(Arc::new))
     }
 
     /// As [`with_map`](Self::with_map), with maps that others may use as well.
     ///
     /// # Errors
     /// As [`with_map`](Self::with_map).
-    pub fn with_shared_map(
+    pub fn with_shared_map<'p>(
         scene: Scene,
-        profile: Option<&str>,
+        profiles: impl IntoIterator<Item = &'p str>,
         map: Option<Arc<ContactMaps>>,
     ) -> Result<Self, SimulationError> {
         scene.check()?;
-        let surface = scene.defect.as_ref().map(|defect| Surface::load(defect, profile, &scene.bearing)).transpose()?;
+        let surfaces = Surface::load_all(&scene, profiles)?;
+        Self::with_surfaces(scene, surfaces.into(), map)
+    }
+
+    fn with_surfaces(
+        scene: Scene,
+        surfaces: Arc<[Surface]>,
+        map: Option<Arc<ContactMaps>>,
+    ) -> Result<Self, SimulationError> {
         let (table, quantities): (Vec<_>, Vec<_>) = table::rows(&scene).into_iter().unzip();
         let access = table.iter().zip(&quantities).map(|(row, &quantity)| Access::new(row, quantity)).collect();
         let (reals, integers) = setup::start_values(&table);
-        let map = map.filter(|_| surface.is_some());
-        if let (Some(surface), Some(map)) = (&surface, &map) {
-            map.check_fingerprint(setup::map_fingerprint(&scene, surface))?;
+        // Overlaps are refused now, not when the model is built.
+        arranged(&scene, &surfaces)?;
+        let map = map.filter(|_| !surfaces.is_empty());
+        if let Some(map) = &map {
+            map.check_fingerprint(setup::map_fingerprint(&scene, &surfaces)?)?;
         }
         // What takes long is left to the initialization: the host may change parameters before it.
-        let is_complete = surface.is_none()
+        let is_complete = surfaces.is_empty()
             || match scene.contact.law {
                 ContactLaw::Hertz => true,
                 ContactLaw::Map => map.is_some(),
                 ContactLaw::Love => false,
             };
-        let model = setup::build_model(&scene, surface.as_ref().filter(|_| is_complete), map.as_ref())?;
+        let model = setup::build_model(&scene, if is_complete { &surfaces } else { &[] }, map.as_ref())?;
         let recorder = Recorder::of(&scene, &table, &quantities);
         let progress = new_progress(&model, &recorder);
         let inputs = Inputs {
@@ -143,7 +159,7 @@ impl Simulation {
                 input_rates: vec![[None; 2]; inputs.count],
             },
             scene: Arc::new(scene),
-            surface: surface.map(Arc::new),
+            surfaces,
             map,
             table: table.into(),
             access,
@@ -350,7 +366,7 @@ impl Simulation {
             return Ok(());
         }
         let scene = setup::with_parameters(&self.scene, &self.quantities, &self.state.reals, &self.state.integers)?;
-        self.model = setup::build_model(&scene, self.surface.as_deref(), self.map.as_ref())?;
+        self.model = setup::build_model(&scene, &self.surfaces, self.map.as_ref())?;
         self.fresh = Fresh::Model;
         Ok(())
     }

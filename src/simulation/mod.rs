@@ -3,6 +3,7 @@
 //! This is the whole of what `fmi2` and `fmu-build` see of the model.
 
 mod access;
+mod arrangement;
 pub mod arrow;
 mod change;
 mod contact_changes;

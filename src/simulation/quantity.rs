@@ -77,7 +77,7 @@ pub enum Parameter {
     CageInitialAngle,
     RingInitialAngle(RingName),
     SpinSlip,
-    DefectAngle,
+    DefectAngle(usize),
     RingMass(RingName),
     RingDamping(RingName),
     RingStiffness(RingName),

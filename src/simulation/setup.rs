@@ -3,6 +3,8 @@
 use std::sync::Arc;
 
 use super::SimulationError;
+pub use super::arrangement::largest_force;
+use super::arrangement::{Spot, arranged, largest_approach, sides};
 use super::quantity::{Parameter, Quantity, RingName};
 use super::variables::{Kind, Variable};
 use crate::contact::contact_maps::ContactMaps;
@@ -17,7 +19,6 @@ use crate::contact::rolling::{RacewaySide, Rolling};
 use crate::dynamics::drive::Frame;
 use crate::dynamics::model::Model;
 use crate::dynamics::raceway::{DefectiveElement, Defects};
-use crate::geometry::hertz_constant::HertzConstants;
 use crate::scene::{ContactLaw, Damping, DefectOn, Ring, Scene};
 use crate::surface::Surface;
 use std::f64::consts::{PI, TAU};
@@ -66,11 +67,7 @@ pub(super) fn with_parameters(
             Parameter::SpinSlip => changed.cage.spin_slip = value,
             Parameter::RingInitialAngle(RingName::Shaft) => changed.shaft_initial_angle = value,
             Parameter::RingInitialAngle(RingName::Housing) => changed.housing_initial_angle = value,
-            Parameter::DefectAngle => {
-                if let Some(defect) = &mut changed.defect {
-                    defect.angle = value;
-                }
-            }
+            Parameter::DefectAngle(index) => changed.defects[index].angle = value,
             Parameter::RingMass(ring) => ring_of(&mut changed, ring).mass = value,
             Parameter::RingDamping(ring) => ring_of(&mut changed, ring).damping = value,
             Parameter::RingStiffness(ring) => ring_of(&mut changed, ring).stiffness = value,
@@ -94,34 +91,12 @@ fn ring_of(scene: &mut Scene, ring: RingName) -> &mut Ring {
 /// shape leaves open.
 const TOLERATED: f64 = 0.02;
 
-/// Force [N] up to which the contact map of a scene reaches.
-pub fn largest_force(scene: &Scene) -> f64 {
-    let load = [scene.shaft.load, scene.housing.load].iter().map(|f| f[0].hypot(f[1])).fold(0.0, f64::max);
-    let assumed = (4.0 * 5.0 * load / scene.bearing.element_count as f64).max(1000.0);
-    scene.contact.largest_force.unwrap_or(assumed)
-}
-
-/// The raceways that a scene's defect meets, the inner one first.
-fn sides(scene: &Scene) -> &'static [RacewaySide] {
-    match scene.defect.as_ref().map(|defect| defect.on) {
-        None => &[],
-        Some(DefectOn::Outer) => &[RacewaySide::Outer],
-        Some(DefectOn::Inner) => &[RacewaySide::Inner],
-        Some(DefectOn::Element { .. }) => &[RacewaySide::Inner, RacewaySide::Outer],
-    }
-}
-
 /// What the contact map of a scene covers on one raceway: forces up to `contact.largest_force_n`, or else four times
 /// the static force on the most loaded element, 5 F/Z (Stribeck), and at least 1000 N. Outside Δ counts the rings' and
 /// seats' compliance as well. An accuracy that the scene asks for is held; the usual one may be missed, in defects
 /// deeper than they are long, by what `TOLERATED` says.
 pub fn map_specification(scene: &Scene, side: RacewaySide) -> MapSpecification {
-    let (force, hertz) = (largest_force(scene), HertzConstants::of(&scene.bearing));
-    let (stiffness, compliance) = match side {
-        RacewaySide::Inner => (hertz.inner, 0.0),
-        RacewaySide::Outer => (hertz.outer, scene.bearing.outer_compliance),
-    };
-    let usual = MapSpecification::new(libm::pow(force / stiffness, 2.0 / 3.0) + compliance * force);
+    let usual = MapSpecification::new(largest_approach(&scene.bearing, side, largest_force(scene)));
     MapSpecification {
         accuracy: scene.contact.map_accuracy.unwrap_or(usual.accuracy),
         tolerated: if scene.contact.map_accuracy.is_none() { Some(TOLERATED) } else { None },
@@ -133,49 +108,66 @@ pub fn map_specification(scene: &Scene, side: RacewaySide) -> MapSpecification {
     }
 }
 
-/// Computes the contact maps of a scene, `None` where its law needs none. `runner` says on how many cores.
+/// The contact maps that a scene needs: each surface on each raceway that it meets, equal ones once.
+fn needed_maps<'s>(scene: &Scene, spots: &'s [Spot]) -> Vec<(&'s Surface, ElementOnRaceway, MapSpecification, u64)> {
+    let mut maps: Vec<(&Surface, ElementOnRaceway, MapSpecification, u64)> = Vec::new();
+    for spot in spots {
+        for &side in sides(spot.on) {
+            let (element, specification) = (ElementOnRaceway::of(&scene.bearing, side), map_specification(scene, side));
+            let fingerprint = ContactMap::fingerprint_of(&spot.surface, element, specification);
+            if !maps.iter().any(|&(.., other)| other == fingerprint) {
+                maps.push((&*spot.surface, element, specification, fingerprint));
+            }
+        }
+    }
+    maps
+}
+
+/// Computes the contact maps of a scene with these surfaces of its defects, `None` where its law needs none. `runner`
+/// says on how many cores.
 ///
 /// # Errors
-/// Where a contact cannot be solved or the accuracy is not reached.
+/// Defects that overlap; where a contact cannot be solved or the accuracy is not reached.
 pub fn build_map(
     scene: &Scene,
-    surface: &Surface,
+    surfaces: &[Surface],
     runner: &mut impl Runner,
 ) -> Result<Option<ContactMaps>, SimulationError> {
-    if scene.contact.law != ContactLaw::Map {
+    if scene.contact.law != ContactLaw::Map || surfaces.is_empty() {
         return Ok(None);
     }
-    let maps = sides(scene).iter().map(|&side| {
-        ContactMap::build(surface, ElementOnRaceway::of(&scene.bearing, side), map_specification(scene, side), runner)
-    });
+    let spots = arranged(scene, surfaces)?;
+    let maps = needed_maps(scene, &spots)
+        .into_iter()
+        .map(|(surface, element, specification, _)| ContactMap::build(surface, element, specification, runner));
     Ok(Some(ContactMaps::new(maps.collect::<Result<Vec<_>, _>>()?)))
 }
 
 /// Fingerprint of all that the contact maps of a scene depend on.
-pub fn map_fingerprint(scene: &Scene, surface: &Surface) -> u64 {
-    let each: Vec<u64> = sides(scene).iter().map(|&side| fingerprint_on(scene, surface, side)).collect();
-    ContactMaps::fingerprint_of(&each)
-}
-
-fn fingerprint_on(scene: &Scene, surface: &Surface, side: RacewaySide) -> u64 {
-    let element = ElementOnRaceway::of(&scene.bearing, side);
-    ContactMap::fingerprint_of(surface, element, map_specification(scene, side))
+///
+/// # Errors
+/// Defects that overlap.
+pub fn map_fingerprint(scene: &Scene, surfaces: &[Surface]) -> Result<u64, SimulationError> {
+    let spots = arranged(scene, surfaces)?;
+    let each: Vec<u64> = needed_maps(scene, &spots).into_iter().map(|(.., fingerprint)| fingerprint).collect();
+    Ok(ContactMaps::fingerprint_of(&each))
 }
 
 /// Maps that were stored with the scene; refused when they are damaged or belong to something else.
-pub fn stored_map(scene: &Scene, surface: &Surface, bytes: &[u8]) -> Result<ContactMaps, SimulationError> {
-    Ok(ContactMaps::from_bytes(bytes, map_fingerprint(scene, surface))?)
+pub fn stored_map(scene: &Scene, surfaces: &[Surface], bytes: &[u8]) -> Result<ContactMaps, SimulationError> {
+    Ok(ContactMaps::from_bytes(bytes, map_fingerprint(scene, surfaces)?)?)
 }
 
-/// The surface near the defect in contact with one raceway, of number `index` among those that it meets.
+/// The surface of a spot in contact with one raceway; a map that is not among those stored is computed, once.
 fn near(
     scene: &Scene,
-    surface: &Surface,
+    spot: &Spot,
+    side: RacewaySide,
     stored: Option<&Arc<ContactMaps>>,
-    (index, side): (usize, RacewaySide),
+    computed: &mut Vec<Arc<ContactMap>>,
 ) -> Result<NearDefect, SimulationError> {
-    let on_element = matches!(scene.defect.as_ref().map(|defect| defect.on), Some(DefectOn::Element { .. }));
-    let rolling = Rolling::of(&scene.bearing, side, on_element);
+    let surface = &*spot.surface;
+    let rolling = Rolling::of(&scene.bearing, side, matches!(spot.on, DefectOn::Element { .. }));
     let (element, specification) = (ElementOnRaceway::of(&scene.bearing, side), map_specification(scene, side));
     let near = match (scene.contact.law, surface) {
         (ContactLaw::Hertz, Surface::Profile(profile)) => NearDefect::Hertz(RigidPath::new(profile.points(), rolling)?),
@@ -183,10 +175,16 @@ fn near(
             return Err(SimulationError::LawNotAvailable { law: scene.contact.law });
         }
         (ContactLaw::Map, _) => {
-            let wanted = fingerprint_on(scene, surface, side);
-            let map = match stored.and_then(|stored| stored.get(index)) {
-                Some(map) if map.fingerprint() == wanted => Arc::clone(map),
-                _ => Arc::new(ContactMap::build(surface, element, specification, &mut Sequential(|_, _| {}))?),
+            let wanted = ContactMap::fingerprint_of(surface, element, specification);
+            let known = stored.and_then(|stored| stored.find(wanted));
+            let map = match known.or_else(|| computed.iter().find(|map| map.fingerprint() == wanted)) {
+                Some(map) => Arc::clone(map),
+                None => {
+                    let built = ContactMap::build(surface, element, specification, &mut Sequential(|_, _| {}))?;
+                    let map = Arc::new(built);
+                    computed.push(Arc::clone(&map));
+                    map
+                }
             };
             NearDefect::Map(NearMap::new(map, rolling.bearer_radius()))
         }
@@ -203,30 +201,42 @@ fn near(
     Ok(near)
 }
 
-/// The equations' parameters, with what the contact law needs near the defect.
+/// The equations' parameters, with what the contact law needs near the defects, whose surfaces are given in the scene's
+/// order; none for a model without them.
+///
+/// # Errors
+/// Defects that overlap, and whatever keeps the contact law from being prepared for a surface.
 pub fn build_model(
     scene: &Scene,
-    surface: Option<&Surface>,
+    surfaces: &[Surface],
     map: Option<&Arc<ContactMaps>>,
 ) -> Result<Model, SimulationError> {
-    let (Some(surface), Some(defect)) = (surface, &scene.defect) else { return Ok(Model::smooth(scene)) };
-    let near = |index: usize, side| near(scene, surface, map, (index, side));
-    let (mut inner, mut outer) = (Defects::new(Frame::Shaft, []), Defects::new(Frame::Housing, []));
-    let mut defective = Vec::new();
-    match defect.on {
-        DefectOn::Inner => inner = Defects::new(Frame::Shaft, [(near(0, RacewaySide::Inner)?, defect.angle)]),
-        DefectOn::Outer => outer = Defects::new(Frame::Housing, [(near(0, RacewaySide::Outer)?, defect.angle)]),
-        DefectOn::Element { element, .. } => {
-            // At the start the defect is at its angle from the direction of its element, and the spin is counted from
-            // there; the inner raceway is met with the opposite side.
-            let facing = scene.cage.initial_angle + element as f64 * TAU / scene.bearing.element_count as f64;
-            let centre = facing + defect.angle;
-            let defects = [
-                Defects::new(Frame::Spin, [(near(0, RacewaySide::Inner)?, centre - PI)]),
-                Defects::new(Frame::Spin, [(near(1, RacewaySide::Outer)?, centre)]),
-            ];
-            defective.push(DefectiveElement { element, defects });
+    let mut computed = Vec::new();
+    let (mut rings, mut defective) = ([Vec::new(), Vec::new()], Vec::<DefectiveElement>::new());
+    for spot in &arranged(scene, surfaces)? {
+        let mut near = |side| near(scene, spot, side, map, &mut computed);
+        match spot.on {
+            DefectOn::Inner => rings[0].push((near(RacewaySide::Inner)?, spot.centre)),
+            DefectOn::Outer => rings[1].push((near(RacewaySide::Outer)?, spot.centre)),
+            DefectOn::Element { element, .. } => {
+                // At the start the defect is at its angle from the direction of its element, and the spin is counted
+                // from there; the inner raceway is met with the opposite side.
+                let facing = scene.cage.initial_angle + element as f64 * TAU / scene.bearing.element_count as f64;
+                let centre = facing + spot.centre;
+                let both = [(near(RacewaySide::Inner)?, centre - PI), (near(RacewaySide::Outer)?, centre)];
+                match defective.iter_mut().find(|other| other.element == element) {
+                    Some(other) => {
+                        other.defects.iter_mut().zip(both).for_each(|(defects, one)| defects.add(one));
+                    }
+                    None => {
+                        let first = scene.defect_of_element(element).map_or(spot.centre, |defect| defect.angle);
+                        let defects = both.map(|one| Defects::new(Frame::Spin, [one]));
+                        defective.push(DefectiveElement { element, defects, mark: facing + first });
+                    }
+                }
+            }
         }
     }
-    Ok(Model::new(scene, [inner, outer], defective))
+    let [inner, outer] = rings;
+    Ok(Model::new(scene, [Defects::new(Frame::Shaft, inner), Defects::new(Frame::Housing, outer)], defective))
 }

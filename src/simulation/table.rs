@@ -4,7 +4,7 @@
 
 use super::quantity::{Count, Quantity, Quantity as Q, RingName};
 use super::variables::{Causality, Kind, Unit, Variability, Variable};
-use crate::scene::{ContactLaw, DefectOn, Motion, Scene};
+use crate::scene::{ContactLaw, Motion, Scene};
 
 /// Items of the enumeration type of `contact.law`, the first having value 1.
 pub const CONTACT_LAWS: &[(&str, &str)] = &{
@@ -141,7 +141,7 @@ impl Builder<'_> {
 
     /// Angles of rings that bear a defect or turn, and the torque on one with a defect.
     fn turning_outputs(&mut self) {
-        if self.defect_on() == Some(DefectOn::Inner) {
+        if self.scene.has_defect_of_inner_ring() {
             self.ring_angle(RingName::Shaft);
             self.output(
                 "shaft.torque",
@@ -163,10 +163,6 @@ impl Builder<'_> {
         };
         let text = ["Angle of the ", what, ", counter-clockwise"].concat();
         self.output(name, &text, Q::RingAngle(ring), Unit::Radian, 1.0);
-    }
-
-    pub(super) fn defect_on(&self) -> Option<DefectOn> {
-        self.scene.defect.as_ref().map(|defect| defect.on)
     }
 
     fn element_outputs(&mut self, j: usize) {
@@ -202,9 +198,7 @@ impl Builder<'_> {
             Unit::Newton,
             100.0,
         );
-        if let Some(DefectOn::Element { element, .. }) = self.defect_on()
-            && element == j
-        {
+        if self.scene.defect_of_element(j).is_some() {
             self.output(
                 &name("].spin_angle"),
                 &text("Angle of the defect of element ", ", counter-clockwise from where it faces the outer raceway"),
@@ -222,7 +216,7 @@ impl Builder<'_> {
             "Integration steps taken again with a shorter one, for error or to land",
             Q::Count(Count::RejectedSteps),
         );
-        if self.scene.defect.is_some() {
+        if !self.scene.defects.is_empty() {
             self.counter(
                 "solver.contact_solves",
                 "Contacts near the defect that were solved on a grid since the start",

@@ -43,9 +43,13 @@ impl Builder<'_> {
             Unit::Radian,
             limited(scene.cage.initial_angle, -1e3, 1e3, 1.0),
         );
-        if let Some(defect) = &scene.defect {
+        for (index, defect) in scene.defects.iter().enumerate() {
+            let name = match scene.defects.len() {
+                1 => "defect.angle".to_owned(),
+                _ => format!("defect[{}].angle", index + 1),
+            };
             self.parameter(
-                "defect.angle",
+                &name,
                 match defect.on {
                     DefectOn::Outer => "Angle of the defect's centre, counter-clockwise from +x",
                     DefectOn::Inner => {
@@ -53,7 +57,7 @@ impl Builder<'_> {
                     }
                     DefectOn::Element { .. } => "Angle of the defect's centre at the start, 0 facing the outer raceway",
                 },
-                Q::Parameter(Parameter::DefectAngle),
+                Q::Parameter(Parameter::DefectAngle(index)),
                 Unit::Radian,
                 limited(defect.angle, -1e3, 1e3, 1.0),
             );
@@ -84,12 +88,12 @@ impl Builder<'_> {
 
     /// Where rings that bear a defect or turn begin, and how much spin is lost.
     fn turning_parameters(&mut self) {
-        let (scene, on) = (self.scene, self.defect_on());
+        let scene = self.scene;
         let mut angle = |name: &str, what: &str, ring, start| {
             let (quantity, unit) = (Q::Parameter(Parameter::RingInitialAngle(ring)), Unit::Radian);
             self.parameter(name, what, quantity, unit, limited(start, -1e3, 1e3, 1.0));
         };
-        if on == Some(DefectOn::Inner) {
+        if scene.has_defect_of_inner_ring() {
             let what = "Angle of the inner ring at the start, counter-clockwise";
             angle("shaft.initial_angle", what, RingName::Shaft, scene.shaft_initial_angle);
         }
@@ -97,7 +101,7 @@ impl Builder<'_> {
             let what = "Angle of the outer ring at the start, counter-clockwise";
             angle("housing.initial_angle", what, RingName::Housing, scene.housing_initial_angle);
         }
-        if matches!(on, Some(DefectOn::Element { .. })) {
+        if scene.defects.iter().any(|defect| matches!(defect.on, DefectOn::Element { .. })) {
             self.parameter(
                 "element.spin_slip",
                 "Lag of the elements' spin behind pure rolling",

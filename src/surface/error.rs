@@ -128,6 +128,38 @@ pub enum SurfaceError {
         /// Points needed.
         needed: usize,
     },
+    /// Two defects of one body that overlap.
+    #[error(
+        "[[defect]] numbers {} and {} are on the same body, {gap_mm:.6} mm apart: it must be at least {limit_mm} mm; \
+         give one profile where defects overlap", numbers[0], numbers[1]
+    )]
+    Overlap {
+        /// Their numbers in the scene file, from 1.
+        numbers: [usize; 2],
+        /// Distance from the end of one to the beginning of the other [mm]; negative for an overlap.
+        gap_mm: f64,
+        /// Limit [mm].
+        limit_mm: f64,
+    },
+    /// A topography beside another defect that one contact may meet with it.
+    #[error(
+        "[[defect]] number {} is a topography and number {} is less than {limit_mm:.3} mm from it: contacts of the \
+         largest force would meet both; give one topography of both, or profiles", numbers[0], numbers[1]
+    )]
+    TopographyClose {
+        /// Their numbers in the scene file, from 1.
+        numbers: [usize; 2],
+        /// Distance from which on they are apart [mm].
+        limit_mm: f64,
+    },
+    /// Something wrong with the surface of one of several defects.
+    #[error("[[defect]] number {number}: {of}")]
+    OfDefect {
+        /// Its number in the scene file, from 1.
+        number: usize,
+        /// What is wrong.
+        of: Box<SurfaceError>,
+    },
     /// A measurement as long as the raceway or longer.
     #[error("defect profile: it is {length_mm:.6} mm long, it must be below {limit_mm:.6} mm, {limit}")]
     TooLong {

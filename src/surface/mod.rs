@@ -14,7 +14,7 @@ pub use error::SurfaceError;
 pub use profile::Profile;
 pub use topography::Topography;
 
-use crate::scene::{Bearing, Defect, DefectOn, DefectShape};
+use crate::scene::{Bearing, Defect, DefectOn, DefectShape, Scene};
 
 /// The surface of a defect.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,6 +48,25 @@ impl Surface {
         };
         surface.check_fits(defect.on, bearing)?;
         Ok(surface)
+    }
+
+    /// The surfaces of all defects of a scene, in their order. `profiles` are the texts of the files that they name, in
+    /// the order of [`Scene::profile_names`].
+    ///
+    /// # Errors
+    /// Those of [`load`](Self::load), with the number of the defect where there are several.
+    pub fn load_all<'p>(scene: &Scene, profiles: impl IntoIterator<Item = &'p str>) -> Result<Vec<Self>, SurfaceError> {
+        let texts: Vec<(&str, &str)> = scene.profile_names().into_iter().zip(profiles).collect();
+        let surface = |(index, defect): (usize, &Defect)| {
+            let text = match &defect.shape {
+                DefectShape::Profile(name) => texts.iter().find(|(other, _)| other == name).map(|&(_, text)| text),
+                DefectShape::Spall { .. } => None,
+            };
+            let several = scene.defects.len() > 1;
+            Self::load(defect, text, &scene.bearing)
+                .map_err(|of| if several { SurfaceError::OfDefect { number: index + 1, of: Box::new(of) } } else { of })
+        };
+        scene.defects.iter().enumerate().map(surface).collect()
     }
 
     /// The same surface with every depth multiplied by `factor`.

@@ -57,6 +57,15 @@ impl Profile {
         Ok(Self::closed(points))
     }
 
+    /// Several profiles as one, each with the arc [m] at which its own arcs begin; they ascend and do not touch.
+    pub(crate) fn joined(profiles: &[(f64, &Self)]) -> Self {
+        let moved = |&(by, profile): &(f64, &Self)| {
+            profile.points.iter().map(move |&(arc, depth)| (arc + by, depth)).collect::<Vec<_>>()
+        };
+        let points = profiles.iter().flat_map(moved).collect();
+        Self { points, sampled: profiles.iter().any(|(_, profile)| profile.sampled) }
+    }
+
     /// As [`from_points`](Self::from_points), of points that are known to be in order.
     pub(super) fn closed(mut points: Vec<(f64, f64)>) -> Self {
         close_ends(&mut points);

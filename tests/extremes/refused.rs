@@ -54,7 +54,7 @@ pub fn not_finite() -> Row {
 pub fn too_deep() -> Row {
     let bearing = Named::new(healthy());
     let shape = DefectShape::Spall { length: 3e-3, depth: 5e-3, edge_slope: FRAC_PI_2 };
-    let scene = Scene { defect: Some(Defect::outer(-FRAC_PI_2, shape)), ..spalled() };
+    let scene = Scene { defects: vec![Defect::outer(-FRAC_PI_2, shape)], ..spalled() };
     let found = Simulation::new(scene, None).map(|_| ());
     refused("spall 5 mm deep, deeper than an element's radius", "depth", found, &bearing)
 }
@@ -65,7 +65,7 @@ pub fn contact_without_answer() -> Row {
     let mut scene = spalled();
     (scene.contact.law, scene.contact.largest_force) = (ContactLaw::Map, Some(1000.0));
     let shape = DefectShape::Spall { length: 2e-4, depth: 2e-6, edge_slope: FRAC_PI_2 };
-    scene.defect = Some(Defect::outer(-FRAC_PI_2, shape));
+    scene.defects = vec![Defect::outer(-FRAC_PI_2, shape)];
     // Element 1 enters within a millisecond, under a load that the map was not made for.
     scene.cage.initial_angle = -FRAC_PI_2 - 1e-3 / scene.bearing.outer_raceway_radius();
     let mut bearing = Named::started(loaded(scene, 500.0, Damping::HuntCrossley(0.5)));
@@ -83,7 +83,7 @@ fn an_equilibrium_beyond_the_contact_map_is_refused() {
     let mut scene = spalled();
     (scene.contact.law, scene.contact.largest_force) = (ContactLaw::Map, Some(1000.0));
     let shape = DefectShape::Spall { length: 2e-4, depth: 2e-6, edge_slope: FRAC_PI_2 };
-    scene.defect = Some(Defect::outer(-FRAC_PI_2, shape));
+    scene.defects = vec![Defect::outer(-FRAC_PI_2, shape)];
     scene.cage.initial_angle = -FRAC_PI_2;
     let loaded = loaded(scene, 500.0, Damping::HuntCrossley(0.5));
     let mut hosted = loaded.clone();
@@ -104,7 +104,7 @@ fn a_ring_driven_beyond_all_numbers_is_named_with_its_last_place() {
     let mut scene = spalled();
     (scene.contact.law, scene.contact.largest_force) = (ContactLaw::Map, Some(1000.0));
     let shape = DefectShape::Spall { length: 2e-4, depth: 2e-6, edge_slope: FRAC_PI_2 };
-    scene.defect = Some(Defect::outer(-FRAC_PI_2, shape));
+    scene.defects = vec![Defect::outer(-FRAC_PI_2, shape)];
     (scene.cage.initial_angle, scene.shaft_speed) = (-FRAC_PI_2, 0.0);
     let error = |motion: Motion, name: &str, order: i32, value: f64| {
         let mut scene = scene.clone();

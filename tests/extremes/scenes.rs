@@ -38,5 +38,5 @@ pub fn fifty_kilonewton(damping: Damping) -> Scene {
 /// A spall whose edges fall by one degree.
 pub fn gentle() -> Scene {
     let shape = DefectShape::Spall { length: 20e-3, depth: 1e-4, edge_slope: 1f64.to_radians() };
-    Scene { defect: Some(Defect::outer(-FRAC_PI_2, shape)), ..spalled() }
+    Scene { defects: vec![Defect::outer(-FRAC_PI_2, shape)], ..spalled() }
 }

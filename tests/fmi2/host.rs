@@ -348,13 +348,9 @@ impl Host {
     pub(crate) fn simulation(&self) -> brinell::simulation::Simulation {
         let text = fs::read_to_string(self.resources.directory.join("scene.toml")).unwrap();
         let scene = brinell::scene::Scene::from_toml(&text).unwrap();
-        let profile = match scene.defect.as_ref().map(|defect| &defect.shape) {
-            Some(brinell::scene::DefectShape::Profile(file)) => {
-                Some(fs::read_to_string(self.resources.directory.join(file)).unwrap())
-            }
-            _ => None,
-        };
-        brinell::simulation::Simulation::new(scene, profile.as_deref()).unwrap()
+        let read = |file: &str| fs::read_to_string(self.resources.directory.join(file)).unwrap();
+        let profiles: Vec<String> = scene.profile_names().into_iter().map(read).collect();
+        brinell::simulation::Simulation::new(scene, profiles.iter().map(String::as_str)).unwrap()
     }
 
     /// References of all real variables.

@@ -17,7 +17,7 @@ pub fn held(defect: Defect) -> Scene {
     let mut scene = shipped("er16k-tb1");
     (scene.housing, scene.sensor) = (Ring::fixed(), None);
     scene.tolerance = 1e-9;
-    scene.defect = Some(defect);
+    scene.defects = vec![defect];
     scene
 }
 
@@ -25,7 +25,7 @@ pub fn held(defect: Defect) -> Scene {
 pub fn inner() -> Scene {
     let mut scene = held(Defect::inner(-105.8f64.to_radians(), DefectShape::Profile(String::new())));
     let length = 10f64.to_radians() * scene.bearing.inner_raceway_radius();
-    scene.defect.as_mut().unwrap().shape = spall(length, 100e-6);
+    scene.defects[0].shape = spall(length, 100e-6);
     scene.cage.initial_angle = -FRAC_PI_2;
     scene
 }

@@ -38,7 +38,7 @@ pub fn fingerprint(bits: impl Iterator<Item = u64>) -> u64 {
 
 /// Text of the profile file that a shipped scene names, if it names one.
 pub fn profile_of(scene: &Scene) -> Option<String> {
-    let brinell::scene::DefectShape::Profile(file) = &scene.defect.as_ref()?.shape else { return None };
+    let file = *scene.profile_names().first()?;
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(file);
     Some(std::fs::read_to_string(path).unwrap())
 }
@@ -51,9 +51,11 @@ static MAPS: Mutex<BTreeMap<u64, Arc<OnceLock<Vec<u8>>>>> = Mutex::new(BTreeMap:
 ///
 /// Beside it a fingerprint of the sources that compute maps is kept, so that none outlives a change of them.
 pub fn map_of(scene: &Scene, profile: Option<&str>) -> Option<Vec<u8>> {
-    let defect = scene.defect.as_ref().filter(|_| scene.contact.law == ContactLaw::Map)?;
-    let surface = Surface::load(defect, profile, &scene.bearing).unwrap();
-    let wanted = setup::map_fingerprint(scene, &surface);
+    if scene.defects.is_empty() || scene.contact.law != ContactLaw::Map {
+        return None;
+    }
+    let surfaces = Surface::load_all(scene, profile).unwrap();
+    let wanted = setup::map_fingerprint(scene, &surfaces).unwrap();
     let map = Arc::clone(MAPS.lock().unwrap().entry(wanted).or_default());
     let bytes = map.get_or_init(|| {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).with_file_name("maps");
@@ -64,7 +66,7 @@ pub fn map_of(scene: &Scene, profile: Option<&str>) -> Option<Vec<u8>> {
         {
             return bytes;
         }
-        let bytes = setup::build_map(scene, &surface, &mut Sequential(|_, _| {})).unwrap().unwrap().to_bytes();
+        let bytes = setup::build_map(scene, &surfaces, &mut Sequential(|_, _| {})).unwrap().unwrap().to_bytes();
         fs::create_dir_all(&folder).unwrap();
         for (path, content) in [(&file, &bytes[..]), (&made_by, sources.as_bytes())] {
             let partial = path.with_extension(format!("{}.part", std::process::id()));

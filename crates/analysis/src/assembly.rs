@@ -27,7 +27,7 @@ pub struct Assembly {
     loads: [[f64; 2]; 2],
     /// Angles of cage, inner and outer ring at the start of the scene [rad].
     angles: [f64; 3],
-    /// Length of the defect [rad] and the angle of its centre.
+    /// Length of the first defect [rad] and the angle of its centre.
     defect: Option<(f64, f64)>,
 }
 
@@ -96,13 +96,17 @@ pub fn loaded(scene: &Scene, amount: f64) -> Scene {
 }
 
 impl Assembly {
-    /// Sets up the assembly of a scene, with or without [`loaded`]. `profile` is the text of the defect's profile file,
-    /// when the scene names one; `map` the bytes of the contact map stored for this scene, without which law `map`
+    /// Sets up the assembly of a scene, with or without [`loaded`]. `profiles` are the texts of the files that its defects
+    /// name, in the order of [`Scene::profile_names`]; `map` the bytes of the contact map stored for this scene, without which law `map`
     /// computes it.
     ///
     /// # Errors
     /// Whatever is wrong with scene or profile; a map that is damaged or belongs to something else.
-    pub fn new(scene: &Scene, profile: Option<&str>, map: Option<&[u8]>) -> Result<Self, StaticError> {
+    pub fn new<'p>(
+        scene: &Scene,
+        profiles: impl IntoIterator<Item = &'p str>,
+        map: Option<&[u8]>,
+    ) -> Result<Self, StaticError> {
         let held = scene.shaft.motion != Motion::Internal;
         let mut still = scene.clone();
         if held {
@@ -113,29 +117,28 @@ impl Assembly {
             // Prescribed, at the position that is found for it.
             still.shaft.motion = Motion::Host;
         }
-        let load = |surface: &brinell::scene::Defect| Surface::load(surface, profile, &scene.bearing);
-        let surface = scene.defect.as_ref().map(load).transpose()?;
-        let map = match (&surface, map) {
-            (Some(surface), Some(bytes)) => Some(Arc::new(stored_map(scene, surface, bytes)?)),
-            _ => None,
-        };
+        let surfaces = Surface::load_all(scene, profiles)?;
+        let map = map.filter(|_| !surfaces.is_empty()).map(|bytes| stored_map(scene, &surfaces, bytes));
+        let map = map.transpose()?.map(Arc::new);
         // The map is to reach as far as the scene's loads, that on a held shaft included.
         still.contact.largest_force = Some(largest_force(scene));
-        let model = build_model(&still, surface.as_ref(), map.as_ref())?;
+        let model = build_model(&still, &surfaces, map.as_ref())?;
         let seat = (held && scene.shaft.load != [0.0; 2]).then(|| {
             let mut seat = still.clone();
             (seat.shaft.motion, seat.shaft.mass) = (Motion::Internal, 1.0);
             (seat.shaft.stiffness, seat.shaft.damping) = (0.0, 0.0);
-            build_model(&seat, surface.as_ref(), map.as_ref())
+            build_model(&seat, &surfaces, map.as_ref())
         });
-        let radius = scene.defect.as_ref().map_or(1.0, |defect| defect.on.radius(&scene.bearing));
-        let extent = surface.as_ref().map(Surface::extent).map(|(first, last)| (last - first) / radius);
+        let of_first = scene.defects.first().zip(surfaces.first()).map(|(defect, surface)| {
+            let (first, last) = surface.extent();
+            ((last - first) / defect.on.radius(&scene.bearing), defect.angle)
+        });
         Ok(Self {
             model,
             seat: seat.transpose()?,
             loads: [scene.shaft.load, scene.housing.load],
             angles: [scene.cage.initial_angle, scene.shaft_initial_angle, scene.housing_initial_angle],
-            defect: extent.zip(scene.defect.as_ref().map(|defect| defect.angle)),
+            defect: of_first,
         })
     }
 
@@ -155,7 +158,7 @@ impl Assembly {
         self.loads
     }
 
-    /// Length of the defect along the raceway [rad] and the angle of its centre [rad]; `None` without one.
+    /// Length along its body [rad] of the scene's first defect and the angle of its centre [rad]; `None` without one.
     pub fn defect(&self) -> Option<(f64, f64)> {
         self.defect
     }

@@ -14,6 +14,7 @@
 //! with the contacts is the crudest allowance for that.
 
 use super::static_bearing::{StaticBearing, StaticError};
+use brinell::scene::DefectOn;
 
 /// A critical load and where it belongs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,7 +60,7 @@ impl StaticBearing {
     /// # Errors
     /// No defect, or none into which an element sinks.
     pub fn bottom(&self) -> Result<Bottom, StaticError> {
-        let ([first, last], centre) = self.extent().ok_or(StaticError::NoDefect)?;
+        let ([first, last], centre) = self.extents(DefectOn::Outer).next().ok_or(StaticError::NoDefect)?;
         let angle = |i: usize| centre + first + (last - first) * (i as f64 / LOOKS as f64);
         // Element 1 is at the cage angle.
         let paths: Vec<f64> = (0..=LOOKS).map(|i| self.model.resting_path(0, angle(i))).collect();

@@ -58,7 +58,7 @@ impl Ringing {
 pub fn expected(rig: &Rig<'_>, trial: Trial, spacing: f64) -> Result<Ringing, StaticError> {
     let scene = rig.with_spall(trial);
     let bearing = StaticBearing::new(&scene, None)?;
-    let centre = scene.defect.as_ref().map_or(0.0, |d| d.angle);
+    let centre = scene.defects.first().map_or(0.0, |d| d.angle);
     let over = trial.length.rem_euclid(spacing);
     // Element 1 that far past the leading edge [degrees].
     let frequency = |past_edge: f64| -> Result<f64, StaticError> {

@@ -73,10 +73,9 @@ pub struct StaticBearing {
     pub(super) model: Model,
     /// The scene without what does not act here.
     scene: Scene,
-    surface: Option<Surface>,
+    /// Of its defects, in their order.
+    surfaces: Vec<Surface>,
     load: [f64; 2],
-    /// First and last angle of the defect [rad] from its centre.
-    extent: Option<[f64; 2]>,
 }
 
 /// One element in balance.
@@ -114,12 +113,13 @@ pub struct Balance {
 }
 
 impl StaticBearing {
-    /// Sets up the bearing of a scene. `profile` is the text of the defect's profile file, when the scene names one.
+    /// Sets up the bearing of a scene. `profiles` are the texts of the files that its defects name, in the order of
+    /// [`Scene::profile_names`].
     ///
     /// # Errors
     /// Whatever is wrong with scene or profile, or a contact law that this defect cannot have.
-    pub fn new(scene: &Scene, profile: Option<&str>) -> Result<Self, StaticError> {
-        Self::with_map(scene, profile, None)
+    pub fn new<'p>(scene: &Scene, profiles: impl IntoIterator<Item = &'p str>) -> Result<Self, StaticError> {
+        Self::with_map(scene, profiles, None)
     }
 
     /// As [`new`](Self::new), with the bytes of the contact map that was stored for the scene. Without it, law `map`
@@ -127,13 +127,15 @@ impl StaticBearing {
     ///
     /// # Errors
     /// Those of `new`; a map that is damaged or belongs to something else.
-    pub fn with_map(scene: &Scene, profile: Option<&str>, map: Option<&[u8]>) -> Result<Self, StaticError> {
+    pub fn with_map<'p>(
+        scene: &Scene,
+        profiles: impl IntoIterator<Item = &'p str>,
+        map: Option<&[u8]>,
+    ) -> Result<Self, StaticError> {
         scene.check()?;
-        let surface = scene.defect.as_ref().map(|defect| Surface::load(defect, profile, &scene.bearing)).transpose()?;
-        let map = match (&surface, map) {
-            (Some(surface), Some(bytes)) => Some(Arc::new(stored_map(scene, surface, bytes)?)),
-            _ => None,
-        };
+        let surfaces = Surface::load_all(scene, profiles)?;
+        let map = map.filter(|_| !surfaces.is_empty()).map(|bytes| stored_map(scene, &surfaces, bytes));
+        let map = map.transpose()?.map(Arc::new);
         let load = load_on_bearing(scene);
         let still = Ring::fixed();
         let mut held = scene.clone();
@@ -143,18 +145,16 @@ impl StaticBearing {
         held.shaft = Ring { motion: Motion::Internal, mass: 1.0, ..still };
         held.housing = still;
         held.sensor = None;
-        Ok(Self { load, ..Self::with_surface(held, surface, map.as_ref())? })
+        Ok(Self { load, ..Self::with_surfaces(held, surfaces, map.as_ref())? })
     }
 
-    fn with_surface(
+    fn with_surfaces(
         scene: Scene,
-        surface: Option<Surface>,
+        surfaces: Vec<Surface>,
         map: Option<&Arc<ContactMaps>>,
     ) -> Result<Self, StaticError> {
-        let radius = scene.defect.as_ref().map_or(1.0, |defect| defect.on.radius(&scene.bearing));
-        let model = build_model(&scene, surface.as_ref(), map)?;
-        let extent = surface.as_ref().map(Surface::extent).map(|(first, last)| [first / radius, last / radius]);
-        Ok(Self { model, extent, surface, scene, load: [0.0; 2] })
+        let model = build_model(&scene, &surfaces, map)?;
+        Ok(Self { model, surfaces, scene, load: [0.0; 2] })
     }
 
     /// The scene's load on the bearing [N]: that on the inner ring, or, where there is none, against that on the outer.
@@ -231,41 +231,50 @@ impl StaticBearing {
         other
     }
 
-    /// The same bearing with every depth of its defect multiplied by a factor.
+    /// The same bearing with every depth of its defects multiplied by a factor.
     ///
     /// # Errors
     /// No defect; a defect that becomes deeper than an element's radius.
     pub fn with_depth_times(&self, factor: f64) -> Result<Self, StaticError> {
-        let surface = self.surface.as_ref().ok_or(StaticError::NoDefect)?.scaled(
-            factor,
-            self.defect_on(),
-            &self.scene.bearing,
-        )?;
-        let mut other = Self::with_surface(self.scene.clone(), Some(surface), None)?;
+        if self.surfaces.is_empty() {
+            return Err(StaticError::NoDefect);
+        }
+        let scaled = self.surfaces.iter().zip(&self.scene.defects);
+        let scaled = scaled.map(|(surface, defect)| surface.scaled(factor, defect.on, &self.scene.bearing));
+        let mut other = Self::with_surfaces(self.scene.clone(), scaled.collect::<Result<_, _>>()?, None)?;
         other.load = self.load;
         Ok(other.with_clearance(self.model.radial_clearance).with_outer_compliance(self.model.outer.contact.compliance))
     }
 
-    /// First and last angle of the defect [rad] from its centre, and the angle of its centre.
-    pub(super) fn extent(&self) -> Option<([f64; 2], f64)> {
-        self.extent.zip(self.model.outer.defects.iter().next().map(|defect| defect.centre))
-    }
-
-    /// Length of the defect along the raceway [rad]; `None` without one.
-    pub fn defect_length(&self) -> Option<f64> {
-        self.extent.map(|[first, last]| last - first)
-    }
-
-    /// The body that bears the defect.
-    fn defect_on(&self) -> DefectOn {
-        self.scene.defect.as_ref().map_or(DefectOn::Outer, |defect| defect.on)
-    }
-
-    fn is_in_defect(&self, direction: f64) -> bool {
-        self.extent().is_some_and(|([first, last], _)| {
-            let angle = self.model.outer.defects.angle(direction);
-            angle >= first && angle <= last
+    /// The defects of a ring: first and last angle [rad] from the centre of each, and the angle of its centre against
+    /// the axes while the ring is at its angle of the start.
+    pub(super) fn extents(&self, on: DefectOn) -> impl Iterator<Item = ([f64; 2], f64)> {
+        let turned = match on {
+            DefectOn::Inner => self.scene.shaft_initial_angle,
+            _ => self.scene.housing_initial_angle,
+        };
+        let radius = on.radius(&self.scene.bearing);
+        let borne = self.scene.defects.iter().zip(&self.surfaces).filter(move |(defect, _)| defect.on == on);
+        borne.map(move |(defect, surface)| {
+            let (first, last) = surface.extent();
+            ([first / radius, last / radius], defect.angle + turned)
         })
+    }
+
+    /// Length of the first defect along its body [rad]; `None` without one.
+    pub fn defect_length(&self) -> Option<f64> {
+        let (defect, surface) = self.scene.defects.first().zip(self.surfaces.first())?;
+        let (first, last) = surface.extent();
+        Some((last - first) / defect.on.radius(&self.scene.bearing))
+    }
+
+    /// Whether an element in this direction is within the length of a ring's defect.
+    fn is_in_defect(&self, direction: f64) -> bool {
+        let within = |([first, last], centre): ([f64; 2], f64)| {
+            let angle = wrap(direction - centre);
+            angle >= first && angle <= last
+        };
+        [DefectOn::Outer, DefectOn::Inner].into_iter().any(|on| self.extents(on).any(within))
     }
 }
 

@@ -119,7 +119,7 @@ pub fn with_spall(scene: &Scene, trial: Trial) -> Scene {
     let angle = load_angle(&scene);
     let length = trial.length.to_radians() * scene.bearing.outer_raceway_radius();
     let shape = DefectShape::Spall { length, depth: trial.depth, edge_slope: 0.5 * PI };
-    scene.defect = Some(Defect::outer(angle, shape));
+    scene.defects = vec![Defect::outer(angle, shape)];
     scene.contact.law = trial.law;
     scene
 }

@@ -8,7 +8,7 @@ use std::{fs, io};
 
 use super::shared_models::SharedModel;
 use super::uri::{self, UriError};
-use brinell::scene::{DefectShape, Scene, SceneError};
+use brinell::scene::{Scene, SceneError};
 use brinell::simulation::guid::guid;
 use brinell::simulation::{Simulation, SimulationError};
 
@@ -54,12 +54,10 @@ pub(super) fn load(location: &CStr) -> Result<SharedModel, ResourceError> {
     let path = directory.join("scene.toml");
     let text = read(&path)?;
     let scene = Scene::from_toml(&text).map_err(|source| ResourceError::Scene { path, source })?;
-    let profile = match scene.defect.as_ref().map(|defect| &defect.shape) {
-        Some(DefectShape::Profile(name)) => Some(read(&beside(&directory, name)?)?),
-        _ => None,
-    };
-    let guid = guid(&text, profile.as_deref());
-    let set_up = |map| Simulation::with_shared_map(scene, profile.as_deref(), map);
+    let profile = |name| read(&beside(&directory, name)?);
+    let profiles: Vec<String> = scene.profile_names().into_iter().map(profile).collect::<Result<_, _>>()?;
+    let guid = guid(&text, profiles.iter().map(String::as_str));
+    let set_up = |map| Simulation::with_shared_map(scene, profiles.iter().map(String::as_str), map);
     SharedModel::obtain(guid, &directory.join("map.bin"), set_up)
 }
 

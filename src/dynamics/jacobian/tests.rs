@@ -35,7 +35,7 @@ pub(crate) fn lively_on(bearer: Bearer, motions: [Motion; 2], damping: Damping, 
     let near = |side, on_element| {
         NearDefect::Hertz(RigidPath::new(&profile, Rolling::of(&scene.bearing, side, on_element)).unwrap())
     };
-    let centre = scene.defect.as_ref().unwrap().angle;
+    let centre = scene.defects[0].angle;
     let on = |side| (bearer == Bearer::Ring(side)).then(|| (near(side, false), centre));
     let rings = [
         Defects::new(Frame::Shaft, on(RacewaySide::Inner).map(|(near, centre)| (near, centre - 0.4))),
@@ -46,7 +46,7 @@ pub(crate) fn lively_on(bearer: Bearer, motions: [Motion; 2], damping: Damping, 
         let towards = if facing == RacewaySide::Outer { cage_angle } else { cage_angle + std::f64::consts::PI };
         let defects = [(RacewaySide::Inner, std::f64::consts::PI), (RacewaySide::Outer, 0.0)]
             .map(|(side, back)| Defects::new(Frame::Spin, [(near(side, true), towards - back - 0.1)]));
-        own.push(DefectiveElement { element: 0, defects });
+        own.push(DefectiveElement { element: 0, defects, mark: 0.0 });
     }
     let model = Model::new(&scene, rings, own);
     let place = |start: f64| [Cubic([start, 2e-3, -3.0, 4e4]), Cubic([-start, -1e-3, 5.0, -7e4])];

@@ -1,7 +1,10 @@
-//! The table `[defect]` of the scene file.
+//! The table `[defect]` of the scene file, or several of them as `[[defect]]`.
 
 use crate::scene::{Bearing, Defect, DefectOn, DefectShape, SceneError};
 use serde::Deserialize;
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
+use std::fmt;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -28,6 +31,40 @@ enum Body {
     Outer,
     Inner,
     Element,
+}
+
+/// `[defect]` or `[[defect]]`.
+#[derive(Default)]
+pub(super) struct DefectTables(pub(super) Vec<DefectTable>);
+
+impl<'de> Deserialize<'de> for DefectTables {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct OneOrMore;
+        impl<'de> Visitor<'de> for OneOrMore {
+            type Value = DefectTables;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a table [defect] or several tables [[defect]]")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<DefectTables, A::Error> {
+                DefectTable::deserialize(MapAccessDeserializer::new(map)).map(|one| DefectTables(vec![one]))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<DefectTables, A::Error> {
+                Vec::deserialize(SeqAccessDeserializer::new(seq)).map(DefectTables)
+            }
+        }
+        deserializer.deserialize_any(OneOrMore)
+    }
+}
+
+impl DefectTables {
+    pub(super) fn into_defects(self, bearing: &Bearing) -> Result<Vec<Defect>, SceneError> {
+        let count = self.0.len();
+        let defects = self.0.into_iter().enumerate();
+        defects.map(|(k, table)| table.into_defect(bearing).map_err(|of| of.in_defect(k, count))).collect()
+    }
 }
 
 impl DefectTable {

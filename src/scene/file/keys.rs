@@ -2,7 +2,7 @@
 //! not looked at.
 
 use super::super::key_fault::{Hint, KeyFault};
-use super::not_modelled::{DEFECTS, instead_of};
+use super::not_modelled::instead_of;
 use super::rings::{HousingTable, SensorTable, ShaftTable};
 use super::{
     BearingTable, CageTable, ContactTable, DefectTable, ExperimentTable, RecorderTable, SceneError, SceneFile,
@@ -71,8 +71,13 @@ fn faults(text: &str, file: &DeTable<'_>) -> Vec<KeyFault> {
             let line = line_of(&breaks, value.span().start);
             match value.get_ref() {
                 DeValue::Table(table) => faults.extend(of_table(&breaks, (name, keys), line, table)),
-                DeValue::Array(_) if name == "defect" => {
-                    faults.push(KeyFault::NotModelled { line, key: "[[defect]]".to_owned(), only: DEFECTS });
+                DeValue::Array(tables) if name == "defect" => {
+                    for table in tables.iter() {
+                        let line = line_of(&breaks, table.span().start);
+                        if let DeValue::Table(table) = table.get_ref() {
+                            faults.extend(of_table(&breaks, (name, keys), line, table));
+                        }
+                    }
                 }
                 // Of the wrong type, which is no matter of keys.
                 _ => {}

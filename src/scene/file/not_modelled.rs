@@ -12,9 +12,8 @@ struct Asked {
     only: &'static str,
 }
 
-/// What is said to several defects, or to one elsewhere.
-pub(super) const DEFECTS: &str =
-    "one defect so far: one table [defect], whose key `on` is \"outer\", \"inner\" or \"element\"";
+/// What is said to a defect that is given by another key.
+const DEFECTS: &str = "a table [defect], or several [[defect]], whose key `on` is \"outer\", \"inner\" or \"element\"";
 const BALLS: &str = "rolling elements are balls, so far; rollers with their line contacts are not";
 const PLANE: &str = "the rings move in one plane, so far: no axial load, no contact angle, no tilt";
 const DRY: &str = "contacts without lubricant and friction, so far";

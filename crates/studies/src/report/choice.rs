@@ -87,9 +87,8 @@ pub(super) fn measure(extent: Extent, data: &Path) -> Result<Vec<Row>> {
         let mut model = Model::read(&scene_file(scene))?;
         change(&mut model.scene);
         model.scene.tolerance = TOLERANCE;
-        let profile = model.profile.as_ref().map(|profile| profile.text.as_str());
-        let map = contact_map::of(&model.scene, profile, &Project::find())?;
-        let mut simulation = Simulation::with_map(model.scene.clone(), profile, map.as_deref())?;
+        let map = contact_map::of(&model.scene, model.profile_texts(), &Project::find())?;
+        let mut simulation = Simulation::with_map(model.scene.clone(), model.profile_texts(), map.as_deref())?;
         if model.scene.shaft.motion == Motion::Host {
             // 12 µm beyond the concentric place: some hundred newtons on the lowest elements.
             simulation.set_reals(&[simulation.reference("shaft.y")?], &[-12e-6])?;

@@ -132,7 +132,7 @@ fn bearing(scene: &Scene, shaft: Ring) -> Result<Simulation, SimulationError> {
     let mut scene = scene.clone();
     scene.shaft = shaft;
     scene.housing = Ring::fixed();
-    (scene.sensor, scene.defect) = (None, None);
+    (scene.sensor, scene.defects) = (None, Vec::new());
     scene.tolerance = TOLERANCE;
     Simulation::new(scene, None)
 }

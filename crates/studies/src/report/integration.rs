@@ -199,7 +199,7 @@ fn fixed_step(
 fn oracle(python: &Python, model: &Model, data: &Path) -> Result<Option<Deviation>> {
     use brinell::scene::Motion::Internal;
     let scene = &model.scene;
-    let parts = (scene.shaft.motion, scene.housing.motion) == (Internal, Internal) && model.profile.is_none();
+    let parts = (scene.shaft.motion, scene.housing.motion) == (Internal, Internal) && model.profiles.is_empty();
     if !parts || scene.bearing.outer_compliance != 0.0 {
         return Ok(None);
     }

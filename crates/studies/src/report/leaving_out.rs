@@ -58,11 +58,11 @@ pub(super) fn measure(extent: Extent, data: &Path) -> Result<Vec<Part>> {
     add("+ outer ring on its support", &scene, Seen::Nothing)?;
     scene.sensor = full.sensor.or(Some(Sensor { mass: 1.0, stiffness: 8.8826e9, damping: 9424.8 }));
     add("+ accelerometer", &scene, Seen::Nothing)?;
-    scene.defect = Some(Defect {
+    scene.defects = vec![Defect {
         on: DefectOn::Outer,
         angle: -std::f64::consts::FRAC_PI_2,
         shape: DefectShape::Spall { length: 0.8e-3, depth: 50e-6, edge_slope: std::f64::consts::FRAC_PI_2 },
-    });
+    }];
     scene.contact.law = ContactLaw::Hertz;
     add("+ spall of 0.8 mm, law hertz", &scene, Seen::Nothing)?;
     scene.contact.law = ContactLaw::Map;

@@ -49,8 +49,8 @@ impl Subject {
         let mut scene = model.scene.clone();
         // Two runs are compared at equal instants, so nothing is filtered.
         scene.recorder = Some(Recorder { rate: RATE, filter: RecorderFilter::None });
-        let profile = model.profile.as_ref().map(|profile| profile.text.as_str());
-        let mut simulation = Simulation::with_map(scene, profile, model.map.as_deref())?;
+        let profiles = model.profile_texts();
+        let mut simulation = Simulation::with_map(scene, profiles, model.map.as_deref())?;
         // 12 µm beyond the concentric place: some hundred newtons on the lowest elements.
         if model.scene.shaft.motion == brinell::scene::Motion::Host {
             simulation.set_reals(&[simulation.reference("shaft.y")?], &[-12e-6])?;

@@ -107,7 +107,7 @@ fn rings(case: &Case, passage: &[f64]) -> Option<Ringing> {
 /// The rings' mode on the static stiffness of this spall.
 fn expected(case: &Case) -> Option<Ringing> {
     let spacing = 360.0 / case.scene.bearing.element_count as f64;
-    let Some(DefectShape::Spall { depth, .. }) = case.scene.defect.as_ref().map(|defect| defect.shape.clone()) else {
+    let Some(DefectShape::Spall { depth, .. }) = case.scene.defects.first().map(|defect| defect.shape.clone()) else {
         return None;
     };
     let rig = Rig::new(&case.scene, case.bpfo(), &|_| None)?;

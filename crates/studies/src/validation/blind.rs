@@ -79,7 +79,7 @@ pub fn recorded(project: &Project, case: &Case) -> Result<Vec<f64>> {
 
 /// The recording sized by the case's scene without its defect; `speed` is in shaft speeds of the case.
 fn sized(project: &Project, case: &Case, signal: Vec<f64>, speed: f64) -> Result<Report> {
-    let blind = Scene { defect: None, ..case.scene.clone() };
+    let blind = Scene { defects: Vec::new(), ..case.scene.clone() };
     let recording = Recording::new("simulated", signal, RATE, speed * case.shaft_speed())?;
     let maps = |scene: &Scene| contact_map::of(scene, None, project).ok().flatten();
     Ok(spall_size::size_with(&[recording], &blind, &maps, &mut |_| ())?)

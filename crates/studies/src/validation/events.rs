@@ -142,7 +142,7 @@ fn rings_after(project: &Project, case: &Case, length: f64) -> Result<String> {
 
 fn path_of(case: &Case) -> Result<(Surface, RigidPath)> {
     let bearing = &case.scene.bearing;
-    let defect = case.scene.defect.as_ref().context("no defect")?;
+    let defect = case.scene.defects.first().context("no defect")?;
     let surface = Surface::load(defect, case.profile(), bearing)?;
     let Surface::Profile(profile) = &surface else { anyhow::bail!("a topography has no one path") };
     let path = RigidPath::new(profile.points(), Rolling::of(bearing, RacewaySide::Outer, false))?;

@@ -28,9 +28,9 @@ impl Case {
         let path = project.source().unwrap_or(Path::new("")).join("scenes").join(name).with_extension("toml");
         let text = fs::read_to_string(&path).with_context(|| path.display().to_string())?;
         let scene = Scene::from_toml(&text).with_context(|| path.display().to_string())?;
-        let names_profile = scene.defect.as_ref().is_some_and(|d| matches!(d.shape, DefectShape::Profile(_)));
-        let profile = if names_profile { Model::read(&path)?.profile.map(|profile| profile.text) } else { None };
-        Ok(Self { scene, profile })
+        let names_profile = !scene.profile_names().is_empty();
+        let profiles = if names_profile { Model::read(&path)?.profiles } else { Vec::new() };
+        Ok(Self { scene, profile: profiles.into_iter().next().map(|profile| profile.text) })
     }
 
     /// The same under another contact law.
@@ -56,8 +56,8 @@ impl Case {
         let radius = self.scene.bearing.outer_raceway_radius();
         self.profile = None;
         if length == 0.0 {
-            self.scene.defect = None;
-        } else if let Some(defect) = &mut self.scene.defect {
+            self.scene.defects.clear();
+        } else if let Some(defect) = self.scene.defects.first_mut() {
             let edge_slope = std::f64::consts::FRAC_PI_2;
             defect.shape = DefectShape::Spall { length: length.to_radians() * radius, depth, edge_slope };
         }
@@ -67,7 +67,7 @@ impl Case {
     /// The same with flanks instead of sharp edges: length at the surface [degrees], depth [m], slope [degrees].
     pub fn with_flanks(mut self, length: f64, depth: f64, slope: f64) -> Self {
         self = self.with_spall(length, depth);
-        if let Some(Defect { shape: DefectShape::Spall { edge_slope, .. }, .. }) = &mut self.scene.defect {
+        if let Some(Defect { shape: DefectShape::Spall { edge_slope, .. }, .. }) = self.scene.defects.first_mut() {
             *edge_slope = slope.to_radians();
         }
         self
@@ -90,7 +90,7 @@ impl Case {
 
     /// Length of the spall [degrees]; 0 of other defects and none.
     pub fn length(&self) -> f64 {
-        match self.scene.defect.as_ref().map(|defect| &defect.shape) {
+        match self.scene.defects.first().map(|defect| &defect.shape) {
             Some(DefectShape::Spall { length, .. }) => {
                 (length / self.scene.bearing.outer_raceway_radius()).to_degrees()
             }
@@ -100,7 +100,7 @@ impl Case {
 
     /// When element 1 stands over the leading edge of a defect of so many degrees [s].
     pub fn entry(&self, length: f64) -> f64 {
-        let centre = self.scene.defect.as_ref().map_or(-std::f64::consts::FRAC_PI_2, |defect| defect.angle);
+        let centre = self.scene.defects.first().map_or(-std::f64::consts::FRAC_PI_2, |defect| defect.angle);
         let way = centre.to_degrees() - 0.5 * length - self.scene.cage.initial_angle.to_degrees();
         way.rem_euclid(360.0 / self.scene.bearing.element_count as f64) / self.travel()
     }
