@@ -65,8 +65,9 @@ fn scene(draw: &mut Draw, lightest: f64, damped: bool) -> Scene {
         mass: draw.between(1e-3, 3.0),
         stiffness: draw.between(1e5, 1e10),
         damping: if damped { draw.or_zero(1.0, 1e5) } else { 0.0 },
+        ..Sensor::default()
     };
-    scene.sensor = (scene.housing.motion == Motion::Internal && draw.chance(0.5)).then_some(sensor);
+    scene.sensors = Vec::from_iter((scene.housing.motion == Motion::Internal && draw.chance(0.5)).then_some(sensor));
     scene.contact.damping = match (damped, draw.chance(0.5)) {
         (false, _) => Damping::HuntCrossley(0.0),
         (true, true) => Damping::HuntCrossley(draw.or_zero(0.1, 100.0)),
@@ -125,7 +126,7 @@ fn ratio(seed: u64, lightest: f64, damped: bool) -> (f64, String) {
     let [inner, outer] = [scene.shaft, scene.housing].map(|ring| (ring.motion, ring.mass, ring.damping));
     let elements = (scene.bearing.element_count, scene.bearing.element_mass.unwrap());
     let words =
-        format!("{seed}: {inner:?} {outer:?} {elements:?} {:?} {:?} ζ {damping}", scene.sensor, scene.contact.damping);
+        format!("{seed}: {inner:?} {outer:?} {elements:?} {:?} {:?} ζ {damping}", scene.sensors, scene.contact.damping);
     (largest / fastest, words)
 }
 
@@ -161,7 +162,7 @@ fn with_damping_the_factor_of_two_holds_for_rings_heavier_than_their_elements() 
 #[test]
 fn explicit_steps_stay_stable_with_an_outer_ring_lighter_than_its_elements() {
     for method in [Method::PhaseFitted, Method::DormandPrince] {
-        let mut scene = Scene { defects: Vec::new(), sensor: None, ..shipped("er16k-tb1") };
+        let mut scene = Scene { defects: Vec::new(), sensors: Vec::new(), ..shipped("er16k-tb1") };
         (scene.housing.mass, scene.housing.damping) = (1e-5, 0.0);
         scene.contact.damping = Damping::HuntCrossley(0.05);
         let mut bearing = Named::new(scene);

@@ -78,7 +78,7 @@ fn what_is_left_out_gets_the_documented_default() {
     assert_eq!((scene.shaft.mass, scene.shaft.damping, scene.shaft.stiffness), (3.2638, 1376.8, 0.0));
     assert_eq!((scene.housing.mass, scene.housing.damping, scene.housing.stiffness), (6.638, 2210.7, 1.51056e7));
     assert_eq!(scene.shaft.load, [0.0, 0.0]);
-    assert_eq!(scene.sensor, None);
+    assert_eq!(scene.sensors, []);
     assert_eq!(scene.tolerance, 1e-5);
     assert_eq!(scene.recorder, None);
     assert_eq!((scene.experiment.stop, scene.experiment.step), (0.5, 1e-4));
@@ -94,7 +94,7 @@ fn a_defect_asks_for_the_map_unless_a_law_is_given() {
 
 #[test]
 fn an_empty_sensor_table_is_the_15_khz_resonator() {
-    let sensor = Scene::from_toml(&format!("{SHORT}[sensor]")).unwrap().sensor.unwrap();
+    let sensor = Scene::from_toml(&format!("{SHORT}[sensor]")).unwrap().sensors.remove(0);
     assert_eq!((sensor.mass, sensor.stiffness, sensor.damping), (1.0, 8.8826e9, 9424.8));
     let frequency = (sensor.stiffness / sensor.mass).sqrt() / (2.0 * PI);
     // The stiffness is printed with five digits.

@@ -29,7 +29,7 @@ fn assembly(scene: &Scene) -> Assembly {
 /// A healthy bearing on a fixed housing, its elements without weight, nothing damped.
 fn bare() -> Scene {
     let mut scene =
-        Scene { defects: Vec::new(), sensor: None, gravity: [0.0; 2], housing: STILL, ..shipped("er16k-tb1") };
+        Scene { defects: Vec::new(), sensors: Vec::new(), gravity: [0.0; 2], housing: STILL, ..shipped("er16k-tb1") };
     scene.contact.damping = Damping::HuntCrossley(0.0);
     scene.shaft.damping = 0.0;
     scene
@@ -71,7 +71,7 @@ fn disturb(bearing: &mut Named, mode: &Mode, size: f64) {
             (moved[start + axis], moved[start + 2 + axis]) = (here[start + axis] + x, v);
         }
     }
-    if let Some(start) = layout.sensor {
+    for start in layout.sensor_places() {
         let (y, v) = parts.next().unwrap();
         (moved[start], moved[start + 1]) = (here[start] + y, v);
     }

@@ -17,7 +17,7 @@ fn without_damping(mut scene: Scene) -> Scene {
 
 fn steady_housing(mut scene: Scene) -> Scene {
     scene.housing = brinell::scene::Ring::fixed();
-    scene.sensor = None;
+    scene.sensors.clear();
     scene
 }
 
@@ -213,7 +213,7 @@ fn ring_motion_from_the_host_gives_the_forces_of_the_same_motion_computed_inside
     for ring in [&mut scene.shaft, &mut scene.housing] {
         *ring = brinell::scene::Ring::hosted();
     }
-    scene.sensor = None;
+    scene.sensors.clear();
     let mut hosted = Named::new(scene);
     let names = ["x", "y", "vx", "vy", "ax", "ay"];
     let transfer = |inside: &mut Named, hosted: &mut Named| {

@@ -20,7 +20,7 @@ use support::{Named, shipped};
 fn pressed(law: ContactLaw, shape: DefectShape) -> Scene {
     let mut scene = shipped("er16k-tb1");
     let fixed = Ring::fixed();
-    (scene.shaft, scene.housing, scene.sensor) = (fixed, fixed, None);
+    (scene.shaft, scene.housing, scene.sensors) = (fixed, fixed, Vec::new());
     scene.bearing.radial_clearance = -25e-6;
     // 2200 N on the smooth raceway; entering and leaving the defect add to it.
     scene.contact.largest_force = Some(4000.0);

@@ -21,7 +21,7 @@ fn standing(law: ContactLaw, shape: DefectShape, angle: f64) -> Scene {
     scene.defects = vec![Defect::outer(angle, shape)];
     (scene.bearing.element_count, scene.cage.initial_angle, scene.shaft_speed) = (1, -FRAC_PI_2, 0.0);
     (scene.shaft.motion, scene.shaft.load, scene.housing.motion) = (Motion::Host, [0.0; 2], Motion::Fixed);
-    scene.sensor = None;
+    scene.sensors.clear();
     scene
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use brinell::scene::{Damping, Defect, DefectOn, DefectShape, Motion, Ring, Scene};
+use brinell::scene::{Damping, Defect, DefectOn, DefectShape, Motion, Ring, Scene, Sensor};
 use brinell::simulation::Method;
 use brinell::simulation::variables::{Causality, Kind, Variable};
 use quick_xml::escape::escape;
@@ -126,7 +126,7 @@ fn facts(page: &mut String, scene: &Scene) {
         ("Shaft (inner ring)", ring(&scene.shaft)),
         ("Shaft speed at the start", format!("{} Hz", digits(scene.shaft_speed / std::f64::consts::TAU))),
         ("Housing (outer ring)", ring(&scene.housing)),
-        ("Accelerometer", scene.sensor.map_or("none", |_| "on the housing, along y").to_owned()),
+        ("Accelerometers", accelerometers(scene)),
         ("Default run", format!("{} s in steps of {} s", scene.experiment.stop, scene.experiment.step)),
     ]);
     page.push_str("<table>\n");
@@ -134,6 +134,16 @@ fn facts(page: &mut String, scene: &Scene) {
         line(page, format_args!("<tr><th>{what}</th><td>{value}</td></tr>"));
     }
     page.push_str("</table>\n");
+}
+
+/// Directions of the accelerometers.
+fn accelerometers(scene: &Scene) -> String {
+    let along = |sensor: &Sensor| {
+        let name = if sensor.name.is_empty() { String::new() } else { format!("{}: ", escape(&sensor.name)) };
+        format!("{name}along {}", degrees(sensor.direction))
+    };
+    let all: Vec<String> = scene.sensors.iter().map(along).collect();
+    if all.is_empty() { "none".to_owned() } else { format!("on the housing, {}", all.join("; ")) }
 }
 
 /// What bears a defect, and what it is.

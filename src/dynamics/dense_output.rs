@@ -36,8 +36,8 @@ impl Model {
         let basis = Basis::new(h, share);
         let value = |i: usize| ends.map(|end| end.state[i]);
         let rate = |i: usize| ends.map(|end| end.derivative[i]);
-        for (place, count) in [(layout.shaft, 2), (layout.housing, 2), (layout.sensor, 1)] {
-            let Some(start) = place else { continue };
+        let rings = [layout.shaft, layout.housing].into_iter().flatten().map(|start| (start, 2));
+        for (start, count) in rings.chain(layout.sensor_places().map(|start| (start, 1))) {
             for i in start..start + count {
                 (out[i], out[i + count]) = basis.at(value(i), rate(i), rate(i + count));
             }

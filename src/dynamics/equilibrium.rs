@@ -318,8 +318,9 @@ impl Model {
         for j in 0..self.element_count {
             state[w + j] = housing.velocity.dot(&self.direction(j, cage.direction));
         }
-        if let Some(i) = self.layout.sensor {
-            (state[i], state[i + 1]) = (housing.position.y, housing.velocity.y);
+        for (sensor, i) in self.supports.sensors.iter().zip(self.layout.sensor_places()) {
+            let e = sensor.direction;
+            (state[i], state[i + 1]) = (housing.position.dot(&e), housing.velocity.dot(&e));
         }
     }
 }

@@ -21,7 +21,7 @@ use super::raceway::Cells;
 use super::supports::{BODIES, Bodies, BodyMatrix};
 use super::tangent::{Rings, stacked};
 use crate::numerics::plane::Vector;
-use crate::scene::Motion;
+use crate::scene::{MOST_SENSORS, Motion};
 
 /// Rows and columns of one element.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -293,9 +293,10 @@ impl Model {
         // Prescribed rings move the sensor; on the rings themselves nothing but their loads depends on time.
         let [shaft, housing] = &shared.prescribed;
         let moves = Kinematics { shaft: *shaft, housing: *housing, ..*shared.now };
-        let [velocity, acceleration] = moves.bodies(0.0, 0.0);
-        let loads = drive.shaft_load.iter().chain(&drive.housing_load).map(|load| load.rate_at(tau)).chain([0.0]);
-        let forces = self.supports.forces(&velocity, &acceleration) + Bodies::from_iterator(loads);
+        let [velocity, acceleration] = moves.bodies();
+        let loads = drive.shaft_load.iter().chain(&drive.housing_load).map(|load| load.rate_at(tau));
+        let loads = Bodies::from_iterator(loads.chain([0.0; MOST_SENSORS]));
+        let forces = self.supports.forces(&velocity, &acceleration) + loads;
         let rates = forces.component_mul(&self.supports.inverse_masses());
         for (place, rate) in jacobian.places.iter().zip(&rates) {
             if let Some((_, velocity)) = *place {
@@ -307,13 +308,17 @@ impl Model {
 
 fn places(layout: &Layout) -> [Option<(usize, usize)>; BODIES] {
     let ring = |start: Option<usize>, axis: usize| start.map(|i| (i + axis, i + 2 + axis));
-    [
+    let mut places = [None; BODIES];
+    places[..4].copy_from_slice(&[
         ring(layout.shaft, 0),
         ring(layout.shaft, 1),
         ring(layout.housing, 0),
         ring(layout.housing, 1),
-        layout.sensor.map(|i| (i, i + 1)),
-    ]
+    ]);
+    for (place, i) in places.iter_mut().skip(4).zip(layout.sensor_places()) {
+        *place = Some((i, i + 1));
+    }
+    places
 }
 
 #[cfg(test)]

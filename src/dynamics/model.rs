@@ -1,7 +1,7 @@
 //! The parameters of the equations of motion, worked out once from a scene, and the layout of the state vector.
 //!
-//! The state is `[u_1…u_Z, w_1…w_Z, shaft x y vx vy, housing x y vx vy, sensor y vy]`; a ring that is not internal and
-//! an absent sensor take no place. The lists of u and w are filled up with zeros to a multiple of eight places, the
+//! The state is `[u_1…u_Z, w_1…w_Z, shaft x y vx vy, housing x y vx vy, sensor s vs …]`; a ring that is not internal and
+//! absent sensors take no place. The lists of u and w are filled up with zeros to a multiple of eight places, the
 //! rings' part to a multiple of four, so that they are treated several at a time. u is the roller path (ρ − (R_o − r),
 //! ρ the distance of the element's centre from the *outer ring's* centre), w the radial component of the element's
 //! absolute velocity.
@@ -71,8 +71,10 @@ pub struct Layout {
     pub shaft: Option<usize>,
     /// Start of the outer ring's.
     pub housing: Option<usize>,
-    /// Start of the sensor's y, vy.
-    pub sensor: Option<usize>,
+    /// Start of the first sensor's displacement and velocity along its direction; each sensor's are [`QUAD`] places on.
+    pub sensors: usize,
+    /// Number of sensors.
+    pub sensor_count: usize,
     /// Number of states.
     pub len: usize,
 }
@@ -89,16 +91,27 @@ impl Layout {
         };
         let shaft = take(scene.shaft.motion == Motion::Internal, 4);
         let housing = take(scene.housing.motion == Motion::Internal, 4);
-        let sensor = take(scene.sensor.is_some(), 2);
+        let sensor_count = scene.sensors.len();
+        let sensors = take(true, 0).unwrap_or_default();
+        len = sensors + QUAD * sensor_count;
         let element_count = scene.bearing.element_count;
-        Self { element_count, radial_velocity, shaft, housing, sensor, len: len.next_multiple_of(QUAD) }
+        Self { element_count, radial_velocity, shaft, housing, sensors, sensor_count, len: len.next_multiple_of(QUAD) }
     }
 
     /// Whether state `i` is a position; otherwise it is a velocity.
     #[inline]
     pub fn is_position(&self, i: usize) -> bool {
         let within = |start: Option<usize>, count: usize| start.is_some_and(|s| i >= s && i < s + count);
-        i < self.radial_velocity || within(self.shaft, 2) || within(self.housing, 2) || within(self.sensor, 1)
+        i < self.radial_velocity
+            || within(self.shaft, 2)
+            || within(self.housing, 2)
+            || self.sensor_places().any(|place| i == place)
+    }
+
+    /// Where the displacement of each sensor stands; its velocity is the next.
+    pub fn sensor_places(&self) -> impl Iterator<Item = usize> + use<> {
+        let start = self.sensors;
+        (0..self.sensor_count).map(move |k| start + k * QUAD)
     }
 
     /// The lists that the state is made up of.
@@ -111,9 +124,8 @@ impl Layout {
         let within = |start: usize, count: usize| i >= start && i < start + count;
         within(0, self.element_count)
             || within(self.radial_velocity, self.element_count)
-            || [(self.shaft, 4), (self.housing, 4), (self.sensor, 2)]
-                .into_iter()
-                .any(|(start, count)| start.is_some_and(|start| within(start, count)))
+            || [self.shaft, self.housing].into_iter().flatten().any(|start| within(start, 4))
+            || self.sensor_places().any(|start| within(start, 2))
     }
 
     /// Number of states, without the places that only fill lists up.

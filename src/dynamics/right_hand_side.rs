@@ -7,7 +7,7 @@
 //! w'  = (Q_i n·e_r − F_r)/m + g·e_r + ω (v_o·e_t + ρ ω)
 //! δ_i = R_i + r − |q|,   δ̇_i = −n·(v_o + u' e_r + ρ ω e_t − v_i)
 //! m_i x_i'' = F_i − Σ Q_i n − c_s v_i − k_s x_i
-//! m_o x_o'' = F_o + Σ (F_r e_r − F_t e_t) − c_p v_o − k_p x_o + f_s,   m_s y_s'' = −f_s
+//! m_o x_o'' = F_o + Σ (F_r e_r − F_t e_t) − c_p v_o − k_p x_o + Σ f_s e_s,   m_s s'' = −f_s
 //! ```
 //! F_r and F_t are what the outer raceway exerts on the element, inwards and counter-clockwise; on the smooth raceway
 //! F_r = Q(u, u') and F_t = 0. Near a defect of the inner raceway, or of the element on its inner side, Q_i n gives way
@@ -88,15 +88,17 @@ impl Model {
             let force = Vector::new(drive.shaft_load[0].at(tau) + shaft_x, drive.shaft_load[1].at(tau) + shaft_y);
             supports.shaft.ring_rates(simd, &now.shaft, force).store(derivative, i);
         }
-        let mut reaction = 0.0;
-        if let Some(i) = self.layout.sensor {
+        let mut reaction = Vector::zeros();
+        for (sensor, i) in supports.sensors.iter().zip(self.layout.sensor_places()) {
             let v = state[i + 1];
-            reaction = supports.sensor_force(moved(state[i], v, ahead), v, &now.housing);
-            supports.sensor_rates(simd, v, reaction).store(derivative, i);
+            let force = sensor.force(moved(state[i], v, ahead), v, &now.housing);
+            reaction += sensor.direction * force;
+            sensor.rates(simd, v, force).store(derivative, i);
         }
         if let Some(i) = self.layout.housing {
             let load = &drive.housing_load;
-            let force = Vector::new(load[0].at(tau) + housing_x, load[1].at(tau) + (housing_y + reaction));
+            let force =
+                Vector::new(load[0].at(tau) + (housing_x + reaction.x), load[1].at(tau) + (housing_y + reaction.y));
             supports.housing.ring_rates(simd, &now.housing, force).store(derivative, i);
         }
     }

@@ -10,10 +10,12 @@
 use super::kinematics::{Kinematics, RingState};
 use crate::numerics::lanes::{Lanes, QUAD, Wide};
 use crate::numerics::plane::Vector;
-use crate::scene::{Motion, Ring, Scene};
+use crate::scene::{MOST_SENSORS, Motion, Ring, Scene};
 
-/// Coordinates of the bodies beside the elements: inner ring x, y, outer ring x, y, sensor y.
-pub const BODIES: usize = 5;
+/// Coordinates of the bodies beside the elements: inner ring x, y, outer ring x, y, each sensor along its direction.
+pub const BODIES: usize = 4 + MOST_SENSORS;
+/// Coordinates of the bodies where there is one sensor at most.
+pub const FEW_BODIES: usize = 5;
 
 /// One number for each coordinate of the bodies.
 pub type Bodies = nalgebra::SVector<f64, BODIES>;
@@ -31,15 +33,26 @@ pub struct Support {
     pub inverse_mass: f64,
 }
 
-/// Supports of both rings and of the sensor.
+/// A sensor's spring and damper, and the direction along which it moves against the outer ring.
 #[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SensorSupport {
+    /// Spring, damper and mass.
+    pub support: Support,
+    /// Unit vector.
+    pub direction: Vector,
+}
+
+/// Supports of both rings and of the sensors.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Supports {
     /// The inner ring's, to the ground.
     pub shaft: Support,
     /// The outer ring's, to the ground.
     pub housing: Support,
-    /// The sensor's, to the outer ring.
-    pub sensor: Option<Support>,
+    /// The sensors', to the outer ring.
+    pub sensors: Vec<SensorSupport>,
+    /// Accelerations of the bodies by their positions [1/s²] and by their velocities [1/s].
+    accelerations: [BodyMatrix; 2],
 }
 
 impl Support {
@@ -58,12 +71,22 @@ impl Support {
 impl Supports {
     /// Those of a scene.
     pub fn new(scene: &Scene) -> Self {
-        let sensor = scene.sensor.map(|sensor| Support {
-            stiffness: sensor.stiffness,
-            damping: sensor.damping,
-            inverse_mass: 1.0 / sensor.mass,
+        let sensors = scene.sensors.iter().map(|sensor| SensorSupport {
+            support: Support { stiffness: sensor.stiffness, damping: sensor.damping, inverse_mass: 1.0 / sensor.mass },
+            direction: sensor.unit().into(),
         });
-        Self { shaft: Support::of_ring(&scene.shaft), housing: Support::of_ring(&scene.housing), sensor }
+        Self::of(Support::of_ring(&scene.shaft), Support::of_ring(&scene.housing), sensors.collect())
+    }
+
+    fn of(shaft: Support, housing: Support, sensors: Vec<SensorSupport>) -> Self {
+        let supports = Self { shaft, housing, sensors, accelerations: [BodyMatrix::zeros(); 2] };
+        let accelerations = supports.worked_out();
+        Self { accelerations, ..supports }
+    }
+
+    /// Whether coordinates beyond [`FEW_BODIES`] stand for something.
+    pub fn are_many(&self) -> bool {
+        self.sensors.len() > 1
     }
 
     /// Support of each ring, the inner first.
@@ -74,42 +97,66 @@ impl Supports {
     /// 1/mass of each coordinate [1/kg]; 0 where forces move nothing.
     pub fn inverse_masses(&self) -> Bodies {
         let [shaft, housing] = self.rings().map(|ring| ring.inverse_mass);
-        Bodies::from([shaft, shaft, housing, housing, self.sensor.map_or(0.0, |sensor| sensor.inverse_mass)])
-    }
-
-    /// Force f_s of the sensor on the outer ring along y [N].
-    #[inline(always)]
-    pub fn sensor_force(&self, y: f64, v: f64, housing: &RingState) -> f64 {
-        self.sensor.map_or(0.0, |sensor| sensor.force(y - housing.position.y, v - housing.velocity.y))
+        let mut masses = Bodies::zeros();
+        masses.fixed_rows_mut::<4>(0).copy_from_slice(&[shaft, shaft, housing, housing]);
+        for (mass, sensor) in masses.iter_mut().skip(4).zip(&self.sensors) {
+            *mass = sensor.support.inverse_mass;
+        }
+        masses
     }
 
     /// Forces on the bodies [N] for their displacements [m] and velocities [m/s].
     pub fn forces(&self, x: &Bodies, v: &Bodies) -> Bodies {
         let housing = RingState { position: Vector::new(x[2], x[3]), velocity: Vector::new(v[2], v[3]) };
-        let sensor = self.sensor_force(x[4], v[4], &housing);
         let ground = |i: usize, support: &Support| -support.force(x[i], v[i]);
         let [shaft, outer] = self.rings();
-        Bodies::from([ground(0, shaft), ground(1, shaft), ground(2, outer), ground(3, outer) + sensor, -sensor])
+        let mut forces = Bodies::zeros();
+        forces.fixed_rows_mut::<4>(0).copy_from_slice(&[
+            ground(0, shaft),
+            ground(1, shaft),
+            ground(2, outer),
+            ground(3, outer),
+        ]);
+        for (k, sensor) in self.sensors.iter().enumerate() {
+            let force = sensor.force(x[4 + k], v[4 + k], &housing);
+            forces[2] += force * sensor.direction.x;
+            forces[3] += force * sensor.direction.y;
+            forces[4 + k] = -force;
+        }
+        forces
     }
 
     /// Accelerations of the bodies by their positions [1/s²] and by their velocities [1/s].
     pub fn accelerations_by_motion(&self) -> [BodyMatrix; 2] {
+        self.accelerations
+    }
+
+    fn worked_out(&self) -> [BodyMatrix; 2] {
         let (masses, none) = (self.inverse_masses(), Bodies::zeros());
         let column = |forces: Bodies| forces.component_mul(&masses);
         let unit = |k: usize| Bodies::from_fn(|i, _| if i == k { 1.0 } else { 0.0 });
         let (mut by_position, mut by_velocity) = (BodyMatrix::zeros(), BodyMatrix::zeros());
-        for k in 0..BODIES {
+        for k in 0..4 + self.sensors.len() {
             by_position.set_column(k, &column(self.forces(&unit(k), &none)));
             by_velocity.set_column(k, &column(self.forces(&none, &unit(k))));
         }
         [by_position, by_velocity]
     }
+}
+
+impl SensorSupport {
+    /// Force f_s of the sensor on the outer ring along its direction [N], for its displacement [m] and velocity [m/s]
+    /// along it.
+    #[inline(always)]
+    pub fn force(&self, s: f64, v: f64, housing: &RingState) -> f64 {
+        let e = self.direction;
+        self.support.force(s - housing.position.dot(&e), v - housing.velocity.dot(&e))
+    }
 
     /// Derivative of the sensor's state by time, into lanes.
     #[inline(always)]
-    pub(super) fn sensor_rates<S: Wide>(&self, simd: S, v: f64, force: f64) -> Lanes<S::Quad> {
-        let inverse_mass = self.sensor.map_or(0.0, |sensor| sensor.inverse_mass);
-        whole(simd, [v, 0.0, 0.0, 0.0], [0.0, -force * inverse_mass, 0.0, 0.0])
+    pub(super) fn rates<S: Wide>(&self, simd: S, v: f64, force: f64) -> Lanes<S::Quad> {
+        whole(simd, [v, 0.0, 0.0, 0.0], [0.0, -force * self.support.inverse_mass, 0.0, 0.0])
     }
 }
 
@@ -124,11 +171,12 @@ impl Support {
 }
 
 impl Kinematics {
-    /// Displacements and velocities of the bodies, the sensor's being `y` and `v`.
-    pub fn bodies(&self, y: f64, v: f64) -> [Bodies; 2] {
-        let of =
-            |shaft: Vector, housing: Vector, sensor| Bodies::from([shaft.x, shaft.y, housing.x, housing.y, sensor]);
-        [of(self.shaft.position, self.housing.position, y), of(self.shaft.velocity, self.housing.velocity, v)]
+    /// Displacements and velocities of the bodies, those of the sensors being zero.
+    pub fn bodies(&self) -> [Bodies; 2] {
+        let of = |shaft: Vector, housing: Vector| {
+            Bodies::from_iterator([shaft.x, shaft.y, housing.x, housing.y].into_iter().chain([0.0; MOST_SENSORS]))
+        };
+        [of(self.shaft.position, self.housing.position), of(self.shaft.velocity, self.housing.velocity)]
     }
 }
 
@@ -144,25 +192,32 @@ mod tests {
     use super::*;
 
     fn supports() -> Supports {
-        Supports {
-            shaft: Support { stiffness: 3.0, damping: 0.5, inverse_mass: 0.25 },
-            housing: Support { stiffness: 7.0, damping: 0.25, inverse_mass: 0.5 },
-            sensor: Some(Support { stiffness: 11.0, damping: 2.0, inverse_mass: 4.0 }),
-        }
+        let sensor = Support { stiffness: 11.0, damping: 2.0, inverse_mass: 4.0 };
+        Supports::of(
+            Support { stiffness: 3.0, damping: 0.5, inverse_mass: 0.25 },
+            Support { stiffness: 7.0, damping: 0.25, inverse_mass: 0.5 },
+            [[0.0, 1.0], [0.5, -0.5]].map(|e| SensorSupport { support: sensor, direction: e.into() }).to_vec(),
+        )
+    }
+
+    fn bodies(first: [f64; 6]) -> Bodies {
+        Bodies::from_iterator(first.into_iter().chain([0.0; BODIES - 6]))
     }
 
     #[test]
     fn spring_and_damper_forces_are_those_of_hookes_law() {
-        let (x, v) = (Bodies::from([1.0, 2.0, 3.0, 4.0, 5.0]), Bodies::from([0.0, 0.0, 2.0, 0.0, 3.0]));
-        // Sensor: 11 (5 − 4) + 2 (3 − 0) = 17.
-        assert_eq!(supports().forces(&x, &v), Bodies::from([-3.0, -6.0, -21.5, -28.0 + 17.0, -17.0]));
+        let (x, v) = (bodies([1.0, 2.0, 3.0, 4.0, 5.0, 0.5]), bodies([0.0, 0.0, 2.0, 0.0, 3.0, 1.0]));
+        // Sensors: 11 (5 − 4) + 2 (3 − 0) = 17 upwards; 11 (0.5 + 0.5) + 2 (1 − 1) = 11, half of it to the right and
+        // downwards.
+        let wanted = bodies([-3.0, -6.0, -21.5 + 5.5, -28.0 + 17.0 - 5.5, -17.0, -11.0]);
+        assert_eq!(supports().forces(&x, &v), wanted);
     }
 
     #[test]
     fn the_matrices_are_the_forces_per_mass() {
         let supports = supports();
         let [by_position, by_velocity] = supports.accelerations_by_motion();
-        let (x, v) = (Bodies::from([1.0, -2.0, 0.5, 4.0, -3.0]), Bodies::from([2.0, 1.0, -1.0, 0.25, 8.0]));
+        let (x, v) = (bodies([1.0, -2.0, 0.5, 4.0, -3.0, 1.0]), bodies([2.0, 1.0, -1.0, 0.25, 8.0, -2.0]));
         let wanted = supports.forces(&x, &v).component_mul(&supports.inverse_masses());
         // Small whole numbers and binary fractions: exact.
         assert_eq!(by_position * x + by_velocity * v, wanted);

@@ -50,7 +50,8 @@ impl Scene {
             housing: Ring::default_housing(),
             housing_speed: None,
             housing_initial_angle: 0.0,
-            sensor: None,
+            sensors: Vec::new(),
+            probe: false,
             tolerance: 1e-5,
             max_steps: 10_000_000,
             recorder: None,
@@ -108,9 +109,10 @@ impl Ring {
 }
 
 impl Default for Sensor {
-    /// A resonator of 15 kHz with 5 % of critical damping, from the same models as the rings' supports.
+    /// A resonator of 15 kHz with 5 % of critical damping that measures along y, from the same models as the rings'
+    /// supports.
     fn default() -> Self {
-        Self { mass: 1.0, stiffness: 8.8826e9, damping: 9424.8 }
+        Self { name: String::new(), direction: FRAC_PI_2, mass: 1.0, stiffness: 8.8826e9, damping: 9424.8 }
     }
 }
 
@@ -191,10 +193,17 @@ impl SceneBuilder {
         self
     }
 
-    /// An accelerometer on the housing.
+    /// One accelerometer more on the housing.
     #[must_use]
     pub fn sensor(mut self, sensor: Sensor) -> Self {
-        self.scene.sensor = Some(sensor);
+        self.scene.sensors.push(sensor);
+        self
+    }
+
+    /// A probe of the displacement between the rings.
+    #[must_use]
+    pub fn probe(mut self) -> Self {
+        self.scene.probe = true;
         self
     }
 

@@ -38,7 +38,7 @@ impl Scene {
             defect.check(&self.bearing).map_err(|of| of.in_defect(index, self.defects.len()))?;
         }
         self.check_rings()?;
-        self.check_sensor()?;
+        self.check_sensors()?;
         TOLERANCE.check(self.tolerance)?;
         MAX_STEPS.check(self.max_steps as f64)?;
         if let Some(Recorder { rate, filter }) = self.recorder {
@@ -62,16 +62,28 @@ impl Scene {
         Ok(())
     }
 
-    fn check_sensor(&self) -> Result<(), SceneError> {
-        let Some(sensor) = &self.sensor else {
+    fn check_sensors(&self) -> Result<(), SceneError> {
+        if self.sensors.is_empty() {
             return Ok(());
-        };
+        }
         if self.housing.motion == Motion::Fixed {
             return Err(SceneError::SensorOnFixedHousing);
         }
-        SENSOR_MASS.check(sensor.mass)?;
-        SENSOR_STIFFNESS.check(sensor.stiffness)?;
-        SENSOR_DAMPING.check(sensor.damping)
+        SENSOR_COUNT.check(self.sensors.len() as f64)?;
+        for (index, sensor) in self.sensors.iter().enumerate() {
+            let check = || {
+                SENSOR_DIRECTION.check(sensor.direction)?;
+                SENSOR_MASS.check(sensor.mass)?;
+                SENSOR_STIFFNESS.check(sensor.stiffness)?;
+                SENSOR_DAMPING.check(sensor.damping)?;
+                if sensor.name.chars().any(char::is_control) || sensor.name.len() > LONGEST_NAME {
+                    return Err(SceneError::SensorName(sensor.name.clone()));
+                }
+                Ok(())
+            };
+            check().map_err(|of: SceneError| of.in_sensor(index, self.sensors.len()))?;
+        }
+        Ok(())
     }
 
     fn check_experiment(&self) -> Result<(), SceneError> {

@@ -87,6 +87,17 @@ pub enum SceneError {
         /// What is wrong with it.
         of: Box<SceneError>,
     },
+    /// Something wrong with one of several sensors.
+    #[error("[[sensor]] number {number}: {of}")]
+    InSensor {
+        /// Its number in the scene file, from 1.
+        number: usize,
+        /// What is wrong with it.
+        of: Box<SceneError>,
+    },
+    /// A sensor's name that does not fit into a description.
+    #[error("sensor name (sensor.name) {0:?}: at most {max} bytes without control characters", max = LONGEST_NAME)]
+    SensorName(String),
     /// A quantity outside its limits, or not finite.
     #[error("{quantity} ({key}) is {value}: it must be {limits}")]
     OutOfRange {
@@ -265,6 +276,11 @@ impl SceneError {
     /// This error of the defect of a number, from 0, said to belong to it where there are several.
     pub(super) fn in_defect(self, index: usize, count: usize) -> Self {
         if count > 1 { Self::InDefect { number: index + 1, of: Box::new(self) } } else { self }
+    }
+
+    /// This error of the sensor of a number, from 0, said to belong to it where there are several.
+    pub(super) fn in_sensor(self, index: usize, count: usize) -> Self {
+        if count > 1 { Self::InSensor { number: index + 1, of: Box::new(self) } } else { self }
     }
 }
 

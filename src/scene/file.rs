@@ -25,7 +25,8 @@
 //! | `shaft.load_n`, `housing.load_n` (internal only) | `[0, 0]` |
 //! | `shaft.initial_angle_deg`, `housing.initial_angle_deg` | 0 |
 //! | `housing.speed_hz` | none: the outer ring does not turn |
-//! | `sensor` | none; its `mass_kg`, `stiffness_n_m`, `damping_n_s_m` 1, 8.8826e9, 9424.8 |
+//! | `sensor` | none; its `direction_deg` 90, `name` empty, `mass_kg`, `stiffness_n_m`, `damping_n_s_m` 1, 8.8826e9, 9424.8; several as `[[sensor]]` |
+//! | `probe` | none; a table without keys |
 //! | `solver.tolerance`, `.max_steps` | 1e-5, 10 000 000 |
 //! | `recorder` | none; its `filter` `"linear-phase"`, or `"none"` |
 //! | `experiment.stop_s`, `.step_s` | 0.5, 1e-4 |
@@ -33,12 +34,14 @@
 mod defects;
 mod keys;
 mod not_modelled;
+mod one_or_more;
 mod rings;
 
 use super::error::SceneError;
-use super::{Bearing, Cage, Contact, ContactLaw, Damping, Experiment, Recorder, RecorderFilter, Scene, Sensor};
-use defects::{DefectTable, DefectTables};
-use rings::{HousingTable, SensorTable, ShaftTable};
+use super::{Bearing, Cage, Contact, ContactLaw, Damping, Experiment, Recorder, RecorderFilter, Scene};
+use defects::DefectTable;
+use one_or_more::OneOrMore;
+use rings::{HousingTable, ProbeTable, SensorTable, ShaftTable};
 use serde::Deserialize;
 use std::f64::consts::{PI, TAU};
 
@@ -70,10 +73,12 @@ struct SceneFile {
     #[serde(default)]
     cage: CageTable,
     #[serde(default)]
-    defect: DefectTables,
+    defect: OneOrMore<DefectTable>,
     shaft: ShaftTable,
     housing: HousingTable,
-    sensor: Option<SensorTable>,
+    #[serde(default)]
+    sensor: OneOrMore<SensorTable>,
+    probe: Option<ProbeTable>,
     #[serde(default)]
     solver: SolverTable,
     recorder: Option<RecorderTable>,
@@ -107,11 +112,8 @@ impl SceneFile {
             housing: self.housing.into_ring()?,
             housing_speed: housing_speed.map(|speed| speed * TAU),
             housing_initial_angle: housing_angle.to_radians(),
-            sensor: self.sensor.map(|table| Sensor {
-                mass: table.mass_kg,
-                stiffness: table.stiffness_n_m,
-                damping: table.damping_n_s_m,
-            }),
+            sensors: self.sensor.0.into_iter().map(SensorTable::into_sensor).collect(),
+            probe: self.probe.is_some(),
             tolerance: self.solver.tolerance,
             max_steps: self.solver.max_steps,
             recorder: self.recorder.map(|table| Recorder { rate: table.rate_hz, filter: table.filter }),

@@ -49,8 +49,10 @@ pub struct Scene {
     pub housing_speed: Option<f64>,
     /// Angle of the outer ring at the start [rad].
     pub housing_initial_angle: f64,
-    /// Accelerometer on the housing; `None` for none.
-    pub sensor: Option<Sensor>,
+    /// Accelerometers on the housing.
+    pub sensors: Vec<Sensor>,
+    /// Whether a probe measures the displacement between the rings.
+    pub probe: bool,
     /// Relative tolerance of the time integration.
     pub tolerance: f64,
     /// Most integration steps in one communication step, after which it fails.
@@ -258,15 +260,30 @@ pub struct Ring {
     pub stiffness: f64,
 }
 
-/// An accelerometer, a damped resonator on the housing that measures along y.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Most accelerometers in a scene.
+pub const MOST_SENSORS: usize = 8;
+
+/// An accelerometer: a damped resonator on the housing, which moves and measures along one direction.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Sensor {
+    /// What the user calls it; may be empty.
+    pub name: String,
+    /// Direction along which it measures [rad], counter-clockwise from +x; π/2 is upwards.
+    pub direction: f64,
     /// Mass [kg].
     pub mass: f64,
     /// Stiffness [N/m].
     pub stiffness: f64,
     /// Damping [N s/m].
     pub damping: f64,
+}
+
+impl Sensor {
+    /// Unit vector along which it measures. A right angle is one to the bit, and π/2 is only near one.
+    pub fn unit(&self) -> [f64; 2] {
+        let part = |number: f64| if number.abs() < 1e-15 { 0.0 } else { number };
+        [part(libm::cos(self.direction)), part(libm::sin(self.direction))]
+    }
 }
 
 /// A recorder of outputs inside the step.

@@ -1,5 +1,6 @@
 //! The quantities of the scene file: what each is called, its key, its unit and the limits that depend on nothing else.
 
+use super::MOST_SENSORS;
 use super::error::{Bound, Limits, SceneError};
 use Bound::{Exclusive, Inclusive};
 use std::f64::consts::{PI, TAU};
@@ -144,6 +145,10 @@ pub(super) const HOUSING: RingQuantities = RingQuantities {
 pub(super) const HOUSING_SPEED: Quantity =
     quantity("speed of the housing", "housing.speed_hz", HZ, Inclusive(-1e4), Inclusive(1e4));
 pub(super) const SPEED: Quantity = quantity("shaft speed", "shaft.speed_hz", HZ, Inclusive(-1e4), Inclusive(1e4));
+pub(super) const SENSOR_COUNT: Quantity =
+    quantity("number of sensors", "[[sensor]]", 1.0, Inclusive(1.0), Inclusive(MOST_SENSORS as f64));
+pub(super) const SENSOR_DIRECTION: Quantity =
+    quantity("sensor direction", "sensor.direction_deg", 180.0 / PI, Inclusive(-1e3), Inclusive(1e3));
 pub(super) const SENSOR_MASS: Quantity =
     quantity("sensor mass", "sensor.mass_kg", 1.0, Inclusive(1e-9), Inclusive(1e9));
 pub(super) const SENSOR_STIFFNESS: Quantity =

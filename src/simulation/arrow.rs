@@ -4,13 +4,14 @@
 //! ```text
 //! s u − w + e_r·v_o = b_u,   s w − a u − c w − g·(x_o − x_i) − … = b_w,   determinant s(s − c) − a
 //! ```
-//! and each position from its velocity, x = (v + b_x)/s. What is left are the velocities of rings and sensor, five at
-//! most, by elimination with row pivoting. Rows of bodies without state are those of the unit matrix.
+//! and each position from its velocity, x = (v + b_x)/s. What is left are the velocities of rings and sensors, by
+//! elimination with row pivoting. Rows of bodies without state are those of the unit matrix; with one sensor at most,
+//! only the rows that there may be are worked with.
 
-use nalgebra::{Const, LU};
+use nalgebra::{Const, DimMin, LU};
 
 use crate::dynamics::jacobian::Jacobian;
-use crate::dynamics::supports::{BODIES, Bodies, BodyMatrix};
+use crate::dynamics::supports::{BODIES, Bodies, BodyMatrix, FEW_BODIES};
 use crate::dynamics::tangent::{Rings, stacked};
 use crate::numerics::plane::{Matrix, Vector};
 
@@ -22,8 +23,35 @@ const RINGS: usize = 4;
 pub struct Arrow {
     shift: f64,
     elements: Vec<Eliminated>,
-    /// Factors of the bodies' matrix; `None` where no body has a state.
-    bodies: Option<LU<f64, Const<BODIES>, Const<BODIES>>>,
+    bodies: Factors,
+}
+
+/// Factors of the bodies' matrix.
+#[derive(Debug, Clone)]
+enum Factors {
+    /// No body has a state.
+    None,
+    /// Rings, and one sensor at most.
+    Few(LU<f64, Const<FEW_BODIES>, Const<FEW_BODIES>>),
+    /// More sensors.
+    Many(LU<f64, Const<BODIES>, Const<BODIES>>),
+}
+
+impl Factors {
+    /// Solves for the first bodies of `b` in place; false where the matrix is singular.
+    fn solve(&self, b: &mut Bodies) -> bool {
+        fn first<const N: usize>(lu: &LU<f64, Const<N>, Const<N>>, b: &mut Bodies) -> bool
+        where
+            Const<N>: DimMin<Const<N>, Output = Const<N>>,
+        {
+            lu.solve_mut(&mut b.rows_mut(0, N))
+        }
+        match self {
+            Self::None => true,
+            Self::Few(lu) => first(lu, b),
+            Self::Many(lu) => first(lu, b),
+        }
+    }
 }
 
 /// One element's block, solved.
@@ -38,7 +66,7 @@ struct Eliminated {
 impl Arrow {
     /// Room for `count` elements.
     pub fn new(count: usize) -> Self {
-        Self { shift: 1.0, elements: vec![Eliminated::default(); count], bodies: None }
+        Self { shift: 1.0, elements: vec![Eliminated::default(); count], bodies: Factors::None }
     }
 
     /// Eliminates `shift` − `jacobian`.
@@ -69,7 +97,12 @@ impl Arrow {
             matrix.column_mut(i).fill(0.0);
             matrix[(i, i)] = 1.0;
         }
-        self.bodies = coupled.then(|| matrix.lu());
+        let many = free[FEW_BODIES..].contains(&true);
+        self.bodies = match (coupled, many) {
+            (false, _) => Factors::None,
+            (true, false) => Factors::Few(matrix.fixed_view::<FEW_BODIES, FEW_BODIES>(0, 0).into_owned().lu()),
+            (true, true) => Factors::Many(matrix.lu()),
+        };
     }
 
     /// Puts x into `b`, for the `jacobian` that was eliminated last.
@@ -85,12 +118,16 @@ impl Arrow {
             (b[j], b[start + j]) = (moved.x, moved.y);
             rings += block.rings_by_path * moved.x + block.rings_by_velocity * moved.y;
         }
-        let Some(bodies) = &self.bodies else { return };
-        let mut v = jacobian.by_position * Bodies::from(shifted) + rings.push(0.0);
+        if matches!(self.bodies, Factors::None) {
+            return;
+        }
+        let mut v = jacobian.by_position * Bodies::from(shifted);
+        let mut of_rings = v.fixed_rows_mut::<RINGS>(0);
+        of_rings += rings;
         for (v, place) in v.iter_mut().zip(&jacobian.places) {
             *v = place.map_or(0.0, |(_, velocity)| *v + b[velocity]);
         }
-        if !bodies.solve_mut(&mut v) {
+        if !self.bodies.solve(&mut v) {
             // Error control takes a step back whose result is no number.
             v.fill(f64::NAN);
         }

@@ -5,6 +5,7 @@ use crate::dynamics::kinematics::RingState;
 use crate::dynamics::tangent::Rings;
 use crate::dynamics::variation::{ForceChange, Variation};
 use crate::numerics::plane::{Matrix, Vector};
+use crate::scene::MOST_SENSORS;
 
 /// A small change of everything that outputs are made of, and what it makes of the forces.
 #[derive(Debug, Clone)]
@@ -13,11 +14,11 @@ pub(super) struct Change {
     pub(super) forces: ForceChange,
     /// Of the external loads on inner and outer ring [N].
     pub(super) loads: Rings,
-    /// Of the sensor's position and velocity.
-    pub(super) sensor: [f64; 2],
+    /// Of the sensors' positions and velocities.
+    pub(super) sensors: [[f64; 2]; MOST_SENSORS],
     /// Of the accelerations of inner and outer ring [m/s²].
     pub(super) accelerations: [Vector; 2],
-    pub(super) sensor_acceleration: f64,
+    pub(super) sensor_accelerations: [f64; MOST_SENSORS],
     pub(super) cage_torque: f64,
     pub(super) stiffness: Matrix,
 }
@@ -28,9 +29,9 @@ impl Change {
             variation: Variation::new(count),
             forces: ForceChange::new(count),
             loads: Rings::zeros(),
-            sensor: [0.0; 2],
+            sensors: [[0.0; 2]; MOST_SENSORS],
             accelerations: [Vector::zeros(); 2],
-            sensor_acceleration: 0.0,
+            sensor_accelerations: [0.0; MOST_SENSORS],
             cage_torque: 0.0,
             stiffness: Matrix::zeros(),
         }
@@ -38,8 +39,9 @@ impl Change {
 
     pub(super) fn clear(&mut self) {
         self.variation.clear();
-        (self.loads, self.sensor, self.accelerations) = (Rings::zeros(), [0.0; 2], [Vector::zeros(); 2]);
-        (self.sensor_acceleration, self.cage_torque) = (0.0, 0.0);
+        (self.loads, self.accelerations) = (Rings::zeros(), [Vector::zeros(); 2]);
+        (self.sensors, self.sensor_accelerations) = ([[0.0; 2]; MOST_SENSORS], [0.0; MOST_SENSORS]);
+        self.cage_torque = 0.0;
         self.stiffness = Matrix::zeros();
     }
 

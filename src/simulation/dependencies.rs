@@ -15,7 +15,6 @@ pub(super) fn of(table: &[Variable], quantities: &[Q], scene: &Scene) -> Vec<Dep
     let known = |variable: &Variable| matches!(variable.causality, Causality::Input | Causality::Parameter);
     let knowns: Vec<_> = rows().filter(|(variable, _)| known(variable)).collect();
     let defect = scene.defects.iter().any(|defect| defect.on != DefectOn::Inner);
-    let sensor_follows_input = scene.housing.motion == Motion::Host;
     rows()
         .filter(|(variable, _)| variable.causality == Causality::Output)
         .map(|(variable, &output)| {
@@ -25,7 +24,7 @@ pub(super) fn of(table: &[Variable], quantities: &[Q], scene: &Scene) -> Vec<Dep
             Dependencies {
                 output: variable.reference,
                 direct: listed(&|known, quantity| {
-                    known.causality == Causality::Input && follows(output, quantity, defect, sensor_follows_input)
+                    known.causality == Causality::Input && follows(output, quantity, defect, scene)
                 }),
                 initial: listed(&|_, quantity| starts_from(output, quantity, scene)),
             }
@@ -34,7 +33,7 @@ pub(super) fn of(table: &[Variable], quantities: &[Q], scene: &Scene) -> Vec<Dep
 }
 
 /// Whether an output follows an input at the same instant.
-fn follows(output: Q, input: Q, defect: bool, sensor_follows_input: bool) -> bool {
+fn follows(output: Q, input: Q, defect: bool, scene: &Scene) -> bool {
     use RingName::{Housing, Shaft};
     let place = matches!(input, Q::Position(..));
     let pace = matches!(input, Q::Velocity(..));
@@ -49,9 +48,15 @@ fn follows(output: Q, input: Q, defect: bool, sensor_follows_input: bool) -> boo
             matches!(input, Q::Velocity(Housing, _)) || (defect && speed) || input == Q::Load(Housing, axis)
         }
         Q::Stiffness(..) => place,
-        Q::SensorAcceleration => {
-            sensor_follows_input && matches!(input, Q::Position(Housing, 1) | Q::Velocity(Housing, 1))
-        }
+        // Through its spring and damper, along its direction.
+        Q::SensorAcceleration(k) => match input {
+            Q::Position(Housing, axis) | Q::Velocity(Housing, axis) => {
+                scene.housing.motion == Motion::Host && scene.sensors[k].unit()[axis] != 0.0
+            }
+            _ => false,
+        },
+        // The host's own positions; those of the state follow no input at once.
+        Q::Probe(axis) => matches!(input, Q::Position(_, along) if along == axis),
         Q::CageSpeed => speed,
         // Tangential parts of the inner contacts, and the elements' inertia as the outer ring accelerates.
         Q::CageTorque => place || pace || speed || matches!(input, Q::Acceleration(Housing, _) | Q::Load(Housing, _)),
@@ -80,7 +85,7 @@ fn starts_from(output: Q, known: Q, scene: &Scene) -> bool {
         },
         Q::CageSpeed => matches!(known, Q::Speed(_) | Q::Parameter(Parameter::CageSlip)),
         // At rest.
-        Q::Velocity(..) | Q::Acceleration(..) | Q::SensorAcceleration => false,
+        Q::Velocity(..) | Q::Acceleration(..) | Q::SensorAcceleration(_) => false,
         _ => match known {
             // Tolerance and recorder are of steps; masses and dampers of rings matter in motion.
             Q::Parameter(

@@ -21,7 +21,7 @@ use super::variables::{Causality, Kind, Variable};
 use super::{SimulationError, VariableError};
 use crate::dynamics::drive::{Drive, Frame};
 use crate::dynamics::kinematics::Kinematics;
-use crate::dynamics::supports::Bodies;
+use crate::dynamics::tangent::stacked;
 use crate::numerics::plane::Vector;
 
 impl Simulation {
@@ -149,8 +149,8 @@ impl Simulation {
         variation.path.copy_from_slice(&self.derivative[..z]);
         variation.radial_velocity.copy_from_slice(&self.derivative[layout.radial_velocity..][..z]);
         [variation.shaft, variation.housing] = self.model.ring_rates(drive, 0.0, &self.derivative);
-        if let Some(i) = layout.sensor {
-            change.sensor = [self.derivative[i], self.derivative[i + 1]];
+        for (sensor, i) in change.sensors.iter_mut().zip(layout.sensor_places()) {
+            *sensor = [self.derivative[i], self.derivative[i + 1]];
         }
         // Those of internal rings follow from the forces' change.
         change.accelerations = [&drive.shaft, &drive.housing].map(|[x, y]| Vector::new(x.0[3], y.0[3]));
@@ -173,16 +173,21 @@ impl Simulation {
             let cage = drive.cage_at(0.0);
             let (shaft, housing) = (variation.shaft, variation.housing);
             let moved = Kinematics { cage, shaft, housing };
-            let [x, v] = moved.bodies(change.sensor[0], change.sensor[1]);
+            let [mut x, mut v] = moved.bodies();
+            for (k, &[of_x, of_v]) in change.sensors.iter().enumerate() {
+                (x[4 + k], v[4 + k]) = (of_x, of_v);
+            }
             let (supports, [shaft, housing]) = (&self.model.supports, [forces.shaft, forces.housing]);
-            let contacts = Bodies::from([shaft.x, shaft.y, housing.x, housing.y, 0.0]);
-            let all = supports.forces(&x, &v) + contacts + change.loads.push(0.0);
+            let contacts = stacked(shaft, housing) + change.loads;
+            let mut all = supports.forces(&x, &v);
+            let mut rings = all.fixed_rows_mut::<4>(0);
+            rings += contacts;
             let accelerations = all.component_mul(&supports.inverse_masses());
             for (i, acceleration) in accelerations.iter().enumerate().take(4) {
                 // What the host prescribes has been set before.
                 change.accelerations[i / 2][i % 2] += acceleration;
             }
-            change.sensor_acceleration = accelerations[4];
+            change.sensor_accelerations.copy_from_slice(&accelerations.as_slice()[4..]);
         }
         let by_acceleration = change.forces.torque_by_acceleration;
         change.cage_torque = change.forces.cage_torque + by_acceleration.dot(&change.accelerations[1]);
@@ -207,7 +212,8 @@ impl Simulation {
             // Before the first step the mean is the force itself.
             Quantity::MeanForce(name, axis) if !self.state.started => ring(name).2[axis],
             Quantity::Stiffness(row, column) => -self.change.stiffness[(row, column)],
-            Quantity::SensorAcceleration => self.change.sensor_acceleration,
+            Quantity::SensorAcceleration(k) => self.change.sensor_accelerations[k],
+            Quantity::Probe(axis) => variation.shaft.position[axis] - variation.housing.position[axis],
             Quantity::CageAngle | Quantity::ElementAngle(_) => variation.cage_angle,
             Quantity::CageSpeed => variation.cage_speed,
             Quantity::CageTorque => self.change.cage_torque,

@@ -6,6 +6,7 @@ use crate::dynamics::forces::Forces;
 use crate::dynamics::kinematics::RingState;
 use crate::dynamics::model::Model;
 use crate::numerics::plane::Vector;
+use crate::scene::MOST_SENSORS;
 
 /// Angles of the cage and of the frames of defects [rad], all turns counted.
 #[derive(Debug, Clone, Copy, Default)]
@@ -23,7 +24,7 @@ pub struct Outputs<'a> {
     forces: &'a Forces,
     ring: [RingState; 2],
     acceleration: [Vector; 2],
-    sensor: f64,
+    sensors: [f64; MOST_SENSORS],
     angles: Angles,
     model: &'a Model,
     drive: &'a Drive,
@@ -45,12 +46,16 @@ impl<'a> Outputs<'a> {
         forces: &'a Forces,
         start: Angles,
     ) -> Self {
+        let mut sensors = [0.0; MOST_SENSORS];
+        for (sensor, place) in sensors.iter_mut().zip(model.layout.sensor_places()) {
+            *sensor = derivative[place + 1];
+        }
         Self {
             state,
             forces,
             ring: [model.shaft_state(drive, tau, state), model.housing_state(drive, tau, state)],
             acceleration: model.ring_rates(drive, tau, derivative).map(|ring| ring.velocity),
-            sensor: model.layout.sensor.map_or(0.0, |i| derivative[i + 1]),
+            sensors,
             angles: Angles {
                 cage: start.cage + drive.cage.at(tau),
                 frames: std::array::from_fn(|i| start.frames[i] + drive.frames[i].since.at(tau)),
@@ -68,7 +73,8 @@ impl<'a> Outputs<'a> {
             Quantity::Velocity(ring, axis) => self.ring[ring.index()].velocity[axis],
             Quantity::Acceleration(ring, axis) => self.acceleration[ring.index()][axis],
             Quantity::Force(ring, axis) => [self.forces.shaft(), self.forces.housing()][ring.index()][axis],
-            Quantity::SensorAcceleration => self.sensor,
+            Quantity::SensorAcceleration(k) => self.sensors[k],
+            Quantity::Probe(axis) => self.ring[0].position[axis] - self.ring[1].position[axis],
             Quantity::CageAngle => self.angles.cage,
             Quantity::RingAngle(ring) => self.angles.frames[ring.frame() as usize],
             Quantity::ShaftTorque => self.forces.torque_on(Frame::Shaft),

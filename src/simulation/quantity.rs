@@ -43,7 +43,9 @@ pub enum Quantity {
     Force(RingName, usize),
     MeanForce(RingName, usize),
     Stiffness(usize, usize),
-    SensorAcceleration,
+    SensorAcceleration(usize),
+    /// Displacement of the inner ring against the outer along an axis.
+    Probe(usize),
     CageAngle,
     CageSpeed,
     CageTorque,

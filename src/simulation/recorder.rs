@@ -248,7 +248,7 @@ fn element_frequency(scene: &Scene) -> f64 {
 
 /// What a measuring chain could show.
 fn is_vibration(quantity: Quantity) -> bool {
-    matches!(quantity, Quantity::SensorAcceleration | Quantity::Acceleration(..) | Quantity::Force(..))
+    matches!(quantity, Quantity::SensorAcceleration(_) | Quantity::Acceleration(..) | Quantity::Force(..))
 }
 
 /// What is looked at instant by instant. Positions and velocities of rings and angles of elements follow from the

@@ -57,7 +57,7 @@ impl Simulation {
         for place in [layout.shaft, layout.housing].into_iter().flatten() {
             self.derivative[place + 2..place + 4].fill(0.0);
         }
-        if let Some(place) = layout.sensor {
+        for place in layout.sensor_places() {
             self.derivative[place + 1] = 0.0;
         }
     }

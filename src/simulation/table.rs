@@ -115,15 +115,7 @@ impl Builder<'_> {
                 );
             }
         }
-        if self.scene.sensor.is_some() {
-            self.output(
-                "sensor.acceleration",
-                "Acceleration that the sensor on the housing shows, along y",
-                Q::SensorAcceleration,
-                Unit::MetrePerSecondSquared,
-                10.0,
-            );
-        }
+        self.measurements();
         self.output("cage.angle", "Angle of element 1, counter-clockwise from +x", Q::CageAngle, Unit::Radian, 1.0);
         self.output("cage.speed", "Speed of the cage", Q::CageSpeed, Unit::RadianPerSecond, 100.0);
         self.output(
@@ -137,6 +129,29 @@ impl Builder<'_> {
             self.element_outputs(j);
         }
         self.counters();
+    }
+
+    /// What sensors and probe show.
+    fn measurements(&mut self) {
+        let several = self.scene.sensors.len() > 1;
+        for (k, sensor) in self.scene.sensors.iter().enumerate() {
+            let name =
+                if several { format!("sensor[{}].acceleration", k + 1) } else { "sensor.acceleration".to_owned() };
+            let called = if sensor.name.is_empty() { String::new() } else { format!(" {}", sensor.name) };
+            let along = match sensor.unit() {
+                [0.0, 1.0] => "y".to_owned(),
+                [1.0, 0.0] => "x".to_owned(),
+                _ => format!("{} degrees from +x", (sensor.direction.to_degrees() * 1e9).round() / 1e9),
+            };
+            let text = format!("Acceleration that the sensor{called} on the housing shows, along {along}");
+            self.output(&name, &text, Q::SensorAcceleration(k), Unit::MetrePerSecondSquared, 10.0);
+        }
+        if self.scene.probe {
+            for (axis, letter) in AXES.iter().enumerate() {
+                let text = format!("Displacement of the inner ring against the outer along {letter}");
+                self.output(&format!("probe.{letter}"), &text, Q::Probe(axis), Unit::Metre, 1e-5);
+            }
+        }
     }
 
     /// Angles of rings that bear a defect or turn, and the torque on one with a defect.

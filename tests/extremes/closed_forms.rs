@@ -15,7 +15,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 pub fn settles(what: &'static str, scene: Scene, limit: f64) -> Row {
     let load = scene.shaft.load[1];
     let mut scene = scene;
-    (scene.shaft_speed, scene.sensor) = (0.0, None);
+    (scene.shaft_speed, scene.sensors) = (0.0, Vec::new());
     let mut at_rest = Named::started(scene.clone());
     let mut start = scene;
     start.shaft.load[1] = 0.2 * load;
@@ -39,7 +39,7 @@ pub fn load_0(what: &'static str, damping: Damping) -> Row {
     let mut scene = loaded(healthy(), 0.0, damping);
     (scene.gravity, scene.shaft_speed) = ([0.0; 2], 100.0);
     scene.housing = Ring::fixed();
-    scene.sensor = None;
+    scene.sensors.clear();
     scene.shaft.stiffness = 1e6;
     let speed = scene.shaft_speed * cage_ratio(&scene.bearing, 0.0);
     let mass = scene.bearing.mass_of_element();
@@ -196,7 +196,7 @@ pub fn energy_of_a_bearing_without_damping() -> Row {
     // The shaft free on its contacts, the housing held: a housing that moved would take work from the cage.
     let mut scene = healthy();
     let held = Ring::fixed();
-    (scene.housing, scene.sensor, scene.shaft_speed) = (held, None, 0.0);
+    (scene.housing, scene.sensors, scene.shaft_speed) = (held, Vec::new(), 0.0);
     (scene.shaft.damping, scene.contact.damping) = (0.0, Damping::HuntCrossley(0.0));
     let (shaft_mass, mass) = (scene.shaft.mass, scene.bearing.mass_of_element());
     let (hertz, gravity) = (HertzConstants::of(&scene.bearing), scene.gravity);

@@ -17,7 +17,7 @@ pub fn hosted() -> Scene {
     for ring in [&mut scene.shaft, &mut scene.housing] {
         *ring = Ring::hosted();
     }
-    scene.sensor = None;
+    scene.sensors.clear();
     scene
 }
 

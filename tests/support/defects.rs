@@ -15,7 +15,7 @@ pub fn spall(length: f64, depth: f64) -> DefectShape {
 /// ER16K under law `hertz` with its outer ring held, so that runs do not become chaotic at once.
 pub fn held(defect: Defect) -> Scene {
     let mut scene = shipped("er16k-tb1");
-    (scene.housing, scene.sensor) = (Ring::fixed(), None);
+    (scene.housing, scene.sensors) = (Ring::fixed(), Vec::new());
     scene.tolerance = 1e-9;
     scene.defects = vec![defect];
     scene

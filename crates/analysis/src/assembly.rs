@@ -187,12 +187,17 @@ impl Assembly {
                 freedoms.push(Freedom { name: format!("{name}.{letter}"), body, mass: ring.mass, position, velocity });
             }
         }
-        if let (Some(sensor), Some(start)) = (&model.supports.sensor, layout.sensor) {
-            let name = "sensor.y".to_owned();
+        let sensors = &model.supports.sensors;
+        for (k, (sensor, start)) in sensors.iter().zip(layout.sensor_places()).enumerate() {
+            let name = match (sensors.len(), sensor.direction.x == 0.0) {
+                (1, true) => "sensor.y".to_owned(),
+                (1, false) => "sensor".to_owned(),
+                _ => format!("sensor[{}]", k + 1),
+            };
             freedoms.push(Freedom {
                 name,
                 body: Body::Sensor,
-                mass: 1.0 / sensor.inverse_mass,
+                mass: 1.0 / sensor.support.inverse_mass,
                 position: start,
                 velocity: start + 1,
             });

@@ -69,7 +69,7 @@ pub fn expected(rig: &Rig<'_>, trial: Trial, spacing: f64) -> Result<Ringing, St
 }
 
 fn upper_frequency(scene: &Scene, stiffness: f64) -> f64 {
-    let sensor = scene.sensor.map_or(0.0, |s| s.mass);
+    let sensor: f64 = scene.sensors.iter().map(|sensor| sensor.mass).sum();
     let (m_i, m_o) = (scene.shaft.mass, scene.housing.mass + sensor);
     let (a, b) = ((stiffness + scene.shaft.stiffness) / m_i, (stiffness + scene.housing.stiffness) / m_o);
     let coupling = stiffness * stiffness / (m_i * m_o);

@@ -144,7 +144,7 @@ impl StaticBearing {
         held.gravity = [0.0; 2];
         held.shaft = Ring { motion: Motion::Internal, mass: 1.0, ..still };
         held.housing = still;
-        held.sensor = None;
+        held.sensors.clear();
         Ok(Self { load, ..Self::with_surfaces(held, surfaces, map.as_ref())? })
     }
 

@@ -64,7 +64,7 @@ impl<'a> Rig<'a> {
     /// sensor to others and cannot be simulated by itself.
     pub fn new(scene: &Scene, bpfo: f64, maps: Maps<'a>) -> Option<Self> {
         let whole = scene.shaft.motion == Motion::Internal && scene.housing.motion != Motion::Host;
-        if !whole || scene.sensor.is_none() || scene.housing.motion != Motion::Internal {
+        if !whole || scene.sensors.is_empty() || scene.housing.motion != Motion::Internal {
             return None;
         }
         let mut scene = scene.clone();

@@ -8,7 +8,7 @@ use crate::dynamics::drive::{Cubic, Quadratic};
 use crate::dynamics::drive::{Frame, Turning};
 use crate::dynamics::forces::Forces;
 use crate::dynamics::raceway::{Cells, DefectiveElement, Defects, SMOOTH};
-use crate::scene::{Damping, Scene};
+use crate::scene::{Damping, Scene, Sensor};
 
 /// Who bears a defect, and for an element the raceway that it faces.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,6 +28,11 @@ pub(crate) fn lively_on(bearer: Bearer, motions: [Motion; 2], damping: Damping, 
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/er16k-tb1.toml");
     let mut scene = Scene::from_toml(&std::fs::read_to_string(path).unwrap()).unwrap();
     scene.contact.damping = damping;
+    // One sensor, or several that swing along other axes.
+    if let Damping::Proportional(_) = damping {
+        let of = |(direction, mass)| Sensor { direction, mass, ..Sensor::default() };
+        scene.sensors = [(0.3, 0.7), (std::f64::consts::FRAC_PI_2, 1.0), (3.6, 0.2)].map(of).to_vec();
+    }
     for (ring, motion) in [&mut scene.shaft, &mut scene.housing].into_iter().zip(motions) {
         ring.motion = motion;
     }

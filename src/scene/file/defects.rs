@@ -1,10 +1,8 @@
 //! The table `[defect]` of the scene file, or several of them as `[[defect]]`.
 
+use super::one_or_more::OneOrMore;
 use crate::scene::{Bearing, Defect, DefectOn, DefectShape, SceneError};
 use serde::Deserialize;
-use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
-use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
-use std::fmt;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -33,33 +31,7 @@ enum Body {
     Element,
 }
 
-/// `[defect]` or `[[defect]]`.
-#[derive(Default)]
-pub(super) struct DefectTables(pub(super) Vec<DefectTable>);
-
-impl<'de> Deserialize<'de> for DefectTables {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct OneOrMore;
-        impl<'de> Visitor<'de> for OneOrMore {
-            type Value = DefectTables;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a table [defect] or several tables [[defect]]")
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<DefectTables, A::Error> {
-                DefectTable::deserialize(MapAccessDeserializer::new(map)).map(|one| DefectTables(vec![one]))
-            }
-
-            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<DefectTables, A::Error> {
-                Vec::deserialize(SeqAccessDeserializer::new(seq)).map(DefectTables)
-            }
-        }
-        deserializer.deserialize_any(OneOrMore)
-    }
-}
-
-impl DefectTables {
+impl OneOrMore<DefectTable> {
     pub(super) fn into_defects(self, bearing: &Bearing) -> Result<Vec<Defect>, SceneError> {
         let count = self.0.len();
         let defects = self.0.into_iter().enumerate();

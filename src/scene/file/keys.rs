@@ -3,7 +3,7 @@
 
 use super::super::key_fault::{Hint, KeyFault};
 use super::not_modelled::instead_of;
-use super::rings::{HousingTable, SensorTable, ShaftTable};
+use super::rings::{HousingTable, ProbeTable, SensorTable, ShaftTable};
 use super::{
     BearingTable, CageTable, ContactTable, DefectTable, ExperimentTable, RecorderTable, SceneError, SceneFile,
     SolverTable,
@@ -34,7 +34,7 @@ const ALTERNATIVES: [(&str, [&str; 2], Keys); 4] = [
 ];
 
 /// All tables and the keys that each takes, as the tables themselves say.
-fn tables() -> [(&'static str, Keys); 11] {
+fn tables() -> [(&'static str, Keys); 12] {
     [
         ("", fields::<SceneFile>()),
         ("bearing", fields::<BearingTable>()),
@@ -44,6 +44,7 @@ fn tables() -> [(&'static str, Keys); 11] {
         ("shaft", fields::<ShaftTable>()),
         ("housing", fields::<HousingTable>()),
         ("sensor", fields::<SensorTable>()),
+        ("probe", fields::<ProbeTable>()),
         ("solver", fields::<SolverTable>()),
         ("recorder", fields::<RecorderTable>()),
         ("experiment", fields::<ExperimentTable>()),
@@ -71,7 +72,7 @@ fn faults(text: &str, file: &DeTable<'_>) -> Vec<KeyFault> {
             let line = line_of(&breaks, value.span().start);
             match value.get_ref() {
                 DeValue::Table(table) => faults.extend(of_table(&breaks, (name, keys), line, table)),
-                DeValue::Array(tables) if name == "defect" => {
+                DeValue::Array(tables) if ["defect", "sensor"].contains(&name) => {
                     for table in tables.iter() {
                         let line = line_of(&breaks, table.span().start);
                         if let DeValue::Table(table) = table.get_ref() {
@@ -249,6 +250,7 @@ mod tests {
             "shaft" => of::<ShaftTable>(text),
             "housing" => of::<HousingTable>(text),
             "sensor" => of::<SensorTable>(text),
+            "probe" => of::<ProbeTable>(text),
             "solver" => of::<SolverTable>(text),
             "recorder" => of::<RecorderTable>(text),
             _ => of::<ExperimentTable>(text),

@@ -1,4 +1,4 @@
-//! The tables `[shaft]`, `[housing]` and `[sensor]` of the scene file.
+//! The tables `[shaft]`, `[housing]`, `[sensor]` and `[probe]` of the scene file.
 
 use crate::scene::{Motion, Ring, SceneError, Sensor};
 use serde::Deserialize;
@@ -74,14 +74,34 @@ fn ring(
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct SensorTable {
-    pub(super) mass_kg: f64,
-    pub(super) stiffness_n_m: f64,
-    pub(super) damping_n_s_m: f64,
+    name: String,
+    direction_deg: f64,
+    mass_kg: f64,
+    stiffness_n_m: f64,
+    damping_n_s_m: f64,
+}
+
+/// Says by being there that displacements between the rings are wanted.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ProbeTable {}
+
+impl SensorTable {
+    pub(super) fn into_sensor(self) -> Sensor {
+        Sensor {
+            name: self.name,
+            direction: self.direction_deg.to_radians(),
+            mass: self.mass_kg,
+            stiffness: self.stiffness_n_m,
+            damping: self.damping_n_s_m,
+        }
+    }
 }
 
 impl Default for SensorTable {
     fn default() -> Self {
-        let Sensor { mass, stiffness, damping } = Sensor::default();
-        Self { mass_kg: mass, stiffness_n_m: stiffness, damping_n_s_m: damping }
+        let Sensor { name, direction, mass, stiffness, damping } = Sensor::default();
+        let direction_deg = direction.to_degrees();
+        Self { name, direction_deg, mass_kg: mass, stiffness_n_m: stiffness, damping_n_s_m: damping }
     }
 }

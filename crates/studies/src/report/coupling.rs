@@ -132,7 +132,7 @@ fn bearing(scene: &Scene, shaft: Ring) -> Result<Simulation, SimulationError> {
     let mut scene = scene.clone();
     scene.shaft = shaft;
     scene.housing = Ring::fixed();
-    (scene.sensor, scene.defects) = (None, Vec::new());
+    (scene.sensors, scene.defects) = (Vec::new(), Vec::new());
     scene.tolerance = TOLERANCE;
     Simulation::new(scene, None)
 }

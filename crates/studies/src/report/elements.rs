@@ -98,7 +98,7 @@ fn hosted(tolerance: f64) -> Result<Hosted> {
     for ring in [&mut scene.shaft, &mut scene.housing] {
         *ring = Ring::hosted();
     }
-    (scene.sensor, scene.tolerance) = (None, tolerance);
+    (scene.sensors, scene.tolerance) = (Vec::new(), tolerance);
     let mut simulation = Simulation::new(scene, None)?;
     let place = [simulation.reference("shaft.y")?, simulation.reference("shaft.vy")?];
     // 20 µm beyond the concentric place, some hundred newtons on the lowest elements.

@@ -142,7 +142,7 @@ mod tests {
         let mut scene = Scene::from_toml(&text).unwrap();
         scene.bearing.radial_clearance = -10e-6;
         scene.tolerance = 1e-11;
-        scene.sensor = None;
+        scene.sensors.clear();
         let mut simulation = Simulation::new(scene, None).unwrap();
         simulation.initialize(0.0).unwrap();
         // The load grows by half at the start, so that something moves.

@@ -43,7 +43,7 @@ pub(super) fn measure(extent: Extent, data: &Path) -> Result<Vec<Part>> {
     let mut bare = full.clone();
     bare.shaft = Ring::hosted();
     bare.housing = bare.shaft;
-    bare.sensor = None;
+    bare.sensors.clear();
 
     let mut parts = Vec::new();
     let mut add = |what, scene: &Scene, seen: Seen| -> Result<()> {
@@ -56,7 +56,7 @@ pub(super) fn measure(extent: Extent, data: &Path) -> Result<Vec<Part>> {
     add("+ inner ring with mass and load", &scene, Seen::Nothing)?;
     scene.housing = full.housing;
     add("+ outer ring on its support", &scene, Seen::Nothing)?;
-    scene.sensor = full.sensor.or(Some(Sensor { mass: 1.0, stiffness: 8.8826e9, damping: 9424.8 }));
+    scene.sensors = if full.sensors.is_empty() { vec![Sensor::default()] } else { full.sensors.clone() };
     add("+ accelerometer", &scene, Seen::Nothing)?;
     scene.defects = vec![Defect {
         on: DefectOn::Outer,

@@ -106,7 +106,7 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
                 let case = case.clone().at_speed(*speed);
                 // By its events, like the recording: a scene without sensor is no rig to compare with.
                 let recording = Recording::new("scene", blind::recorded(project, &case)?, 51_200.0, *speed)?;
-                let blind = Scene { defects: Vec::new(), sensor: None, ..case.scene.clone() };
+                let blind = Scene { defects: Vec::new(), sensors: Vec::new(), ..case.scene.clone() };
                 let report = spall_size::size(std::slice::from_ref(&recording), &blind)?;
                 let own = harmonics(&recording, &blind)?;
                 writeln!(text, "{}", beside_row(*speed, label, report.recordings.first(), &own))?;
