@@ -23,6 +23,8 @@ struct Smooth<'a> {
     body: Vector,
     /// The rings are so nearly concentric that |q| − q_r = t (t/q_r)/2 − … and the direction of q are series in t/q_r.
     series: bool,
+    /// Elements have speeds of their own.
+    uneven: bool,
     /// Time [s] by which paths are still to be moved on along their rates.
     ahead: Option<f64>,
 }
@@ -123,9 +125,12 @@ impl Model {
         let (offset, v, omega) = (now.offset(), now.housing.velocity, now.cage.speed);
         let limit = SERIES * self.outer_centre_radius;
         let series = offset.dot(&offset) <= limit * limit;
+        let uneven = self.is_uneven();
+        // Of elements with speeds of their own the second part is theirs.
+        let omega = if uneven { 0.0 } else { omega };
         let body = Vector::new(self.gravity.x + omega * v.y, self.gravity.y - omega * v.x);
         let drift = now.drift();
-        let smooth = Smooth { model: self, now, offset, drift, body, series, ahead: stage.ahead };
+        let smooth = Smooth { model: self, now, offset, drift, body, series, uneven, ahead: stage.ahead };
         let mut sums = Sums::default();
         if RECORD {
             contacts.outer_tangential.fill(0.0);
@@ -205,13 +210,17 @@ impl Smooth<'_> {
             (square / (distance + q_r), q_r * per_distance, t * per_distance)
         };
         let delta = number(-model.radial_clearance) - u - p - longer;
-        let along = dot(simd, -turned(self.drift), e_r) + rho * Lanes::splat(simd, now.cage.speed);
+        let speed = if self.uneven { of(&block.speed) } else { number(now.cage.speed) };
+        let along = dot(simd, -turned(self.drift), e_r) + rho * speed;
         let opening = n_r * (dot(simd, self.drift, e_r) + path_rate) + n_t * along;
 
         let law = DampedLaw::new(model.inner.contact.law.damping, number);
         let inner = law.force(of(&block.inner), delta, -opening);
         let outer = law.force(of(&block.outer), u, path_rate);
-        let turning = rho * Lanes::splat(simd, now.cage.speed * now.cage.speed);
+        let mut turning = rho * (speed * speed);
+        if self.uneven {
+            turning = turning + speed * dot(simd, -turned(now.housing.velocity), e_r);
+        }
         let acceleration = (inner * n_r - outer) * of(&block.per_mass)
             + of(&block.other)
             + (dot(simd, self.body, e_r) + turning) * present;

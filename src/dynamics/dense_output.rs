@@ -48,12 +48,13 @@ impl Model {
         let w = layout.radial_velocity;
         for j in 0..self.element_count {
             let bend = [0, 1].map(|k| {
-                let (e_r, cage) = (self.direction(j, ends[k].cage.direction), &ends[k].cage);
-                ends[k].derivative[w + j] - e_r.dot(&acceleration[k]) - cage.speed * turned(e_r).dot(&housing[k])
+                let (e_r, cage) = (self.direction(j, &ends[k].cage), &ends[k].cage);
+                let [speed, _] = self.element_speed(j, cage);
+                ends[k].derivative[w + j] - e_r.dot(&acceleration[k]) - speed * turned(e_r).dot(&housing[k])
             });
             let (path, path_rate) = basis.at(value(j), rate(j), bend);
             out[j] = path;
-            out[w + j] = path_rate + self.direction(j, cage.direction).dot(&velocity);
+            out[w + j] = path_rate + self.direction(j, cage).dot(&velocity);
         }
     }
 }

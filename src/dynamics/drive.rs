@@ -131,6 +131,8 @@ impl WholeAngle {
 pub struct Drive {
     /// Cage angle at the start [rad], within one turn.
     pub cage_start: f64,
+    /// Whole turns of the cage at the start.
+    pub cage_turns: i64,
     /// Cage angle since the start [rad], with its value 0, its speed and its acceleration.
     pub cage: Quadratic,
     /// How the frames of defects turn, in the order of [`Frame`].

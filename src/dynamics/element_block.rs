@@ -3,13 +3,12 @@
 use crate::geometry::hertz_constant::HertzConstants;
 use crate::numerics::lanes::{WIDEST, padded};
 use crate::numerics::sin_cos;
-use std::f64::consts::TAU;
 
 /// What differs between elements, for eight of them; where there is none, all zeros.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(align(64))]
 pub(super) struct ElementBlock {
-    /// cos and sin of the element's angle ahead of element 1.
+    /// cos and sin of the element's angle ahead of the cage.
     pub(super) cos: [f64; WIDEST],
     pub(super) sin: [f64; WIDEST],
     /// 1 where there is an element.
@@ -22,13 +21,16 @@ pub(super) struct ElementBlock {
     pub(super) outer: [f64; WIDEST],
     /// Acceleration of w by an outer contact that is not on it [m/s²].
     pub(super) other: [f64; WIDEST],
+    /// Angular speed of the element about the outer ring's centre [rad/s], where that is not the cage's.
+    pub(super) speed: [f64; WIDEST],
 }
 
-/// All elements of a bearing, of mass 1/`per_mass` [kg].
-pub(super) fn blocks(count: usize, per_mass: f64, hertz: HertzConstants) -> Vec<ElementBlock> {
+/// All elements of a bearing at these angles [rad] ahead of the cage, of mass 1/`per_mass` [kg].
+pub(super) fn blocks(offsets: &[f64], per_mass: f64, hertz: HertzConstants) -> Vec<ElementBlock> {
+    let count = offsets.len();
     let mut blocks = vec![ElementBlock::default(); padded(count) / WIDEST];
-    for j in 0..count {
-        let (sin, cos) = sin_cos(j as f64 * TAU / count as f64);
+    for (j, &offset) in offsets.iter().enumerate() {
+        let (sin, cos) = sin_cos(offset);
         let (block, i) = (&mut blocks[j / WIDEST], j % WIDEST);
         (block.cos[i], block.sin[i], block.present[i]) = (cos, sin, 1.0);
         (block.per_mass[i], block.inner[i], block.outer[i]) = (per_mass, hertz.inner, hertz.outer);

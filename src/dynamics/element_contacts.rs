@@ -1,7 +1,7 @@
 //! Where an element stands to the two raceways: its gap to the inner one, and its approach to either near a defect.
 
 use super::drive::{Frame, Frames};
-use super::kinematics::Kinematics;
+use super::kinematics::{CageState, Kinematics};
 use super::model::Model;
 use super::raceway::{Cells, Near, Raceway, SMOOTH};
 use crate::contact::error::ContactError;
@@ -58,25 +58,25 @@ impl Model {
 
     /// Direction φ [rad] of element `j` at path `u` from the inner ring's centre.
     pub fn inner_direction_of(&self, j: usize, u: f64, now: &Kinematics) -> f64 {
-        now.cage.angle + self.element_offset(j) + self.inner_lead(j, u, now)
+        self.element_angle(j, &now.cage) + self.inner_lead(j, u, now)
     }
 
     /// What that direction is ahead of the element's angle θ about the outer ring's centre [rad].
     pub fn inner_lead(&self, j: usize, u: f64, now: &Kinematics) -> f64 {
-        self.inner_gap(u, now.offset(), self.direction(j, now.cage.direction)).lead()
+        self.inner_gap(u, now.offset(), self.direction(j, &now.cage)).lead()
     }
 
     /// Element `j` at path `u` where it meets the outer raceway.
     #[inline]
-    pub(super) fn outer_meeting(&self, j: usize, cells: [u32; 2], u: f64, cage_angle: f64) -> Meeting {
-        let direction = cage_angle + self.element_offset(j);
+    pub(super) fn outer_meeting(&self, j: usize, cells: [u32; 2], u: f64, cage: &CageState) -> Meeting {
+        let direction = self.element_angle(j, cage);
         Meeting { element: j, cells, u, direction, distance: self.outer_centre_radius + u }
     }
 
     /// Element `j` with this gap where it meets the inner raceway.
     #[inline]
-    pub(super) fn inner_meeting(&self, j: usize, cells: [u32; 2], gap: &InnerGap, cage_angle: f64) -> Meeting {
-        let direction = cage_angle + self.element_offset(j) + gap.lead();
+    pub(super) fn inner_meeting(&self, j: usize, cells: [u32; 2], gap: &InnerGap, cage: &CageState) -> Meeting {
+        let direction = self.element_angle(j, cage) + gap.lead();
         Meeting { element: j, cells, u: gap.approach, direction, distance: gap.distance }
     }
 

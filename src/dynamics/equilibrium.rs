@@ -100,7 +100,7 @@ impl Model {
     /// `cage_angle` [rad] and all else as at the start.
     pub fn resting_path(&self, j: usize, cage_angle: f64) -> f64 {
         let now = FramedKinematics::at_rest(cage_angle, Vector::zeros());
-        let cell = self.outer.defects.cell_at(cage_angle + self.element_offset(j));
+        let cell = self.outer.defects.cell_at(self.element_angle(j, &now.cage));
         self.touching_path(j, [cell, SMOOTH], &now)
     }
 
@@ -108,9 +108,8 @@ impl Model {
     fn touching_path(&self, j: usize, cells: [u32; 2], now: &FramedKinematics) -> f64 {
         let mut u = 0.0;
         for _ in 0..20 {
-            let near = self
-                .approach(RacewaySide::Outer, &self.outer_meeting(j, cells, u, now.cage.angle), &now.frames)
-                .approach;
+            let near =
+                self.approach(RacewaySide::Outer, &self.outer_meeting(j, cells, u, &now.cage), &now.frames).approach;
             let step = near.value / near.by_path;
             u -= step;
             if step.abs() < 1e-15 {
@@ -184,10 +183,9 @@ impl Model {
         let now = given.placed(rings);
         for (j, &u) in u.iter().enumerate() {
             let cells = self.cells_of(given.cells, j);
-            let angle = now.cage.angle;
-            let gap = self.inner_gap(u - FURTHER, now.offset(), self.direction(j, now.cage.direction));
-            let inner = self.inner_meeting(j, cells[0], &gap, angle);
-            let outer = Meeting { u: u + FURTHER, ..self.outer_meeting(j, cells[1], u, angle) };
+            let gap = self.inner_gap(u - FURTHER, now.offset(), self.direction(j, &now.cage));
+            let inner = self.inner_meeting(j, cells[0], &gap, &now.cage);
+            let outer = Meeting { u: u + FURTHER, ..self.outer_meeting(j, cells[1], u, &now.cage) };
             for (side, at) in [(RacewaySide::Outer, outer), (RacewaySide::Inner, inner)] {
                 if at.cells == [SMOOTH; 2] {
                     continue;
@@ -211,7 +209,7 @@ impl Model {
         for (j, &path) in u.iter().enumerate() {
             let element = self.linearized_at(j, self.cells_of(given.cells, j), (path, 0.0), &now, Bends::LeftOut);
             let (force, slope) = self.radial_balance(&element);
-            let omega = now.cage.speed;
+            let [omega, _] = self.element_speed(j, &now.cage);
             let body = self.element_mass * (self.gravity.norm() + element.rho * omega * omega);
             let contacts = element.inner.norm() + element.outer.x.abs();
             let limit = ELEMENT_RESIDUAL * (body + contacts) + ROUNDING * element.rho * slope.abs();
@@ -316,7 +314,7 @@ impl Model {
         // At rest against the outer ring: u' = 0.
         let Kinematics { cage, housing, .. } = self.kinematics(drive, 0.0, state).motion;
         for j in 0..self.element_count {
-            state[w + j] = housing.velocity.dot(&self.direction(j, cage.direction));
+            state[w + j] = housing.velocity.dot(&self.direction(j, &cage));
         }
         for (sensor, i) in self.supports.sensors.iter().zip(self.layout.sensor_places()) {
             let e = sensor.direction;

@@ -259,7 +259,8 @@ impl Model {
     ) {
         let Linearized { e_r, e_t, rho, omega, .. } = *element;
         let (now, [shaft, housing]) = (&shared.now, &shared.prescribed);
-        let (v, alpha) = (now.housing.velocity, now.cage.acceleration);
+        let v = now.housing.velocity;
+        let [_, alpha] = self.element_speed(j, &now.cage);
         let path_rate = -omega * v.dot(&e_t) - housing.velocity.dot(&e_r);
         let with_time = element.change(&ElementVariation {
             offset: housing.position - shaft.position,

@@ -8,7 +8,7 @@ use crate::numerics::plane::Vector;
 use crate::numerics::sin_cos;
 use std::ops::{Deref, DerefMut};
 
-/// The cage at one instant.
+/// The cage at one instant; one that is uneven as it would turn without that: the *nominal* cage.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CageState {
     /// Time τ since the communication point [s].
@@ -21,6 +21,8 @@ pub struct CageState {
     pub speed: f64,
     /// Cage acceleration [rad/s²].
     pub acceleration: f64,
+    /// Whole turns at the communication point, for what depends on them.
+    pub turns: i64,
 }
 
 /// Position and velocity of a ring.
@@ -88,7 +90,7 @@ impl Default for RingState {
 impl CageState {
     /// A cage that stands still at an angle [rad].
     pub fn at_rest(angle: f64) -> Self {
-        Self { tau: 0.0, direction: direction(angle), angle, speed: 0.0, acceleration: 0.0 }
+        Self { tau: 0.0, direction: direction(angle), angle, speed: 0.0, acceleration: 0.0, turns: 0 }
     }
 }
 
@@ -135,6 +137,7 @@ impl Drive {
             angle,
             speed: self.cage.rate_at(tau),
             acceleration: self.cage.0[2],
+            turns: self.cage_turns,
         }
     }
 

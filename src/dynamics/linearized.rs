@@ -202,7 +202,7 @@ impl Model {
         now: &FramedKinematics,
         bends: Bends,
     ) -> Linearized {
-        let path_rate = w - now.housing.velocity.dot(&self.direction(j, now.cage.direction));
+        let path_rate = w - now.housing.velocity.dot(&self.direction(j, &now.cage));
         self.linearized_at(j, cells, (u, path_rate), now, bends)
     }
 
@@ -215,19 +215,20 @@ impl Model {
         now: &FramedKinematics,
         bends: Bends,
     ) -> Linearized {
-        let e_r = self.direction(j, now.cage.direction);
+        let e_r = self.direction(j, &now.cage);
         let e_t = turned(e_r);
-        let (rho, omega) = (self.outer_centre_radius + u, now.cage.speed);
+        let [omega, _] = self.element_speed(j, &now.cage);
+        let rho = self.outer_centre_radius + u;
 
         let gap = self.inner_gap(u, now.offset(), e_r);
         let n = e_r * gap.n.x + e_t * gap.n.y;
         let q_rate = now.drift() + e_r * path_rate + e_t * (rho * omega);
         let inner = match cells[0] {
             [SMOOTH, SMOOTH] => self.smooth_inner(&gap, n, q_rate),
-            cells => self.near_inner(&self.inner_meeting(j, cells, &gap, now.cage.angle), n, q_rate, now, bends),
+            cells => self.near_inner(&self.inner_meeting(j, cells, &gap, &now.cage), n, q_rate, now, bends),
         };
 
-        let at = self.outer_meeting(j, cells[1], u, now.cage.angle);
+        let at = self.outer_meeting(j, cells[1], u, &now.cage);
         let bent = bends == Bends::Wanted && cells[1] != [SMOOTH; 2];
         let bend = if bent { self.bend(RacewaySide::Outer, &at, now) } else { Bend::default() };
         let Near { approach: near, frame_speed, frame } = self.approach(RacewaySide::Outer, &at, &now.frames);
@@ -328,7 +329,8 @@ impl Model {
             let (direction, distance) = match side {
                 RacewaySide::Inner => (at.direction + turn, at.distance - du),
                 RacewaySide::Outer => {
-                    ((now.cage.angle + turn) + self.element_offset(at.element), self.outer_centre_radius + u)
+                    let lead = self.lead(at.element, &now.cage).angle;
+                    ((now.cage.angle + turn) + self.element_offset(at.element) + lead, self.outer_centre_radius + u)
                 }
             };
             self.approach(side, &Meeting { u, distance, direction, ..*at }, &now.frames).approach

@@ -12,6 +12,7 @@ pub mod equilibrium;
 mod equilibrium_error;
 pub mod equilibrium_variation;
 pub mod forces;
+pub mod irregularity;
 pub mod jacobian;
 pub mod kinematics;
 mod linearized;

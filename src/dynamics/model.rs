@@ -8,6 +8,8 @@
 
 use super::drive::{Drive, Frame};
 use super::element_block::{ElementBlock, blocks};
+use super::irregularity::{Irregularity, Lead};
+use super::kinematics::CageState;
 use super::raceway::{Cells, DefectiveElement, Defects, Raceway};
 use super::supports::Supports;
 use crate::contact::compliant::CompliantContact;
@@ -16,6 +18,7 @@ use crate::geometry::hertz_constant::HertzConstants;
 use crate::geometry::kinematics::Ratios;
 use crate::numerics::lanes::{Partition, QUAD, WIDEST, padded};
 use crate::numerics::plane::Vector;
+use crate::numerics::sin_cos;
 use crate::scene::{Motion, Ring, Scene};
 use std::f64::consts::TAU;
 
@@ -54,6 +57,10 @@ pub struct Model {
     pub layout: Layout,
     /// Whether the scene has a defect that contacts with the inner raceway meet, be it computed yet or not.
     pub may_have_inner_defects: bool,
+    /// Angle of each element ahead of the cage [rad].
+    offsets: Vec<f64>,
+    /// How elements and cage run ahead and lag behind; `None` where each keeps its angle ahead of a cage that turns evenly.
+    pub(super) irregularity: Option<Irregularity>,
     /// Whether any contact asks for the frames of defects: all but those of an outer ring that does not turn.
     pub has_frames: bool,
     /// What differs from element to element, eight at a time.
@@ -166,6 +173,13 @@ impl Model {
         };
         let element_radius = bearing.element_radius();
         let turns = scene.turns();
+        let count = bearing.element_count;
+        let mut offsets: Vec<f64> = (0..count).map(|j| j as f64 * TAU / count as f64).collect();
+        if let Some(cage) = &scene.cage.irregularity {
+            offsets.iter_mut().zip(&cage.offsets).for_each(|(offset, by)| *offset += by);
+        }
+        let irregularity = scene.cage.irregularity.as_ref();
+        let irregularity = irregularity.and_then(|cage| Irregularity::new(cage, count, scene.cage.initial_angle));
         let has_frames = turns && !(inner.is_empty() && outer.is_empty() && defective.is_empty());
         Self {
             element_count: bearing.element_count,
@@ -185,7 +199,9 @@ impl Model {
             layout: Layout::new(scene),
             may_have_inner_defects: scene.has_defect_inside(),
             has_frames,
-            elements: blocks(bearing.element_count, 1.0 / bearing.mass_of_element(), hertz),
+            elements: blocks(&offsets, 1.0 / bearing.mass_of_element(), hertz),
+            offsets,
+            irregularity,
         }
     }
 
@@ -224,12 +240,17 @@ impl Model {
         !self.inner.defects.is_empty() || !self.defective.is_empty()
     }
 
+    /// Whether passages over defects have to be found within steps: inside, and in an uneven cage everywhere.
+    pub fn watches_contacts(&self) -> bool {
+        self.has_inner_defects() || (self.is_uneven() && !self.outer.defects.is_empty())
+    }
+
     /// Cells of all contacts at `tau` for a state.
     pub fn cells_at(&self, drive: &Drive, tau: f64, state: &[f64]) -> Cells {
         let (now, mut cells) =
             (self.kinematics(drive, tau, state), Cells::smooth(self.element_count, self.defective.len()));
         for j in 0..self.element_count {
-            let theta = now.cage.angle + self.element_offset(j);
+            let theta = self.element_angle(j, &now.cage);
             let directions = [self.inner_direction_of(j, state[j], &now), theta];
             let cell =
                 |defects: &Defects, direction: f64| defects.cell_at(direction - now.frames.of(defects.frame).angle);
@@ -242,9 +263,48 @@ impl Model {
         cells
     }
 
-    /// Angle of element `j` (from 0) ahead of element 1 [rad].
+    /// Angle of element `j` (from 0) ahead of the cage [rad], but for what moves in it ([`lead`](Self::lead)).
     pub fn element_offset(&self, j: usize) -> f64 {
-        j as f64 * TAU / self.element_count as f64
+        self.offsets[j]
+    }
+
+    /// Whether elements are evenly spaced on a cage that turns evenly.
+    pub fn is_even(&self) -> bool {
+        self.irregularity.is_none()
+            && self.offsets.iter().enumerate().all(|(j, &offset)| offset == j as f64 * TAU / self.element_count as f64)
+    }
+
+    /// Whether elements move against each other on the cage, or the cage's speed wanders.
+    pub fn is_uneven(&self) -> bool {
+        self.irregularity.is_some()
+    }
+
+    /// What element `j` is ahead of its place in a cage that turns evenly.
+    #[inline]
+    pub fn lead(&self, j: usize, cage: &CageState) -> Lead {
+        self.irregularity.as_ref().map_or(Lead::default(), |uneven| uneven.of_element(j, cage))
+    }
+
+    /// What the cage itself is ahead of one that turns evenly.
+    pub fn cage_lead(&self, cage: &CageState) -> Lead {
+        self.irregularity.as_ref().map_or(Lead::default(), |uneven| uneven.of_cage(cage))
+    }
+
+    /// Angle of element `j` about the outer ring's centre [rad].
+    #[inline]
+    pub fn element_angle(&self, j: usize, cage: &CageState) -> f64 {
+        let angle = cage.angle + self.element_offset(j);
+        if self.is_uneven() { angle + self.lead(j, cage).angle } else { angle }
+    }
+
+    /// Speed [rad/s] and acceleration [rad/s²] of element `j` about the outer ring's centre.
+    #[inline]
+    pub fn element_speed(&self, j: usize, cage: &CageState) -> [f64; 2] {
+        if !self.is_uneven() {
+            return [cage.speed, cage.acceleration];
+        }
+        let Lead { rate, bend, .. } = self.lead(j, cage);
+        [cage.speed * (1.0 + rate), cage.acceleration * (1.0 + rate) + cage.speed * cage.speed * bend]
     }
 
     /// Angle [rad] by which elements spin while the cage turns by `cage` [rad] and the rings as they must for it, the
@@ -255,16 +315,35 @@ impl Model {
     }
 
     /// Angle χ [rad] by which the first defect of element `j` has turned from the direction of the element's centre, for the
-    /// angles of frames and cage; 0 where it faces the outer raceway, the turns since then counted.
-    pub fn spin_angle(&self, j: usize, frames: &[f64; 3], cage: f64) -> f64 {
+    /// angles of frames and that of the element; 0 where it faces the outer raceway, the turns since then counted.
+    pub fn spin_angle(&self, j: usize, frames: &[f64; 3], element: f64) -> f64 {
         let own = self.defective.iter().find(|defective| defective.element == j);
-        own.map_or(0.0, |own| own.mark) + frames[Frame::Spin as usize] - (cage + self.element_offset(j))
+        own.map_or(0.0, |own| own.mark) + frames[Frame::Spin as usize] - element
     }
 
-    /// Radial direction of element `j` for that of element 1.
+    /// Radial direction of element `j`.
     #[inline]
-    pub(super) fn direction(&self, j: usize, cage: Vector) -> Vector {
-        let (cos, sin) = (self.elements[j / WIDEST].cos[j % WIDEST], self.elements[j / WIDEST].sin[j % WIDEST]);
+    pub(super) fn direction(&self, j: usize, cage: &CageState) -> Vector {
+        let [cos, sin] = match &self.irregularity {
+            None => [self.elements[j / WIDEST].cos[j % WIDEST], self.elements[j / WIDEST].sin[j % WIDEST]],
+            Some(_) => self.ahead(j, cage),
+        };
+        let cage = cage.direction;
         Vector::new(cage.x * cos - cage.y * sin, cage.y * cos + cage.x * sin)
+    }
+
+    /// Cosine and sine of what element `j` is ahead of an uneven cage that would turn evenly.
+    fn ahead(&self, j: usize, cage: &CageState) -> [f64; 2] {
+        let (sin, cos) = sin_cos(self.element_offset(j) + self.lead(j, cage).angle);
+        [cos, sin]
+    }
+
+    /// Puts directions and speeds of all elements at an instant into `elements`, where they are not always the same.
+    pub(super) fn place_uneven(&self, cage: &CageState, elements: &mut [ElementBlock]) {
+        for j in 0..self.element_count {
+            let (block, i) = (&mut elements[j / WIDEST], j % WIDEST);
+            [block.cos[i], block.sin[i]] = self.ahead(j, cage);
+            [block.speed[i], _] = self.element_speed(j, cage);
+        }
     }
 }

@@ -56,6 +56,9 @@ impl Model {
         let Stage { drive, cage, state, ahead } = *stage;
         let (now, tau) = (self.kinematics_of(stage), cage.tau);
         let [outer, inner] = [forces.other_outer.is_empty(), forces.other_inner.is_empty()].map(|none| !none);
+        if self.is_uneven() {
+            self.place_uneven(cage, &mut forces.elements);
+        }
         let (mut on_shaft, mut on_housing) = (Vector::zeros(), Vector::zeros());
         if outer || inner {
             if self.has_frames {
@@ -126,16 +129,16 @@ impl Model {
                 [SMOOTH, SMOOTH] => self.yielding_contact(u, path_rate),
                 [_, SMOOTH] => {
                     *defect_lookups += 1;
-                    let (at, frame) = (self.outer_meeting(j, cells, u, now.cage.angle), self.outer.defects.frame);
+                    let (at, frame) = (self.outer_meeting(j, cells, u, &now.cage), self.outer.defects.frame);
                     let near = self.near_ring_defect(RacewaySide::Outer, &at, frames).unwrap_or_else(|cause| {
                         self.without_answer(RacewaySide::Outer, (&at, now, frames), cause, unsolved)
                     });
-                    let turning = now.cage.speed - frames.of(frame).speed;
+                    let turning = self.element_speed(j, &now.cage)[0] - frames.of(frame).speed;
                     self.outer_contact(&near, frame, [path_rate, turning], at.distance)
                 }
                 _ => {
                     *defect_lookups += 1;
-                    let at = self.outer_meeting(j, cells, u, now.cage.angle);
+                    let at = self.outer_meeting(j, cells, u, &now.cage);
                     self.own_outer_contact(&at, path_rate, (now, frames), unsolved)
                 }
             };
@@ -153,7 +156,7 @@ impl Model {
     /// Where element `j` is, its path moved on by the time that is still `ahead`.
     #[inline(always)]
     fn on_path(&self, j: usize, now: &Kinematics, (state, ahead): (&[f64], Option<f64>)) -> OnPath {
-        let e_r = self.direction(j, now.cage.direction);
+        let e_r = self.direction(j, &now.cage);
         let path_rate = state[self.layout.radial_velocity + j] - now.housing.velocity.dot(&e_r);
         OnPath { e_r, u: moved(state[j], path_rate, ahead), path_rate }
     }
@@ -178,12 +181,12 @@ impl Model {
             let OnPath { e_r, u, path_rate } = self.on_path(j, now, state);
             *lookups += 1;
             let gap = self.inner_gap(u, now.offset(), e_r);
-            let at = self.inner_meeting(j, cells, &gap, now.cage.angle);
+            let at = self.inner_meeting(j, cells, &gap, &now.cage);
             let (near, frame) = self.near_defect(RacewaySide::Inner, &at, frames);
             let near = near
                 .unwrap_or_else(|cause| self.without_answer(RacewaySide::Inner, (&at, now, frames), cause, unsolved));
             let near = Near::new(near, frame, frames);
-            let around = (self.outer_centre_radius + u) * now.cage.speed;
+            let around = (self.outer_centre_radius + u) * self.element_speed(j, &now.cage)[0];
             let q_rate = [now.drift().dot(&e_r) + path_rate, now.drift().dot(&turned(e_r)) + around];
             let found = self.inner_contact(&near, &gap, q_rate);
             let [_, f_r, f_t] = found.force;
@@ -238,7 +241,7 @@ impl Model {
         let (near, frame) = self.near_defect(RacewaySide::Outer, at, frames);
         let near =
             near.unwrap_or_else(|cause| self.without_answer(RacewaySide::Outer, (at, now, frames), cause, unsolved));
-        let turning = now.cage.speed - frames.of(frame).speed;
+        let turning = self.element_speed(at.element, &now.cage)[0] - frames.of(frame).speed;
         self.outer_contact(&near, frame, [path_rate, turning], at.distance)
     }
 
@@ -290,11 +293,11 @@ impl Model {
         let cage = drive.cage_at(tau);
         let of_paths: f64 = (0..self.element_count)
             .map(|j| {
-                let e_t = turned(self.direction(j, cage.direction));
+                let e_t = turned(self.direction(j, &cage));
+                let [speed, alpha] = self.element_speed(j, &cage);
                 let rho = self.outer_centre_radius + state[j];
                 let contacts = &forces.contacts;
-                let inertia =
-                    acceleration.dot(&e_t) + 2.0 * contacts.path_rate[j] * cage.speed + rho * cage.acceleration;
+                let inertia = acceleration.dot(&e_t) + 2.0 * contacts.path_rate[j] * speed + rho * alpha;
                 let contacts = contacts.inner[j] * contacts.normal_tangential[j] + contacts.outer_tangential[j];
                 rho * (contacts + self.element_mass * (self.gravity.dot(&e_t) - inertia))
             })

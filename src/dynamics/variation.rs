@@ -9,6 +9,7 @@
 //! onset of a contact there are two.
 
 use super::drive::{Drive, Frame};
+use super::irregularity::Lead;
 use super::kinematics::{CageState, FramedKinematics, RingState};
 use super::linearized::{Bends, DIFFERENCE, ElementChange, ElementVariation, Linearized};
 use super::model::Model;
@@ -19,9 +20,9 @@ use crate::numerics::plane::{Matrix, Vector, turned};
 /// A small change of state and inputs.
 #[derive(Debug, Clone, Default)]
 pub struct Variation {
-    /// Of the cage angle [rad].
+    /// Of the nominal cage angle [rad].
     pub cage_angle: f64,
-    /// Of the cage speed [rad/s].
+    /// Of the nominal cage speed [rad/s].
     pub cage_speed: f64,
     /// Of angle [rad] and speed [rad/s] of the frames of defects, in the order of [`super::drive::Frame`].
     pub frames: [[f64; 2]; 3],
@@ -86,7 +87,32 @@ impl ForceChange {
     }
 }
 
+/// How an element goes round with the cage, to first order.
+struct Going {
+    /// Change of its angle [rad].
+    turn: f64,
+    /// Change of its speed [rad/s].
+    speed: f64,
+    /// Its acceleration [rad/s²].
+    alpha: f64,
+    /// Change of its acceleration [rad/s²].
+    alpha_change: f64,
+}
+
 impl Model {
+    /// How element `j` goes round as the nominal cage's angle and speed change.
+    fn going(&self, j: usize, cage: &CageState, by: &Variation) -> Going {
+        let Lead { rate, bend, twist, .. } = self.lead(j, cage);
+        let (omega, share) = (cage.speed, 1.0 + rate);
+        Going {
+            turn: share * by.cage_angle,
+            speed: share * by.cage_speed + bend * omega * by.cage_angle,
+            alpha: self.element_speed(j, cage)[1],
+            alpha_change: (cage.acceleration * bend + omega * omega * twist) * by.cage_angle
+                + 2.0 * omega * bend * by.cage_speed,
+        }
+    }
+
     /// Change of the contact forces under `drive` at τ = 0 for a small change. `acceleration` is the outer ring's.
     pub fn vary(
         &self,
@@ -109,7 +135,7 @@ impl Model {
             let place = (state[j], state[self.layout.radial_velocity + j]);
             let element = self.linearized(j, in_cells, place, &now, bends);
             let Linearized { e_r, e_t, rho, omega, .. } = element;
-            let turn = by.cage_angle;
+            let Going { turn, speed: speed_change, alpha, alpha_change } = self.going(j, &now.cage, by);
             let path_rate =
                 by.radial_velocity[j] - by.housing.velocity.dot(&e_r) - now.housing.velocity.dot(&e_t) * turn;
             let seen = ElementVariation {
@@ -118,7 +144,7 @@ impl Model {
                 path: by.path[j],
                 path_rate,
                 cage_angle: turn,
-                cage_speed: by.cage_speed,
+                cage_speed: speed_change,
                 frames: by.frames,
             };
             let d = element.change(&seen);
@@ -129,12 +155,12 @@ impl Model {
             change.housing += d.on_housing(&element) + (e_r * element.outer.y + e_t * element.outer.x) * turn;
             change.torque_by_acceleration -= e_t * (rho * self.element_mass);
             let body = self.gravity - acceleration;
-            let alpha = now.cage.acceleration;
             let inertia = body.dot(&e_t) - 2.0 * element.path_rate * omega - rho * alpha;
             let force = element.inner.dot(&e_t) + element.outer.y + self.element_mass * inertia;
             let inertia_change = -body.dot(&e_r) * turn
-                - 2.0 * (path_rate * omega + element.path_rate * by.cage_speed)
-                - by.path[j] * alpha;
+                - 2.0 * (path_rate * omega + element.path_rate * speed_change)
+                - by.path[j] * alpha
+                - rho * alpha_change;
             let force_change =
                 d.inner.dot(&e_t) - element.inner.dot(&e_r) * turn + d.outer.y + self.element_mass * inertia_change;
             change.cage_torque += by.path[j] * force + rho * force_change;
@@ -168,7 +194,8 @@ impl Model {
         let (still, offset) = (now.standing(), now.offset());
         let mut sum = Matrix::zeros();
         for j in 0..self.element_count {
-            let (in_cells, u, turn) = (self.cells_of(cells, j), state[j], by.cage_angle);
+            let (in_cells, u) = (self.cells_of(cells, j), state[j]);
+            let turn = self.going(j, &now.cage, by).turn;
             let rho = self.outer_centre_radius + u;
             let element = self.linearized_at(j, in_cells, (u, 0.0), &still, Bends::LeftOut);
             let (_, radial) = self.radial_balance(&element);
@@ -210,7 +237,7 @@ impl Model {
         let at = |share: f64| {
             let mut moved = *still;
             let angle = still.cage.angle + share * by.cage_angle;
-            moved.cage = CageState::at_rest(angle);
+            moved.cage = CageState { turns: still.cage.turns, ..CageState::at_rest(angle) };
             moved.housing.position += by.offset() * share;
             for (turn, by) in moved.frames.0.iter_mut().zip(by.frames) {
                 turn.angle += share * by[0];
@@ -253,7 +280,10 @@ impl Model {
         }
         let radial = |u: f64, angle: f64| {
             // Nothing moves and the rings' offset does not matter to the outer contact.
-            let still = FramedKinematics { frames: still.frames, ..FramedKinematics::at_rest(angle, Vector::zeros()) };
+            let mut placed =
+                FramedKinematics { frames: still.frames, ..FramedKinematics::at_rest(angle, Vector::zeros()) };
+            placed.cage.turns = still.cage.turns;
+            let still = placed;
             self.linearized_at(j, cells, (u, 0.0), &still, Bends::LeftOut).change(&ElementVariation::of_path()).outer.x
         };
         let angle = still.cage.angle;
@@ -265,12 +295,14 @@ impl Model {
         if cells[1] == [SMOOTH; 2] {
             return change;
         }
-        let at = self.outer_meeting(j, cells[1], u, angle);
+        let at = self.outer_meeting(j, cells[1], u, &still.cage);
         let turn = turn - frames[self.approach(RacewaySide::Outer, &at, &still.frames).frame as usize][0];
         if turn != 0.0 {
             let step = DIFFERENCE / self.outer_centre_radius;
             let (behind, ahead) = (radial(u, angle - step), radial(u, angle + step));
-            change += (ahead - behind) / (2.0 * step) * turn;
+            // The difference is by the nominal angle, over which the element goes a little more or less.
+            let share = 1.0 + self.lead(j, &still.cage).rate;
+            change += (ahead - behind) / (2.0 * step) * turn / share;
         }
         change
     }

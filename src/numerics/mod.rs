@@ -5,6 +5,7 @@
 
 pub mod bytes;
 pub mod checksum;
+pub mod counter_noise;
 pub mod elliptic;
 pub mod hermite;
 pub mod lanes;

@@ -1,8 +1,8 @@
 //! Scenes made by a Rust program. What is not said has the value that a scene file gives it.
 
 use super::{
-    Bearing, Cage, Contact, ContactLaw, Damping, Defect, DefectShape, Experiment, Motion, Recorder, Ring, Scene,
-    SceneError, Sensor,
+    Bearing, Cage, CageIrregularity, Contact, ContactLaw, Damping, Defect, DefectShape, Experiment, Motion, Recorder,
+    Ring, Scene, SceneError, Sensor,
 };
 use std::f64::consts::FRAC_PI_2;
 
@@ -42,7 +42,7 @@ impl Scene {
                 cells: None,
                 map_accuracy: None,
             },
-            cage: Cage { slip: 0.0, spin_slip: 0.0, initial_angle: -FRAC_PI_2 },
+            cage: Cage { slip: 0.0, spin_slip: 0.0, initial_angle: -FRAC_PI_2, irregularity: None },
             defects: Vec::new(),
             shaft: Ring::default_shaft(),
             shaft_speed: 0.0,
@@ -189,7 +189,14 @@ impl SceneBuilder {
     /// The cage: its slip, and the angle of element 1 at the start [rad].
     #[must_use]
     pub fn cage(mut self, slip: f64, initial_angle: f64) -> Self {
-        self.scene.cage = Cage { slip, initial_angle, spin_slip: 0.0 };
+        self.scene.cage = Cage { slip, initial_angle, ..self.scene.cage };
+        self
+    }
+
+    /// What makes passages uneven.
+    #[must_use]
+    pub fn irregularity(mut self, irregularity: CageIrregularity) -> Self {
+        self.scene.cage.irregularity = Some(irregularity);
         self
     }
 

@@ -14,10 +14,14 @@
 use super::error::{LONGEST_NAME, SceneError};
 use super::quantity::*;
 use super::{Bearing, Contact, Damping, Defect, DefectOn, DefectShape, Motion, Recorder, RecorderFilter, Ring, Scene};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// Smallest clearance over element diameter; see the head of this file.
 const SMALLEST_RELATIVE_CLEARANCE: f64 = -0.0075;
+
+/// Offset and jitter of an element from its place in an even cage, as a share of the spacing, at most: what is farther off
+/// is no place in a pocket.
+const FARTHEST: f64 = 0.25;
 
 impl Scene {
     /// Checks every physical quantity.
@@ -32,6 +36,7 @@ impl Scene {
         CAGE_SLIP.check(self.cage.slip)?;
         INITIAL_ANGLE.check(self.cage.initial_angle)?;
         SPIN_SLIP.check(self.cage.spin_slip)?;
+        self.check_irregularity()?;
         SHAFT_INITIAL_ANGLE.check(self.shaft_initial_angle)?;
         HOUSING_INITIAL_ANGLE.check(self.housing_initial_angle)?;
         for (index, defect) in self.defects.iter().enumerate() {
@@ -48,6 +53,26 @@ impl Scene {
             }
         }
         self.check_experiment()
+    }
+
+    fn check_irregularity(&self) -> Result<(), SceneError> {
+        let Some(cage) = &self.cage.irregularity else { return Ok(()) };
+        let count = self.bearing.element_count;
+        CAGE_JITTER.check(cage.jitter)?;
+        CAGE_WANDER.check(cage.wander)?;
+        if cage.offsets.len() != count {
+            return Err(SceneError::SpacingCount { found: cage.offsets.len(), count });
+        }
+        let limit = FARTHEST * TAU / count as f64;
+        for (element, &offset) in cage.offsets.iter().enumerate() {
+            CAGE_SPACING.check(offset)?;
+            if offset.abs() + cage.jitter > limit {
+                let [offset_deg, jitter_deg, limit_deg] =
+                    [offset.abs(), cage.jitter, limit].map(|angle| shown(angle.to_degrees()));
+                return Err(SceneError::OffPocket { element: element + 1, offset_deg, jitter_deg, limit_deg });
+            }
+        }
+        Ok(())
     }
 
     fn check_rings(&self) -> Result<(), SceneError> {

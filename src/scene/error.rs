@@ -228,6 +228,30 @@ pub enum SceneError {
         /// What was given.
         value: f64,
     },
+    /// Offsets that are not one for each element.
+    #[error("cage.spacing_deg has {found} values: it must have {count}, one for each element")]
+    SpacingCount {
+        /// Values given.
+        found: usize,
+        /// Number of elements.
+        count: usize,
+    },
+    /// Elements so far off their places that they would leave their pockets.
+    #[error(
+        "element {element} of the cage (cage.spacing_deg, cage.spacing_rms_deg, cage.jitter_rms_deg) is {offset_deg} degrees \
+         off even spacing with a jitter of {jitter_deg} degrees: together they must be at most {limit_deg} degrees, a \
+         quarter of the spacing"
+    )]
+    OffPocket {
+        /// Its number, from 1.
+        element: usize,
+        /// Offset [°].
+        offset_deg: f64,
+        /// Root mean square of the jitter [°].
+        jitter_deg: f64,
+        /// Limit [°].
+        limit_deg: f64,
+    },
     /// Flanks that meet before they reach the floor.
     #[error(
         "spall depth (defect.depth_um) is {depth_um}: flanks of {edge_slope_deg} degrees (defect.edge_slope_deg) meet at \

@@ -19,6 +19,9 @@
 //! | `contact.map_accuracy` | 1e-3 of the largest force; without the key up to 2e-2 is tolerated and reported |
 //! | `contact.damping` | `"hunt-crossley"`; its `damping_chi_s_m` 0.5 |
 //! | `cage.slip`, `cage.initial_angle_deg` | 0, −90 |
+//! | `cage.spacing_deg`, or `.spacing_rms_deg`; `.jitter_rms_deg`, `.wander` | 0: an even cage that turns evenly |
+//! | `cage.irregularity` | none; `"recorded"` instead of the above: 0.6 % and 0.4 % of the spacing, wander 0.3 % |
+//! | `cage.seed` | needed where something is random |
 //! | `defect` | none; its `on` `"outer"`, `edge_slope_deg` 90; on an element `tilt_deg` 0; several as `[[defect]]` |
 //! | `shaft.mass_kg`, `.damping_n_s_m`, `.stiffness_n_m` (internal only) | 3.2638, 1376.8, 0 |
 //! | `housing.mass_kg`, `.damping_n_s_m`, `.stiffness_n_m` (internal only) | 6.638, 2210.7, 1.51056e7 |
@@ -31,6 +34,7 @@
 //! | `recorder` | none; its `filter` `"linear-phase"`, or `"none"` |
 //! | `experiment.stop_s`, `.step_s` | 0.5, 1e-4 |
 
+mod cage;
 mod defects;
 mod keys;
 mod not_modelled;
@@ -38,7 +42,8 @@ mod one_or_more;
 mod rings;
 
 use super::error::SceneError;
-use super::{Bearing, Cage, Contact, ContactLaw, Damping, Experiment, Recorder, RecorderFilter, Scene};
+use super::{Bearing, Contact, ContactLaw, Damping, Experiment, Recorder, RecorderFilter, Scene};
+use cage::CageTable;
 use defects::DefectTable;
 use one_or_more::OneOrMore;
 use rings::{HousingTable, ProbeTable, SensorTable, ShaftTable};
@@ -91,6 +96,7 @@ impl SceneFile {
         let bearing = self.bearing.into_bearing()?;
         let contact = self.contact.into_contact(!self.defect.0.is_empty())?;
         let defects = self.defect.into_defects(&bearing)?;
+        let cage = self.cage.into_cage(bearing.element_count)?;
         let shaft_speed = self.shaft.speed_hz * TAU;
         let shaft_initial_angle = self.shaft.initial_angle_deg.to_radians();
         let (housing_speed, housing_angle) = (self.housing.speed_hz, self.housing.initial_angle_deg);
@@ -100,11 +106,7 @@ impl SceneFile {
             gravity: self.gravity_m_s2,
             bearing,
             contact,
-            cage: Cage {
-                slip: self.cage.slip,
-                spin_slip: 0.0,
-                initial_angle: self.cage.initial_angle_deg.to_radians(),
-            },
+            cage,
             defects,
             shaft: self.shaft.into_ring()?,
             shaft_speed,
@@ -269,19 +271,6 @@ impl ContactTable {
             cells: self.cells,
             map_accuracy: self.map_accuracy,
         })
-    }
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, default)]
-struct CageTable {
-    slip: f64,
-    initial_angle_deg: f64,
-}
-
-impl Default for CageTable {
-    fn default() -> Self {
-        Self { slip: 0.0, initial_angle_deg: -90.0 }
     }
 }
 

@@ -109,6 +109,14 @@ pub(super) const CONTACT_CELLS: Quantity =
 pub(super) const MAP_ACCURACY: Quantity =
     quantity("accuracy of the contact map", "contact.map_accuracy", 1.0, Inclusive(1e-5), Inclusive(0.1));
 pub(super) const CAGE_SLIP: Quantity = quantity("cage slip", "cage.slip", 1.0, Inclusive(0.0), Inclusive(1.0));
+pub(super) const CAGE_SPACING: Quantity =
+    quantity("offset of an element in the cage", "cage.spacing_deg", DEG, Inclusive(-90.0), Inclusive(90.0));
+pub(super) const CAGE_SPACING_RMS: Quantity =
+    quantity("offsets of elements in the cage", "cage.spacing_rms_deg", DEG, Inclusive(0.0), Inclusive(90.0));
+pub(super) const CAGE_JITTER: Quantity =
+    quantity("jitter of the elements in the cage", "cage.jitter_rms_deg", DEG, Inclusive(0.0), Inclusive(90.0));
+pub(super) const CAGE_WANDER: Quantity =
+    quantity("wander of the cage's speed", "cage.wander", 1.0, Inclusive(0.0), Inclusive(0.1));
 pub(super) const INITIAL_ANGLE: Quantity =
     quantity("initial cage angle", "cage.initial_angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3));
 pub(super) const SPIN_SLIP: Quantity =

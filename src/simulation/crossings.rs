@@ -1,5 +1,5 @@
-//! Crossings: passages of contacts with the inner raceway into another cell of a defect, found on the dense output of a
-//! step.
+//! Crossings: passages into another cell of a defect that no quadratic of time foretells, found on the dense output of a
+//! step: those of contacts with the inner raceway, and in an uneven cage those of all contacts.
 //!
 //! In which direction an element is seen from the inner ring's centre depends on where that is, so these instants are
 //! roots and no known times. A step that ends beyond one is taken again to end on it, and the contact then changes its
@@ -29,7 +29,7 @@ pub(super) struct Crossing {
     pub(super) cell: u32,
 }
 
-/// A contact with the inner raceway that defects concern.
+/// A contact that defects concern.
 #[derive(Clone, Copy)]
 struct Watched<'a> {
     defects: &'a Defects,
@@ -43,7 +43,7 @@ struct Watched<'a> {
 struct Begun<'a> {
     at: Watched<'a>,
     tau: f64,
-    /// Angle by which its element is seen ahead from the inner ring [rad].
+    /// Angle by which it is seen ahead of the element's place in an even cage [rad].
     lead: f64,
 }
 
@@ -65,7 +65,7 @@ pub(super) fn first_crossing(
     for at in watched(problem, progress) {
         let frame = start.now.frames.of(at.defects.frame).angle;
         let direction = start.now.cage.angle + model.element_offset(at.element);
-        let begun = Begun { at, tau: start.tau, lead: start.lead(problem, at.element) };
+        let begun = Begun { at, tau: start.tau, lead: start.lead(problem, &at) };
         let travel = begun.travel(problem, &end);
         let Some(Ahead { angle, beyond }) = at.defects.ahead(at.cell, direction + begun.lead - frame, travel > 0.0)
         else {
@@ -125,25 +125,38 @@ struct Instant<'a> {
     paths: &'a [f64],
 }
 
-/// All contacts with the inner raceway that may meet a defect.
+/// All contacts with the inner raceway that may meet a defect; in an uneven cage those with the outer one as well.
 fn watched<'a>(problem: Problem<'a>, progress: &'a Progress) -> impl Iterator<Item = Watched<'a>> {
     let (model, cells) = (problem.model, &progress.cells);
     let inner = &model.inner.defects;
     let of_ring = cells.inner.iter().enumerate().filter(|_| !inner.is_empty());
     let of_ring = of_ring.map(|(j, &cell)| Watched { defects: inner, element: j, cell, contact: Contact::Inner(j) });
+    let outer = &model.outer.defects;
+    let of_outer = cells.outer.iter().enumerate().filter(|_| model.is_uneven() && !outer.is_empty());
+    let of_outer = of_outer.map(|(j, &cell)| Watched { defects: outer, element: j, cell, contact: Contact::Outer(j) });
+    let sides = if model.is_uneven() { 0..2 } else { 0..1 };
     let own = model.defective.iter().zip(&cells.own).enumerate();
-    of_ring.chain(own.map(|(k, (defective, cells))| Watched {
-        defects: &defective.defects[0],
-        element: defective.element,
-        cell: cells[0],
-        contact: Contact::Own(k, 0),
-    }))
+    let own = own.flat_map(move |(k, (defective, cells))| {
+        sides.clone().map(move |side| Watched {
+            defects: &defective.defects[side],
+            element: defective.element,
+            cell: cells[side],
+            contact: Contact::Own(k, side),
+        })
+    });
+    of_ring.chain(of_outer).chain(own)
 }
 
 impl Instant<'_> {
-    /// Angle by which element `j` is seen ahead from the inner ring [rad].
-    fn lead(&self, problem: Problem, j: usize) -> f64 {
-        problem.model.inner_lead(j, self.paths[j], &self.now)
+    /// Angle by which a contact is seen ahead of its element's place in an even cage [rad]: from the inner ring, and in
+    /// an uneven cage.
+    fn lead(&self, problem: Problem, at: &Watched) -> f64 {
+        let (model, j) = (problem.model, at.element);
+        let of_cage = model.lead(j, &self.now.cage).angle;
+        match at.contact {
+            Contact::Inner(_) | Contact::Own(_, 0) => model.inner_lead(j, self.paths[j], &self.now) + of_cage,
+            _ => of_cage,
+        }
     }
 }
 
@@ -153,6 +166,6 @@ impl Begun<'_> {
         // Of the whole angles only the change, so that no turns are to be counted and no digits are lost.
         let (cage, frame) = (&problem.drive.cage, &problem.drive.frames[self.at.defects.frame as usize].since);
         let even = (cage.at(to.tau) - cage.at(self.tau)) - (frame.at(to.tau) - frame.at(self.tau));
-        even + (to.lead(problem, self.at.element) - self.lead)
+        even + (to.lead(problem, &self.at) - self.lead)
     }
 }

@@ -20,7 +20,8 @@ use super::values::{out_of_range, wrong_type};
 use super::variables::{Causality, Kind, Variable};
 use super::{SimulationError, VariableError};
 use crate::dynamics::drive::{Drive, Frame};
-use crate::dynamics::kinematics::Kinematics;
+use crate::dynamics::irregularity::Lead;
+use crate::dynamics::kinematics::{CageState, Kinematics};
 use crate::dynamics::tangent::stacked;
 use crate::numerics::plane::Vector;
 
@@ -197,6 +198,25 @@ impl Simulation {
         }
     }
 
+    /// The nominal cage at the communication point.
+    fn cage_now(&self) -> CageState {
+        self.drive(false).cage_at(0.0)
+    }
+
+    /// Change of the cage's own angle and speed.
+    fn cage_change(&self) -> [f64; 2] {
+        let (cage, variation) = (self.cage_now(), &self.change.variation);
+        let Lead { rate, bend, .. } = self.model.cage_lead(&cage);
+        let share = 1.0 + rate;
+        let speed = share * variation.cage_speed + bend * cage.speed * variation.cage_angle;
+        [share * variation.cage_angle, speed]
+    }
+
+    /// Change of the angle of element `j`.
+    fn element_turn(&self, j: usize) -> f64 {
+        (1.0 + self.model.lead(j, &self.cage_now()).rate) * self.change.variation.cage_angle
+    }
+
     /// What the change makes of one output.
     fn changed(&self, quantity: Quantity) -> f64 {
         let Change { variation, forces, .. } = &self.change;
@@ -214,13 +234,14 @@ impl Simulation {
             Quantity::Stiffness(row, column) => -self.change.stiffness[(row, column)],
             Quantity::SensorAcceleration(k) => self.change.sensor_accelerations[k],
             Quantity::Probe(axis) => variation.shaft.position[axis] - variation.housing.position[axis],
-            Quantity::CageAngle | Quantity::ElementAngle(_) => variation.cage_angle,
-            Quantity::CageSpeed => variation.cage_speed,
+            Quantity::CageAngle => self.cage_change()[0],
+            Quantity::ElementAngle(j) => self.element_turn(j),
+            Quantity::CageSpeed => self.cage_change()[1],
             Quantity::CageTorque => self.change.cage_torque,
             Quantity::ShaftTorque => forces.shaft_torque,
             Quantity::RingAngle(name) => variation.frames[name.frame() as usize][0],
             // The spin angle is that of the defect against the element's own direction.
-            Quantity::ElementSpinAngle(_) => variation.frames[Frame::Spin as usize][0] - variation.cage_angle,
+            Quantity::ElementSpinAngle(j) => variation.frames[Frame::Spin as usize][0] - self.element_turn(j),
             Quantity::ElementPath(j) => variation.path[j],
             Quantity::ElementInnerForce(j) => forces.inner[j],
             Quantity::ElementOuterForce(j) => forces.outer[j],

@@ -38,6 +38,7 @@ pub(super) fn drive(state: &State, inputs: &Inputs, ratios: &Ratios, stepping: b
     let [shaft_frame, housing_frame, spin] = state.frames.map(|frame| frame.rest);
     let mut drive = Drive {
         cage_start: cage.start,
+        cage_turns: state.cage.turns,
         cage: cage.since,
         frames: if inputs.frames {
             [turning(shaft_frame, [1.0, 0.0]), turning(housing_frame, [0.0, 1.0]), turning(spin, ratios.spin)]

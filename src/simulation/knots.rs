@@ -78,6 +78,10 @@ pub(super) fn next_knot(
     end: f64,
     cells: &Cells,
 ) -> Option<Knot> {
+    // In an uneven cage elements go by no quadratic of time: their passages are found like those inside.
+    if model.is_uneven() {
+        return None;
+    }
     let ring = passages(drive, Frame::Housing, legs.ring, |way, leg| {
         let on = |(j, &cell): (usize, &u32)| Way {
             defects: &model.outer.defects,

@@ -3,7 +3,7 @@
 use super::quantity::{Quantity, RingName};
 use crate::dynamics::drive::{Drive, Frame};
 use crate::dynamics::forces::Forces;
-use crate::dynamics::kinematics::RingState;
+use crate::dynamics::kinematics::{CageState, RingState};
 use crate::dynamics::model::Model;
 use crate::numerics::plane::Vector;
 use crate::scene::MOST_SENSORS;
@@ -11,7 +11,7 @@ use crate::scene::MOST_SENSORS;
 /// Angles of the cage and of the frames of defects [rad], all turns counted.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Angles {
-    /// Of element 1.
+    /// Of the nominal cage.
     pub cage: f64,
     /// In the order of [`Frame`].
     pub frames: [f64; 3],
@@ -26,6 +26,8 @@ pub struct Outputs<'a> {
     acceleration: [Vector; 2],
     sensors: [f64; MOST_SENSORS],
     angles: Angles,
+    /// The nominal cage.
+    cage: CageState,
     model: &'a Model,
     drive: &'a Drive,
     tau: f64,
@@ -60,10 +62,16 @@ impl<'a> Outputs<'a> {
                 cage: start.cage + drive.cage.at(tau),
                 frames: std::array::from_fn(|i| start.frames[i] + drive.frames[i].since.at(tau)),
             },
+            cage: drive.cage_at(tau),
             model,
             drive,
             tau,
         }
+    }
+
+    /// Angle of element `j`, all turns counted [rad].
+    fn element_angle(&self, j: usize) -> f64 {
+        self.angles.cage + self.model.element_offset(j) + self.model.lead(j, &self.cage).angle
     }
 
     /// Value of an output; `None` for what is not of an instant, or costs more than what is computed here.
@@ -75,17 +83,17 @@ impl<'a> Outputs<'a> {
             Quantity::Force(ring, axis) => [self.forces.shaft(), self.forces.housing()][ring.index()][axis],
             Quantity::SensorAcceleration(k) => self.sensors[k],
             Quantity::Probe(axis) => self.ring[0].position[axis] - self.ring[1].position[axis],
-            Quantity::CageAngle => self.angles.cage,
+            Quantity::CageAngle => self.angles.cage + self.model.cage_lead(&self.cage).angle,
             Quantity::RingAngle(ring) => self.angles.frames[ring.frame() as usize],
             Quantity::ShaftTorque => self.forces.torque_on(Frame::Shaft),
-            Quantity::CageSpeed => self.drive.cage.rate_at(self.tau),
+            Quantity::CageSpeed => self.cage.speed * (1.0 + self.model.cage_lead(&self.cage).rate),
             // A sum over all elements, and recorders do not ask for it.
             Quantity::CageTorque => {
                 let acceleration = self.acceleration[RingName::Housing.index()];
                 self.model.cage_torque(self.drive, self.tau, self.state, acceleration, self.forces)
             }
-            Quantity::ElementAngle(j) => self.angles.cage + self.model.element_offset(j),
-            Quantity::ElementSpinAngle(j) => self.model.spin_angle(j, &self.angles.frames, self.angles.cage),
+            Quantity::ElementAngle(j) => self.element_angle(j),
+            Quantity::ElementSpinAngle(j) => self.model.spin_angle(j, &self.angles.frames, self.element_angle(j)),
             Quantity::ElementPath(j) => self.state[j],
             Quantity::ElementInnerForce(j) => self.forces.contacts.inner[j],
             Quantity::ElementOuterForce(j) => self.forces.contacts.outer[j],

@@ -196,7 +196,7 @@ impl Stepper<'_> {
                 check_step(workspace, *problem, span, error, progress)?;
                 continue;
             }
-            if landing.is_none() && problem.model.has_inner_defects() {
+            if landing.is_none() && problem.model.watches_contacts() {
                 crossing = first_crossing(workspace, *problem, span, progress);
             }
             if let Some(found) = crossing.filter(|found| landing.is_none() && found.share <= CLOSEST_CHANGE) {

@@ -70,7 +70,8 @@ impl<'a> Rig<'a> {
         let mut scene = scene.clone();
         // Element 1 starts in the middle of the spall: an entry lies half the spall's length before the passage's
         // start.
-        scene.cage = Cage { slip: 0.0, spin_slip: 0.0, initial_angle: load_angle(&scene) };
+        let initial_angle = load_angle(&scene);
+        scene.cage = Cage { slip: 0.0, spin_slip: 0.0, initial_angle, irregularity: None };
         scene.shaft_speed = TAU * bpfo / kinematics::frequencies(&scene.bearing, 0.0, 1.0).bpfo;
         scene.recorder = None;
         // Elements ring at 40 to 50 kHz on their contacts: sampled much slower, that would fold below the cut.

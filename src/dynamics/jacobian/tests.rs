@@ -8,7 +8,7 @@ use crate::dynamics::drive::{Cubic, Quadratic};
 use crate::dynamics::drive::{Frame, Turning};
 use crate::dynamics::forces::Forces;
 use crate::dynamics::raceway::{Cells, DefectiveElement, Defects, SMOOTH};
-use crate::scene::{Damping, Scene, Sensor};
+use crate::scene::{CageIrregularity, Damping, DefectOn, Scene, Sensor};
 
 /// Who bears a defect, and for an element the raceway that it faces.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,6 +28,11 @@ pub(crate) fn lively_on(bearer: Bearer, motions: [Motion; 2], damping: Damping, 
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/er16k-tb1.toml");
     let mut scene = Scene::from_toml(&std::fs::read_to_string(path).unwrap()).unwrap();
     scene.contact.damping = damping;
+    if damping == Damping::HuntCrossley(5.0) {
+        let offsets = (0..9).map(|j| 0.01 * (f64::from(j) - 4.0)).collect();
+        let cage = CageIrregularity { offsets, jitter: 0.02, wander: 0.01, seed: 5 };
+        scene.cage.irregularity = Some(cage);
+    }
     // One sensor, or several that swing along other axes.
     if let Damping::Proportional(_) = damping {
         let of = |(direction, mass)| Sensor { direction, mass, ..Sensor::default() };
@@ -53,11 +58,18 @@ pub(crate) fn lively_on(bearer: Bearer, motions: [Motion; 2], damping: Damping, 
             .map(|(side, back)| Defects::new(Frame::Spin, [(near(side, true), towards - back - 0.1)]));
         own.push(DefectiveElement { element: 0, defects, mark: 0.0 });
     }
+    // Frames are looked at only where the scene says that something turns.
+    scene.defects[0].on = match bearer {
+        Bearer::Ring(RacewaySide::Outer) => DefectOn::Outer,
+        Bearer::Ring(RacewaySide::Inner) => DefectOn::Inner,
+        Bearer::Element(_) => DefectOn::Element { element: 0, tilt: 0.0 },
+    };
     let model = Model::new(&scene, rings, own);
     let place = |start: f64| [Cubic([start, 2e-3, -3.0, 4e4]), Cubic([-start, -1e-3, 5.0, -7e4])];
     let load = |start: f64| [Quadratic([start, 2e4, 1e6]), Quadratic([-900.0, -4e4, 2e6])];
     let drive = Drive {
         cage_start: cage_angle,
+        cage_turns: 2,
         cage: Quadratic([0.0, 250.0, 3e4]),
         frames: [
             Turning { start: 0.4, since: Quadratic([0.0, 600.0, 7e4]) },
@@ -95,8 +107,9 @@ pub(crate) fn moving(model: &Model, drive: &Drive, seed: u64) -> (Vec<f64>, Cell
         state[i + 1] -= 20e-6;
     }
     for j in 0..z {
-        let outer = model.outer.defects.cell_at(drive.cage_angle(0.0) + model.element_offset(j));
-        let at = model.outer_meeting(j, [outer, SMOOTH], 0.0, drive.cage_angle(0.0));
+        let cage = drive.cage_at(0.0);
+        let outer = model.outer.defects.cell_at(model.element_angle(j, &cage));
+        let at = model.outer_meeting(j, [outer, SMOOTH], 0.0, &cage);
         let floor = -model.approach(RacewaySide::Outer, &at, &drive.frames_at(0.0)).approach.value;
         state[j] += floor + 6e-6;
     }
@@ -122,7 +135,7 @@ fn branch(forces: &Forces) -> Vec<bool> {
 #[test]
 fn jacobian_and_time_derivative_equal_difference_quotients() {
     for bearer in [Bearer::Ring(RacewaySide::Outer), Bearer::Ring(RacewaySide::Inner)] {
-        let [compared, left_out, near_defect] = compare(bearer, [-1.66, -1.58, -1.5, 0.3]);
+        let [compared, left_out, near_defect] = compare(bearer, [-1.73, -1.66, -1.58, -1.5, -1.45, 0.3]);
         assert!(compared > 10_000 && left_out < 30 && near_defect > 30, "{compared} {left_out} {near_defect}");
     }
     for facing in [RacewaySide::Outer, RacewaySide::Inner] {
@@ -140,11 +153,12 @@ fn compare(bearer: Bearer, angles: impl IntoIterator<Item = f64> + Clone) -> [us
     {
         for angle in angles.clone() {
             let (model, drive) = lively_on(bearer, motions, damping, angle);
-            let (state, cells) = moving(&model, &drive, case as u64 + 1);
+            let (state, _) = moving(&model, &drive, case as u64 + 1);
+            let tau = 1e-5;
+            let cells = model.cells_at(&drive, tau, &state);
             near_defect += cells.iter().filter(|&&c| c != SMOOTH).count();
             let len = model.layout.len;
             let (mut jacobian, mut by_time) = (Jacobian::new(&model), vec![0.0; len]);
-            let tau = 1e-5;
             model.linearize(&drive, tau, &cells, &state, &mut jacobian, &mut by_time);
             let matrix = jacobian.matrix(len);
             let mut forces = Forces::new(model.element_count);

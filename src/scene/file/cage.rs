@@ -1,0 +1,84 @@
+//! The table `[cage]` of the scene file.
+
+use crate::scene::quantity::CAGE_SPACING_RMS;
+use crate::scene::{Cage, CageIrregularity, SceneError, centred};
+use serde::Deserialize;
+use std::f64::consts::TAU;
+
+#[derive(Deserialize, Default)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct CageTable {
+    slip: f64,
+    initial_angle_deg: Option<f64>,
+    spacing_deg: Option<Vec<f64>>,
+    spacing_rms_deg: Option<f64>,
+    jitter_rms_deg: Option<f64>,
+    wander: Option<f64>,
+    irregularity: Option<Preset>,
+    seed: Option<u64>,
+}
+
+/// Figures that stand for measured ones.
+#[derive(Deserialize, Clone, Copy)]
+#[serde(rename_all = "kebab-case")]
+enum Preset {
+    Recorded,
+}
+
+const SPACING: &str = "cage.spacing_deg";
+const SPACING_RMS: &str = "cage.spacing_rms_deg";
+const PRESET: &str = "cage.irregularity";
+
+impl CageTable {
+    pub(super) fn into_cage(self, count: usize) -> Result<Cage, SceneError> {
+        let initial_angle = self.initial_angle_deg.unwrap_or(-90.0).to_radians();
+        Ok(Cage { slip: self.slip, spin_slip: 0.0, initial_angle, irregularity: self.irregularity(count)? })
+    }
+
+    fn irregularity(&self, count: usize) -> Result<Option<CageIrregularity>, SceneError> {
+        if self.irregularity.is_some() {
+            let given = [
+                (SPACING, self.spacing_deg.is_some()),
+                (SPACING_RMS, self.spacing_rms_deg.is_some()),
+                ("cage.jitter_rms_deg", self.jitter_rms_deg.is_some()),
+                ("cage.wander", self.wander.is_some()),
+            ];
+            if let Some((second, _)) = given.into_iter().find(|(_, given)| *given) {
+                return Err(SceneError::Both { first: PRESET, second });
+            }
+        }
+        if self.spacing_deg.is_some() && self.spacing_rms_deg.is_some() {
+            return Err(SceneError::Both { first: SPACING, second: SPACING_RMS });
+        }
+        let degrees = |key: Option<f64>| key.unwrap_or(0.0).to_radians();
+        let [spacing, jitter, wander] = match self.irregularity {
+            Some(Preset::Recorded) => {
+                let [spacing, jitter, wander] = CageIrregularity::RECORDED;
+                [spacing * TAU / count as f64, jitter * TAU / count as f64, wander]
+            }
+            None => [degrees(self.spacing_rms_deg), degrees(self.jitter_rms_deg), self.wander.unwrap_or(0.0)],
+        };
+        let is_random = [spacing, jitter, wander].iter().any(|rms| *rms != 0.0);
+        if is_random && self.seed.is_none() {
+            return Err(SceneError::Missing {
+                key: "cage.seed",
+                why: "spacing, jitter or wander of the cage is random",
+            });
+        }
+        let seed = self.seed.unwrap_or(0);
+        let offsets = match &self.spacing_deg {
+            Some(given) => {
+                if given.len() != count {
+                    return Err(SceneError::SpacingCount { found: given.len(), count });
+                }
+                centred(&given.iter().map(|degrees| degrees.to_radians()).collect::<Vec<_>>())
+            }
+            None => {
+                CAGE_SPACING_RMS.check(spacing)?;
+                CageIrregularity::drawn_offsets(count, spacing, seed)
+            }
+        };
+        let is_even = offsets.iter().all(|&offset| offset == 0.0) && jitter == 0.0 && wander == 0.0;
+        Ok((!is_even).then_some(CageIrregularity { offsets, jitter, wander, seed }))
+    }
+}
