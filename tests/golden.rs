@@ -68,7 +68,7 @@ fn move_rings(bearing: &mut Named, scene: &Scene, t: f64) {
 
 fn run(name: &str) -> Run {
     // Maps of these take minutes and are compared with the grid elsewhere.
-    let by_path = ["6205-inner-5deg", "er16k-inner", "er16k-element"].contains(&name);
+    let by_path = ["6205-inner-5deg", "6205-two-defects", "er16k-inner", "er16k-element"].contains(&name);
     let scene = if by_path { support::shipped(name) } else { support::shipped_as_it_is(name) };
     let mut bearing = Named::new(scene.clone());
     let outputs: Vec<(String, u32)> = bearing
@@ -235,7 +235,9 @@ scenes! {
     healthy_gives_the_numbers_it_gave "6205-healthy"
     hosted_gives_the_numbers_it_gave "6205-hosted"
     inner_5deg_gives_the_numbers_it_gave "6205-inner-5deg"
+    irregular_cage_gives_the_numbers_it_gave "6205-irregular-cage"
     spall_5deg_gives_the_numbers_it_gave "6205-spall-5deg"
+    two_defects_gives_the_numbers_it_gave "6205-two-defects"
     element_gives_the_numbers_it_gave "er16k-element"
     inner_gives_the_numbers_it_gave "er16k-inner"
     tb1_gives_the_numbers_it_gave "er16k-tb1"
@@ -243,6 +245,7 @@ scenes! {
     tb2_gives_the_numbers_it_gave "er16k-tb2"
     tb2_30um_gives_the_numbers_it_gave "er16k-tb2-30um"
     tb2_compliant_gives_the_numbers_it_gave "er16k-tb2-compliant"
+    turning_outer_gives_the_numbers_it_gave "er16k-turning-outer"
 }
 
 #[test]

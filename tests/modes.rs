@@ -332,7 +332,7 @@ fn a_shaft_on_a_single_element_falls_off() {
 fn all_repeats_with_the_element_spacing_and_lines_do_not_jump() {
     let scene = shipped_as_it_is("er16k-tb2");
     let assembly = assembly(&scene);
-    let found = sweep(&assembly, -1.5 - 0.5 * assembly.spacing(), 100).unwrap();
+    let found = sweep(&assembly, -1.5 - 0.5 * assembly.period(), 100).unwrap();
     let frequencies = |modes: &Modes| modes.modes.iter().filter_map(Mode::undamped_frequency).collect::<Vec<_>>();
     let (first, last) = (frequencies(&found[0]), frequencies(&found[found.len() - 1]));
     assert_eq!(first.len(), last.len());

@@ -27,8 +27,8 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
     // In the middle of the sweep element 1 is in the middle of the defect, at its ends two elements are about it.
     let middle = assembly.defect().map_or(direction, |(_, centre)| centre);
     let length = assembly.defect().map(|(length, _)| length);
-    let points = options.points.unwrap_or_else(|| enough_points(assembly.spacing(), length));
-    let found = sweep(&assembly, middle - 0.5 * assembly.spacing(), points)?;
+    let points = options.points.unwrap_or_else(|| enough_points(assembly.period(), length));
+    let found = sweep(&assembly, middle - 0.5 * assembly.period(), points)?;
     let report = ModesReport::new(scene.name.clone(), &assembly, middle, &found);
     if report.held(Hold::Pressed)[1] == 0 {
         bail!(

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
 use brinell::dynamics::equilibrium::EquilibriumError;
-use brinell::scene::{Bearing, ContactLaw, Scene};
+use brinell::scene::{Bearing, ContactLaw, DefectOn, Scene};
 use brinell_analysis::critical_load::{Bottom, CriticalLoad};
 use brinell_analysis::static_bearing::{Balance, StaticBearing, StaticError};
 use brinell_analysis::stiffness::{min_mean_max, sweep};
@@ -42,6 +42,9 @@ impl Options {
 
 /// Depths, as factors of the scene's, at which the critical load is computed.
 const DEPTHS: [f64; 9] = [0.1, 0.2, 0.3, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0];
+/// Number of angles of the inner ring, and of the cage at each of them, at which stiffness is computed.
+const SHAFT_ANGLES: usize = 180;
+const CAGE_ANGLES: usize = 24;
 /// Number of clearances and compliances at which it is computed.
 const VARIATIONS: usize = 21;
 
@@ -52,19 +55,30 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
     let bearing = loaded(StaticBearing::with_map(&model.scene, model.profile_texts(), map.as_deref())?, options.load)?;
     let healthy =
         loaded(StaticBearing::new(&Scene { defects: Vec::new(), ..model.scene.clone() }, None)?, options.load)?;
-    let plain = plain(&bearing, model, options.load)?;
     let [x, y] = bearing.load();
+    // Stiffness with a spall inside is least while that is under the load.
+    let inside = model.scene.defects.iter().find(|defect| defect.on == DefectOn::Inner).map(|defect| defect.angle);
+    let under_load = inside.map(|angle| libm::atan2(y, x) - angle);
+    let bearing = under_load.map_or_else(|| bearing.clone(), |angle| bearing.with_shaft_angle(angle));
+    let plain = plain(&bearing, model, options.load)?;
+    let plain = under_load.map_or_else(|| plain.clone(), |angle| plain.with_shaft_angle(angle));
     let bottom = bottom_of(&bearing)?;
     // In the middle of the sweep element 1 is in the middle of the defect, at its ends two elements are about it.
     let middle = bottom.map_or(libm::atan2(y, x), |bottom| bottom.middle);
-    let first = middle - 0.5 * bearing.spacing();
-    let points = options.points.unwrap_or_else(|| enough_points(bearing.spacing(), bearing.defect_length()));
+    let first = middle - 0.5 * bearing.period();
+    let points = options.points.unwrap_or_else(|| enough_points(bearing.period(), bearing.defect_length()));
     let balances = sweep(&bearing, first, points)?;
 
     let stem = folder.join(&model.scene.name);
     let path = beside(&stem, "-stiffness.csv");
     whole_file::write_with(&path, |mut out| write_sweep(&mut out, &plain, &healthy, &balances))?;
     println!("{}", path.display());
+
+    if let Some(angle) = under_load {
+        let path = beside(&stem, "-shaft-stiffness.csv");
+        whole_file::write_with(&path, |mut out| write_over_shaft(&mut out, &bearing, angle))?;
+        println!("{}", path.display());
+    }
 
     let critical = if bottom.is_some() { covered(plain.critical_load())? } else { None };
     if let (Some(bottom), Some(critical)) = (&bottom, &critical) {
@@ -178,6 +192,22 @@ fn write_sweep(
             ]);
         }
         csv::row(out, row.into_iter())?;
+    }
+    Ok(())
+}
+
+/// Stiffness along the load over the inner ring's angle, counted from that at which its defect is under the load: least,
+/// mean and greatest over the cage angle.
+fn write_over_shaft(out: &mut impl Write, bearing: &StaticBearing, under_load: f64) -> Result<()> {
+    let names = ["least", "mean", "greatest"].map(|which| (format!("stiffness.free.{which}"), "N/m"));
+    let columns = [("shaft.angle", "rad")].into_iter().chain(names.iter().map(|(name, unit)| (name.as_str(), *unit)));
+    csv::header(out, columns)?;
+    for i in 0..=SHAFT_ANGLES {
+        let angle = PI * (2.0 * i as f64 / SHAFT_ANGLES as f64 - 1.0);
+        let turned = bearing.with_shaft_angle(under_load + angle);
+        let balances = sweep(&turned, 0.0, CAGE_ANGLES)?;
+        let values = min_mean_max(&balances, Balance::free_stiffness);
+        csv::row(out, [angle].into_iter().chain(values))?;
     }
     Ok(())
 }

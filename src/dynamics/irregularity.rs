@@ -233,7 +233,8 @@ mod tests {
         let of = irregular(sigma, 0.0, 5);
         for harmonic in [1, 3, 6] {
             let count = 60_000;
-            let phase = |k: i32| f64::from(9 * harmonic) * of.of_element(0, &at(0, of.start + f64::from(k) * TAU / 9.0)).angle;
+            let phase =
+                |k: i32| f64::from(9 * harmonic) * of.of_element(0, &at(0, of.start + f64::from(k) * TAU / 9.0)).angle;
             let mean = (0..count).map(|k| phase(k).cos()).sum::<f64>() / f64::from(count);
             // Passages are a spacing apart, where a spline has its knots and half its coefficients' mean square.
             let at_knots = 0.5 / MEAN_SQUARE;

@@ -98,11 +98,6 @@ impl Scene {
         self.has_defect_inside() || self.housing_speed.is_some() || self.housing_initial_angle != 0.0
     }
 
-    /// Whether elements move against each other on the cage, or the cage's speed wanders.
-    pub fn is_uneven(&self) -> bool {
-        self.cage.irregularity.as_ref().is_some_and(|cage| cage.jitter != 0.0 || cage.wander != 0.0)
-    }
-
     /// The C identifier of the scene's model: `Brinell_er16k_tb1` for the scene `er16k-tb1`. Hyphens, which a name may
     /// hold, become underscores, and the prefix keeps a leading digit inside.
     pub fn model_identifier(&self) -> String {

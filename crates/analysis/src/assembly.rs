@@ -147,10 +147,11 @@ impl Assembly {
         self.model.element_count
     }
 
-    /// The spacing of the elements [rad]. Elements are alike, so everything repeats with it, their numbers exchanged; a
-    /// defect changes nothing in that, however long it is.
-    pub fn spacing(&self) -> f64 {
-        TAU / self.model.element_count as f64
+    /// Cage angle with which everything repeats [rad]: the spacing of the elements, which are alike, their numbers
+    /// exchanged; or a whole turn of a cage that has them off even places. A defect of a ring changes nothing in that,
+    /// however long it is.
+    pub fn period(&self) -> f64 {
+        if self.model.is_even() { TAU / self.model.element_count as f64 } else { TAU }
     }
 
     /// Loads on the inner and on the outer ring [N].

@@ -10,6 +10,9 @@
 //! the stiffness is least. Any other cage angle has its own ([`StaticBearing::critical_load_at`]), that of the elements
 //! which are deepest then; on its way in or out an element is squeezed by any load at all.
 //!
+//! A defect of the inner ring has its critical load as well, which belongs to the inner ring's angle besides: largest is
+//! that of a spall in the direction of the load.
+//!
 //! It stands on rigid rings that keep their shape: with 100 µm depth a real ring bends before. A compliance in series
 //! with the contacts is the crudest allowance for that.
 
@@ -38,10 +41,10 @@ pub struct Sensitivity {
     pub by_compliance: f64,
 }
 
-/// Where the unloaded elements' path is deepest.
+/// Where unloaded elements go down deepest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bottom {
-    /// Greatest path of an unloaded element [m].
+    /// Greatest depth to which an unloaded element goes down [m].
     pub path: f64,
     /// Angle of the bottom's middle [rad], counter-clockwise from +x.
     pub middle: f64,
@@ -60,10 +63,11 @@ impl StaticBearing {
     /// # Errors
     /// No defect, or none into which an element sinks.
     pub fn bottom(&self) -> Result<Bottom, StaticError> {
-        let ([first, last], centre) = self.extents(DefectOn::Outer).next().ok_or(StaticError::NoDefect)?;
+        let of_rings = [DefectOn::Outer, DefectOn::Inner].into_iter().find_map(|on| self.extents(on).next());
+        let ([first, last], centre) = of_rings.ok_or(StaticError::NoDefect)?;
         let angle = |i: usize| centre + first + (last - first) * (i as f64 / LOOKS as f64);
         // Element 1 is at the cage angle.
-        let paths: Vec<f64> = (0..=LOOKS).map(|i| self.model.resting_path(0, angle(i))).collect();
+        let paths: Vec<f64> = (0..=LOOKS).map(|i| self.sunk(0, angle(i))).collect();
         let path = paths.iter().copied().fold(0.0, f64::max);
         if path <= 0.0 {
             return Err(StaticError::NoDepth { depth_um: path * 1e6 });
@@ -71,7 +75,7 @@ impl StaticBearing {
         let deep = |&i: &usize| paths[i] >= BOTTOM * path;
         let [first, last] = [(0..=LOOKS).find(deep), (0..=LOOKS).rev().find(deep)].map(|i| i.unwrap_or(0));
         let middle = 0.5 * (angle(first) + angle(last));
-        if self.model.resting_path(0, middle) >= BOTTOM * path {
+        if self.sunk(0, middle) >= BOTTOM * path {
             return Ok(Bottom { path, middle });
         }
         // Several deep places: the deepest.
@@ -88,7 +92,7 @@ impl StaticBearing {
         let bottom = self.bottom()?;
         let mut least: Option<CriticalLoad> = None;
         for cage_angle in [bottom.middle, bottom.middle - 0.5 * self.spacing()] {
-            if !(0..self.element_count()).any(|j| self.model.resting_path(j, cage_angle) >= BOTTOM * bottom.path) {
+            if !(0..self.element_count()).any(|j| self.sunk(j, cage_angle) >= BOTTOM * bottom.path) {
                 continue;
             }
             let found = self.critical_load_at(cage_angle)?;
@@ -105,7 +109,7 @@ impl StaticBearing {
     /// # Errors
     /// A bearing without direction of load; a balance that is not found.
     pub fn critical_load_at(&self, cage_angle: f64) -> Result<Option<CriticalLoad>, StaticError> {
-        let paths: Vec<f64> = (0..self.element_count()).map(|j| self.model.resting_path(j, cage_angle)).collect();
+        let paths: Vec<f64> = (0..self.element_count()).map(|j| self.sunk(j, cage_angle)).collect();
         let deepest = paths.iter().copied().fold(0.0, f64::max);
         if deepest <= 0.0 {
             return Ok(None);

@@ -18,7 +18,7 @@ const SAME: f64 = 0.1;
 /// Those of [`Assembly::modes`].
 pub fn sweep(assembly: &Assembly, first: f64, count: usize) -> Result<Vec<Modes>, ModesError> {
     let at = |angle: f64| assembly.modes(angle);
-    let mut found = with_changes(first, assembly.spacing(), count, at, |a, b| a.holds == b.holds)?;
+    let mut found = with_changes(first, assembly.period(), count, at, |a, b| a.holds == b.holds)?;
     let mut lines = 0;
     for i in 0..found.len() {
         let (before, here) = found.split_at_mut(i);

@@ -57,7 +57,7 @@ pub enum StaticError {
         load: [f64; 2],
     },
     /// A healthy bearing was asked for its defect.
-    #[error("the scene has no defect: a critical load belongs to one")]
+    #[error("the scene has no defect of a ring: a critical load belongs to one")]
     NoDefect,
     /// The defect has no place into which an element sinks.
     #[error("elements sink {depth_um} um into this defect: it must be above 0 to have a critical load")]
@@ -167,9 +167,29 @@ impl StaticBearing {
         self.model.element_count
     }
 
-    /// The spacing of the elements [rad]. Everything repeats with it.
+    /// The spacing of the elements in an even cage [rad].
     pub fn spacing(&self) -> f64 {
         TAU / self.model.element_count as f64
+    }
+
+    /// Cage angle with which everything repeats [rad]: the spacing of the elements, which are alike, or a whole turn of a
+    /// cage that has them off even places.
+    pub fn period(&self) -> f64 {
+        if self.model.is_even() { self.spacing() } else { TAU }
+    }
+
+    /// The same bearing with the inner ring at another angle [rad].
+    pub fn with_shaft_angle(&self, angle: f64) -> Self {
+        let mut other = self.clone();
+        other.scene.shaft_initial_angle = angle;
+        other
+    }
+
+    /// How far [m] element `j` (from 0) goes down in the defects of the rings before it touches both, with element 1 at
+    /// `cage_angle` [rad].
+    pub(super) fn sunk(&self, j: usize, cage_angle: f64) -> f64 {
+        let inside = self.model.resting_opening(j, cage_angle, self.scene.shaft_initial_angle);
+        self.model.resting_path(j, cage_angle) + inside
     }
 
     /// The balance with element 1 at `cage_angle` [rad] under `load` [N] on the inner ring.

@@ -9,7 +9,7 @@ use super::static_bearing::{Balance, StaticBearing, StaticError};
 /// Half the width of the bracket in which a change is found [rad].
 const NARROW: f64 = 1e-7;
 
-/// The balances over one element spacing from the cage angle `first` [rad] on, under the bearing's own load: at `count`
+/// The balances over one period, the element spacing or a turn of an irregular cage, from the cage angle `first` [rad] on, under the bearing's own load: at `count`
 /// evenly spaced angles, at the end, and at both sides of each angle between them at which an element begins or ceases
 /// to carry. Angles ascend.
 ///
@@ -19,7 +19,7 @@ const NARROW: f64 = 1e-7;
 /// Those of [`StaticBearing::balance`].
 pub fn sweep(bearing: &StaticBearing, first: f64, count: usize) -> Result<Vec<Balance>, StaticError> {
     let at = |angle: f64| bearing.balance(angle, bearing.load());
-    with_changes(first, bearing.spacing(), count, at, same_loaded)
+    with_changes(first, bearing.period(), count, at, same_loaded)
 }
 
 /// What `at` gives at `count` evenly spaced angles from `first` [rad] on over one element spacing, at its end, and at
