@@ -62,12 +62,16 @@ def changed_scene(base, name, changes, folder):
             table.pop(last, None)
         else:
             table[last] = value
-    if "profile" in scene.get("defect", {}):
-        scene["defect"]["profile"] = str((base.parent / scene["defect"]["profile"]).resolve())
-    lines = [f"{key} = {toml(value)}" for key, value in scene.items() if not isinstance(value, dict)]
-    for key, table in scene.items():
-        if isinstance(table, dict):
-            lines += ["", f"[{key}]", *(f"{name} = {toml(value)}" for name, value in table.items())]
+    tables = {key: value for key, value in scene.items() if isinstance(value, dict)}
+    several = {key: value for key, value in scene.items() if isinstance(value, list) and value and isinstance(value[0], dict)}
+    for defect in several.get("defect", [tables.get("defect", {})]):
+        if "profile" in defect:
+            defect["profile"] = str((base.parent / defect["profile"]).resolve())
+    lines = [f"{key} = {toml(value)}" for key, value in scene.items() if key not in tables and key not in several]
+    heads = [(f"[{key}]", table) for key, table in tables.items()]
+    heads += [(f"[[{key}]]", table) for key, all_of_them in several.items() for table in all_of_them]
+    for head, table in heads:
+        lines += ["", head, *(f"{name} = {toml(value)}" for name, value in table.items())]
     path = Path(folder) / f"{name}.toml"
     path.parent.mkdir(parents=True, exist_ok=True)
     with whole(path) as part:

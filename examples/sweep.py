@@ -4,12 +4,17 @@
     python examples/sweep.py --runs 500 --seed 1 [--workers 2] [-o target/sweep]
         --grid defect.length_deg=2,5,10,15.8 --grid defect.depth_um=20,50,100
         --random shaft.load_n=300:1500 --random shaft.speed_hz=8:40
+    python examples/sweep.py --kinds healthy,outer,inner,element --law hertz --signals …       labelled classes
     python examples/sweep.py --scheduler tcp://127.0.0.1:8786 …     on a dask cluster that runs already
 
 Run i takes the grid's point i modulo its size and random values that depend on seed and i alone: the same design to the
 bit on any machine, and a longer one begins with the shorter. What an FMU can be told costs a run 0.1 ms (load, speed,
 slip, first angle), the clearance 2.6 s of a core where the law is `map`: the FMU computes its contact map anew. Other
 keys of the scene make one FMU per grid point, so let them be on the grid.
+
+With `--kinds` runs take the kinds of fault in turn, each at every point of the grid. Each row says in its label_…
+columns what it is a run of: kind, length, depth and position of the defect, load and speed. Under law `map` each size of a
+defect inside needs a map of some minutes; `--law hertz` needs none.
 
 FMUs are built once and shipped to each worker once, also to one that starts later; a worker keeps one instance per FMU
 and resets it between runs. Results go to part-*.parquet in the output folder as they come; started again, the
@@ -40,7 +45,16 @@ TOLD = {
     "bearing.radial_clearance_um": ("bearing.radial_clearance", 1e-6),
     "cage.slip": ("cage.slip", 1.0),
     "cage.initial_angle_deg": ("cage.initial_angle", np.pi / 180),
+    "defect.angle_deg": ("defect.angle", np.pi / 180),
 }
+# What a kind of fault is in the scene.
+KINDS = {
+    "healthy": {"defect": None},
+    "outer": {"defect.on": "outer"},
+    "inner": {"defect.on": "inner"},
+    "element": {"defect.on": "element", "defect.element": 1},
+}
+LABELS = ["label_kind", "label_length_mm", "label_depth_um", "label_angle_deg", "label_load_n", "label_speed_hz"]
 # Maps for many defects are coarser than that of one studied closely: 0.4 % of the largest force, for a third of the
 # time.
 MAP_ACCURACY = 4e-3
@@ -50,9 +64,11 @@ FEATURES += ["unloaded_s", "loaded_again_s", "unloaded_deg"]
 SIZED = ["sized_verdict", "sized_length_mm", "sized_uncertainty_mm", "sized_kind"]
 
 
-def design(count, grid, random, seed):
+def design(count, grid, random, seed, kinds=()):
     """The runs: a list of {key: value}."""
     points = [dict(zip(grid, values)) for values in itertools.product(*grid.values())]
+    if kinds:
+        points = [{"kind": kind, **point} for point in points for kind in kinds]
     runs = []
     for index in range(count):
         # One draw per key, from a stream of this run's own.
@@ -62,19 +78,59 @@ def design(count, grid, random, seed):
     return runs
 
 
-def prepare(base, runs, folder):
+def is_told(key, run):
+    """Whether an instance is told a key of this run, and not the scene that its FMU is made of."""
+    return key in TOLD or key == "kind" or (run.get("kind") == "healthy" and key.startswith("defect."))
+
+
+def changes(run):
+    """What a run changes in the scene."""
+    built_in = {key: value for key, value in run.items() if not is_told(key, run)}
+    # The base scene's length may be in the other unit.
+    given = {"defect.length_mm", "defect.length_deg"} & set(built_in)
+    if given:
+        built_in = {"defect.length_mm": None, "defect.length_deg": None, **built_in}
+    return {**KINDS.get(run.get("kind"), {}), **built_in}
+
+
+def prepare(base, runs, folder, law=None):
     """Builds one FMU for each set of values that an instance cannot be told. Gives {name: path}, name of each run."""
     names, scenes = [], {}
     contact = tomllib.loads(Path(base).read_text(encoding="utf-8")).get("contact", {})
-    coarser = {"contact.map_accuracy": MAP_ACCURACY} if contact.get("law", "map") == "map" else {}
+    law = law or contact.get("law", "map")
+    all_runs = {"contact.law": law, **({"contact.map_accuracy": MAP_ACCURACY} if law == "map" else {})}
     for run in runs:
-        built_in = {key: value for key, value in run.items() if key not in TOLD}
-        name = "-".join([Path(base).stem, *(f"{value:g}".replace(".", "p") for value in built_in.values())])
+        values = [f"{value:g}".replace(".", "p") for key, value in run.items() if not is_told(key, run)]
+        name = "-".join([Path(base).stem, *([run["kind"]] if "kind" in run else []), *values])
         if name not in scenes:
-            scenes[name] = bearing.changed_scene(base, name, {**coarser, **built_in}, folder)
+            scenes[name] = bearing.changed_scene(base, name, {**all_runs, **changes(run)}, folder)
         names.append(name)
     paths = bearing.build(scenes.values(), folder)
     return dict(zip(scenes, paths)), names
+
+
+def label(scene, run):
+    """What a run of an FMU of this scene is a run of."""
+    defect, shaft = scene.get("defect"), scene["shaft"]
+    load = float(np.hypot(*shaft.get("load_n", [0.0, 0.0])))
+    row = dict.fromkeys(LABELS)
+    row["label_load_n"] = run.get("shaft.load_n", load)
+    row["label_speed_hz"] = run.get("shaft.speed_hz", shaft["speed_hz"])
+    row["label_kind"] = "healthy" if defect is None else "several" if isinstance(defect, list) else defect.get("on", "outer")
+    if isinstance(defect, dict):
+        length = defect.get("length_mm")
+        if length is None and "length_deg" in defect:
+            length = float(np.radians(defect["length_deg"]) * radius_mm(scene["bearing"], row["label_kind"]))
+        row["label_length_mm"], row["label_depth_um"] = length, defect.get("depth_um")
+        row["label_angle_deg"] = run.get("defect.angle_deg", defect["angle_deg"])
+    return row
+
+
+def radius_mm(dimensions, kind):
+    """Radius of the body that bears a defect, at the groove's bottom or on the element's track."""
+    pitch, element = dimensions["pitch_diameter_mm"], dimensions["element_diameter_mm"]
+    clearance = dimensions.get("radial_clearance_um", 0.5 * dimensions.get("internal_clearance_um", 10.0)) * 1e-3
+    return 0.5 * {"outer": pitch + element + clearance, "inner": pitch - element - clearance, "element": element}[kind]
 
 
 class Bearings(WorkerPlugin):
@@ -114,6 +170,11 @@ class Bearings(WorkerPlugin):
         self.instances[name].reset()
         return self.instances[name]
 
+    def scene(self, name):
+        from bearing import tomllib
+
+        return tomllib.loads(self.scenes[name])
+
     def sized(self, index, name, values, signal, options):
         """The spall's length from the sensor's signal alone, by `fmu size`."""
         from bearing import changed_scene, tomllib
@@ -142,6 +203,7 @@ def simulate(index, name, values, options):
     begin = time.process_time()
     try:
         bearings = get_worker().plugins[Bearings.name]
+        row.update(label(bearings.scene(name), values))
         row.update(run_one(bearings.instance(name), values, options))
         if options["size"]:
             row.update(bearings.sized(index, name, values, row["signal"], options))
@@ -158,7 +220,7 @@ def run_one(instance, values, options):
     from bearing import Numbers  # not above: the scheduler unpacks this function too, and has no such module
 
     told = {TOLD[key][0]: TOLD[key][1] * value for key, value in values.items() if key in TOLD}
-    instance.enter(told)
+    instance.enter({name: value for name, value in told.items() if name in instance.reference})
     instance.run()
     count = sum(name.endswith(".path") for name in instance.reference)
     elements = [f"element[{j}].{what}" for what in ("angle", "force.outer") for j in range(1, count + 1)]
@@ -173,7 +235,10 @@ def run_one(instance, values, options):
     late = t > options["settle"]
     signal = table[late, 0]
     row = features(signal, options["rate"], count * table[-1, 1] / (2 * np.pi))
-    defect = instance.read(["defect.angle"])[0] if "defect.angle" in instance.reference else None
+    # Where elements pass a defect of the outer raceway is known from their angles alone.
+    outer = "defect.angle" in instance.reference and not {"shaft.angle", "housing.angle"} & set(instance.reference)
+    outer = outer and not any(name.endswith(".spin_angle") for name in instance.reference)
+    defect = instance.read(["defect.angle"])[0] if outer else None
     if defect is not None:
         row.update(passage(t, table[:, 2 : 2 + count], table[:, 2 + count :], defect, options["settle"]))
     row["signal"] = signal.astype(np.float32)
@@ -231,8 +296,9 @@ def columns(runs, options):
     """Every part has the same columns, whatever its runs."""
     known = {"run": pyarrow.int64(), "fmu": pyarrow.string(), "error": pyarrow.string()}
     known.update({"signal": pyarrow.list_(pyarrow.float32()), "sized_verdict": pyarrow.string(), "sized_kind": pyarrow.string()})
+    known.update({"kind": pyarrow.string(), "label_kind": pyarrow.string()})
     keys = dict.fromkeys(itertools.chain.from_iterable(runs))
-    names = ["run", "fmu", *keys, *FEATURES, *(SIZED if options["size"] else [])]
+    names = ["run", "fmu", *keys, *LABELS, *FEATURES, *(SIZED if options["size"] else [])]
     names += [*(["signal"] if options["signals"] else []), "error", "cpu_s"]
     return pyarrow.schema([(name, known.get(name, pyarrow.float64())) for name in names])
 
@@ -309,6 +375,8 @@ def main(arguments=None):
     parser.add_argument("--base", type=Path, default=bearing.SCENES / "er16k-tb1.toml", help="scene that the runs change")
     parser.add_argument("--grid", action="append", default=[], metavar="KEY=V,V,…", help="values of a scene key")
     parser.add_argument("--random", action="append", default=[], metavar="KEY=LOW:HIGH", help="range of a scene key")
+    parser.add_argument("--kinds", help="kinds of fault to take in turn, of " + ",".join(KINDS))
+    parser.add_argument("--law", choices=["hertz", "map", "love"], help="contact law near defects; default: the scene's")
     parser.add_argument("--runs", type=int, default=20)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--stop", type=float, default=0.3, help="end of each run [s]")
@@ -323,15 +391,22 @@ def main(arguments=None):
     chosen = parser.parse_args(arguments)
     grid = {key: [float(v) for v in values.split(",")] for key, values in map(pair, chosen.grid)}
     random = {key: tuple(float(v) for v in values.split(":")) for key, values in map(pair, chosen.random)}
-    if not grid and not random:
+    kinds = chosen.kinds.split(",") if chosen.kinds else []
+    if unknown := [kind for kind in kinds if kind not in KINDS]:
+        parser.error(f"--kinds: {unknown[0]} is none of {', '.join(KINDS)}")
+    if not grid and not random and kinds:
+        grid = {"defect.length_mm": [0.4, 0.8, 1.6], "defect.depth_um": [30.0, 100.0]}
+        random = {"shaft.load_n": (300.0, 1500.0), "shaft.speed_hz": (8.0, 40.0), "defect.angle_deg": (-120.0, -60.0)}
+    elif not grid and not random:
         grid = {"defect.length_deg": [2.0, 5.0, 10.0, 15.8], "defect.depth_um": [20.0, 50.0, 100.0]}
         random = {"shaft.load_n": (300.0, 1500.0), "shaft.speed_hz": (8.0, 40.0)}
-    runs = design(chosen.runs, grid, random, chosen.seed)
+    runs = design(chosen.runs, grid, random, chosen.seed, kinds)
     options = {name: getattr(chosen, name) for name in ("stop", "settle", "rate", "signals", "size")}
     chosen.output.mkdir(parents=True, exist_ok=True)
     scene = chosen.base.read_text(encoding="utf-8")
-    same_design(chosen.output, scene=scene, grid=grid, random=random, seed=chosen.seed, options=options)
-    paths, names = prepare(chosen.base, runs, chosen.output / "fmu")
+    design_of = {"grid": grid, "random": random, "seed": chosen.seed, "options": options, "kinds": kinds, "law": chosen.law}
+    same_design(chosen.output, scene=scene, **design_of)
+    paths, names = prepare(chosen.base, runs, chosen.output / "fmu", chosen.law)
     cluster = chosen.scheduler or LocalCluster(
         n_workers=chosen.workers, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
     )

@@ -3,7 +3,7 @@
 
 mod support;
 
-use brinell::scene::{DefectShape, Scene};
+use brinell::scene::{DefectOn, DefectShape, Scene};
 use brinell_analysis::critical_load::CriticalLoad;
 use brinell_analysis::static_bearing::{Balance, StaticBearing, StaticError};
 use brinell_analysis::stiffness::{min_mean_max, sweep};
@@ -53,6 +53,25 @@ fn stiffness_over_the_cage_angle_is_that_of_the_prototype() {
     agree(&stiffness(&bearing(&healthy())), &[87.3, 88.4, 88.8], PROTOTYPE);
     agree(&stiffness(&bearing(&shipped("er16k-tb1"))), &[56.5, 77.0, 88.8], PROTOTYPE);
     agree(&stiffness(&bearing(&shipped("er16k-tb2"))), &[27.8, 47.3, 58.6], PROTOTYPE);
+}
+
+#[test]
+fn a_spall_inside_under_the_load_has_the_critical_load_of_one_outside() {
+    // On both floors elements go down by the depth, and rings are as stiff beside them.
+    let (outside, mut scene) = (bearing(&shipped("er16k-tb1")), shipped("er16k-tb1"));
+    scene.defects[0].on = DefectOn::Inner;
+    scene.shaft_initial_angle = 0.3;
+    let inside = bearing(&scene).with_shaft_angle(0.0);
+    let (of_outer, of_inner) = (critical(&outside), critical(&inside));
+    // But for the Hertz constants' share: the element in the spall carries nothing yet.
+    agree(&[of_inner.load], &[of_outer.load], 1e-9);
+    agree(&[inside.bottom().unwrap().path], &[1e-4], 1e-9);
+    // Turned away from the load the spall counts for nothing.
+    let away = inside.with_shaft_angle(PI);
+    agree(&stiffness(&away), &stiffness(&bearing(&healthy())), 1e-9);
+    // Its depth, and not the mean of its law's roundings, decides.
+    let deeper = critical(&inside.with_depth_times(1.01).unwrap().with_shaft_angle(0.0));
+    agree(&[deeper.load], &[critical(&outside.with_depth_times(1.01).unwrap()).load], 1e-9);
 }
 
 #[test]

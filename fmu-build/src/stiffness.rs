@@ -196,8 +196,8 @@ fn write_sweep(
     Ok(())
 }
 
-/// Stiffness along the load over the inner ring's angle, counted from that at which its defect is under the load: least,
-/// mean and greatest over the cage angle.
+/// Stiffness along the load over the inner ring's angle, counted from that at which its defect is under the load:
+/// least, mean and greatest over the cage angle.
 fn write_over_shaft(out: &mut impl Write, bearing: &StaticBearing, under_load: f64) -> Result<()> {
     let names = ["least", "mean", "greatest"].map(|which| (format!("stiffness.free.{which}"), "N/m"));
     let columns = [("shaft.angle", "rad")].into_iter().chain(names.iter().map(|(name, unit)| (name.as_str(), *unit)));

@@ -23,6 +23,7 @@ const MASTERS: &str = "python examples/masters.py --short";
 const COST: &str = "python examples/step_cost.py --steps 200";
 const SWEEP: &str =
     "python examples/sweep.py --runs 8 --stop 0.1 --grid defect.length_deg=15.8 --random shaft.speed_hz=10:40";
+const LABELLED: &str = "python examples/sweep.py --kinds healthy,outer,inner,element --law hertz --runs 8 --stop 0.1 --settle 0.02 --signals -o target/labelled";
 const SIZED: &str = "python examples/sweep.py --runs 1 --stop 0.6 --grid defect.length_deg=15.8 --random shaft.speed_hz=10:40 --size -o target/sized";
 const SCHEDULER: &str = "dask scheduler --host 127.0.0.1 --port 8786 --no-dashboard";
 const WORKER: &str = "dask worker tcp://127.0.0.1:8786 --nworkers 2 --nthreads 1 --no-dashboard";
@@ -308,6 +309,16 @@ fn a_sweep_runs_its_design() {
     let other = ["--seed".into(), "2".into(), "-o".into(), folder.into_os_string()];
     let said = python().run_file::<OsString>(&script, other).unwrap_err().to_string();
     assert!(said.contains("another design"), "{said}");
+}
+
+#[test]
+fn a_labelled_sweep_says_beside_each_signal_what_it_is_a_run_of() {
+    let folder = common::folder("example-labelled");
+    let said = last(&run(LABELLED, &folder));
+    assert_eq!((said["runs"].as_u64(), said["failed"].as_u64()), (Some(8), Some(0)), "{said}");
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python/sweep_labels.py");
+    let said = python().run_file(&script, [folder]).unwrap_or_else(|error| panic!("{error:#}"));
+    assert!(said.contains("8 labelled"), "{said}");
 }
 
 #[test]

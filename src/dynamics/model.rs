@@ -1,7 +1,7 @@
 //! The parameters of the equations of motion, worked out once from a scene, and the layout of the state vector.
 //!
-//! The state is `[u_1…u_Z, w_1…w_Z, shaft x y vx vy, housing x y vx vy, sensor s vs …]`; a ring that is not internal and
-//! absent sensors take no place. The lists of u and w are filled up with zeros to a multiple of eight places, the
+//! The state is `[u_1…u_Z, w_1…w_Z, shaft x y vx vy, housing x y vx vy, sensor s vs …]`; a ring that is not internal
+//! and absent sensors take no place. The lists of u and w are filled up with zeros to a multiple of eight places, the
 //! rings' part to a multiple of four, so that they are treated several at a time. u is the roller path (ρ − (R_o − r),
 //! ρ the distance of the element's centre from the *outer ring's* centre), w the radial component of the element's
 //! absolute velocity.
@@ -59,7 +59,8 @@ pub struct Model {
     pub may_have_inner_defects: bool,
     /// Angle of each element ahead of the cage [rad].
     offsets: Vec<f64>,
-    /// How elements and cage run ahead and lag behind; `None` where each keeps its angle ahead of a cage that turns evenly.
+    /// How elements and cage run ahead and lag behind; `None` where each keeps its angle ahead of a cage that turns
+    /// evenly.
     pub(super) irregularity: Option<Irregularity>,
     /// Whether any contact asks for the frames of defects: all but those of an outer ring that does not turn.
     pub has_frames: bool,
@@ -314,8 +315,9 @@ impl Model {
         if by_shaft == 0.0 { 0.0 } else { cage / by_shaft * spin }
     }
 
-    /// Angle χ [rad] by which the first defect of element `j` has turned from the direction of the element's centre, for the
-    /// angles of frames and that of the element; 0 where it faces the outer raceway, the turns since then counted.
+    /// Angle χ [rad] by which the first defect of element `j` has turned from the direction of the element's centre,
+    /// for the angles of frames and that of the element; 0 where it faces the outer raceway, the turns since then
+    /// counted.
     pub fn spin_angle(&self, j: usize, frames: &[f64; 3], element: f64) -> f64 {
         let own = self.defective.iter().find(|defective| defective.element == j);
         own.map_or(0.0, |own| own.mark) + frames[Frame::Spin as usize] - element

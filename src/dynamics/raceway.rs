@@ -32,7 +32,8 @@ pub struct DefectiveElement {
     pub element: usize,
     /// Its defects in contact with the inner and with the outer raceway.
     pub defects: [Defects; 2],
-    /// Angle of the centre of the first of them in contact with the outer raceway [rad], from which its spin is counted.
+    /// Angle of the centre of the first of them in contact with the outer raceway [rad], from which its spin is
+    /// counted.
     pub mark: f64,
 }
 

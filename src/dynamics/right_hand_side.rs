@@ -68,8 +68,8 @@ impl Model {
             if RECORD {
                 forces.torques = [0.0; 3];
             }
-            // A copy for each call, so that what is known of the instant can stay in registers: what is written to memory
-            // in parts and read together soon after is read late.
+            // A copy for each call, so that what is known of the instant can stay in registers: what is written to
+            // memory in parts and read together soon after is read late.
             if outer {
                 on_housing =
                     simd.outlined(OtherOuter::<RECORD> { model: self, now: &{ now }, state, forces: &mut *forces });

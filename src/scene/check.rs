@@ -19,8 +19,8 @@ use std::f64::consts::{PI, TAU};
 /// Smallest clearance over element diameter; see the head of this file.
 const SMALLEST_RELATIVE_CLEARANCE: f64 = -0.0075;
 
-/// Offset and jitter of an element from its place in an even cage, as a share of the spacing, at most: what is farther off
-/// is no place in a pocket.
+/// Offset and jitter of an element from its place in an even cage, as a share of the spacing, at most: what is farther
+/// off is no place in a pocket.
 const FARTHEST: f64 = 0.25;
 
 impl Scene {

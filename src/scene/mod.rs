@@ -250,9 +250,9 @@ pub struct CageIrregularity {
 }
 
 impl CageIrregularity {
-    /// Root mean squares that recordings of two test rigs with 6205 bearings show, in shares of the element spacing, and
-    /// the wander as a share of the cage's speed: 0.3 to 1.6 % repeat with the cage's turn, at most 0.3 to 0.6 % are
-    /// stationary, and the mean speed wanders by 0.1 to 0.7 % in 5 s.
+    /// Root mean squares that recordings of two test rigs with 6205 bearings show, in shares of the element spacing,
+    /// and the wander as a share of the cage's speed: 0.3 to 1.6 % repeat with the cage's turn, at most 0.3 to 0.6 %
+    /// are stationary, and the mean speed wanders by 0.1 to 0.7 % in 5 s.
     pub const RECORDED: [f64; 3] = [0.006, 0.004, 0.003];
 
     /// Offsets of `count` elements drawn with a seed, of this root mean square [rad] and of sum 0.

@@ -1,5 +1,5 @@
-//! Crossings: passages into another cell of a defect that no quadratic of time foretells, found on the dense output of a
-//! step: those of contacts with the inner raceway, and in an uneven cage those of all contacts.
+//! Crossings: passages into another cell of a defect that no quadratic of time foretells, found on the dense output of
+//! a step: those of contacts with the inner raceway, and in an uneven cage those of all contacts.
 //!
 //! In which direction an element is seen from the inner ring's centre depends on where that is, so these instants are
 //! roots and no known times. A step that ends beyond one is taken again to end on it, and the contact then changes its

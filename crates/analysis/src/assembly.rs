@@ -96,9 +96,9 @@ pub fn loaded(scene: &Scene, amount: f64) -> Scene {
 }
 
 impl Assembly {
-    /// Sets up the assembly of a scene, with or without [`loaded`]. `profiles` are the texts of the files that its defects
-    /// name, in the order of [`Scene::profile_names`]; `map` the bytes of the contact map stored for this scene, without which law `map`
-    /// computes it.
+    /// Sets up the assembly of a scene, with or without [`loaded`]. `profiles` are the texts of the files that its
+    /// defects name, in the order of [`Scene::profile_names`]; `map` the bytes of the contact map stored for this
+    /// scene, without which law `map` computes it.
     ///
     /// # Errors
     /// Whatever is wrong with scene or profile; a map that is damaged or belongs to something else.

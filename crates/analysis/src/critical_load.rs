@@ -10,8 +10,8 @@
 //! the stiffness is least. Any other cage angle has its own ([`StaticBearing::critical_load_at`]), that of the elements
 //! which are deepest then; on its way in or out an element is squeezed by any load at all.
 //!
-//! A defect of the inner ring has its critical load as well, which belongs to the inner ring's angle besides: largest is
-//! that of a spall in the direction of the load.
+//! A defect of the inner ring has its critical load as well, which belongs to the inner ring's angle besides: largest
+//! is that of a spall in the direction of the load.
 //!
 //! It stands on rigid rings that keep their shape: with 100 µm depth a real ring bends before. A compliance in series
 //! with the contacts is the crudest allowance for that.

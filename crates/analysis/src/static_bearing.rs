@@ -172,8 +172,8 @@ impl StaticBearing {
         TAU / self.model.element_count as f64
     }
 
-    /// Cage angle with which everything repeats [rad]: the spacing of the elements, which are alike, or a whole turn of a
-    /// cage that has them off even places.
+    /// Cage angle with which everything repeats [rad]: the spacing of the elements, which are alike, or a whole turn of
+    /// a cage that has them off even places.
     pub fn period(&self) -> f64 {
         if self.model.is_even() { self.spacing() } else { TAU }
     }

@@ -9,9 +9,9 @@ use super::static_bearing::{Balance, StaticBearing, StaticError};
 /// Half the width of the bracket in which a change is found [rad].
 const NARROW: f64 = 1e-7;
 
-/// The balances over one period, the element spacing or a turn of an irregular cage, from the cage angle `first` [rad] on, under the bearing's own load: at `count`
-/// evenly spaced angles, at the end, and at both sides of each angle between them at which an element begins or ceases
-/// to carry. Angles ascend.
+/// The balances over one period, the element spacing or a turn of an irregular cage, from the cage angle `first` [rad]
+/// on, under the bearing's own load: at `count` evenly spaced angles, at the end, and at both sides of each angle
+/// between them at which an element begins or ceases to carry. Angles ascend.
 ///
 /// Of several changes between two evenly spaced angles at least one is found.
 ///

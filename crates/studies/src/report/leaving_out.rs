@@ -1,10 +1,11 @@
 //! What each part of a scene costs: from the barest bearing upwards, one part more at a time.
 
+use std::f64::consts::TAU;
 use std::path::Path;
 
 use anyhow::Result;
 use brinell::scene::{
-    ContactLaw, Defect, DefectOn, DefectShape, Motion, Recorder, RecorderFilter, Ring, Scene, Sensor,
+    CageIrregularity, ContactLaw, Defect, DefectOn, DefectShape, Motion, Recorder, RecorderFilter, Ring, Scene, Sensor,
 };
 use brinell::simulation::Simulation;
 
@@ -65,6 +66,9 @@ pub(super) fn measure(extent: Extent, data: &Path) -> Result<Vec<Part>> {
     }];
     scene.contact.law = ContactLaw::Hertz;
     add("+ spall of 0.8 mm, law hertz", &scene, Seen::Nothing)?;
+    for (what, changed) in instead(&scene) {
+        add(what, &changed, Seen::Nothing)?;
+    }
     scene.contact.law = ContactLaw::Map;
     add("  the same, law map", &scene, Seen::Nothing)?;
     if extent == Extent::Full {
@@ -80,6 +84,40 @@ pub(super) fn measure(extent: Extent, data: &Path) -> Result<Vec<Part>> {
     add("  the same, filter linear-phase", &scene, Seen::Stiffness)?;
     write(&data.join("leaving-out.csv"), &parts)?;
     Ok(parts)
+}
+
+/// What a scene with one spall outside may have instead of it, or beside it.
+fn instead(scene: &Scene) -> [(&'static str, Scene); 6] {
+    let changed = |change: &dyn Fn(&mut Scene)| {
+        let mut scene = scene.clone();
+        change(&mut scene);
+        scene
+    };
+    [
+        ("  on the inner raceway instead", changed(&|scene| scene.defects[0].on = DefectOn::Inner)),
+        (
+            "  on an element instead",
+            changed(&|scene| scene.defects[0].on = DefectOn::Element { element: 0, tilt: 0.0 }),
+        ),
+        (
+            "  on both raceways",
+            changed(&|scene| {
+                scene.defects.push(Defect { on: DefectOn::Inner, ..scene.defects[0].clone() });
+            }),
+        ),
+        ("  with an outer ring that turns", changed(&|scene| scene.housing_speed = Some(10.0))),
+        ("  with a second accelerometer", changed(&|scene| scene.sensors.push(scene.sensors[0].clone()))),
+        (
+            "  with an irregular cage",
+            changed(&|scene| {
+                let [spacing, jitter, wander] = CageIrregularity::RECORDED;
+                let (count, spacing_angle) = (scene.bearing.element_count, TAU / scene.bearing.element_count as f64);
+                let offsets = CageIrregularity::drawn_offsets(count, spacing * spacing_angle, 1);
+                let jitter = jitter * spacing_angle;
+                scene.cage.irregularity = Some(CageIrregularity { offsets, jitter, wander, seed: 1 });
+            }),
+        ),
+    ]
 }
 
 /// What the host reads after each step.
