@@ -27,6 +27,9 @@ pub struct Arrow {
 }
 
 /// Factors of the bodies' matrix.
+///
+/// In place, though one is much larger: a box would be allocated within the step.
+#[allow(clippy::large_enum_variant)]
 #[derive(Debug, Clone)]
 enum Factors {
     /// No body has a state.
