@@ -237,6 +237,14 @@ fn rates_of_outputs_are_what_short_steps_show() {
 }
 
 #[test]
+fn a_defect_of_an_element_is_where_the_scene_says_at_the_start() {
+    let mut bearing = Named::started(uneven(element(0.4e-3)));
+    let start = bearing.get("element[1].spin_angle");
+    let said = element(0.4e-3).defects[0].angle;
+    assert!((start - said).abs() < 1e-13, "{start} {said}");
+}
+
+#[test]
 fn keys_of_the_cage_are_read_and_refused_with_their_limits() {
     let text = include_str!("../scenes/er16k-tb1.toml");
     let with = |keys: &str| {

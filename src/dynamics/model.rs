@@ -326,26 +326,20 @@ impl Model {
     /// Radial direction of element `j`.
     #[inline]
     pub(super) fn direction(&self, j: usize, cage: &CageState) -> Vector {
-        let [cos, sin] = match &self.irregularity {
-            None => [self.elements[j / WIDEST].cos[j % WIDEST], self.elements[j / WIDEST].sin[j % WIDEST]],
-            Some(_) => self.ahead(j, cage),
+        let (sin, cos) = match &self.irregularity {
+            None => (self.elements[j / WIDEST].sin[j % WIDEST], self.elements[j / WIDEST].cos[j % WIDEST]),
+            Some(uneven) => sin_cos(self.element_offset(j) + uneven.of_element(j, cage).angle),
         };
         let cage = cage.direction;
         Vector::new(cage.x * cos - cage.y * sin, cage.y * cos + cage.x * sin)
     }
 
-    /// Cosine and sine of what element `j` is ahead of an uneven cage that would turn evenly.
-    fn ahead(&self, j: usize, cage: &CageState) -> [f64; 2] {
-        let (sin, cos) = sin_cos(self.element_offset(j) + self.lead(j, cage).angle);
-        [cos, sin]
-    }
-
     /// Puts directions and speeds of all elements at an instant into `elements`, where they are not always the same.
     pub(super) fn place_uneven(&self, cage: &CageState, elements: &mut [ElementBlock]) {
         for j in 0..self.element_count {
-            let (block, i) = (&mut elements[j / WIDEST], j % WIDEST);
-            [block.cos[i], block.sin[i]] = self.ahead(j, cage);
-            [block.speed[i], _] = self.element_speed(j, cage);
+            let (block, i, lead) = (&mut elements[j / WIDEST], j % WIDEST, self.lead(j, cage));
+            (block.sin[i], block.cos[i]) = sin_cos(self.element_offset(j) + lead.angle);
+            block.speed[i] = cage.speed * (1.0 + lead.rate);
         }
     }
 }

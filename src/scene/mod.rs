@@ -163,7 +163,7 @@ impl Bearing {
 /// How forces in the contacts are computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
-    /// Law of the outer contact near the defect.
+    /// Law of the contacts near defects.
     pub law: ContactLaw,
     /// Contact damping.
     pub damping: Damping,
@@ -177,7 +177,7 @@ pub struct Contact {
     pub map_accuracy: Option<f64>,
 }
 
-/// Law of the outer contact near the defect. On the smooth raceway all three are Hertz's.
+/// Law of the contacts near defects. On smooth raceways all three are Hertz's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ContactLaw {

@@ -258,6 +258,7 @@ fn is_of_an_instant(quantity: Quantity) -> bool {
         quantity,
         Quantity::CageAngle
             | Quantity::ElementPath(_)
+            | Quantity::Probe(_)
             | Quantity::ElementInnerForce(_)
             | Quantity::ElementOuterForce(_)
     )

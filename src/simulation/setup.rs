@@ -17,11 +17,12 @@ use crate::contact::raceway_grid::{ElementOnRaceway, Resolution};
 use crate::contact::rigid_path::RigidPath;
 use crate::contact::rolling::{RacewaySide, Rolling};
 use crate::dynamics::drive::Frame;
+use crate::dynamics::kinematics::CageState;
 use crate::dynamics::model::Model;
 use crate::dynamics::raceway::{DefectiveElement, Defects};
 use crate::scene::{ContactLaw, Damping, DefectOn, Ring, Scene};
 use crate::surface::Surface;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 /// Start values of the table: reals, and beside them integers.
 pub(super) fn start_values(table: &[Variable]) -> (Vec<f64>, Vec<i32>) {
@@ -212,6 +213,9 @@ pub fn build_model(
     map: Option<&Arc<ContactMaps>>,
 ) -> Result<Model, SimulationError> {
     let mut computed = Vec::new();
+    // Where elements are at the start, in an irregular cage as well.
+    let start = CageState::at_rest(scene.cage.initial_angle);
+    let smooth = Model::smooth(scene);
     let (mut rings, mut defective) = ([Vec::new(), Vec::new()], Vec::<DefectiveElement>::new());
     for spot in &arranged(scene, surfaces)? {
         let mut near = |side| near(scene, spot, side, map, &mut computed);
@@ -221,7 +225,7 @@ pub fn build_model(
             DefectOn::Element { element, .. } => {
                 // At the start the defect is at its angle from the direction of its element, and the spin is counted
                 // from there; the inner raceway is met with the opposite side.
-                let facing = scene.cage.initial_angle + element as f64 * TAU / scene.bearing.element_count as f64;
+                let facing = smooth.element_angle(element, &start);
                 let centre = facing + spot.centre;
                 let both = [(near(RacewaySide::Inner)?, centre - PI), (near(RacewaySide::Outer)?, centre)];
                 match defective.iter_mut().find(|other| other.element == element) {
@@ -236,6 +240,9 @@ pub fn build_model(
                 }
             }
         }
+    }
+    if surfaces.is_empty() {
+        return Ok(smooth);
     }
     let [inner, outer] = rings;
     Ok(Model::new(scene, [Defects::new(Frame::Shaft, inner), Defects::new(Frame::Housing, outer)], defective))

@@ -24,7 +24,7 @@ impl Builder<'_> {
         self.damping();
         self.push(
             "contact.law",
-            "Law of the outer contact near the defect",
+            "Law of the contacts near defects",
             Kind::Enumeration { type_name: "ContactLaw", items: CONTACT_LAWS, start: scene.contact.law.number() },
             (Causality::Parameter, Variability::Fixed),
             Q::Parameter(Parameter::ContactLaw),
