@@ -6,10 +6,10 @@
 mod laws;
 mod same_bits;
 
-use crate::case::{Case, Motion, random};
+use crate::case::{Case, Motion, On, random};
 use crate::draw::{Draw, for_seeds};
 use crate::oracle::Bearing;
-use crate::oracle::run::{Kind, signals};
+use crate::oracle::signals::{Kind, signals};
 use crate::subject::Subject;
 use crate::units::{HORIZON, LIMIT, differences, largest_force, units};
 use brinell::simulation::{Method, SimulationError};
@@ -113,7 +113,7 @@ fn turning_the_whole_scene_turns_the_result() {
                 if name.ends_with('x') {
                     let (x, y) = (sample[i], sample[i + 1]);
                     (back[i], back[i + 1]) = (cos * x + sin * y, cos * y - sin * x);
-                } else if *kind == Kind::Angle {
+                } else if *kind == Kind::Angle && !name.ends_with("spin_angle") {
                     back[i] -= degrees.to_radians();
                 }
             }
@@ -130,7 +130,9 @@ fn a_mirror_mirrors_the_result() {
             let value = |name: &str| sample[names.iter().position(|(other, _)| other == name).unwrap()];
             let mirrored = |(name, kind): &(String, Kind)| match kind {
                 Kind::Torque => -value(name),
-                Kind::Angle => PI - value(name),
+                Kind::Angle if name == "cage.angle" => PI - value(name),
+                // Those of rings and of the spin, which begin at their mirrored angles.
+                Kind::Angle => -value(name),
                 _ if name.ends_with('x') => -value(name),
                 _ if name.starts_with("element[") => {
                     let (number, rest) = name["element[".len()..].split_once(']').unwrap();
@@ -210,13 +212,16 @@ fn turning_the_cage_by_a_spacing_renames_the_elements() {
     for_seeds(8, |_, draw| {
         let case = scene(draw, true);
         let (count, spacing) = (case.count, 360.0 / case.count as f64);
-        let turned = Case { cage_deg: case.cage_deg + spacing, ..case.clone() };
+        let mut turned = Case { cage_deg: case.cage_deg + spacing, ..case.clone() };
+        if let Some(On::Element { element, .. }) = turned.defect.as_mut().map(|defect| &mut defect.on) {
+            *element = (*element + count - 1) % count;
+        }
         compare(&case, &turned, |names, sample| {
             let mut back = sample.to_vec();
             // Element j is where j + 1 was.
             let elements = names.len() - 3 * count;
             back[elements..].rotate_right(3);
-            let angle = names.iter().position(|(_, kind)| *kind == Kind::Angle).unwrap();
+            let angle = names.iter().position(|(name, _)| name == "cage.angle").unwrap();
             back[angle] -= TAU / count as f64;
             back
         })

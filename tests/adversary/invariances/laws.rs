@@ -3,7 +3,7 @@
 //! One element stands somewhere over a defect, pressed outwards by the inner ring, which the host holds.
 
 use super::course;
-use crate::case::{Case, Damping, Defect, Grooves, Host, Length, Motion, Ring, Shape, Step, Topography, bowl};
+use crate::case::{Case, Damping, Defect, Grooves, Host, Length, Motion, On, Ring, Shape, Step, Topography, bowl};
 use crate::draw::{Draw, for_seeds};
 use crate::oracle::Bearing;
 use crate::oracle::half_space::HalfSpace;
@@ -19,6 +19,7 @@ fn standing(draw: &mut Draw) -> (Case, f64) {
         diameter_mm,
         pitch_mm: diameter_mm * draw.between(2.5, 8.0),
         grooves: Grooves::Each(draw.between(0.51, 0.56), draw.between(0.51, 0.56)),
+        catalogue: false,
         clearance_um: diameter_mm * draw.log(0.1, 3.0),
         modulus_gpa: draw.log(50.0, 400.0),
         poisson: draw.between(0.1, 0.45),
@@ -30,10 +31,13 @@ fn standing(draw: &mut Draw) -> (Case, f64) {
         law: "hertz",
         grid: None,
         slip: 0.0,
+        spin_slip: 0.0,
+        rings_deg: [0.0; 2],
         cage_deg: draw.between(-180.0, 180.0),
         defect: None,
         rings: [ring; 2],
         speed_hz: 0.0,
+        housing_hz: None,
         sensor: None,
         tolerance: 1e-6,
         steps: Vec::new(),
@@ -50,7 +54,7 @@ fn pressed(case: &Case, approach: f64) -> Case {
     let (sin, cos) = case.cage_deg.to_radians().sin_cos();
     let way = bearing.clearance + inner + approach;
     let place = [[way * cos, 0.0, 0.0], [way * sin, 0.0, 0.0]];
-    let host = Host { speed: [0.0; 2], rings: [place, [[0.0; 3]; 2]] };
+    let host = Host { speeds: [[0.0; 2]; 2], rings: [place, [[0.0; 3]; 2]] };
     Case { steps: vec![Step { length: 1e-6, host: Some(host) }], ..case.clone() }
 }
 
@@ -63,7 +67,7 @@ fn grid(case: &Case, approach: f64, cells: [u32; 2]) -> (f64, [u32; 2], f64) {
 fn force(case: &Case) -> Result<[f64; 3], String> {
     let mut subject = Subject::new(case).map_err(|error| error.to_string())?;
     let sample = subject.start(case).map_err(|error| error.to_string())?;
-    let names = crate::oracle::run::signals(case);
+    let names = crate::oracle::signals::signals(case);
     let value = |name: &str| sample[names.iter().position(|(other, _)| other == name).unwrap()];
     let (sin, cos) = case.cage_deg.to_radians().sin_cos();
     let [x, y] = [value("housing.force.x"), value("housing.force.y")];
@@ -85,7 +89,7 @@ fn trace(length: f64, step: f64, depth: impl Fn(f64) -> f64) -> Shape {
 /// Stands `at` [m] before the defect's middle, counter-clockwise.
 fn over(case: &Case, shape: Shape, at: f64) -> Case {
     let raceway = Bearing::smooth(case).rho_0 + 0.5e-3 * case.diameter_mm;
-    Case { defect: Some(Defect { angle_deg: case.cage_deg - (at / raceway).to_degrees(), shape }), ..case.clone() }
+    Case { defect: Some(Defect { on: On::Outer, angle_deg: case.cage_deg - (at / raceway).to_degrees(), shape }), ..case.clone() }
 }
 
 #[test]

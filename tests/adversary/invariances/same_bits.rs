@@ -16,7 +16,7 @@ fn equal(case: &Case, other: Course) -> Result<(), String> {
     }
     if bits(&base) != bits(&other) {
         let differs = base.samples.iter().zip(&other.samples).position(|(a, b)| a != b);
-        let names = crate::oracle::run::signals(case);
+        let names = crate::oracle::signals::signals(case);
         let first = differs.and_then(|at| {
             let (a, b) = (&base.samples[at], &other.samples[at]);
             let i = a.iter().zip(b).position(|(a, b)| a != b)?;
