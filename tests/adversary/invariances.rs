@@ -78,6 +78,10 @@ fn compare_courses(
         };
         let found = back(&names, found);
         scale = largest_force(&names, expected).fold(scale, f64::max);
+        // A shaft that next to nothing holds goes far for the 1e-12 N that count as none at the start.
+        if i == 0 && scale < 1e-6 {
+            return Ok(());
+        }
         let approach = bearing.stiffness.map(|k| (scale / k).cbrt().powi(2));
         let units = units(&bearing, case, approach);
         differences(&names, expected, loose, &mut own);
