@@ -40,7 +40,7 @@ pub struct Case {
     pub cage_deg: f64,
     /// Initial angles of shaft and housing.
     pub rings_deg: [f64; 2],
-    pub defect: Option<Defect>,
+    pub defects: Vec<Defect>,
     /// Shaft, housing.
     pub rings: [Ring; 2],
     pub speed_hz: f64,
@@ -191,31 +191,33 @@ impl Case {
         }
         .unwrap();
         writeln!(text, "[cage]\nslip = {:?}\ninitial_angle_deg = {:?}", self.slip, self.cage_deg).unwrap();
-        self.write_defect(&mut text);
+        self.write_defects(&mut text);
         self.write_rings(&mut text);
         writeln!(text, "[solver]\ntolerance = {:?}", self.tolerance).unwrap();
         text
     }
 
-    fn write_defect(&self, text: &mut String) {
-        let Some(defect) = &self.defect else { return };
-        writeln!(text, "[defect]\nangle_deg = {:?}", defect.angle_deg).unwrap();
-        match defect.on {
-            On::Outer => {}
-            On::Inner => text.push_str("on = \"inner\"\n"),
-            On::Element { element, tilt_deg } => {
-                writeln!(text, "on = \"element\"\nelement = {}\ntilt_deg = {tilt_deg:?}", element + 1).unwrap();
-            }
-        }
-        match &defect.shape {
-            Shape::Spall { length, depth_um, slope_deg } => {
-                match length {
-                    Length::Degrees(degrees) => writeln!(text, "length_deg = {degrees:?}").unwrap(),
-                    Length::Millimetres(length) => writeln!(text, "length_mm = {length:?}").unwrap(),
+    fn write_defects(&self, text: &mut String) {
+        let title = if self.defects.len() == 1 { "[defect]" } else { "[[defect]]" };
+        for (number, defect) in self.defects.iter().enumerate() {
+            writeln!(text, "{title}\nangle_deg = {:?}", defect.angle_deg).unwrap();
+            match defect.on {
+                On::Outer => {}
+                On::Inner => text.push_str("on = \"inner\"\n"),
+                On::Element { element, tilt_deg } => {
+                    writeln!(text, "on = \"element\"\nelement = {}\ntilt_deg = {tilt_deg:?}", element + 1).unwrap();
                 }
-                writeln!(text, "depth_um = {depth_um:?}\nedge_slope_deg = {slope_deg:?}").unwrap();
             }
-            Shape::Trace(_) | Shape::Topography(_) => writeln!(text, "profile = \"trace.csv\"").unwrap(),
+            match &defect.shape {
+                Shape::Spall { length, depth_um, slope_deg } => {
+                    match length {
+                        Length::Degrees(degrees) => writeln!(text, "length_deg = {degrees:?}").unwrap(),
+                        Length::Millimetres(length) => writeln!(text, "length_mm = {length:?}").unwrap(),
+                    }
+                    writeln!(text, "depth_um = {depth_um:?}\nedge_slope_deg = {slope_deg:?}").unwrap();
+                }
+                Shape::Trace(_) | Shape::Topography(_) => writeln!(text, "profile = \"trace-{number}.csv\"").unwrap(),
+            }
         }
     }
 
@@ -241,25 +243,35 @@ impl Case {
         }
     }
 
-    /// Text of the profile file.
-    pub fn profile(&self) -> Option<String> {
-        match &self.defect.as_ref()?.shape {
-            Shape::Spall { .. } => None,
-            Shape::Trace(points) => {
-                let lines: String = points.iter().map(|(arc, depth)| format!("{arc},{depth}\n")).collect();
-                Some(format!("arc_mm,depth_um\n{lines}"))
-            }
-            Shape::Topography(Topography { arcs, axials, depths }) => {
-                let place = |k: usize| format!("{},{}", arcs[k / axials.len()], axials[k % axials.len()]);
-                let lines: String =
-                    depths.iter().enumerate().map(|(k, depth)| format!("{},{depth}\n", place(k))).collect();
-                Some(format!("arc_mm,axial_mm,depth_um\n{lines}"))
-            }
-        }
+    /// Texts of the profile files, in the order of the defects.
+    pub fn profiles(&self) -> Vec<String> {
+        self.defects.iter().filter_map(|defect| defect.shape.csv()).collect()
+    }
+
+    /// Elements with a defect, from 0, ascending.
+    pub fn defective_elements(&self) -> Vec<usize> {
+        let of = |defect: &Defect| match defect.on {
+            On::Element { element, .. } => Some(element),
+            _ => None,
+        };
+        let mut elements: Vec<usize> = self.defects.iter().filter_map(of).collect();
+        elements.sort_unstable();
+        elements.dedup();
+        elements
     }
 
     /// Length of the whole run [s].
     pub fn duration(&self) -> f64 {
         self.steps.iter().map(|step| step.length).sum()
+    }
+}
+
+impl On {
+    /// Whether two defects are on the same body.
+    pub fn is_body_of(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Element { element, .. }, Self::Element { element: of, .. }) => element == of,
+            (one, other) => one == other,
+        }
     }
 }

@@ -126,26 +126,36 @@ fn turning_the_whole_scene_turns_the_result() {
     });
 }
 
+/// A sample by the names of its own scene, of which elements have other numbers, from 1.
+fn renumbered<'a>(
+    own: &'a [(String, Kind)],
+    sample: &'a [f64],
+    number: impl Fn(usize) -> usize + 'a,
+) -> impl Fn(&str) -> f64 + 'a {
+    move |name| {
+        let element = name.strip_prefix("element[").and_then(|rest| rest.split_once(']'));
+        let name = element.map_or(name.to_owned(), |(of, rest)| format!("element[{}]{rest}", number(of.parse().unwrap())));
+        sample[own.iter().position(|(other, _)| *other == name).unwrap()]
+    }
+}
+
 #[test]
 fn a_mirror_mirrors_the_result() {
     for_seeds(12, |_, draw| {
         let case = scene(draw, true);
-        compare(&case, &case.mirrored(), |names, sample| {
-            let value = |name: &str| sample[names.iter().position(|(other, _)| other == name).unwrap()];
-            let mirrored = |(name, kind): &(String, Kind)| match kind {
+        let mirrored = case.mirrored();
+        let own = signals(&mirrored);
+        compare(&case, &mirrored, |names, sample| {
+            let value = renumbered(&own, sample, |number| (case.count + 1 - number) % case.count + 1);
+            let back = |(name, kind): &(String, Kind)| match kind {
                 Kind::Torque => -value(name),
                 Kind::Angle if name == "cage.angle" => PI - value(name),
                 // Those of rings and of the spin, which begin at their mirrored angles.
                 Kind::Angle => -value(name),
                 _ if name.ends_with('x') => -value(name),
-                _ if name.starts_with("element[") => {
-                    let (number, rest) = name["element[".len()..].split_once(']').unwrap();
-                    let number: usize = number.parse().unwrap();
-                    value(&format!("element[{}]{rest}", (case.count + 1 - number) % case.count + 1))
-                }
                 _ => value(name),
             };
-            names.iter().map(mirrored).collect()
+            names.iter().map(back).collect()
         })
     });
 }
@@ -217,17 +227,17 @@ fn turning_the_cage_by_a_spacing_renames_the_elements() {
         let case = scene(draw, true);
         let (count, spacing) = (case.count, 360.0 / case.count as f64);
         let mut turned = Case { cage_deg: case.cage_deg + spacing, ..case.clone() };
-        if let Some(On::Element { element, .. }) = turned.defect.as_mut().map(|defect| &mut defect.on) {
-            *element = (*element + count - 1) % count;
+        for defect in &mut turned.defects {
+            if let On::Element { element, .. } = &mut defect.on {
+                *element = (*element + count - 1) % count;
+            }
         }
+        let own = signals(&turned);
         compare(&case, &turned, |names, sample| {
-            let mut back = sample.to_vec();
             // Element j is where j + 1 was.
-            let elements = names.len() - 3 * count;
-            back[elements..].rotate_right(3);
-            let angle = names.iter().position(|(name, _)| name == "cage.angle").unwrap();
-            back[angle] -= TAU / count as f64;
-            back
+            let value = renumbered(&own, sample, |number| (number + count - 2) % count + 1);
+            let less = |name: &str| if name == "cage.angle" { TAU / count as f64 } else { 0.0 };
+            names.iter().map(|(name, _)| value(name) - less(name)).collect()
         })
     });
 }

@@ -18,7 +18,7 @@ pub mod surfaces;
 
 use crate::case::{Case, Damping, Grooves, Motion, On, Ring};
 use std::f64::consts::{PI, TAU};
-use surfaces::{Surface, Turns};
+use surfaces::{Stretches, Surfaces, Turns};
 
 pub struct Bearing {
     pub count: usize,
@@ -36,11 +36,11 @@ pub struct Bearing {
     pub starts: [f64; 4],
     /// Speeds of shaft and housing at the start [rad/s].
     pub speeds: [f64; 2],
-    /// What an inner and an outer contact may meet.
-    pub surfaces: [Option<Surface>; 2],
-    /// Where the case's defect is, and at which angle of spin [rad] an element's begins.
-    pub on: Option<On>,
-    pub spin_from: Option<f64>,
+    /// What contacts may meet.
+    pub surfaces: Surfaces,
+    /// Whether the case has a defect, and whether the inner ring has one.
+    pub defective: bool,
+    pub inner_defective: bool,
     /// Whether the outer ring turns.
     pub turns: bool,
     pub rings: [Ring; 2],
@@ -68,6 +68,16 @@ pub struct Contact {
     /// ∂(force)/∂(rate of approach) [N s/m].
     pub by_rate: f64,
     pub pushes: bool,
+    /// Whose defect it is over: the ring's (0) or the element's.
+    pub over: Option<usize>,
+}
+
+/// A contact, its force on the element (x, y), the torque of that on the body with the defect, and what that turns with.
+struct Push {
+    contact: Contact,
+    force: [f64; 2],
+    torque: f64,
+    frame: Option<usize>,
 }
 
 /// What acts at one instant.
@@ -105,10 +115,7 @@ pub fn quadratic(c: [f64; 3], t: f64) -> [f64; 3] {
 impl Bearing {
     pub fn new(case: &Case) -> Self {
         let mut bearing = Self::smooth(case);
-        if let Some(defect) = &case.defect {
-            bearing.surfaces = surfaces::of(&bearing, defect);
-            bearing.spin_from = bearing.surfaces[1].as_ref().map(|surface| surface.centre);
-        }
+        bearing.surfaces = surfaces::of(&bearing, case).unwrap_or_default();
         bearing
     }
 
@@ -146,9 +153,9 @@ impl Bearing {
             ],
             starts: [case.cage_deg, case.rings_deg[0], case.rings_deg[1], 0.0].map(|degrees| degrees * PI / 180.0),
             speeds: [case.speed_hz, case.housing_hz.unwrap_or(0.0)].map(|hz| TAU * hz),
-            surfaces: [None, None],
-            on: case.defect.as_ref().map(|defect| defect.on),
-            spin_from: None,
+            surfaces: Surfaces::default(),
+            defective: !case.defects.is_empty(),
+            inner_defective: case.defects.iter().any(|defect| defect.on == On::Inner),
             turns: case.housing_hz.is_some(),
             rings: case.rings,
             sensor: case.sensor,
@@ -192,7 +199,8 @@ impl Bearing {
             Damping::Proportional(tau) => root * 1.5 * tau,
         };
         let force = root * own + damper * (rate / yields);
-        Contact { force: force.max(0.0), approach, by_rate: damper / yields, pushes: force > 0.0 }
+        let pushes = force > 0.0;
+        Contact { force: force.max(0.0), approach, by_rate: damper / yields, pushes, over: None }
     }
 
     /// dΔ/dδ of a contact in series with the compliance.
@@ -228,28 +236,25 @@ impl Bearing {
         Seat { angle, e_r: [cos, sin], rho, u, u_rate, q, q_rate }
     }
 
-    /// Both contacts of an element, the force of each on it (x, y), and the angle [rad] by which that leans.
-    fn pushes(&self, j: usize, seat: &Seat, turns: &Turns, stretches: [usize; 2]) -> [(Contact, [f64; 2], f64); 2] {
+    /// Both contacts of an element.
+    fn pushes(&self, j: usize, seat: &Seat, turns: &Turns, stretches: &Stretches) -> [Push; 2] {
         let length = seat.q[0].hypot(seat.q[1]);
         let n = [seat.q[0] / length, seat.q[1] / length];
         let opening = n[0] * seat.q_rate[0] + n[1] * seat.q_rate[1];
         let smooth = [self.rho_0 - self.clearance - length, seat.u];
         let (apart, rates, outwards) = ([length, seat.rho], [-opening, seat.u_rate], [n, seat.e_r]);
         [0, 1].map(|side| {
-            let (path, slope, rate) = match self.surface(side, j) {
-                Some(surface) => {
-                    let [angle, rate] = seat.turning(side, turns);
-                    let psi = surface.psi(angle, turns);
-                    let (path, slope) = surface.envelope.path(surface.envelope.feature(stretches[side]), psi);
-                    (path, slope, rate - turns[surface.frame][1])
-                }
-                None => (0.0, 0.0, 0.0),
-            };
-            let contact = self.contact(side, smooth[side] - path, rates[side] - slope * rate);
+            let over = self.over(side, j, seat, turns, stretches);
+            let (path, slope, past) = over.as_ref().map_or((0.0, 0.0, 0.0), |over| (over.path, over.slope, over.rate));
+            let mut contact = self.contact(side, smooth[side] - path, rates[side] - slope * past);
+            contact.over = over.as_ref().map(|over| over.which);
             let kappa = if slope == 0.0 { 0.0 } else { (slope / apart[side]).atan() };
             let away = if side == 0 { contact.force } else { -contact.force } * kappa.cos();
             let ([x, y], around) = (outwards[side], contact.force * kappa.sin());
-            (contact, [away * x - around * y, away * y + around * x], kappa)
+            // The force passes through the centre of the body without the defect.
+            let torque = -around * apart[side];
+            let force = [away * x - around * y, away * y + around * x];
+            Push { contact, force, torque, frame: over.map(|over| over.surface.frame) }
         })
     }
 
@@ -258,7 +263,7 @@ impl Bearing {
         &self,
         outside: &Outside,
         t: f64,
-        (y, stretches): (&[f64], &[[usize; 2]]),
+        (y, stretches): (&[f64], &[Stretches]),
         rates: &mut [f64],
         acting: &mut Acting,
     ) {
@@ -273,26 +278,23 @@ impl Bearing {
         for j in 0..self.count {
             let seat = self.seat(j, turns[0], &places, y);
             let ([cos, sin], rho) = (seat.e_r, seat.rho);
-            let pushes = self.pushes(j, &seat, &turns, stretches[j]);
+            let pushes = self.pushes(j, &seat, &turns, &stretches[j]);
             let mut net = [self.mass * self.gravity[0], self.mass * self.gravity[1]];
-            for (side, (contact, force, kappa)) in pushes.iter().enumerate() {
+            for (side, push) in pushes.iter().enumerate() {
                 for a in 0..2 {
-                    net[a] += force[a];
-                    acting.rings[side][a] -= force[a];
+                    net[a] += push.force[a];
+                    acting.rings[side][a] -= push.force[a];
                 }
-                // The force passes through the centre of the body without the defect.
-                let lever = if side == 0 { seat.q[0].hypot(seat.q[1]) } else { rho };
-                let torque = -contact.force * kappa.sin() * lever;
-                match self.surface(side, j).map(|surface| surface.frame) {
-                    Some(surfaces::SPIN) => acting.torque += torque,
-                    Some(surfaces::SHAFT) => acting.shaft_torque += torque,
+                match push.frame {
+                    Some(surfaces::SPIN) => acting.torque += push.torque,
+                    Some(surfaces::SHAFT) => acting.shaft_torque += push.torque,
                     _ => {}
                 }
             }
             along[j] = net[0] * cos + net[1] * sin + self.mass * rho * omega * omega;
             let around = net[1] * cos - net[0] * sin;
             acting.torque += rho * (around - self.mass * (2.0 * seat.u_rate * omega + rho * alpha));
-            acting.contacts.push(pushes.map(|push| push.0));
+            acting.contacts.push(pushes.map(|push| push.contact));
         }
         self.ring_rates(outside, t, (y, &places), rates, acting);
         let a_o = acting.accelerations[1];

@@ -23,7 +23,10 @@ pub type Parameter = (String, Result<f64, i32>);
 
 impl Subject {
     pub fn new(case: &Case) -> Result<Self, SimulationError> {
-        let mut simulation = Simulation::new(Scene::from_toml(&case.toml())?, case.profile().as_deref())?;
+        let mut simulation = {
+            let profiles = case.profiles();
+            Simulation::new(Scene::from_toml(&case.toml())?, profiles.iter().map(String::as_str))?
+        };
         if case.spin_slip != 0.0 {
             let spin_slip = simulation.reference("element.spin_slip")?;
             simulation.set_reals(&[spin_slip], &[case.spin_slip])?;

@@ -17,8 +17,15 @@ pub const HORIZON: f64 = 0.02;
 
 /// How exactly a position is known [m]: to some roundings of the radii, and to what interpolating the rigid path leaves.
 pub fn rounding(bearing: &Bearing) -> f64 {
-    let path = if bearing.on.is_some() { 3e-13 * bearing.r } else { 0.0 };
+    let path = if bearing.defective { 3e-13 * bearing.r } else { 0.0 };
     4e-15 * bearing.rho_0 + path
+}
+
+/// How exactly the place of a defect beside another one is known, along its body and out of it [m]: both may become one profile, whose
+/// arcs are rounded to a picometre.
+pub fn placing(bearing: &Bearing) -> f64 {
+    let beside = |surface: &Surface| surface.envelope.profile_count() > 1;
+    if bearing.all_surfaces().any(|(_, surface)| beside(surface)) { 0.5e-12 } else { 0.0 }
 }
 
 /// How exactly the slope of a kept path is known [m/rad] at an angle from the defect's centre.
@@ -62,7 +69,7 @@ pub fn path_error(surface: &Surface, psi: f64) -> f64 {
 /// One unit of each kind of signal, for the largest approaches [m].
 pub fn units(bearing: &Bearing, case: &Case, largest: [f64; 2]) -> BTreeMap<Kind, f64> {
     let approach = largest[0].max(largest[1]).max(0.0);
-    let length = case.tolerance * (approach + 1e-7) + rounding(bearing);
+    let length = case.tolerance * (approach + 1e-7) + rounding(bearing) + placing(bearing) / LIMIT;
     let velocity = 1e3 * case.tolerance * (approach + 1e-7);
     let (mut k, mut c) = (0.0f64, 0.0f64);
     for side in 0..2 {

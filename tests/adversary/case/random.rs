@@ -55,15 +55,13 @@ fn scene(draw: &mut Draw, space: Space) -> (Kind, Case) {
     let mut kind = Kind { on: "none", defect: "no defect", motion: motion_name(&case), ..Kind::default() };
     if draw.chance(0.8) {
         let on = space.body(draw, case.count);
-        let around = Around { r: scale.r, bearer: scale.bearer(on), on, approach: scale.approach };
-        let (name, shape) = match space.topography(draw) {
-            true => ("topography", shape::topography(draw, &around)),
-            false => shape::random(draw, &around),
-        };
-        let mut defect = Defect { on, angle_deg: draw.between(-180.0, 180.0), shape };
-        space.tilt(draw, &mut defect, scale.r);
+        let (name, defect) = defect(draw, space, &scale, (on, f64::INFINITY));
         (kind.on, kind.defect) = (whole::body_name(defect.on), name);
-        case.defect = Some(defect);
+        case.defects.push(defect);
+        for _ in 0..space.more(draw) {
+            more(draw, space, &scale, &mut case);
+            kind.on = whole::bodies_name(&case.defects);
+        }
     }
     case.cage_deg = draw.between(-180.0, 180.0);
     let way = space.way(draw, &mut case);
@@ -71,6 +69,33 @@ fn scene(draw: &mut Draw, space: Space) -> (Kind, Case) {
     let time = time(&case, &scale) * draw.log(0.03, 1.0);
     kind.speed = motion(draw, &mut case, &scale, (time, way));
     (kind, case)
+}
+
+/// A defect of a body that is no longer than so much [m].
+fn defect(draw: &mut Draw, space: Space, scale: &Scale, (on, most): (On, f64)) -> (&'static str, Defect) {
+    let around = Around { r: scale.r, bearer: scale.bearer(on), on, most, approach: scale.approach };
+    let (name, shape) = match space.topography(draw) {
+        true => ("topography", shape::topography(draw, &around)),
+        false => shape::random(draw, &around),
+    };
+    let mut defect = Defect { on, angle_deg: draw.between(-180.0, 180.0), shape };
+    space.tilt(draw, &mut defect, scale.r);
+    (name, defect)
+}
+
+/// One more defect, of any body or beside the last one.
+fn more(draw: &mut Draw, space: Space, scale: &Scale, case: &mut Case) {
+    let last = case.defects[case.defects.len() - 1].clone();
+    let beside = draw.chance(0.6);
+    let on = if beside { last.on } else { space.body(draw, case.count) };
+    let (_, mut defect) = defect(draw, space, scale, (on, scale.r));
+    if beside {
+        let bearer = scale.bearer(on);
+        let gap = draw.log(1e-3, 2.0) * scale.r;
+        let away = 0.5 * (last.shape.length(bearer) + defect.shape.length(bearer)) + gap;
+        defect.angle_deg = last.angle_deg + (away / bearer).to_degrees() * draw.sign();
+    }
+    case.defects.push(defect);
 }
 
 impl Scale {
@@ -141,7 +166,7 @@ fn bearing(draw: &mut Draw) -> Case {
         spin_slip: 0.0,
         cage_deg: 0.0,
         rings_deg: [0.0; 2],
-        defect: None,
+        defects: Vec::new(),
         rings: [Ring { motion: Motion::Fixed, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 }; 2],
         speed_hz: 0.0,
         housing_hz: None,
@@ -248,25 +273,28 @@ fn time(case: &Case, scale: &Scale) -> f64 {
 
 /// Speeds, steps and inputs for a run of so many seconds, in which the rings turn in these proportions.
 fn motion(draw: &mut Draw, case: &mut Case, scale: &Scale, (time, way): (f64, [f64; 2])) -> &'static str {
-    let past = Bearing::smooth(case).past(case.defect.as_ref(), way);
+    let past = Bearing::smooth(case).past(case.defects.first().map(|defect| defect.on), way);
     // As far as the defect is long, or a part of it.
-    let bearer = case.defect.as_ref().map_or(scale.raceway, |defect| scale.bearer(defect.on));
-    let length = case.defect.as_ref().map_or(scale.r, |defect| defect.shape.length(bearer));
+    let bearer = case.defects.first().map_or(scale.raceway, |defect| scale.bearer(defect.on));
+    let length = case.defects.first().map_or(scale.r, |defect| defect.shape.length(bearer));
     let travel = length / bearer * draw.log(0.05, 3.0);
     let faster = way[0].abs().max(way[1].abs());
     let size = (travel / time / past.abs().max(1e-6)).min(0.9 * TAU * 1e4 / faster) * draw.sign();
     // One element near one end of the defect, on its way in.
-    if let Some(defect) = &mut case.defect
+    if let Some(Defect { on, angle_deg, .. }) = case.defects.first().cloned()
         && draw.chance(0.8)
     {
         let half = (0.5 * length / bearer).min(PI);
         let at = -(size * past).signum() * half * draw.between(0.0, 1.3);
         let element = draw.below(case.count) as f64 * 360.0 / case.count as f64;
-        match defect.on {
-            On::Outer => case.cage_deg = case.rings_deg[1] + defect.angle_deg + at.to_degrees() - element,
-            On::Inner => case.cage_deg = case.rings_deg[0] + defect.angle_deg + at.to_degrees() - element,
+        match on {
+            On::Outer => case.cage_deg = case.rings_deg[1] + angle_deg + at.to_degrees() - element,
+            On::Inner => case.cage_deg = case.rings_deg[0] + angle_deg + at.to_degrees() - element,
             // With its outer or its inner side; the element's own frame turns with its centre's direction.
-            On::Element { .. } => defect.angle_deg = if draw.chance(0.5) { 0.0 } else { 180.0 } - at.to_degrees(),
+            On::Element { .. } => {
+                let there = if draw.chance(0.5) { 0.0 } else { 180.0 } - at.to_degrees();
+                case.defects.iter_mut().filter(|d| d.on.is_body_of(on)).for_each(|d| d.angle_deg += there - angle_deg);
+            }
         }
     }
     let standing = draw.chance(0.05);

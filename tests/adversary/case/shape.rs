@@ -9,6 +9,8 @@ pub struct Around {
     pub r: f64,
     pub bearer: f64,
     pub on: On,
+    /// How long it may be [m].
+    pub most: f64,
     /// How far elements are pressed into the raceways [m].
     pub approach: f64,
 }
@@ -19,6 +21,10 @@ impl Around {
         if self.on == On::Outer { 0.9 } else { 0.88 }
     }
 
+    fn limited(&self, length: f64) -> f64 {
+        length.min(self.most)
+    }
+
     /// How deep a defect may be [m].
     fn deepest(&self) -> f64 {
         if matches!(self.on, On::Element { .. }) { 0.19 * self.r } else { 0.9 * self.r }
@@ -26,6 +32,23 @@ impl Around {
 }
 
 impl Shape {
+    /// Text of its file, if it is from one.
+    pub fn csv(&self) -> Option<String> {
+        match self {
+            Self::Spall { .. } => None,
+            Self::Trace(points) => {
+                let lines: String = points.iter().map(|(arc, depth)| format!("{arc},{depth}\n")).collect();
+                Some(format!("arc_mm,depth_um\n{lines}"))
+            }
+            Self::Topography(Topography { arcs, axials, depths }) => {
+                let place = |k: usize| format!("{},{}", arcs[k / axials.len()], axials[k % axials.len()]);
+                let lines: String =
+                    depths.iter().enumerate().map(|(k, depth)| format!("{},{depth}\n", place(k))).collect();
+                Some(format!("arc_mm,axial_mm,depth_um\n{lines}"))
+            }
+        }
+    }
+
     /// Its length along a body of this radius [m].
     pub fn length(&self, bearer: f64) -> f64 {
         let range = |arcs: [f64; 2]| (arcs[1] - arcs[0]) * 1e-3;
@@ -71,10 +94,10 @@ pub fn topography(draw: &mut Draw, around: &Around) -> Shape {
 fn length(draw: &mut Draw, around: &Around) -> f64 {
     let whole = std::f64::consts::TAU * around.bearer;
     if draw.chance(0.1) {
-        return draw.between(0.05, around.longest()) * whole;
+        return around.limited(draw.between(0.05, around.longest()) * whole);
     }
     let length = draw.log(0.02, 3.0) * around.r;
-    if around.on == On::Outer { length } else { length.min(around.longest() * whole) }
+    around.limited(if around.on == On::Outer { length } else { length.min(around.longest() * whole) })
 }
 
 /// A depth [m]: about an approach, or what the element's circle reaches in this length, or more than it reaches.

@@ -1,6 +1,6 @@
 //! The same scene seen from elsewhere: turned, mirrored, made of other lengths, forces and times, its steps cut.
 
-use super::{Case, Defect, Damping, Grooves, Host, Length, On, Shape, Step, Topography};
+use super::{Case, Damping, Grooves, Host, Length, On, Shape, Step, Topography};
 
 /// Factors of length, force and time.
 #[derive(Debug, Clone, Copy)]
@@ -36,10 +36,10 @@ impl Case {
         let mut case = self.moved(|[x, y]| [cos * x - sin * y, sin * x + cos * y]);
         case.cage_deg += degrees;
         case.rings_deg[0] += degrees;
-        match &mut case.defect {
-            _ if case.housing_hz.is_some() => case.rings_deg[1] += degrees,
-            Some(Defect { on: On::Outer, angle_deg, .. }) => *angle_deg += degrees,
-            _ => {}
+        if case.housing_hz.is_some() {
+            case.rings_deg[1] += degrees;
+        } else {
+            case.defects.iter_mut().filter(|defect| defect.on == On::Outer).for_each(|d| d.angle_deg += degrees);
         }
         case
     }
@@ -53,23 +53,24 @@ impl Case {
         }
         (case.cage_deg, case.rings_deg) = (180.0 - case.cage_deg, case.rings_deg.map(|angle| -angle));
         let count = case.count;
-        let Some(defect) = &mut case.defect else { return case };
-        match &mut defect.on {
-            On::Outer | On::Inner => defect.angle_deg = 180.0 - defect.angle_deg,
-            On::Element { element, .. } => {
-                *element = (count - *element) % count;
-                defect.angle_deg = -defect.angle_deg;
-            }
-        }
-        match &mut defect.shape {
-            Shape::Trace(points) => {
-                points.reverse();
-                for point in points {
-                    point.0 = -point.0;
+        for defect in &mut case.defects {
+            match &mut defect.on {
+                On::Outer | On::Inner => defect.angle_deg = 180.0 - defect.angle_deg,
+                On::Element { element, .. } => {
+                    *element = (count - *element) % count;
+                    defect.angle_deg = -defect.angle_deg;
                 }
             }
-            Shape::Topography(topography) => topography.mirror(),
-            Shape::Spall { .. } => {}
+            match &mut defect.shape {
+                Shape::Trace(points) => {
+                    points.reverse();
+                    for point in points {
+                        point.0 = -point.0;
+                    }
+                }
+                Shape::Topography(topography) => topography.mirror(),
+                Shape::Spall { .. } => {}
+            }
         }
         case
     }
@@ -95,24 +96,7 @@ impl Case {
             Damping::HuntCrossley(chi) => *chi *= time / length,
             Damping::Proportional(tau) => *tau *= time,
         }
-        match case.defect.as_mut().map(|defect| &mut defect.shape) {
-            Some(Shape::Trace(points)) => {
-                for (arc, depth) in points {
-                    (*arc, *depth) = (*arc * length, *depth * length);
-                }
-            }
-            Some(Shape::Spall { length: long, depth_um, .. }) => {
-                *depth_um *= length;
-                if let Length::Millimetres(long) = long {
-                    *long *= length;
-                }
-            }
-            Some(Shape::Topography(topography)) => {
-                let lengths = [&mut topography.arcs, &mut topography.axials, &mut topography.depths];
-                lengths.into_iter().flatten().for_each(|value| *value *= length);
-            }
-            None => {}
-        }
+        case.defects.iter_mut().for_each(|defect| defect.shape.scale(length));
         for ring in &mut case.rings {
             ring.load = ring.load.map(|load| load * force);
             (ring.mass, ring.stiffness) = (ring.mass * mass, ring.stiffness * force / length);
@@ -172,5 +156,27 @@ impl Topography {
         let width = self.axials.len();
         self.arcs = self.arcs.iter().rev().map(|arc| -arc).collect();
         self.depths = self.depths.chunks(width).rev().flatten().copied().collect();
+    }
+}
+
+impl Shape {
+    fn scale(&mut self, length: f64) {
+        match self {
+            Self::Trace(points) => {
+                for (arc, depth) in points {
+                    (*arc, *depth) = (*arc * length, *depth * length);
+                }
+            }
+            Self::Spall { length: long, depth_um, .. } => {
+                *depth_um *= length;
+                if let Length::Millimetres(long) = long {
+                    *long *= length;
+                }
+            }
+            Self::Topography(topography) => {
+                let lengths = [&mut topography.arcs, &mut topography.axials, &mut topography.depths];
+                lengths.into_iter().flatten().for_each(|value| *value *= length);
+            }
+        }
     }
 }

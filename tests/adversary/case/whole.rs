@@ -23,6 +23,14 @@ impl Space {
         }
     }
 
+    /// How many defects there are besides the first.
+    pub(super) fn more(self, draw: &mut Draw) -> usize {
+        match self {
+            Self::OuterRaceway => 0,
+            Self::Whole => [0, 0, 0, 0, 0, 0, 0, 1, 1, 2][draw.below(10)],
+        }
+    }
+
     /// Whether the defect is one that varies across the track.
     pub(super) fn topography(self, draw: &mut Draw) -> bool {
         self == Self::Whole && draw.chance(0.02)
@@ -58,7 +66,7 @@ impl Space {
         if draw.chance(0.5) {
             case.rings_deg[1] = draw.between(-400.0, 400.0);
         }
-        if matches!(case.defect, Some(Defect { on: On::Element { .. }, .. })) && draw.chance(0.2) {
+        if !case.defective_elements().is_empty() && draw.chance(0.2) {
             case.spin_slip = draw.between(-1.0, 1.0);
         }
         if draw.chance(0.6) {
@@ -86,5 +94,14 @@ pub(super) fn body_name(on: On) -> &'static str {
         On::Inner => "inner raceway",
         On::Element { tilt_deg: 0.0, .. } => "element",
         On::Element { .. } => "element, off the track",
+    }
+}
+
+/// The same of several.
+pub(super) fn bodies_name(defects: &[Defect]) -> &'static str {
+    if defects.iter().all(|defect| defect.on.is_body_of(defects[0].on)) {
+        "several, one body"
+    } else {
+        "several bodies"
     }
 }

@@ -34,7 +34,7 @@ fn standing(draw: &mut Draw) -> (Case, f64) {
         spin_slip: 0.0,
         rings_deg: [0.0; 2],
         cage_deg: draw.between(-180.0, 180.0),
-        defect: None,
+        defects: Vec::new(),
         rings: [ring; 2],
         speed_hz: 0.0,
         housing_hz: None,
@@ -89,7 +89,8 @@ fn trace(length: f64, step: f64, depth: impl Fn(f64) -> f64) -> Shape {
 /// Stands `at` [m] before the defect's middle, counter-clockwise.
 fn over(case: &Case, shape: Shape, at: f64) -> Case {
     let raceway = Bearing::smooth(case).rho_0 + 0.5e-3 * case.diameter_mm;
-    Case { defect: Some(Defect { on: On::Outer, angle_deg: case.cage_deg - (at / raceway).to_degrees(), shape }), ..case.clone() }
+    let angle_deg = case.cage_deg - (at / raceway).to_degrees();
+    Case { defects: vec![Defect { on: On::Outer, angle_deg, shape }], ..case.clone() }
 }
 
 #[test]
@@ -104,7 +105,7 @@ fn on_the_smooth_raceway_all_laws_are_one() {
         let far = |law| {
             let mut case = over(&pressed(&case, approach), shape.clone(), 0.0);
             (case.law, case.grid) = (law, (law != "hertz").then(|| grid(&case, approach, [12, 8])));
-            case.defect.as_mut().unwrap().angle_deg += 90.0;
+            case.defects[0].angle_deg += 90.0;
             case.steps[0].length = 1e-4;
             course(&case, |_| {})
         };

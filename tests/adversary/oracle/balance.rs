@@ -4,6 +4,7 @@
 //! them (Levenberg and Marquardt, with difference quotients).
 
 use super::run::{Pace, Run};
+use super::surfaces::Stretches;
 use super::{Acting, Bearing, ELEMENTS, Outside};
 use crate::case::{Case, Motion};
 use std::f64::consts::TAU;
@@ -11,7 +12,7 @@ use std::f64::consts::TAU;
 struct Search<'a> {
     bearing: &'a Bearing,
     outside: Outside,
-    stretches: Vec<[usize; 2]>,
+    stretches: Vec<Stretches>,
     /// Places in the state vector of what is free.
     free: Vec<usize>,
     acting: Acting,

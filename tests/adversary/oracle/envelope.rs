@@ -38,8 +38,10 @@ pub struct Envelope {
     pub own: f64,
     other: f64,
     apart: f64,
-    /// (φ, B) in order; the first and the last lie on the smooth body.
+    /// (φ, B) in order; the first and the last of each profile lie on the smooth body.
     corners: Vec<(f64, f64)>,
+    /// Numbers of the first and the last corner of each profile.
+    profiles: Vec<[usize; 2]>,
     /// Angles at which the touched feature changes, ascending, in [−π, π].
     pub changes: Vec<f64>,
     /// What is touched before each of them, and after the last.
@@ -50,8 +52,9 @@ pub struct Envelope {
 const PARTS: usize = 16;
 
 impl Envelope {
-    /// `points` are arcs and depths [m], `r` and `raceway` the radii of element and raceway.
-    pub fn new(points: &[(f64, f64)], pair: Pair, r: f64, raceway: f64) -> Self {
+    /// `profiles` are arcs and depths [m] around the middle of the first, in order and within one turn, `r` and `raceway` the
+    /// radii of element and raceway.
+    pub fn new(profiles: &[Vec<(f64, f64)>], pair: Pair, r: f64, raceway: f64) -> Self {
         let (own, other, apart) = match pair {
             Pair::OuterRing => (raceway, r, raceway - r),
             Pair::InnerRing => (raceway, r, raceway + r),
@@ -59,17 +62,29 @@ impl Envelope {
             Pair::ElementInside => (r, raceway, raceway + r),
         };
         let out = if pair == Pair::OuterRing { 1.0 } else { -1.0 };
-        let mut corners: Vec<(f64, f64)> = points.iter().map(|&(s, h)| (s / own, own + out * h)).collect();
-        let ends = [corners[0], corners[corners.len() - 1]];
-        if ends[0].1 != own {
-            corners.insert(0, (ends[0].0, own));
+        let (mut corners, mut ends) = (Vec::new(), Vec::new());
+        for points in profiles {
+            let from = corners.len();
+            let radius = |h: f64| own + out * h;
+            let [first, last] = [points[0], points[points.len() - 1]];
+            if radius(first.1) != own {
+                corners.push((first.0 / own, own));
+            }
+            corners.extend(points.iter().map(|&(s, h)| (s / own, radius(h))));
+            if radius(last.1) != own {
+                corners.push((last.0 / own, own));
+            }
+            ends.push([from, corners.len() - 1]);
         }
-        if ends[1].1 != own {
-            corners.push((ends[1].0, own));
-        }
-        let mut envelope = Self { pair, own, other, apart, corners, changes: Vec::new(), between: Vec::new() };
+        let mut envelope =
+            Self { pair, own, other, apart, corners, profiles: ends, changes: Vec::new(), between: Vec::new() };
         envelope.find_changes();
         envelope
+    }
+
+    /// Number of defects.
+    pub fn profile_count(&self) -> usize {
+        self.profiles.len()
     }
 
     /// Roundings of a path.
@@ -146,10 +161,10 @@ impl Envelope {
 
     /// The touched feature and P, over everything there is.
     pub fn touched(&self, psi: f64) -> (Feature, f64) {
-        let (first, last) = (self.corners[0].0, self.corners[self.corners.len() - 1].0);
         let mut best = (Feature::Smooth, f64::INFINITY);
-        let inside = [-1.0, 0.0, 1.0].iter().any(|turn| psi + turn * TAU > first && psi + turn * TAU < last);
-        if !inside {
+        let inside = |[first, last]: &[usize; 2], psi: f64| psi > self.corners[*first].0 && psi < self.corners[*last].0;
+        let around = [-1.0, 0.0, 1.0].map(|turn| psi + turn * TAU);
+        if !self.profiles.iter().any(|profile| around.iter().any(|&psi| inside(profile, psi))) {
             best.1 = 0.0;
         }
         for (i, &(phi, radius)) in self.corners.iter().enumerate() {
@@ -159,7 +174,7 @@ impl Envelope {
             }
         }
         for turns in [-1i8, 0, 1] {
-            for i in 0..self.corners.len() - 1 {
+            for i in self.profiles.iter().flat_map(|&[first, last]| first..last) {
                 self.try_piece(i, turns, psi, &mut best);
             }
         }
@@ -260,14 +275,15 @@ impl Envelope {
     }
 
     fn find_changes(&mut self) {
-        let (first, last) = (self.corners[0].0, self.corners[self.corners.len() - 1].0);
         let mut at: Vec<f64> = (0..=360).map(|i| -PI + TAU * f64::from(i) / 360.0).collect();
         let reach = 1.001 * self.reach() + 1e-9;
-        let (from, to) = (first - reach, last + reach);
-        let count = 400 + 8 * self.corners.len();
-        at.extend((0..=count).map(|i| from + (to - from) * (i as f64 / count as f64)));
-        at.extend(self.corners.iter().map(|c| c.0));
-        at.retain(|psi| (-PI..=PI).contains(psi));
+        for &[first, last] in &self.profiles {
+            let (from, to) = (self.corners[first].0 - reach, self.corners[last].0 + reach);
+            let count = 400 + 8 * (last - first + 1);
+            let within = (0..=count).map(|i| from + (to - from) * (i as f64 / count as f64));
+            at.extend(within.map(within_half_a_turn));
+        }
+        at.extend(self.corners.iter().map(|c| within_half_a_turn(c.0)));
         at.sort_by(f64::total_cmp);
         at.dedup();
         let features: Vec<(f64, Feature)> = at.into_iter().map(|psi| (psi, self.touched(psi).0)).collect();

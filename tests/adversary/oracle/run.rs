@@ -2,6 +2,7 @@
 //! begins or ceases to push. After such a change of contact, and at each communication point, the steps begin small and
 //! grow, because a force sets in as δ^1.5 or √δ.
 
+use super::surfaces::Stretches;
 use super::{Acting, Bearing, ELEMENTS, Outside, SENSOR, quadratic};
 use crate::case::{Host, Motion};
 use std::f64::consts::{PI, TAU};
@@ -23,8 +24,8 @@ pub struct Run<'a> {
     pub y: Vec<f64>,
     pub outside: Outside,
     pub acting: Acting,
-    /// Stretches of what inner and outer contacts may meet that they are in.
-    pub stretches: Vec<[usize; 2]>,
+    /// Those that contacts are in.
+    pub stretches: Vec<Stretches>,
     /// Largest approach in any inner and any outer contact so far [m].
     pub largest: [f64; 2],
     pace: Pace,
@@ -65,7 +66,7 @@ impl<'a> Run<'a> {
             y,
             outside: Outside { turns: bearing.turning(bearing.starts, speeds), rings },
             acting: Acting::default(),
-            stretches: vec![[0; 2]; bearing.count],
+            stretches: vec![[[0; 2]; 2]; bearing.count],
             largest: [0.0; 2],
             pace,
             left: pace.budget,
@@ -152,30 +153,15 @@ impl<'a> Run<'a> {
     /// Times within a step at which an outer contact comes to touch another feature, ascending, and its end.
     fn passages(&self, length: f64) -> Vec<f64> {
         let mut times = vec![length];
-        let Some(surface) = &self.bearing.surfaces[1] else { return times };
-        let [cage, frame] = [0, surface.frame].map(|which| self.outside.turns[which]);
-        let past = [0, 1, 2].map(|order| if order == 0 { 0.0 } else { cage[order] - frame[order] });
-        // They go one way before and after they reverse.
-        let reversal = -past[1] / past[2];
-        let turn = if reversal > 0.0 && reversal < length { reversal } else { 0.0 };
-        for (from, to) in [(0.0, turn), (turn, length)] {
-            if to <= from {
-                continue;
-            }
-            let ends = [from, to].map(|t| quadratic(past, t)[0]);
-            let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
-            for j in (0..self.bearing.count).filter(|&j| self.bearing.surface(1, j).is_some()) {
-                let places = self.bearing.places(&self.outside, 0.0, &self.y);
+        let places = self.bearing.places(&self.outside, 0.0, &self.y);
+        let cage = self.outside.turns[0];
+        for j in 0..self.bearing.count {
+            for surface in self.bearing.surfaces(1, j).into_iter().flatten() {
                 let seat = self.bearing.seat(j, cage, &places, &self.y);
-                let start = self.bearing.psi(1, j, &seat, &self.outside.turns);
-                for change in &surface.envelope.changes {
-                    let mut angle = change - start;
-                    angle += TAU * ((low - angle) / TAU).ceil();
-                    while angle < high {
-                        times.push(when(past, angle, (from, to)));
-                        angle += TAU;
-                    }
-                }
+                let start = surface.psi(seat.turning(1, &self.outside.turns)[0], &self.outside.turns);
+                let frame = self.outside.turns[surface.frame];
+                let past = [0.0, cage[1] - frame[1], cage[2] - frame[2]];
+                crossings(past, start, &surface.envelope.changes, length, &mut times);
             }
         }
         times.retain(|&t| t > 0.0 && t <= length);
@@ -207,7 +193,8 @@ impl<'a> Run<'a> {
                 t = if count <= 1.0 { to } else { t + h };
                 since += h;
             } else {
-                let halvings = if after.inner == touching.inner { 10 } else { 40 };
+                let corner = after.inner != touching.inner || after.over != touching.over;
+                let halvings = if corner { 40 } else { 10 };
                 let share = self.first_change(&start, &slope, (&touching, halvings), t, h);
                 self.runge_kutta(&start, &slope, t, share * h);
                 t = if share == 1.0 && count <= 1.0 { to } else { t + share * h };
@@ -223,12 +210,10 @@ impl<'a> Run<'a> {
     /// What the contacts do at time `t` into the step.
     fn touching(&self, t: f64) -> Touching {
         let pushing = self.acting.contacts.iter().map(|contacts| contacts.map(|contact| contact.pushes)).collect();
-        let mut stretches = Vec::new();
-        if self.bearing.surfaces[0].is_some() {
-            stretches = vec![[0; 2]; self.bearing.count];
-            self.bearing.stretches(&self.outside, t, &self.y, [true, false], &mut stretches);
-        }
-        Touching { pushing, inner: stretches.iter().map(|stretches| stretches[0]).collect() }
+        let over = self.acting.contacts.iter().map(|contacts| contacts.map(|contact| contact.over)).collect();
+        let mut inner = vec![[[0; 2]; 2]; self.bearing.count];
+        self.bearing.stretches(&self.outside, t, &self.y, [true, false], &mut inner);
+        Touching { pushing, over, inner }
     }
 
     /// Share of a step by which the first contact has just changed, to so many halvings. What is left of the step behind the change
@@ -311,11 +296,34 @@ impl<'a> Run<'a> {
     }
 }
 
-/// What contacts do: which push, and over which stretches the inner ones are.
+/// What contacts do: which push, whose defects they are over, and in which stretches the inner ones are.
 #[derive(PartialEq)]
 struct Touching {
     pushing: Vec<[bool; 2]>,
-    inner: Vec<usize>,
+    over: Vec<[Option<usize>; 2]>,
+    inner: Vec<Stretches>,
+}
+
+/// Times up to `length` at which an angle that begins at `start` and changes by a quadratic comes to one of `changes`.
+fn crossings(past: [f64; 3], start: f64, changes: &[f64], length: f64, times: &mut Vec<f64>) {
+    // It goes one way before and after it reverses.
+    let reversal = -past[1] / past[2];
+    let turn = if reversal > 0.0 && reversal < length { reversal } else { 0.0 };
+    for (from, to) in [(0.0, turn), (turn, length)] {
+        if to <= from {
+            continue;
+        }
+        let ends = [from, to].map(|t| quadratic(past, t)[0]);
+        let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+        for change in changes {
+            let mut angle = change - start;
+            angle += TAU * ((low - angle) / TAU).ceil();
+            while angle < high {
+                times.push(when(past, angle, (from, to)));
+                angle += TAU;
+            }
+        }
+    }
 }
 
 /// When a quadratic has come to an angle, within times between which it goes one way.

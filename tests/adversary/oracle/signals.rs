@@ -35,15 +35,14 @@ pub fn signals(case: &Case) -> Vec<(String, Kind)> {
             Motion::Fixed => {}
         }
     }
-    let on = case.defect.as_ref().map(|defect| defect.on);
-    if on == Some(On::Inner) {
+    if case.defects.iter().any(|defect| defect.on == On::Inner) {
         found.push(("shaft.angle".to_owned(), Kind::Angle));
         found.push(("shaft.torque".to_owned(), Kind::Torque));
     }
     if case.housing_hz.is_some() {
         found.push(("housing.angle".to_owned(), Kind::Angle));
     }
-    if let Some(On::Element { element, .. }) = on {
+    for element in case.defective_elements() {
         found.push((format!("element[{}].spin_angle", element + 1), Kind::Angle));
     }
     if case.sensor.is_some() {
@@ -77,14 +76,16 @@ impl Run<'_> {
             }
         }
         let [cage, shaft, housing, spin] = self.outside.turns.map(|turn| turn[0]);
-        if self.bearing.on == Some(On::Inner) {
+        if self.bearing.inner_defective {
             found.extend([shaft, self.acting.shaft_torque]);
         }
         if self.bearing.turns {
             found.push(housing);
         }
-        if let (Some(On::Element { element, .. }), Some(from)) = (self.bearing.on, self.bearing.spin_from) {
-            found.push(from + spin - (cage + TAU * element as f64 / self.bearing.count as f64));
+        for (j, own) in self.bearing.surfaces.own.iter().enumerate() {
+            if let Some([_, outside]) = own {
+                found.push(outside.centre + spin - (cage + TAU * j as f64 / self.bearing.count as f64));
+            }
         }
         if self.bearing.sensor.is_some() {
             found.push(self.acting.sensor);

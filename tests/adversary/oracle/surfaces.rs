@@ -1,8 +1,8 @@
 //! Where defects are: on which body, how it turns, and which of its parts a contact is over.
 
-use super::envelope::{Envelope, Pair, within_half_a_turn};
+use super::envelope::{Envelope, Feature, Pair, within_half_a_turn};
 use super::{Bearing, Outside, Seat, quadratic};
-use crate::case::{Defect, On, Shape};
+use crate::case::{Case, Defect, On, Shape};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Which of the turns a body follows.
@@ -13,14 +13,32 @@ pub const SPIN: usize = 3;
 /// Angle, speed and acceleration of cage, shaft, housing and spin.
 pub type Turns = [[f64; 3]; 4];
 
-/// A defect as one raceway's contacts meet it.
+/// The defects of a body as one raceway's contacts meet them.
 pub struct Surface {
     pub envelope: Envelope,
-    /// Angle of its middle [rad] in its frame.
+    /// Angle of the first one's middle [rad] in its frame.
     pub centre: f64,
     pub frame: usize,
-    /// The element that bears it.
-    element: Option<usize>,
+}
+
+/// All surfaces: those of the rings, and those of each element on the inner and the outer raceway.
+#[derive(Default)]
+pub struct Surfaces {
+    pub rings: [Option<Surface>; 2],
+    pub own: Vec<Option<[Surface; 2]>>,
+}
+
+/// Of an element's two contacts, the stretches of the ring's surface and of its own that they are in.
+pub type Stretches = [[usize; 2]; 2];
+
+/// The surface that a contact is over, with its number and the stretch, and P, dP/dψ and the speed past it.
+pub struct Over<'a> {
+    pub surface: &'a Surface,
+    pub which: usize,
+    pub psi: f64,
+    pub path: f64,
+    pub slope: f64,
+    pub rate: f64,
 }
 
 impl Surface {
@@ -42,39 +60,65 @@ impl Seat {
 }
 
 impl Bearing {
-    /// What element `j` may meet on the inner or the outer raceway.
-    pub fn surface(&self, side: usize, j: usize) -> Option<&Surface> {
-        self.surfaces[side].as_ref().filter(|surface| surface.element.is_none_or(|element| element == j))
+    /// What element `j` may meet on the inner or the outer raceway: the ring's defects, and its own.
+    pub fn surfaces(&self, side: usize, j: usize) -> [Option<&Surface>; 2] {
+        let own = self.surfaces.own.get(j).and_then(Option::as_ref);
+        [self.surfaces.rings[side].as_ref(), own.map(|own| &own[side])]
     }
 
-    /// Angle of a contact from the middle of what it may meet.
-    pub fn psi(&self, side: usize, j: usize, seat: &Seat, turns: &Turns) -> f64 {
-        self.surface(side, j).map_or(0.0, |surface| surface.psi(seat.turning(side, turns)[0], turns))
+    /// All that there are.
+    pub fn all_surfaces(&self) -> impl Iterator<Item = (usize, &Surface)> {
+        let rings = self.surfaces.rings.iter().enumerate().filter_map(|(side, ring)| Some((side, ring.as_ref()?)));
+        rings.chain(self.surfaces.own.iter().flatten().flat_map(|own| own.iter().enumerate()))
     }
 
-    /// The stretches that the inner contacts are in where `inner`, and the outer ones where `outer`.
-    pub fn stretches(&self, outside: &Outside, t: f64, y: &[f64], sides: [bool; 2], into: &mut [[usize; 2]]) {
+    fn meets(&self, side: usize) -> bool {
+        self.all_surfaces().any(|(of, _)| of == side)
+    }
+
+    /// The stretches that the inner contacts are in where `sides[0]`, and the outer ones where `sides[1]`.
+    pub fn stretches(&self, outside: &Outside, t: f64, y: &[f64], sides: [bool; 2], into: &mut [Stretches]) {
         let turns: Turns = outside.turns.map(|turn| quadratic(turn, t));
         let places = self.places(outside, t, y);
-        for side in (0..2).filter(|&side| sides[side] && self.surfaces[side].is_some()) {
+        for side in (0..2).filter(|&side| sides[side] && self.meets(side)) {
             for (j, stretches) in into.iter_mut().enumerate() {
-                if let Some(surface) = self.surface(side, j) {
-                    let seat = self.seat(j, turns[0], &places, y);
-                    stretches[side] = surface.envelope.stretch(self.psi(side, j, &seat, &turns));
+                for (which, surface) in self.surfaces(side, j).into_iter().enumerate() {
+                    if let Some(surface) = surface {
+                        let direction = self.seat(j, turns[0], &places, y).turning(side, &turns)[0];
+                        stretches[side][which] = surface.envelope.stretch(surface.psi(direction, &turns));
+                    }
                 }
             }
         }
     }
 
+    /// What a contact is over: of a ring's defect and the element's own the one that lets them come nearer.
+    pub fn over(&self, side: usize, j: usize, seat: &Seat, turns: &Turns, stretches: &Stretches) -> Option<Over<'_>> {
+        let over = |(which, surface): (usize, Option<&'_ Surface>)| {
+            let (surface, feature) = surface.map(|s| (s, s.envelope.feature(stretches[side][which])))?;
+            if feature == Feature::Smooth {
+                return None;
+            }
+            let [direction, rate] = seat.turning(side, turns);
+            let psi = surface.psi(direction, turns);
+            let (path, slope) = surface.envelope.path(feature, psi);
+            Some((which, psi, path, slope, rate - turns[surface.frame][1]))
+        };
+        let surfaces = self.surfaces(side, j);
+        let found = surfaces.into_iter().enumerate().filter_map(over);
+        let (which, psi, path, slope, rate) = found.reduce(|ring, own| if own.2 > ring.2 { own } else { ring })?;
+        Some(Over { surface: surfaces[which]?, which, psi, path, slope, rate })
+    }
+
     /// Whether there is an edge that only a side could meet.
     pub fn leaps(&self) -> bool {
-        self.surfaces.iter().flatten().any(|surface| surface.envelope.leaps())
+        self.all_surfaces().any(|(_, surface)| surface.envelope.leaps())
     }
 
     /// Angular speed [rad/s] of contacts past a defect where the rings turn at these speeds.
-    pub fn past(&self, defect: Option<&Defect>, speeds: [f64; 2]) -> f64 {
+    pub fn past(&self, on: Option<On>, speeds: [f64; 2]) -> f64 {
         let turn = |which: usize| self.ratios[which][0] * speeds[0] + self.ratios[which][1] * speeds[1];
-        let frame = match defect.map(|defect| defect.on) {
+        let frame = match on {
             Some(On::Inner) => turn(SHAFT),
             Some(On::Element { .. }) => turn(SPIN),
             Some(On::Outer) => turn(HOUSING),
@@ -84,33 +128,73 @@ impl Bearing {
     }
 }
 
-/// What inner and outer contacts may meet of a defect; a topography has no envelope.
-pub fn of(bearing: &Bearing, defect: &Defect) -> [Option<Surface>; 2] {
+/// The surfaces of a case; none where a topography has no envelope.
+pub fn of(bearing: &Bearing, case: &Case) -> Option<Surfaces> {
     let (r, r_o) = (bearing.r, bearing.rho_0 + bearing.r);
-    let (r_i, angle) = (bearing.rho_0 - bearing.clearance - r, defect.angle_deg * PI / 180.0);
-    let surface = |pair: Pair, frame: usize, (centre, element): (f64, Option<usize>)| {
-        let (raceway, own) = match pair {
-            Pair::OuterRing => (r_o, r_o),
-            Pair::InnerRing => (r_i, r_i),
-            Pair::ElementOutside => (r_o, r),
-            Pair::ElementInside => (r_i, r),
-        };
-        let envelope = Envelope::new(&points(defect, own, r)?, pair, r, raceway);
-        Some(Surface { envelope, centre, frame, element })
+    let r_i = bearing.rho_0 - bearing.clearance - r;
+    let surface = |pair: Pair, frame: usize, from: f64, body: &[&Defect]| {
+        let raceway = if matches!(pair, Pair::OuterRing | Pair::ElementOutside) { r_o } else { r_i };
+        let own = if frame == SPIN { r } else { raceway };
+        let envelope = Envelope::new(&profiles(body, own, r)?, pair, r, raceway);
+        Some(Surface { envelope, centre: from + body[0].angle_deg * PI / 180.0, frame })
     };
-    match defect.on {
-        On::Outer => [None, surface(Pair::OuterRing, HOUSING, (angle, None))],
-        On::Inner => [surface(Pair::InnerRing, SHAFT, (angle, None)), None],
-        On::Element { element, .. } => {
-            let outside = bearing.starts[0] + TAU * element as f64 / bearing.count as f64 + angle;
+    let on = |wanted: &dyn Fn(On) -> bool| case.defects.iter().filter(|d| wanted(d.on)).collect::<Vec<&Defect>>();
+    let [inner, outer] = [on(&|on| on == On::Inner), on(&|on| on == On::Outer)];
+    let mut surfaces = Surfaces::default();
+    if !inner.is_empty() {
+        surfaces.rings[0] = Some(surface(Pair::InnerRing, SHAFT, 0.0, &inner)?);
+    }
+    if !outer.is_empty() {
+        surfaces.rings[1] = Some(surface(Pair::OuterRing, HOUSING, 0.0, &outer)?);
+    }
+    for j in 0..bearing.count {
+        let own = on(&|on| matches!(on, On::Element { element, .. } if element == j));
+        surfaces.own.push(if own.is_empty() {
+            None
+        } else {
+            let outside = bearing.starts[0] + TAU * j as f64 / bearing.count as f64;
             // The side that faces the inner raceway is half a turn on.
-            let inside = outside - PI;
-            [
-                surface(Pair::ElementInside, SPIN, (inside, Some(element))),
-                surface(Pair::ElementOutside, SPIN, (outside, Some(element))),
-            ]
+            let inside = surface(Pair::ElementInside, SPIN, outside - PI, &own)?;
+            Some([inside, surface(Pair::ElementOutside, SPIN, outside, &own)?])
+        });
+    }
+    Some(surfaces)
+}
+
+/// Arcs and depths [m] of all defects of a body of radius `own`, in order from the first on around it.
+fn profiles(body: &[&Defect], own: f64, r: f64) -> Option<Vec<Vec<(f64, f64)>>> {
+    let all: Vec<Vec<(f64, f64)>> = body.iter().map(|defect| points(defect, own, r)).collect::<Option<_>>()?;
+    let begins = all[0][0].0;
+    let mut placed: Vec<Vec<(f64, f64)>> = all
+        .into_iter()
+        .zip(body)
+        .map(|(points, defect)| {
+            let away = own * (defect.angle_deg - body[0].angle_deg) * PI / 180.0;
+            let turns = ((away + points[0].0 - begins) / (TAU * own)).floor();
+            points.into_iter().map(|(arc, depth)| (arc + away - turns * TAU * own, depth)).collect()
+        })
+        .collect();
+    placed.sort_by(|a, b| a[0].0.total_cmp(&b[0].0));
+    Some(placed)
+}
+
+/// Smallest distance between two defects of one body [m], negative where they overlap; infinite without.
+pub fn closest(bearing: &Bearing, case: &Case) -> f64 {
+    let mut closest = f64::INFINITY;
+    for defect in &case.defects {
+        let own = match defect.on {
+            On::Outer => bearing.rho_0 + bearing.r,
+            On::Inner => bearing.rho_0 - bearing.clearance - bearing.r,
+            On::Element { .. } => bearing.r,
+        };
+        let body: Vec<&Defect> = case.defects.iter().filter(|other| other.on.is_body_of(defect.on)).collect();
+        let Some(profiles) = profiles(&body, own, bearing.r).filter(|profiles| profiles.len() > 1) else { continue };
+        for (k, profile) in profiles.iter().enumerate() {
+            let next = profiles[(k + 1) % profiles.len()][0].0 + if k + 1 == profiles.len() { TAU * own } else { 0.0 };
+            closest = closest.min(next - profile[profile.len() - 1].0);
         }
     }
+    closest
 }
 
 /// Arcs and depths [m] of a defect on a body of radius `own`.

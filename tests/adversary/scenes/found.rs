@@ -34,7 +34,7 @@ fn few_elements(count: usize, cage_deg: f64, clearance_um: f64) -> Case {
         spin_slip: 0.0,
         cage_deg,
         rings_deg: [0.0; 2],
-        defect: None,
+        defects: Vec::new(),
         rings: [shaft, fixed],
         speed_hz: 10.0,
         housing_hz: None,

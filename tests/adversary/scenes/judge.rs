@@ -9,10 +9,12 @@ use crate::oracle::balance;
 use crate::oracle::run::{Pace, Run, Stop};
 use crate::oracle::signals::{Kind, signals};
 use crate::oracle::{Bearing, Contact, ELEMENTS, SENSOR};
+use crate::oracle::surfaces::closest;
 use crate::subject::Subject;
-use crate::units::{HORIZON, LIMIT, differences, largest_force, rounding, slope_error, units};
+use crate::units::{HORIZON, LIMIT, differences, largest_force, placing, rounding, slope_error, units};
 use brinell::contact::error::ContactError;
 use brinell::simulation::SimulationError;
+use brinell::surface::SurfaceError;
 use std::collections::BTreeMap;
 
 /// Phase of the fastest motion in one step of the oracle; its reference takes half of it.
@@ -52,9 +54,21 @@ pub fn judge(case: &Case) -> Verdict {
                 Verdict::Failed(format!("no edge is so steep: {error}"))
             };
         }
+        Err(error @ SimulationError::Surface(SurfaceError::Overlap { .. })) => {
+            let gap = closest(&Bearing::smooth(case), case);
+            // Roundings of the arcs.
+            return if gap < 1e-6 + 1e-13 {
+                Verdict::Refused(error)
+            } else {
+                Verdict::Failed(format!("no defects are nearer than {gap:e} m: {error}"))
+            };
+        }
         Err(error) => return Verdict::Refused(error),
     };
-    if case.defect.as_ref().is_some_and(|defect| matches!(defect.shape, Shape::Topography(_))) {
+    if closest(&Bearing::smooth(case), case) < 1e-6 - 1e-13 {
+        return Verdict::Failed("defects that overlap are not refused".to_owned());
+    }
+    if case.defects.iter().any(|defect| matches!(defect.shape, Shape::Topography(_))) {
         return Verdict::Failed("a rigid path over a topography is not refused".to_owned());
     }
     let first = match subject.start(case) {
@@ -112,19 +126,16 @@ pub fn start(bearing: &Bearing, case: &Case, first: &[f64], names: &[(String, Ki
         bearing.mass * (bearing.gravity[0].hypot(bearing.gravity[1]) + bearing.rho_0 * run.outside.turns[0][1].powi(2));
     let largest = contacts.fold(loads, |m, contact| m.max(contact.force));
     // The search for a balance counts 1e-12 N as none.
-    let limit = 1e-9 * (largest + body) + rounding(bearing) * stiffest + 1e-12;
+    let limit = 1e-9 * (largest + body) + (rounding(bearing) + placing(bearing)) * stiffest + 1e-12;
     // The slope of the path turns the damper's rate with the speed past the defect, and directs the force.
     let leaning = |j: usize, side: usize| {
-        let Some(surface) = bearing.surface(side, j) else { return 0.0 };
-        let turns = &run.outside.turns;
+        let (turns, contact) = (&run.outside.turns, run.acting.contacts[j][side]);
         let seat = bearing.seat(j, turns[0], &bearing.places(&run.outside, 0.0, &run.y), &run.y);
-        let ([direction, rate], contact) = (seat.turning(side, turns), run.acting.contacts[j][side]);
-        let psi = surface.psi(direction, turns);
-        let (path, slope) = surface.envelope.path(surface.envelope.feature(run.stretches[j][side]), psi);
-        let distance = surface.envelope.distance(path);
-        let kappa = (slope / distance).atan();
+        let Some(over) = bearing.over(side, j, &seat, turns, &run.stretches[j]) else { return 0.0 };
+        let distance = over.surface.envelope.distance(over.path);
+        let kappa = (over.slope / distance).atan();
         let leans = contact.force * kappa.sin().abs() * kappa.cos().powi(2) / distance;
-        (contact.by_rate * (rate - turns[surface.frame][1]).abs() + leans) * slope_error(bearing, surface, psi)
+        (contact.by_rate * over.rate.abs() + leans) * slope_error(bearing, over.surface, over.psi)
     };
     let limits: Vec<f64> = (0..bearing.count).map(|j| limit + leaning(j, 0) + leaning(j, 1)).collect();
     let limit: f64 = limits.iter().sum();
