@@ -123,15 +123,15 @@ fn random_rigid_paths_are_the_envelope() {
         if oracle.leaps() {
             return Err("an element that only its side holds is not refused".to_owned());
         }
-        let model = simulation.equations().0;
+        let (model, placing) = (simulation.equations().0, crate::units::placing(&case));
         for side in 0..2 {
             if let Some(surface) = &oracle.surfaces.rings[side] {
-                path_is_the_envelope(draw, &oracle, surface, [&model.inner.defects, &model.outer.defects][side])?;
+                path_is_the_envelope(draw, (&oracle, placing), surface, [&model.inner.defects, &model.outer.defects][side])?;
             }
             for (j, own) in oracle.surfaces.own.iter().enumerate() {
                 let Some(own) = own else { continue };
                 let found = model.defective.iter().find(|found| found.element == j).ok_or("no defect")?;
-                path_is_the_envelope(draw, &oracle, &own[side], &found.defects[side])?;
+                path_is_the_envelope(draw, (&oracle, placing), &own[side], &found.defects[side])?;
             }
         }
         Ok(())
@@ -140,7 +140,7 @@ fn random_rigid_paths_are_the_envelope() {
 
 fn path_is_the_envelope(
     draw: &mut Draw,
-    oracle: &Bearing,
+    (oracle, placing): (&Bearing, f64),
     surface: &Surface,
     defects: &Defects,
 ) -> Result<(), String> {
@@ -165,7 +165,7 @@ fn path_is_the_envelope(
         let expected = envelope.touched(psi).1;
         // Roundings of the radii, and the polynomials that the path is kept as.
         let (kept, slope) = envelope.path(envelope.feature(envelope.stretch(psi)), psi);
-        let (off, placed) = (found - expected, crate::units::placing(oracle) * (slope / envelope.own).abs());
+        let (off, placed) = (found - expected, placing * (slope / envelope.own).abs());
         let limit = crate::units::rounding(oracle) + crate::units::path_error(surface, psi) + placed;
         if !((kept - expected).abs() <= limit && off.abs() <= limit) {
             return Err(format!("path at {psi} is {found:e}, not {expected:e} (kept as {kept:e}): {off:e} off"));

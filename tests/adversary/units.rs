@@ -3,7 +3,7 @@
 //! The unit is what one step of the simulation may be wrong by: its tolerance times the largest approach, for velocities a
 //! thousand of that per second, and what follows from both for forces and accelerations.
 
-use crate::case::{Case, Damping, Motion};
+use crate::case::{Case, Damping, Defect, Motion};
 use crate::oracle::Bearing;
 use crate::oracle::envelope::Feature;
 use crate::oracle::signals::Kind;
@@ -23,9 +23,9 @@ pub fn rounding(bearing: &Bearing) -> f64 {
 
 /// How exactly the place of a defect beside another one is known, along its body and out of it [m]: both may become one profile, whose
 /// arcs are rounded to a picometre.
-pub fn placing(bearing: &Bearing) -> f64 {
-    let beside = |surface: &Surface| surface.envelope.profile_count() > 1;
-    if bearing.all_surfaces().any(|(_, surface)| beside(surface)) { 0.5e-12 } else { 0.0 }
+pub fn placing(case: &Case) -> f64 {
+    let beside = |(k, defect): (usize, &Defect)| case.defects[..k].iter().any(|other| other.on.is_body_of(defect.on));
+    if case.defects.iter().enumerate().any(beside) { 0.5e-12 } else { 0.0 }
 }
 
 /// How exactly the slope of a kept path is known [m/rad] at an angle from the defect's centre.
@@ -69,7 +69,7 @@ pub fn path_error(surface: &Surface, psi: f64) -> f64 {
 /// One unit of each kind of signal, for the largest approaches [m].
 pub fn units(bearing: &Bearing, case: &Case, largest: [f64; 2]) -> BTreeMap<Kind, f64> {
     let approach = largest[0].max(largest[1]).max(0.0);
-    let length = case.tolerance * (approach + 1e-7) + rounding(bearing) + placing(bearing) / LIMIT;
+    let length = case.tolerance * (approach + 1e-7) + rounding(bearing) + placing(case) / LIMIT;
     let velocity = 1e3 * case.tolerance * (approach + 1e-7);
     let (mut k, mut c) = (0.0f64, 0.0f64);
     for side in 0..2 {

@@ -82,11 +82,6 @@ impl Envelope {
         envelope
     }
 
-    /// Number of defects.
-    pub fn profile_count(&self) -> usize {
-        self.profiles.len()
-    }
-
     /// Roundings of a path.
     fn tie(&self) -> f64 {
         1e-14 * self.own.max(self.other)

@@ -126,7 +126,7 @@ pub fn start(bearing: &Bearing, case: &Case, first: &[f64], names: &[(String, Ki
         bearing.mass * (bearing.gravity[0].hypot(bearing.gravity[1]) + bearing.rho_0 * run.outside.turns[0][1].powi(2));
     let largest = contacts.fold(loads, |m, contact| m.max(contact.force));
     // The search for a balance counts 1e-12 N as none.
-    let limit = 1e-9 * (largest + body) + (rounding(bearing) + placing(bearing)) * stiffest + 1e-12;
+    let limit = 1e-9 * (largest + body) + (rounding(bearing) + placing(case)) * stiffest + 1e-12;
     // The slope of the path turns the damper's rate with the speed past the defect, and directs the force.
     let leaning = |j: usize, side: usize| {
         let (turns, contact) = (&run.outside.turns, run.acting.contacts[j][side]);
