@@ -3,6 +3,7 @@
 //! What only rounding may change is judged in the units of [`crate::units`]: a run at ten times the tolerance says how much of a
 //! difference the scene itself makes, bounces included. The rest must be equal in every bit.
 
+mod half_space;
 mod laws;
 mod same_bits;
 

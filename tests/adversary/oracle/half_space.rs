@@ -5,6 +5,7 @@
 
 use std::f64::consts::PI;
 
+#[derive(Clone, Copy)]
 pub struct HalfSpace {
     /// Relative curvatures along and across the raceway [1/m].
     pub curvatures: [f64; 2],
