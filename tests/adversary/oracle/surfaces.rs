@@ -161,7 +161,7 @@ pub fn of(bearing: &Bearing, case: &Case) -> Option<Surfaces> {
     Some(surfaces)
 }
 
-/// Arcs and depths [m] of all defects of a body of radius `own`, in order from the first on around it.
+/// Arcs and depths [m] of all defects of a body of radius `own`, in order from the first on around it; none with a topography.
 fn profiles(body: &[&Defect], own: f64, r: f64) -> Option<Vec<Vec<(f64, f64)>>> {
     let all: Vec<Vec<(f64, f64)>> = body.iter().map(|defect| points(defect, own, r)).collect::<Option<_>>()?;
     let begins = all[0][0].0;
@@ -181,17 +181,20 @@ fn profiles(body: &[&Defect], own: f64, r: f64) -> Option<Vec<Vec<(f64, f64)>>> 
 /// Smallest distance between two defects of one body [m], negative where they overlap; infinite without.
 pub fn closest(bearing: &Bearing, case: &Case) -> f64 {
     let mut closest = f64::INFINITY;
-    for defect in &case.defects {
-        let own = match defect.on {
-            On::Outer => bearing.rho_0 + bearing.r,
-            On::Inner => bearing.rho_0 - bearing.clearance - bearing.r,
-            On::Element { .. } => bearing.r,
-        };
-        let body: Vec<&Defect> = case.defects.iter().filter(|other| other.on.is_body_of(defect.on)).collect();
-        let Some(profiles) = profiles(&body, own, bearing.r).filter(|profiles| profiles.len() > 1) else { continue };
-        for (k, profile) in profiles.iter().enumerate() {
-            let next = profiles[(k + 1) % profiles.len()][0].0 + if k + 1 == profiles.len() { TAU * own } else { 0.0 };
-            closest = closest.min(next - profile[profile.len() - 1].0);
+    for (k, one) in case.defects.iter().enumerate() {
+        for other in case.defects[..k].iter().filter(|other| other.on.is_body_of(one.on)) {
+            let own = match one.on {
+                On::Outer => bearing.rho_0 + bearing.r,
+                On::Inner => bearing.rho_0 - bearing.clearance - bearing.r,
+                On::Element { .. } => bearing.r,
+            };
+            let halves = [one, other].map(|defect| match points(defect, own, bearing.r) {
+                Some(points) => points[points.len() - 1].0,
+                None => 0.5 * defect.shape.length(own),
+            });
+            // From middle to middle both ways around.
+            let apart = (own * (one.angle_deg - other.angle_deg) * PI / 180.0).rem_euclid(TAU * own);
+            closest = closest.min(apart.min(TAU * own - apart) - halves[0] - halves[1]);
         }
     }
     closest
