@@ -94,6 +94,30 @@ fn defects_close_together_are_one_profile() {
 }
 
 #[test]
+fn defects_close_together_are_all_there_if_they_reach_more_than_half_way_around() {
+    // 10 µm deep, three of 80° with ridges of 3° between them, from 0° on.
+    let (long, ridge) = (80f64.to_radians(), 3f64.to_radians());
+    let length = long / arc(1.0);
+    let middles = [0.0, 1.0, 2.0].map(|k| 0.5 * long + k * (long + ridge));
+    let spalls = || middles.map(|middle| Defect::outer(middle, spall(length, 10e-6))).to_vec();
+    for turned in 0..3 {
+        let mut scene = bearing(spalls());
+        scene.defects.rotate_left(turned);
+        // So large a contact that it would feel both sides of a ridge.
+        scene.contact.largest_force = Some(2e4);
+        let named = Named::started(scene);
+        for middle in middles {
+            for part in [-0.4, 0.0, 0.4] {
+                let path = named.0.equations().0.resting_path(0, middle + part * long);
+                assert!((path - 10e-6).abs() < 1e-12, "{path:e} m at {part} of the one at {middle}");
+            }
+        }
+        let smooth = named.0.equations().0.resting_path(0, -1.0);
+        assert!(smooth.abs() < 1e-15, "{smooth:e}");
+    }
+}
+
+#[test]
 fn the_order_in_which_defects_are_named_changes_no_bit() {
     let defects = vec![
         Defect::outer(-FRAC_PI_2, spall(0.8e-3, 40e-6)),

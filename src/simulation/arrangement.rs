@@ -146,10 +146,20 @@ fn joined<'a>(
             return Err(SurfaceError::TopographyClose { numbers: [index + 1, other + 1], limit_mm: apart * 1e3 });
         };
         let arc = (centre - first.centre).rem_euclid(TAU) * radius;
-        profiles.push(((arc * FINEST).round() / FINEST, profile));
+        profiles.push((finest(arc), profile));
     }
+    // Angles from the centre are within half a turn, and so the whole must be.
+    let end = profiles.last().map_or(0.0, |(arc, profile)| arc + profile.extent().1);
+    let begin = profiles.first().map_or(0.0, |(_, profile)| profile.extent().0);
+    let middle = finest(0.5 * (begin + end));
+    profiles.iter_mut().for_each(|(arc, _)| *arc -= middle);
     let surface = Cow::Owned(Surface::Profile(crate::surface::Profile::joined(&profiles)));
-    Ok(Spot { on: defect.on, surface, centre: defect.angle })
+    Ok(Spot { on: defect.on, surface, centre: defect.angle + middle / radius })
+}
+
+/// An arc [m] to a picometre.
+fn finest(arc: f64) -> f64 {
+    (arc * FINEST).round() / FINEST
 }
 
 /// Distance [m] between two defects from which on no contact meets both.

@@ -5,8 +5,9 @@
 mod random;
 mod shape;
 mod transform;
+mod whole;
 
-pub use random::{Kind, PHASE, fastest, random};
+pub use random::{Kind, PHASE, fastest, on_the_outer_raceway, random};
 pub use shape::bowl;
 pub use transform::Factors;
 
@@ -20,6 +21,8 @@ pub struct Case {
     pub pitch_mm: f64,
     pub grooves: Grooves,
     pub clearance_um: f64,
+    /// Whether the scene says it as a catalogue does, twice as much.
+    pub catalogue: bool,
     pub modulus_gpa: f64,
     pub poisson: f64,
     pub density: Option<f64>,
@@ -32,11 +35,17 @@ pub struct Case {
     /// Largest force [N], cells along and across, accuracy of the map: for laws `map` and `love`.
     pub grid: Option<(f64, [u32; 2], f64)>,
     pub slip: f64,
+    /// Set as a host does, as the scene has no key for it.
+    pub spin_slip: f64,
     pub cage_deg: f64,
-    pub defect: Option<Defect>,
+    /// Initial angles of shaft and housing.
+    pub rings_deg: [f64; 2],
+    pub defects: Vec<Defect>,
     /// Shaft, housing.
     pub rings: [Ring; 2],
     pub speed_hz: f64,
+    /// Of an outer ring that turns.
+    pub housing_hz: Option<f64>,
     /// Mass, stiffness, damping.
     pub sensor: Option<[f64; 3]>,
     pub tolerance: f64,
@@ -59,8 +68,21 @@ pub enum Damping {
 
 #[derive(Debug, Clone)]
 pub struct Defect {
+    pub on: On,
     pub angle_deg: f64,
     pub shape: Shape,
+}
+
+/// The body with the defect.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum On {
+    Outer,
+    Inner,
+    /// Which, from 0, and the latitude of a pit's centre off the track.
+    Element {
+        element: usize,
+        tilt_deg: f64,
+    },
 }
 
 #[derive(Debug, Clone)]
@@ -116,8 +138,8 @@ pub struct Step {
 /// Inputs with their derivatives.
 #[derive(Debug, Clone, Copy)]
 pub struct Host {
-    /// Speed of the shaft [rad/s] and its derivative.
-    pub speed: [f64; 2],
+    /// Speeds of shaft and housing [rad/s] with their derivatives.
+    pub speeds: [[f64; 2]; 2],
     /// Of shaft and housing, along x and y: load, or place, with its first and second derivative [N or m, s].
     pub rings: [[[f64; 3]; 2]; 2],
 }
@@ -146,7 +168,10 @@ impl Case {
                 put("conformity_outer", outer);
             }
         }
-        put("radial_clearance_um", self.clearance_um);
+        match self.catalogue {
+            true => put("internal_clearance_um", 2.0 * self.clearance_um),
+            false => put("radial_clearance_um", self.clearance_um),
+        }
         put("youngs_modulus_gpa", self.modulus_gpa);
         put("poissons_ratio", self.poisson);
         put("outer_compliance_m_n", self.compliance);
@@ -166,32 +191,45 @@ impl Case {
         }
         .unwrap();
         writeln!(text, "[cage]\nslip = {:?}\ninitial_angle_deg = {:?}", self.slip, self.cage_deg).unwrap();
-        self.write_defect(&mut text);
+        self.write_defects(&mut text);
         self.write_rings(&mut text);
         writeln!(text, "[solver]\ntolerance = {:?}", self.tolerance).unwrap();
         text
     }
 
-    fn write_defect(&self, text: &mut String) {
-        let Some(defect) = &self.defect else { return };
-        writeln!(text, "[defect]\nangle_deg = {:?}", defect.angle_deg).unwrap();
-        match &defect.shape {
-            Shape::Spall { length, depth_um, slope_deg } => {
-                match length {
-                    Length::Degrees(degrees) => writeln!(text, "length_deg = {degrees:?}").unwrap(),
-                    Length::Millimetres(length) => writeln!(text, "length_mm = {length:?}").unwrap(),
+    fn write_defects(&self, text: &mut String) {
+        let title = if self.defects.len() == 1 { "[defect]" } else { "[[defect]]" };
+        for (number, defect) in self.defects.iter().enumerate() {
+            writeln!(text, "{title}\nangle_deg = {:?}", defect.angle_deg).unwrap();
+            match defect.on {
+                On::Outer => {}
+                On::Inner => text.push_str("on = \"inner\"\n"),
+                On::Element { element, tilt_deg } => {
+                    writeln!(text, "on = \"element\"\nelement = {}\ntilt_deg = {tilt_deg:?}", element + 1).unwrap();
                 }
-                writeln!(text, "depth_um = {depth_um:?}\nedge_slope_deg = {slope_deg:?}").unwrap();
             }
-            Shape::Trace(_) | Shape::Topography(_) => writeln!(text, "profile = \"trace.csv\"").unwrap(),
+            match &defect.shape {
+                Shape::Spall { length, depth_um, slope_deg } => {
+                    match length {
+                        Length::Degrees(degrees) => writeln!(text, "length_deg = {degrees:?}").unwrap(),
+                        Length::Millimetres(length) => writeln!(text, "length_mm = {length:?}").unwrap(),
+                    }
+                    writeln!(text, "depth_um = {depth_um:?}\nedge_slope_deg = {slope_deg:?}").unwrap();
+                }
+                Shape::Trace(_) | Shape::Topography(_) => writeln!(text, "profile = \"trace-{number}.csv\"").unwrap(),
+            }
         }
     }
 
     fn write_rings(&self, text: &mut String) {
         for (name, ring) in ["shaft", "housing"].into_iter().zip(&self.rings) {
             writeln!(text, "[{name}]\nmotion = \"{}\"", ring.motion.key()).unwrap();
-            if name == "shaft" {
-                writeln!(text, "speed_hz = {:?}", self.speed_hz).unwrap();
+            let (which, speed) = if name == "shaft" { (0, Some(self.speed_hz)) } else { (1, self.housing_hz) };
+            if let Some(speed) = speed {
+                writeln!(text, "speed_hz = {speed:?}").unwrap();
+            }
+            if self.rings_deg[which] != 0.0 {
+                writeln!(text, "initial_angle_deg = {:?}", self.rings_deg[which]).unwrap();
             }
             if ring.motion == Motion::Internal {
                 let Ring { load, mass, damping, stiffness, .. } = ring;
@@ -205,25 +243,35 @@ impl Case {
         }
     }
 
-    /// Text of the profile file.
-    pub fn profile(&self) -> Option<String> {
-        match &self.defect.as_ref()?.shape {
-            Shape::Spall { .. } => None,
-            Shape::Trace(points) => {
-                let lines: String = points.iter().map(|(arc, depth)| format!("{arc},{depth}\n")).collect();
-                Some(format!("arc_mm,depth_um\n{lines}"))
-            }
-            Shape::Topography(Topography { arcs, axials, depths }) => {
-                let place = |k: usize| format!("{},{}", arcs[k / axials.len()], axials[k % axials.len()]);
-                let lines: String =
-                    depths.iter().enumerate().map(|(k, depth)| format!("{},{depth}\n", place(k))).collect();
-                Some(format!("arc_mm,axial_mm,depth_um\n{lines}"))
-            }
-        }
+    /// Texts of the profile files, in the order of the defects.
+    pub fn profiles(&self) -> Vec<String> {
+        self.defects.iter().filter_map(|defect| defect.shape.csv()).collect()
+    }
+
+    /// Elements with a defect, from 0, ascending.
+    pub fn defective_elements(&self) -> Vec<usize> {
+        let of = |defect: &Defect| match defect.on {
+            On::Element { element, .. } => Some(element),
+            _ => None,
+        };
+        let mut elements: Vec<usize> = self.defects.iter().filter_map(of).collect();
+        elements.sort_unstable();
+        elements.dedup();
+        elements
     }
 
     /// Length of the whole run [s].
     pub fn duration(&self) -> f64 {
         self.steps.iter().map(|step| step.length).sum()
+    }
+}
+
+impl On {
+    /// Whether two defects are on the same body.
+    pub fn is_body_of(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Element { element, .. }, Self::Element { element: of, .. }) => element == of,
+            (one, other) => one == other,
+        }
     }
 }

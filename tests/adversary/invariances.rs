@@ -3,13 +3,14 @@
 //! What only rounding may change is judged in the units of [`crate::units`]: a run at ten times the tolerance says how much of a
 //! difference the scene itself makes, bounces included. The rest must be equal in every bit.
 
+mod half_space;
 mod laws;
 mod same_bits;
 
-use crate::case::{Case, Motion, random};
+use crate::case::{Case, Motion, On, random};
 use crate::draw::{Draw, for_seeds};
 use crate::oracle::Bearing;
-use crate::oracle::run::{Kind, signals};
+use crate::oracle::signals::{Kind, signals};
 use crate::subject::Subject;
 use crate::units::{HORIZON, LIMIT, differences, largest_force, units};
 use brinell::simulation::{Method, SimulationError};
@@ -78,6 +79,10 @@ fn compare_courses(
         };
         let found = back(&names, found);
         scale = largest_force(&names, expected).fold(scale, f64::max);
+        // A shaft that next to nothing holds goes far for the 1e-12 N that count as none at the start.
+        if i == 0 && scale < 1e-6 {
+            return Ok(());
+        }
         let approach = bearing.stiffness.map(|k| (scale / k).cbrt().powi(2));
         let units = units(&bearing, case, approach);
         differences(&names, expected, loose, &mut own);
@@ -113,7 +118,7 @@ fn turning_the_whole_scene_turns_the_result() {
                 if name.ends_with('x') {
                     let (x, y) = (sample[i], sample[i + 1]);
                     (back[i], back[i + 1]) = (cos * x + sin * y, cos * y - sin * x);
-                } else if *kind == Kind::Angle {
+                } else if *kind == Kind::Angle && !name.ends_with("spin_angle") {
                     back[i] -= degrees.to_radians();
                 }
             }
@@ -122,24 +127,36 @@ fn turning_the_whole_scene_turns_the_result() {
     });
 }
 
+/// A sample by the names of its own scene, of which elements have other numbers, from 1.
+fn renumbered<'a>(
+    own: &'a [(String, Kind)],
+    sample: &'a [f64],
+    number: impl Fn(usize) -> usize + 'a,
+) -> impl Fn(&str) -> f64 + 'a {
+    move |name| {
+        let element = name.strip_prefix("element[").and_then(|rest| rest.split_once(']'));
+        let name = element.map_or(name.to_owned(), |(of, rest)| format!("element[{}]{rest}", number(of.parse().unwrap())));
+        sample[own.iter().position(|(other, _)| *other == name).unwrap()]
+    }
+}
+
 #[test]
 fn a_mirror_mirrors_the_result() {
     for_seeds(12, |_, draw| {
         let case = scene(draw, true);
-        compare(&case, &case.mirrored(), |names, sample| {
-            let value = |name: &str| sample[names.iter().position(|(other, _)| other == name).unwrap()];
-            let mirrored = |(name, kind): &(String, Kind)| match kind {
+        let mirrored = case.mirrored();
+        let own = signals(&mirrored);
+        compare(&case, &mirrored, |names, sample| {
+            let value = renumbered(&own, sample, |number| (case.count + 1 - number) % case.count + 1);
+            let back = |(name, kind): &(String, Kind)| match kind {
                 Kind::Torque => -value(name),
-                Kind::Angle => PI - value(name),
+                Kind::Angle if name == "cage.angle" => PI - value(name),
+                // Those of rings and of the spin, which begin at their mirrored angles.
+                Kind::Angle => -value(name),
                 _ if name.ends_with('x') => -value(name),
-                _ if name.starts_with("element[") => {
-                    let (number, rest) = name["element[".len()..].split_once(']').unwrap();
-                    let number: usize = number.parse().unwrap();
-                    value(&format!("element[{}]{rest}", (case.count + 1 - number) % case.count + 1))
-                }
                 _ => value(name),
             };
-            names.iter().map(mirrored).collect()
+            names.iter().map(back).collect()
         })
     });
 }
@@ -210,15 +227,18 @@ fn turning_the_cage_by_a_spacing_renames_the_elements() {
     for_seeds(8, |_, draw| {
         let case = scene(draw, true);
         let (count, spacing) = (case.count, 360.0 / case.count as f64);
-        let turned = Case { cage_deg: case.cage_deg + spacing, ..case.clone() };
+        let mut turned = Case { cage_deg: case.cage_deg + spacing, ..case.clone() };
+        for defect in &mut turned.defects {
+            if let On::Element { element, .. } = &mut defect.on {
+                *element = (*element + count - 1) % count;
+            }
+        }
+        let own = signals(&turned);
         compare(&case, &turned, |names, sample| {
-            let mut back = sample.to_vec();
             // Element j is where j + 1 was.
-            let elements = names.len() - 3 * count;
-            back[elements..].rotate_right(3);
-            let angle = names.iter().position(|(_, kind)| *kind == Kind::Angle).unwrap();
-            back[angle] -= TAU / count as f64;
-            back
+            let value = renumbered(&own, sample, |number| (number + count - 2) % count + 1);
+            let less = |name: &str| if name == "cage.angle" { TAU / count as f64 } else { 0.0 };
+            names.iter().map(|(name, _)| value(name) - less(name)).collect()
         })
     });
 }

@@ -3,20 +3,22 @@
 //! Each element's distance from the outer ring's centre is ρ = ρ₀ + u, its angle is the cage's. Seen from the outer ring, which
 //! accelerates by a_o:
 //! ```text
-//! m u'' = Q_i n·e_r − F_r + m (g·e_r + ρ ω² − a_o·e_r)
+//! m u'' = F·e_r + m (g·e_r + ρ ω² − a_o·e_r)
 //! ```
-//! so a_o comes first. F_r, F_t: the outer contact's force on the element, inwards and counter-clockwise, Q along the normal of
-//! the rigid path, tan κ = P′/ρ. Where the host moves the outer ring by a jump, an element keeps its u and its velocity in space.
+//! so a_o comes first. F is what both raceways push: each with Q along the normal of its rigid path, tan κ = P′ over the distance from
+//! that ring's centre. Where the host moves the outer ring by a jump, an element keeps its u and its velocity in space.
 
 pub mod balance;
 pub mod envelope;
 pub mod half_space;
 mod hertz;
 pub mod run;
+pub mod signals;
+pub mod surfaces;
 
-use crate::case::{Case, Damping, Defect, Grooves, Length, Motion, Ring, Shape};
-use envelope::{Envelope, Feature};
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use crate::case::{Case, Damping, Grooves, Motion, On, Ring};
+use std::f64::consts::{PI, TAU};
+use surfaces::{Stretches, Surfaces, Turns};
 
 pub struct Bearing {
     pub count: usize,
@@ -28,12 +30,19 @@ pub struct Bearing {
     pub mass: f64,
     pub gravity: [f64; 2],
     pub damping: Damping,
-    pub ratio: f64,
-    pub cage_start: f64,
-    pub speed: f64,
-    pub defect: Option<(Envelope, f64)>,
-    /// Whether the case has a defect.
+    /// Speeds of cage, shaft, housing and elements' spin per speed of the shaft and of the housing.
+    pub ratios: [[f64; 2]; 4],
+    /// Their angles at the start [rad]; spin is counted from there.
+    pub starts: [f64; 4],
+    /// Speeds of shaft and housing at the start [rad/s].
+    pub speeds: [f64; 2],
+    /// What contacts may meet.
+    pub surfaces: Surfaces,
+    /// Whether the case has a defect, and whether the inner ring has one.
     pub defective: bool,
+    pub inner_defective: bool,
+    /// Whether the outer ring turns.
+    pub turns: bool,
     pub rings: [Ring; 2],
     pub sensor: Option<[f64; 3]>,
 }
@@ -41,7 +50,8 @@ pub struct Bearing {
 /// Time within a communication step, and what the host says for it.
 #[derive(Debug, Clone, Copy)]
 pub struct Outside {
-    pub cage: [f64; 3],
+    /// Angles of cage, shaft, housing and spin at the start of the step, their speeds and accelerations.
+    pub turns: [[f64; 3]; 4],
     /// As in [`crate::case::Host::rings`].
     pub rings: [[[f64; 3]; 2]; 2],
 }
@@ -58,6 +68,16 @@ pub struct Contact {
     /// ∂(force)/∂(rate of approach) [N s/m].
     pub by_rate: f64,
     pub pushes: bool,
+    /// Whose defect it is over: the ring's (0) or the element's.
+    pub over: Option<usize>,
+}
+
+/// A contact, its force on the element (x, y), the torque of that on the body with the defect, and what that turns with.
+struct Push {
+    contact: Contact,
+    force: [f64; 2],
+    torque: f64,
+    frame: Option<usize>,
 }
 
 /// What acts at one instant.
@@ -70,7 +90,22 @@ pub struct Acting {
     /// Their accelerations [m/s²].
     pub accelerations: [[f64; 2]; 2],
     pub sensor: f64,
+    /// On the cage, and on the shaft by its defect [N m].
     pub torque: f64,
+    pub shaft_torque: f64,
+}
+
+/// Where an element is, and how it moves, seen from both rings' centres.
+pub struct Seat {
+    /// Direction from the outer ring's centre, its cosine and sine, and the element's distance.
+    pub angle: f64,
+    pub e_r: [f64; 2],
+    pub rho: f64,
+    pub u: f64,
+    pub u_rate: f64,
+    /// From the inner ring's centre.
+    pub q: [f64; 2],
+    pub q_rate: [f64; 2],
 }
 
 pub fn quadratic(c: [f64; 3], t: f64) -> [f64; 3] {
@@ -80,9 +115,7 @@ pub fn quadratic(c: [f64; 3], t: f64) -> [f64; 3] {
 impl Bearing {
     pub fn new(case: &Case) -> Self {
         let mut bearing = Self::smooth(case);
-        bearing.defect = case.defect.as_ref().and_then(|defect| {
-            Some((envelope_of(defect, bearing.r, bearing.rho_0 + bearing.r)?, defect.angle_deg * PI / 180.0))
-        });
+        bearing.surfaces = surfaces::of(&bearing, case).unwrap_or_default();
         bearing
     }
 
@@ -99,6 +132,8 @@ impl Bearing {
             hertz::stiffness([1.0 / r + 1.0 / r_i, 1.0 / r - 1.0 / (f_i * d)], modulus),
             hertz::stiffness([1.0 / r - 1.0 / r_o, 1.0 / r - 1.0 / (f_o * d)], modulus),
         ];
+        let gamma = d / pitch;
+        let (cage, spin) = (0.5 * (1.0 - case.slip), (1.0 - case.spin_slip) / (2.0 * gamma));
         let mass = case.mass_g.map_or_else(|| 4.0 / 3.0 * PI * r * r * r * case.density.unwrap(), |mass| mass * 1e-3);
         Self {
             count: case.count,
@@ -110,11 +145,18 @@ impl Bearing {
             mass,
             gravity: case.gravity,
             damping: case.damping,
-            ratio: 0.5 * (1.0 - d / pitch) * (1.0 - case.slip),
-            cage_start: case.cage_deg * PI / 180.0,
-            speed: TAU * case.speed_hz,
-            defect: None,
-            defective: case.defect.is_some(),
+            ratios: [
+                [cage * (1.0 - gamma), cage * (1.0 + gamma)],
+                [1.0, 0.0],
+                [0.0, 1.0],
+                [-spin * (1.0 - gamma), spin * (1.0 + gamma)],
+            ],
+            starts: [case.cage_deg, case.rings_deg[0], case.rings_deg[1], 0.0].map(|degrees| degrees * PI / 180.0),
+            speeds: [case.speed_hz, case.housing_hz.unwrap_or(0.0)].map(|hz| TAU * hz),
+            surfaces: Surfaces::default(),
+            defective: !case.defects.is_empty(),
+            inner_defective: case.defects.iter().any(|defect| defect.on == On::Inner),
+            turns: case.housing_hz.is_some(),
             rings: case.rings,
             sensor: case.sensor,
         }
@@ -124,10 +166,12 @@ impl Bearing {
         ELEMENTS + 2 * self.count + 4
     }
 
-    /// Angle of element `j` from the defect's centre, within half a turn.
-    pub fn angle_to_defect(&self, j: usize, cage: f64) -> f64 {
-        let angle = cage + TAU * j as f64 / self.count as f64 - self.defect.as_ref().map_or(0.0, |d| d.1);
-        angle - TAU * (angle / TAU).round()
+    /// Of cage, shaft, housing and spin for speeds of the rings with their derivatives.
+    pub fn turning(&self, angles: [f64; 4], speeds: [[f64; 2]; 2]) -> [[f64; 3]; 4] {
+        let sum = |which: usize, order: usize| -> f64 {
+            (0..2).map(|ring| self.ratios[which][ring] * speeds[ring][order]).sum()
+        };
+        [0, 1, 2, 3].map(|which| [angles[which], sum(which, 0), sum(which, 1)])
     }
 
     /// The force of a contact: with side 1, that of the outer raceway in series with its compliance.
@@ -155,7 +199,8 @@ impl Bearing {
             Damping::Proportional(tau) => root * 1.5 * tau,
         };
         let force = root * own + damper * (rate / yields);
-        Contact { force: force.max(0.0), approach, by_rate: damper / yields, pushes: force > 0.0 }
+        let pushes = force > 0.0;
+        Contact { force: force.max(0.0), approach, by_rate: damper / yields, pushes, over: None }
     }
 
     /// dΔ/dδ of a contact in series with the compliance.
@@ -172,57 +217,89 @@ impl Bearing {
         }
     }
 
-    /// Derivative of the state `y` at `t` into the communication step. `features` are what the elements touch.
+    /// Places, velocities and prescribed accelerations of both rings.
+    pub fn places(&self, outside: &Outside, t: f64, y: &[f64]) -> [[[f64; 3]; 2]; 2] {
+        [0, 1].map(|which| self.ring(which, outside, t, y))
+    }
+
+    pub fn seat(&self, j: usize, cage: [f64; 3], [shaft, housing]: &[[[f64; 3]; 2]; 2], y: &[f64]) -> Seat {
+        let [angle, omega, _] = cage;
+        let angle = angle + TAU * j as f64 / self.count as f64;
+        let (sin, cos) = angle.sin_cos();
+        let (u, u_rate) = (y[ELEMENTS + 2 * j], y[ELEMENTS + 2 * j + 1]);
+        let rho = self.rho_0 + u;
+        let q = [housing[0][0] - shaft[0][0] + rho * cos, housing[1][0] - shaft[1][0] + rho * sin];
+        let q_rate = [
+            housing[0][1] - shaft[0][1] + u_rate * cos - rho * omega * sin,
+            housing[1][1] - shaft[1][1] + u_rate * sin + rho * omega * cos,
+        ];
+        Seat { angle, e_r: [cos, sin], rho, u, u_rate, q, q_rate }
+    }
+
+    /// Both contacts of an element.
+    fn pushes(&self, j: usize, seat: &Seat, turns: &Turns, stretches: &Stretches) -> [Push; 2] {
+        let length = seat.q[0].hypot(seat.q[1]);
+        let n = [seat.q[0] / length, seat.q[1] / length];
+        let opening = n[0] * seat.q_rate[0] + n[1] * seat.q_rate[1];
+        let smooth = [self.rho_0 - self.clearance - length, seat.u];
+        let (apart, rates, outwards) = ([length, seat.rho], [-opening, seat.u_rate], [n, seat.e_r]);
+        [0, 1].map(|side| {
+            let over = self.over(side, j, seat, turns, stretches);
+            let (path, slope, past) = over.as_ref().map_or((0.0, 0.0, 0.0), |over| (over.path, over.slope, over.rate));
+            let mut contact = self.contact(side, smooth[side] - path, rates[side] - slope * past);
+            contact.over = over.as_ref().map(|over| over.which);
+            let kappa = if slope == 0.0 { 0.0 } else { (slope / apart[side]).atan() };
+            let away = if side == 0 { contact.force } else { -contact.force } * kappa.cos();
+            let ([x, y], around) = (outwards[side], contact.force * kappa.sin());
+            // The force passes through the centre of the body without the defect.
+            let torque = -around * apart[side];
+            let force = [away * x - around * y, away * y + around * x];
+            Push { contact, force, torque, frame: over.map(|over| over.surface.frame) }
+        })
+    }
+
+    /// Derivative of the state `y` at `t` into the communication step. `stretches` are those that the contacts are in.
     pub fn rates(
         &self,
         outside: &Outside,
         t: f64,
-        (y, features): (&[f64], &[Feature]),
+        (y, stretches): (&[f64], &[Stretches]),
         rates: &mut [f64],
         acting: &mut Acting,
     ) {
-        let [cage, omega, alpha] = quadratic(outside.cage, t);
-        let places = [0, 1].map(|which| self.ring(which, outside, t, y));
-        let (shaft, housing) = (places[0], places[1]);
+        let turns: Turns = outside.turns.map(|turn| quadratic(turn, t));
+        let [_, omega, alpha] = turns[0];
+        let places = self.places(outside, t, y);
         acting.contacts.clear();
         acting.rings = [[0.0; 2]; 2];
         // Pushes along e_r without the rings' acceleration, then the tangential ones.
         let mut along = [0.0; 128];
-        acting.torque = 0.0;
+        (acting.torque, acting.shaft_torque) = (0.0, 0.0);
         for j in 0..self.count {
-            let (sin, cos) = (cage + TAU * j as f64 / self.count as f64).sin_cos();
-            let (u, u_rate) = (y[ELEMENTS + 2 * j], y[ELEMENTS + 2 * j + 1]);
-            let rho = self.rho_0 + u;
-            let q = [housing[0][0] - shaft[0][0] + rho * cos, housing[1][0] - shaft[1][0] + rho * sin];
-            let q_rate = [
-                housing[0][1] - shaft[0][1] + u_rate * cos - rho * omega * sin,
-                housing[1][1] - shaft[1][1] + u_rate * sin + rho * omega * cos,
-            ];
-            let length = q[0].hypot(q[1]);
-            let n = [q[0] / length, q[1] / length];
-            let inner = self.contact(0, self.rho_0 - self.clearance - length, -(n[0] * q_rate[0] + n[1] * q_rate[1]));
-            let (path, slope) = match &self.defect {
-                None => (0.0, 0.0),
-                Some((envelope, _)) => envelope.path(features[j], self.angle_to_defect(j, cage)),
-            };
-            let outer = self.contact(1, u - path, u_rate - slope * omega);
-            let kappa = (slope / rho).atan();
-            let (f_r, f_t) = (outer.force * kappa.cos(), outer.force * kappa.sin());
-            for (a, (e_r, e_t)) in [(cos, -sin), (sin, cos)].into_iter().enumerate() {
-                acting.rings[0][a] -= inner.force * n[a];
-                acting.rings[1][a] += f_r * e_r - f_t * e_t;
+            let seat = self.seat(j, turns[0], &places, y);
+            let ([cos, sin], rho) = (seat.e_r, seat.rho);
+            let pushes = self.pushes(j, &seat, &turns, &stretches[j]);
+            let mut net = [self.mass * self.gravity[0], self.mass * self.gravity[1]];
+            for (side, push) in pushes.iter().enumerate() {
+                for a in 0..2 {
+                    net[a] += push.force[a];
+                    acting.rings[side][a] -= push.force[a];
+                }
+                match push.frame {
+                    Some(surfaces::SPIN) => acting.torque += push.torque,
+                    Some(surfaces::SHAFT) => acting.shaft_torque += push.torque,
+                    _ => {}
+                }
             }
-            let gravity =
-                [self.gravity[0] * cos + self.gravity[1] * sin, self.gravity[1] * cos - self.gravity[0] * sin];
-            along[j] = inner.force * (n[0] * cos + n[1] * sin) - f_r + self.mass * (gravity[0] + rho * omega * omega);
-            let around = inner.force * (n[1] * cos - n[0] * sin) + f_t;
-            acting.torque += rho * (around + self.mass * (gravity[1] - 2.0 * u_rate * omega - rho * alpha));
-            acting.contacts.push([inner, outer]);
+            along[j] = net[0] * cos + net[1] * sin + self.mass * rho * omega * omega;
+            let around = net[1] * cos - net[0] * sin;
+            acting.torque += rho * (around - self.mass * (2.0 * seat.u_rate * omega + rho * alpha));
+            acting.contacts.push(pushes.map(|push| push.contact));
         }
         self.ring_rates(outside, t, (y, &places), rates, acting);
         let a_o = acting.accelerations[1];
         for j in 0..self.count {
-            let (sin, cos) = (cage + TAU * j as f64 / self.count as f64).sin_cos();
+            let (sin, cos) = (turns[0][0] + TAU * j as f64 / self.count as f64).sin_cos();
             rates[ELEMENTS + 2 * j] = y[ELEMENTS + 2 * j + 1];
             rates[ELEMENTS + 2 * j + 1] = along[j] / self.mass - (a_o[0] * cos + a_o[1] * sin);
             acting.torque -= (self.rho_0 + y[ELEMENTS + 2 * j]) * self.mass * (a_o[1] * cos - a_o[0] * sin);
@@ -265,26 +342,4 @@ impl Bearing {
             }
         }
     }
-}
-
-/// The envelope of a profile; a topography has none.
-fn envelope_of(defect: &Defect, r: f64, r_o: f64) -> Option<Envelope> {
-    let points: Vec<(f64, f64)> = match &defect.shape {
-        Shape::Trace(points) => {
-            let middle = 0.5 * (points[0].0 + points[points.len() - 1].0);
-            points.iter().map(|(arc, depth)| ((arc - middle) * 1e-3, depth * 1e-6)).collect()
-        }
-        Shape::Spall { length, depth_um, slope_deg } => {
-            let half = 0.5
-                * match length {
-                    Length::Degrees(degrees) => degrees * PI / 180.0 * r_o,
-                    Length::Millimetres(length) => length * 1e-3,
-                };
-            let (depth, slope) = (depth_um * 1e-6, slope_deg * PI / 180.0);
-            let run = if *slope_deg >= 90.0 { 0.0 } else { (depth * (FRAC_PI_2 - slope).tan()).min(half) };
-            vec![(-half, 0.0), (run - half, depth), (half - run, depth), (half, 0.0)]
-        }
-        Shape::Topography(_) => return None,
-    };
-    Some(Envelope::new(&points, r, r_o))
 }

@@ -7,9 +7,13 @@ mod report;
 use crate::case::{Case, random};
 use crate::draw::{Draw, for_seeds, seeds};
 use crate::oracle::Bearing;
+use crate::oracle::envelope::within_half_a_turn;
+use crate::oracle::surfaces::Surface;
 use crate::subject::Subject;
 use brinell::contact::error::ContactError;
 use brinell::contact::near_defect::Lever;
+use brinell::dynamics::drive::Frames;
+use brinell::dynamics::raceway::{Defects, SMOOTH};
 use brinell::simulation::SimulationError;
 use judge::judge;
 use report::{Came, Entry, Tally};
@@ -28,7 +32,7 @@ fn judged(seed: u64) -> Entry {
 /// A scene that is replayed alone, as files.
 fn show(seed: u64) {
     let (_, case): (_, Case) = random(&mut Draw::new(seed));
-    println!("{}{}{:#?}", case.toml(), case.profile().unwrap_or_default(), case.steps);
+    println!("{}{}{:#?}", case.toml(), case.profiles().join("\n"), case.steps);
 }
 
 #[test]
@@ -99,52 +103,73 @@ fn the_page_holds_the_section() {
     assert!(page.contains(include_str!("scenes.md")), "docs/stability.md does not hold tests/adversary/scenes.md");
 }
 
-/// The path that the simulation's elements follow over a scene's defect, at angles all around, is the brute-force envelope.
+/// The path that the simulation's elements follow over a scene's defect, at angles all around, is the brute-force envelope, on
+/// either raceway that meets it.
 #[test]
 fn random_rigid_paths_are_the_envelope() {
     for_seeds(60, |_, draw| {
         let (_, case) = random(draw);
         let oracle = Bearing::new(&case);
-        let Some((envelope, _)) = &oracle.defect else { return Ok(()) };
+        if oracle.all_surfaces().next().is_none() {
+            return Ok(());
+        }
         let simulation = match Subject::new(&case) {
             Ok(subject) => subject.simulation,
-            Err(SimulationError::Contact(ContactError::NoWayOut { .. })) if envelope.leaps() => return Ok(()),
-            // A bearing larger than the scene allows.
-            Err(SimulationError::Scene(_)) => return Ok(()),
+            Err(SimulationError::Contact(ContactError::NoWayOut { .. })) if oracle.leaps() => return Ok(()),
+            // A bearing larger than the scene allows; defects that overlap.
+            Err(SimulationError::Scene(_) | SimulationError::Surface(_)) => return Ok(()),
             Err(error) => return Err(error.to_string()),
         };
-        if envelope.leaps() {
+        if oracle.leaps() {
             return Err("an element that only its side holds is not refused".to_owned());
         }
-        let Some(defect) = &simulation.equations().0.outer.defects.iter().next().cloned() else {
-            return Err("no defect".to_owned());
-        };
-        let near = &defect.surface;
-        let (knots, rho) = (near.knots(), oracle.rho_0);
-        // Around each knot and change, along the defect, and anywhere.
-        let ends = knots.iter().chain(&envelope.changes).flat_map(|at| [at - 1e-9, at + 1e-9]);
-        let anywhere = (0..500).map(|_| draw.between(-PI, PI));
-        let [first, last] = [knots[0], knots[knots.len() - 1]];
-        let within = (0..1000).map(|i| first + (last - first) * (f64::from(i) + 0.5) / 1000.0);
-        for psi in ends.chain(anywhere).chain(within).filter(|psi| (-PI..=PI).contains(psi)) {
-            let cell = knots.partition_point(|&knot| knot <= psi);
-            let found = if cell == 0 || cell == knots.len() {
-                0.0
-            } else {
-                -near
-                    .approach(cell - 1, 0.0, psi, Lever { distance: rho, by_approach: 1.0 })
-                    .map_err(|error| error.to_string())?
-                    .value
-            };
-            let expected = envelope.touched(psi).1 - rho;
-            // Roundings of the radii, and the polynomials that the path is kept as.
-            let feature = envelope.feature(psi);
-            let limit = crate::units::rounding(&oracle) + crate::units::path_error(&oracle, feature, psi);
-            let (kept, off) = (envelope.path(feature, psi).0, found - expected);
-            if !((kept - expected).abs() <= limit && off.abs() <= limit) {
-                return Err(format!("path at {psi} is {found:e}, not {expected:e} (kept as {kept:e}): {off:e} off"));
+        let (model, placing) = (simulation.equations().0, crate::units::placing(&case));
+        for side in 0..2 {
+            if let Some(surface) = &oracle.surfaces.rings[side] {
+                path_is_the_envelope(draw, (&oracle, placing), surface, [&model.inner.defects, &model.outer.defects][side])?;
+            }
+            for (j, own) in oracle.surfaces.own.iter().enumerate() {
+                let Some(own) = own else { continue };
+                let found = model.defective.iter().find(|found| found.element == j).ok_or("no defect")?;
+                path_is_the_envelope(draw, (&oracle, placing), &own[side], &found.defects[side])?;
             }
         }
         Ok(())
     });
+}
+
+fn path_is_the_envelope(
+    draw: &mut Draw,
+    (oracle, placing): (&Bearing, f64),
+    surface: &Surface,
+    defects: &Defects,
+) -> Result<(), String> {
+    let envelope = &surface.envelope;
+    // Around each knot and change, along the defect, and anywhere.
+    let mut angles: Vec<f64> = (0..500).map(|_| draw.between(-PI, PI)).collect();
+    for placed in defects.iter() {
+        let (knots, shift) = (placed.knots(), placed.centre - surface.centre);
+        let [first, last] = [knots[0], knots[knots.len() - 1]];
+        angles.extend(knots.iter().flat_map(|at| [at - 1e-9, at + 1e-9]).map(|at| at + shift));
+        angles.extend((0..1000).map(|i| first + (last - first) * (f64::from(i) + 0.5) / 1000.0 + shift));
+    }
+    angles.extend(envelope.changes.iter().flat_map(|at| [at - 1e-9, at + 1e-9]));
+    for psi in angles.into_iter().map(within_half_a_turn) {
+        let direction = psi + surface.centre;
+        let cell = defects.cell_at(direction);
+        let lever = Lever { distance: oracle.rho_0, by_approach: 1.0 };
+        let found = match cell {
+            SMOOTH => 0.0,
+            _ => -defects.approach(cell, 0.0, direction, &Frames::default(), lever).map_err(|e| e.to_string())?.value,
+        };
+        let expected = envelope.touched(psi).1;
+        // Roundings of the radii, and the polynomials that the path is kept as.
+        let (kept, slope) = envelope.path(envelope.feature(envelope.stretch(psi)), psi);
+        let (off, placed) = (found - expected, placing * (slope / envelope.own).abs());
+        let limit = crate::units::rounding(oracle) + crate::units::path_error(surface, psi) + placed;
+        if !((kept - expected).abs() <= limit && off.abs() <= limit) {
+            return Err(format!("path at {psi} is {found:e}, not {expected:e} (kept as {kept:e}): {off:e} off"));
+        }
+    }
+    Ok(())
 }

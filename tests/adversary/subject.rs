@@ -2,7 +2,7 @@
 
 use crate::case::{Case, Motion};
 use crate::draw::Draw;
-use crate::oracle::run::signals;
+use crate::oracle::signals::signals;
 use brinell::scene::Scene;
 use brinell::simulation::variables::{Causality, Kind};
 use brinell::simulation::{Simulation, SimulationError};
@@ -23,7 +23,14 @@ pub type Parameter = (String, Result<f64, i32>);
 
 impl Subject {
     pub fn new(case: &Case) -> Result<Self, SimulationError> {
-        let simulation = Simulation::new(Scene::from_toml(&case.toml())?, case.profile().as_deref())?;
+        let mut simulation = {
+            let profiles = case.profiles();
+            Simulation::new(Scene::from_toml(&case.toml())?, profiles.iter().map(String::as_str))?
+        };
+        if case.spin_slip != 0.0 {
+            let spin_slip = simulation.reference("element.spin_slip")?;
+            simulation.set_reals(&[spin_slip], &[case.spin_slip])?;
+        }
         let references = signals(case).iter().map(|(name, _)| simulation.reference(name)).collect::<Result<_, _>>()?;
         Ok(Self { simulation, references, begin: 0.0, shuffle: None, rollback: false })
     }
@@ -60,8 +67,13 @@ impl Subject {
     fn set_inputs(&mut self, case: &Case, step: usize, derivatives: bool) -> Result<(), SimulationError> {
         let Some(host) = &case.steps[step].host else { return Ok(()) };
         let reference = |name: &str| self.simulation.reference(name);
-        let speed = reference("shaft.speed")?;
-        let (mut values, mut rates) = (vec![(speed, host.speed[0])], vec![(speed, 1, host.speed[1])]);
+        let (mut values, mut rates) = (Vec::new(), Vec::new());
+        let turning = ["shaft.speed", "housing.speed"].into_iter().zip(host.speeds);
+        for (name, [value, slope]) in turning.take(1 + usize::from(case.housing_hz.is_some())) {
+            let speed = reference(name)?;
+            values.push((speed, value));
+            rates.push((speed, 1, slope));
+        }
         for (which, name) in ["shaft", "housing"].into_iter().enumerate() {
             for (a, axis) in ["x", "y"].into_iter().enumerate() {
                 let [value, first, second] = host.rings[which][a];

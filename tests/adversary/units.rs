@@ -3,10 +3,11 @@
 //! The unit is what one step of the simulation may be wrong by: its tolerance times the largest approach, for velocities a
 //! thousand of that per second, and what follows from both for forces and accelerations.
 
-use crate::case::{Case, Damping, Motion};
+use crate::case::{Case, Damping, Defect, Motion};
 use crate::oracle::Bearing;
 use crate::oracle::envelope::Feature;
-use crate::oracle::run::Kind;
+use crate::oracle::signals::Kind;
+use crate::oracle::surfaces::Surface;
 use std::collections::BTreeMap;
 
 /// Units that a difference may have: many steps follow each other, each wrong by up to one.
@@ -20,53 +21,55 @@ pub fn rounding(bearing: &Bearing) -> f64 {
     4e-15 * bearing.rho_0 + path
 }
 
-/// How exactly the path's slope is known [m/rad] at an angle from the defect's centre.
+/// How exactly the place of a defect beside another one is known, along its body and out of it [m]: both may become one profile, whose
+/// arcs are rounded to a picometre.
+pub fn placing(case: &Case) -> f64 {
+    let beside = |(k, defect): (usize, &Defect)| case.defects[..k].iter().any(|other| other.on.is_body_of(defect.on));
+    if case.defects.iter().enumerate().any(beside) { 0.5e-12 } else { 0.0 }
+}
+
+/// How exactly the slope of a kept path is known [m/rad] at an angle from the defect's centre.
 ///
-/// The path is kept as cubics through its values and slopes at nodes, at most 5e-6 m or 1.25e-3 r apart, and twice as
-/// near until the path itself is right to E = 2e-13 r and some roundings. Between nodes w apart a cubic's value is wrong
-/// by w⁴P⁗/384 and its slope by √3/216 w³P⁗, which is 3.08 E/w. Over a point P⁗ = 3 (1 + 4 sin²κ)/(r³ cos⁷κ), over a
-/// straight piece less; 1.25 is for points of a depth that is not small beside the raceway's radius. Roundings of the
-/// values come into the slope as 1.5 (p₁ − p₀)/w. A level piece is kept as the constant that it is.
-pub fn slope_error(bearing: &Bearing, feature: Feature, psi: f64) -> f64 {
-    let Some((envelope, _)) = &bearing.defect else { return 0.0 };
+/// The path is kept as cubics through its values and slopes at nodes, at most 5e-6 m or 1.25e-3 r apart along the body with the
+/// defect, and twice as near until the path itself is right to E = 2e-13 r and some roundings. Between nodes w apart a
+/// cubic's value is wrong by w⁴P⁗/384 and its slope by √3/216 w³P⁗, which is 3.08 E/w. A quarter more is for what P⁗ changes
+/// within w. Roundings of the values come into the slope as 1.5 (p₁ − p₀)/w. A level piece is kept as the constant that it is.
+pub fn slope_error(bearing: &Bearing, surface: &Surface, psi: f64) -> f64 {
+    let envelope = &surface.envelope;
+    let stretch = envelope.stretch(psi);
+    let feature = envelope.feature(stretch);
     let level = !matches!(feature, Feature::Corner(_)) && envelope.path(feature, psi).1 == 0.0;
     if level {
         return 0.0;
     }
-    let (r, raceway) = (bearing.r, bearing.rho_0 + bearing.r);
-    let cos = |psi: f64| {
-        let (path, slope) = envelope.path(feature, psi);
-        1.0 / (slope / (bearing.rho_0 + path)).hypot(1.0)
-    };
-    let value = 2e-13 * r + 4.0 * f64::EPSILON * raceway;
-    let width = |cos: f64| r * (128.0 * value / r / (5.0 - 4.0 * cos * cos)).powf(0.25) * cos.powf(1.75);
-    let ends = envelope.stretch(psi);
-    let widest = 5e-6f64.max(1.25e-3 * r).min(width(cos(ends[0]))).min(width(cos(ends[1])));
-    let narrowest = (0.5 * widest).min((ends[1] - ends[0]) * raceway);
-    let truncated = 1.25 * 3.08 * value / width(cos(psi));
-    let rounded = 3.0 * f64::EPSILON * (2.0 * raceway + r / cos(psi)) / narrowest;
-    raceway * (truncated + rounded)
+    let raceway = bearing.rho_0 + bearing.r;
+    let value = 2e-13 * bearing.r + 4.0 * f64::EPSILON * raceway;
+    let width = |psi: f64| (384.0 * value / envelope.fourth(feature, psi).abs()).powf(0.25);
+    let ends = envelope.ends(stretch);
+    let widest = (5e-6f64.max(1.25e-3 * bearing.r) / envelope.own).min(width(ends[0])).min(width(ends[1]));
+    let narrowest = (0.5 * widest).min(ends[1] - ends[0]);
+    let truncated = 1.25 * 3.08 * value / width(psi);
+    let rounded = 3.0 * f64::EPSILON * (2.0 * raceway + envelope.steepened(feature, psi)) / narrowest;
+    truncated + rounded
 }
 
 /// How exactly the path [m] is kept at an angle that is touched at more than 85°: a stretch has 65 536 cubics at most.
-pub fn path_error(bearing: &Bearing, feature: Feature, psi: f64) -> f64 {
-    let (Some((envelope, _)), Feature::Corner(_)) = (&bearing.defect, feature) else { return 0.0 };
-    let [from, to] = envelope.stretch(psi);
+pub fn path_error(surface: &Surface, psi: f64) -> f64 {
+    let envelope = &surface.envelope;
+    let stretch = envelope.stretch(psi);
+    let feature = envelope.feature(stretch);
+    let Feature::Corner(_) = feature else { return 0.0 };
+    let [from, to] = envelope.ends(stretch);
     let width = (to - from) / 65_536.0;
-    // w⁴P⁗/384 with P⁗ as in `slope_error`, at the steeper end of the cubic.
-    let error = |psi: f64| {
-        let (path, slope) = envelope.path(feature, psi.clamp(from, to));
-        let cos = 1.0 / (slope / (bearing.rho_0 + path)).hypot(1.0);
-        let fourth = 3.0 * (5.0 - 4.0 * cos * cos) / (bearing.r.powi(3) * cos.powi(7));
-        (width * (bearing.rho_0 + bearing.r)).powi(4) * fourth / 384.0
-    };
+    // w⁴P⁗/384 at the steeper end of the cubic.
+    let error = |psi: f64| width.powi(4) * envelope.fourth(feature, psi.clamp(from, to)).abs() / 384.0;
     error(psi - width).max(error(psi + width))
 }
 
 /// One unit of each kind of signal, for the largest approaches [m].
 pub fn units(bearing: &Bearing, case: &Case, largest: [f64; 2]) -> BTreeMap<Kind, f64> {
     let approach = largest[0].max(largest[1]).max(0.0);
-    let length = case.tolerance * (approach + 1e-7) + rounding(bearing);
+    let length = case.tolerance * (approach + 1e-7) + rounding(bearing) + placing(case) / LIMIT;
     let velocity = 1e3 * case.tolerance * (approach + 1e-7);
     let (mut k, mut c) = (0.0f64, 0.0f64);
     for side in 0..2 {
@@ -79,12 +82,13 @@ pub fn units(bearing: &Bearing, case: &Case, largest: [f64; 2]) -> BTreeMap<Kind
     }
     let force = length * k + velocity * c;
     let shared = 1.0 + case.count as f64 / 3.0;
-    let omega = bearing.ratio * bearing.speed.abs();
+    let omega = bearing.past(None, bearing.speeds).abs();
+    let angle = bearing.starts.iter().fold(1.0, |sum, angle| sum + angle.abs());
     let mut units = BTreeMap::from([
         (Kind::Force, shared * force),
         (Kind::Length, length),
         (Kind::Velocity, velocity),
-        (Kind::Angle, 1e-14 * (1.0 + bearing.cage_start.abs())),
+        (Kind::Angle, 1e-14 * angle),
         (Kind::Torque, bearing.rho_0 * (shared * force + 2.0 * bearing.mass * omega * velocity * case.count as f64)),
     ]);
     let sensor = case.sensor.map_or(0.0, |[_, k, c]| k * length + c * velocity);

@@ -4,7 +4,8 @@
 //! by how far it turns the cage in the time that can be computed. Otherwise most scenes would be either rigid or broken.
 
 use super::shape::{self, Around};
-use super::{Case, Damping, Defect, Grooves, Host, Motion, Ring, Step};
+use super::whole::{self, Space};
+use super::{Case, Damping, Defect, Grooves, Host, Motion, On, Ring, Step};
 use crate::draw::Draw;
 use crate::oracle::Bearing;
 use std::f64::consts::{PI, TAU};
@@ -12,9 +13,11 @@ use std::f64::consts::{PI, TAU};
 /// What is counted.
 #[derive(Debug, Clone, Default)]
 pub struct Kind {
+    pub on: &'static str,
     pub defect: &'static str,
     pub motion: &'static str,
     pub speed: &'static str,
+    pub outer_ring: &'static str,
 }
 
 /// Element contacts' time steps that an oracle's run may take.
@@ -23,10 +26,11 @@ const WORK: f64 = 3e5;
 pub const PHASE: f64 = 0.03;
 
 /// A bearing while it is drawn.
-struct Scale {
-    r: f64,
+pub(super) struct Scale {
+    pub(super) r: f64,
     raceway: f64,
-    approach: f64,
+    inner: f64,
+    pub(super) approach: f64,
     /// Tangent stiffness of the two contacts in series and of both beside each other [N/m].
     stiffness: f64,
     mass: f64,
@@ -34,21 +38,75 @@ struct Scale {
     omega: f64,
 }
 
+/// A random scene of the whole space.
 pub fn random(draw: &mut Draw) -> (Kind, Case) {
+    scene(draw, Space::Whole)
+}
+
+/// One whose defect is on an outer raceway at rest, as all were once; what failed then has its seed there.
+pub fn on_the_outer_raceway(draw: &mut Draw) -> (Kind, Case) {
+    scene(draw, Space::OuterRaceway)
+}
+
+fn scene(draw: &mut Draw, space: Space) -> (Kind, Case) {
     let mut case = bearing(draw);
     let scale = loads_and_damping(draw, &mut case);
     rings(draw, &mut case, &scale);
-    let mut kind = Kind { defect: "no defect", motion: motion_name(&case), speed: "" };
+    let mut kind = Kind { on: "none", defect: "no defect", motion: motion_name(&case), ..Kind::default() };
     if draw.chance(0.8) {
-        let around = Around { r: scale.r, raceway: scale.raceway, approach: scale.approach };
-        let (name, shape) = shape::random(draw, &around);
-        kind.defect = name;
-        case.defect = Some(Defect { angle_deg: draw.between(-180.0, 180.0), shape });
+        let on = space.body(draw, case.count);
+        let (name, defect) = defect(draw, space, &scale, (on, f64::INFINITY));
+        (kind.on, kind.defect) = (whole::body_name(defect.on), name);
+        case.defects.push(defect);
+        for _ in 0..space.more(draw) {
+            more(draw, space, &scale, &mut case);
+            kind.on = whole::bodies_name(&case.defects);
+        }
     }
     case.cage_deg = draw.between(-180.0, 180.0);
+    let way = space.way(draw, &mut case);
+    kind.outer_ring = if case.housing_hz.is_some() { "outer ring turns" } else { "outer ring does not turn" };
     let time = time(&case, &scale) * draw.log(0.03, 1.0);
-    kind.speed = motion(draw, &mut case, &scale, time);
+    kind.speed = motion(draw, &mut case, &scale, (time, way));
     (kind, case)
+}
+
+/// A defect of a body that is no longer than so much [m].
+fn defect(draw: &mut Draw, space: Space, scale: &Scale, (on, most): (On, f64)) -> (&'static str, Defect) {
+    let around = Around { r: scale.r, bearer: scale.bearer(on), on, most, approach: scale.approach };
+    let (name, shape) = match space.topography(draw) {
+        true => ("topography", shape::topography(draw, &around)),
+        false => shape::random(draw, &around),
+    };
+    let mut defect = Defect { on, angle_deg: draw.between(-180.0, 180.0), shape };
+    space.tilt(draw, &mut defect, scale.r);
+    (name, defect)
+}
+
+/// One more defect, of any body or beside the last one.
+fn more(draw: &mut Draw, space: Space, scale: &Scale, case: &mut Case) {
+    let last = case.defects[case.defects.len() - 1].clone();
+    let beside = draw.chance(0.6);
+    let on = if beside { last.on } else { space.body(draw, case.count) };
+    let (_, mut defect) = defect(draw, space, scale, (on, scale.r));
+    if beside {
+        let bearer = scale.bearer(on);
+        let gap = draw.log(1e-3, 2.0) * scale.r;
+        let away = 0.5 * (last.shape.length(bearer) + defect.shape.length(bearer)) + gap;
+        defect.angle_deg = last.angle_deg + (away / bearer).to_degrees() * draw.sign();
+    }
+    case.defects.push(defect);
+}
+
+impl Scale {
+    /// Radius of the body with a defect [m].
+    fn bearer(&self, on: On) -> f64 {
+        match on {
+            On::Outer => self.raceway,
+            On::Inner => self.inner,
+            On::Element { .. } => self.r,
+        }
+    }
 }
 
 fn bearing(draw: &mut Draw) -> Case {
@@ -94,6 +152,7 @@ fn bearing(draw: &mut Draw) -> Case {
         pitch_mm: smallest * if draw.chance(0.5) { draw.between(1.001, 1.3) } else { draw.log(1.001, 5.0) },
         grooves,
         clearance_um: clearance * 1e3,
+        catalogue: false,
         modulus_gpa: if usual { 207.0 } else { draw.log(1.0, 1000.0) },
         poisson: if usual { 0.3 } else { draw.between(-0.5, 0.49) },
         density: (mass_g.is_none() || draw.chance(0.5)).then_some(density),
@@ -104,10 +163,13 @@ fn bearing(draw: &mut Draw) -> Case {
         law: "hertz",
         grid: None,
         slip: if draw.chance(0.7) { 0.0 } else { draw.between(0.0, 1.0) },
+        spin_slip: 0.0,
         cage_deg: 0.0,
-        defect: None,
+        rings_deg: [0.0; 2],
+        defects: Vec::new(),
         rings: [Ring { motion: Motion::Fixed, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 }; 2],
         speed_hz: 0.0,
+        housing_hz: None,
         sensor: None,
         tolerance: draw.pick(&[1e-5, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9]),
         steps: Vec::new(),
@@ -129,7 +191,8 @@ fn loads_and_damping(draw: &mut Draw, case: &mut Case) -> Scale {
     } else {
         Damping::Proportional(if draw.chance(0.15) { 0.0 } else { (draw.log(1e-3, 3.0) / omega).min(1.0) })
     };
-    Scale { r, raceway: bearing.rho_0 + r, approach, stiffness, mass: bearing.mass, omega }
+    let inner = bearing.rho_0 - bearing.clearance - r;
+    Scale { r, raceway: bearing.rho_0 + r, inner, approach, stiffness, mass: bearing.mass, omega }
 }
 
 /// What moves the rings, and with what.
@@ -208,24 +271,36 @@ fn time(case: &Case, scale: &Scale) -> f64 {
     WORK / case.count as f64 * PHASE / rate
 }
 
-/// Speeds, steps and inputs for a run of so many seconds.
-fn motion(draw: &mut Draw, case: &mut Case, scale: &Scale, time: f64) -> &'static str {
-    let cage_ratio = Bearing::smooth(case).ratio.max(1e-6);
+/// Speeds, steps and inputs for a run of so many seconds, in which the rings turn in these proportions.
+fn motion(draw: &mut Draw, case: &mut Case, scale: &Scale, (time, way): (f64, [f64; 2])) -> &'static str {
+    let past = Bearing::smooth(case).past(case.defects.first().map(|defect| defect.on), way);
     // As far as the defect is long, or a part of it.
-    let length = case.defect.as_ref().map_or(scale.r, |defect| defect.shape.length(scale.raceway));
-    let travel = length / scale.raceway * draw.log(0.05, 3.0);
-    let size = (travel / time / cage_ratio).min(0.9 * TAU * 1e4).min(9e4) * draw.sign();
+    let bearer = case.defects.first().map_or(scale.raceway, |defect| scale.bearer(defect.on));
+    let length = case.defects.first().map_or(scale.r, |defect| defect.shape.length(bearer));
+    let travel = length / bearer * draw.log(0.05, 3.0);
+    let faster = way[0].abs().max(way[1].abs());
+    let size = (travel / time / past.abs().max(1e-6)).min(0.9 * TAU * 1e4 / faster) * draw.sign();
     // One element near one end of the defect, on its way in.
-    if let Some(defect) = &case.defect
+    if let Some(Defect { on, angle_deg, .. }) = case.defects.first().cloned()
         && draw.chance(0.8)
     {
-        let half = (0.5 * length / scale.raceway).min(PI);
-        let at = -size.signum() * half * draw.between(0.0, 1.3);
+        let half = (0.5 * length / bearer).min(PI);
+        let at = -(size * past).signum() * half * draw.between(0.0, 1.3);
         let element = draw.below(case.count) as f64 * 360.0 / case.count as f64;
-        case.cage_deg = defect.angle_deg + at.to_degrees() - element;
+        match on {
+            On::Outer => case.cage_deg = case.rings_deg[1] + angle_deg + at.to_degrees() - element,
+            On::Inner => case.cage_deg = case.rings_deg[0] + angle_deg + at.to_degrees() - element,
+            // With its outer or its inner side; the element's own frame turns with its centre's direction.
+            On::Element { .. } => {
+                let there = if draw.chance(0.5) { 0.0 } else { 180.0 } - at.to_degrees();
+                case.defects.iter_mut().filter(|d| d.on.is_body_of(on)).for_each(|d| d.angle_deg += there - angle_deg);
+            }
+        }
     }
     let standing = draw.chance(0.05);
-    case.speed_hz = if standing { 0.0 } else { size / TAU };
+    let size = if standing { 0.0 } else { size };
+    case.speed_hz = size * way[0] / TAU;
+    case.housing_hz = case.housing_hz.map(|_| size * way[1] / TAU);
     let count = 2 + draw.below(12);
     // Short steps first: bounces let nobody say much about the last.
     let shares: Vec<f64> = (0..count).map(|i| draw.log(0.05, 1.0) * (0.1 + i as f64)).collect();
@@ -235,8 +310,7 @@ fn motion(draw: &mut Draw, case: &mut Case, scale: &Scale, time: f64) -> &'stati
     let mut inputs = Inputs::new(draw, case, scale, time);
     for (i, length) in lengths.into_iter().enumerate() {
         let silent = i > 0 && draw.chance(0.2);
-        let speed = case.speed_hz * TAU;
-        let host = inputs.next(draw, way, speed, length);
+        let host = inputs.next(draw, way, length);
         case.steps.push(Step { length, host: (!silent).then_some(host) });
     }
     way
@@ -251,7 +325,10 @@ struct Inputs {
     rate: f64,
     phase: f64,
     time: f64,
-    speed: f64,
+    /// Speeds at the start and now; the outer ring's if it turns.
+    start: [f64; 2],
+    speeds: [f64; 2],
+    turns: bool,
 }
 
 impl Inputs {
@@ -283,22 +360,34 @@ impl Inputs {
             middle[1] = [0.0; 2];
         }
         let rate = draw.log(0.3, 30.0) / time;
-        Self { internal, middle, swing, rate, phase: draw.between(0.0, TAU), time: 0.0, speed: case.speed_hz * TAU }
+        let (start, turns) = ([case.speed_hz, case.housing_hz.unwrap_or(0.0)].map(|hz| hz * TAU), case.housing_hz.is_some());
+        let phase = draw.between(0.0, TAU);
+        Self { internal, middle, swing, rate, phase, time: 0.0, start, speeds: start, turns }
     }
 
-    /// What is set before a step of this length.
-    fn next(&mut self, draw: &mut Draw, way: &str, start: f64, length: f64) -> Host {
+    /// Speed of a ring before a step of this length and its slope.
+    fn speed(&mut self, draw: &mut Draw, way: &str, (which, length): (usize, f64)) -> [f64; 2] {
+        let (start, speed) = (self.start[which], &mut self.speeds[which]);
         let slope = match way {
             "ramp" => start * draw.between(-0.5, 0.5) / length,
             // Stands still somewhere within the step, or has not quite by its end.
-            "reversal" => -self.speed / length * draw.between(0.5, 3.0),
+            "reversal" => -*speed / length * draw.between(0.5, 3.0),
             _ => 0.0,
         };
         if way == "jumps" && draw.chance(0.5) {
-            self.speed = start * draw.between(-1.0, 1.0);
+            *speed = start * draw.between(-1.0, 1.0);
         }
-        let speed = [self.speed, slope];
-        self.speed = (self.speed + slope * length).clamp(-1e5, 1e5);
+        let before = *speed;
+        *speed = (before + slope * length).clamp(-1e5, 1e5);
+        [before, slope]
+    }
+
+    /// What is set before a step of this length.
+    fn next(&mut self, draw: &mut Draw, way: &str, length: f64) -> Host {
+        let mut speeds = [self.speed(draw, way, (0, length)), [0.0; 2]];
+        if self.turns {
+            speeds[1] = self.speed(draw, way, (1, length));
+        }
         let angle = self.rate * self.time + self.phase;
         let (sin, cos) = angle.sin_cos();
         let jump = draw.chance(0.2);
@@ -313,6 +402,6 @@ impl Inputs {
             })
         });
         self.time += length;
-        Host { speed, rings }
+        Host { speeds, rings }
     }
 }

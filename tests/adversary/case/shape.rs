@@ -1,24 +1,60 @@
-//! Random defects of an outer raceway.
+//! Random defects.
 
-use super::{Length, Shape};
+use super::{Length, On, Shape, Topography};
 use crate::draw::Draw;
 
 /// What a defect is drawn for.
 pub struct Around {
-    /// Radius of an element and of the outer raceway [m].
+    /// Radius of an element and of the body with the defect [m].
     pub r: f64,
-    pub raceway: f64,
+    pub bearer: f64,
+    pub on: On,
+    /// How long it may be [m].
+    pub most: f64,
     /// How far elements are pressed into the raceways [m].
     pub approach: f64,
 }
 
+impl Around {
+    /// How long a defect may be over the body's circumference.
+    fn longest(&self) -> f64 {
+        if self.on == On::Outer { 0.9 } else { 0.88 }
+    }
+
+    fn limited(&self, length: f64) -> f64 {
+        length.min(self.most)
+    }
+
+    /// How deep a defect may be [m].
+    fn deepest(&self) -> f64 {
+        if matches!(self.on, On::Element { .. }) { 0.19 * self.r } else { 0.9 * self.r }
+    }
+}
+
 impl Shape {
-    /// Its length along a raceway of this radius [m].
-    pub fn length(&self, raceway: f64) -> f64 {
+    /// Text of its file, if it is from one.
+    pub fn csv(&self) -> Option<String> {
+        match self {
+            Self::Spall { .. } => None,
+            Self::Trace(points) => {
+                let lines: String = points.iter().map(|(arc, depth)| format!("{arc},{depth}\n")).collect();
+                Some(format!("arc_mm,depth_um\n{lines}"))
+            }
+            Self::Topography(Topography { arcs, axials, depths }) => {
+                let place = |k: usize| format!("{},{}", arcs[k / axials.len()], axials[k % axials.len()]);
+                let lines: String =
+                    depths.iter().enumerate().map(|(k, depth)| format!("{},{depth}\n", place(k))).collect();
+                Some(format!("arc_mm,axial_mm,depth_um\n{lines}"))
+            }
+        }
+    }
+
+    /// Its length along a body of this radius [m].
+    pub fn length(&self, bearer: f64) -> f64 {
         let range = |arcs: [f64; 2]| (arcs[1] - arcs[0]) * 1e-3;
         match self {
             Self::Spall { length: Length::Millimetres(length), .. } => length * 1e-3,
-            Self::Spall { length: Length::Degrees(degrees), .. } => degrees.to_radians() * raceway,
+            Self::Spall { length: Length::Degrees(degrees), .. } => degrees.to_radians() * bearer,
             Self::Trace(points) => range([points[0].0, points[points.len() - 1].0]),
             Self::Topography(topography) => range([topography.arcs[0], topography.arcs[topography.arcs.len() - 1]]),
         }
@@ -42,18 +78,32 @@ pub fn random(draw: &mut Draw, around: &Around) -> (&'static str, Shape) {
     (name, shape(draw, around))
 }
 
+/// A patch of random depth, which law `hertz` has no answer to.
+pub fn topography(draw: &mut Draw, around: &Around) -> Shape {
+    let length = length(draw, around);
+    let (depth, rows, columns) = (depth(draw, around, length), 3 + draw.below(6), 2 + draw.below(4));
+    let along = |k: usize, count: usize, length: f64| length * 1e3 * (k as f64 / (count - 1) as f64 - 0.5);
+    Shape::Topography(Topography {
+        arcs: (0..rows).map(|k| along(k, rows, length)).collect(),
+        axials: (0..columns).map(|k| along(k, columns, length)).collect(),
+        depths: (0..rows * columns).map(|_| depth * 1e6 * draw.unit()).collect(),
+    })
+}
+
 /// How long a defect is [m]: from a contact's width to a few elements', seldom a large part of the raceway.
 fn length(draw: &mut Draw, around: &Around) -> f64 {
+    let whole = std::f64::consts::TAU * around.bearer;
     if draw.chance(0.1) {
-        return draw.between(0.05, 0.9) * std::f64::consts::TAU * around.raceway;
+        return around.limited(draw.between(0.05, around.longest()) * whole);
     }
-    draw.log(0.02, 3.0) * around.r
+    let length = draw.log(0.02, 3.0) * around.r;
+    around.limited(if around.on == On::Outer { length } else { length.min(around.longest() * whole) })
 }
 
 /// A depth [m]: about an approach, or what the element's circle reaches in this length, or more than it reaches.
 fn depth(draw: &mut Draw, around: &Around, length: f64) -> f64 {
     let sag = length * length / (8.0 * around.r);
-    let most = 0.9 * around.r;
+    let most = around.deepest();
     match draw.below(3) {
         0 => draw.log(0.1, 30.0) * around.approach,
         1 => draw.log(0.01, 3.0) * sag,
@@ -64,7 +114,7 @@ fn depth(draw: &mut Draw, around: &Around, length: f64) -> f64 {
 
 fn spall(draw: &mut Draw, around: &Around, length: f64, depth: f64, slope_deg: f64) -> Shape {
     let length = if draw.chance(0.5) {
-        Length::Degrees((length / around.raceway).to_degrees())
+        Length::Degrees((length / around.bearer).to_degrees())
     } else {
         Length::Millimetres(length * 1e3)
     };

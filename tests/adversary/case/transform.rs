@@ -1,6 +1,6 @@
 //! The same scene seen from elsewhere: turned, mirrored, made of other lengths, forces and times, its steps cut.
 
-use super::{Case, Damping, Grooves, Host, Length, Shape, Step};
+use super::{Case, Damping, Grooves, Host, Length, On, Shape, Step, Topography};
 
 /// Factors of length, force and time.
 #[derive(Debug, Clone, Copy)]
@@ -11,14 +11,10 @@ pub struct Factors {
 }
 
 impl Case {
-    /// With every vector mapped, by an orthogonal map, and every angle [°].
-    fn moved(&self, vector: impl Fn([f64; 2]) -> [f64; 2], angle: impl Fn(f64) -> f64) -> Self {
+    /// With every vector mapped by an orthogonal map.
+    fn moved(&self, vector: impl Fn([f64; 2]) -> [f64; 2]) -> Self {
         let mut case = self.clone();
         case.gravity = vector(case.gravity);
-        case.cage_deg = angle(case.cage_deg);
-        if let Some(defect) = &mut case.defect {
-            defect.angle_deg = angle(defect.angle_deg);
-        }
         for ring in &mut case.rings {
             ring.load = vector(ring.load);
         }
@@ -33,23 +29,47 @@ impl Case {
         case
     }
 
-    /// Turned about the origin, counter-clockwise.
+    /// Turned about the origin, counter-clockwise. Defects turn with the angle at which their ring begins; on an outer ring at
+    /// rest by their own, and on an element with the element.
     pub fn turned(&self, degrees: f64) -> Self {
         let (sin, cos) = degrees.to_radians().sin_cos();
-        self.moved(|[x, y]| [cos * x - sin * y, sin * x + cos * y], |angle| angle + degrees)
+        let mut case = self.moved(|[x, y]| [cos * x - sin * y, sin * x + cos * y]);
+        case.cage_deg += degrees;
+        case.rings_deg[0] += degrees;
+        if case.housing_hz.is_some() {
+            case.rings_deg[1] += degrees;
+        } else {
+            case.defects.iter_mut().filter(|defect| defect.on == On::Outer).for_each(|d| d.angle_deg += degrees);
+        }
+        case
     }
 
     /// Left and right exchanged. Element j takes the place of element −j.
     pub fn mirrored(&self) -> Self {
-        let mut case = self.moved(|[x, y]| [-x, y], |angle| 180.0 - angle);
-        case.speed_hz = -case.speed_hz;
+        let mut case = self.moved(|[x, y]| [-x, y]);
+        (case.speed_hz, case.housing_hz) = (-case.speed_hz, case.housing_hz.map(|speed| -speed));
         for host in case.steps.iter_mut().filter_map(|step| step.host.as_mut()) {
-            host.speed = host.speed.map(|speed| -speed);
+            host.speeds = host.speeds.map(|speed| speed.map(|speed| -speed));
         }
-        if let Some(Shape::Trace(points)) = case.defect.as_mut().map(|defect| &mut defect.shape) {
-            points.reverse();
-            for point in points {
-                point.0 = -point.0;
+        (case.cage_deg, case.rings_deg) = (180.0 - case.cage_deg, case.rings_deg.map(|angle| -angle));
+        let count = case.count;
+        for defect in &mut case.defects {
+            match &mut defect.on {
+                On::Outer | On::Inner => defect.angle_deg = 180.0 - defect.angle_deg,
+                On::Element { element, .. } => {
+                    *element = (count - *element) % count;
+                    defect.angle_deg = -defect.angle_deg;
+                }
+            }
+            match &mut defect.shape {
+                Shape::Trace(points) => {
+                    points.reverse();
+                    for point in points {
+                        point.0 = -point.0;
+                    }
+                }
+                Shape::Topography(topography) => topography.mirror(),
+                Shape::Spall { .. } => {}
             }
         }
         case
@@ -76,27 +96,14 @@ impl Case {
             Damping::HuntCrossley(chi) => *chi *= time / length,
             Damping::Proportional(tau) => *tau *= time,
         }
-        match case.defect.as_mut().map(|defect| &mut defect.shape) {
-            Some(Shape::Trace(points)) => {
-                for (arc, depth) in points {
-                    (*arc, *depth) = (*arc * length, *depth * length);
-                }
-            }
-            Some(Shape::Spall { length: long, depth_um, .. }) => {
-                *depth_um *= length;
-                if let Length::Millimetres(long) = long {
-                    *long *= length;
-                }
-            }
-            Some(Shape::Topography(_)) => unimplemented!("random scenes have none"),
-            None => {}
-        }
+        case.defects.iter_mut().for_each(|defect| defect.shape.scale(length));
         for ring in &mut case.rings {
             ring.load = ring.load.map(|load| load * force);
             (ring.mass, ring.stiffness) = (ring.mass * mass, ring.stiffness * force / length);
             ring.damping *= force * time / length;
         }
         case.speed_hz /= time;
+        case.housing_hz = case.housing_hz.map(|speed| speed / time);
         case.sensor = case.sensor.map(|[m, k, c]| [m * mass, k * force / length, c * force * time / length]);
         for step in &mut case.steps {
             step.length *= time;
@@ -107,7 +114,7 @@ impl Case {
 
     fn scale_hosts(&mut self, Factors { length, force, time }: Factors) {
         for host in self.steps.iter_mut().filter_map(|step| step.host.as_mut()) {
-            host.speed = [host.speed[0] / time, host.speed[1] / (time * time)];
+            host.speeds = host.speeds.map(|speed| [speed[0] / time, speed[1] / (time * time)]);
             for which in 0..2 {
                 let internal = self.rings[which].motion == super::Motion::Internal;
                 let unit = if internal { force } else { length };
@@ -137,8 +144,39 @@ impl Host {
     /// What it comes to after a time.
     pub fn later(&self, time: f64) -> Self {
         Self {
-            speed: [self.speed[0] + time * self.speed[1], self.speed[1]],
+            speeds: self.speeds.map(|[speed, slope]| [speed + time * slope, slope]),
             rings: self.rings.map(|ring| ring.map(|c| crate::oracle::quadratic(c, time))),
+        }
+    }
+}
+
+impl Topography {
+    /// With arcs from the other end.
+    fn mirror(&mut self) {
+        let width = self.axials.len();
+        self.arcs = self.arcs.iter().rev().map(|arc| -arc).collect();
+        self.depths = self.depths.chunks(width).rev().flatten().copied().collect();
+    }
+}
+
+impl Shape {
+    fn scale(&mut self, length: f64) {
+        match self {
+            Self::Trace(points) => {
+                for (arc, depth) in points {
+                    (*arc, *depth) = (*arc * length, *depth * length);
+                }
+            }
+            Self::Spall { length: long, depth_um, .. } => {
+                *depth_um *= length;
+                if let Length::Millimetres(long) = long {
+                    *long *= length;
+                }
+            }
+            Self::Topography(topography) => {
+                let lengths = [&mut topography.arcs, &mut topography.axials, &mut topography.depths];
+                lengths.into_iter().flatten().for_each(|value| *value *= length);
+            }
         }
     }
 }

@@ -2,7 +2,7 @@
 //! of the scene, a state that was saved and put back.
 
 use super::{Course, course, scene};
-use crate::case::{Case, Length, Shape};
+use crate::case::{Case, Length, On, Shape};
 use crate::draw::{Draw, for_seeds};
 use crate::subject::Subject;
 
@@ -16,7 +16,7 @@ fn equal(case: &Case, other: Course) -> Result<(), String> {
     }
     if bits(&base) != bits(&other) {
         let differs = base.samples.iter().zip(&other.samples).position(|(a, b)| a != b);
-        let names = crate::oracle::run::signals(case);
+        let names = crate::oracle::signals::signals(case);
         let first = differs.and_then(|at| {
             let (a, b) = (&base.samples[at], &other.samples[at]);
             let i = a.iter().zip(b).position(|(a, b)| a != b)?;
@@ -53,6 +53,26 @@ fn the_order_of_inputs_changes_no_bit() {
 }
 
 #[test]
+fn the_order_of_defects_changes_no_bit() {
+    for_seeds(30, |_, draw| {
+        let case = scene(draw, true);
+        let mut turned = case.clone();
+        turned.defects.reverse();
+        // The spin of an element is counted from the first of its defects.
+        let elements = case.defects.iter().filter(|defect| matches!(defect.on, On::Element { .. })).count();
+        if case.defects.len() < 2 || elements != case.defective_elements().len() {
+            return Ok(());
+        }
+        // An error says the numbers of defects.
+        let mut found = course(&turned, |_| {});
+        if let (Some(_), Some(failed)) = (&found.failed, course(&case, |_| {}).failed) {
+            found.failed = Some(failed);
+        }
+        equal(&case, found)
+    });
+}
+
+#[test]
 fn saving_and_restoring_changes_no_bit() {
     for_seeds(6, |_, draw| {
         let case = scene(draw, true);
@@ -65,10 +85,11 @@ fn a_parameter_set_by_the_host_is_that_of_the_scene() {
     for_seeds(10, |_, draw| {
         let mut case = scene(draw, true);
         // A length in degrees becomes one in metres with the clearance of the scene, which is to be another one.
-        if let Some(Shape::Spall { length, .. }) = case.defect.as_mut().map(|defect| &mut defect.shape)
-            && let Length::Degrees(_) = length
-        {
-            *length = Length::Millimetres(0.5 * case.diameter_mm);
+        let diameter = case.diameter_mm;
+        for defect in &mut case.defects {
+            if let Shape::Spall { length: length @ Length::Degrees(_), .. } = &mut defect.shape {
+                *length = Length::Millimetres(0.5 * diameter);
+            }
         }
         let mut given = Subject::new(&case).map_err(|error| error.to_string())?;
         // The same in all but the parameters, of which the host then sets those of the first.
@@ -78,13 +99,19 @@ fn a_parameter_set_by_the_host_is_that_of_the_scene() {
         other.slip = draw.unit();
         other.tolerance = 1e-3;
         for ring in &mut other.rings {
-            ring.mass *= draw.between(0.5, 2.0);
+            // No less than a scene may have.
+            ring.mass *= draw.between(if ring.mass > 2e-6 { 0.5 } else { 1.0 }, 2.0);
             ring.damping = ring.damping * draw.between(0.5, 2.0) + draw.unit();
             ring.stiffness = ring.stiffness * draw.between(0.5, 2.0) + 1.0;
         }
-        if let Some(defect) = &mut other.defect {
-            defect.angle_deg += draw.between(-90.0, 90.0);
+        // All by the same, so that none come to overlap.
+        let away = draw.between(-90.0, 90.0);
+        other.defects.iter_mut().for_each(|defect| defect.angle_deg += away);
+        other.rings_deg[0] += draw.between(-90.0, 90.0);
+        if other.housing_hz.is_some() {
+            other.rings_deg[1] += draw.between(-90.0, 90.0);
         }
+        other.spin_slip = 0.0;
         match &mut other.damping {
             crate::case::Damping::HuntCrossley(chi) => *chi = 0.5 * *chi + 0.1,
             crate::case::Damping::Proportional(tau) => *tau = 0.5 * *tau + 1e-6,

@@ -3,8 +3,8 @@
 //! For rings in given places each element is balanced by halving; then the free rings go downhill in the square of the force on
 //! them (Levenberg and Marquardt, with difference quotients).
 
-use super::envelope::Feature;
 use super::run::{Pace, Run};
+use super::surfaces::Stretches;
 use super::{Acting, Bearing, ELEMENTS, Outside};
 use crate::case::{Case, Motion};
 use std::f64::consts::TAU;
@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 struct Search<'a> {
     bearing: &'a Bearing,
     outside: Outside,
-    features: Vec<Feature>,
+    stretches: Vec<Stretches>,
     /// Places in the state vector of what is free.
     free: Vec<usize>,
     acting: Acting,
@@ -25,8 +25,8 @@ pub fn best(bearing: &Bearing, case: &Case) -> (f64, f64) {
     let free = free.flat_map(|which| [4 * which, 4 * which + 1]).collect();
     // At the start the host's derivatives of loads and speed are not at work yet.
     let mut outside = run.outside;
-    outside.cage[2] = 0.0;
-    let mut search = Search { bearing, outside, features: run.features, free, acting: Acting::default() };
+    outside.turns.iter_mut().for_each(|turn| turn[2] = 0.0);
+    let mut search = Search { bearing, outside, stretches: run.stretches, free, acting: Acting::default() };
     let mut best = (f64::INFINITY, 0.0);
     let soft = case.rings.iter().filter(|ring| ring.motion == Motion::Internal && ring.stiffness > 0.0);
     let sag = soft.map(|ring| ring.load[0].hypot(ring.load[1]) / ring.stiffness).fold(0.0, f64::max);
@@ -130,10 +130,11 @@ impl Search<'_> {
     /// Net radial force on each element.
     fn along(&mut self, y: &[f64], along: &mut [f64]) {
         let mut rates = vec![0.0; y.len()];
-        self.bearing.rates(&self.outside, 0.0, (y, &self.features), &mut rates, &mut self.acting);
+        self.bearing.stretches(&self.outside, 0.0, y, [true, false], &mut self.stretches);
+        self.bearing.rates(&self.outside, 0.0, (y, &self.stretches), &mut rates, &mut self.acting);
         let carried = self.acting.accelerations[1];
         for (j, along) in along.iter_mut().enumerate() {
-            let (sin, cos) = (self.outside.cage[0] + TAU * j as f64 / self.bearing.count as f64).sin_cos();
+            let (sin, cos) = (self.outside.turns[0][0] + TAU * j as f64 / self.bearing.count as f64).sin_cos();
             *along = self.bearing.mass * (rates[ELEMENTS + 2 * j + 1] + carried[0] * cos + carried[1] * sin);
         }
     }

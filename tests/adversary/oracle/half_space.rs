@@ -5,13 +5,23 @@
 
 use std::f64::consts::PI;
 
+#[derive(Clone, Copy)]
 pub struct HalfSpace {
-    /// Relative curvatures along and across the raceway [1/m].
-    pub curvatures: [f64; 2],
+    /// Radii of the element, of the raceway and of its groove [m]; a convex raceway's is negative, a plane's infinite.
+    pub element: f64,
+    pub raceway: f64,
+    pub groove: f64,
     /// E* [Pa].
     pub modulus: f64,
     /// Cells along and across.
     pub cells: [usize; 2],
+    /// How far the grid is moved along, in cells, up to half of one: where an edge cuts a cell is chance.
+    pub shift: f64,
+}
+
+/// How far a circle has fallen away at a distance from where it touches [m].
+fn sag(radius: f64, x: f64) -> f64 {
+    radius.signum() * x * x / (radius.abs() + (radius * radius - x * x).sqrt())
 }
 
 /// Displacement at (x, y) from the centre of a rectangle of half sides a, b under unit pressure, times π E*.
@@ -31,10 +41,12 @@ impl HalfSpace {
         if u + high <= 0.0 {
             return [0.0; 2];
         }
-        let half = self.curvatures.map(|curvature| 1.02 * (2.0 * (u + high) / curvature).sqrt());
+        // Circles fall away faster than their parabolas.
+        let curvatures = [self.raceway, self.groove].map(|radius| 1.0 / self.element - 1.0 / radius);
+        let half = curvatures.map(|curvature| 1.02 * (2.0 * (u + high) / curvature).sqrt());
         let [n, m] = self.cells;
         let size = [2.0 * half[0] / n as f64, 2.0 * half[1] / m as f64];
-        let corner = |i: usize, j: usize| [i as f64 * size[0] - half[0], j as f64 * size[1] - half[1]];
+        let corner = |i: usize, j: usize| [(i as f64 + self.shift) * size[0] - half[0], j as f64 * size[1] - half[1]];
         let cell = |k: usize, shift: f64| {
             let [x, y] = corner(k / m, k % m);
             depth([x + shift, x + shift + size[0]], [y, y + size[1]])
@@ -42,11 +54,12 @@ impl HalfSpace {
         let overlap: Vec<f64> = (0..n * m)
             .map(|k| {
                 let [x, y] = corner(k / m, k % m);
-                // Mean of a parabola over the cell.
-                let square = |x: f64, h: f64| (x + 0.5 * h) * (x + 0.5 * h) + h * h / 12.0;
-                u - 0.5 * self.curvatures[0] * square(x, size[0])
-                    - 0.5 * self.curvatures[1] * square(y, size[1])
-                    - cell(k, 0.0)
+                // Means over the cell, by Gauss's two points.
+                let mean = |radius: f64, from: f64, h: f64| {
+                    let gap = |share: f64| sag(self.element, from + share * h) - sag(radius, from + share * h);
+                    0.5 * (gap(0.5 - 12f64.sqrt().recip()) + gap(0.5 + 12f64.sqrt().recip()))
+                };
+                u - mean(self.raceway, x, size[0]) - mean(self.groove, y, size[1]) - cell(k, 0.0)
             })
             .collect();
         let pressure = self.pressures(&overlap, size, m);
@@ -130,7 +143,8 @@ fn a_sphere_on_a_plane_is_hertz() {
     let (r, modulus, u) = (4e-3, 1.1e11, 1e-5);
     let hertz = 4.0 / 3.0 * modulus * f64::sqrt(r) * f64::powf(u, 1.5);
     for (cells, limit) in [(16, 0.012), (32, 0.006)] {
-        let half_space = HalfSpace { curvatures: [1.0 / r; 2], modulus, cells: [cells; 2] };
+        let plane = f64::INFINITY;
+        let half_space = HalfSpace { element: r, raceway: plane, groove: plane, modulus, cells: [cells; 2], shift: 0.0 };
         let [normal, tangential] = half_space.forces(u, 0.0, |_, _| 0.0);
         // The grid's own error, which halves with its cells.
         assert!((normal / hertz - 1.0).abs() < limit && tangential == 0.0, "{normal} {hertz}");

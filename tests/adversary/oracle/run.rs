@@ -2,9 +2,9 @@
 //! begins or ceases to push. After such a change of contact, and at each communication point, the steps begin small and
 //! grow, because a force sets in as δ^1.5 or √δ.
 
-use super::envelope::Feature;
+use super::surfaces::Stretches;
 use super::{Acting, Bearing, ELEMENTS, Outside, SENSOR, quadratic};
-use crate::case::{Case, Host, Motion};
+use crate::case::{Host, Motion};
 use std::f64::consts::{PI, TAU};
 
 /// Why a run ended early.
@@ -18,56 +18,14 @@ pub enum Stop {
     Lost,
 }
 
-/// What a signal is measured in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
-    Force,
-    Length,
-    Velocity,
-    /// Of the shaft, the housing, the sensor.
-    Acceleration(usize),
-    Angle,
-    Torque,
-}
-
-/// Names of the signals that are compared, as the variables are called.
-pub fn signals(case: &Case) -> Vec<(String, Kind)> {
-    let mut found = Vec::new();
-    let mut pair = |name: &str, kind: Kind| {
-        found.extend(["x", "y"].map(|axis| (name.replace('*', axis), kind)));
-    };
-    for (which, name) in ["shaft", "housing"].into_iter().enumerate() {
-        pair(&format!("{name}.force.*"), Kind::Force);
-        match case.rings[which].motion {
-            Motion::Internal => {
-                pair(&format!("{name}.*"), Kind::Length);
-                pair(&format!("{name}.v*"), Kind::Velocity);
-                pair(&format!("{name}.a*"), Kind::Acceleration(which));
-            }
-            Motion::Host => pair(&format!("{name}.mean_force.*"), Kind::Force),
-            Motion::Fixed => {}
-        }
-    }
-    if case.sensor.is_some() {
-        found.push(("sensor.acceleration".to_owned(), Kind::Acceleration(2)));
-    }
-    found.push(("cage.angle".to_owned(), Kind::Angle));
-    found.push(("cage.torque".to_owned(), Kind::Torque));
-    for j in 1..=case.count {
-        found.push((format!("element[{j}].path"), Kind::Length));
-        found.push((format!("element[{j}].force.inner"), Kind::Force));
-        found.push((format!("element[{j}].force.outer"), Kind::Force));
-    }
-    found
-}
-
 /// One run of the oracle.
 pub struct Run<'a> {
-    bearing: &'a Bearing,
+    pub(super) bearing: &'a Bearing,
     pub y: Vec<f64>,
     pub outside: Outside,
     pub acting: Acting,
-    pub features: Vec<Feature>,
+    /// Those that contacts are in.
+    pub stretches: Vec<Stretches>,
     /// Largest approach in any inner and any outer contact so far [m].
     pub largest: [f64; 2],
     pace: Pace,
@@ -100,16 +58,15 @@ impl<'a> Run<'a> {
     /// From a state.
     pub fn new(bearing: &'a Bearing, y: Vec<f64>, host: Option<&Host>, pace: Pace) -> Self {
         let loads = [0, 1].map(|which| bearing.rings[which].load.map(|load| [load, 0.0, 0.0]));
-        let speed = [bearing.speed, 0.0];
-        let Host { speed, rings } = *host.unwrap_or(&Host { speed, rings: loads });
-        let cage = [bearing.cage_start, bearing.ratio * speed[0], bearing.ratio * speed[1]];
+        let speeds = bearing.speeds.map(|speed| [speed, 0.0]);
+        let Host { speeds, rings } = *host.unwrap_or(&Host { speeds, rings: loads });
         let len = bearing.len();
         let mut run = Self {
             bearing,
             y,
-            outside: Outside { cage, rings },
+            outside: Outside { turns: bearing.turning(bearing.starts, speeds), rings },
             acting: Acting::default(),
-            features: vec![Feature::Raceway; bearing.count],
+            stretches: vec![[[0; 2]; 2]; bearing.count],
             largest: [0.0; 2],
             pace,
             left: pace.budget,
@@ -119,22 +76,17 @@ impl<'a> Run<'a> {
         run
     }
 
-    /// What the elements touch at an angle of the cage, and what then acts at time `t` into the step.
-    pub fn feel(&mut self, t: f64, features_at: f64) {
-        let cage = quadratic(self.outside.cage, features_at)[0];
-        for j in 0..self.bearing.count {
-            self.features[j] = match &self.bearing.defect {
-                Some((envelope, _)) => envelope.feature(self.bearing.angle_to_defect(j, cage)),
-                None => Feature::Raceway,
-            };
-        }
+    /// What the outer contacts touch at one time, the inner ones now, and what then acts at time `t` into the step.
+    pub fn feel(&mut self, t: f64, outer_at: f64) {
+        self.bearing.stretches(&self.outside, outer_at, &self.y, [false, true], &mut self.stretches);
+        self.bearing.stretches(&self.outside, t, &self.y, [true, false], &mut self.stretches);
         self.evaluate(t);
     }
 
     /// Derivative of the present state into stage 0, and what acts.
     fn evaluate(&mut self, t: f64) {
-        let Self { bearing, y, outside, acting, features, stages, .. } = self;
-        bearing.rates(outside, t, (y, features), &mut stages[0], acting);
+        let Self { bearing, y, outside, acting, stretches, stages, .. } = self;
+        bearing.rates(outside, t, (y, stretches), &mut stages[0], acting);
         for contacts in &acting.contacts {
             for side in 0..2 {
                 self.largest[side] = self.largest[side].max(contacts[side].approach);
@@ -150,7 +102,7 @@ impl<'a> Run<'a> {
     /// Acceleration with which the outer ring carries element `j` outwards [m/s²]: no balance counts the host's, nor that
     /// of a light ring by the little that is left of its own balance.
     pub fn carried(&self, j: usize) -> f64 {
-        let (sin, cos) = (self.outside.cage[0] + TAU * j as f64 / self.bearing.count as f64).sin_cos();
+        let (sin, cos) = (self.outside.turns[0][0] + TAU * j as f64 / self.bearing.count as f64).sin_cos();
         self.acting.accelerations[1][0] * cos + self.acting.accelerations[1][1] * sin
     }
 
@@ -159,12 +111,11 @@ impl<'a> Run<'a> {
         let before = self.outside.rings[1];
         match host {
             Some(host) => {
-                let cage = self.outside.cage[0];
-                self.outside.cage = [cage, self.bearing.ratio * host.speed[0], self.bearing.ratio * host.speed[1]];
+                self.outside.turns = self.bearing.turning(self.outside.turns.map(|turn| turn[0]), host.speeds);
                 self.outside.rings = host.rings;
             }
             None => {
-                self.outside.cage[2] = 0.0;
+                self.outside.turns.iter_mut().for_each(|turn| turn[2] = 0.0);
                 for which in 0..2 {
                     for a in 0..2 {
                         if self.bearing.rings[which].motion == Motion::Internal {
@@ -177,7 +128,7 @@ impl<'a> Run<'a> {
         if self.bearing.rings[1].motion == Motion::Host {
             let jump = [0, 1].map(|a| self.outside.rings[1][a][1] - before[a][1]);
             for j in 0..self.bearing.count {
-                let (sin, cos) = (self.outside.cage[0] + TAU * j as f64 / self.bearing.count as f64).sin_cos();
+                let (sin, cos) = (self.outside.turns[0][0] + TAU * j as f64 / self.bearing.count as f64).sin_cos();
                 self.y[ELEMENTS + 2 * j + 1] -= jump[0] * cos + jump[1] * sin;
             }
         }
@@ -194,55 +145,29 @@ impl<'a> Run<'a> {
             self.smooth(length, (from, to))?;
             from = to;
         }
-        self.outside.cage = quadratic(self.outside.cage, length);
+        self.outside.turns = self.outside.turns.map(|turn| quadratic(turn, length));
         self.outside.rings = self.outside.rings.map(|ring| ring.map(|c| quadratic(c, length)));
         Ok(self.values(length))
     }
 
-    /// Times within a step at which an element comes to touch another feature, ascending, and its end.
+    /// Times within a step at which an outer contact comes to touch another feature, ascending, and its end.
     fn passages(&self, length: f64) -> Vec<f64> {
         let mut times = vec![length];
-        let Some((envelope, _)) = &self.bearing.defect else { return times };
-        let cage = self.outside.cage;
-        // The cage turns one way before and after it reverses.
-        let reversal = -cage[1] / cage[2];
-        let turn = if reversal > 0.0 && reversal < length { reversal } else { 0.0 };
-        for (from, to) in [(0.0, turn), (turn, length)] {
-            if to <= from {
-                continue;
-            }
-            let ends = [from, to].map(|t| quadratic(cage, t)[0] - cage[0]);
-            let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
-            for j in 0..self.bearing.count {
-                let start = self.bearing.angle_to_defect(j, cage[0]);
-                for change in &envelope.changes {
-                    let mut angle = change - start;
-                    angle += TAU * ((low - angle) / TAU).ceil();
-                    while angle < high {
-                        times.push(self.when(angle, (from, to)));
-                        angle += TAU;
-                    }
-                }
+        let places = self.bearing.places(&self.outside, 0.0, &self.y);
+        let cage = self.outside.turns[0];
+        for j in 0..self.bearing.count {
+            for surface in self.bearing.surfaces(1, j).into_iter().flatten() {
+                let seat = self.bearing.seat(j, cage, &places, &self.y);
+                let start = surface.psi(seat.turning(1, &self.outside.turns)[0], &self.outside.turns);
+                let frame = self.outside.turns[surface.frame];
+                let past = [0.0, cage[1] - frame[1], cage[2] - frame[2]];
+                crossings(past, start, &surface.envelope.changes, length, &mut times);
             }
         }
         times.retain(|&t| t > 0.0 && t <= length);
         times.sort_by(f64::total_cmp);
         times.dedup();
         times
-    }
-
-    /// When the cage has turned by an angle, within times between which it turns one way.
-    fn when(&self, angle: f64, (mut low, mut high): (f64, f64)) -> f64 {
-        let turned = |t: f64| quadratic(self.outside.cage, t)[0] - self.outside.cage[0] - angle;
-        let rising = turned(high) > turned(low);
-        for _ in 0..200 {
-            let middle = 0.5 * (low + high);
-            if middle <= low || middle >= high {
-                break;
-            }
-            if (turned(middle) < 0.0) == rising { low = middle } else { high = middle }
-        }
-        high
     }
 
     /// Integrates between two passages of a communication step.
@@ -259,17 +184,21 @@ impl<'a> Run<'a> {
             let remaining = to - t;
             let count = (remaining / wanted).ceil();
             let h = if count <= 1.0 { remaining } else { (remaining / count).min(wanted) };
-            let (start, pushing) = (self.y.clone(), self.pushing());
+            let (start, touching) = (self.y.clone(), self.touching(t));
             let slope = self.stages[0].clone();
             self.runge_kutta(&start, &slope, t, h);
             self.evaluate(t + h);
-            if self.pushing() == pushing {
+            let after = self.touching(t + h);
+            if after == touching {
                 t = if count <= 1.0 { to } else { t + h };
                 since += h;
             } else {
-                let share = self.first_change(&start, &slope, &pushing, t, h);
+                let corner = after.inner != touching.inner || after.over != touching.over;
+                let halvings = if corner { 40 } else { 10 };
+                let share = self.first_change(&start, &slope, (&touching, halvings), t, h);
                 self.runge_kutta(&start, &slope, t, share * h);
                 t = if share == 1.0 && count <= 1.0 { to } else { t + share * h };
+                self.bearing.stretches(&self.outside, t, &self.y, [true, false], &mut self.stretches);
                 self.evaluate(t);
                 since = 0.0;
             }
@@ -278,33 +207,45 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    fn pushing(&self) -> Vec<[bool; 2]> {
-        self.acting.contacts.iter().map(|contacts| contacts.map(|contact| contact.pushes)).collect()
+    /// What the contacts do at time `t` into the step.
+    fn touching(&self, t: f64) -> Touching {
+        let pushing = self.acting.contacts.iter().map(|contacts| contacts.map(|contact| contact.pushes)).collect();
+        let over = self.acting.contacts.iter().map(|contacts| contacts.map(|contact| contact.over)).collect();
+        let mut inner = vec![[[0; 2]; 2]; self.bearing.count];
+        self.bearing.stretches(&self.outside, t, &self.y, [true, false], &mut inner);
+        Touching { pushing, over, inner }
     }
 
-    /// Share of a step by which the first contact has just changed. What is left of the step behind the change is a thousandth, and
-    /// the force begins there with its power of 1.5.
-    fn first_change(&mut self, start: &[f64], slope: &[f64], pushing: &[[bool; 2]], t: f64, h: f64) -> f64 {
+    /// Share of a step by which the first contact has just changed, to so many halvings. What is left of the step behind the change
+    /// of a force that begins there with its power of 1.5 is a thousandth; a corner turns the force at once.
+    fn first_change(
+        &mut self,
+        start: &[f64],
+        slope: &[f64],
+        (touching, halvings): (&Touching, u32),
+        t: f64,
+        h: f64,
+    ) -> f64 {
         let (mut low, mut high) = (0.0, 1.0);
-        for _ in 0..10 {
+        for _ in 0..halvings {
             let middle = 0.5 * (low + high);
             self.runge_kutta(start, slope, t, middle * h);
             self.evaluate(t + middle * h);
-            if self.pushing() == pushing { low = middle } else { high = middle }
+            if self.touching(t + middle * h) == *touching { low = middle } else { high = middle }
         }
         high
     }
 
     /// One step from `start`, where the derivative is `slope`, into the state.
     fn runge_kutta(&mut self, start: &[f64], slope: &[f64], t: f64, h: f64) {
-        let Self { bearing, y, outside, acting, features, stages, .. } = self;
+        let Self { bearing, y, outside, acting, stretches, stages, .. } = self;
         self.left = self.left.saturating_sub(1);
         let [_, k2, k3, k4, at] = stages;
         let mut stage = |share: f64, k: &[f64], out: &mut [f64]| {
             for (at, (y, k)) in at.iter_mut().zip(start.iter().zip(k)) {
                 *at = y + share * h * k;
             }
-            bearing.rates(outside, t + share * h, (at, features), out, acting);
+            bearing.rates(outside, t + share * h, (at, stretches), out, acting);
         };
         stage(0.5, slope, k2);
         stage(0.5, k2, k3);
@@ -327,33 +268,6 @@ impl<'a> Run<'a> {
             return Err(Stop::Lost);
         }
         if far || offset > self.bearing.r { Err(Stop::Left) } else { Ok(()) }
-    }
-
-    /// The signals now, after a communication step of this length, in the order of [`signals`].
-    pub fn values(&self, length: f64) -> Vec<f64> {
-        let mut found = Vec::new();
-        let impulses = &self.y[ELEMENTS + 2 * self.bearing.count..];
-        for which in 0..2 {
-            found.extend(self.acting.rings[which]);
-            match self.bearing.rings[which].motion {
-                Motion::Internal => {
-                    found.extend(&self.y[4 * which..4 * which + 4]);
-                    found.extend(self.acting.accelerations[which]);
-                }
-                Motion::Host if length == 0.0 => found.extend(self.acting.rings[which]),
-                Motion::Host => found.extend([0, 1].map(|a| impulses[2 * which + a] / length)),
-                Motion::Fixed => {}
-            }
-        }
-        if self.bearing.sensor.is_some() {
-            found.push(self.acting.sensor);
-        }
-        found.extend([self.outside.cage[0], self.acting.torque]);
-        for j in 0..self.bearing.count {
-            let [inner, outer] = self.acting.contacts[j];
-            found.extend([self.y[ELEMENTS + 2 * j], inner.force, outer.force]);
-        }
-        found
     }
 
     /// The state with positions and velocities moved by so much, up and down in turn.
@@ -380,4 +294,48 @@ impl<'a> Run<'a> {
         }
         moved
     }
+}
+
+/// What contacts do: which push, whose defects they are over, and in which stretches the inner ones are.
+#[derive(PartialEq)]
+struct Touching {
+    pushing: Vec<[bool; 2]>,
+    over: Vec<[Option<usize>; 2]>,
+    inner: Vec<Stretches>,
+}
+
+/// Times up to `length` at which an angle that begins at `start` and changes by a quadratic comes to one of `changes`.
+fn crossings(past: [f64; 3], start: f64, changes: &[f64], length: f64, times: &mut Vec<f64>) {
+    // It goes one way before and after it reverses.
+    let reversal = -past[1] / past[2];
+    let turn = if reversal > 0.0 && reversal < length { reversal } else { 0.0 };
+    for (from, to) in [(0.0, turn), (turn, length)] {
+        if to <= from {
+            continue;
+        }
+        let ends = [from, to].map(|t| quadratic(past, t)[0]);
+        let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+        for change in changes {
+            let mut angle = change - start;
+            angle += TAU * ((low - angle) / TAU).ceil();
+            while angle < high {
+                times.push(when(past, angle, (from, to)));
+                angle += TAU;
+            }
+        }
+    }
+}
+
+/// When a quadratic has come to an angle, within times between which it goes one way.
+fn when(past: [f64; 3], angle: f64, (mut low, mut high): (f64, f64)) -> f64 {
+    let turned = |t: f64| quadratic(past, t)[0] - angle;
+    let rising = turned(high) > turned(low);
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            break;
+        }
+        if (turned(middle) < 0.0) == rising { low = middle } else { high = middle }
+    }
+    high
 }

@@ -4,14 +4,17 @@
 //! the oracle makes of a push of one unit at the start: elements that bounce make small differences large. A scene is judged as
 //! long as all that is small beside the forces themselves.
 
-use crate::case::{Case, Motion, Step, fastest};
+use crate::case::{Case, Motion, Shape, Step, fastest};
 use crate::oracle::balance;
-use crate::oracle::run::{Kind, Pace, Run, Stop, signals};
+use crate::oracle::run::{Pace, Run, Stop};
+use crate::oracle::signals::{Kind, signals};
 use crate::oracle::{Bearing, Contact, ELEMENTS, SENSOR};
+use crate::oracle::surfaces::closest;
 use crate::subject::Subject;
-use crate::units::{HORIZON, LIMIT, differences, largest_force, rounding, slope_error, units};
+use crate::units::{HORIZON, LIMIT, differences, largest_force, placing, rounding, slope_error, units};
 use brinell::contact::error::ContactError;
 use brinell::simulation::SimulationError;
+use brinell::surface::SurfaceError;
 use std::collections::BTreeMap;
 
 /// Phase of the fastest motion in one step of the oracle; its reference takes half of it.
@@ -45,15 +48,29 @@ pub fn judge(case: &Case) -> Verdict {
     let mut subject = match Subject::new(case) {
         Ok(subject) => subject,
         Err(error @ SimulationError::Contact(ContactError::NoWayOut { .. })) => {
-            let leaps = Bearing::new(case).defect.is_some_and(|(envelope, _)| envelope.leaps());
-            return if leaps {
+            return if Bearing::new(case).leaps() {
                 Verdict::Refused(error)
             } else {
                 Verdict::Failed(format!("no edge is so steep: {error}"))
             };
         }
+        Err(error @ SimulationError::Surface(SurfaceError::Overlap { .. })) => {
+            let gap = closest(&Bearing::smooth(case), case);
+            // Roundings of the arcs.
+            return if gap < 1e-6 + 1e-13 {
+                Verdict::Refused(error)
+            } else {
+                Verdict::Failed(format!("no defects are nearer than {gap:e} m: {error}"))
+            };
+        }
         Err(error) => return Verdict::Refused(error),
     };
+    if closest(&Bearing::smooth(case), case) < 1e-6 - 1e-13 {
+        return Verdict::Failed("defects that overlap are not refused".to_owned());
+    }
+    if case.defects.iter().any(|defect| matches!(defect.shape, Shape::Topography(_))) {
+        return Verdict::Failed("a rigid path over a topography is not refused".to_owned());
+    }
     let first = match subject.start(case) {
         Ok(first) => first,
         Err(error @ SimulationError::Equilibrium(_)) => return refused_start(case, error),
@@ -106,21 +123,21 @@ pub fn start(bearing: &Bearing, case: &Case, first: &[f64], names: &[(String, Ki
     let stiffest = contacts.clone().map(steep).fold(elastic, f64::max);
     let loads = case.rings.iter().flat_map(|ring| ring.load).fold(0.0f64, |m, f| m.max(f.abs()));
     let body =
-        bearing.mass * (bearing.gravity[0].hypot(bearing.gravity[1]) + bearing.rho_0 * run.outside.cage[1].powi(2));
+        bearing.mass * (bearing.gravity[0].hypot(bearing.gravity[1]) + bearing.rho_0 * run.outside.turns[0][1].powi(2));
     let largest = contacts.fold(loads, |m, contact| m.max(contact.force));
-    let limit = 1e-9 * (largest + body) + rounding(bearing) * stiffest;
-    // The slope of the path turns the damper's rate with the cage's speed, and directs the force.
-    let leaning = |j: usize| {
-        let Some((envelope, _)) = &bearing.defect else { return 0.0 };
-        let (feature, [_, omega, _]) = (run.features[j], run.outside.cage);
-        let psi = bearing.angle_to_defect(j, run.outside.cage[0]);
-        let (path, slope) = envelope.path(feature, psi);
-        let (rho, outer) = (bearing.rho_0 + path, run.acting.contacts[j][1]);
-        let kappa = (slope / rho).atan();
-        let turns = outer.force * kappa.sin().abs() * kappa.cos().powi(2) / rho;
-        (outer.by_rate * omega.abs() + turns) * slope_error(bearing, feature, psi)
+    // The search for a balance counts 1e-12 N as none.
+    let limit = 1e-9 * (largest + body) + (rounding(bearing) + placing(case)) * stiffest + 1e-12;
+    // The slope of the path turns the damper's rate with the speed past the defect, and directs the force.
+    let leaning = |j: usize, side: usize| {
+        let (turns, contact) = (&run.outside.turns, run.acting.contacts[j][side]);
+        let seat = bearing.seat(j, turns[0], &bearing.places(&run.outside, 0.0, &run.y), &run.y);
+        let Some(over) = bearing.over(side, j, &seat, turns, &run.stretches[j]) else { return 0.0 };
+        let distance = over.surface.envelope.distance(over.path);
+        let kappa = (over.slope / distance).atan();
+        let leans = contact.force * kappa.sin().abs() * kappa.cos().powi(2) / distance;
+        (contact.by_rate * over.rate.abs() + leans) * slope_error(bearing, over.surface, over.psi)
     };
-    let limits: Vec<f64> = (0..bearing.count).map(|j| limit + leaning(j)).collect();
+    let limits: Vec<f64> = (0..bearing.count).map(|j| limit + leaning(j, 0) + leaning(j, 1)).collect();
     let limit: f64 = limits.iter().sum();
     for j in 0..bearing.count {
         let limit = limits[j];
@@ -130,7 +147,7 @@ pub fn start(bearing: &Bearing, case: &Case, first: &[f64], names: &[(String, Ki
             return Err(format!(
                 "at the start {along:e} N push element {} (limit {limit:e} N): {contacts:?}, {:?}, body {body:e}",
                 j + 1,
-                run.features[j]
+                run.stretches[j]
             ));
         }
     }

@@ -9,8 +9,8 @@ use std::fmt::{self, Display, Formatter, Write};
 /// What came of one scene. As text it is a line of fields between tabs, so that a long run can be broken off and taken up.
 pub struct Entry {
     pub seed: u64,
-    /// Defect, motion of the rings, speed.
-    names: [String; 3],
+    /// Body with the defect, its shape, motion of the rings, whether the outer one turns, speed.
+    names: [String; 5],
     tolerance: f64,
     pub came: Came,
 }
@@ -34,14 +34,15 @@ impl Entry {
             Verdict::Undecided(why) => Came::Undecided(why.to_owned()),
             Verdict::Failed(why) => Came::Failed(why),
         };
-        Self { seed, names: [kind.defect, kind.motion, kind.speed].map(str::to_owned), tolerance, came }
+        Self { seed, names: [kind.on, kind.defect, kind.motion, kind.outer_ring, kind.speed].map(str::to_owned), tolerance, came }
     }
 
     /// From its line; `None` where a run was broken off within it.
     pub fn parse(line: &str) -> Option<Self> {
         let mut fields = line.split('\t');
         let seed = fields.next()?.parse().ok()?;
-        let names = [fields.next()?.to_owned(), fields.next()?.to_owned(), fields.next()?.to_owned()];
+        let mut name = || fields.next().map(str::to_owned);
+        let names = [name()?, name()?, name()?, name()?, name()?];
         let tolerance = fields.next()?.parse().ok()?;
         let (verdict, rest) = (fields.next()?, fields.collect::<Vec<_>>());
         let came = match (verdict, &rest[..]) {
@@ -62,8 +63,7 @@ impl Entry {
 
 impl Display for Entry {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        let [defect, motion, speed] = &self.names;
-        write!(f, "{}\t{defect}\t{motion}\t{speed}\t{:e}\t", self.seed, self.tolerance)?;
+        write!(f, "{}\t{}\t{:e}\t", self.seed, self.names.join("\t"), self.tolerance)?;
         let one_line = |text: &str| text.replace(['\t', '\n'], " ");
         match &self.came {
             Came::Agreed(m) => write!(f, "agreed\t{:e}\t{:e}\t{:e}\t{:e}", m.start, m.error, m.units, m.judged),
@@ -137,14 +137,12 @@ impl<'a> Tally<'a> {
         for tolerance in [1e-5, 1e-6, 1e-7, 1e-8, 1e-9] {
             self.row(text, &format!("{tolerance:.0e}"), |entry| entry.tolerance == tolerance);
         }
-        *text += "\n| defect | scenes | median | 90 % | 99 % | worst |\n|---|---:|---:|---:|---:|---:|\n";
-        for name in self.names(0) {
-            self.row(text, name, |entry| entry.names[0] == name);
-        }
-        *text += "\n| rings; speed | scenes | median | 90 % | 99 % | worst |\n|---|---:|---:|---:|---:|---:|\n";
-        for which in [1, 2] {
-            for name in self.names(which) {
-                self.row(text, name, |entry| entry.names[which] == name);
+        for (title, columns) in [("defect on", 0..1), ("defect", 1..2), ("rings; speed", 2..5)] {
+            *text += &format!("\n| {title} | scenes | median | 90 % | 99 % | worst |\n|---|---:|---:|---:|---:|---:|\n");
+            for which in columns {
+                for name in self.names(which) {
+                    self.row(text, name, |entry| entry.names[which] == name);
+                }
             }
         }
         let worst = self.agreed.iter().fold(0.0f64, |m, (_, measure)| m.max(measure.units));

@@ -1,0 +1,224 @@
+//! Where defects are: on which body, how it turns, and which of its parts a contact is over.
+
+use super::envelope::{Envelope, Feature, Pair, within_half_a_turn};
+use super::{Bearing, Outside, Seat, quadratic};
+use crate::case::{Case, Defect, On, Shape};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// Which of the turns a body follows.
+pub const SHAFT: usize = 1;
+pub const HOUSING: usize = 2;
+pub const SPIN: usize = 3;
+
+/// Angle, speed and acceleration of cage, shaft, housing and spin.
+pub type Turns = [[f64; 3]; 4];
+
+/// The defects of a body as one raceway's contacts meet them.
+pub struct Surface {
+    pub envelope: Envelope,
+    /// Angle of the first one's middle [rad] in its frame.
+    pub centre: f64,
+    pub frame: usize,
+}
+
+/// All surfaces: those of the rings, and those of each element on the inner and the outer raceway.
+#[derive(Default)]
+pub struct Surfaces {
+    pub rings: [Option<Surface>; 2],
+    pub own: Vec<Option<[Surface; 2]>>,
+}
+
+/// Of an element's two contacts, the stretches of the ring's surface and of its own that they are in.
+pub type Stretches = [[usize; 2]; 2];
+
+/// The surface that a contact is over, with its number and the stretch, and P, dP/dψ and the speed past it.
+pub struct Over<'a> {
+    pub surface: &'a Surface,
+    pub which: usize,
+    pub psi: f64,
+    pub path: f64,
+    pub slope: f64,
+    pub rate: f64,
+}
+
+impl Surface {
+    /// Angle from the defect's middle to a direction in which the bodies touch, within half a turn.
+    pub fn psi(&self, direction: f64, turns: &Turns) -> f64 {
+        within_half_a_turn(direction - turns[self.frame][0] - self.centre)
+    }
+}
+
+impl Seat {
+    /// Direction of the element from a ring's centre, and how fast that turns.
+    pub fn turning(&self, side: usize, turns: &Turns) -> [f64; 2] {
+        if side == 1 {
+            return [self.angle, turns[0][1]];
+        }
+        let ([x, y], [vx, vy]) = (self.q, self.q_rate);
+        [y.atan2(x), (x * vy - y * vx) / (x * x + y * y)]
+    }
+}
+
+impl Bearing {
+    /// What element `j` may meet on the inner or the outer raceway: the ring's defects, and its own.
+    pub fn surfaces(&self, side: usize, j: usize) -> [Option<&Surface>; 2] {
+        let own = self.surfaces.own.get(j).and_then(Option::as_ref);
+        [self.surfaces.rings[side].as_ref(), own.map(|own| &own[side])]
+    }
+
+    /// All that there are.
+    pub fn all_surfaces(&self) -> impl Iterator<Item = (usize, &Surface)> {
+        let rings = self.surfaces.rings.iter().enumerate().filter_map(|(side, ring)| Some((side, ring.as_ref()?)));
+        rings.chain(self.surfaces.own.iter().flatten().flat_map(|own| own.iter().enumerate()))
+    }
+
+    fn meets(&self, side: usize) -> bool {
+        self.all_surfaces().any(|(of, _)| of == side)
+    }
+
+    /// The stretches that the inner contacts are in where `sides[0]`, and the outer ones where `sides[1]`.
+    pub fn stretches(&self, outside: &Outside, t: f64, y: &[f64], sides: [bool; 2], into: &mut [Stretches]) {
+        let turns: Turns = outside.turns.map(|turn| quadratic(turn, t));
+        let places = self.places(outside, t, y);
+        for side in (0..2).filter(|&side| sides[side] && self.meets(side)) {
+            for (j, stretches) in into.iter_mut().enumerate() {
+                for (which, surface) in self.surfaces(side, j).into_iter().enumerate() {
+                    if let Some(surface) = surface {
+                        let direction = self.seat(j, turns[0], &places, y).turning(side, &turns)[0];
+                        stretches[side][which] = surface.envelope.stretch(surface.psi(direction, &turns));
+                    }
+                }
+            }
+        }
+    }
+
+    /// What a contact is over: of a ring's defect and the element's own the one that lets them come nearer.
+    pub fn over(&self, side: usize, j: usize, seat: &Seat, turns: &Turns, stretches: &Stretches) -> Option<Over<'_>> {
+        let over = |(which, surface): (usize, Option<&'_ Surface>)| {
+            let (surface, feature) = surface.map(|s| (s, s.envelope.feature(stretches[side][which])))?;
+            if feature == Feature::Smooth {
+                return None;
+            }
+            let [direction, rate] = seat.turning(side, turns);
+            let psi = surface.psi(direction, turns);
+            let (path, slope) = surface.envelope.path(feature, psi);
+            Some((which, psi, path, slope, rate - turns[surface.frame][1]))
+        };
+        let surfaces = self.surfaces(side, j);
+        let found = surfaces.into_iter().enumerate().filter_map(over);
+        let (which, psi, path, slope, rate) = found.reduce(|ring, own| if own.2 > ring.2 { own } else { ring })?;
+        Some(Over { surface: surfaces[which]?, which, psi, path, slope, rate })
+    }
+
+    /// Whether there is an edge that only a side could meet.
+    pub fn leaps(&self) -> bool {
+        self.all_surfaces().any(|(_, surface)| surface.envelope.leaps())
+    }
+
+    /// Angular speed [rad/s] of contacts past a defect where the rings turn at these speeds.
+    pub fn past(&self, on: Option<On>, speeds: [f64; 2]) -> f64 {
+        let turn = |which: usize| self.ratios[which][0] * speeds[0] + self.ratios[which][1] * speeds[1];
+        let frame = match on {
+            Some(On::Inner) => turn(SHAFT),
+            Some(On::Element { .. }) => turn(SPIN),
+            Some(On::Outer) => turn(HOUSING),
+            None => 0.0,
+        };
+        turn(0) - frame
+    }
+}
+
+/// The surfaces of a case; none where a topography has no envelope.
+pub fn of(bearing: &Bearing, case: &Case) -> Option<Surfaces> {
+    let (r, r_o) = (bearing.r, bearing.rho_0 + bearing.r);
+    let r_i = bearing.rho_0 - bearing.clearance - r;
+    let surface = |pair: Pair, frame: usize, from: f64, body: &[&Defect]| {
+        let raceway = if matches!(pair, Pair::OuterRing | Pair::ElementOutside) { r_o } else { r_i };
+        let own = if frame == SPIN { r } else { raceway };
+        let envelope = Envelope::new(&profiles(body, own, r)?, pair, r, raceway);
+        Some(Surface { envelope, centre: from + body[0].angle_deg * PI / 180.0, frame })
+    };
+    let on = |wanted: &dyn Fn(On) -> bool| case.defects.iter().filter(|d| wanted(d.on)).collect::<Vec<&Defect>>();
+    let [inner, outer] = [on(&|on| on == On::Inner), on(&|on| on == On::Outer)];
+    let mut surfaces = Surfaces::default();
+    if !inner.is_empty() {
+        surfaces.rings[0] = Some(surface(Pair::InnerRing, SHAFT, 0.0, &inner)?);
+    }
+    if !outer.is_empty() {
+        surfaces.rings[1] = Some(surface(Pair::OuterRing, HOUSING, 0.0, &outer)?);
+    }
+    for j in 0..bearing.count {
+        let own = on(&|on| matches!(on, On::Element { element, .. } if element == j));
+        surfaces.own.push(if own.is_empty() {
+            None
+        } else {
+            let outside = bearing.starts[0] + TAU * j as f64 / bearing.count as f64;
+            // The side that faces the inner raceway is half a turn on.
+            let inside = surface(Pair::ElementInside, SPIN, outside - PI, &own)?;
+            Some([inside, surface(Pair::ElementOutside, SPIN, outside, &own)?])
+        });
+    }
+    Some(surfaces)
+}
+
+/// Arcs and depths [m] of all defects of a body of radius `own`, in order from the first on around it; none with a topography.
+fn profiles(body: &[&Defect], own: f64, r: f64) -> Option<Vec<Vec<(f64, f64)>>> {
+    let all: Vec<Vec<(f64, f64)>> = body.iter().map(|defect| points(defect, own, r)).collect::<Option<_>>()?;
+    let begins = all[0][0].0;
+    let mut placed: Vec<Vec<(f64, f64)>> = all
+        .into_iter()
+        .zip(body)
+        .map(|(points, defect)| {
+            let away = own * (defect.angle_deg - body[0].angle_deg) * PI / 180.0;
+            let turns = ((away + points[0].0 - begins) / (TAU * own)).floor();
+            points.into_iter().map(|(arc, depth)| (arc + away - turns * TAU * own, depth)).collect()
+        })
+        .collect();
+    placed.sort_by(|a, b| a[0].0.total_cmp(&b[0].0));
+    Some(placed)
+}
+
+/// Smallest distance between two defects of one body [m], negative where they overlap; infinite without.
+pub fn closest(bearing: &Bearing, case: &Case) -> f64 {
+    let mut closest = f64::INFINITY;
+    for (k, one) in case.defects.iter().enumerate() {
+        for other in case.defects[..k].iter().filter(|other| other.on.is_body_of(one.on)) {
+            let own = match one.on {
+                On::Outer => bearing.rho_0 + bearing.r,
+                On::Inner => bearing.rho_0 - bearing.clearance - bearing.r,
+                On::Element { .. } => bearing.r,
+            };
+            let halves = [one, other].map(|defect| match points(defect, own, bearing.r) {
+                Some(points) => points[points.len() - 1].0,
+                None => 0.5 * defect.shape.length(own),
+            });
+            // From middle to middle both ways around.
+            let apart = (own * (one.angle_deg - other.angle_deg) * PI / 180.0).rem_euclid(TAU * own);
+            closest = closest.min(apart.min(TAU * own - apart) - halves[0] - halves[1]);
+        }
+    }
+    closest
+}
+
+/// Arcs and depths [m] of a defect on a body of radius `own`.
+fn points(defect: &Defect, own: f64, r: f64) -> Option<Vec<(f64, f64)>> {
+    match &defect.shape {
+        Shape::Trace(points) => {
+            let middle = 0.5 * (points[0].0 + points[points.len() - 1].0);
+            Some(points.iter().map(|&(arc, depth)| ((arc - middle) * 1e-3, depth * 1e-6)).collect())
+        }
+        Shape::Spall { length, depth_um, slope_deg } => {
+            let length = length.on(own);
+            let off = match defect.on {
+                On::Element { tilt_deg, .. } => 2.0 * r * (tilt_deg * PI / 180.0).sin(),
+                _ => 0.0,
+            };
+            // Of a round pit the track crosses a chord.
+            let half = 0.5 * (length * length - off * off).sqrt();
+            let (depth, slope) = (depth_um * 1e-6, slope_deg * PI / 180.0);
+            let run = if *slope_deg >= 90.0 { 0.0 } else { (depth * (FRAC_PI_2 - slope).tan()).min(half) };
+            Some(vec![(-half, 0.0), (run - half, depth), (half - run, depth), (half, 0.0)])
+        }
+        Shape::Topography(_) => None,
+    }
+}
