@@ -10,10 +10,11 @@ use std::thread;
 use anyhow::Result;
 use brinell::contact::contact_maps::ContactMaps;
 use brinell::contact::error::ContactError;
+use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::Runner;
 use brinell::contact::rolling::RacewaySide;
 use brinell::scene::{ContactLaw, Scene};
-use brinell::simulation::setup;
+use brinell::simulation::setup::{self, NeededMap};
 use brinell::surface::Surface;
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -30,17 +31,21 @@ pub fn of<'p>(
         return Ok(None);
     }
     let surfaces = Surface::load_all(scene, profiles)?;
-    let fingerprint = setup::map_fingerprint(scene, &surfaces)?;
-    let file = cache_file(project, fingerprint);
+    let maps = setup::needed_maps(scene, &surfaces)?.iter().map(|needed| one(scene, needed, project));
+    Ok(Some(ContactMaps::new(maps.collect::<Result<Vec<_>>>()?).to_bytes()))
+}
+
+/// One map, kept by its own fingerprint: scenes with the same surface share it.
+fn one(scene: &Scene, needed: &NeededMap, project: &Project) -> Result<ContactMap> {
+    let file = cache_file(project, needed.fingerprint);
     if let Ok(bytes) = fs::read(&file)
-        && ContactMaps::from_bytes(&bytes, fingerprint).is_ok()
+        && let Ok(map) = ContactMap::from_bytes(&bytes, needed.fingerprint)
     {
-        return Ok(Some(bytes));
+        return Ok(map);
     }
     let mut cores = AllCores { bar: bar(&scene.name) };
-    let map = setup::build_map(scene, &surfaces, &mut cores)?;
+    let map = needed.build(&mut cores)?;
     cores.bar.finish_and_clear();
-    let Some(map) = map else { return Ok(None) };
     let (reached, wanted) = (map.accuracy().max(), setup::map_specification(scene, RacewaySide::Outer).accuracy);
     if reached > 1.5 * wanted {
         eprintln!(
@@ -49,9 +54,8 @@ pub fn of<'p>(
             scene.name
         );
     }
-    let bytes = map.to_bytes();
-    whole_file::write(&file, &bytes)?;
-    Ok(Some(bytes))
+    whole_file::write(&file, &map.to_bytes())?;
+    Ok(map)
 }
 
 fn cache_file(project: &Project, fingerprint: u64) -> PathBuf {

@@ -109,19 +109,43 @@ pub fn map_specification(scene: &Scene, side: RacewaySide) -> MapSpecification {
     }
 }
 
-/// The contact maps that a scene needs: each surface on each raceway that it meets, equal ones once.
-fn needed_maps<'s>(scene: &Scene, spots: &'s [Spot]) -> Vec<(&'s Surface, ElementOnRaceway, MapSpecification, u64)> {
-    let mut maps: Vec<(&Surface, ElementOnRaceway, MapSpecification, u64)> = Vec::new();
-    for spot in spots {
+/// A contact map that a scene needs.
+#[derive(Debug, Clone)]
+pub struct NeededMap {
+    surface: Surface,
+    element: ElementOnRaceway,
+    specification: MapSpecification,
+    /// Fingerprint of all that it depends on.
+    pub fingerprint: u64,
+}
+
+impl NeededMap {
+    /// Computes it. `runner` says on how many cores.
+    ///
+    /// # Errors
+    /// Where a contact cannot be solved or the accuracy is not reached.
+    pub fn build(&self, runner: &mut impl Runner) -> Result<ContactMap, SimulationError> {
+        Ok(ContactMap::build(&self.surface, self.element, self.specification, runner)?)
+    }
+}
+
+/// The contact maps that a scene with these surfaces of its defects needs under law `map`: each surface on each raceway
+/// that it meets, equal ones once.
+///
+/// # Errors
+/// Defects that overlap.
+pub fn needed_maps(scene: &Scene, surfaces: &[Surface]) -> Result<Vec<NeededMap>, SimulationError> {
+    let mut maps: Vec<NeededMap> = Vec::new();
+    for spot in arranged(scene, surfaces)? {
         for &side in sides(spot.on) {
             let (element, specification) = (ElementOnRaceway::of(&scene.bearing, side), map_specification(scene, side));
             let fingerprint = ContactMap::fingerprint_of(&spot.surface, element, specification);
-            if !maps.iter().any(|&(.., other)| other == fingerprint) {
-                maps.push((&*spot.surface, element, specification, fingerprint));
+            if !maps.iter().any(|map| map.fingerprint == fingerprint) {
+                maps.push(NeededMap { surface: spot.surface.clone().into_owned(), element, specification, fingerprint });
             }
         }
     }
-    maps
+    Ok(maps)
 }
 
 /// Computes the contact maps of a scene with these surfaces of its defects, `None` where its law needs none. `runner`
@@ -137,11 +161,8 @@ pub fn build_map(
     if scene.contact.law != ContactLaw::Map || surfaces.is_empty() {
         return Ok(None);
     }
-    let spots = arranged(scene, surfaces)?;
-    let maps = needed_maps(scene, &spots)
-        .into_iter()
-        .map(|(surface, element, specification, _)| ContactMap::build(surface, element, specification, runner));
-    Ok(Some(ContactMaps::new(maps.collect::<Result<Vec<_>, _>>()?)))
+    let maps = needed_maps(scene, surfaces)?.iter().map(|map| map.build(runner)).collect::<Result<Vec<_>, _>>()?;
+    Ok(Some(ContactMaps::new(maps)))
 }
 
 /// Fingerprint of all that the contact maps of a scene depend on.
@@ -149,8 +170,7 @@ pub fn build_map(
 /// # Errors
 /// Defects that overlap.
 pub fn map_fingerprint(scene: &Scene, surfaces: &[Surface]) -> Result<u64, SimulationError> {
-    let spots = arranged(scene, surfaces)?;
-    let each: Vec<u64> = needed_maps(scene, &spots).into_iter().map(|(.., fingerprint)| fingerprint).collect();
+    let each: Vec<u64> = needed_maps(scene, surfaces)?.iter().map(|map| map.fingerprint).collect();
     Ok(ContactMaps::fingerprint_of(&each))
 }
 

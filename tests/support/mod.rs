@@ -9,10 +9,13 @@ use std::hash::Hasher;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock};
 
+use brinell::contact::contact_maps::ContactMaps;
+use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::Sequential;
 use brinell::numerics::checksum::Checksum;
 use brinell::scene::{ContactLaw, Scene};
-use brinell::simulation::{Simulation, setup};
+use brinell::simulation::Simulation;
+use brinell::simulation::setup::{self, NeededMap};
 use brinell::surface::Surface;
 
 /// A scene file that ships with the project, with the contact law that needs no map: these tests are of what moves.
@@ -46,7 +49,7 @@ pub fn profile_of(scene: &Scene) -> Option<String> {
 /// Maps of this process, by the fingerprint of what they depend on.
 static MAPS: Mutex<BTreeMap<u64, Arc<OnceLock<Vec<u8>>>>> = Mutex::new(BTreeMap::new());
 
-/// The contact map of a scene, computed once for all test programs and kept where `cargo fmu` keeps and finds maps as
+/// The contact maps of a scene, each computed once for all test programs and kept where `cargo fmu` keeps and finds maps as
 /// well.
 ///
 /// Beside it a fingerprint of the sources that compute maps is kept, so that none outlives a change of them.
@@ -55,18 +58,23 @@ pub fn map_of(scene: &Scene, profile: Option<&str>) -> Option<Vec<u8>> {
         return None;
     }
     let surfaces = Surface::load_all(scene, profile).unwrap();
-    let wanted = setup::map_fingerprint(scene, &surfaces).unwrap();
-    let map = Arc::clone(MAPS.lock().unwrap().entry(wanted).or_default());
+    let maps = setup::needed_maps(scene, &surfaces).unwrap();
+    let maps = maps.iter().map(|needed| ContactMap::from_bytes(&one_map(needed), needed.fingerprint).unwrap());
+    Some(ContactMaps::new(maps).to_bytes())
+}
+
+fn one_map(needed: &NeededMap) -> Vec<u8> {
+    let map = Arc::clone(MAPS.lock().unwrap().entry(needed.fingerprint).or_default());
     let bytes = map.get_or_init(|| {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).with_file_name("maps");
-        let [file, made_by] = ["bin", "sources"].map(|end| folder.join(format!("{wanted:016x}.{end}")));
+        let [file, made_by] = ["bin", "sources"].map(|end| folder.join(format!("{:016x}.{end}", needed.fingerprint)));
         let sources = format!("{:016x}", map_sources());
         if fs::read_to_string(&made_by).is_ok_and(|found| found == sources)
             && let Ok(bytes) = fs::read(&file)
         {
             return bytes;
         }
-        let bytes = setup::build_map(scene, &surfaces, &mut Sequential(|_, _| {})).unwrap().unwrap().to_bytes();
+        let bytes = needed.build(&mut Sequential(|_, _| {})).unwrap().to_bytes();
         fs::create_dir_all(&folder).unwrap();
         for (path, content) in [(&file, &bytes[..]), (&made_by, sources.as_bytes())] {
             let partial = path.with_extension(format!("{}.part", std::process::id()));
@@ -75,7 +83,7 @@ pub fn map_of(scene: &Scene, profile: Option<&str>) -> Option<Vec<u8>> {
         }
         bytes
     });
-    Some(bytes.clone())
+    bytes.clone()
 }
 
 /// Fingerprint of the sources on which the bits of a map depend.
