@@ -13,7 +13,7 @@ struct Asked {
 }
 
 /// What is said to a defect that is given by another key.
-const DEFECTS: &str = "a table [defect], or several [[defect]], whose key `on` is \"outer\", \"inner\" or \"element\"";
+const DEFECTS: &str = "defects are said by a table [defect], or by several [[defect]], whose key `on` is \"outer\", \"inner\" or \"element\"";
 const BALLS: &str = "rolling elements are balls, so far; rollers with their line contacts are not";
 const PLANE: &str = "the rings move in one plane, so far: no axial load, no contact angle, no tilt";
 const DRY: &str = "contacts without lubricant and friction, so far";
