@@ -63,10 +63,11 @@ pub struct Jacobian {
 impl Jacobian {
     /// Room for a model's Jacobian.
     pub fn new(model: &Model) -> Self {
+        let size = model.supports.size();
         Self {
             elements: vec![ElementBlock::default(); model.element_count],
-            by_position: BodyMatrix::zeros(),
-            by_velocity: BodyMatrix::zeros(),
+            by_position: BodyMatrix::zeros(size, size),
+            by_velocity: BodyMatrix::zeros(size, size),
             places: places(&model.layout),
             radial_velocity: model.layout.radial_velocity,
         }
@@ -77,8 +78,8 @@ impl Jacobian {
     pub fn with_fastest(rate: f64) -> Self {
         Self {
             elements: vec![ElementBlock { by_velocity: -rate, ..ElementBlock::default() }],
-            by_position: BodyMatrix::zeros(),
-            by_velocity: BodyMatrix::zeros(),
+            by_position: BodyMatrix::zeros(0, 0),
+            by_velocity: BodyMatrix::zeros(0, 0),
             places: [None; BODIES],
             radial_velocity: 1,
         }
@@ -289,7 +290,9 @@ impl Model {
 
     /// Starts `jacobian` and `by_time` with what does not come from contacts: supports, sensor, loads.
     fn add_supports(&self, drive: &Drive, tau: f64, shared: &Shared, jacobian: &mut Jacobian, by_time: &mut [f64]) {
-        [jacobian.by_position, jacobian.by_velocity] = self.supports.accelerations_by_motion();
+        let [by_position, by_velocity] = self.supports.accelerations_by_motion();
+        jacobian.by_position.copy_from(by_position);
+        jacobian.by_velocity.copy_from(by_velocity);
         by_time[2 * self.layout.radial_velocity..].fill(0.0);
         // Prescribed rings move the sensor; on the rings themselves nothing but their loads depends on time.
         let [shaft, housing] = &shared.prescribed;

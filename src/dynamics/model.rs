@@ -21,6 +21,7 @@ use crate::numerics::plane::Vector;
 use crate::numerics::sin_cos;
 use crate::scene::{Motion, Ring, Scene};
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// Parameters of the equations of motion.
 #[derive(Debug, Clone)]
@@ -65,7 +66,7 @@ pub struct Model {
     /// Whether any contact asks for the frames of defects: all but those of an outer ring that does not turn.
     pub has_frames: bool,
     /// What differs from element to element, eight at a time.
-    pub(super) elements: Vec<ElementBlock>,
+    pub(super) elements: Arc<[ElementBlock]>,
 }
 
 /// Where a state is found.
@@ -200,7 +201,7 @@ impl Model {
             layout: Layout::new(scene),
             may_have_inner_defects: scene.has_defect_inside(),
             has_frames,
-            elements: blocks(&offsets, 1.0 / bearing.mass_of_element(), hertz),
+            elements: blocks(&offsets, 1.0 / bearing.mass_of_element(), hertz).into(),
             offsets,
             irregularity,
         }

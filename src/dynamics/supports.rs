@@ -11,6 +11,7 @@ use super::kinematics::{Kinematics, RingState};
 use crate::numerics::lanes::{Lanes, QUAD, Wide};
 use crate::numerics::plane::Vector;
 use crate::scene::{MOST_SENSORS, Motion, Ring, Scene};
+use std::sync::Arc;
 
 /// Coordinates of the bodies beside the elements: inner ring x, y, outer ring x, y, each sensor along its direction.
 pub const BODIES: usize = 4 + MOST_SENSORS;
@@ -19,8 +20,8 @@ pub const FEW_BODIES: usize = 5;
 
 /// One number for each coordinate of the bodies.
 pub type Bodies = nalgebra::SVector<f64, BODIES>;
-/// A linear map between them.
-pub type BodyMatrix = nalgebra::SMatrix<f64, BODIES, BODIES>;
+/// A linear map between them, of [`BODIES`] or, with one sensor at most, of the first [`FEW_BODIES`].
+pub type BodyMatrix = nalgebra::DMatrix<f64>;
 
 /// A body's spring and damper, and how easily forces accelerate it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,7 +53,7 @@ pub struct Supports {
     /// The sensors', to the outer ring.
     pub sensors: Vec<SensorSupport>,
     /// Accelerations of the bodies by their positions [1/s²] and by their velocities [1/s].
-    accelerations: [BodyMatrix; 2],
+    accelerations: Arc<[BodyMatrix; 2]>,
 }
 
 impl Support {
@@ -79,14 +80,15 @@ impl Supports {
     }
 
     fn of(shaft: Support, housing: Support, sensors: Vec<SensorSupport>) -> Self {
-        let supports = Self { shaft, housing, sensors, accelerations: [BodyMatrix::zeros(); 2] };
-        let accelerations = supports.worked_out();
+        let none = BodyMatrix::zeros(0, 0);
+        let supports = Self { shaft, housing, sensors, accelerations: Arc::new([none.clone(), none]) };
+        let accelerations = Arc::new(supports.worked_out());
         Self { accelerations, ..supports }
     }
 
-    /// Whether coordinates beyond [`FEW_BODIES`] stand for something.
-    pub fn are_many(&self) -> bool {
-        self.sensors.len() > 1
+    /// Size of a [`BodyMatrix`] here.
+    pub fn size(&self) -> usize {
+        if self.sensors.len() > 1 { BODIES } else { FEW_BODIES }
     }
 
     /// Support of each ring, the inner first.
@@ -127,15 +129,16 @@ impl Supports {
     }
 
     /// Accelerations of the bodies by their positions [1/s²] and by their velocities [1/s].
-    pub fn accelerations_by_motion(&self) -> [BodyMatrix; 2] {
-        self.accelerations
+    pub fn accelerations_by_motion(&self) -> &[BodyMatrix; 2] {
+        &self.accelerations
     }
 
     fn worked_out(&self) -> [BodyMatrix; 2] {
         let (masses, none) = (self.inverse_masses(), Bodies::zeros());
-        let column = |forces: Bodies| forces.component_mul(&masses);
+        let size = self.size();
+        let column = |forces: Bodies| forces.component_mul(&masses).rows(0, size).into_owned();
         let unit = |k: usize| Bodies::from_fn(|i, _| if i == k { 1.0 } else { 0.0 });
-        let (mut by_position, mut by_velocity) = (BodyMatrix::zeros(), BodyMatrix::zeros());
+        let (mut by_position, mut by_velocity) = (BodyMatrix::zeros(size, size), BodyMatrix::zeros(size, size));
         for k in 0..4 + self.sensors.len() {
             by_position.set_column(k, &column(self.forces(&unit(k), &none)));
             by_velocity.set_column(k, &column(self.forces(&none, &unit(k))));
@@ -220,6 +223,6 @@ mod tests {
         let (x, v) = (bodies([1.0, -2.0, 0.5, 4.0, -3.0, 1.0]), bodies([2.0, 1.0, -1.0, 0.25, 8.0, -2.0]));
         let wanted = supports.forces(&x, &v).component_mul(&supports.inverse_masses());
         // Small whole numbers and binary fractions: exact.
-        assert_eq!(by_position * x + by_velocity * v, wanted);
+        assert_eq!(by_position * x + by_velocity * v, nalgebra::DVector::from_column_slice(wanted.as_slice()));
     }
 }

@@ -8,10 +8,11 @@
 //! elimination with row pivoting. Rows of bodies without state are those of the unit matrix; with one sensor at most,
 //! only the rows that there may be are worked with.
 
-use nalgebra::{Const, DimMin, LU};
+use nalgebra::{Const, LU, SMatrix};
 
 use crate::dynamics::jacobian::Jacobian;
-use crate::dynamics::supports::{BODIES, Bodies, BodyMatrix, FEW_BODIES};
+use crate::dynamics::model::Model;
+use crate::dynamics::supports::{BODIES, Bodies, FEW_BODIES};
 use crate::dynamics::tangent::{Rings, stacked};
 use crate::numerics::plane::{Matrix, Vector};
 
@@ -27,32 +28,23 @@ pub struct Arrow {
 }
 
 /// Factors of the bodies' matrix.
-///
-/// In place, though one is much larger: a box would be allocated within the step.
-#[allow(clippy::large_enum_variant)]
 #[derive(Debug, Clone)]
 enum Factors {
     /// No body has a state.
     None,
     /// Rings, and one sensor at most.
     Few(LU<f64, Const<FEW_BODIES>, Const<FEW_BODIES>>),
-    /// More sensors.
-    Many(LU<f64, Const<BODIES>, Const<BODIES>>),
+    /// More sensors. The box is made once, with the arrow.
+    Many(Box<LU<f64, Const<BODIES>, Const<BODIES>>>),
 }
 
 impl Factors {
     /// Solves for the first bodies of `b` in place; false where the matrix is singular.
     fn solve(&self, b: &mut Bodies) -> bool {
-        fn first<const N: usize>(lu: &LU<f64, Const<N>, Const<N>>, b: &mut Bodies) -> bool
-        where
-            Const<N>: DimMin<Const<N>, Output = Const<N>>,
-        {
-            lu.solve_mut(&mut b.rows_mut(0, N))
-        }
         match self {
             Self::None => true,
-            Self::Few(lu) => first(lu, b),
-            Self::Many(lu) => first(lu, b),
+            Self::Few(lu) => lu.solve_mut(&mut b.fixed_rows_mut::<FEW_BODIES>(0)),
+            Self::Many(lu) => lu.solve_mut(b),
         }
     }
 }
@@ -67,19 +59,37 @@ struct Eliminated {
 }
 
 impl Arrow {
-    /// Room for `count` elements.
-    pub fn new(count: usize) -> Self {
-        Self { shift: 1.0, elements: vec![Eliminated::default(); count], bodies: Factors::None }
+    /// Room for a model's elements and bodies.
+    pub fn new(model: &Model) -> Self {
+        let many = model.supports.size() == BODIES;
+        let bodies =
+            if many { Factors::Many(Box::new(SMatrix::<f64, BODIES, BODIES>::identity().lu())) } else { Factors::None };
+        Self { shift: 1.0, elements: vec![Eliminated::default(); model.element_count], bodies }
     }
 
     /// Eliminates `shift` − `jacobian`.
     pub fn factor(&mut self, jacobian: &Jacobian, shift: f64) {
         self.shift = shift;
-        let inverse_shift = 1.0 / shift;
+        if jacobian.by_position.nrows() == BODIES {
+            let factors = self.eliminated::<BODIES>(jacobian).lu();
+            if let Factors::Many(bodies) = &mut self.bodies {
+                **bodies = factors;
+            }
+        } else {
+            let matrix = self.eliminated::<FEW_BODIES>(jacobian);
+            let coupled = jacobian.places.iter().any(Option::is_some);
+            self.bodies = if coupled { Factors::Few(matrix.lu()) } else { Factors::None };
+        }
+    }
+
+    /// The first bodies' matrix, once the elements are eliminated.
+    fn eliminated<const N: usize>(&mut self, jacobian: &Jacobian) -> SMatrix<f64, N, N> {
+        let (shift, inverse_shift) = (self.shift, 1.0 / self.shift);
         let free = jacobian.places.map(|place| place.is_some());
         let coupled = free.contains(&true);
-        let mut matrix =
-            BodyMatrix::from_diagonal_element(shift) - jacobian.by_velocity - jacobian.by_position * inverse_shift;
+        let by_velocity = jacobian.by_velocity.fixed_view::<N, N>(0, 0);
+        let by_position = jacobian.by_position.fixed_view::<N, N>(0, 0);
+        let mut matrix = SMatrix::from_diagonal_element(shift) - by_velocity - by_position * inverse_shift;
         for (block, solved) in jacobian.elements.iter().zip(&mut self.elements) {
             let (a, c) = (block.by_path, block.by_velocity);
             solved.inverse = Matrix::new(shift - c, 1.0, a, shift) / (shift * (shift - c) - a);
@@ -95,17 +105,12 @@ impl Arrow {
             let mut rings = matrix.fixed_view_mut::<RINGS, RINGS>(0, 0);
             rings -= through;
         }
-        for i in (0..BODIES).filter(|&i| !free[i]) {
+        for i in (0..N).filter(|&i| !free[i]) {
             matrix.row_mut(i).fill(0.0);
             matrix.column_mut(i).fill(0.0);
             matrix[(i, i)] = 1.0;
         }
-        let many = free[FEW_BODIES..].contains(&true);
-        self.bodies = match (coupled, many) {
-            (false, _) => Factors::None,
-            (true, false) => Factors::Few(matrix.fixed_view::<FEW_BODIES, FEW_BODIES>(0, 0).into_owned().lu()),
-            (true, true) => Factors::Many(matrix.lu()),
-        };
+        matrix
     }
 
     /// Puts x into `b`, for the `jacobian` that was eliminated last.
@@ -124,7 +129,8 @@ impl Arrow {
         if matches!(self.bodies, Factors::None) {
             return;
         }
-        let mut v = jacobian.by_position * Bodies::from(shifted);
+        let (mut v, size) = (Bodies::zeros(), jacobian.by_position.nrows());
+        v.rows_mut(0, size).gemv(1.0, &jacobian.by_position, &Bodies::from(shifted).rows(0, size), 0.0);
         let mut of_rings = v.fixed_rows_mut::<RINGS>(0);
         of_rings += rings;
         for (v, place) in v.iter_mut().zip(&jacobian.places) {
@@ -164,7 +170,7 @@ mod tests {
             let (mut jacobian, mut by_time) = (Jacobian::new(&model), vec![0.0; len]);
             model.linearize(&drive, 0.0, &cells, &state, &mut jacobian, &mut by_time);
             let matrix = jacobian.matrix(len);
-            let mut arrow = Arrow::new(model.element_count);
+            let mut arrow = Arrow::new(&model);
             for shift in [1e2, 1e5, 1e9] {
                 arrow.factor(&jacobian, shift);
                 let mut noise = noise(7);

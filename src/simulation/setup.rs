@@ -141,7 +141,12 @@ pub fn needed_maps(scene: &Scene, surfaces: &[Surface]) -> Result<Vec<NeededMap>
             let (element, specification) = (ElementOnRaceway::of(&scene.bearing, side), map_specification(scene, side));
             let fingerprint = ContactMap::fingerprint_of(&spot.surface, element, specification);
             if !maps.iter().any(|map| map.fingerprint == fingerprint) {
-                maps.push(NeededMap { surface: spot.surface.clone().into_owned(), element, specification, fingerprint });
+                maps.push(NeededMap {
+                    surface: spot.surface.clone().into_owned(),
+                    element,
+                    specification,
+                    fingerprint,
+                });
             }
         }
     }

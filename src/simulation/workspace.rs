@@ -88,7 +88,7 @@ impl Workspace {
             jacobian: Jacobian::new(model),
             by_time: Row::zeros(len),
             linearized: false,
-            arrow: Arrow::new(model.element_count),
+            arrow: Arrow::new(model),
             forces: Forces::of(model),
             dense: Row::zeros(len),
             scratch: Row::zeros(len),

@@ -135,7 +135,8 @@ fn renumbered<'a>(
 ) -> impl Fn(&str) -> f64 + 'a {
     move |name| {
         let element = name.strip_prefix("element[").and_then(|rest| rest.split_once(']'));
-        let name = element.map_or(name.to_owned(), |(of, rest)| format!("element[{}]{rest}", number(of.parse().unwrap())));
+        let name =
+            element.map_or(name.to_owned(), |(of, rest)| format!("element[{}]{rest}", number(of.parse().unwrap())));
         sample[own.iter().position(|(other, _)| *other == name).unwrap()]
     }
 }

@@ -126,7 +126,12 @@ fn random_rigid_paths_are_the_envelope() {
         let (model, placing) = (simulation.equations().0, crate::units::placing(&case));
         for side in 0..2 {
             if let Some(surface) = &oracle.surfaces.rings[side] {
-                path_is_the_envelope(draw, (&oracle, placing), surface, [&model.inner.defects, &model.outer.defects][side])?;
+                path_is_the_envelope(
+                    draw,
+                    (&oracle, placing),
+                    surface,
+                    [&model.inner.defects, &model.outer.defects][side],
+                )?;
             }
             for (j, own) in oracle.surfaces.own.iter().enumerate() {
                 let Some(own) = own else { continue };

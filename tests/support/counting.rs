@@ -1,4 +1,4 @@
-//! The program's allocator, counting: by all threads, and by those that ask for it.
+//! The program's allocator, counting for the threads that ask for it.
 //!
 //! A test program that includes this file has it as its allocator.
 #![allow(dead_code, unreachable_pub, unsafe_code)] // each test program uses a part of this; `unsafe` is what an allocator takes
@@ -9,7 +9,6 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 struct Counting;
 
-static BY_ALL: AtomicU64 = AtomicU64::new(0);
 static BY_THOSE_THAT_ASK: AtomicU64 = AtomicU64::new(0);
 
 thread_local! {
@@ -19,7 +18,6 @@ thread_local! {
 // SAFETY: every call goes to the system allocator unchanged.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        BY_ALL.fetch_add(1, Ordering::Relaxed);
         if ASKS.with(Cell::get) {
             BY_THOSE_THAT_ASK.fetch_add(1, Ordering::Relaxed);
         }
@@ -35,11 +33,6 @@ unsafe impl GlobalAlloc for Counting {
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
-
-/// Allocations of the whole program so far: for programs with one test.
-pub fn allocations() -> u64 {
-    BY_ALL.load(Ordering::Relaxed)
-}
 
 /// What `work` gives, and how often this thread allocated in it: other tests may run beside it.
 pub fn counted<T>(work: impl FnOnce() -> T) -> (T, u64) {

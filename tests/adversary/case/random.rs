@@ -360,7 +360,8 @@ impl Inputs {
             middle[1] = [0.0; 2];
         }
         let rate = draw.log(0.3, 30.0) / time;
-        let (start, turns) = ([case.speed_hz, case.housing_hz.unwrap_or(0.0)].map(|hz| hz * TAU), case.housing_hz.is_some());
+        let (start, turns) =
+            ([case.speed_hz, case.housing_hz.unwrap_or(0.0)].map(|hz| hz * TAU), case.housing_hz.is_some());
         let phase = draw.between(0.0, TAU);
         Self { internal, middle, swing, rate, phase, time: 0.0, start, speeds: start, turns }
     }

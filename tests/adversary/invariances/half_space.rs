@@ -68,7 +68,6 @@ pub(super) fn depth_at(shape: &Shape, arc: f64, axial: f64) -> f64 {
     }
 }
 
-
 /// One contact of one element with a defect.
 struct Meeting {
     pair: Pair,
@@ -96,7 +95,8 @@ impl Meeting {
             true => [bearing.rho_0 + r, outer],
             false => [-(bearing.rho_0 - bearing.clearance - r), inner],
         };
-        let solver = HalfSpace { element: r, raceway, groove: conformity * 2.0 * r, modulus, cells: [0; 2], shift: 0.0 };
+        let solver =
+            HalfSpace { element: r, raceway, groove: conformity * 2.0 * r, modulus, cells: [0; 2], shift: 0.0 };
         Self { pair, bearing, shape: shape.clone(), solver }
     }
 
@@ -142,8 +142,7 @@ impl Meeting {
         };
         let mean = |s: [f64; 2], y: [f64; 2]| {
             let part = |range: [f64; 2], k: i32| range[0] + (range[1] - range[0]) * (f64::from(k) + 0.5) / 8.0;
-            let sum: f64 =
-                (0..64).map(|k| depth_at(&self.shape, place.arc + part(s, k / 8), part(y, k % 8))).sum();
+            let sum: f64 = (0..64).map(|k| depth_at(&self.shape, place.arc + part(s, k / 8), part(y, k % 8))).sum();
             sum / 64.0
         };
         let [normal, tangential] = solver.forces(place.u, high, mean);

@@ -303,10 +303,7 @@ impl Envelope {
 
     /// The angles at which a stretch begins and ends.
     pub fn ends(&self, stretch: usize) -> [f64; 2] {
-        [
-            stretch.checked_sub(1).map_or(-PI, |i| self.changes[i]),
-            self.changes.get(stretch).copied().unwrap_or(PI),
-        ]
+        [stretch.checked_sub(1).map_or(-PI, |i| self.changes[i]), self.changes.get(stretch).copied().unwrap_or(PI)]
     }
 
     /// Whether the two meet an edge with nothing but the other's side, so that its centre would have to leap.

@@ -144,7 +144,8 @@ fn a_sphere_on_a_plane_is_hertz() {
     let hertz = 4.0 / 3.0 * modulus * f64::sqrt(r) * f64::powf(u, 1.5);
     for (cells, limit) in [(16, 0.012), (32, 0.006)] {
         let plane = f64::INFINITY;
-        let half_space = HalfSpace { element: r, raceway: plane, groove: plane, modulus, cells: [cells; 2], shift: 0.0 };
+        let half_space =
+            HalfSpace { element: r, raceway: plane, groove: plane, modulus, cells: [cells; 2], shift: 0.0 };
         let [normal, tangential] = half_space.forces(u, 0.0, |_, _| 0.0);
         // The grid's own error, which halves with its cells.
         assert!((normal / hertz - 1.0).abs() < limit && tangential == 0.0, "{normal} {hertz}");

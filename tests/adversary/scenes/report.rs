@@ -34,7 +34,12 @@ impl Entry {
             Verdict::Undecided(why) => Came::Undecided(why.to_owned()),
             Verdict::Failed(why) => Came::Failed(why),
         };
-        Self { seed, names: [kind.on, kind.defect, kind.motion, kind.outer_ring, kind.speed].map(str::to_owned), tolerance, came }
+        Self {
+            seed,
+            names: [kind.on, kind.defect, kind.motion, kind.outer_ring, kind.speed].map(str::to_owned),
+            tolerance,
+            came,
+        }
     }
 
     /// From its line; `None` where a run was broken off within it.
@@ -138,7 +143,8 @@ impl<'a> Tally<'a> {
             self.row(text, &format!("{tolerance:.0e}"), |entry| entry.tolerance == tolerance);
         }
         for (title, columns) in [("defect on", 0..1), ("defect", 1..2), ("rings; speed", 2..5)] {
-            *text += &format!("\n| {title} | scenes | median | 90 % | 99 % | worst |\n|---|---:|---:|---:|---:|---:|\n");
+            *text +=
+                &format!("\n| {title} | scenes | median | 90 % | 99 % | worst |\n|---|---:|---:|---:|---:|---:|\n");
             for which in columns {
                 for name in self.names(which) {
                     self.row(text, name, |entry| entry.names[which] == name);
