@@ -31,8 +31,9 @@ pub fn of<'p>(
         return Ok(None);
     }
     let surfaces = Surface::load_all(scene, profiles)?;
-    let maps = setup::needed_maps(scene, &surfaces)?.iter().map(|needed| one(scene, needed, project));
-    Ok(Some(ContactMaps::new(maps.collect::<Result<Vec<_>>>()?).to_bytes()))
+    let needed = setup::needed_maps(scene, &surfaces)?;
+    let maps = needed.iter().map(|needed| one(scene, needed, project)).collect::<Result<Vec<_>>>()?;
+    Ok(Some(ContactMaps::new(maps).to_bytes()))
 }
 
 /// One map, kept by its own fingerprint: scenes with the same surface share it.
