@@ -78,6 +78,13 @@ fn rollers_are_answered_with_balls_and_other_wishes_with_what_there_is() {
             &[&format!("bearing.{name} is not modelled: rolling elements are balls")],
         );
     }
+    // A catalogue's name for a bearing of rollers, or of balls.
+    for key in ["bearing_type = \"NU205\"", "designation = \"NU 205 ECP\"", "series = \"NJ\"", "model = \"22210\""] {
+        let name = key.split(' ').next().unwrap();
+        let balls = "not modelled: a bearing is given by its dimensions, and its rolling elements are balls, so far";
+        refused("element_count = 9", &with(key), &[&format!("bearing.{name} is {balls}")]);
+        refused("[bearing]", &format!("{key}\n[bearing]"), &[&format!("{name} is {balls}")]);
+    }
     refused("element_count = 9", &with("contact_angle_deg = 15.0"), &["no axial load, no contact angle"]);
     refused("element_count = 9", &with("lubricant = \"oil\""), &["contacts without lubricant"]);
     // A slip of the pen is none of these.

@@ -20,7 +20,9 @@ pub(super) struct Stage {
     mapped: bool,
 }
 
-/// Rings inside and from the host, spall, trace and none; a contact map, which instances share; a recorder as fast as one may be, so that it writes within a walk.
+/// Rings inside and from the host, an outer ring that turns, spall, trace and none, defects inside, on a ball and in both raceways, an
+/// irregular cage, several sensors and a probe; a contact map, which instances share; a recorder as fast as one may be, so that it
+/// writes within a walk.
 pub(super) fn stages() -> Vec<Stage> {
     let list = [
         // The first are for instances that share names.
@@ -29,6 +31,11 @@ pub(super) fn stages() -> Vec<Stage> {
         ("6205-hosted", false),
         ("er16k-tb1-hosted-shaft", false),
         ("6205-healthy", true),
+        ("er16k-inner", true),
+        ("er16k-element", false),
+        ("er16k-turning-outer", true),
+        ("6205-two-defects", false),
+        ("6205-irregular-cage", true),
     ];
     // A step that a walk has made impossible ends soon.
     let bounded = |text: String| text.replace("[solver]", "[solver]\nmax_steps = 2000");
@@ -107,7 +114,11 @@ pub(super) fn gentle(variable: &Variable, chance: &mut Chance) -> f64 {
         "bearing.radial_clearance" => (1e-6, 2e-5),
         "contact.damping" => (0.1, 1.0),
         "cage.slip" => (0.0, 0.1),
-        "cage.initial_angle" | "defect.angle" => (-7.0, 7.0),
+        "cage.initial_angle" | "shaft.initial_angle" | "housing.initial_angle" => (-7.0, 7.0),
+        // Two in one body would come to overlap; here they are in two.
+        "defect.angle" | "defect[1].angle" | "defect[2].angle" => (-7.0, 7.0),
+        "housing.speed" => (-100.0, 100.0),
+        "element.spin_slip" => (-0.1, 0.1),
         "shaft.mass" | "housing.mass" => (1.0, 10.0),
         "shaft.damping" | "housing.damping" => (100.0, 3000.0),
         "shaft.stiffness" | "housing.stiffness" => (1e6, 1e8),
