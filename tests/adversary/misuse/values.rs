@@ -167,7 +167,7 @@ pub(super) fn set_integer(w: &mut Walker, chance: &mut Chance, kind: bool, _: &S
     let laws = w.stage.references(|v| v.name == "contact.law");
     let fixed = w.model.state == State::StepComplete;
     // With a defect the other laws take seconds to set up.
-    let healthy = w.stage.references(|v| v.name == "defect.angle").is_empty();
+    let healthy = w.stage.references(|v| v.name.starts_with("defect")).is_empty();
     let law = if healthy { 1 + chance.below(3) as i32 } else { 1 };
     let (list, value, verdict) = match if kind { 9 } else { chance.below(6) } {
         0 => (laws, *chance.pick(&[0, 4, -1, i32::MAX, i32::MIN]), if fixed { ERROR } else { DISCARD }),
