@@ -200,8 +200,9 @@ impl<'w> Walker<'w> {
         let state = self.model.state;
         self.tally.count(function, state, status);
         self.remember(format!("{function}({}) in {state:?}: {status:?}", call()));
-        self.require(expected.has(status), || format!("{status:?} is not what was expected, {expected:?}"));
         let lines = self.subject.lines();
+        let said = || format!("{status:?} is not what was expected, {expected:?}: {lines:?}");
+        self.require(expected.has(status), said);
         self.look_at(function, status, &lines);
         if status >= Status::Error {
             (self.model.state, self.together) = (State::Error, false);
