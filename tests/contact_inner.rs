@@ -17,6 +17,7 @@ const INNER: ElementOnRaceway = ElementOnRaceway {
     groove_radius: 4.095e-3,
     raceway: RacewaySide::Inner,
 };
+const OUTER: ElementOnRaceway = ElementOnRaceway { raceway_radius: 23.6325e-3, raceway: RacewaySide::Outer, ..INNER };
 /// 640 N on the inner raceway.
 const LARGEST: f64 = 9e-6;
 
@@ -25,7 +26,11 @@ fn spall(length: f64) -> Surface {
 }
 
 fn grid(length: f64, columns: usize, rows: usize) -> LoveContact {
-    LoveContact::new(INNER, &spall(length), 1.8 * LARGEST, Resolution { columns, rows }).unwrap()
+    grid_on(INNER, length, columns, rows)
+}
+
+fn grid_on(element: ElementOnRaceway, length: f64, columns: usize, rows: usize) -> LoveContact {
+    LoveContact::new(element, &spall(length), 1.8 * LARGEST, Resolution { columns, rows }).unwrap()
 }
 
 /// Forces at an approach and arc over the smooth contact's at the largest approach.
@@ -73,15 +78,21 @@ fn a_convex_raceway_lets_the_element_sink_half_as_much_again_as_a_concave_one() 
     assert!(forces(&mut inner, inside + 1e-6, past - 1.37e-3)[0] > 0.0);
 }
 
-/// `cargo test --release --test contact_inner -- --ignored --nocapture` prints the rows of `docs/contact.md`.
+/// `cargo test --workspace --test contact_inner -- --ignored --nocapture` prints the rows of `docs/contact.md`.
 #[test]
 #[ignore = "takes minutes"]
 fn the_map_follows_the_grid_and_the_grid_a_finer_one() {
-    for (name, length) in [("10° of the inner raceway", 2.738e-3), ("1.2 mm, on the inner side", 1.2e-3)] {
+    let cases = [
+        ("10° of the outer raceway", OUTER, 4.124e-3),
+        ("10° of the inner raceway", INNER, 2.738e-3),
+        ("1.2 mm of an element, on its inner side", INNER, 1.2e-3),
+    ];
+    let mut outside = [0.0f64; 2];
+    for (name, element, length) in cases {
         let specification = MapSpecification::new(LARGEST);
-        let map = ContactMap::build(&spall(length), INNER, specification, &mut Sequential(|_, _| ())).unwrap();
-        let (mut contact, mut finer) = (grid(length, 48, 32), grid(length, 96, 64));
-        let (mut of_map, mut of_grid) = ([0.0f64; 2], [0.0f64; 2]);
+        let map = ContactMap::build(&spall(length), element, specification, &mut Sequential(|_, _| ())).unwrap();
+        let (mut contact, mut finer) = (grid_on(element, length, 48, 32), grid_on(element, length, 96, 64));
+        let (mut of_map, mut of_grid, mut squares, mut count) = ([0.0f64; 2], [0.0f64; 2], [0.0f64; 2], 0);
         let (from, to) = (map.knots()[0], map.knots()[map.knots().len() - 1]);
         for n in 0..400 {
             let (q, t) = ((0.754_877_666 * f64::from(n)).fract(), (0.569_840_291 * f64::from(n)).fract());
@@ -100,10 +111,19 @@ fn the_map_follows_the_grid_and_the_grid_a_finer_one() {
                 let fine = forces(&mut finer, u, s);
                 for k in 0..2 {
                     of_grid[k] = of_grid[k].max((exact[k] - fine[k]).abs());
+                    squares[k] += (exact[k] - fine[k]).powi(2);
                 }
+                count += 1;
             }
         }
-        println!("| {name} | {} | {of_map:.5?} | {of_grid:.5?} |", map.nodes());
-        assert!(of_map.iter().all(|&error| error < 1e-3) && of_grid.iter().all(|&error| error < 6e-3));
+        let rms = squares.map(|square| (square / f64::from(count)).sqrt());
+        println!("| {name} | {} | {of_map:?} | {of_grid:?} | {rms:?} |", map.nodes());
+        if element.raceway == RacewaySide::Outer {
+            outside = of_grid;
+        }
+        assert!(of_map.iter().all(|&error| error < 1e-3), "{name}: {of_map:?}");
+        // The same grid to the same contact's half-axes: inside it is as good as outside, but for where cells happen to lie
+        // under the border when the element hangs on the edge by a few of them.
+        assert!(of_grid.iter().zip(outside).all(|(&error, outside)| error < 2.0 * outside), "{name}: {of_grid:?}");
     }
 }

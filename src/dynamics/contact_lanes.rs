@@ -9,7 +9,7 @@ use super::element_block::ElementBlock;
 use super::kinematics::{Kinematics, Stage};
 use super::model::Model;
 use crate::contact::force_law::DampedLaw;
-use crate::numerics::lanes::{Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, sum_of};
+use crate::numerics::lanes::{Kernel, Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, sum_of};
 use crate::numerics::plane::{Vector, turned};
 use crate::numerics::row::Row;
 
@@ -23,8 +23,6 @@ struct Smooth<'a> {
     body: Vector,
     /// The rings are so nearly concentric that |q| − q_r = t (t/q_r)/2 − … and the direction of q are series in t/q_r.
     series: bool,
-    /// Elements have speeds of their own.
-    uneven: bool,
     /// Time [s] by which paths are still to be moved on along their rates.
     ahead: Option<f64>,
 }
@@ -121,16 +119,32 @@ impl Model {
         derivative: &mut [f64],
         (elements, contacts): (&[ElementBlock], &mut Record),
     ) -> [f64; 4] {
+        if self.is_uneven() {
+            let part = (elements, contacts);
+            return simd.outlined(UnevenContacts::<RECORD> { model: self, now, stage, derivative, part });
+        }
+        self.contacts_of::<S, RECORD, false>(simd, now, stage, derivative, (elements, contacts))
+    }
+
+    /// As [`Self::smooth_contacts`], each element with a speed of its own if `UNEVEN`.
+    #[inline(always)]
+    fn contacts_of<S: Wide, const RECORD: bool, const UNEVEN: bool>(
+        &self,
+        simd: S,
+        now: &Kinematics,
+        stage: &Stage,
+        derivative: &mut [f64],
+        (elements, contacts): (&[ElementBlock], &mut Record),
+    ) -> [f64; 4] {
         let start = self.layout.radial_velocity;
         let (offset, v, omega) = (now.offset(), now.housing.velocity, now.cage.speed);
         let limit = SERIES * self.outer_centre_radius;
         let series = offset.dot(&offset) <= limit * limit;
-        let uneven = self.is_uneven();
         // Of elements with speeds of their own the second part is theirs.
-        let omega = if uneven { 0.0 } else { omega };
+        let omega = if UNEVEN { 0.0 } else { omega };
         let body = Vector::new(self.gravity.x + omega * v.y, self.gravity.y - omega * v.x);
         let drift = now.drift();
-        let smooth = Smooth { model: self, now, offset, drift, body, series, uneven, ahead: stage.ahead };
+        let smooth = Smooth { model: self, now, offset, drift, body, series, ahead: stage.ahead };
         let mut sums = Sums::default();
         if RECORD {
             contacts.outer_tangential.fill(0.0);
@@ -143,7 +157,7 @@ impl Model {
                     break;
                 }
                 let of = |numbers: &[f64; WIDEST]| Lanes::part(simd, numbers, part);
-                let found = smooth.contacts((simd, of(&state[k]), of(&state[w])), block, of, &mut sums);
+                let found = smooth.contacts::<S, UNEVEN>((simd, of(&state[k]), of(&state[w])), block, of, &mut sums);
                 found.path_rate.put(&mut derivative[k], part);
                 found.acceleration.put(&mut derivative[w], part);
                 if RECORD {
@@ -153,6 +167,24 @@ impl Model {
         }
         let [shaft_x, shaft_y, housing_x, housing_y] = sums.lanes;
         [-sum_of(shaft_x), -sum_of(shaft_y), sum_of(housing_x), sum_of(housing_y)]
+    }
+}
+
+/// The contacts of an uneven cage, apart from those of even ones.
+struct UnevenContacts<'a, const RECORD: bool> {
+    model: &'a Model,
+    now: &'a Kinematics,
+    stage: &'a Stage<'a>,
+    derivative: &'a mut [f64],
+    part: (&'a [ElementBlock], &'a mut Record),
+}
+
+impl<const RECORD: bool> Kernel for UnevenContacts<'_, RECORD> {
+    type Output = [f64; 4];
+
+    #[inline(always)]
+    fn run<S: Wide>(self, simd: S) -> [f64; 4] {
+        self.model.contacts_of::<S, RECORD, true>(simd, self.now, self.stage, self.derivative, self.part)
     }
 }
 
@@ -179,7 +211,7 @@ impl<S: Wide> Found<S> {
 
 impl Smooth<'_> {
     #[inline(always)]
-    fn contacts<S: Wide>(
+    fn contacts<S: Wide, const UNEVEN: bool>(
         &self,
         (simd, u, w): (S, Lanes<S>, Lanes<S>),
         block: &ElementBlock,
@@ -210,7 +242,7 @@ impl Smooth<'_> {
             (square / (distance + q_r), q_r * per_distance, t * per_distance)
         };
         let delta = number(-model.radial_clearance) - u - p - longer;
-        let speed = if self.uneven { of(&block.speed) } else { number(now.cage.speed) };
+        let speed = if UNEVEN { of(&block.speed) } else { number(now.cage.speed) };
         let along = dot(simd, -turned(self.drift), e_r) + rho * speed;
         let opening = n_r * (dot(simd, self.drift, e_r) + path_rate) + n_t * along;
 
@@ -218,7 +250,7 @@ impl Smooth<'_> {
         let inner = law.force(of(&block.inner), delta, -opening);
         let outer = law.force(of(&block.outer), u, path_rate);
         let mut turning = rho * (speed * speed);
-        if self.uneven {
+        if UNEVEN {
             turning = turning + speed * dot(simd, -turned(now.housing.velocity), e_r);
         }
         let acceleration = (inner * n_r - outer) * of(&block.per_mass)

@@ -15,6 +15,7 @@
 
 use super::kinematics::CageState;
 use crate::numerics::counter_noise::gaussian;
+use crate::numerics::sin_cos;
 use crate::scene::CageIrregularity;
 use std::cell::RefCell;
 use std::f64::consts::TAU;
@@ -116,6 +117,9 @@ impl Irregularity {
     }
 
     /// Lead of element `j` at an instant of the nominal cage.
+    ///
+    /// Out of the way of even cages, as all that asks for it is.
+    #[cold]
     pub fn of_element(&self, j: usize, cage: &CageState) -> Lead {
         let common = self.of_cage(cage);
         if self.jitter == 0.0 {
@@ -131,6 +135,19 @@ impl Irregularity {
             }
         }
         common + evaluated(&pieces.of_elements[j], share, per_turn / TAU)
+    }
+
+    /// Speed [rad/s] and acceleration [rad/s²] of element `j`.
+    #[cold]
+    pub fn speed_of_element(&self, j: usize, cage: &CageState) -> [f64; 2] {
+        let Lead { rate, bend, .. } = self.of_element(j, cage);
+        [cage.speed * (1.0 + rate), cage.acceleration * (1.0 + rate) + cage.speed * cage.speed * bend]
+    }
+
+    /// Sine and cosine of the angle of element `j`, which is `offset` ahead of the cage but for its lead.
+    #[cold]
+    pub fn direction_of_element(&self, j: usize, offset: f64, cage: &CageState) -> (f64, f64) {
+        sin_cos(offset + self.of_element(j, cage).angle)
     }
 
     /// Lead of the cage itself: that of all elements together. It is 0 at the start.

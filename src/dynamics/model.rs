@@ -293,20 +293,22 @@ impl Model {
     }
 
     /// Angle of element `j` about the outer ring's centre [rad].
-    #[inline]
+    #[inline(always)]
     pub fn element_angle(&self, j: usize, cage: &CageState) -> f64 {
         let angle = cage.angle + self.element_offset(j);
-        if self.is_uneven() { angle + self.lead(j, cage).angle } else { angle }
+        match &self.irregularity {
+            None => angle,
+            Some(uneven) => angle + uneven.of_element(j, cage).angle,
+        }
     }
 
     /// Speed [rad/s] and acceleration [rad/s²] of element `j` about the outer ring's centre.
-    #[inline]
+    #[inline(always)]
     pub fn element_speed(&self, j: usize, cage: &CageState) -> [f64; 2] {
-        if !self.is_uneven() {
-            return [cage.speed, cage.acceleration];
+        match &self.irregularity {
+            None => [cage.speed, cage.acceleration],
+            Some(uneven) => uneven.speed_of_element(j, cage),
         }
-        let Lead { rate, bend, .. } = self.lead(j, cage);
-        [cage.speed * (1.0 + rate), cage.acceleration * (1.0 + rate) + cage.speed * cage.speed * bend]
     }
 
     /// Angle [rad] by which elements spin while the cage turns by `cage` [rad] and the rings as they must for it, the
@@ -325,11 +327,11 @@ impl Model {
     }
 
     /// Radial direction of element `j`.
-    #[inline]
+    #[inline(always)]
     pub(super) fn direction(&self, j: usize, cage: &CageState) -> Vector {
         let (sin, cos) = match &self.irregularity {
             None => (self.elements[j / WIDEST].sin[j % WIDEST], self.elements[j / WIDEST].cos[j % WIDEST]),
-            Some(uneven) => sin_cos(self.element_offset(j) + uneven.of_element(j, cage).angle),
+            Some(uneven) => uneven.direction_of_element(j, self.element_offset(j), cage),
         };
         let cage = cage.direction;
         Vector::new(cage.x * cos - cage.y * sin, cage.y * cos + cage.x * sin)
