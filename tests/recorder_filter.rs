@@ -73,7 +73,10 @@ fn no_aliases_reach_the_band_below_the_rate_over_2_56() {
                 if let (Some(column), true) = (column, low > 0.3) {
                     let printed = levels_in_the_guide(rate)[column];
                     // Loose elements bounce otherwise at another tolerance, which makes up to 1.8 dB.
-                    assert!((printed - before).abs() < 2.0, "{rate} Hz, {name}: {before:+.2} dB, in the guide {printed}");
+                    assert!(
+                        (printed - before).abs() < 2.0,
+                        "{rate} Hz, {name}: {before:+.2} dB, in the guide {printed}"
+                    );
                 }
             }
         }

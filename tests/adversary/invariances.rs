@@ -166,7 +166,8 @@ fn a_mirror_mirrors_the_result() {
 fn fastest_turn(case: &Case) -> [f64; 2] {
     let scene = [case.speed_hz, case.housing_hz.unwrap_or(0.0)].map(|hz| (hz * TAU).abs());
     let hosts = case.steps.iter().filter_map(|step| Some((step.length, step.host?)));
-    let set = hosts.flat_map(|(length, host)| host.speeds.map(|[speed, slope]| speed.abs().max((speed + slope * length).abs())));
+    let set = hosts
+        .flat_map(|(length, host)| host.speeds.map(|[speed, slope]| speed.abs().max((speed + slope * length).abs())));
     [scene[0].max(scene[1]), set.fold(0.0, f64::max)]
 }
 
