@@ -55,7 +55,7 @@ fn one(scene: &Scene, needed: &NeededMap, project: &Project) -> Result<ContactMa
             scene.name
         );
     }
-    whole_file::write(&file, &map.to_bytes())?;
+    whole_file::write(&file, map.to_bytes())?;
     Ok(map)
 }
 

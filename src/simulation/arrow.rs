@@ -29,6 +29,7 @@ pub struct Arrow {
 
 /// Factors of the bodies' matrix.
 #[derive(Debug, Clone)]
+#[allow(clippy::large_enum_variant, reason = "the few are in every step, the box of the many is for the rare scene")]
 enum Factors {
     /// No body has a state.
     None,
