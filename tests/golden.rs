@@ -9,6 +9,8 @@
 //! solver (more steps, more rejected ones) is a regression too.
 #![allow(clippy::unwrap_used)]
 
+#[path = "golden/runs.rs"]
+mod runs;
 mod support;
 
 use std::collections::BTreeMap;
@@ -18,11 +20,9 @@ use std::path::{Path, PathBuf};
 
 use brinell::scene::{Motion, Scene};
 use brinell::simulation::variables::{Causality, Kind};
+use runs::{BY_PATH, STEP, STEPS, ring_motion};
 use support::{Named, fingerprint};
 
-/// Communication step [s]. The recorded events of the shipped scenes lie within the first 20 ms: entry, flight, impact.
-const STEP: f64 = 1e-4;
-const STEPS: usize = 200;
 /// Samples of the file are so many communication steps apart.
 const STRIDE: usize = 10;
 /// Tolerance of a column per largest value in it. Rounding (1e-16) grows tenfold every 6 ms where elements rattle, to
@@ -51,25 +51,18 @@ struct Column {
     samples: Vec<f64>,
 }
 
-/// A host's motion of a ring, smooth and exactly repeatable: it presses the rings together by 12 µm and swings.
 fn move_rings(bearing: &mut Named, scene: &Scene, t: f64) {
-    let swing = t * (0.02 - t) * 1e4;
-    for (name, ring, depth) in [("shaft", &scene.shaft, -12e-6), ("housing", &scene.housing, 0.0)] {
-        if ring.motion != Motion::Host {
-            continue;
-        }
-        let rate = (0.02 - 2.0 * t) * 1e4;
-        let motion = [("x", 2e-6 * swing), ("y", depth + 1e-6 * swing), ("vx", 2e-6 * rate), ("vy", 1e-6 * rate)];
-        for (part, value) in motion {
-            bearing.set(&format!("{name}.{part}"), value);
+    for (name, ring) in [("shaft", &scene.shaft), ("housing", &scene.housing)] {
+        if ring.motion == Motion::Host {
+            for (part, value) in ring_motion(name, t) {
+                bearing.set(&format!("{name}.{part}"), value);
+            }
         }
     }
 }
 
 fn run(name: &str) -> Run {
-    // Maps of these take minutes and are compared with the grid elsewhere.
-    let by_path = ["6205-inner-5deg", "6205-two-defects", "er16k-inner", "er16k-element"].contains(&name);
-    let scene = if by_path { support::shipped(name) } else { support::shipped_as_it_is(name) };
+    let scene = if BY_PATH.contains(&name) { support::shipped(name) } else { support::shipped_as_it_is(name) };
     let mut bearing = Named::new(scene.clone());
     let outputs: Vec<(String, u32)> = bearing
         .0

@@ -10,10 +10,10 @@ use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 use zip::ZipArchive;
 
+use crate::platform::Platform;
 use crate::project::Project;
 use crate::python::Python;
 use crate::slave::{SavedState, Slave};
-use crate::target::Target;
 
 /// Communication steps that are tried.
 const STEPS: u32 = 100;
@@ -146,13 +146,13 @@ fn validate(project: &Project, path: &Path) -> Result<()> {
 }
 
 fn step(folder: &Path, description: &Description) -> Result<()> {
-    let target = Target::host()?;
-    let file = format!("binaries/{}/{}.{}", target.platform, description.identifier, target.extension);
+    let host = Platform::host()?;
+    let file = format!("binaries/{}/{}.{}", host.name, description.identifier, host.extension);
     let path = folder.join(&file);
     ensure!(path.is_file(), "{file} is missing: nothing for this platform");
     let mut slave = Slave::new(&path, "check", &description.guid, &folder.join("resources"))?;
     println!("library: {file} loads, has all functions, makes an instance");
-    slave.initialize(description.tolerance)?;
+    slave.initialize(Some(description.tolerance))?;
     read(&mut slave, description).context("after initialization")?;
 
     let time = |count: u32| f64::from(count) * description.step;

@@ -8,7 +8,7 @@ use brinell_analysis::recording::Speed;
 use clap::{Args, Parser, Subcommand};
 
 use crate::library::{self, Library};
-use crate::{check, demo, fmu, model::Model, modes, project::Project, run, size, stiffness};
+use crate::{check, demo, fmu, model::Model, modes, project::Project, run, scenes, size, stiffness};
 
 /// Rolling bearings with a real surface defect as FMI 2.0 co-simulation units.
 #[derive(Debug, Parser)]
@@ -35,15 +35,17 @@ pub enum Command {
     Size(Size),
     /// Builds the FMU of a spalled 6205 bearing, drives it with fmpy and draws what happens
     Demo(Demo),
+    /// Lists the shipped scenes, or writes the files of those that are named
+    Scenes(Scenes),
 }
 
 /// Options of `build`.
 #[derive(Debug, Args)]
 pub struct Build {
-    /// Scene files (TOML)
+    /// Scene files (TOML), or names of shipped scenes
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<PathBuf>,
-    /// Folder for the FMUs [default: target/fmu]
+    /// Folder for the FMUs [default: the current one]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -53,7 +55,7 @@ pub struct Build {
 /// Options of `run`.
 #[derive(Debug, Args)]
 pub struct Run {
-    /// Scene file (TOML)
+    /// Scene file (TOML), or the name of a shipped scene
     scene: PathBuf,
     /// Stop time in seconds [default: the scene's]
     #[arg(long, value_name = "S")]
@@ -61,7 +63,7 @@ pub struct Run {
     /// Communication step in seconds [default: the scene's]
     #[arg(long, value_name = "H")]
     step: Option<f64>,
-    /// Folder for CSV and figure [default: target/run]
+    /// Folder for CSV and figure [default: the current one]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Leave the figure out; no Python is needed then
@@ -80,7 +82,7 @@ pub struct Check {
 /// Options of `stiffness`.
 #[derive(Debug, Args)]
 pub struct Stiffness {
-    /// Scene file (TOML)
+    /// Scene file (TOML), or the name of a shipped scene
     scene: PathBuf,
     /// Load in newtons along the scene's load [default: the scene's]
     #[arg(long, value_name = "N")]
@@ -89,7 +91,7 @@ pub struct Stiffness {
     /// carry are added
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     points: Option<u32>,
-    /// Folder for CSV and figure [default: target/stiffness]
+    /// Folder for CSV and figure [default: the current one]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Leave the figure out; no Python is needed then
@@ -110,7 +112,7 @@ pub struct Modes {
     /// to be pressed are added
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     points: Option<u32>,
-    /// Folder for JSON and figure [default: target/modes]
+    /// Folder for JSON and figure [default: the current one]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Leave the figure out; no Python is needed then
@@ -146,7 +148,7 @@ pub struct Size {
     /// Column of the signal, by name or by number from 1 [default: the acceleration]
     #[arg(long, value_name = "COLUMN")]
     column: Option<String>,
-    /// Folder for averaged passages and figures [default: target/size]
+    /// Folder for averaged passages and figures [default: the current one]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Leave the figures out; no Python is needed then
@@ -169,36 +171,46 @@ impl Size {
 /// Options of `demo`.
 #[derive(Debug, Args)]
 pub struct Demo {
-    /// Folder for CSV and figure [default: target/demo]
+    /// Folder for CSV and figure [default: brinell-demo]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     #[command(flatten)]
     library: LibraryChoice,
 }
 
+/// Options of `scenes`.
+#[derive(Debug, Args)]
+pub struct Scenes {
+    /// Names of shipped scenes whose files are written
+    #[arg(value_name = "NAME")]
+    names: Vec<String>,
+    /// Folder for the files [default: the current one]
+    #[arg(short, long, value_name = "DIR", requires = "names")]
+    output: Option<PathBuf>,
+}
+
 #[derive(Debug, Args)]
 struct LibraryChoice {
     /// Compiled model library to pack, instead of building it from source; so does the environment's BRINELL_LIBRARY
-    #[arg(long, value_name = "PATH", conflicts_with = "target")]
+    #[arg(long, value_name = "PATH", conflicts_with = "platforms")]
     library: Option<PathBuf>,
-    /// Platform to compile for: linux64, win64, darwin64, aarch64-linux, or Rust's name of it; may be given several
-    /// times
-    /// [default: this one's]
-    #[arg(long, value_name = "PLATFORM")]
-    target: Vec<String>,
+    /// Platforms to pack the library for: all, or a list of linux64, win64, darwin64, aarch64-linux
+    /// [default: all that this program holds; where it compiles them, this machine's]
+    #[arg(long, value_name = "PLATFORM,…", value_delimiter = ',')]
+    platforms: Vec<String>,
 }
 
 impl From<LibraryChoice> for library::Choice {
     fn from(choice: LibraryChoice) -> Self {
-        let named = || env::var_os("BRINELL_LIBRARY").map(PathBuf::from).filter(|_| choice.target.is_empty());
-        Self { file: choice.library.or_else(named), platforms: choice.target }
+        let named = || env::var_os("BRINELL_LIBRARY").map(PathBuf::from).filter(|_| choice.platforms.is_empty());
+        Self { file: choice.library.or_else(named), platforms: choice.platforms }
     }
 }
 
 impl Arguments {
     /// Does what was asked. An error is one line for the user.
     pub fn execute(self) -> Result<()> {
-        self.command.execute(&Project::find())
+        self.command.execute(&Project::of_user())
     }
 }
 
@@ -213,7 +225,7 @@ impl Command {
                 for line in library.describe() {
                     println!("{line}");
                 }
-                let folder = build.output.unwrap_or_else(|| project.target().join("fmu"));
+                let folder = build.output.unwrap_or_else(|| project.results("fmu"));
                 for model in &models {
                     let path = fmu::write(model, &library, &folder)?;
                     println!("{}", path.display());
@@ -223,19 +235,19 @@ impl Command {
             Command::Run(options) => {
                 let model = Model::read(&options.scene)?;
                 let grid = run::Grid::new(&model.scene.experiment, options.stop, options.step)?;
-                let folder = options.output.unwrap_or_else(|| project.target().join("run"));
+                let folder = options.output.unwrap_or_else(|| project.results("run"));
                 run::command(project, model, grid, &folder, !options.no_figure)
             }
             Command::Check(options) => check::command(project, &options.fmu),
             Command::Stiffness(options) => {
                 let model = Model::read(&options.scene)?;
-                let folder = options.output.unwrap_or_else(|| project.target().join("stiffness"));
+                let folder = options.output.unwrap_or_else(|| project.results("stiffness"));
                 let wanted = swept(options.load, options.points, options.no_figure);
                 stiffness::command(project, &model, wanted, &folder)
             }
             Command::Modes(options) => {
                 let model = Model::read(&options.scene)?;
-                let folder = options.output.unwrap_or_else(|| project.target().join("modes"));
+                let folder = options.output.unwrap_or_else(|| project.results("modes"));
                 let wanted = swept(options.load, options.points, options.no_figure);
                 modes::command(project, &model, wanted, &folder)
             }
@@ -246,13 +258,14 @@ impl Command {
                     column: options.column.clone(),
                     figure: !options.no_figure,
                 };
-                let folder = options.output.unwrap_or_else(|| project.target().join("size"));
+                let folder = options.output.unwrap_or_else(|| project.results("size"));
                 size::command(project, &options.scene, &options.recordings, &wanted, &folder)
             }
             Command::Demo(options) => {
-                let folder = options.output.unwrap_or_else(|| project.target().join("demo"));
+                let folder = options.output.unwrap_or_else(|| project.results("demo"));
                 demo::command(project, &options.library.into(), &folder)
             }
+            Command::Scenes(options) => scenes::command(&options.names, &options.output.unwrap_or_default()),
         }
     }
 }

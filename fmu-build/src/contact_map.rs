@@ -1,4 +1,4 @@
-//! Contact maps: computed on all cores with a progress bar, kept under `target/maps` by the fingerprint of their
+//! Contact maps: computed on all cores with a progress bar, kept in the cache by the fingerprint of their
 //! inputs.
 
 use std::fs;
@@ -60,7 +60,7 @@ fn one(scene: &Scene, needed: &NeededMap, project: &Project) -> Result<ContactMa
 }
 
 fn cache_file(project: &Project, fingerprint: u64) -> PathBuf {
-    project.target().join("maps").join(format!("{fingerprint:016x}.bin"))
+    project.cache().join("maps").join(format!("{fingerprint:016x}.bin"))
 }
 
 fn bar(name: &str) -> ProgressBar {

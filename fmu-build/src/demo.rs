@@ -15,17 +15,15 @@ use crate::project::Project;
 use crate::python::Python;
 use crate::whole_file;
 
-const SCENE: &str = "scenes/6205-epps.toml";
+/// A shipped scene.
+const SCENE: &str = "6205-epps";
 /// Spacing of the profile that is drawn, and how far it goes beyond the defect [m].
 const SPACING: f64 = 1e-6;
 const MARGIN: f64 = 0.5e-3;
 
 /// The command: builds the FMU into the folder, drives it, writes CSV files and a figure beside it.
 pub fn command(project: &Project, library: &Choice, folder: &Path) -> Result<()> {
-    // Without the source the scene is looked for where the user stands.
-    let scene = project.source().unwrap_or(Path::new("")).join(SCENE);
-    let model = Model::read(&scene)?;
-    // The environment first: the linker that makes a portable library is in it.
+    let model = Model::read(Path::new(SCENE))?;
     let python = Python::prepare(project)?;
     let library = Library::obtain(project, library)?;
     for line in library.describe() {

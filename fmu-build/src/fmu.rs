@@ -23,7 +23,8 @@ pub fn pack(model: &Model, library: &Library) -> Result<Vec<u8>> {
     archive.add("modelDescription.xml", model_description::write(model, &CAPABILITIES)?)?;
     archive.add("model.png", ICON)?;
     for binary in library.binaries() {
-        let file = format!("binaries/{}/{}.{}", binary.platform, model.scene.model_identifier(), binary.extension);
+        let platform = &binary.platform;
+        let file = format!("binaries/{}/{}.{}", platform.name, model.scene.model_identifier(), platform.extension);
         archive.add(file, binary.bytes.as_slice())?;
     }
     archive.add("resources/scene.toml", model.scene_text.as_str())?;

@@ -1,26 +1,25 @@
-//! The compiled library, the same for every scene: built from source, or found ready-made.
-//!
-//! It has a build profile of its own (`fmu-library` in the workspace's `Cargo.toml`): stripped and optimised as
-//! a whole. Paths of the machine are left out of it, so that equal source and equal tools give equal bytes. A library
-//! beside this program serves where the source is not at hand.
+//! The compiled library, the same for every scene: one that the user names, those inside this program, or compiled from
+//! source.
 
 use std::env;
-use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, bail};
 
+use crate::compile;
+use crate::platform::Platform;
 use crate::project::Project;
-use crate::target::{OLDEST_GLIBC, Target, Zig, needed_glibc};
+use crate::shipped;
+use crate::toolchain;
+use crate::zig::{OLDEST_GLIBC, needed_glibc};
 
-/// What to pack: a file that is there, or what to build.
+/// What to pack: a file that is there, or for which platforms.
 #[derive(Debug, Clone, Default)]
 pub struct Choice {
     /// A compiled library for this platform.
     pub file: Option<PathBuf>,
-    /// Platforms to build for; none stands for this program's own.
+    /// Platforms by name; none stands for all that are inside this program, else for its own.
     pub platforms: Vec<String>,
 }
 
@@ -33,35 +32,34 @@ pub struct Library {
 /// The compiled library for one platform.
 #[derive(Debug, Clone)]
 pub struct Binary {
-    /// The standard's name of the platform: its folder under `binaries/`.
-    pub platform: &'static str,
-    /// Extension of the file, without the dot.
-    pub extension: &'static str,
+    /// Its platform.
+    pub platform: Platform,
     /// The file.
     pub bytes: Vec<u8>,
 }
 
 impl Library {
-    /// The library that was chosen; else built from the workspace's source; else the one beside this program.
+    /// The library that was chosen; else those inside this program; else compiled from the workspace's source; else the
+    /// one beside this program.
     pub fn obtain(project: &Project, choice: &Choice) -> Result<Self> {
-        let host = Target::host()?;
-        let Some(source) = project.source().filter(|_| choice.file.is_none()) else {
-            if !choice.platforms.is_empty() {
-                bail!("--target needs Brinell's source to compile, and goes without --library");
-            }
-            let path = choice.file.clone().map_or_else(beside_this_program, Ok)?;
-            return Ok(Self { binaries: vec![Binary::read(host, &path)?] });
-        };
-        let targets = match choice.platforms.as_slice() {
-            [] => vec![host],
-            names => names.iter().map(|name| Target::named(name)).collect::<Result<Vec<_>>>()?,
-        };
-        for target in &targets {
-            target.check_installed(source)?;
+        let platforms = Platform::listed(&choice.platforms)?;
+        if let Some(file) = &choice.file {
+            return Self::of_host(file);
         }
-        let zig = Zig::find(project);
-        let build = |target: &Target| Binary::read(*target, &build(project, source, *target, host, zig.as_ref())?);
-        Ok(Self { binaries: targets.iter().map(build).collect::<Result<Vec<_>>>()? })
+        let inside = shipped::libraries();
+        if !inside.is_empty() {
+            return Self::inside(inside, &platforms);
+        }
+        let Some(source) = project.source() else {
+            if !platforms.is_empty() {
+                bail!("--platforms needs Brinell's source to compile, or a program that holds the libraries");
+            }
+            return Self::of_host(&beside_this_program()?);
+        };
+        let platforms = if platforms.is_empty() { vec![Platform::host()?] } else { platforms };
+        toolchain::check_installed(source, &platforms)?;
+        let build = |platform: Platform| Ok(Binary { platform, bytes: compile::platform(project, source, platform)? });
+        Ok(Self { binaries: platforms.into_iter().map(build).collect::<Result<Vec<_>>>()? })
     }
 
     /// One binary for each platform.
@@ -73,14 +71,31 @@ impl Library {
     pub fn describe(&self) -> Vec<String> {
         self.binaries.iter().map(Binary::describe).collect()
     }
+
+    fn of_host(path: &Path) -> Result<Self> {
+        let bytes = fs::read(path).with_context(|| path.display().to_string())?;
+        Ok(Self { binaries: vec![Binary { platform: Platform::host()?, bytes }] })
+    }
+
+    /// Those among the files inside the program that were asked for; all of them where nothing was.
+    fn inside(files: &[(&str, &[u8])], platforms: &[Platform]) -> Result<Self> {
+        let named = |file: &str| Platform::named(file.split('.').next().unwrap_or_default());
+        let mut binaries = Vec::new();
+        for (file, bytes) in files {
+            let platform = named(file)?;
+            if platforms.is_empty() || platforms.contains(&platform) {
+                binaries.push(Binary { platform, bytes: bytes.to_vec() });
+            }
+        }
+        if let Some(lacking) = platforms.iter().find(|wanted| !binaries.iter().any(|b| b.platform == **wanted)) {
+            let known = files.iter().map(|(file, _)| file.split('.').next().unwrap_or_default()).collect::<Vec<_>>();
+            bail!("platform {}: this program holds {}", lacking.name, known.join(", "));
+        }
+        Ok(Self { binaries })
+    }
 }
 
 impl Binary {
-    fn read(target: Target, path: &Path) -> Result<Self> {
-        let bytes = fs::read(path).with_context(|| path.display().to_string())?;
-        Ok(Self { platform: target.platform, extension: target.extension, bytes })
-    }
-
     fn describe(&self) -> String {
         let size = self.bytes.len() as f64 / 1024.0;
         let needs = match needed_glibc(&self.bytes) {
@@ -91,71 +106,8 @@ impl Binary {
             ),
             Some(version) => format!(", needs glibc {}.{}", version.0, version.1),
         };
-        format!("{}: {size:.0} KiB{needs}", self.platform)
+        format!("{}: {size:.0} KiB{needs}", self.platform.name)
     }
-}
-
-fn build(project: &Project, source: &Path, target: Target, host: Target, zig: Option<&Zig>) -> Result<PathBuf> {
-    // `cargo run` and `cargo test` say which cargo they are.
-    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let mut command = Command::new(&cargo);
-    command
-        .current_dir(source)
-        .args(["build", "--lib", "--package", "brinell-fmi", "--profile", "fmu-library", "--target", target.triple])
-        .args(["--locked", "--message-format", "json-render-diagnostics"])
-        .env("CARGO_ENCODED_RUSTFLAGS", flags(source))
-        .stderr(Stdio::inherit());
-    match zig {
-        // Zig's libraries are of use where the C library's age matters, and for other systems.
-        Some(zig) if cfg!(unix) && (target != host || target.extension == "so") => {
-            let variable = format!("CARGO_TARGET_{}_LINKER", target.triple.to_uppercase().replace('-', "_"));
-            command.env(variable, zig.linker(project, target)?);
-        }
-        None if target != host => bail!("{}: no linker for it; run: pip install ziglang", target.platform),
-        _ => {}
-    }
-    let output =
-        command.output().with_context(|| format!("cannot start {} to compile the model library", cargo.display()))?;
-    if !output.status.success() {
-        bail!("{}: not compiled ({}); cargo's messages are above", target.platform, output.status);
-    }
-    let built = String::from_utf8_lossy(&output.stdout);
-    let found = built
-        .lines()
-        .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
-        .find_map(|message| artifact(&message, target));
-    found.context("cargo built no dynamic library of the package brinell-fmi")
-}
-
-/// The compiler's flags: the user's, and names in place of this machine's folders.
-fn flags(source: &Path) -> OsString {
-    let mut flags = match (env::var_os("CARGO_ENCODED_RUSTFLAGS"), env::var("RUSTFLAGS")) {
-        (Some(encoded), _) => encoded,
-        (None, Ok(plain)) => plain.split_whitespace().collect::<Vec<_>>().join("\u{1f}").into(),
-        (None, Err(_)) => OsString::new(),
-    };
-    let home = env::var_os("CARGO_HOME").map(PathBuf::from);
-    let cargo = home.or_else(|| env::home_dir().map(|home| home.join(".cargo")));
-    for (folder, name) in [(Some(source.to_path_buf()), "brinell"), (cargo, "cargo")] {
-        if let Some(folder) = folder {
-            if !flags.is_empty() {
-                flags.push("\u{1f}");
-            }
-            flags.push("--remap-path-prefix=");
-            flags.push(folder);
-            flags.push(format!("={name}"));
-        }
-    }
-    flags
-}
-
-/// Path of the dynamic library, when a message of cargo announces it.
-fn artifact(message: &serde_json::Value, target: Target) -> Option<PathBuf> {
-    if message["reason"] != "compiler-artifact" || message["target"]["name"] != "brinell_fmi" {
-        return None;
-    }
-    let files = message["filenames"].as_array()?.iter().filter_map(|file| file.as_str());
-    files.map(PathBuf::from).find(|file| file.extension().is_some_and(|e| e == target.extension))
 }
 
 fn beside_this_program() -> Result<PathBuf> {
@@ -166,4 +118,22 @@ fn beside_this_program() -> Result<PathBuf> {
         bail!("no model library: neither Brinell's source nor {} is there; name one with --library", path.display());
     }
     Ok(path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_the_libraries_inside_a_program_those_asked_for_are_packed() {
+        let files: [(&str, &[u8]); 2] = [("linux64.so", b"l"), ("win64.dll", b"w")];
+        let packed = |names: &[&str]| {
+            let found = Library::inside(&files, &Platform::listed(names).unwrap())?;
+            anyhow::Ok(found.binaries.iter().map(|binary| binary.platform.name).collect::<Vec<_>>())
+        };
+        assert_eq!(packed(&[]).unwrap(), ["linux64", "win64"]);
+        assert_eq!(packed(&["win64"]).unwrap(), ["win64"]);
+        let said = packed(&["win64", "darwin64"]).unwrap_err().to_string();
+        assert_eq!(said, "platform darwin64: this program holds linux64, win64");
+    }
 }

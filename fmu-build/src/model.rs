@@ -1,6 +1,5 @@
 //! A scene file, read and set up: all that an FMU of it is made of, except the compiled library.
 
-use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result};
@@ -10,6 +9,7 @@ use brinell::simulation::guid::guid;
 
 use crate::contact_map;
 use crate::project::Project;
+use crate::shipped;
 
 /// A scene that was read, with its files' texts and a simulation of it.
 #[derive(Debug, Clone)]
@@ -36,19 +36,16 @@ pub struct Profile {
 }
 
 impl Model {
-    /// Reads a scene file and the profile beside it. An error names the file.
+    /// Reads a scene file, or a shipped scene by its name, and the profile beside it. An error names the file.
     pub fn read(path: &Path) -> Result<Self> {
         let about = || path.display().to_string();
-        let scene_text = fs::read_to_string(path).with_context(about)?;
+        let scene_text = shipped::scene_text(path)?;
         let scene = Scene::from_toml(&scene_text).with_context(about)?;
         for remark in scene.remarks() {
             eprintln!("note: {}: {remark}", about());
         }
-        let profile = |name: &str| {
-            let file = path.parent().unwrap_or(Path::new("")).join(name);
-            let text = fs::read_to_string(&file).with_context(|| file.display().to_string())?;
-            anyhow::Ok(Profile { name: name.to_owned(), text })
-        };
+        let profile =
+            |name: &str| anyhow::Ok(Profile { name: name.to_owned(), text: shipped::text_beside(path, name)? });
         let profiles: Vec<Profile> = scene.profile_names().into_iter().map(profile).collect::<Result<_>>()?;
         let texts = || profiles.iter().map(|profile| profile.text.as_str());
         let map = contact_map::of(&scene, texts(), &Project::find()).with_context(about)?;

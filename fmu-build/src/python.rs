@@ -1,5 +1,6 @@
-//! Python environments, made once from a pinned list: this program's own for figures, validation and tests under
-//! `target/python`, and others for what needs more.
+//! Python environments, made once from a pinned list in the cache: this program's own for figures, validation and
+//! tests, and others for what needs more. A program that was installed into a Python environment which has the packages
+//! takes that one, so that nothing is fetched twice.
 //!
 //! The scripts are part of this program and are laid beside the environment, so they can import one another.
 //! A file lock keeps several processes from making it at once; the stamp that is written last tells whether it
@@ -42,19 +43,25 @@ pub struct Python {
 }
 
 impl Python {
-    /// Makes this program's environment, unless it is there.
+    /// The environment that this program lies in, if it has what is needed; else makes this program's own, unless it
+    /// is there.
     pub fn prepare(project: &Project) -> Result<Self> {
+        if let Some(interpreter) = around_this_program() {
+            let python = Self { interpreter, scripts: project.cache().join("scripts"), variables: Vec::new() };
+            python.lay_scripts()?;
+            return Ok(python);
+        }
         Self::prepare_from(project, "python", REQUIREMENTS)
     }
 
-    /// Where this program's environment has its interpreter, once it is made.
-    pub fn interpreter_of(project: &Project) -> PathBuf {
-        project.target().join("python/env").join(INTERPRETER)
+    /// The interpreter.
+    pub fn interpreter(&self) -> &Path {
+        &self.interpreter
     }
 
-    /// Makes an environment of the packages in `requirements` under `target/<name>`, unless it is there.
+    /// Makes an environment of the packages in `requirements` under `<name>` in the cache, unless it is there.
     pub fn prepare_from(project: &Project, name: &str, requirements: &str) -> Result<Self> {
-        let folder = project.target().join(name);
+        let folder = project.cache().join(name);
         fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
         let lock = File::create(folder.join("lock")).context("lock of the Python environment")?;
         lock.lock().context("lock of the Python environment")?;
@@ -72,11 +79,13 @@ impl Python {
             make(&system, &environment, &python.interpreter, &folder, requirements)?;
             whole_file::write(&stamp, requirements)?;
         }
-        fs::create_dir_all(&python.scripts).with_context(|| python.scripts.display().to_string())?;
-        for &(name, text) in SCRIPTS {
-            write_if_new(&python.scripts.join(name), text)?;
-        }
+        python.lay_scripts()?;
         Ok(python)
+    }
+
+    fn lay_scripts(&self) -> Result<()> {
+        fs::create_dir_all(&self.scripts).with_context(|| self.scripts.display().to_string())?;
+        SCRIPTS.iter().try_for_each(|&(name, text)| write_if_new(&self.scripts.join(name), text))
     }
 
     /// Sets an environment variable for all scripts that run from now on.
@@ -106,6 +115,14 @@ impl Python {
         }
         Ok(String::from_utf8_lossy(&output.stdout).into_owned())
     }
+}
+
+/// The interpreter beside this program, where it can draw and drive FMUs.
+fn around_this_program() -> Option<PathBuf> {
+    let interpreter = env::current_exe().ok()?.with_file_name(if cfg!(windows) { "python.exe" } else { "python" });
+    let script = "import fmpy, matplotlib, numpy";
+    let tried = || Command::new(&interpreter).args(["-c", script]).output();
+    (interpreter.is_file() && tried().is_ok_and(|output| output.status.success())).then_some(interpreter)
 }
 
 /// The first interpreter that is new enough.

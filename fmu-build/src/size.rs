@@ -3,7 +3,6 @@
 //!
 //! Standard output carries the JSON and nothing else; what happens meanwhile goes to standard error.
 
-use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -17,6 +16,7 @@ use crate::contact_map;
 use crate::csv;
 use crate::project::Project;
 use crate::python::Python;
+use crate::shipped;
 use crate::whole_file;
 
 /// What the user says.
@@ -40,7 +40,7 @@ pub fn command(
     options: &Options,
     folder: &Path,
 ) -> Result<()> {
-    let text = fs::read_to_string(scene).with_context(|| scene.display().to_string())?;
+    let text = shipped::scene_text(scene)?;
     let scene = Scene::from_toml(&text).with_context(|| scene.display().to_string())?;
     let recordings = read(recordings, options)?;
     for r in &recordings {

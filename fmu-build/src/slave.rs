@@ -123,6 +123,11 @@ macro_rules! call {
 impl Slave {
     /// Loads the library and makes an instance. `resources` is the unpacked folder of that name.
     pub fn new(path: &Path, instance: &str, guid: &str, resources: &Path) -> Result<Self, SlaveError> {
+        Self::with_uri(path, instance, guid, &file_uri(resources))
+    }
+
+    /// The same with the folder as a URI, written as the caller likes.
+    pub fn with_uri(path: &Path, instance: &str, guid: &str, uri: &str) -> Result<Self, SlaveError> {
         // SAFETY: the user asked for this library to be run; its initialisers are his trust.
         let library = unsafe { Library::new(path)? };
         for function in FUNCTIONS {
@@ -138,7 +143,7 @@ impl Slave {
             environment: ptr::from_ref(&*log).cast_mut().cast(),
         });
         let mut slave = Self { component: ptr::null_mut(), library, callbacks, log };
-        let (instance, guid, uri) = (CString::new(instance)?, CString::new(guid)?, CString::new(file_uri(resources))?);
+        let (instance, guid, uri) = (CString::new(instance)?, CString::new(guid)?, CString::new(uri)?);
         type Instantiate = unsafe extern "C" fn(
             *const c_char,
             c_int,
@@ -159,11 +164,12 @@ impl Slave {
         Ok(slave)
     }
 
-    /// `fmi2SetupExperiment` with start time 0, a tolerance and no stop time; then into and out of initialization.
-    pub fn initialize(&mut self, tolerance: f64) -> Result<(), SlaveError> {
+    /// `fmi2SetupExperiment` with start time 0, a tolerance if there is one and no stop time; then into and out of
+    /// initialization.
+    pub fn initialize(&mut self, tolerance: Option<f64>) -> Result<(), SlaveError> {
         let c = self.component;
-        type Setup = (c_int, f64, c_int);
-        let (tolerance_defined, _, stop_defined): Setup = (1, tolerance, 0);
+        let (tolerance_defined, stop_defined) = (c_int::from(tolerance.is_some()), 0);
+        let tolerance = tolerance.unwrap_or(0.0);
         call!(
             self,
             "fmi2SetupExperiment",

@@ -3,7 +3,7 @@
 //! Everything is written into a temporary file in the same folder, which takes the name when its last byte is on the
 //! disk. It is removed on the way out of every failure.
 
-use std::fs::{self, Permissions};
+use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
@@ -79,7 +79,7 @@ fn beside(path: &Path, folder: &Path) -> io::Result<NamedTempFile> {
     {
         // As any file that a program makes: the user's mask takes away from this.
         use std::os::unix::fs::PermissionsExt;
-        builder.permissions(Permissions::from_mode(0o666));
+        builder.permissions(fs::Permissions::from_mode(0o666));
     }
     builder.tempfile_in(folder)
 }

@@ -23,7 +23,7 @@ fn an_fmu_holds_what_the_standard_names_and_nothing_else() {
     let names: Vec<_> = headers(&bytes).into_iter().map(|header| header.name).collect();
     let library = format!(
         "binaries/{}/Brinell_6205_epps.{}",
-        fmu_build::target::Target::host().unwrap().platform,
+        fmu_build::platform::Platform::host().unwrap().name,
         std::env::consts::DLL_EXTENSION
     );
     let expected = [

@@ -1,5 +1,6 @@
 //! The licences of all crates that are compiled into the model library stand in `fmu-build/assets/third-party.txt`,
-//! which every FMU holds. After a change of dependencies: `BLESS=1 cargo test -p fmu-build --test licenses`.
+//! which every FMU holds; those of the program in `third-party-program.txt`, which goes along with it. After a change
+//! of dependencies: `BLESS=1 cargo test --workspace --test licenses`.
 #![allow(clippy::unwrap_used)]
 
 mod common;
@@ -13,7 +14,7 @@ use std::{env, fs};
 use serde_json::Value;
 
 const HEAD: &str = "\
-What else is compiled into the model library, and under which licence. Where a choice is offered, MIT is taken.
+What else is compiled into the {what}, and under which licence. Where a choice is offered, MIT is taken.
 
 Rust's standard library: MIT or Apache-2.0, copyright the Rust project's contributors, https://github.com/rust-lang/rust
 LLVM's libunwind, where the library was linked through zig: Apache-2.0 with LLVM exception, https://llvm.org
@@ -35,14 +36,14 @@ fn is_macro(package: &Value) -> bool {
     targets.iter().any(|target| target["kind"].as_array().unwrap().iter().any(|kind| kind == "proc-macro"))
 }
 
-/// The packages that the library needs at run time, on any platform.
-fn needed(metadata: &Value) -> Vec<&Value> {
+/// The packages that one of ours needs at run time, on any platform.
+fn needed<'a>(metadata: &'a Value, ours: &str) -> Vec<&'a Value> {
     let by_id = |list: &'static str| -> BTreeMap<&str, &Value> {
         let list = if list == "nodes" { &metadata["resolve"]["nodes"] } else { &metadata[list] };
         list.as_array().unwrap().iter().map(|item| (item["id"].as_str().unwrap(), item)).collect()
     };
     let (packages, nodes) = (by_id("packages"), by_id("nodes"));
-    let root = packages.values().find(|package| package["name"] == "brinell-fmi").unwrap()["id"].as_str().unwrap();
+    let root = packages.values().find(|package| package["name"] == ours).unwrap()["id"].as_str().unwrap();
     let (mut found, mut open) = (BTreeSet::new(), vec![root]);
     while let Some(id) = open.pop() {
         for dependency in nodes[id]["deps"].as_array().unwrap() {
@@ -73,11 +74,11 @@ fn texts(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-fn written() -> String {
+fn written(ours: &str, what: &str) -> String {
     let metadata = metadata();
     let mut by_text: BTreeMap<String, Vec<String>> = BTreeMap::new();
-    let mut page = HEAD.to_owned();
-    for package in needed(&metadata) {
+    let mut page = HEAD.replace("{what}", what);
+    for package in needed(&metadata, ours) {
         let field = |name: &str| package[name].as_str().unwrap_or_default();
         let shown = format!("{} {}", field("name"), field("version"));
         assert!(!field("license").is_empty(), "{shown}: no licence is named");
@@ -95,14 +96,25 @@ fn written() -> String {
     page
 }
 
-#[test]
-fn every_crate_inside_the_library_is_listed_with_its_licence() {
-    let file = common::root().join("fmu-build/assets/third-party.txt");
-    let written = written();
+fn is_listed(ours: &str, what: &str, file: &str) -> String {
+    let file = common::root().join("fmu-build/assets").join(file);
+    let written = written(ours, what);
     if env::var_os("BLESS").is_some_and(|value| value == "1") {
         fs::write(&file, &written).unwrap();
     }
     let committed = fs::read_to_string(&file).unwrap_or_default();
-    assert!(committed == written, "third-party.txt is not that of the dependencies; bless it");
+    assert!(committed == written, "{} is not that of the dependencies; bless it", file.display());
+    written
+}
+
+#[test]
+fn every_crate_inside_the_library_is_listed_with_its_licence() {
+    let written = is_listed("brinell-fmi", "model library", "third-party.txt");
     assert!(written.contains("libm ") && written.contains("Permission is hereby granted"));
+}
+
+#[test]
+fn every_crate_inside_the_program_is_listed_with_its_licence() {
+    let written = is_listed("fmu-build", "program `brinell`", "third-party-program.txt");
+    assert!(written.contains("clap ") && written.contains("Permission is hereby granted"));
 }

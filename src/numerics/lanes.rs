@@ -8,7 +8,9 @@
 //! Lists of numbers have a multiple of [`WIDEST`] places. Those beyond the last number are zeros and must stay so: a
 //! machine with fewer lanes leaves out what it need not look at.
 
-use pulp::{Arch, NullaryFnOnce, Scalar256b, Simd};
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+use pulp::NullaryFnOnce;
+use pulp::{Arch, Scalar256b, Simd};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Lanes that every machine has, or is made to have.
@@ -113,8 +115,8 @@ impl Wide for Scalar256b {
     }
 }
 
-#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 mod partition;
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 mod x86;
 
 pub use partition::Partition;
@@ -141,8 +143,10 @@ pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
 }
 
 /// A kernel with the registers that it runs on.
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 struct On<S, K>(S, K);
 
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 impl<S: Wide, K: Kernel> NullaryFnOnce for On<S, K> {
     type Output = K::Output;
 

@@ -7,9 +7,10 @@ use clap::{Args, Parser, Subcommand};
 use fmu_build::cli::Command as UserCommand;
 use fmu_build::project::Project;
 
-use crate::{report, validation};
+use crate::{dist, report, site, validation};
 
-/// Turns bearing scenes into FMI 2.0 co-simulation FMUs and runs them; computes the pages in docs/ anew.
+/// Turns bearing scenes into FMI 2.0 co-simulation FMUs and runs them; computes the pages in docs/ anew. Where a
+/// command speaks of the current folder, results go into target/ here.
 #[derive(Debug, Parser)]
 #[command(name = "cargo fmu", bin_name = "cargo fmu", version, max_term_width = 100)]
 pub struct Arguments {
@@ -25,6 +26,30 @@ enum Command {
     Report(Report),
     /// Computes every claim of the paper anew: docs/validation.md and its figures
     Validate(Validate),
+    /// Makes what users install, for all platforms: wheels and archives of the program with the libraries inside
+    Dist(Dist),
+    /// The documentation as a book: docs/ as it is, and every key of a scene; needs mdBook
+    Site(Site),
+}
+
+#[derive(Debug, Args)]
+struct Site {
+    /// Folder for the book and what it is made of [default: target/site]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+struct Dist {
+    /// Platforms to make wheels and archives for; each holds the libraries of all
+    #[arg(long, value_name = "PLATFORM,…", value_delimiter = ',')]
+    platforms: Vec<String>,
+    /// Only the libraries, for a program compiled with BRINELL_LIBRARIES set to their folder
+    #[arg(long)]
+    only_libraries: bool,
+    /// Folder for libraries, wheels and archives [default: target/dist]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -68,7 +93,7 @@ impl Arguments {
             Command::User(command) => command.execute(&project),
             Command::Report(options) => {
                 let folder = if options.short {
-                    project.target().join("report")
+                    project.results("report")
                 } else {
                     project.source().unwrap_or(Path::new(".")).join("docs")
                 };
@@ -78,6 +103,13 @@ impl Arguments {
                 }
                 let extent = if options.short { report::Extent::Short } else { report::Extent::Full };
                 report::command(&project, extent, &folder)
+            }
+            Command::Dist(options) => {
+                let folder = options.output.unwrap_or_else(|| project.results("dist"));
+                dist::command(&project, &options.platforms, options.only_libraries, &folder)
+            }
+            Command::Site(options) => {
+                site::command(&project, &options.output.unwrap_or_else(|| project.results("site")))
             }
             Command::Validate(options) => {
                 let known = options.recordings.iter().map(|text| validation::recordings::Known::parse(text));

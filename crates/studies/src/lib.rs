@@ -4,5 +4,7 @@
 #![allow(rustdoc::broken_intra_doc_links)]
 
 pub mod cli;
+pub mod dist;
 pub mod report;
+pub mod site;
 pub mod validation;

@@ -134,7 +134,7 @@ pub fn command(project: &Project, options: &Options, docs: &Path) -> Result<()> 
 }
 
 fn folder(project: &Project) -> PathBuf {
-    project.target().join("validation")
+    project.results("validation")
 }
 
 /// Columns of equal length into `target/validation/<name>.csv`.

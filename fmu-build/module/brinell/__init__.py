@@ -1,0 +1,151 @@
+"""Rolling bearings with a real surface defect: FMUs, runs without a host, lengths of spalls from recordings.
+
+    import brinell
+    run = brinell.run("6205-epps", stop=0.1)
+    run["sensor.acceleration"]
+
+Everything is computed by the program ``brinell``, which this package brings along; ``brinell --help`` has more. A
+scene is the path of a TOML file, or the name of a shipped scene (:func:`scenes`). All signals are in SI units. What
+goes wrong is a :class:`BrinellError` with the program's own words.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import sysconfig
+import tempfile
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ["BrinellError", "Run", "build", "program", "run", "scenes", "size"]
+
+PathLike = Union[str, "os.PathLike[str]"]
+Signal = npt.NDArray[np.float64]
+
+
+class BrinellError(RuntimeError):
+    """The program refused or failed; the text is what it said."""
+
+
+class Run(Mapping[str, Signal]):
+    """Signals of a run by name, each with one sample per communication point.
+
+    ``run["time"]`` [s] is the first of them, ``run.units`` has the unit of each, and ``run.recording`` what the scene's
+    recorder sampled, as a structured array, or None.
+    """
+
+    def __init__(self, signals: dict[str, Signal], units: dict[str, str], recording: npt.NDArray[Any] | None) -> None:
+        self._signals = signals
+        self.units = units
+        self.recording = recording
+
+    def __getitem__(self, name: str) -> Signal:
+        return self._signals[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._signals)
+
+    def __len__(self) -> int:
+        return len(self._signals)
+
+    def __repr__(self) -> str:
+        time = self["time"]
+        return f"<brinell.Run: {len(self)} signals, {time.size} points until {time[-1]} s>"
+
+
+def program() -> str:
+    """Path of the program: what the environment's ``BRINELL_PROGRAM`` names, else the one installed with this package,
+    else one in the path."""
+    if "BRINELL_PROGRAM" in os.environ:
+        return os.environ["BRINELL_PROGRAM"]
+    name = "brinell.exe" if os.name == "nt" else "brinell"
+    schemes = ["", os.name + "_user"]
+    folders = [sysconfig.get_path("scripts", scheme) if scheme else sysconfig.get_path("scripts") for scheme in schemes]
+    for folder in [*folders, str(Path(sys.executable).parent)]:
+        if folder and (Path(folder) / name).is_file():
+            return str(Path(folder) / name)
+    found = shutil.which(name)
+    if found is None:
+        raise BrinellError(f"the program {name} is not installed; it comes with the wheel of this package")
+    return found
+
+
+def build(scene: PathLike, output: PathLike = ".", *, platforms: str | Iterable[str] = ()) -> Path:
+    """Builds the FMU of a scene into the folder ``output`` and gives its path.
+
+    ``platforms``: "all", or any of linux64, win64, darwin64 and aarch64-linux; without it, all that the program holds.
+    """
+    names = platforms if isinstance(platforms, str) else ",".join(platforms)
+    chosen = ["--platforms", names] if names else []
+    said = _ask("build", os.fspath(scene), "--output", os.fspath(output), *chosen)
+    return Path(said.splitlines()[-1])
+
+
+def run(scene: PathLike, *, stop: float | None = None, step: float | None = None) -> Run:
+    """Runs a scene without a host, its inputs at their start values, and gives all inputs and outputs.
+
+    ``stop`` and ``step`` are the stop time and the communication step [s]; without them, the scene's.
+    """
+    options = [f"--{name}={value!r}" for name, value in (("stop", stop), ("step", step)) if value is not None]
+    with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
+        _ask("run", os.fspath(scene), "--no-figure", "--output", folder, *options)
+        (table,) = Path(folder).glob("*.csv")
+        with open(table, encoding="utf-8") as file:
+            heads = [head.rpartition(" [") for head in file.readline().strip().split(",")]
+            values = np.loadtxt(file, delimiter=",", ndmin=2)
+        recordings = [np.load(path) for path in Path(folder).glob("*.npy")]
+    signals = {name: np.ascontiguousarray(values[:, index]) for index, (name, _, _) in enumerate(heads)}
+    units = {name: unit.rstrip("]") for name, _, unit in heads}
+    return Run(signals, units, recordings[0] if recordings else None)
+
+
+def size(
+    recordings: PathLike | Iterable[PathLike],
+    scene: PathLike,
+    *,
+    speed: float | Iterable[float] | None = None,
+    rate: float | None = None,
+    tacho: str | None = None,
+    pulses: int = 1,
+    speed_column: str | None = None,
+    column: str | None = None,
+    output: PathLike | None = None,
+) -> dict[str, Any]:
+    """Length of a spall from recordings of one bearing (.csv, .txt, .npy or .wav), or why there is none.
+
+    One of ``speed`` [Hz] (for all recordings or for each), ``tacho`` and ``speed_column`` tells how the shaft turns;
+    ``rate`` [Hz] and ``column`` say what a file does not. Gives what ``brinell size`` prints as JSON; averaged passages
+    are kept where ``output`` names a folder.
+    """
+    files = [recordings] if isinstance(recordings, (str, os.PathLike)) else list(recordings)
+    speeds = "" if speed is None else repr(speed) if isinstance(speed, (int, float)) else ",".join(map(repr, speed))
+    given = {
+        "speed": speeds, "rate": "" if rate is None else repr(rate), "tacho": tacho, "speed-column": speed_column,
+        "column": column, "pulses": str(pulses) if tacho is not None else "",
+    }  # fmt: skip
+    options = [f"--{name}={value}" for name, value in given.items() if value]
+    with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
+        words = ["--scene", os.fspath(scene), "--no-figure", "--output", os.fspath(output or folder), *options]
+        return json.loads(_ask("size", *words, "--", *map(os.fspath, files)))
+
+
+def scenes() -> list[str]:
+    """Names of the shipped scenes."""
+    return [line.split()[0] for line in _ask("scenes").splitlines()]
+
+
+def _ask(*words: str) -> str:
+    """Runs the program and gives what it prints."""
+    done = subprocess.run([program(), *words], capture_output=True, text=True, encoding="utf-8")
+    if done.returncode != 0:
+        said = done.stderr.strip().splitlines() or ["it said nothing"]
+        raise BrinellError(said[-1].removeprefix("error: "))
+    return done.stdout

@@ -1,0 +1,73 @@
+//! The notebooks of `examples/notebooks` run, cell after cell, with the Python module that the wheel brings.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+/// Runs the code of a notebook, and then `check`, in a folder of its own; gives what was printed.
+fn run(name: &str, check: &str) -> String {
+    let text = fs::read_to_string(common::root().join("examples/notebooks").join(name)).unwrap();
+    let notebook: Value = serde_json::from_str(&text).unwrap();
+    let folder = common::folder(name);
+    let mut code = format!("import os, sys\nos.chdir({:?})\n", folder.to_str().unwrap());
+    code += &format!("sys.path.insert(0, {:?})\n", Path::new(env!("CARGO_MANIFEST_DIR")).join("module"));
+    for cell in notebook["cells"].as_array().unwrap() {
+        assert!(cell["outputs"].as_array().is_none_or(Vec::is_empty), "{name}: committed with outputs");
+        if cell["cell_type"] == "code" {
+            cell["source"].as_array().unwrap().iter().for_each(|line| code += line.as_str().unwrap());
+            code.push('\n');
+        }
+    }
+    let script = folder.join("notebook.py");
+    fs::write(&script, code + check).unwrap();
+    let python = common::python().clone().with_variable("BRINELL_PROGRAM", env!("CARGO_BIN_EXE_brinell"));
+    let python = match common::built_with_the_tests() {
+        Some(library) => python.with_variable("BRINELL_LIBRARY", library),
+        None => python,
+    };
+    python.run_file(&script, [""; 0]).unwrap_or_else(|error| panic!("{error:#}"))
+}
+
+#[test]
+fn the_notebook_of_a_run_finds_the_ball_pass_frequency_in_the_envelope() {
+    // Lines of a spectrum over 0.2 s are 5 Hz apart.
+    let check = "assert abs(strongest - ball_pass) < 5\nassert len(plt.get_fignums()) == 1\n\
+                 assert run.units['shaft.y'] == 'm' and run.recording is None\n\
+                 assert sorted(os.listdir()) == ['notebook.py'], 'a run leaves nothing behind'\n";
+    let said = run("run.ipynb", check);
+    assert!(said.contains("ball-pass frequency: 89."), "{said}");
+}
+
+#[test]
+fn the_notebook_of_an_fmu_steps_it_in_fmpy() {
+    // An element in the spall carries nothing, and its strike is felt by those that do.
+    let check = "assert str(fmu) == 'er16k-tb1.fmu' and result.size == 1001\n\
+                 least = min(result[name][result['time'] > 0.005].min() for name in forces)\n\
+                 most, start = (max(pick(result[name]) for name in forces) for pick in (max, lambda f: f[0]))\n\
+                 assert least == 0 and most > 1.5 * start, (least, most, start)\n";
+    run("fmu.ipynb", check);
+}
+
+#[test]
+fn what_the_program_refuses_is_an_error_of_the_module_in_its_words() {
+    let folder = common::folder("module");
+    let script = folder.join("errors.py");
+    let module = Path::new(env!("CARGO_MANIFEST_DIR")).join("module");
+    let code = format!(
+        "import sys\nsys.path.insert(0, {module:?})\nimport brinell\n\
+         assert '6205-epps' in brinell.scenes() and len(brinell.scenes()) >= 12\n\
+         for call in (lambda: brinell.run('no-such-scene'), lambda: brinell.run('6205-healthy', stop=-1.0),\n\
+         \x20            lambda: brinell.size('none.npy', '6205-spall-5deg', speed=10, rate=51200)):\n\
+         \x20   try:\n\x20       call()\n\x20   except brinell.BrinellError as error:\n\x20       print(error)\n\
+         \x20   else:\n\x20       raise SystemExit('nothing was refused')\n"
+    );
+    fs::write(&script, code).unwrap();
+    let python = common::python().clone().with_variable("BRINELL_PROGRAM", env!("CARGO_BIN_EXE_brinell"));
+    let said = python.run_file(&script, [""; 0]).unwrap_or_else(|error| panic!("{error:#}"));
+    assert!(said.starts_with("no-such-scene: neither a file nor a shipped scene"), "{said}");
+    assert!(said.contains("stop time -1 s") && said.contains("none.npy"), "{said}");
+}

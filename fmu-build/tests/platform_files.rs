@@ -1,0 +1,203 @@
+//! The libraries of all platforms as files: what they export, what they ask of their system, how they are signed, and
+//! that they are the same bytes whenever and wherever they are built.
+//!
+//! `.ci/platforms` installs what these tests need and runs them.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::process::Command;
+use std::sync::OnceLock;
+
+use fmu_build::fmu;
+use fmu_build::library::{Binary, Choice, Library};
+use fmu_build::project::Project;
+use fmu_build::zig::{OLDEST_GLIBC, needed_glibc};
+use object::macho::{self, MachHeader64};
+use object::read::macho::{LoadCommandVariant, MachHeader, MachOFatFile32};
+use object::{BinaryFormat, LittleEndian, Object};
+
+/// The functions of co-simulation and those of model exchange, which only refuse.
+const FUNCTIONS: usize = 44;
+
+fn libraries() -> &'static Library {
+    static LIBRARIES: OnceLock<Library> = OnceLock::new();
+    LIBRARIES.get_or_init(|| Library::obtain(&Project::find(), &all()).unwrap())
+}
+
+fn all() -> Choice {
+    Choice { file: None, platforms: vec!["all".to_owned()] }
+}
+
+fn binary(platform: &str) -> &'static Binary {
+    libraries().binaries().iter().find(|binary| binary.platform.name == platform).unwrap()
+}
+
+fn holds(bytes: &[u8], text: &str) -> bool {
+    bytes.windows(text.len()).any(|window| window == text.as_bytes())
+}
+
+/// Exported names, without the underscore that macOS puts before each.
+fn exports(bytes: &[u8]) -> Vec<String> {
+    let file = object::File::parse(bytes).unwrap();
+    let names = file.exports().unwrap();
+    let text = names.map(|export| String::from_utf8_lossy(export.unwrap().name().name().unwrap()).into_owned());
+    text.map(|name| name.strip_prefix('_').map_or(name.clone(), str::to_owned)).collect()
+}
+
+/// The two files in macOS's.
+fn slices() -> Vec<&'static [u8]> {
+    let bytes = binary("darwin64").bytes.as_slice();
+    let parts = MachOFatFile32::parse(bytes).unwrap();
+    use object::read::macho::FatArch;
+    parts.arches().iter().map(|part| part.data(bytes).unwrap()).collect()
+}
+
+/// Apart, so that the nightly run can leave them to `.ci/platforms`.
+mod all_platforms {
+    use super::*;
+
+    #[test]
+    #[ignore = "compiles the library for all platforms"]
+    fn every_library_exports_the_functions_of_the_standard_and_nothing_else() {
+        let whole = libraries().binaries().iter().filter(|binary| binary.platform.name != "darwin64");
+        let parts = whole.map(|binary| (binary.platform.name, binary.bytes.as_slice()));
+        let mut seen = 0;
+        for (name, bytes) in parts.chain(slices().into_iter().map(|slice| ("darwin64", slice))) {
+            let names = exports(bytes);
+            assert_eq!(names.len(), FUNCTIONS, "{name}: {names:?}");
+            assert!(names.iter().all(|name| name.starts_with("fmi2")), "{name}: {names:?}");
+            seen += 1;
+        }
+        assert_eq!(seen, 5);
+    }
+
+    #[test]
+    #[ignore = "compiles the library for all platforms"]
+    fn no_library_tells_where_it_was_built() {
+        let home = std::env::home_dir().unwrap();
+        for binary in libraries().binaries() {
+            for place in [common::root().to_str().unwrap(), &format!("{}/.cargo", home.display()), "/target/"] {
+                assert!(!holds(&binary.bytes, place), "{}: {place}", binary.platform.name);
+            }
+        }
+    }
+
+    #[test]
+    #[ignore = "compiles the library for all platforms"]
+    fn linux_libraries_run_with_glibc_2_17_and_without_libgcc() {
+        for platform in ["linux64", "aarch64-linux"] {
+            let bytes = &binary(platform).bytes;
+            assert!(needed_glibc(bytes).unwrap() <= OLDEST_GLIBC, "{platform}: {:?}", needed_glibc(bytes));
+            assert!(!holds(bytes, "libgcc_s"), "{platform}");
+        }
+    }
+
+    #[test]
+    #[ignore = "compiles the library for all platforms"]
+    fn the_library_of_windows_asks_for_windows_own_libraries_and_bears_no_date() {
+        let bytes = binary("win64").bytes.as_slice();
+        let file = object::read::pe::PeFile64::parse(bytes).unwrap();
+        assert_eq!(file.nt_headers().file_header.time_date_stamp.get(LittleEndian), 0);
+        let file = object::File::parse(bytes).unwrap();
+        let mut from: Vec<String> = file
+            .imports()
+            .unwrap()
+            .map(|import| String::from_utf8_lossy(import.unwrap().library()).to_lowercase())
+            .collect();
+        from.sort();
+        from.dedup();
+        // Windows 10 and later have all of them; none comes with a compiler.
+        let known = |name: &String| {
+            name.starts_with("api-ms-win-c")
+                || ["kernel32.dll", "ntdll.dll", "ws2_32.dll", "userenv.dll", "bcryptprimitives.dll"]
+                    .contains(&name.as_str())
+        };
+        assert!(from.iter().all(known), "{from:?}");
+    }
+
+    #[test]
+    #[ignore = "compiles the library for all platforms"]
+    fn the_file_of_macos_serves_both_processors_from_version_11_on_and_is_signed() {
+        let slices = slices();
+        let mut processors = Vec::new();
+        for slice in slices {
+            assert_eq!(object::File::parse(slice).unwrap().format(), BinaryFormat::MachO);
+            let header = MachHeader64::<LittleEndian>::parse(slice, 0).unwrap();
+            assert_eq!(header.filetype(LittleEndian), macho::MH_DYLIB);
+            let (mut name, mut oldest, mut system, mut signed) = (None, None, Vec::new(), false);
+            let mut commands = header.load_commands(LittleEndian, slice, 0).unwrap();
+            while let Some(command) = commands.next().unwrap() {
+                let text = |at| String::from_utf8_lossy(command.string(LittleEndian, at).unwrap()).into_owned();
+                match command.variant().unwrap() {
+                    LoadCommandVariant::IdDylib(id) => name = Some(text(id.dylib.name)),
+                    LoadCommandVariant::Dylib(used) => system.push(text(used.dylib.name)),
+                    LoadCommandVariant::BuildVersion(version, _) => {
+                        assert_eq!(version.platform.get(LittleEndian), macho::PLATFORM_MACOS);
+                        oldest = Some(version.minos.get(LittleEndian).0 >> 16);
+                    }
+                    LoadCommandVariant::LinkeditData(data) if command.cmd() == macho::LC_CODE_SIGNATURE => {
+                        let at = data.dataoff.get(LittleEndian) as usize;
+                        // The magic number of a signature that holds others (Apple's `cs_blobs.h`).
+                        signed = slice[at..at + 4] == [0xfa, 0xde, 0x0c, 0xc0];
+                    }
+                    _ => {}
+                }
+            }
+            let processor = header.cputype(LittleEndian);
+            assert_eq!(name.as_deref(), Some("@rpath/brinell_fmi.dylib"));
+            assert_eq!(oldest, Some(11));
+            assert_eq!(system, ["/usr/lib/libSystem.B.dylib"]);
+            // Macs with Apple's processors load nothing unsigned.
+            assert!(signed || processor == macho::CPU_TYPE_X86_64);
+            processors.push(processor);
+        }
+        assert_eq!(processors, [macho::CPU_TYPE_X86_64, macho::CPU_TYPE_ARM64]);
+    }
+
+    #[test]
+    #[ignore = "compiles the library for all platforms"]
+    fn an_fmu_with_every_library_and_a_map_takes_less_than_6_megabytes() {
+        let model = common::model("6205-epps");
+        assert!(model.map.is_some());
+        let bytes = fmu::pack(&model, libraries()).unwrap();
+        for line in libraries().describe() {
+            println!("{line}");
+        }
+        println!("FMU: {} bytes", bytes.len());
+        assert!(bytes.len() < 6_000_000, "{} bytes", bytes.len());
+        let file = common::folder("all-platforms").join("6205-epps.fmu");
+        std::fs::write(&file, bytes).unwrap();
+        fmu_build::check::command(&Project::find(), &file).unwrap();
+    }
+
+    #[test]
+    #[ignore = "compiles the library for all platforms in another folder, for ten minutes"]
+    fn all_libraries_built_in_two_folders_have_equal_bytes() {
+        let copy = common::folder("second-build");
+        for part in [
+            "Cargo.toml",
+            "Cargo.lock",
+            ".cargo",
+            "crates",
+            "src",
+            "benches",
+            "tests",
+            "examples",
+            "fmu-build",
+            "scenes",
+        ] {
+            let status = Command::new("cp").arg("-r").arg(common::root().join(part)).arg(&copy).status().unwrap();
+            assert!(status.success(), "{part}");
+        }
+        for file in ["LICENSE-MIT", "LICENSE-APACHE", "README.md"] {
+            std::fs::copy(common::root().join(file), copy.join(file)).unwrap();
+        }
+        let second = Library::obtain(&Project::at(&copy), &all()).unwrap();
+        for (first, second) in libraries().binaries().iter().zip(second.binaries()) {
+            assert!(first.bytes == second.bytes, "{}: the libraries differ", first.platform.name);
+        }
+        let model = common::model("6205-epps");
+        assert!(fmu::pack(&model, libraries()).unwrap() == fmu::pack(&model, &second).unwrap());
+    }
+}
