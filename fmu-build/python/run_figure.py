@@ -1,10 +1,12 @@
-"""Overview of a run: what moves, the forces on both rings, the outer forces of the elements, and the sensor."""
+"""Overview of a run: what moves, the forces on both rings, the outer forces of the elements, and the sensor; with the
+spectrum of its envelope, if there is one."""
 
+import json
 import sys
 from pathlib import Path
 
 import plotting
-from plotting import BLUE, GREEN, ORANGE, VERMILION, plt
+from plotting import BLUE, GREEN, ORANGE, PURPLE, VERMILION, plt
 
 path = Path(sys.argv[1])
 data = plotting.read_csv(path)
@@ -45,15 +47,53 @@ def panels():
     yield "outer force on\nelements (N)", outer
 
 
+def lines(axis, name, frequency, colour, style, top):
+    """Harmonics of a characteristic frequency up to `top`, the first one darkest."""
+    for k in range(1, int(top / frequency) + 1):
+        axis.axvline(k * frequency, color=colour, linestyle=style, linewidth=1.0, alpha=1.0 if k == 1 else 0.5, zorder=1)
+    label = f"{name} {frequency:.1f} Hz"
+    axis.plot([], [], color=colour, linestyle=style, linewidth=1.0, label=label)
+
+
+def envelope(axis, path):
+    """The spectrum of the envelope and where lines of each kind of defect would stand."""
+    data = plotting.read_csv(path)
+    said = json.loads(path.with_suffix(".json").read_text(encoding="utf-8"))
+    frequency, amplitude = data["frequency"], data["amplitude"]
+    top = frequency[-1]
+    marks = said["frequencies_hz"]
+    styles = {"BPFO": (BLUE, "-"), "BPFI": (VERMILION, "--"), "2 BSF": (GREEN, "-."), "FTF": (PURPLE, ":")}
+    for name, (colour, style) in styles.items():
+        # The cage's own line alone: its harmonics would cover everything.
+        lines(axis, name, marks[name], colour, style, 1.5 * marks[name] if name == "FTF" else top)
+    axis.plot(frequency, amplitude, color="black", linewidth=0.9, zorder=3)
+    low, high = (f / 1e3 for f in said["band_hz"])
+    axis.set_xlim(0, top)
+    axis.set_ylim(0, 1.08 * amplitude[frequency > 0.5 * said["line_width_hz"]].max())
+    axis.set_xlabel(f"frequency (Hz); lines are {said['line_width_hz']:.2g} Hz wide; harmonics of BPFO, BPFI and 2 BSF pale")
+    axis.set_ylabel("squared envelope\n(share of its mean)")
+    axis.set_title(f"envelope, {low:.2g} to {high:.2g} kHz", fontsize=10)
+    axis.legend(loc="lower right", bbox_to_anchor=(1, 0.98), ncols=4, columnspacing=1.2)
+
+
 drawn = list(panels())
-figure, axes = plt.subplots(len(drawn), 1, figsize=(plotting.WIDTH, 0.6 + 1.5 * len(drawn)), sharex=True, squeeze=False)
-for axis, (label, draw) in zip(axes[:, 0], drawn):
+spectra = [Path(argument) for argument in sys.argv[2:]]
+heights = [1.5] * len(drawn) + [2.6] * len(spectra)
+figure, axes = plt.subplots(
+    len(heights), 1, figsize=(plotting.WIDTH, 0.6 + sum(heights)), height_ratios=heights, squeeze=False
+)
+times = axes[: len(drawn), 0]
+for axis, (label, draw) in zip(times, drawn):
     draw(axis)
     axis.set_ylabel(label)
+    axis.sharex(times[-1])
+    axis.tick_params(labelbottom=axis is times[-1])
     if len(axis.get_legend_handles_labels()[1]) > 1:
         axis.legend(loc="lower right", bbox_to_anchor=(1, 0.93), ncols=24, handlelength=1, columnspacing=1)
-axes[0, 0].set_title(path.stem)
-axes[-1, 0].set_xlabel("time (ms)")
-axes[-1, 0].set_xlim(time[0], time[-1])
+times[0].set_title(path.stem)
+times[-1].set_xlabel("time (ms)")
+times[-1].set_xlim(time[0], time[-1])
+for axis, spectrum in zip(axes[len(drawn) :, 0], spectra):
+    envelope(axis, spectrum)
 figure.align_ylabels()
 plotting.save(figure, path.with_suffix(""))

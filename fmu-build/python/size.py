@@ -27,7 +27,8 @@ def mark(axis, found, labelled):
 def title(found):
     name = found["name"]
     if found["length_deg"] is None:
-        return f"{name}: unresolved"
+        looks = {"inner": ", looks like the inner raceway", "element": ", looks like a rolling element"}
+        return f"{name}: unresolved{looks.get(found['fault'], '')}"
     return f"{name}: {found['length_deg']:.2f} ± {found['uncertainty_deg']:.2f} degrees ({found['kind']}), {found['passages']} passages"
 
 
@@ -59,8 +60,9 @@ def draw(stem):
         low, high = axis.get_ylim()
         axis.set_ylim(low, high + 0.3 * (high - low))
         axis.legend(loc="upper right", ncols=6, columnspacing=1)
+    raceway = "the inner raceway" if found["fault"] == "inner" else "the outer raceway"
     origin = "leading edge" if "model" in data else "first impact"
-    axes[-1].set_xlabel(f"element travel from the {origin} (degrees of the outer raceway)" if found["length_deg"] else "element travel (degrees of the outer raceway)")
+    axes[-1].set_xlabel(f"element travel from the {origin} (degrees of {raceway})" if found["length_deg"] else f"element travel (degrees of {raceway})")
     edges = found["edges_deg"]
     if edges:
         room = max(4.0, 0.8 * (edges[1] - edges[0]))

@@ -1,13 +1,15 @@
 //! A run without a host: the simulation is stepped directly, with its inputs at their start values.
 
+use std::f64::consts::TAU;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use brinell::recording::Recording;
-use brinell::scene::Experiment;
+use brinell::scene::{Experiment, Scene};
 use brinell::simulation::variables::{Causality, Kind, Variable};
 use brinell::simulation::{Simulation, SimulationError};
+use brinell_analysis::envelope_spectrum::{self, EnvelopeSpectrum};
 
 use crate::csv;
 use crate::model::Model;
@@ -50,12 +52,14 @@ pub struct Columns {
     names: Vec<(String, &'static str)>,
     reals: Vec<u32>,
     integers: Vec<u32>,
+    /// Among the reals, the acceleration whose envelope is drawn: a sensor's, else the housing's.
+    acceleration: Option<usize>,
 }
 
 impl Columns {
     /// All of the table but parameters, reals first.
     pub fn new(table: &[Variable]) -> Self {
-        let mut columns = Self { names: Vec::new(), reals: Vec::new(), integers: Vec::new() };
+        let mut columns = Self { names: Vec::new(), reals: Vec::new(), integers: Vec::new(), acceleration: None };
         let mut counters = Vec::new();
         for variable in table.iter().filter(|variable| variable.causality != Causality::Parameter) {
             match variable.kind {
@@ -70,23 +74,28 @@ impl Columns {
                 _ => {}
             }
         }
+        let place = |wanted: &dyn Fn(&str) -> bool| columns.names.iter().position(|(name, _)| wanted(name));
+        columns.acceleration = place(&|name| name.starts_with("sensor") && name.ends_with("acceleration"))
+            .or_else(|| place(&|name| name == "housing.ay"));
         columns.names.extend(counters);
         columns
     }
 }
 
-/// Runs an initialized simulation over the grid and writes one row at the start and one after each step.
+/// Runs an initialized simulation over the grid and writes one row at the start and one after each step. Gives the
+/// acceleration of these rows, if there is one.
 pub fn write(
     simulation: &mut Simulation,
     columns: &Columns,
     grid: Grid,
     out: &mut impl Write,
     mut recording: Option<&mut Recording>,
-) -> Result<()> {
+) -> Result<Vec<f64>> {
     let names = columns.names.iter().map(|(name, unit)| (name.as_str(), *unit));
     csv::header(out, std::iter::once(("time", "s")).chain(names))?;
     let mut reals = vec![0.0; columns.reals.len()];
     let mut integers = vec![0; columns.integers.len()];
+    let mut acceleration = Vec::new();
     for index in 0..=grid.count {
         if index > 0 {
             let at = simulation.time();
@@ -96,10 +105,11 @@ pub fn write(
             }
         }
         read(simulation, columns, &mut reals, &mut integers)?;
+        acceleration.extend(columns.acceleration.map(|place| reals[place]));
         let counts = integers.iter().map(|&count| f64::from(count));
         csv::row(out, std::iter::once(simulation.time()).chain(reals.iter().copied()).chain(counts))?;
     }
-    Ok(())
+    Ok(acceleration)
 }
 
 fn read(
@@ -122,8 +132,9 @@ pub fn command(project: &Project, model: Model, grid: Grid, folder: &Path, figur
     simulation.initialize(0.0).context("initial equilibrium")?;
     let mut recording = Recording::begin(&simulation, &model.scene.name)?;
     let path = folder.join(format!("{}.csv", model.scene.name));
+    let mut acceleration = Vec::new();
     whole_file::write_with(&path, |mut out| {
-        write(&mut simulation, &columns, grid, &mut out, recording.as_mut())?;
+        acceleration = write(&mut simulation, &columns, grid, &mut out, recording.as_mut())?;
         Ok(recording.as_mut().map_or(Ok(()), |recording| recording.store(&mut simulation))?)
     })?;
     println!("{}", path.display());
@@ -131,8 +142,45 @@ pub fn command(project: &Project, model: Model, grid: Grid, folder: &Path, figur
         println!("{}", whole_file::take_out(&file, folder)?.display());
     }
     if figure {
+        let mut files = vec![path];
+        files.extend(write_envelope(&model.scene, &acceleration, grid, folder)?);
         let python = Python::prepare(project)?;
-        print!("{}", python.run("run_figure.py", [&path])?);
+        print!("{}", python.run("run_figure.py", &files)?);
     }
     Ok(())
+}
+
+/// Spectrum of the acceleration's envelope as `<scene>-envelope.csv`, and beside it, as `.json`, band, width of a line
+/// and the frequencies to mark; nothing where the run is too short or too coarse, or nothing shakes.
+fn write_envelope(scene: &Scene, acceleration: &[f64], grid: Grid, folder: &Path) -> Result<Option<PathBuf>> {
+    let (rate, speed) = (1.0 / grid.step, scene.shaft_speed / TAU);
+    let Some(characteristic) = envelope_spectrum::frequencies(scene) else { return Ok(None) };
+    let shortest = libm::ceil(100.0 * envelope_spectrum::FEWEST_PASSAGES / characteristic.bpfo) / 100.0;
+    if !acceleration.is_empty() && acceleration.len() as f64 * grid.step < shortest {
+        eprintln!(
+            "note: no spectrum of the envelope: its lines would run into each other; --stop {shortest:.2} is enough"
+        );
+    }
+    let Some(found) = EnvelopeSpectrum::of(acceleration, rate, characteristic, speed) else { return Ok(None) };
+    let path = folder.join(format!("{}-envelope.csv", scene.name));
+    whole_file::write_with(&path, |mut out| {
+        csv::header(&mut out, [("frequency", "Hz"), ("amplitude", "1")].into_iter())?;
+        for (&frequency, &amplitude) in found.frequency.iter().zip(&found.amplitude) {
+            csv::row(&mut out, [frequency, amplitude].into_iter())?;
+        }
+        Ok(())
+    })?;
+    let said = serde_json::json!({
+        "band_hz": [found.band.low, found.band.high],
+        "line_width_hz": found.line_width,
+        "rate_hz": rate,
+        "frequencies_hz": {
+            "BPFO": characteristic.bpfo,
+            "BPFI": characteristic.bpfi,
+            "2 BSF": 2.0 * characteristic.bsf,
+            "FTF": characteristic.ftf,
+        },
+    });
+    whole_file::write(&path.with_extension("json"), serde_json::to_string_pretty(&said)? + "\n")?;
+    Ok(Some(path))
 }

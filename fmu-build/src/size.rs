@@ -1,4 +1,4 @@
-//! The command `size`: the length of a spall from recordings, as JSON on standard output and a figure for each
+//! The command `size`: the damaged part and the length of a spall from recordings, as JSON on standard output and a figure for each
 //! recording.
 //!
 //! Standard output carries the JSON and nothing else; what happens meanwhile goes to standard error.
@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use brinell::scene::Scene;
+use brinell_analysis::raceway::Raceway;
 use brinell_analysis::recording::{Recording, Source, Speed};
 use brinell_analysis::report::{Figure, RecordingReport, Report};
 use brinell_analysis::spall_size;
@@ -77,7 +78,10 @@ fn read(paths: &[PathBuf], options: &Options) -> Result<Vec<Recording>> {
 /// What one recording gave, in a line.
 fn line(done: &RecordingReport) -> String {
     match (done.length_deg, done.uncertainty_deg, &done.reason) {
-        (Some(length), Some(uncertainty), _) => format!("{}: {length:.2} ± {uncertainty:.2} degrees", done.name),
+        (Some(length), Some(uncertainty), _) => {
+            let raceway = Raceway::of(done.fault).name();
+            format!("{}: {length:.2} ± {uncertainty:.2} degrees of the {raceway} raceway", done.name)
+        }
         (_, _, why) => format!("{}: unresolved: {}", done.name, why.as_deref().unwrap_or("no reason given")),
     }
 }

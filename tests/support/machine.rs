@@ -1,6 +1,7 @@
 //! A machine that is made here: what the vibration of a bearing with a spall looks like, by the kinematics of an
 //! element of finite size. No recording of a machine is needed.
-#![allow(unreachable_pub, clippy::unwrap_used)]
+// Not every test that makes recordings makes all of them.
+#![allow(unreachable_pub, dead_code, clippy::unwrap_used)]
 
 use brinell::geometry::kinematics;
 use brinell::scene::Scene;
@@ -36,32 +37,56 @@ pub fn scene() -> Scene {
     .unwrap()
 }
 
+/// A spall as its events show it.
+#[derive(Clone, Copy)]
+pub struct Spall {
+    /// Length [degrees of its raceway].
+    pub length: f64,
+    /// Whether it is on the inner raceway, turns with the shaft and is struck in the load zone only.
+    pub inner: bool,
+    /// Whether an element strikes its floor or, in a short one, is caught.
+    pub first_impact: bool,
+    /// Degrees by which the last impact comes early in a part of the passages, drawn by chance.
+    pub early: f64,
+}
+
 /// A machine's answer to elements that pass a spall of `length` degrees at shaft speed `speed` [Hz]: the force that
 /// the element loses moves the housing (a mode at 700 Hz), and impacts on entry and exit excite a resonance at 9 kHz.
 /// Noise of `noise` times the signal's root mean square. Passages scatter by 0.2 degrees. `length` 0 is a healthy
 /// bearing: noise and shaft harmonics.
 pub fn signal(length: f64, speed: f64, noise: f64) -> Vec<f64> {
+    signal_of(Spall { length, inner: false, first_impact: true, early: 0.0 }, speed, noise)
+}
+
+/// The same of any spall.
+pub fn signal_of(spall: Spall, speed: f64, noise: f64) -> Vec<f64> {
+    let Spall { length, inner, first_impact, early } = spall;
     let count = (4.0 * RATE) as usize;
-    let bearing = scene().bearing;
-    let travel = 40.0 * kinematics::frequencies(&bearing, 0.004, speed).bpfo;
+    let frequencies = kinematics::frequencies(&scene().bearing, 0.004, speed);
+    let travel = 40.0 * if inner { frequencies.bpfi } else { frequencies.bpfo };
+    // Free after 0.42 degrees: 49 N on nine elements; inside these are 0.52. The first impact falls in the middle of a
+    // short spall, or on its floor.
+    let (unloading, floor) = if inner { (0.52, 1.35) } else { (0.42, 1.1) };
     let mut random = Random::new(7);
     let mut force = vec![0.0; count];
     let mut high = vec![0.0; count];
     if length > 0.0 {
         for k in 0..(4.0 * travel / 40.0) as usize {
             let edge = (k as f64 * 40.0 + 7.0 + 0.2 * random.normal()) / travel;
-            // Free after 0.42 degrees: 49 N on nine elements. The first impact falls in the middle of a short spall, or
-            // on its floor.
-            let unloading = 0.42;
-            let first = (0.5 * length).min(1.1);
-            for (impact, strength) in [(first, 0.8), (length - 0.5 * unloading, 1.0)] {
-                add_impact(&mut high, edge + impact / travel, strength);
+            // The load zone, through which an inner ring turns: eight times as strong as opposite to it.
+            let load = if inner { (TAU * speed * edge).cos().max(0.12) } else { 1.0 };
+            let first = (0.5 * length).min(floor);
+            let sooner = if early > 0.0 && random.uniform() < 0.5 { early } else { 0.0 };
+            let last = length - 0.5 * unloading - sooner;
+            let strength = if first_impact { 0.8 } else { 0.0 };
+            for (impact, strength) in [(first, strength), (last, 1.0)] {
+                add_impact(&mut high, edge + impact / travel, load * strength);
             }
             let from = (edge * RATE) as usize;
             for (i, f) in force.iter_mut().enumerate().skip(from).take((length / travel * RATE) as usize + 2) {
                 let s = (i as f64 / RATE - edge) * travel;
                 let depth = s.min(length - s).clamp(0.0, unloading) / unloading;
-                *f -= 1.0 - (1.0 - depth * depth).powf(1.5);
+                *f -= load * (1.0 - (1.0 - depth * depth).powf(1.5));
             }
         }
     }

@@ -1,8 +1,7 @@
 //! Spall length from the events of the passages: an estimate that needs no model of the machine.
 //!
-//! With r the element's and R_o the raceway's radius, 1/r_e = 1/r − 1/R_o, an element that is s past a sharp edge has
-//! sunk by P(s) = s²/(2 r_e) (the circles' own P differs by less than 1 % at 5°). It is free when P(s_u) equals the
-//! elastic approach δ of both its contacts:
+//! An element that is s past a sharp edge has sunk by P(s) = s²/(2 r_e) ([`super::raceway`] has r_e of either
+//! raceway). It is free when P(s_u) equals the elastic approach δ of both its contacts:
 //! ```text
 //! s_u = √(2 r_e δ),   δ = (Q/K)^(2/3),   Q = 5F/Z
 //! ```
@@ -20,11 +19,14 @@
 use super::continuity::Break;
 use super::entry::{self, Entry};
 use super::events::{self, Impact};
+use super::load_zone::MODULATED;
 use super::measured::Measured;
 use super::passages;
+use super::raceway::Raceway;
+use super::report::Fault;
 use super::statistics::{self, Random};
 use brinell::geometry::hertz_constant::HertzConstants;
-use brinell::scene::{Bearing, Motion, Scene};
+use brinell::scene::{Motion, Scene};
 
 /// Share of a period before the first impact.
 const LEAD: f64 = 0.3;
@@ -34,17 +36,22 @@ const JUMP: (f64, f64) = (0.25, 1.2e-4);
 const CLEAR: f64 = 3.0;
 /// The same for an entry far before a single impact, where there is more to mistake.
 const CLEAR_FAR: f64 = 8.0;
-/// Sampling rate that impacts close to each other need [Hz]: echoes fade faster the higher the band, and 5 to 11 kHz is
-/// just enough.
+/// Sampling rate that events need [Hz]: echoes fade faster the higher the band, and 5 to 11 kHz is just enough. Below,
+/// an echo is taken for the last impact, whatever the length that comes out.
 const ENOUGH_RATE: f64 = 24_000.0;
-/// Length from which impacts are not close [degrees].
-const LONG: f64 = 3.0;
+/// Impacts that a spall makes at most: on its floor or where the element is caught, and at its end. With more, nobody
+/// can tell which is the last.
+const MOST_IMPACTS: usize = 2;
 /// Share of the length beyond which its 95 % interval says nothing.
 pub(super) const UNCERTAIN: f64 = 0.25;
-/// Resamplings of the passages.
+/// Resamplings of the passages, and share of them in which entry and impacts must be found again.
 const RESAMPLINGS: usize = 60;
+const STABLE: f64 = 0.8;
+/// Consecutive stretches that are laid beside each other, and passages in one: each must be sized by itself.
+const STRETCHES: usize = 4;
+const STRETCH: usize = 30;
 
-/// Length by events. Angles in degrees of the outer raceway.
+/// Length by events. Angles in degrees of the raceway that is sized.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EventLength {
     /// Length.
@@ -77,12 +84,26 @@ pub enum Unresolved {
          {2:.2} Hz stands {3:.1} above it: are speed, rate and bearing right, or is it not the outer raceway?"
     )]
     OtherPattern(f64, f64, f64, f64),
+    /// A rolling element's fault.
+    #[error(
+        "it looks like a fault of a rolling element, whose length is not read from recordings: combs stand above chance by, in standard \
+         deviations: {0}"
+    )]
+    OfElement(String),
+    /// No kind of fault stands out.
+    #[error("two kinds of fault look alike: combs stand above chance by, in standard deviations: {0}")]
+    TwoKinds(String),
+    /// An inner raceway's comb without its load zone.
+    #[error(
+        "it looks like a fault of the inner raceway, but passages do not grow and fade as it turns through the load zone: strong ones are {0:.2} \
+         times as strong as weak ones, limit {1:.1}"
+    )]
+    NoLoadZone(f64, f64),
     /// Impacts and echoes cannot be told apart in what the rate leaves.
     #[error(
-        "{0:.2} degrees at a sampling rate of {1:.0} Hz: below {2:.0} Hz the band above the rings' modes is too narrow to tell a second impact that \
-         close from an echo"
+        "a sampling rate of {0:.0} Hz: below {1:.0} Hz the band above the rings' modes is too narrow to tell impacts from their echoes"
     )]
-    LowRate(f64, f64, f64),
+    LowRate(f64, f64),
     /// A piece is missing.
     #[error(
         "the passages after about {0:.2} s are shifted by {1:.1} degrees against those before: is a piece of the \
@@ -97,11 +118,25 @@ pub enum Unresolved {
     /// No impact stands out.
     #[error("no impact stands out of the averaged passages: largest jump of the envelope below {0:.1} dB")]
     NoImpact(f64),
+    /// More impacts than a spall makes.
+    #[error(
+        "impacts at {0:.2?} degrees in each passage: a spall makes two at most, and which of these is the last is not told"
+    )]
+    ManyImpacts(Vec<f64>),
+    /// The picking does not hold.
+    #[error("{0} of {1} resamples of the passages show no entry and impacts: what was picked in all of them is chance")]
+    Unstable(usize, usize),
     /// Onset and impacts cannot be told apart.
     #[error(
         "one impact per passage and no clear entry before it (clearness {0:.1}, limit {1:.1}): entry and exit are not apart"
     )]
     OneImpact(f64, f64),
+    /// One impact inside.
+    #[error(
+        "one impact per passage in the load zone (strong passages are {0:.1} times as strong as weak ones): entry and exit on the inner raceway \
+         are not apart"
+    )]
+    OneInside(f64),
     /// No entry.
     #[error(
         "{0:.2} degrees between first and last impact, but no clear entry before them (clearness {1:.1}, limit {2:.1})"
@@ -126,73 +161,98 @@ pub enum Unresolved {
 /// # Errors
 /// The reason why it cannot be.
 pub fn estimate(measured: &Measured, scene: &Scene) -> Result<EventLength, Unresolved> {
-    let comb = &measured.comb;
-    if !comb.is_significant() {
-        let limit = super::envelope::SIGNIFICANT;
-        return Err(match &measured.elsewhere {
-            Some(other) => Unresolved::OtherPattern(comb.significance, limit, other.frequency, other.significance),
-            None => Unresolved::NoPattern(comb.significance, limit),
-        });
-    }
+    check_fault(measured)?;
     if let Some(Break { passage, shift }) = measured.broken {
-        let at = measured.passages.starts[passage.min(measured.passages.starts.len() - 1)] / measured.rate;
+        let at = passage as f64 / measured.pass_frequency;
         return Err(Unresolved::Broken(at, shift * measured.spacing));
     }
     if let Some(times) = measured.times_a_period {
         return Err(Unresolved::SeveralTimes(times));
     }
+    if measured.rate < ENOUGH_RATE {
+        return Err(Unresolved::LowRate(measured.rate, ENOUGH_RATE));
+    }
     let grid = Grid::new(measured);
     let envelopes = measured.envelope_rows(0.0, grid.points);
-    let impacts = events::impacts(&decibels(passages::average(&envelopes)), grid.width, grid.smallest);
-    let impacts = events::without_echoes(impacts, &envelopes, grid.width, grid.degree * measured.travel());
+    let impacts = grid.impacts(&envelopes, &(0..envelopes.len()).collect::<Vec<_>>());
     let Some(first) = impacts.first().copied() else { return Err(Unresolved::NoImpact(grid.smallest)) };
     let span = grid.span(&impacts);
     if span > 0.6 * measured.spacing {
         return Err(Unresolved::NoSilence(span, measured.spacing));
     }
+    let all = grid.after_first(&impacts);
+    if all.len() > MOST_IMPACTS {
+        return Err(Unresolved::ManyImpacts(all));
+    }
     let share = first.at / grid.points as f64 - LEAD;
-    let rows = Rows {
-        signal: measured.signal_rows(share, grid.points),
-        envelope: measured.envelope_rows(share, grid.points),
+    let rows =
+        Rows { signal: measured.signal_rows(share, grid.points), envelope: measured.envelope_rows(share, grid.points) };
+    let picked = Picked {
         impact: LEAD * grid.points as f64,
         last: LEAD * grid.points as f64 + span * grid.degree,
         far: impacts.len() == 1,
     };
-    let everything: Vec<usize> = (0..rows.signal.len()).collect();
-    let Some((entry, way)) = rows.way(&everything, &grid) else { return Err(unclear(&rows, span, 0.0)) };
-    if entry.clearness < rows.clear() {
-        return Err(unclear(&rows, span, entry.clearness));
+    if picked.far && measured.raceway == Raceway::Inner {
+        return Err(Unresolved::OneInside(measured.modulation));
     }
-    check_halves(&rows, &grid, way)?;
-    let statistical = bootstrap(&rows, &grid).hypot(entry.uncertainty / grid.degree);
+    let everything: Vec<usize> = (0..rows.signal.len()).collect();
+    let Some((entry, way)) = rows.way(&picked, &everything, &grid) else { return Err(unclear(&picked, span, 0.0)) };
+    if entry.clearness < picked.clear() {
+        return Err(unclear(&picked, span, entry.clearness));
+    }
+    check_halves(&rows, &picked, &grid, way)?;
+    let statistical = rows.scatter(&grid, way)?.hypot(entry.uncertainty / grid.degree);
     let rounding = entry.half_way / grid.degree;
     let onset_to_extreme = (entry.extreme - entry.at) / grid.degree;
     let bearing = &scene.bearing;
-    let unloading = approach(scene).map_or(onset_to_extreme, |d| sunk_after(bearing, d).min(onset_to_extreme));
+    let raceway = measured.raceway;
+    let unloading = approach(scene).map_or(onset_to_extreme, |d| raceway.sunk_after(bearing, d).min(onset_to_extreme));
     let length = way + 0.5 * (unloading - rounding);
     let systematic = ((unloading * unloading + rounding * rounding) / 12.0).sqrt();
-    let approach = depth_at(bearing, unloading);
+    let approach = raceway.depth_at(bearing, unloading);
     // A jump is measured between two windows: two of them blur what lies closer.
-    let free = 2.0 * sunk_after(bearing, approach + bearing.radial_clearance.max(0.0));
+    let free = 2.0 * raceway.sunk_after(bearing, approach + bearing.radial_clearance.max(0.0));
     let limit = free.hypot(2.0 * grid.width as f64 / grid.degree);
     let uncertainty = statistical.hypot(systematic);
     if length - uncertainty < limit {
         return Err(Unresolved::TooShort(length, uncertainty, limit));
     }
-    if measured.rate < ENOUGH_RATE && length < LONG {
-        return Err(Unresolved::LowRate(length, measured.rate, ENOUGH_RATE));
-    }
     if 2.0 * uncertainty > UNCERTAIN * length {
         return Err(Unresolved::TooUncertain(length, 2.0 * uncertainty));
     }
-    let impacts = impacts.iter().map(|b| (b.at - first.at).rem_euclid(grid.points as f64) / grid.degree).collect();
-    let onset = (entry.at - rows.impact) / grid.degree;
+    let onset = (entry.at - picked.impact) / grid.degree;
     let first = first.at / grid.degree;
-    Ok(EventLength { length, statistical, systematic, limit, first, onset, impacts })
+    Ok(EventLength { length, statistical, systematic, limit, first, onset, impacts: all })
 }
 
-fn unclear(rows: &Rows, span: f64, clearness: f64) -> Unresolved {
-    if rows.far { Unresolved::OneImpact(clearness, CLEAR_FAR) } else { Unresolved::NoEntry(span, clearness, CLEAR) }
+/// Whether the recording looks like a fault that can be sized.
+fn check_fault(measured: &Measured) -> Result<(), Unresolved> {
+    let (combs, limit) = (&measured.combs, super::envelope::SIGNIFICANT);
+    match (measured.fault, &measured.elsewhere) {
+        (Fault::None, Some(other)) => {
+            let found = combs.outer.significance;
+            Err(Unresolved::OtherPattern(found, limit, other.frequency, other.significance))
+        }
+        (Fault::None, None) => Err(Unresolved::NoPattern(combs.outer.significance, limit)),
+        (Fault::Element, _) => Err(Unresolved::OfElement(combs.said())),
+        (Fault::Undecided, _) => Err(Unresolved::TwoKinds(combs.said())),
+        (Fault::Inner, _) if measured.modulation < MODULATED => {
+            Err(Unresolved::NoLoadZone(measured.modulation, MODULATED))
+        }
+        (Fault::Inner | Fault::Outer, _) => Ok(()),
+    }
+}
+
+fn unclear(picked: &Picked, span: f64, clearness: f64) -> Unresolved {
+    if picked.far { Unresolved::OneImpact(clearness, CLEAR_FAR) } else { Unresolved::NoEntry(span, clearness, CLEAR) }
+}
+
+/// All impacts of the averaged passage without echoes [degrees after the first], however many there are.
+pub fn impacts(measured: &Measured) -> Vec<f64> {
+    let grid = Grid::new(measured);
+    let envelopes = measured.envelope_rows(0.0, grid.points);
+    let found = grid.impacts(&envelopes, &(0..envelopes.len()).collect::<Vec<_>>());
+    grid.after_first(&found)
 }
 
 /// The averaged passage that a figure shows: degrees from `from`, signal, envelope level [dB]. `from` is in degrees
@@ -214,6 +274,10 @@ struct Grid {
     width: usize,
     /// Smallest jump that is no accident [dB].
     smallest: f64,
+    /// Points per second.
+    rate: f64,
+    /// Whether the raceway turns with the shaft.
+    turns: bool,
 }
 
 impl Grid {
@@ -224,7 +288,21 @@ impl Grid {
         // The level of noise scatters by 5.6 dB; a jump is the difference of two means over all passages. Six
         // deviations.
         let smallest = (6.0 * 5.6 / (measured.passages.starts.len() as f64).sqrt()).max(3.0);
-        Self { points, degree, width, smallest }
+        let (rate, turns) = (degree * measured.travel(), measured.raceway == Raceway::Inner);
+        Self { points, degree, width, smallest, rate, turns }
+    }
+
+    /// Impacts in the mean of the chosen rows, without echoes.
+    fn impacts(&self, envelopes: &[Vec<f64>], chosen: &[usize]) -> Vec<Impact> {
+        let level = decibels(average_of(envelopes, chosen));
+        let impacts = events::impacts(&level, self.width, self.smallest, self.turns);
+        events::without_echoes(impacts, envelopes, chosen, self.width, self.rate, self.turns)
+    }
+
+    /// Where impacts are [degrees after the first].
+    fn after_first(&self, impacts: &[Impact]) -> Vec<f64> {
+        let Some(first) = impacts.first() else { return Vec::new() };
+        impacts.iter().map(|b| (b.at - first.at).rem_euclid(self.points as f64) / self.degree).collect()
     }
 
     /// From first to last impact [degrees].
@@ -239,6 +317,10 @@ impl Grid {
 struct Rows {
     signal: Vec<Vec<f64>>,
     envelope: Vec<Vec<f64>>,
+}
+
+/// The impacts between which a way is measured.
+struct Picked {
     /// First and last impact [grid points].
     impact: f64,
     last: f64,
@@ -246,46 +328,64 @@ struct Rows {
     far: bool,
 }
 
-impl Rows {
+impl Picked {
     fn clear(&self) -> f64 {
         if self.far { CLEAR_FAR } else { CLEAR }
     }
+}
 
+impl Rows {
     /// Entry, and the way from it to the last impact [degrees], in the average over the chosen rows.
-    fn way(&self, chosen: &[usize], grid: &Grid) -> Option<(Entry, f64)> {
+    fn way(&self, picked: &Picked, chosen: &[usize], grid: &Grid) -> Option<(Entry, f64)> {
         let signal = average_of(&self.signal, chosen);
         let level = decibels(average_of(&self.envelope, chosen));
         let reach = (0.4 * grid.degree) as usize;
-        let impact = events::jump_near(&level, grid.width, self.impact, reach);
-        let last = events::jump_near(&level, grid.width, self.last, reach);
-        let entry = if self.far {
+        let impact = events::jump_near(&level, grid.width, picked.impact, reach);
+        let last = events::jump_near(&level, grid.width, picked.last, reach);
+        let entry = if picked.far {
             entry::far_entry(&signal, impact, grid.degree)?
         } else {
-            entry::entry(&signal, impact, self.last - self.impact, grid.degree)?
+            entry::entry(&signal, impact, picked.last - picked.impact, grid.degree)?
         };
         Some((entry, (last - entry.at) / grid.degree))
     }
+
+    /// The same with impacts picked anew in these rows.
+    fn picked_way(&self, chosen: &[usize], grid: &Grid) -> Option<f64> {
+        let impacts = grid.impacts(&self.envelope, chosen);
+        let impact = impacts.first()?.at;
+        let last = impact + grid.span(&impacts) * grid.degree;
+        let picked = Picked { impact, last, far: impacts.len() == 1 };
+        self.way(&picked, chosen, grid).map(|(_, way)| way)
+    }
+
+    /// Standard uncertainty of the way [degrees] with all that is picked anew in each resample of the passages: half of
+    /// the half-width that holds 95 % of them, and not less than consecutive stretches of the recording scatter.
+    fn scatter(&self, grid: &Grid, way: f64) -> Result<f64, Unresolved> {
+        let count = self.signal.len();
+        let mut random = Random::new(count as u64);
+        let resample = |_| (0..count).map(|_| random.below(count)).collect::<Vec<_>>();
+        let all: Vec<Vec<usize>> = (0..RESAMPLINGS).map(resample).collect();
+        let ways: Vec<f64> = all.iter().filter_map(|chosen| self.picked_way(chosen, grid)).collect();
+        if ways.len() < (STABLE * RESAMPLINGS as f64) as usize {
+            return Err(Unresolved::Unstable(RESAMPLINGS - ways.len(), RESAMPLINGS));
+        }
+        let off: Vec<f64> = ways.iter().map(|picked| (picked - way).abs()).collect();
+        let resampled = 0.5 * statistics::quantile(&off, 0.95).unwrap_or(0.0);
+        let stretches = (count / STRETCH).min(STRETCHES);
+        let stretch = |k: usize| (k * count / stretches..(k + 1) * count / stretches).collect::<Vec<_>>();
+        let found: Vec<f64> = (0..stretches).filter_map(|k| self.picked_way(&stretch(k), grid)).collect();
+        Ok(resampled.max(statistics::deviation(&found) / (found.len().max(1) as f64).sqrt()))
+    }
 }
 
-fn check_halves(rows: &Rows, grid: &Grid, way: f64) -> Result<(), Unresolved> {
+fn check_halves(rows: &Rows, picked: &Picked, grid: &Grid, way: f64) -> Result<(), Unresolved> {
     let half = |from: usize| -> Vec<usize> { (from..rows.signal.len()).step_by(2).collect() };
-    let ways = [0, 1].map(|from| rows.way(&half(from), grid).map_or(0.0, |(_, way)| way));
+    let ways = [0, 1].map(|from| rows.way(picked, &half(from), grid).map_or(0.0, |(_, way)| way));
     if (ways[0] - ways[1]).abs() > 0.25 * way {
         return Err(Unresolved::Halves(ways[0], ways[1]));
     }
     Ok(())
-}
-
-fn bootstrap(rows: &Rows, grid: &Grid) -> f64 {
-    let count = rows.signal.len();
-    let mut random = Random::new(count as u64);
-    let ways: Vec<f64> = (0..RESAMPLINGS)
-        .filter_map(|_| {
-            let chosen: Vec<usize> = (0..count).map(|_| random.below(count)).collect();
-            rows.way(&chosen, grid).map(|(_, way)| way)
-        })
-        .collect();
-    statistics::spread(&ways)
 }
 
 fn decibels(mut amplitudes: Vec<f64>) -> Vec<f64> {
@@ -316,23 +416,7 @@ pub(super) fn approach(scene: &Scene) -> Option<f64> {
 }
 
 /// Shortest length that the scene's load and clearance allow [degrees], where the load is known.
-pub(super) fn limit(scene: &Scene) -> Option<f64> {
+pub(super) fn limit(scene: &Scene, raceway: Raceway) -> Option<f64> {
     let free = approach(scene)? + scene.bearing.radial_clearance.max(0.0);
-    Some(2.0 * sunk_after(&scene.bearing, free))
-}
-
-/// 1/r_e [1/m].
-fn relative_curvature(bearing: &Bearing) -> f64 {
-    2.0 / bearing.element_diameter - 1.0 / bearing.outer_raceway_radius()
-}
-
-/// Way past an edge [degrees] after which an element has sunk by `depth` [m].
-fn sunk_after(bearing: &Bearing, depth: f64) -> f64 {
-    ((2.0 * depth / relative_curvature(bearing)).sqrt() / bearing.outer_raceway_radius()).to_degrees()
-}
-
-/// How far [m] an element has sunk `degrees` past an edge.
-pub fn depth_at(bearing: &Bearing, degrees: f64) -> f64 {
-    let s = degrees.to_radians() * bearing.outer_raceway_radius();
-    0.5 * s * s * relative_curvature(bearing)
+    Some(2.0 * raceway.sunk_after(&scene.bearing, free))
 }

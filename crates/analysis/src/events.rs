@@ -7,6 +7,9 @@ use super::statistics;
 
 /// An impact brings at least this share of the strongest impact's energy; below are echoes and noise.
 const WEAKEST_BLOW: f64 = 0.12;
+/// On a raceway that turns through the load zone one edge may be struck much harder than the other: then this share is
+/// enough, if the jump is steep.
+const WEAKEST_STEEP: f64 = 0.03;
 /// An impact jumps at least by this share of the steepest impact's jump [dB]: it rises out of silence, or over a
 /// decaying impact, while an echo or a beat rises over what it is a part of.
 const LOWEST_JUMP: f64 = 0.3;
@@ -35,8 +38,8 @@ pub struct Impact {
 /// Impacts of a passage in the order of the circle of one spacing, that after the longest silence first.
 ///
 /// `level` is the averaged envelope [dB] over one spacing, `width` the window [grid points] of the jump, `smallest` the
-/// least jump that is no accident [dB].
-pub fn impacts(level: &[f64], width: usize, smallest: f64) -> Vec<Impact> {
+/// least jump that is no accident [dB], `turns` whether the raceway turns with the shaft.
+pub fn impacts(level: &[f64], width: usize, smallest: f64, turns: bool) -> Vec<Impact> {
     let n = level.len();
     if n < 4 * width {
         return Vec::new();
@@ -53,17 +56,26 @@ pub fn impacts(level: &[f64], width: usize, smallest: f64) -> Vec<Impact> {
         .collect();
     let strongest = found.iter().map(|b| b.energy).fold(0.0, f64::max);
     let steepest = found.iter().map(|b| b.jump).fold(0.0, f64::max);
-    found.retain(|b| b.energy >= WEAKEST_BLOW * strongest && b.jump >= LOWEST_JUMP * steepest);
+    let weakest = |b: &Impact| if turns && b.jump >= STEEP { WEAKEST_STEEP } else { WEAKEST_BLOW };
+    found.retain(|b| b.energy >= weakest(b) * strongest && b.jump >= LOWEST_JUMP * steepest);
     found.iter_mut().for_each(|b| b.energy /= strongest);
     after_the_longest_silence(found, n)
 }
 
 /// The impacts without echoes: rises that are loud whenever an earlier impact is loud, passage by passage, and that are
-/// not both late and steep.
+/// not both late and steep. Where the raceway turns with the shaft, all is loud under load, and steep is enough.
 ///
-/// `envelopes` is one row per passage on the grid of the impacts, `rate` its points per second.
-pub fn without_echoes(mut impacts: Vec<Impact>, envelopes: &[Vec<f64>], width: usize, rate: f64) -> Vec<Impact> {
-    let Some(n) = envelopes.first().map(Vec::len).filter(|_| envelopes.len() >= FEWEST_TO_COMPARE) else {
+/// `envelopes` is one row per passage on the grid of the impacts, of which those `chosen` count; `rate` its points per
+/// second.
+pub fn without_echoes(
+    mut impacts: Vec<Impact>,
+    envelopes: &[Vec<f64>],
+    chosen: &[usize],
+    width: usize,
+    rate: f64,
+    turns: bool,
+) -> Vec<Impact> {
+    let Some(n) = envelopes.first().map(Vec::len).filter(|_| chosen.len() >= FEWEST_TO_COMPARE) else {
         return impacts;
     };
     let loudness = |impact: &Impact| -> Vec<f64> {
@@ -74,11 +86,11 @@ pub fn without_echoes(mut impacts: Vec<Impact>, envelopes: &[Vec<f64>], width: u
             let mean = |k: usize| (0..width).map(|i| row[(from + k + i) % n]).sum::<f64>() / width as f64;
             (0..=width).map(mean).fold(f64::MIN_POSITIVE, f64::max)
         };
-        envelopes.iter().map(|row| libm::log(loudest(row))).collect()
+        chosen.iter().map(|&k| libm::log(loudest(&envelopes[k]))).collect()
     };
     let all: Vec<Vec<f64>> = impacts.iter().map(loudness).collect();
     let loud_together = |i: usize, j: usize| statistics::correlation(&all[i], &all[j]) > SAME_CAUSE;
-    let late = |i: usize, j: usize| (impacts[i].at - impacts[j].at).rem_euclid(n as f64) > DIED_DOWN * rate;
+    let late = |i: usize, j: usize| turns || (impacts[i].at - impacts[j].at).rem_euclid(n as f64) > DIED_DOWN * rate;
     let echo = |i: usize| (0..i).any(|j| loud_together(i, j) && !(late(i, j) && impacts[i].jump >= STEEP));
     let kept: Vec<bool> = (0..impacts.len()).map(|i| !echo(i)).collect();
     let mut kept = kept.into_iter();

@@ -132,7 +132,7 @@ fn critical_depth(scene: &Scene, length: f64) -> Option<f64> {
 /// Ringing between the events; half a degree after each is left to the event itself.
 fn measured_ringing(measured: &Measured, entry: f64, over: f64) -> Option<Ringing> {
     let row = passages::average(&measured.signal_rows(entry, POINTS));
-    let rate = measured.bpfo * POINTS as f64;
+    let rate = measured.pass_frequency * POINTS as f64;
     let smooth = Spectrum::of(&row, rate).filtered(Band { low: 0.0, high: CUT });
     let point = |degrees: f64| (degrees / measured.spacing * POINTS as f64) as usize;
     let between = |from: f64, to: f64| ringing::strongest(smooth.get(point(from)..point(to))?, rate);

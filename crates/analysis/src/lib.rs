@@ -1,4 +1,5 @@
-//! What an engineer reads out of a bearing's scene or a recording: stiffness, critical load, the length of a spall.
+//! What an engineer reads out of a bearing's scene or a recording: stiffness, critical load, which part is damaged, the
+//! length of a spall.
 
 // Units in brackets, as in `[m]`, are no links.
 #![allow(rustdoc::broken_intra_doc_links)]
@@ -8,17 +9,21 @@ mod continuity;
 pub mod critical_load;
 pub mod entry;
 pub mod envelope;
+pub mod envelope_spectrum;
 pub mod error;
 pub mod event_length;
 pub mod events;
+pub mod fault;
 mod kind;
 mod linear_prediction;
+mod load_zone;
 pub mod measured;
 pub mod mode_lines;
 pub mod modes;
 pub mod modes_report;
 mod npy_header;
 pub mod passages;
+pub mod raceway;
 pub mod recording;
 mod recording_csv;
 mod recording_file;

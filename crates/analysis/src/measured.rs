@@ -1,11 +1,15 @@
-//! A recording prepared for sizing: its ball pass frequency, and its passages laid over each other.
+//! A recording prepared for sizing: what passes in it and how often, and its passages laid over each other.
 
 use super::continuity::{self, Break};
 use super::envelope::{self, Comb};
 use super::error::SizingError;
+use super::fault::Combs;
 use super::linear_prediction;
+use super::load_zone::LoadZone;
 use super::passages::{self, Passages};
+use super::raceway::Raceway;
 use super::recording::Recording;
+use super::report::Fault;
 use super::spectrum::{Band, Spectrum};
 use brinell::geometry::kinematics;
 use brinell::scene::Bearing;
@@ -23,23 +27,33 @@ const FEWEST_PREDICTING: usize = 8;
 pub struct Measured {
     /// Name of the recording.
     pub name: String,
-    /// The comb in the envelope's spectrum.
-    pub comb: Comb,
-    /// A comb elsewhere, where there is none near the ball pass frequency.
+    /// Shaft speed [Hz].
+    pub speed: f64,
+    /// The combs of the three kinds of fault.
+    pub combs: Combs,
+    /// The kind of fault that they look like.
+    pub fault: Fault,
+    /// The raceway over which passages are taken to be: the outer one unless the fault is the inner's.
+    pub raceway: Raceway,
+    /// A comb elsewhere, where there is none near the bearing's frequencies.
     pub elsewhere: Option<Comb>,
-    /// Mean ball pass frequency [Hz].
+    /// How often an element passes the defect, in the mean [Hz].
+    pub pass_frequency: f64,
+    /// Mean ball pass frequency of the outer ring [Hz].
     pub bpfo: f64,
     /// Lag of the cage behind pure rolling.
     pub slip: f64,
     /// Element spacing [degrees].
     pub spacing: f64,
-    /// The passages.
+    /// The passages, on the inner raceway those in the load zone.
     pub passages: Passages,
+    /// Strong passages over weak ones: quantiles at 90 and 10 % of the root mean square above 5 kHz.
+    pub modulation: f64,
     /// Sampling rate [Hz].
     pub rate: f64,
     /// Where passages are shifted against those before, as behind a missing piece.
     pub(super) broken: Option<Break>,
-    /// How many times the same passes within a ball pass period, if it is more than once.
+    /// How many times the same passes within a period, if it is more than once.
     pub(super) times_a_period: Option<usize>,
     signal: Vec<f64>,
     /// High-frequency envelope of what the structure's ringing does not explain.
@@ -52,7 +66,8 @@ impl Measured {
     /// # Errors
     /// A recording too short, or too coarse for the ball pass frequency that its speed and the bearing imply.
     pub fn new(recording: &Recording, bearing: &Bearing) -> Result<Self, SizingError> {
-        let nominal = kinematics::frequencies(bearing, 0.0, recording.speed()).bpfo;
+        let frequencies = kinematics::frequencies(bearing, 0.0, recording.speed());
+        let nominal = frequencies.bpfo;
         let (rate, name) = (recording.rate(), recording.name().to_owned());
         if rate / nominal < FEWEST_SAMPLES as f64 {
             let (samples, limit, speed) = (rate / nominal, FEWEST_SAMPLES, recording.speed());
@@ -64,31 +79,53 @@ impl Measured {
             return Err(SizingError::TooShort { name, duration, passages: count, bpfo: nominal, limit });
         }
         let mut spectrum = Spectrum::of(recording.samples(), rate);
-        let comb = envelope::find_comb(&mut spectrum, rate, nominal, recording.speed());
-        let elsewhere = (!comb.is_significant())
-            .then(|| envelope::find_elsewhere(&mut spectrum, rate, nominal, recording.speed(), comb.band))
+        let combs = Combs::find(&mut spectrum, rate, frequencies, recording.speed());
+        let fault = combs.fault();
+        let raceway = Raceway::of(fault);
+        let elsewhere = (fault == Fault::None)
+            .then(|| envelope::find_elsewhere(&mut spectrum, rate, nominal, recording.speed(), combs.outer.band))
             .filter(Comb::is_significant);
-        let passages =
-            Passages::find(recording.samples(), &spectrum.squared_envelope(comb.band), rate / comb.frequency);
+        let comb = if raceway == Raceway::Inner { &combs.inner } else { &combs.outer };
+        let band = Band { low: impact_band(rate), high: 0.45 * rate };
+        let loud = spectrum.squared_envelope(band);
         let order = ((PREDICTED * rate) as usize).max(FEWEST_PREDICTING);
         let impacts = linear_prediction::residual(recording.samples(), order);
-        let mut spectrum = Spectrum::of(&impacts, rate);
-        let mut high = spectrum.squared_envelope(Band { low: impact_band(rate), high: 0.45 * rate });
-        let passages = passages.refined(recording.samples(), &high);
+        let mut high = Spectrum::of(&impacts, rate).squared_envelope(band);
+        let even = Passages::even(recording.samples().len(), rate / comb.frequency);
+        let inside = raceway == Raceway::Inner;
+        let zone = |envelope: &[f64]| LoadZone::of(&passages::cut(envelope, &even.starts, even.period, passages::GRID));
+        let (zone, modulation) = (zone(&high), zone(&loud).modulation);
+        let even = if inside { even.chosen(&zone.inside) } else { even };
+        let band = spectrum.squared_envelope(comb.band);
+        let by_band = even.clone().found(recording.samples(), &band, inside).refined(recording.samples(), &high);
+        let passages = if inside {
+            // Echoes are loud in the one, first impacts weak in the other.
+            let by_impacts = even.found(recording.samples(), &high, inside).refined(recording.samples(), &high);
+            if by_impacts.contrast(&high) > by_band.contrast(&high) { by_impacts } else { by_band }
+        } else {
+            by_band
+        };
         high.iter_mut().for_each(|x| *x = x.max(0.0).sqrt());
-        let bpfo = rate / passages.period;
+        let pass_frequency = rate / passages.period;
+        let turning = bearing.element_count as f64 * recording.speed();
+        let bpfo = if inside { turning - pass_frequency } else { pass_frequency };
         let rows = passages::cut(&high, &passages.starts, passages.period, passages::GRID);
         Ok(Self {
             name,
+            speed: recording.speed(),
+            pass_frequency,
             bpfo,
             broken: continuity::find_break(&rows),
             times_a_period: continuity::times_a_period(&rows),
             slip: 1.0 - bpfo / nominal,
             spacing: 360.0 / bearing.element_count as f64,
             signal: recording.samples().to_vec(),
-            comb,
+            combs,
+            fault,
+            raceway,
             elsewhere,
             passages,
+            modulation,
             rate,
             envelope: high,
         })
@@ -96,7 +133,7 @@ impl Measured {
 
     /// Element travel per second [degrees].
     pub fn travel(&self) -> f64 {
-        self.spacing * self.bpfo
+        self.spacing * self.pass_frequency
     }
 
     /// Points of a row that keep every sample.

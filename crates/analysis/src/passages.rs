@@ -23,6 +23,8 @@ const FAR: isize = 50;
 const BEGINNINGS: usize = 6;
 /// Passages up to which the envelope's spectrum may be too coarse for their period.
 const FEW: usize = 150;
+/// Gain of contrast from which shifts are true ones: those that follow noise raise it a little.
+const CLEARER: f64 = 1.05;
 /// Passages used at most: more do not sharpen the average and cost time.
 const MOST: usize = 1200;
 
@@ -35,22 +37,39 @@ pub struct Passages {
     pub period: f64,
     /// Standard deviation of the shifts from even passages [share of a period].
     pub jitter: f64,
+    /// Which passages of the recording these are.
+    index: Vec<usize>,
 }
 
 impl Passages {
-    /// Finds them. `squared_envelope` is that of a band which shows the passages, `signal` the raw signal, and `period`
-    /// the ball pass period [samples] as the envelope's spectrum gives it.
-    pub fn find(signal: &[f64], squared_envelope: &[f64], period: f64) -> Self {
-        let log = rises(squared_envelope, period);
+    /// Even passages, before anything is known of them. `period` is the ball pass period [samples] as the envelope's
+    /// spectrum gives it.
+    pub fn even(samples: usize, period: f64) -> Self {
         // One period at each end is lost to the filters' ends and to shifts.
-        let count = ((signal.len() as f64 / period) as usize).saturating_sub(2).min(MOST);
-        let even: Vec<f64> = (0..count).map(|i| (0.5 + i as f64) * period).collect();
-        let aligned = align(&log, &even, period);
+        let count = ((samples as f64 / period) as usize).saturating_sub(2).min(MOST);
+        let index: Vec<usize> = (0..count).collect();
+        Self { starts: evenly(&index, period), period, jitter: 0.0, index }
+    }
+
+    /// Those chosen by their place among these.
+    pub fn chosen(&self, places: &[usize]) -> Self {
+        let of = |k: &usize| (self.starts[*k], self.index[*k]);
+        let (starts, index) = places.iter().map(of).unzip();
+        Self { starts, index, ..*self }
+    }
+
+    /// Finds even passages where they are. `squared_envelope` is that of a band which shows them, `signal` the raw
+    /// signal; `follow` where they may drift far from even ones, as those over a ring that turns with the shaft do.
+    pub fn found(self, signal: &[f64], squared_envelope: &[f64], follow: bool) -> Self {
+        let Self { starts: even, period, index, .. } = self;
+        let log = rises(squared_envelope, period);
+        let line = |starts: &[f64]| line(starts, &index);
+        let aligned = align(&log, &even, period, follow);
         let power = |starts: &[f64]| power(signal, starts, period);
         // A cage that runs like a clock is best met by a straight line through the shifts, or, where the envelope is
         // too smooth to give them, by the period that makes the average strongest; then by the shifts of the signal
         // itself.
-        let mut candidates = vec![line(&aligned), clock(signal, count, period)];
+        let mut candidates = vec![line(&aligned), clock(signal, &index, period)];
         for k in 0..candidates.len() {
             let mut follows = candidates[k].clone();
             for _ in 0..3 {
@@ -58,9 +77,17 @@ impl Passages {
             }
             candidates.push(follows);
         }
-        candidates.extend([even, aligned]);
-        let best = candidates.into_iter().max_by(|a, b| power(a).total_cmp(&power(b)));
-        Self::from_starts(best.unwrap_or_default(), period)
+        candidates.push(even);
+        let best = if follow {
+            // What turns with the shaft turns its sign in the signal too: only the envelope can tell.
+            let contrast = |starts: &[f64]| statistics::deviation(&template(&log, starts, period));
+            let best = candidates.into_iter().max_by(|a, b| contrast(a).total_cmp(&contrast(b)));
+            best.filter(|best| contrast(&aligned) < CLEARER * contrast(best)).or(Some(aligned))
+        } else {
+            candidates.push(aligned);
+            candidates.into_iter().max_by(|a, b| power(a).total_cmp(&power(b)))
+        };
+        Self::from_starts(best.unwrap_or_default(), period, index)
     }
 
     /// The same passages, aligned anew by the envelope of the impacts' band, if that makes the averaged envelope
@@ -75,10 +102,15 @@ impl Passages {
         // Shifts that follow noise raise the contrast a little; true ones raise it clearly.
         let kept = power(signal, &shifted, self.period) / power(signal, &self.starts, self.period);
         if kept > 0.98 && contrast(&shifted) > 1.02 * contrast(&self.starts) {
-            Self::from_starts(shifted, self.period)
+            Self::from_starts(shifted, self.period, self.index)
         } else {
             self
         }
+    }
+
+    /// How far the passages' mean stands out, by the rises of an envelope.
+    pub fn contrast(&self, squared_envelope: &[f64]) -> f64 {
+        statistics::deviation(&template(&rises(squared_envelope, self.period), &self.starts, self.period))
     }
 
     /// The same passages with their periods beginning `share` of a period later.
@@ -87,19 +119,26 @@ impl Passages {
         Self { starts, ..self.clone() }
     }
 
-    fn from_starts(starts: Vec<f64>, period: f64) -> Self {
-        let even = line(&starts);
-        let mean_period =
-            if even.len() > 1 { (even[even.len() - 1] - even[0]) / (even.len() - 1) as f64 } else { period };
+    fn from_starts(starts: Vec<f64>, period: f64, index: Vec<usize>) -> Self {
+        let even = line(&starts, &index);
+        let mean_period = match (index.first(), index.last()) {
+            (Some(&first), Some(&last)) if last > first => (even[even.len() - 1] - even[0]) / (last - first) as f64,
+            _ => period,
+        };
         let rest: Vec<f64> = starts.iter().zip(&even).map(|(s, e)| s - e).collect();
-        Self { jitter: statistics::deviation(&rest) / mean_period, starts, period: mean_period }
+        Self { jitter: statistics::deviation(&rest) / mean_period, starts, period: mean_period, index }
     }
+}
+
+fn evenly(index: &[usize], period: f64) -> Vec<f64> {
+    index.iter().map(|&i| (0.5 + i as f64) * period).collect()
 }
 
 /// Even passages at the period near `period` which makes the average strongest. Many passages have no need of it: the
 /// envelope's spectrum resolves their period.
-fn clock(signal: &[f64], count: usize, period: f64) -> Vec<f64> {
-    let even = |period: f64| -> Vec<f64> { (0..count).map(|i| (0.5 + i as f64) * period).collect() };
+fn clock(signal: &[f64], index: &[usize], period: f64) -> Vec<f64> {
+    let count = index.len();
+    let even = |period: f64| evenly(index, period);
     if count > FEW {
         return even(period);
     }
@@ -118,17 +157,17 @@ fn power(signal: &[f64], starts: &[f64], period: f64) -> f64 {
 }
 
 /// Even passages on the straight line that fits best.
-fn line(starts: &[f64]) -> Vec<f64> {
-    let middle = 0.5 * (starts.len() as f64 - 1.0);
+fn line(starts: &[f64], index: &[usize]) -> Vec<f64> {
+    let middle = index.iter().sum::<usize>() as f64 / index.len().max(1) as f64;
     let mean = statistics::mean(starts);
     let (mut xy, mut xx) = (0.0, 0.0);
-    for (i, s) in starts.iter().enumerate() {
+    for (&i, s) in index.iter().zip(starts) {
         let x = i as f64 - middle;
         xy += x * (s - mean);
         xx += x * x;
     }
     let period = if xx > 0.0 { xy / xx } else { 0.0 };
-    (0..starts.len()).map(|i| mean + (i as f64 - middle) * period).collect()
+    index.iter().map(|&i| mean + (i as f64 - middle) * period).collect()
 }
 
 /// One row of `points` values per passage, spread evenly over its period.
@@ -170,28 +209,57 @@ fn rises(squared: &[f64], period: f64) -> Vec<f64> {
 
 /// Aligns from several beginnings and keeps the result with the most contrast: from the blurred mean alone, the
 /// passages can settle in two groups, an impact's echo of one lying on the impact of the other.
-fn align(log: &[f64], even: &[f64], period: f64) -> Vec<f64> {
-    let whole = template(log, even, period);
-    let single = (1..=BEGINNINGS).map(|k| template(log, &[even[k * even.len() / (BEGINNINGS + 1)]], period));
-    let aligned = std::iter::once(whole).chain(single).map(|beginning| align_from(log, even, period, beginning));
+fn align(log: &[f64], even: &[f64], period: f64, follow: bool) -> Vec<f64> {
+    let places = (1..=BEGINNINGS).map(|k| k * even.len() / (BEGINNINGS + 1)).filter(|&k| k < even.len());
+    let mut aligned = vec![align_from(log, even, period, template(log, even, period), None)];
+    for k in places {
+        let single = template(log, &[even[k]], period);
+        if follow {
+            aligned.push(align_from(log, even, period, single.clone(), Some(k)));
+        }
+        aligned.push(align_from(log, even, period, single, None));
+    }
     let contrast = |starts: &[f64]| statistics::deviation(&template(log, starts, period));
-    aligned.max_by(|a, b| contrast(a).total_cmp(&contrast(b))).unwrap_or_else(|| even.to_vec())
+    aligned.into_iter().max_by(|a, b| contrast(a).total_cmp(&contrast(b))).unwrap_or_else(|| even.to_vec())
 }
 
-fn align_from(log: &[f64], even: &[f64], period: f64, beginning: Vec<f64>) -> Vec<f64> {
+/// Shifts passages to agree with a template, each near its neighbours; the first time anywhere near even passages, or
+/// following them one by one from passage `from` on.
+fn align_from(log: &[f64], even: &[f64], period: f64, beginning: Vec<f64>, from: Option<usize>) -> Vec<f64> {
     let step = period / GRID as f64;
     let mut shifted = even.to_vec();
     let mut template_now = beginning;
     for pass in 0..5 {
-        // What the neighbours need is the better guess for each, until each is found by itself.
-        let shifts: Vec<f64> = shifted.iter().zip(even).map(|(s, e)| (s - e) / step).collect();
-        let expected: Vec<f64> = running_median(&shifts, 4).iter().zip(even).map(|(d, e)| e + d * step).collect();
-        let reach = if pass == 0 { FAR } else { NEAR };
-        shifted = expected.iter().map(|&s| s + step * best_shift(log, s, step, &template_now, reach)).collect();
+        if let Some(from) = from.filter(|_| pass == 0) {
+            shifted = followed(log, even, step, &template_now, from);
+        } else {
+            // What the neighbours need is the better guess for each, until each is found by itself.
+            let shifts: Vec<f64> = shifted.iter().zip(even).map(|(s, e)| (s - e) / step).collect();
+            let expected: Vec<f64> = running_median(&shifts, 4).iter().zip(even).map(|(d, e)| e + d * step).collect();
+            let reach = if pass == 0 { FAR } else { NEAR };
+            shifted = expected.iter().map(|&s| s + step * best_shift(log, s, step, &template_now, reach)).collect();
+        }
         recentre(&mut shifted, even);
         template_now = template(log, &shifted, period);
     }
     shifted
+}
+
+/// Passages found one after the other, forwards and backwards from one of them, each near the last few.
+fn followed(log: &[f64], even: &[f64], step: f64, template: &[f64], from: usize) -> Vec<f64> {
+    let mut shifts = vec![0.0; even.len()];
+    let mut follow = |places: &mut dyn Iterator<Item = usize>| {
+        let mut last = [0.0; 5];
+        for (count, k) in places.enumerate() {
+            let near = statistics::median(&last);
+            let at = even[k] + near * step;
+            shifts[k] = near + best_shift(log, at, step, template, NEAR);
+            last[count % last.len()] = shifts[k];
+        }
+    };
+    follow(&mut (from + 1..even.len()));
+    follow(&mut (0..from).rev());
+    shifts.iter().zip(even).map(|(d, e)| e + d * step).collect()
 }
 
 /// One round of shifting each passage by at most `reach` to the mean of all.

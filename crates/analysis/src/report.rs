@@ -12,6 +12,54 @@ pub enum Verdict {
     Unresolved,
 }
 
+/// How far a length can be relied upon.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Standing {
+    /// Lengths at two speeds agree in degrees.
+    Firm,
+    /// One speed, or speeds too close to each other: an event at a fixed time looks like one at a fixed angle.
+    Provisional,
+}
+
+/// Part of the bearing that a recording's combs say is damaged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Fault {
+    /// The outer raceway.
+    Outer,
+    /// The inner raceway.
+    Inner,
+    /// A rolling element.
+    Element,
+    /// Two kinds stand out by about as much, or recordings of one bearing differ.
+    Undecided,
+    /// No comb stands out of chance.
+    None,
+}
+
+/// A comb of harmonics in the envelope's spectrum.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct CombReport {
+    /// Its frequency [Hz].
+    pub frequency_hz: f64,
+    /// How far it stands above chance [standard deviations].
+    pub significance: f64,
+    /// How far its harmonics stand above the noise near them [nepers of power]: what kinds are told by.
+    pub strength: f64,
+}
+
+/// The combs of the three kinds of fault.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct CombsReport {
+    /// At BPFO.
+    pub outer: CombReport,
+    /// At BPFI, with sidebands at the shaft's speed.
+    pub inner: CombReport,
+    /// At twice the BSF, with sidebands at the cage's speed.
+    pub element: CombReport,
+}
+
 /// What kind of spall it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -40,7 +88,11 @@ pub enum Method {
 pub struct Report {
     /// Whether there is a length.
     pub verdict: Verdict,
-    /// Arc on the outer raceway [mm].
+    /// How far the length can be relied upon, where there is one.
+    pub standing: Option<Standing>,
+    /// Part of the bearing that the recordings look damaged in.
+    pub fault: Fault,
+    /// Arc on the raceway of that fault [mm].
     pub length_mm: Option<f64>,
     /// The same [degrees].
     pub length_deg: Option<f64>,
@@ -77,18 +129,25 @@ pub struct RecordingReport {
     pub name: String,
     /// Whether it gives a length.
     pub verdict: Verdict,
-    /// Length [degrees].
+    /// What its combs look like.
+    pub fault: Fault,
+    /// They, beside each other.
+    pub combs: CombsReport,
+    /// Length [degrees of the raceway of that fault].
     pub length_deg: Option<f64>,
     /// Half-width of its 95 % interval [degrees].
     pub uncertainty_deg: Option<f64>,
     /// How it was found.
     pub method: Option<Method>,
-    /// Ball pass frequency [Hz].
+    /// Ball pass frequency of the outer ring [Hz].
     pub bpfo_hz: f64,
-    /// Passages used.
+    /// Passages used; on the inner raceway those in the load zone.
     pub passages: usize,
-    /// How far its comb stands above chance [standard deviations].
+    /// How far its strongest comb stands above chance [standard deviations].
     pub significance: f64,
+    /// Strength of strong passages over that of weak ones, 90 against 10 % quantile of the root mean square above 5 kHz:
+    /// an inner raceway's load zone.
+    pub modulation: f64,
     /// Onset of the entry before the first impact [degrees], where there is one.
     pub onset_deg: Option<f64>,
     /// Impacts, from the first on [degrees].

@@ -1,4 +1,4 @@
-//! Length of a spall of the outer raceway from vibration recordings, with its uncertainty, or why there is none.
+//! Length of a spall of a raceway from vibration recordings, with its uncertainty, or why there is none.
 //!
 //! Each recording is sized by similarity to the scene's own rig if the scene describes the rig ([`waveform_length`]),
 //! else by the events of its passages, which needs nothing but the bearing's dimensions ([`event_length`]). A rig that
@@ -13,8 +13,9 @@ use super::error::SizingError;
 use super::event_length::{self, EventLength, Unresolved};
 use super::kind::Judged;
 use super::measured::Measured;
+use super::raceway::Raceway;
 use super::recording::Recording;
-use super::report::{Figure, Kind, Method, RecordingReport, Report, Verdict};
+use super::report::{Fault, Figure, Kind, Method, RecordingReport, Report, Standing, Verdict};
 use super::ringing::Ringing;
 use super::spectrum::{Band, Spectrum};
 use super::statistics;
@@ -29,6 +30,11 @@ const COVERAGE: f64 = 2.0;
 const HEARD: f64 = 5.0;
 /// Scatter between recordings of one spall, as a share of the length, from which they contradict each other.
 const CONTRADICTION: f64 = 0.2;
+/// Ratio of speeds from which they tell time from angle: with 10 % of agreement below, an event at a fixed time would
+/// lie 30 % off.
+const SPEEDS_APART: f64 = 1.3;
+/// Difference of lengths at two speeds up to which they agree, as a share.
+const AGREEMENT: f64 = 0.1;
 /// Statistical uncertainty that is always granted [degrees]: events are sought on a grid of samples.
 const FLOOR: f64 = 0.02;
 
@@ -64,6 +70,8 @@ pub fn size_with(
     let slips: Vec<f64> = sized.iter().map(|s| s.measured.slip).collect();
     let mut report = Report {
         verdict: Verdict::Unresolved,
+        standing: None,
+        fault: common_fault(&sized),
         length_mm: None,
         length_deg: None,
         uncertainty_mm: None,
@@ -79,15 +87,17 @@ pub fn size_with(
         figures: sized.iter().map(|s| s.figure(&scene.bearing)).collect(),
     };
     let lengths: Vec<&Length> = sized.iter().filter_map(|s| s.length.as_ref().ok()).collect();
-    match combine(&lengths, sized.len()) {
+    match of_one_fault(&sized).and_then(|()| combine(&lengths, sized.len())) {
         Err(why) => {
             let each =
                 sized.iter().filter_map(|s| s.length.as_ref().err().map(|e| format!("{}: {e}", s.measured.name)));
             report.reason = std::iter::once(why).chain(each).collect::<Vec<_>>().join("; ");
         }
         Ok((length, uncertainty)) => {
-            let millimetres = 1e3 * scene.bearing.outer_raceway_radius() * length.to_radians() / length;
+            let radius = Raceway::of(report.fault).radius(&scene.bearing);
+            let millimetres = 1e3 * radius * length.to_radians() / length;
             report.verdict = Verdict::Resolved;
+            report.standing = Some(standing(&sized));
             report.length_deg = Some(length);
             report.length_mm = Some(length * millimetres);
             report.uncertainty_mm = Some(COVERAGE * uncertainty * millimetres);
@@ -127,7 +137,13 @@ impl Sized {
         let events = event_length::estimate(&measured, scene);
         let rig = Rig::new(scene, measured.bpfo, maps);
         let once = measured.broken.is_none() && measured.times_a_period.is_none();
-        let heard = rig.as_ref().filter(|_| measured.comb.significance >= HEARD && once);
+        let combs = &measured.combs;
+        let outer = match measured.fault {
+            Fault::Outer => true,
+            Fault::None => combs.outer_leads() && combs.outer.significance >= HEARD,
+            _ => false,
+        };
+        let heard = rig.as_ref().filter(|_| outer && once);
         let heard = heard.map(|rig| waveform_length::estimate(&measured, scene, rig));
         let similarity =
             heard.as_ref().map(|heard| heard.as_ref().map_or_else(|other| other.similarity, |w| w.similarity));
@@ -139,6 +155,8 @@ impl Sized {
             (None, Ok(e)) => Some(((e.first + e.onset) / spacing, e.length)),
             _ => None,
         };
+        // Stiffness over the cage's angle tells kinds of spalls outside.
+        let entry = entry.filter(|_| measured.raceway == Raceway::Outer);
         let judged = Judged::of(&measured, scene, rig.as_ref(), waveform.as_ref(), entry);
         let length = match (&waveform, &events) {
             (Some(w), _) => of_waveform(w, scene, judged.kind),
@@ -162,11 +180,14 @@ impl Sized {
         RecordingReport {
             name: self.measured.name.clone(),
             verdict: if length.is_some() { Verdict::Resolved } else { Verdict::Unresolved },
+            fault: self.measured.fault,
+            combs: self.measured.combs.report(),
             length_deg: length.map(|l| l.length),
             uncertainty_deg: length.map(|l| COVERAGE * l.statistical.hypot(l.systematic).hypot(FLOOR)),
             method: length.map(|l| l.method),
             bpfo_hz: self.measured.bpfo,
-            significance: self.measured.comb.significance,
+            significance: self.measured.combs.strongest().significance,
+            modulation: self.measured.modulation,
             onset_deg: self.events.as_ref().map(|e| e.onset),
             impacts_deg: self.events.as_ref().map_or_else(Vec::new, |e| e.impacts.clone()),
             edges_deg: self.edges(),
@@ -193,8 +214,8 @@ impl Sized {
             _ => 0.0,
         };
         let [angle, signal, level] = event_length::averaged_passage(measured, from);
-        let rate = measured.bpfo * signal.len() as f64;
-        let low = Spectrum::of(&signal, rate).filtered(Band { low: 0.5 * measured.bpfo, high: CUT });
+        let rate = measured.pass_frequency * signal.len() as f64;
+        let low = Spectrum::of(&signal, rate).filtered(Band { low: 0.5 * measured.pass_frequency, high: CUT });
         let norm = |signal: &[f64]| (signal.iter().map(|x| x * x).sum::<f64>() / signal.len() as f64).sqrt();
         let model = self.waveform.as_ref().map(|w| {
             let scale = norm(&low) / norm(&w.model);
@@ -203,7 +224,8 @@ impl Sized {
             angle.iter().map(|&degrees| scale * w.model[point(degrees)]).collect()
         });
         let path = self.edges().map(|[entry, exit]| {
-            let sunk = |degrees: f64| event_length::depth_at(bearing, (degrees - entry).min(exit - degrees).max(0.0));
+            let sunk =
+                |degrees: f64| measured.raceway.depth_at(bearing, (degrees - entry).min(exit - degrees).max(0.0));
             angle.iter().map(|&degrees| sunk(degrees)).collect()
         });
         Figure { name: measured.name.clone(), angle, signal, level, low, model, path }
@@ -215,7 +237,7 @@ impl Sized {
 fn of_waveform(waveform: &WaveformLength, scene: &Scene, kind: Kind) -> Result<Length, Unresolved> {
     let WaveformLength { length, statistical, systematic, .. } = *waveform;
     let uncertainty = statistical.hypot(systematic).hypot(FLOOR);
-    let limit = event_length::limit(scene);
+    let limit = event_length::limit(scene, Raceway::Outer);
     if limit.is_some_and(|limit| length - COVERAGE * uncertainty < limit) {
         return Err(Unresolved::TooShort(length, uncertainty, limit.unwrap_or_default()));
     }
@@ -244,9 +266,37 @@ fn combine(lengths: &[&Length], of: usize) -> Result<(f64, f64), String> {
     Ok((mean, statistical.hypot(systematic)))
 }
 
+/// The fault that all recordings in which one is heard look like.
+fn common_fault(sized: &[Sized]) -> Fault {
+    let mut heard = sized.iter().map(|s| s.measured.fault).filter(|&fault| fault != Fault::None);
+    let Some(first) = heard.next() else { return Fault::None };
+    if heard.all(|fault| fault == first) { first } else { Fault::Undecided }
+}
+
+/// Lengths of different raceways are not of one spall.
+fn of_one_fault(sized: &[Sized]) -> Result<(), String> {
+    let differ = sized.iter().any(|s| s.measured.fault != Fault::None) && common_fault(sized) == Fault::Undecided;
+    if differ && sized.len() > 1 {
+        let each: Vec<String> =
+            sized.iter().map(|s| format!("{}: {}", s.measured.name, s.measured.combs.said())).collect();
+        return Err(format!("the recordings look like different faults: {}", each.join("; ")));
+    }
+    Ok(())
+}
+
 fn common_kind(lengths: &[&Length]) -> Kind {
     let kind = lengths.first().map_or(Kind::Undecided, |l| l.kind);
     if lengths.iter().all(|l| l.kind == kind) { kind } else { Kind::Undecided }
+}
+
+/// Firm where lengths at two speeds that are far enough apart agree in degrees.
+fn standing(sized: &[Sized]) -> Standing {
+    let found: Vec<(f64, f64)> =
+        sized.iter().filter_map(|s| s.length.as_ref().ok().map(|l| (s.measured.speed, l.length))).collect();
+    let pairs = found.iter().flat_map(|a| found.iter().map(move |b| (a, b)));
+    let mut apart = pairs.filter(|(a, b)| b.0 >= SPEEDS_APART * a.0).peekable();
+    let firm = apart.peek().is_some() && apart.all(|(a, b)| (b.1 - a.1).abs() <= AGREEMENT * a.1);
+    if firm { Standing::Firm } else { Standing::Provisional }
 }
 
 /// What a resolved answer rests on, and its warnings.
@@ -257,6 +307,12 @@ fn basis(report: &Report, sized: &[Sized], scene: &Scene) -> String {
     };
     if let Some(said) = sized.iter().find(|s| s.length.is_ok()).map(|s| s.judged.said(scene)) {
         text += &said;
+    }
+    if report.standing == Some(Standing::Provisional) {
+        text += &format!(
+            "; PROVISIONAL: an event that belongs to the structure, at the same time at any speed, is told from one of the spall by \
+             recordings at speeds {SPEEDS_APART} times apart that agree in degrees"
+        );
     }
     let lost = sized.iter().filter(|s| s.length.is_err()).count();
     if lost > 0 {

@@ -11,6 +11,7 @@
 use super::event_length;
 use super::measured::Measured;
 use super::passages;
+use super::raceway::Raceway;
 use super::statistics::{self, Random};
 use super::synthesis::{POINTS, Rig, Run, Trial, below_cut, best_shift};
 use super::trial_search::{FINE, Fit, OwnLaw, Peak, Search, lengths, top};
@@ -114,7 +115,7 @@ fn search(measured: &Measured, scene: &Scene, rig: &Rig<'_>, heard: &mut NotAlik
     // The first is the usual depth, if it is as good: a depth that elements do not reach leaves no trace.
     let cheap = peaks.into_iter().next()?;
     // Below what can be resolved the law's last tenth of a degree decides nothing, and its map is dear.
-    let short = event_length::limit(scene).is_some_and(|limit| cheap.length + 2.0 * FINE < limit);
+    let short = event_length::limit(scene, Raceway::Outer).is_some_and(|limit| cheap.length + 2.0 * FINE < limit);
     let own = if short { None } else { search.with_law(&cheap, scene.contact.law) };
     let best = own.unwrap_or_else(|| OwnLaw {
         length: cheap.length,

@@ -11,8 +11,8 @@ use anyhow::{Context, Result, bail};
 use brinell::scene::Scene;
 use brinell_analysis::measured::Measured;
 use brinell_analysis::recording::{Recording, Source, Speed};
-use brinell_analysis::report::{Figure, RecordingReport};
-use brinell_analysis::{passages, spall_size};
+use brinell_analysis::report::{Fault, Figure, RecordingReport};
+use brinell_analysis::{event_length, passages, spall_size};
 
 use super::blind;
 use super::runs::Case;
@@ -22,6 +22,11 @@ use fmu_build::project::Project;
 
 /// Scene of the rig.
 const SCENE: &str = "6205-spall-5deg";
+/// The same bearing with a spall of the inner raceway.
+const INNER_SCENE: &str = "6205-inner-5deg";
+/// What the inner scene records: long enough for the load zone's share of passages.
+const INNER_SECONDS: f64 = 3.0;
+const RATE: f64 = 51_200.0;
 /// The other spall laid beside the recording: length at the surface [degrees], depth [m], slope of the flanks
 /// [degrees]. Its floor is 5 degrees long. Chosen so that impacts and null fall where the recording has them.
 const FLANKS: [f64; 3] = [5.8, 12e-6, 4.18];
@@ -35,21 +40,39 @@ pub struct Known {
     pub path: PathBuf,
     /// Shaft speed [Hz].
     pub speed: f64,
-    /// Nominal length [degrees], 0 of a healthy bearing.
+    /// Sampling rate [Hz], where it is not that of all.
+    pub rate: Option<f64>,
+    /// Nominal length [degrees], 0 of a healthy bearing or of a fault that has none.
     pub nominal: f64,
+    /// The fault that it is of.
+    pub fault: Fault,
 }
 
 impl Known {
-    /// `FILE@HZ=DEGREES`.
+    /// `FILE@HZ=DEGREES` of the outer raceway, `FILE@HZ=DEGREESi` of the inner one, `FILE@HZ=0` healthy, `FILE@HZ=ball`;
+    /// behind the speed `/RATE` where the sampling rate is another [Hz].
     pub fn parse(text: &str) -> Result<Self> {
-        let wanted = || format!("{text}: recordings are given as FILE@HZ=DEGREES");
+        let wanted = || {
+            format!(
+                "{text}: recordings are given as FILE@HZ=DEGREES or FILE@HZ/RATE=DEGREES, with an i behind it for the inner raceway, or ball"
+            )
+        };
         let (path, rest) = text.rsplit_once('@').with_context(wanted)?;
         let (speed, nominal) = rest.split_once('=').with_context(wanted)?;
-        Ok(Self {
-            path: path.into(),
-            speed: speed.parse().with_context(wanted)?,
-            nominal: nominal.parse().with_context(wanted)?,
-        })
+        let (speed, rate) = match speed.split_once('/') {
+            Some((speed, rate)) => (speed, Some(rate.parse().with_context(wanted)?)),
+            None => (speed, None),
+        };
+        let (path, speed) = (path.into(), speed.parse().with_context(wanted)?);
+        if nominal == "ball" {
+            return Ok(Self { path, speed, rate, nominal: 0.0, fault: Fault::Element });
+        }
+        let (length, raceway) = match nominal.strip_suffix('i') {
+            Some(length) => (length, Fault::Inner),
+            None => (nominal, Fault::Outer),
+        };
+        let nominal: f64 = length.parse().with_context(wanted)?;
+        Ok(Self { path, speed, rate, nominal, fault: if nominal > 0.0 { raceway } else { Fault::None } })
     }
 }
 
@@ -61,40 +84,48 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
     let scene = Scene { defects: Vec::new(), ..case.scene.clone() };
     let maps = |scene: &Scene| contact_map::of(scene, None, project).ok().flatten();
     let read = |known: &Known| -> Result<Recording> {
-        let source = Source { rate: Some(rate), speed: Speed::Constant(known.speed), signal: None };
+        let source = Source { rate: known.rate.or(Some(rate)), speed: Speed::Constant(known.speed), signal: None };
         Ok(Recording::read(&known.path, &source)?)
     };
     let mut text = String::from(
-        "| recording | nominal (°) | found (°) | 95 % (°) | error | onset (°) | impacts (°) |\n|---|---:|---:|---:|---:|---:|---|\n",
+        "| recording | nominal (°) | looks like | found (°) | 95 % (°) | error | onset (°) | impacts (°) |\n|---|---:|---|---:|---:|---:|---:|---|\n",
     );
-    let mut groups: Vec<(f64, Vec<Recording>)> = Vec::new();
+    let mut groups: Vec<(f64, Fault, Vec<Recording>)> = Vec::new();
     let mut beside: Vec<(f64, Figure, RecordingReport, Vec<f64>)> = Vec::new();
+    let mut inside: Vec<(f64, RecordingReport, Vec<f64>)> = Vec::new();
     for one in known {
         let recording = read(one)?;
         let report = spall_size::size_with(std::slice::from_ref(&recording), &scene, &maps, &mut |_| ())?;
         let (Some(found), Some(figure)) = (report.recordings.first(), report.figures.first()) else {
             bail!("no report of {}", one.path.display());
         };
-        text += &row(found, one.nominal)?;
-        if one.nominal == case.length() {
+        text += &row(found, one)?;
+        if one.nominal == case.length().round() && one.fault == Fault::Outer {
             beside.push((one.speed, figure.clone(), found.clone(), harmonics(&recording, &scene)?));
         }
-        match groups.iter_mut().find(|(nominal, _)| *nominal == one.nominal) {
-            Some((_, group)) => group.push(recording),
-            None => groups.push((one.nominal, vec![recording])),
+        if one.nominal == case.length().round() && one.fault == Fault::Inner {
+            let impacts = event_length::impacts(&Measured::new(&recording, &scene.bearing)?);
+            inside.push((one.speed, found.clone(), impacts));
+        }
+        match groups.iter_mut().find(|(nominal, fault, _)| *nominal == one.nominal && *fault == one.fault) {
+            Some((_, _, group)) => group.push(recording),
+            None => groups.push((one.nominal, one.fault, vec![recording])),
         }
     }
-    for (nominal, group) in groups.iter().filter(|(_, group)| group.len() > 1) {
+    for (nominal, fault, group) in groups.iter().filter(|(nominal, _, group)| group.len() > 1 && *nominal > 0.0) {
         let report = spall_size::size_with(group, &scene, &maps, &mut |_| ())?;
         let per_degree = report.length_mm.zip(report.length_deg).map_or(1.0, |(mm, deg)| mm / deg);
         let error = |deg: f64| format!("{:+.1} %", 100.0 * (deg / nominal - 1.0));
         writeln!(
             text,
-            "| **all {} of {nominal}° together** | {nominal} | {} | {} | {} | | |",
+            "| **all {} of {nominal}° {} together** | {nominal} | {} | {} | {} | {} | | {} |",
             group.len(),
+            if *fault == Fault::Inner { "inside" } else { "outside" },
+            looks_like(report.fault),
             number(report.length_deg),
             number(report.uncertainty_mm.map(|mm| mm / per_degree)),
-            report.length_deg.map_or("–".to_owned(), error)
+            report.length_deg.map_or("–".to_owned(), error),
+            report.standing.map_or(String::new(), |standing| format!("{standing:?}").to_lowercase())
         )?;
     }
     if !beside.is_empty() {
@@ -105,7 +136,7 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
             for (label, case) in [("scene", &case), ("with flanks", &with_flanks)] {
                 let case = case.clone().at_speed(*speed);
                 // By its events, like the recording: a scene without sensor is no rig to compare with.
-                let recording = Recording::new("scene", blind::recorded(project, &case)?, 51_200.0, *speed)?;
+                let recording = Recording::new("scene", blind::recorded(project, &case)?, RATE, *speed)?;
                 let blind = Scene { defects: Vec::new(), sensors: Vec::new(), ..case.scene.clone() };
                 let report = spall_size::size(std::slice::from_ref(&recording), &blind)?;
                 let own = harmonics(&recording, &blind)?;
@@ -116,7 +147,51 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
             }
         }
     }
+    text += &inner_beside(project, &inside)?;
     Ok(text)
+}
+
+/// The inner scene beside recordings of its length, as Markdown; nothing without these.
+fn inner_beside(project: &Project, recorded: &[(f64, RecordingReport, Vec<f64>)]) -> Result<String> {
+    if recorded.is_empty() {
+        return Ok(String::new());
+    }
+    let case = Case::shipped(project, INNER_SCENE)?;
+    let mut text = String::from(
+        "\n### The inner scene beside the recording of 5°\n\n\
+         | shaft (Hz) | | looks like | impacts (° after the first) | onset before the first impact (°) | length by events (°) | strong over weak passages |\n\
+         |---:|---|---|---|---:|---:|---:|\n",
+    );
+    for (speed, found, impacts) in recorded {
+        writeln!(text, "{}", inner_row(*speed, "recording", found, impacts))?;
+        let case = case.clone().at_speed(*speed);
+        let signal = case.record(project, &["sensor.acceleration"], RATE, INNER_SECONDS)?.remove(0);
+        let recording = Recording::new("scene", signal, RATE, *speed)?;
+        let blind = Scene { defects: Vec::new(), sensors: Vec::new(), ..case.scene.clone() };
+        let report = spall_size::size(std::slice::from_ref(&recording), &blind)?;
+        let impacts = event_length::impacts(&Measured::new(&recording, &blind.bearing)?);
+        let Some(found) = report.recordings.first() else { bail!("no report of the scene {INNER_SCENE}") };
+        writeln!(text, "{}", inner_row(*speed, "scene", found, &impacts))?;
+    }
+    Ok(text)
+}
+
+fn inner_row(speed: f64, label: &str, found: &RecordingReport, impacts: &[f64]) -> String {
+    let impacts: Vec<String> = impacts.iter().map(|impact| format!("{impact:.2}")).collect();
+    let onset = number(found.onset_deg.map(|onset| -onset));
+    let length = number(found.length_deg);
+    let (fault, strong) = (looks_like(found.fault), found.modulation);
+    format!("| {speed} | {label} | {fault} | {} | {onset} | {length} | {strong:.1} |", impacts.join(", "))
+}
+
+fn looks_like(fault: Fault) -> &'static str {
+    match fault {
+        Fault::Outer => "outer raceway",
+        Fault::Inner => "inner raceway",
+        Fault::Element => "element",
+        Fault::Undecided => "undecided",
+        Fault::None => "none",
+    }
 }
 
 fn beside_row(speed: f64, label: &str, found: Option<&RecordingReport>, comb: &[f64]) -> String {
@@ -126,15 +201,22 @@ fn beside_row(speed: f64, label: &str, found: Option<&RecordingReport>, comb: &[
     format!("| {speed} | {label} | {onset} | {last} | {length} | {} |", null(comb))
 }
 
-fn row(found: &RecordingReport, nominal: f64) -> Result<String> {
+fn row(found: &RecordingReport, known: &Known) -> Result<String> {
     let name = Path::new(&found.name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let nominal = known.nominal;
     let error =
         found.length_deg.filter(|_| nominal > 0.0).map(|deg| format!("{:+.1} %", 100.0 * (deg / nominal - 1.0)));
     let impacts: Vec<String> = found.impacts_deg.iter().map(|impact| format!("{impact:.2}")).collect();
     let length = found.length_deg.map_or("unresolved".to_owned(), |deg| format!("{deg:.2}"));
-    let nominal = if nominal > 0.0 { format!("{nominal}") } else { "healthy".to_owned() };
+    let nominal = match known.fault {
+        Fault::Outer => format!("{nominal}"),
+        Fault::Inner => format!("{nominal} inside"),
+        Fault::Element => "ball".to_owned(),
+        Fault::None | Fault::Undecided => "healthy".to_owned(),
+    };
     Ok(format!(
-        "| `{name}` | {nominal} | {length} | {} | {} | {} | {} |\n",
+        "| `{name}` | {nominal} | {} | {length} | {} | {} | {} | {} |\n",
+        looks_like(found.fault),
         number(found.uncertainty_deg),
         error.unwrap_or("–".to_owned()),
         number(found.onset_deg),

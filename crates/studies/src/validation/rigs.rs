@@ -11,7 +11,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use anyhow::Result;
 use brinell::scene::Scene;
 use brinell_analysis::error::SizingError;
+use brinell_analysis::raceway::Raceway;
 use brinell_analysis::recording::Recording;
+use brinell_analysis::report::Fault;
 use brinell_analysis::spall_size;
 use brinell_analysis::statistics::Random;
 
@@ -19,41 +21,61 @@ use super::Values;
 use super::synthetic_rig::SyntheticRig;
 
 /// Machines of each half, for each length.
-const MACHINES: u64 = 40;
+const MACHINES: u64 = 20;
 /// Numbers from which each half begins.
 const FIRST: [u64; 2] = [0, 100];
 /// Lengths of spalls [degrees]; 0 is healthy.
 const LENGTHS: [f64; 7] = [0.0, 0.5, 0.9, 1.3, 2.0, 5.0, 8.0];
+/// Lengths on the inner raceway.
+const INNER: [f64; 3] = [2.0, 5.0, 8.0];
 /// Error up to which a length counts as right.
 const RIGHT: f64 = 0.15;
 /// Elements, their diameter and pitch diameter [mm]: 6205 for every other machine, else one of all.
 const BEARINGS: [(usize, f64, f64); 4] = [(9, 7.94, 39.04), (8, 6.747, 28.5), (9, 7.94, 39.32), (9, 9.53, 46.0)];
 
-/// Fills in `rigs`.
+/// Fills in `rigs` and `rigs_inner`.
 pub fn fill(values: &mut Values) -> Result<()> {
+    values.set("rigs_inner", table(Raceway::Inner, &INNER)?)?;
+    values.set("rigs", table(Raceway::Outer, &LENGTHS)?)
+}
+
+fn table(raceway: Raceway, lengths: &[f64]) -> Result<String> {
     let mut table = String::new();
-    for length in LENGTHS {
+    for &length in lengths {
         write!(table, "| {} |", if length == 0.0 { "healthy".to_owned() } else { format!("{length:.1}°") })?;
         for half in 0..2 {
-            let found = sized(length, half)?;
-            let lengths: Vec<f64> = found.iter().filter_map(|(found, _)| *found).collect();
-            let right = lengths.iter().filter(|&&l| (l / length - 1.0).abs() <= RIGHT).count();
-            let (wrong, unresolved) = (lengths.len() - right, found.len() - lengths.len());
-            // Of a wrong one, whether its interval at least holds the truth.
-            let held = |&&(found, interval): &&(Option<f64>, f64)| {
-                found.is_some_and(|found| (found / length - 1.0).abs() > RIGHT && (found - length).abs() <= interval)
-            };
-            let honest = found.iter().filter(held).count();
-            write!(table, " {right} | {wrong} ({honest}) | {unresolved} |")?;
+            let found = sized(raceway, length, half)?;
+            let resolved: Vec<&Found> = found.iter().filter(|found| found.length.is_some()).collect();
+            let right = resolved.iter().filter(|found| found.error(length) <= RIGHT * length).count();
+            let (wrong, unresolved) = (resolved.len() - right, found.len() - resolved.len());
+            let held = resolved.iter().filter(|found| found.error(length) <= found.interval).count();
+            let other = resolved.iter().filter(|found| found.raceway != Some(raceway)).count();
+            let other = if other > 0 { format!(", {other} of the other raceway") } else { String::new() };
+            write!(table, " {right} | {wrong}{other} | {held} of {} | {unresolved} |", resolved.len())?;
         }
         writeln!(table)?;
         eprintln!("{}", table.lines().last().unwrap_or_default());
     }
-    values.set("rigs", table)
+    Ok(table)
 }
 
-/// Length and half its 95 % interval [degrees], of all machines of a half.
-fn sized(length: f64, half: usize) -> Result<Vec<(Option<f64>, f64)>> {
+/// What sizing gives.
+struct Found {
+    /// Length and half its 95 % interval [degrees].
+    length: Option<f64>,
+    interval: f64,
+    /// Of which raceway.
+    raceway: Option<Raceway>,
+}
+
+impl Found {
+    fn error(&self, truth: f64) -> f64 {
+        self.length.map_or(f64::INFINITY, |length| (length - truth).abs())
+    }
+}
+
+/// What sizing gives of all machines of a half.
+fn sized(raceway: Raceway, length: f64, half: usize) -> Result<Vec<Found>> {
     let next = AtomicU64::new(0);
     let found = Mutex::new(Vec::new());
     let work = || {
@@ -62,7 +84,7 @@ fn sized(length: f64, half: usize) -> Result<Vec<(Option<f64>, f64)>> {
             if k >= MACHINES {
                 break;
             }
-            let one = one(FIRST[half] + k, length);
+            let one = one(FIRST[half] + k, raceway, length);
             found.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push(one);
         }
     };
@@ -74,7 +96,7 @@ fn sized(length: f64, half: usize) -> Result<Vec<(Option<f64>, f64)>> {
     found.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner).into_iter().collect()
 }
 
-fn one(number: u64, length: f64) -> Result<(Option<f64>, f64)> {
+fn one(number: u64, raceway: Raceway, length: f64) -> Result<Found> {
     let mut random = Random::new(1000 * number + (10.0 * length) as u64);
     let rig = SyntheticRig::draw(&mut random);
     let (count, element, pitch) = BEARINGS[if random.uniform() < 0.5 { 0 } else { random.below(BEARINGS.len()) }];
@@ -98,15 +120,22 @@ fn one(number: u64, length: f64) -> Result<(Option<f64>, f64)> {
         [housing]
         motion = \"internal\""
     ))?;
-    let signal = rig.record(&scene.bearing, length, &mut random);
+    let signal = rig.record(&scene.bearing, raceway, length, &mut random);
     let recording = Recording::new("synthetic", signal, rig.rate, rig.speed)?;
     match spall_size::size(&[recording], &scene) {
         Ok(report) => {
             let interval = report.recordings.first().and_then(|r| r.uncertainty_deg).unwrap_or(0.0);
-            Ok((report.length_deg, interval))
+            let raceway = match report.fault {
+                Fault::Outer => Some(Raceway::Outer),
+                Fault::Inner => Some(Raceway::Inner),
+                _ => None,
+            };
+            Ok(Found { length: report.length_deg, interval, raceway })
         }
         // Too few samples per passage at this rate and speed: no length either.
-        Err(SizingError::TooCoarse { .. } | SizingError::TooShort { .. }) => Ok((None, 0.0)),
+        Err(SizingError::TooCoarse { .. } | SizingError::TooShort { .. }) => {
+            Ok(Found { length: None, interval: 0.0, raceway: None })
+        }
         Err(other) => Err(other.into()),
     }
 }

@@ -8,6 +8,7 @@ use brinell::geometry::kinematics;
 use brinell::scene::{ContactLaw, Defect, DefectShape, Scene};
 use brinell::simulation::Simulation;
 use brinell_analysis::passages;
+use brinell_analysis::raceway::Raceway;
 
 use fmu_build::contact_map;
 use fmu_build::model::Model;
@@ -92,7 +93,9 @@ impl Case {
     pub fn length(&self) -> f64 {
         match self.scene.defects.first().map(|defect| &defect.shape) {
             Some(DefectShape::Spall { length, .. }) => {
-                (length / self.scene.bearing.outer_raceway_radius()).to_degrees()
+                let inner = self.scene.has_defect_inside();
+                let raceway = if inner { Raceway::Inner } else { Raceway::Outer };
+                (length / raceway.radius(&self.scene.bearing)).to_degrees()
             }
             _ => 0.0,
         }

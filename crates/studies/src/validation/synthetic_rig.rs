@@ -8,6 +8,9 @@
 //! first impact   where the element meets the floor or, before that, the other edge (s = L/2)
 //! last impact    where a free element takes up its load again: between L − s_u and L, P(s_u) = δ; none if it never got free
 //! ```
+//! On the inner raceway 1/r_e = 1/r + 1/R_i; it turns with the shaft, and force and impacts follow a load zone that is
+//! drawn: the cosine of its angle, and opposite to the load 5 to 30 % of the most.
+//!
 //! The lost force moves the housing through modes of 0.2 to 3 kHz; impacts ring modes of 1 to 12 kHz, directly and by
 //! echoes. Loudness, slip, the cage's wander, shaft harmonics, hum, a gear's tone, knocks that have nothing to do with
 //! the bearing, and noise are added. It is no simulation of a machine, and shares with the estimator only the two
@@ -16,6 +19,7 @@
 use brinell::geometry::hertz_constant::HertzConstants;
 use brinell::geometry::kinematics;
 use brinell::scene::Bearing;
+use brinell_analysis::raceway::Raceway;
 use brinell_analysis::statistics::Random;
 use brinell_analysis::statistics::rms;
 use std::f64::consts::TAU;
@@ -112,37 +116,32 @@ impl SyntheticRig {
         }
     }
 
-    /// What it records of a spall of `length` degrees, 0 of a healthy bearing.
-    pub fn record(&self, bearing: &Bearing, length: f64, random: &mut Random) -> Vec<f64> {
+    /// What it records of a spall of `length` degrees of a raceway, 0 of a healthy bearing.
+    pub fn record(&self, bearing: &Bearing, raceway: Raceway, length: f64, random: &mut Random) -> Vec<f64> {
         let count = (self.duration * self.rate) as usize;
         let spacing = 360.0 / bearing.element_count as f64;
-        let travel = spacing * kinematics::frequencies(bearing, self.slip, self.speed).bpfo;
+        let frequencies = kinematics::frequencies(bearing, self.slip, self.speed);
+        let inner = raceway == Raceway::Inner;
+        let travel = spacing * if inner { frequencies.bpfi } else { frequencies.bpfo };
+        let opposite = if inner { logarithmic(random, 0.05, 0.3) } else { 1.0 };
+        let spall = Spall { length, free: unloading(bearing, raceway, self.load), travel };
         let (mut force, mut impacts) = (vec![0.0; count], vec![0.0; count]);
         let mut wander = 0.0;
         for k in 1..(self.duration * travel / spacing) as usize {
             // A passage forgets its wander after twenty.
             wander += -0.05 * wander + 0.3 * self.wander * random.normal();
             let edge = (k as f64 * spacing + wander + self.jitter * random.normal()) / travel;
+            let load = if inner { libm::cos(TAU * self.speed * edge).max(opposite) } else { 1.0 };
             if length > 0.0 {
-                self.pass(bearing, length, edge, travel, &mut force, &mut impacts, random);
+                self.pass(spall, edge, load, &mut force, &mut impacts, random);
             }
         }
         self.ring(force, impacts, random)
     }
 
-    /// One element over the spall, whose leading edge it meets at a time [s].
-    #[allow(clippy::too_many_arguments)]
-    fn pass(
-        &self,
-        bearing: &Bearing,
-        length: f64,
-        edge: f64,
-        travel: f64,
-        force: &mut [f64],
-        impacts: &mut [f64],
-        random: &mut Random,
-    ) {
-        let free = unloading(bearing, self.load);
+    /// One element over the spall, whose leading edge it meets at a time [s] under a share of the load.
+    fn pass(&self, spall: Spall, edge: f64, load: f64, force: &mut [f64], impacts: &mut [f64], random: &mut Random) {
+        let Spall { length, free, travel } = spall;
         let never_free = 0.5 * length < free;
         let until = if never_free { length } else { length - self.reload * free };
         let reach = length + 3.0 * self.rounded + 2.0 * free;
@@ -167,11 +166,11 @@ impl SyntheticRig {
             };
             // An edge that is rounded lets go a little at a time.
             let shares = [-1.0, -0.5, 0.0, 0.5, 1.0].map(|share| lost(s + share * self.rounded));
-            *f -= shares.iter().sum::<f64>() / 5.0;
+            *f -= load * shares.iter().sum::<f64>() / 5.0;
         }
         let both = self.shared * random.normal();
         let mut impact = |s: f64, strength: f64| {
-            let loud = strength * (both + self.loudness * random.normal()).exp();
+            let loud = load * strength * (both + self.loudness * random.normal()).exp();
             add_impact(impacts, edge + s / travel, loud, self.impact, self.rate, &self.echoes);
         };
         impact(self.floor.min(0.5 * length), self.first);
@@ -214,12 +213,24 @@ impl SyntheticRig {
     }
 }
 
+/// A spall as an element meets it.
+#[derive(Clone, Copy)]
+struct Spall {
+    /// Length [degrees].
+    length: f64,
+    /// Way [degrees] after which the most loaded element is free.
+    free: f64,
+    /// Element travel per second [degrees].
+    travel: f64,
+}
+
 /// Way [degrees] after which the most loaded element is free.
-fn unloading(bearing: &Bearing, load: f64) -> f64 {
+fn unloading(bearing: &Bearing, raceway: Raceway, load: f64) -> f64 {
     let ratio = 5.0 * load / bearing.element_count as f64 / HertzConstants::of(bearing).in_series();
     let approach = libm::cbrt(ratio * ratio);
-    let radius = bearing.outer_raceway_radius();
-    let curvature = 2.0 / bearing.element_diameter - 1.0 / radius;
+    let radius = raceway.radius(bearing);
+    let own = if raceway == Raceway::Inner { 1.0 / radius } else { -1.0 / radius };
+    let curvature = 2.0 / bearing.element_diameter + own;
     ((2.0 * approach / curvature).sqrt() / radius).to_degrees()
 }
 

@@ -1,0 +1,79 @@
+//! A raceway with a spall, as sizing needs it: arcs, and how an element sinks past an edge.
+//!
+//! An element that is s past a sharp edge has sunk by
+//! ```text
+//! P(s) = s²/(2 r_e),   1/r_e = 1/r − 1/R_o outside,   1/r_e = 1/r + 1/R_i inside
+//! ```
+//! A concave raceway's curvature is taken off the element's, a convex one's is added: the same arc lets an element sink
+//! 1.5 times as deep inside. The circles' own P differs by less than 1 % at 5 degrees. Angles are those of the raceway
+//! itself, and what travels over it is the element: on the inner one at the difference of shaft's and cage's speed.
+
+use super::report::Fault;
+use brinell::scene::Bearing;
+
+/// The raceway that bears the spall.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Raceway {
+    /// Of the outer ring.
+    Outer,
+    /// Of the inner ring.
+    Inner,
+}
+
+impl Raceway {
+    /// The raceway that is sized where a recording looks like this fault: the outer one unless it is clearly the inner.
+    pub fn of(fault: Fault) -> Self {
+        if fault == Fault::Inner { Self::Inner } else { Self::Outer }
+    }
+
+    /// In words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Outer => "outer",
+            Self::Inner => "inner",
+        }
+    }
+
+    /// Radius [m].
+    pub fn radius(self, bearing: &Bearing) -> f64 {
+        match self {
+            Self::Outer => bearing.outer_raceway_radius(),
+            Self::Inner => bearing.inner_raceway_radius(),
+        }
+    }
+
+    /// 1/r_e [1/m].
+    fn relative_curvature(self, bearing: &Bearing) -> f64 {
+        let own = 1.0 / self.radius(bearing);
+        1.0 / bearing.element_radius() + if self == Self::Inner { own } else { -own }
+    }
+
+    /// Way past an edge [degrees] after which an element has sunk by `depth` [m].
+    pub fn sunk_after(self, bearing: &Bearing, depth: f64) -> f64 {
+        ((2.0 * depth / self.relative_curvature(bearing)).sqrt() / self.radius(bearing)).to_degrees()
+    }
+
+    /// How far [m] an element has sunk `degrees` past an edge.
+    pub fn depth_at(self, bearing: &Bearing, degrees: f64) -> f64 {
+        let s = degrees.to_radians() * self.radius(bearing);
+        0.5 * s * s * self.relative_curvature(bearing)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_element_sinks_as_deep_as_the_rolling_of_circles_says() {
+        // A 6205 with 5 µm of clearance; arcs of a rigid ball's path, 0.4 mm past an edge: 16.81551 and 25.29747 µm.
+        let bearing = Bearing::steel_balls(9, 7.94e-3, 39.04e-3);
+        for (raceway, expected) in [(Raceway::Outer, 16.81551e-6), (Raceway::Inner, 25.29747e-6)] {
+            let degrees = (0.4e-3 / raceway.radius(&bearing)).to_degrees();
+            let sunk = raceway.depth_at(&bearing, degrees);
+            // The next term of the series is (s/r)²/4: 0.3 % here.
+            assert!((sunk / expected - 1.0).abs() < 4e-3, "{raceway:?}: {sunk}");
+            assert!((raceway.sunk_after(&bearing, sunk) - degrees).abs() < 1e-12);
+        }
+    }
+}

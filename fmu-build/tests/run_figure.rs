@@ -1,0 +1,54 @@
+//! The figure of `run`, as a program: the envelope's spectrum and the frequencies that are marked in it.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::fs;
+use std::process::Command;
+
+use serde_json::Value;
+
+fn run(scene: &str, out: &std::path::Path, more: &[&str]) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_brinell"))
+        .arg("run")
+        .arg(common::root().join("scenes").join(format!("{scene}.toml")))
+        .arg("-o")
+        .arg(out)
+        .args(more)
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{said}");
+    said
+}
+
+#[test]
+fn a_run_of_eight_passages_shows_the_envelopes_spectrum_with_the_bearings_frequencies() {
+    common::python();
+    let out = common::folder("run-figure");
+    let said = run("6205-healthy", &out, &["--stop", "0.1"]);
+    assert!(!said.contains("note: no spectrum"), "{said}");
+    let file = |name: &str| fs::read_to_string(out.join(name)).unwrap();
+    let marks: Value = serde_json::from_str(&file("6205-healthy-envelope.json")).unwrap();
+    // Of a 6205 at the scene's 25 Hz: orders 3.5848, 5.4152, 4.7135 and 0.3983.
+    for (name, order) in [("BPFO", 3.5848), ("BPFI", 5.4152), ("2 BSF", 4.7135), ("FTF", 0.3983)] {
+        let found = marks["frequencies_hz"][name].as_f64().unwrap();
+        // The last printed digit of the orders.
+        assert!((found / 25.0 - order).abs() < 1e-4, "{name}: {found}");
+    }
+    // Four over 1001 samples of 0.1 ms.
+    assert!((marks["line_width_hz"].as_f64().unwrap() - 4.0 / 0.1001).abs() < 1e-9);
+    let text = file("6205-healthy-envelope.csv");
+    assert!(text.starts_with("frequency [Hz],amplitude [1]\n") && text.lines().count() > 50, "{text}");
+    assert!(fs::metadata(out.join("6205-healthy.png")).unwrap().len() > 10_000);
+}
+
+#[test]
+fn a_run_too_short_for_it_says_how_long_it_would_have_to_be() {
+    common::python();
+    let out = common::folder("run-figure-short");
+    let said = run("6205-healthy", &out, &["--stop", "0.01"]);
+    assert!(said.contains("--stop 0.09 is enough"), "{said}");
+    assert!(!out.join("6205-healthy-envelope.csv").exists());
+    assert!(out.join("6205-healthy.png").is_file());
+}
