@@ -21,7 +21,14 @@ def curves(axis, names, colours, scale=1.0, labels=None):
 def panels():
     """Each panel: its axis label and what draws it, as far as this run has the signals."""
     if "sensor.acceleration" in data:
-        yield "sensor, y\n(m/s²)", lambda axis: curves(axis, ["sensor.acceleration"], [BLUE])
+        yield "sensor\n(m/s²)", lambda axis: curves(axis, ["sensor.acceleration"], [BLUE])
+    sensors = [name for name in data if name.startswith("sensor[")]
+    if sensors:
+        colours = [BLUE, ORANGE, GREEN, PURPLE] * 2
+        yield "sensors\n(m/s²)", lambda axis: curves(axis, sensors, colours, 1.0, [name[7:-14] for name in sensors])
+    if "probe.y" in data:
+        names = ["probe.x", "probe.y"]
+        yield "probe\n(µm)", lambda axis: curves(axis, names, [ORANGE, BLUE], 1e6, ["x", "y"])
     for ring, colour in (("housing", VERMILION), ("shaft", GREEN)):
         if f"{ring}.ay" in data and data[f"{ring}.ay"].any():
             name = f"{ring}.ay"

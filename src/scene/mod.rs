@@ -98,6 +98,15 @@ impl Scene {
         self.has_defect_inside() || self.housing_speed.is_some() || self.housing_initial_angle != 0.0
     }
 
+    /// The variable that shows what a sensor measures, by its number from 0: `sensor.acceleration` of one alone.
+    pub fn sensor_variable(&self, number: usize) -> String {
+        if self.sensors.len() > 1 {
+            format!("sensor[{}].acceleration", number + 1)
+        } else {
+            "sensor.acceleration".to_owned()
+        }
+    }
+
     /// The C identifier of the scene's model: `Brinell_er16k_tb1` for the scene `er16k-tb1`. Hyphens, which a name may
     /// hold, become underscores, and the prefix keeps a leading digit inside.
     pub fn model_identifier(&self) -> String {

@@ -133,10 +133,8 @@ impl Builder<'_> {
 
     /// What sensors and probe show.
     fn measurements(&mut self) {
-        let several = self.scene.sensors.len() > 1;
         for (k, sensor) in self.scene.sensors.iter().enumerate() {
-            let name =
-                if several { format!("sensor[{}].acceleration", k + 1) } else { "sensor.acceleration".to_owned() };
+            let name = self.scene.sensor_variable(k);
             let called = if sensor.name.is_empty() { String::new() } else { format!(" {}", sensor.name) };
             let along = match sensor.unit() {
                 [0.0, 1.0] => "y".to_owned(),

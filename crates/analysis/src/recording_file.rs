@@ -2,7 +2,7 @@
 //!
 //! Text ([`recording_csv`](super::recording_csv)), NumPy ([`recording_npy`](super::recording_npy)) and WAV, which
 //! goes through `hound`. Columns are chosen by name or by number from 1. Left to itself, the signal is the column
-//! whose name begins with `sensor.acceleration`, else with `acc`, `vib` or `signal`, else the only one that does not
+//! whose name begins with `sensor.acceleration` or, of several sensors, `sensor[1].acceleration`, else with `acc`, `vib` or `signal`, else the only one that does not
 //! count time or samples, else, where columns have no names, the first of those.
 //!
 //! Time is a column that is called so, or has a unit of time and rises, or an unnamed first column beside others that
@@ -99,7 +99,8 @@ impl Table {
             return self.column(choice).map(|(_, column)| column.to_vec());
         }
         let begins = |with: &str| self.names.iter().position(|name| bare(name).starts_with(with));
-        let by_name = ["sensor.acceleration", "acc", "vib", "signal"].into_iter().find_map(begins);
+        let by_name =
+            ["sensor.acceleration", "sensor[1].acceleration", "acc", "vib", "signal"].into_iter().find_map(begins);
         let mut others = (0..self.columns.len()).filter(|&i| !self.clocks[i] || self.columns.len() == 1);
         let found = by_name.or_else(|| {
             let first = others.next();

@@ -93,7 +93,8 @@ impl<'a> Rig<'a> {
             scene.tolerance = scene.tolerance.max(ROUGH);
         }
         let mut simulation = Simulation::with_map(scene, None, map.as_deref())?;
-        let sensor = simulation.reference("sensor.acceleration").map_err(SimulationError::from)?;
+        let shown = simulation.scene().sensor_variable(0);
+        let sensor = simulation.reference(&shown).map_err(SimulationError::from)?;
         simulation.initialize(0.0)?;
         let count = (passages.end as f64 * self.rate / self.bpfo) as usize + 4;
         let mut signal = Vec::with_capacity(count);
