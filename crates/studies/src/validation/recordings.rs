@@ -24,6 +24,8 @@ use fmu_build::project::Project;
 const SCENE: &str = "6205-spall-5deg";
 /// The same bearing with a spall of the inner raceway.
 const INNER_SCENE: &str = "6205-inner-5deg";
+/// Way from the loudest impact that another must keep [degrees]: less than half of a spall of 5 degrees, more than echoes.
+const APART: f64 = 2.0;
 /// What the inner scene records: long enough for the load zone's share of passages.
 const INNER_SECONDS: f64 = 3.0;
 const RATE: f64 = 51_200.0;
@@ -92,7 +94,7 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
     );
     let mut groups: Vec<(f64, Fault, Vec<Recording>)> = Vec::new();
     let mut beside: Vec<(f64, Figure, RecordingReport, Vec<f64>)> = Vec::new();
-    let mut inside: Vec<(f64, RecordingReport, Vec<f64>)> = Vec::new();
+    let mut inside: Vec<(f64, RecordingReport, Loud)> = Vec::new();
     for one in known {
         let recording = read(one)?;
         let report = spall_size::size_with(std::slice::from_ref(&recording), &scene, &maps, &mut |_| ())?;
@@ -104,8 +106,7 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
             beside.push((one.speed, figure.clone(), found.clone(), harmonics(&recording, &scene)?));
         }
         if one.nominal == case.length().round() && one.fault == Fault::Inner {
-            let impacts = event_length::impacts(&Measured::new(&recording, &scene.bearing)?);
-            inside.push((one.speed, found.clone(), impacts));
+            inside.push((one.speed, found.clone(), Loud::of(&recording, &scene)?));
         }
         match groups.iter_mut().find(|(nominal, fault, _)| *nominal == one.nominal && *fault == one.fault) {
             Some((_, _, group)) => group.push(recording),
@@ -152,36 +153,63 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
 }
 
 /// The inner scene beside recordings of its length, as Markdown; nothing without these.
-fn inner_beside(project: &Project, recorded: &[(f64, RecordingReport, Vec<f64>)]) -> Result<String> {
+fn inner_beside(project: &Project, recorded: &[(f64, RecordingReport, Loud)]) -> Result<String> {
     if recorded.is_empty() {
         return Ok(String::new());
     }
     let case = Case::shipped(project, INNER_SCENE)?;
     let mut text = String::from(
         "\n### The inner scene beside the recording of 5°\n\n\
-         | shaft (Hz) | | looks like | impacts (° after the first) | onset before the first impact (°) | length by events (°) | strong over weak passages |\n\
-         |---:|---|---|---|---:|---:|---:|\n",
+         | shaft (Hz) | | looks like | two loudest (° apart) | impacts (° after the first) | onset before the first impact (°) | length by events (°) | strong over weak passages |\n\
+         |---:|---|---|---:|---|---:|---:|---:|\n",
     );
-    for (speed, found, impacts) in recorded {
-        writeln!(text, "{}", inner_row(*speed, "recording", found, impacts))?;
+    for (speed, found, loud) in recorded {
+        writeln!(text, "{}", inner_row(*speed, "recording", found, loud))?;
         let case = case.clone().at_speed(*speed);
         let signal = case.record(project, &["sensor.acceleration"], RATE, INNER_SECONDS)?.remove(0);
         let recording = Recording::new("scene", signal, RATE, *speed)?;
         let blind = Scene { defects: Vec::new(), sensors: Vec::new(), ..case.scene.clone() };
         let report = spall_size::size(std::slice::from_ref(&recording), &blind)?;
-        let impacts = event_length::impacts(&Measured::new(&recording, &blind.bearing)?);
+        let loud = Loud::of(&recording, &blind)?;
         let Some(found) = report.recordings.first() else { bail!("no report of the scene {INNER_SCENE}") };
-        writeln!(text, "{}", inner_row(*speed, "scene", found, &impacts))?;
+        writeln!(text, "{}", inner_row(*speed, "scene", found, &loud))?;
     }
     Ok(text)
 }
 
-fn inner_row(speed: f64, label: &str, found: &RecordingReport, impacts: &[f64]) -> String {
-    let impacts: Vec<String> = impacts.iter().map(|impact| format!("{impact:.2}")).collect();
+fn inner_row(speed: f64, label: &str, found: &RecordingReport, loud: &Loud) -> String {
+    let impacts: Vec<String> = loud.impacts.iter().map(|impact| format!("{impact:.2}")).collect();
     let onset = number(found.onset_deg.map(|onset| -onset));
     let length = number(found.length_deg);
     let (fault, strong) = (looks_like(found.fault), found.modulation);
-    format!("| {speed} | {label} | {fault} | {} | {onset} | {length} | {strong:.1} |", impacts.join(", "))
+    let (impacts, apart) = (impacts.join(", "), loud.apart);
+    format!("| {speed} | {label} | {fault} | {apart:.2} | {impacts} | {onset} | {length} | {strong:.1} |")
+}
+
+/// What is loud in an averaged passage [degrees].
+struct Loud {
+    /// Impacts, after the first.
+    impacts: Vec<f64>,
+    /// From the highest of the envelope's level to the highest that is at least [`APART`] away.
+    apart: f64,
+}
+
+impl Loud {
+    fn of(recording: &Recording, scene: &Scene) -> Result<Self> {
+        let measured = Measured::new(recording, &scene.bearing)?;
+        let [angle, _, level] = event_length::averaged_passage(&measured, 0.0);
+        let around = |a: f64, b: f64| {
+            let way = (a - b).rem_euclid(measured.spacing);
+            way.min(measured.spacing - way)
+        };
+        let loudest = |away: &dyn Fn(f64) -> bool| {
+            let all = (0..level.len()).filter(|&i| away(angle[i]));
+            all.max_by(|&a, &b| level[a].total_cmp(&level[b])).map_or(0.0, |i| angle[i])
+        };
+        let first = loudest(&|_| true);
+        let second = loudest(&|at| around(at, first) >= APART);
+        Ok(Self { impacts: event_length::impacts(&measured), apart: around(first, second) })
+    }
 }
 
 fn looks_like(fault: Fault) -> &'static str {
