@@ -27,8 +27,7 @@ def panels():
         colours = [BLUE, ORANGE, GREEN, PURPLE] * 2
         yield "sensors\n(m/s²)", lambda axis: curves(axis, sensors, colours, 1.0, [name[7:-14] for name in sensors])
     if "probe.y" in data:
-        names = ["probe.x", "probe.y"]
-        yield "probe\n(µm)", lambda axis: curves(axis, names, [ORANGE, BLUE], 1e6, ["x", "y"])
+        yield "probe\n(µm)", lambda axis: curves(axis, ["probe.x", "probe.y"], [ORANGE, BLUE], 1e6, ["x", "y"])
     for ring, colour in (("housing", VERMILION), ("shaft", GREEN)):
         if f"{ring}.ay" in data and data[f"{ring}.ay"].any():
             name = f"{ring}.ay"

@@ -66,8 +66,8 @@ mod tests {
 
     #[test]
     fn an_element_sinks_as_deep_as_the_rolling_of_circles_says() {
-        // A 6205 with 5 µm of clearance; arcs of a rigid ball's path, 0.4 mm past an edge: 16.81551 and 25.29747 µm.
-        let bearing = Bearing::steel_balls(9, 7.94e-3, 39.04e-3);
+        // An ER16K with 5 µm of clearance; arcs of a rigid ball's path, 0.4 mm past an edge: 16.81551 and 25.29747 µm.
+        let bearing = Bearing::steel_balls(9, 7.94e-3, 39.32e-3);
         for (raceway, expected) in [(Raceway::Outer, 16.81551e-6), (Raceway::Inner, 25.29747e-6)] {
             let degrees = (0.4e-3 / raceway.radius(&bearing)).to_degrees();
             let sunk = raceway.depth_at(&bearing, degrees);
