@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 use std::io::{Cursor, Write};
 
-use zip::{CompressionMethod, DateTime, ZipWriter, write::SimpleFileOptions};
+use zip::{CompressionMethod, DateTime, System, ZipWriter, write::SimpleFileOptions};
 
 /// Why an archive was not written.
 #[derive(Debug, thiserror::Error)]
@@ -49,6 +49,8 @@ impl Archive {
                 .compression_method(CompressionMethod::Deflated)
                 .compression_level(Some(9))
                 .last_modified_time(DateTime::default())
+                // Wherever it is written: the rights below are Unix's.
+                .system(System::Unix)
                 .unix_permissions(mode);
             zip.start_file(name.as_str(), options)?;
             zip.write_all(contents)?;

@@ -53,6 +53,7 @@ fn every_entry_is_plain_zip_2_0_without_extra_fields() {
         assert_eq!((header.time, header.date), (0, 0x21), "{name}: 1980-01-01, the oldest date of zip");
         assert_eq!((header.extra, header.comment), (0, 0), "{name}: extra field and comment");
         assert_eq!((header.local_flags, header.local_extra), (0, 0), "{name}: local header");
+        assert_eq!(header.system, 3, "{name}: of Unix, on whatever system it was written");
         assert_eq!(header.kind, 0o100_000, "{name}: a plain file, no link");
     }
 }
@@ -67,6 +68,7 @@ fn names_that_unpack_differently_elsewhere_are_refused() {
 
 struct Header {
     name: String,
+    system: u16,
     version_needed: u16,
     flags: u16,
     method: u16,
@@ -96,6 +98,7 @@ fn headers(zip: &[u8]) -> Vec<Header> {
         let length = u16_at(at + 28) as usize;
         headers.push(Header {
             name: String::from_utf8(zip[at + 46..at + 46 + length].to_vec()).unwrap(),
+            system: u16_at(at + 4) >> 8,
             version_needed: u16_at(at + 6).max(u16_at(local + 4)),
             flags: u16_at(at + 8),
             method: u16_at(at + 10),
