@@ -58,7 +58,7 @@ class Run(Mapping[str, Signal]):
 
     def __repr__(self) -> str:
         time = self["time"]
-        return f"<brinell.Run: {len(self)} signals, {time.size} points until {time[-1]} s>"
+        return f"<brinell.Run: {len(self)} signals, {time.size} points until {time[-1]:g} s>"
 
 
 def program() -> str:
