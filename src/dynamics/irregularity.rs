@@ -139,15 +139,25 @@ impl Irregularity {
 
     /// Speed [rad/s] and acceleration [rad/s²] of element `j`.
     #[cold]
-    pub fn speed_of_element(&self, j: usize, cage: &CageState) -> [f64; 2] {
-        let Lead { rate, bend, .. } = self.of_element(j, cage);
+    #[inline(never)]
+    pub fn speed_of_element(&self, j: usize, cage: CageState) -> [f64; 2] {
+        let Lead { rate, bend, .. } = self.of_element(j, &cage);
         [cage.speed * (1.0 + rate), cage.acceleration * (1.0 + rate) + cage.speed * cage.speed * bend]
     }
 
     /// Sine and cosine of the angle of element `j`, which is `offset` ahead of the cage but for its lead.
     #[cold]
-    pub fn direction_of_element(&self, j: usize, offset: f64, cage: &CageState) -> (f64, f64) {
-        sin_cos(offset + self.of_element(j, cage).angle)
+    #[inline(never)]
+    pub fn direction_of_element(&self, j: usize, offset: f64, cage: CageState) -> (f64, f64) {
+        sin_cos(offset + self.of_element(j, &cage).angle)
+    }
+
+    /// Angle [rad] by which element `j` is ahead. The cage comes by value, as to the two above: in even cages, which never
+    /// call them, it then stays in registers.
+    #[cold]
+    #[inline(never)]
+    pub fn angle_of_element(&self, j: usize, cage: CageState) -> f64 {
+        self.of_element(j, &cage).angle
     }
 
     /// Lead of the cage itself: that of all elements together. It is 0 at the start.

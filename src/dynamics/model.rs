@@ -298,7 +298,7 @@ impl Model {
         let angle = cage.angle + self.element_offset(j);
         match &self.irregularity {
             None => angle,
-            Some(uneven) => angle + uneven.of_element(j, cage).angle,
+            Some(uneven) => angle + uneven.angle_of_element(j, *cage),
         }
     }
 
@@ -307,7 +307,7 @@ impl Model {
     pub fn element_speed(&self, j: usize, cage: &CageState) -> [f64; 2] {
         match &self.irregularity {
             None => [cage.speed, cage.acceleration],
-            Some(uneven) => uneven.speed_of_element(j, cage),
+            Some(uneven) => uneven.speed_of_element(j, *cage),
         }
     }
 
@@ -331,7 +331,7 @@ impl Model {
     pub(super) fn direction(&self, j: usize, cage: &CageState) -> Vector {
         let (sin, cos) = match &self.irregularity {
             None => (self.elements[j / WIDEST].sin[j % WIDEST], self.elements[j / WIDEST].cos[j % WIDEST]),
-            Some(uneven) => uneven.direction_of_element(j, self.element_offset(j), cage),
+            Some(uneven) => uneven.direction_of_element(j, self.element_offset(j), *cage),
         };
         let cage = cage.direction;
         Vector::new(cage.x * cos - cage.y * sin, cage.y * cos + cage.x * sin)
