@@ -62,7 +62,9 @@ pub struct Model {
     offsets: Vec<f64>,
     /// How elements and cage run ahead and lag behind; `None` where each keeps its angle ahead of a cage that turns
     /// evenly.
-    pub(super) irregularity: Option<Irregularity>,
+    ///
+    /// In a box: its cell in the model itself would keep the compiler from reading any of the model once for all.
+    pub(super) irregularity: Option<Box<Irregularity>>,
     /// Whether any contact asks for the frames of defects: all but those of an outer ring that does not turn.
     pub has_frames: bool,
     /// What differs from element to element, eight at a time.
@@ -181,7 +183,8 @@ impl Model {
             offsets.iter_mut().zip(&cage.offsets).for_each(|(offset, by)| *offset += by);
         }
         let irregularity = scene.cage.irregularity.as_ref();
-        let irregularity = irregularity.and_then(|cage| Irregularity::new(cage, count, scene.cage.initial_angle));
+        let irregularity =
+            irregularity.and_then(|cage| Irregularity::new(cage, count, scene.cage.initial_angle)).map(Box::new);
         let has_frames = turns && !(inner.is_empty() && outer.is_empty() && defective.is_empty());
         Self {
             element_count: bearing.element_count,
