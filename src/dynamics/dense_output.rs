@@ -32,6 +32,7 @@ impl Model {
         cage: &CageState,
         out: &mut [f64],
     ) {
+        self.begin(drive);
         let layout = &self.layout;
         let basis = Basis::new(h, share);
         let value = |i: usize| ends.map(|end| end.state[i]);

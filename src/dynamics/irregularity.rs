@@ -17,7 +17,7 @@ use super::kinematics::CageState;
 use crate::numerics::counter_noise::gaussian;
 use crate::numerics::sin_cos;
 use crate::scene::CageIrregularity;
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::f64::consts::TAU;
 
 /// Knots of the jitter in one turn are as many as elements; those of the wander are so many turns apart.
@@ -38,6 +38,9 @@ pub struct Irregularity {
     /// That of the wander's [rad]; 0 for none.
     wander: f64,
     count: usize,
+    /// Whole turns of the cage at the communication point. Beside the drive, which has them, because a cage's state at an
+    /// instant with one number more no longer fits into the registers of even ones.
+    turns: Cell<i64>,
     /// The polynomials of the intervals looked at last: nothing but a shortcut.
     pieces: RefCell<Pieces>,
 }
@@ -112,8 +115,14 @@ impl Irregularity {
             jitter: cage.jitter / MEAN_SQUARE.sqrt(),
             wander: cage.wander * pitch / MEAN_SQUARE_OF_RATE.sqrt(),
             count,
+            turns: Cell::new(0),
             pieces: RefCell::new(Pieces { of_elements: vec![[0.0; 4]; count], ..Pieces::default() }),
         })
+    }
+
+    /// What is asked from now on is of a communication step that begins after so many whole turns.
+    pub fn begin(&self, turns: i64) {
+        self.turns.set(turns);
     }
 
     /// Lead of element `j` at an instant of the nominal cage.
@@ -180,7 +189,7 @@ impl Irregularity {
     /// Interval between knots, `per_turn` of them in a turn, and the share of it that is behind.
     fn place(&self, cage: &CageState, per_turn: f64) -> (i64, f64) {
         // Whole turns first, so that no digits are lost to them.
-        let turns = cage.turns as f64 * per_turn;
+        let turns = self.turns.get() as f64 * per_turn;
         let (whole, rest) = (turns.floor(), turns - turns.floor());
         let at = rest + (cage.angle - self.start) / TAU * per_turn;
         (whole as i64 + at.floor() as i64, at - at.floor())
@@ -214,8 +223,9 @@ mod tests {
         Irregularity::new(&cage, 9, -1.2).unwrap()
     }
 
-    fn at(turns: i64, angle: f64) -> CageState {
-        CageState { turns, ..CageState::at_rest(angle) }
+    fn at(of: &Irregularity, turns: i64, angle: f64) -> CageState {
+        of.begin(turns);
+        CageState::at_rest(angle)
     }
 
     #[test]
@@ -224,7 +234,7 @@ mod tests {
         for k in 0..4000 {
             let (angle, step) = (f64::from(k) * 0.0137 - 20.0, 1e-5);
             for j in [0, 8] {
-                let [before, here, after] = [-step, 0.0, step].map(|by| of.of_element(j, &at(0, angle + by)));
+                let [before, here, after] = [-step, 0.0, step].map(|by| of.of_element(j, &at(&of, 0, angle + by)));
                 for (values, slope, size) in
                     [([before.angle, after.angle], here.rate, 1.0), ([before.rate, after.rate], here.bend, 10.0)]
                 {
@@ -232,8 +242,8 @@ mod tests {
                     let quotient = (values[1] - values[0]) / (2.0 * step);
                     assert!((quotient - slope).abs() < 1e-5 * size, "{angle} {quotient} {slope}");
                 }
-                if (of.place(&at(0, angle), 9.0).1 - 0.5).abs() < 0.4
-                    && (of.place(&at(0, angle), 1.0 / 3.0).1 - 0.5).abs() < 0.4
+                if (of.place(&at(&of, 0, angle), 9.0).1 - 0.5).abs() < 0.4
+                    && (of.place(&at(&of, 0, angle), 1.0 / 3.0).1 - 0.5).abs() < 0.4
                 {
                     let quotient = (after.bend - before.bend) / (2.0 * step);
                     assert!((quotient - here.twist).abs() < 1e-5, "{angle} {quotient} {}", here.twist);
@@ -247,11 +257,12 @@ mod tests {
         let of = irregular(0.01, 0.02, 3);
         for turns in [-400, -1, 0, 1, 2, 1000] {
             for angle in [-3.0, 0.1, 2.9, 7.0] {
-                let (one, other) = (of.of_element(4, &at(turns, angle)), of.of_element(4, &at(turns - 1, angle + TAU)));
+                let (one, other) =
+                    (of.of_element(4, &at(&of, turns, angle)), of.of_element(4, &at(&of, turns - 1, angle + TAU)));
                 assert!((one.angle - other.angle).abs() < 1e-13 && (one.rate - other.rate).abs() < 1e-13);
             }
         }
-        assert_eq!(of.of_cage(&at(0, -1.2)).angle, 0.0);
+        assert_eq!(of.of_cage(&at(&of, 0, -1.2)).angle, 0.0);
     }
 
     #[test]
@@ -260,8 +271,9 @@ mod tests {
         let of = irregular(sigma, 0.0, 5);
         for harmonic in [1, 3, 6] {
             let count = 60_000;
-            let phase =
-                |k: i32| f64::from(9 * harmonic) * of.of_element(0, &at(0, of.start + f64::from(k) * TAU / 9.0)).angle;
+            let phase = |k: i32| {
+                f64::from(9 * harmonic) * of.of_element(0, &at(&of, 0, of.start + f64::from(k) * TAU / 9.0)).angle
+            };
             let mean = (0..count).map(|k| phase(k).cos()).sum::<f64>() / f64::from(count);
             // Passages are a spacing apart, where a spline has its knots and half its coefficients' mean square.
             let at_knots = 0.5 / MEAN_SQUARE;
@@ -279,12 +291,12 @@ mod tests {
         let own = irregular(jitter, 0.0, 11);
         for k in 0..count {
             let angle = f64::from(k) * 0.35;
-            let lead = |j: usize, angle: f64| own.of_element(j, &at(0, angle)).angle;
+            let lead = |j: usize, angle: f64| own.of_element(j, &at(&own, 0, angle)).angle;
             let here = lead(2, angle);
             squares += here * here;
             neighbours += here * lead(2, angle + TAU / 9.0);
             between += here * lead(3, angle);
-            rates += of.of_cage(&at(0, angle)).rate.powi(2);
+            rates += of.of_cage(&at(&of, 0, angle)).rate.powi(2);
         }
         let mean = |sum: f64| sum / f64::from(count);
         // About 20 000 independent coefficients: 1 % of a mean square; 740 of the wander's: 5 %.

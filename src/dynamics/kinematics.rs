@@ -21,8 +21,6 @@ pub struct CageState {
     pub speed: f64,
     /// Cage acceleration [rad/s²].
     pub acceleration: f64,
-    /// Whole turns at the communication point, for what depends on them.
-    pub turns: i64,
 }
 
 /// Position and velocity of a ring.
@@ -90,7 +88,7 @@ impl Default for RingState {
 impl CageState {
     /// A cage that stands still at an angle [rad].
     pub fn at_rest(angle: f64) -> Self {
-        Self { tau: 0.0, direction: direction(angle), angle, speed: 0.0, acceleration: 0.0, turns: 0 }
+        Self { tau: 0.0, direction: direction(angle), angle, speed: 0.0, acceleration: 0.0 }
     }
 }
 
@@ -137,7 +135,6 @@ impl Drive {
             angle,
             speed: self.cage.rate_at(tau),
             acceleration: self.cage.0[2],
-            turns: self.cage_turns,
         }
     }
 

@@ -284,6 +284,14 @@ impl Model {
         self.irregularity.is_some()
     }
 
+    /// Tells an uneven cage after how many turns the communication step of this drive begins.
+    #[inline(always)]
+    pub fn begin(&self, drive: &Drive) {
+        if let Some(uneven) = &self.irregularity {
+            uneven.begin(drive.cage_turns);
+        }
+    }
+
     /// What element `j` is ahead of its place in a cage that turns evenly.
     #[inline]
     pub fn lead(&self, j: usize, cage: &CageState) -> Lead {

@@ -290,6 +290,7 @@ impl Model {
     /// gravity do not supply, it does. It also takes up the torque of an element's defect on that element, whose spin
     /// is forced as well. `acceleration` is the outer ring's [m/s²].
     pub fn cage_torque(&self, drive: &Drive, tau: f64, state: &[f64], acceleration: Vector, forces: &Forces) -> f64 {
+        self.begin(drive);
         let cage = drive.cage_at(tau);
         let of_paths: f64 = (0..self.element_count)
             .map(|j| {

@@ -17,6 +17,7 @@ impl Model {
     #[inline(always)]
     pub(super) fn kinematics_of(&self, at: &Stage) -> Kinematics {
         let Stage { drive, cage, state, ahead } = *at;
+        self.begin(drive);
         let (shaft, housing) = (self.shaft.motion, self.housing.motion);
         Kinematics {
             cage: *cage,

@@ -237,7 +237,7 @@ impl Model {
         let at = |share: f64| {
             let mut moved = *still;
             let angle = still.cage.angle + share * by.cage_angle;
-            moved.cage = CageState { turns: still.cage.turns, ..CageState::at_rest(angle) };
+            moved.cage = CageState::at_rest(angle);
             moved.housing.position += by.offset() * share;
             for (turn, by) in moved.frames.0.iter_mut().zip(by.frames) {
                 turn.angle += share * by[0];
@@ -280,10 +280,7 @@ impl Model {
         }
         let radial = |u: f64, angle: f64| {
             // Nothing moves and the rings' offset does not matter to the outer contact.
-            let mut placed =
-                FramedKinematics { frames: still.frames, ..FramedKinematics::at_rest(angle, Vector::zeros()) };
-            placed.cage.turns = still.cage.turns;
-            let still = placed;
+            let still = FramedKinematics { frames: still.frames, ..FramedKinematics::at_rest(angle, Vector::zeros()) };
             self.linearized_at(j, cells, (u, 0.0), &still, Bends::LeftOut).change(&ElementVariation::of_path()).outer.x
         };
         let angle = still.cage.angle;

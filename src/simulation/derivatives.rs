@@ -200,7 +200,9 @@ impl Simulation {
 
     /// The nominal cage at the communication point.
     fn cage_now(&self) -> CageState {
-        self.drive(false).cage_at(0.0)
+        let drive = self.drive(false);
+        self.model.begin(&drive);
+        drive.cage_at(0.0)
     }
 
     /// Change of the cage's own angle and speed.

@@ -48,6 +48,7 @@ impl<'a> Outputs<'a> {
         forces: &'a Forces,
         start: Angles,
     ) -> Self {
+        model.begin(drive);
         let mut sensors = [0.0; MOST_SENSORS];
         for (sensor, place) in sensors.iter_mut().zip(model.layout.sensor_places()) {
             *sensor = derivative[place + 1];
