@@ -9,6 +9,7 @@ use brinell::dynamics::drive::{Cubic, Drive, Quadratic};
 use brinell::dynamics::equilibrium::EquilibriumError;
 use brinell::dynamics::forces::Forces;
 use brinell::dynamics::jacobian::Jacobian;
+use brinell::dynamics::kinematics::CageState;
 use brinell::dynamics::model::Model;
 use brinell::dynamics::raceway::Cells;
 use brinell::numerics::wrap;
@@ -238,7 +239,7 @@ impl Assembly {
         };
         Ok(AtRest {
             matrix: jacobian.matrix(state.len()),
-            angles: (0..count).map(|j| wrap(cage_angle + model.element_offset(j))).collect(),
+            angles: (0..count).map(|j| wrap(model.element_angle(j, &CageState::at_rest(cage_angle)))).collect(),
             holds: (0..count).map(hold).collect(),
         })
     }

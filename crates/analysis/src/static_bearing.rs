@@ -18,6 +18,7 @@ use brinell::contact::contact_maps::ContactMaps;
 use brinell::dynamics::drive::{Drive, Quadratic};
 use brinell::dynamics::equilibrium::EquilibriumError;
 use brinell::dynamics::forces::Forces;
+use brinell::dynamics::kinematics::CageState;
 use brinell::dynamics::model::Model;
 use brinell::numerics::wrap;
 use brinell::scene::{DefectOn, Motion, Ring, Scene, SceneError};
@@ -213,13 +214,14 @@ impl StaticBearing {
         let displacement = model.shaft_state(&drive, 0.0, &state).position;
         let paths = &state[..model.element_count];
         let jacobian = model.ring_jacobian(paths, &cells, &model.kinematics(&drive, 0.0, &state));
+        let cage = CageState::at_rest(cage_angle);
         let elements = (0..model.element_count).map(|j| LoadedElement {
-            angle: wrap(cage_angle + model.element_offset(j)),
+            angle: wrap(model.element_angle(j, &cage)),
             path: paths[j],
             inner_force: forces.contacts.inner[j],
             outer_force: forces.contacts.outer[j],
             inner_approach: forces.contacts.inner_approach[j],
-            in_defect: self.is_in_defect(cage_angle + model.element_offset(j)),
+            in_defect: self.is_in_defect(model.element_angle(j, &cage)),
         });
         Ok(Balance {
             cage_angle,
