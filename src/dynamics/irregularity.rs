@@ -38,8 +38,8 @@ pub struct Irregularity {
     /// That of the wander's [rad]; 0 for none.
     wander: f64,
     count: usize,
-    /// Whole turns of the cage at the communication point. Beside the drive, which has them, because a cage's state at an
-    /// instant with one number more no longer fits into the registers of even ones.
+    /// Whole turns of the cage at the communication point. Kept here beside the drive, which has them: with one number
+    /// more in the cage's state at an instant, bearings whose outer raceway yields took a fifth longer.
     turns: Cell<i64>,
     /// The polynomials of the intervals looked at last: nothing but a shortcut.
     pieces: RefCell<Pieces>,
@@ -161,8 +161,7 @@ impl Irregularity {
         sin_cos(offset + self.of_element(j, &cage).angle)
     }
 
-    /// Angle [rad] by which element `j` is ahead. The cage comes by value, as to the two above: in even cages, which never
-    /// call them, it then stays in registers.
+    /// Angle [rad] by which element `j` is ahead.
     #[cold]
     #[inline(never)]
     pub fn angle_of_element(&self, j: usize, cage: CageState) -> f64 {

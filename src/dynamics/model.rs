@@ -62,8 +62,6 @@ pub struct Model {
     offsets: Vec<f64>,
     /// How elements and cage run ahead and lag behind; `None` where each keeps its angle ahead of a cage that turns
     /// evenly.
-    ///
-    /// In a box: its cell in the model itself would keep the compiler from reading any of the model once for all.
     pub(super) irregularity: Option<Box<Irregularity>>,
     /// Whether any contact asks for the frames of defects: all but those of an outer ring that does not turn.
     pub has_frames: bool,

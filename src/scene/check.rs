@@ -40,7 +40,7 @@ impl Scene {
         SHAFT_INITIAL_ANGLE.check(self.shaft_initial_angle)?;
         HOUSING_INITIAL_ANGLE.check(self.housing_initial_angle)?;
         for (index, defect) in self.defects.iter().enumerate() {
-            defect.check(&self.bearing).map_err(|of| of.in_defect(index, self.defects.len()))?;
+            defect.check(&self.bearing).map_err(|of| of.in_table("defect", index, self.defects.len()))?;
         }
         self.check_rings()?;
         self.check_sensors()?;
@@ -106,7 +106,7 @@ impl Scene {
                 }
                 Ok(())
             };
-            check().map_err(|of: SceneError| of.in_sensor(index, self.sensors.len()))?;
+            check().map_err(|of: SceneError| of.in_table("sensor", index, self.sensors.len()))?;
         }
         Ok(())
     }

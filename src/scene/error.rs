@@ -79,17 +79,11 @@ pub enum SceneError {
         "defect profile (defect.profile) \"{0}\": it must be the name of a file beside the scene file, without a folder"
     )]
     ProfileName(String),
-    /// Something wrong with one of several defects.
-    #[error("[[defect]] number {number}: {of}")]
-    InDefect {
-        /// Its number in the scene file, from 1.
-        number: usize,
-        /// What is wrong with it.
-        of: Box<SceneError>,
-    },
-    /// Something wrong with one of several sensors.
-    #[error("[[sensor]] number {number}: {of}")]
-    InSensor {
+    /// Something wrong with one of several tables of a name.
+    #[error("[[{table}]] number {number}: {of}")]
+    InTable {
+        /// "defect" or "sensor".
+        table: &'static str,
         /// Its number in the scene file, from 1.
         number: usize,
         /// What is wrong with it.
@@ -297,14 +291,9 @@ pub enum SceneError {
 }
 
 impl SceneError {
-    /// This error of the defect of a number, from 0, said to belong to it where there are several.
-    pub(super) fn in_defect(self, index: usize, count: usize) -> Self {
-        if count > 1 { Self::InDefect { number: index + 1, of: Box::new(self) } } else { self }
-    }
-
-    /// This error of the sensor of a number, from 0, said to belong to it where there are several.
-    pub(super) fn in_sensor(self, index: usize, count: usize) -> Self {
-        if count > 1 { Self::InSensor { number: index + 1, of: Box::new(self) } } else { self }
+    /// This error of the table of a name and number, from 0, said to belong to it where there are several.
+    pub(super) fn in_table(self, table: &'static str, index: usize, count: usize) -> Self {
+        if count > 1 { Self::InTable { table, number: index + 1, of: Box::new(self) } } else { self }
     }
 }
 

@@ -75,9 +75,9 @@ impl Scene {
         self.defects.iter().any(|defect| defect.on == DefectOn::Inner)
     }
 
-    /// The first defect of an element, from 0.
-    pub fn defect_of_element(&self, element: usize) -> Option<&Defect> {
-        self.defects.iter().find(|defect| matches!(defect.on, DefectOn::Element { element: j, .. } if j == element))
+    /// The number of the first defect of an element, both from 0.
+    pub fn first_defect_of(&self, element: usize) -> Option<usize> {
+        self.defects.iter().position(|defect| matches!(defect.on, DefectOn::Element { element: j, .. } if j == element))
     }
 
     /// The profile files that defects name, each once, in the order of the defects.

@@ -80,7 +80,7 @@ fn starts_from(output: Q, known: Q, scene: &Scene) -> bool {
         Q::CageAngle | Q::ElementAngle(_) => known == Q::Parameter(Parameter::CageInitialAngle),
         Q::RingAngle(ring) => known == Q::Parameter(Parameter::RingInitialAngle(ring)),
         Q::ElementSpinAngle(j) => match known {
-            Q::Parameter(Parameter::DefectAngle(index)) => first_of(scene, j) == Some(index),
+            Q::Parameter(Parameter::DefectAngle(index)) => scene.first_defect_of(j) == Some(index),
             _ => false,
         },
         Q::CageSpeed => matches!(known, Q::Speed(_) | Q::Parameter(Parameter::CageSlip)),
@@ -97,9 +97,4 @@ fn starts_from(output: Q, known: Q, scene: &Scene) -> bool {
             _ => true,
         },
     }
-}
-
-/// The first defect of element `j`, both from 0.
-fn first_of(scene: &Scene, j: usize) -> Option<usize> {
-    scene.defects.iter().position(|defect| matches!(defect.on, DefectOn::Element { element, .. } if element == j))
 }

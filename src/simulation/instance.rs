@@ -118,8 +118,6 @@ impl Simulation {
         let (table, quantities): (Vec<_>, Vec<_>) = table::rows(&scene).into_iter().unzip();
         let access = table.iter().zip(&quantities).map(|(row, &quantity)| Access::new(row, quantity)).collect();
         let (reals, integers) = setup::start_values(&table);
-        // Overlaps are refused now, not when the model is built.
-        arranged(&scene, &surfaces)?;
         let map = map.filter(|_| !surfaces.is_empty());
         if let Some(map) = &map {
             map.check_fingerprint(setup::map_fingerprint(&scene, &surfaces)?)?;
@@ -131,6 +129,10 @@ impl Simulation {
                 ContactLaw::Map => map.is_some(),
                 ContactLaw::Love => false,
             };
+        if !is_complete {
+            // Overlaps are refused now, not when the model is built.
+            arranged(&scene, &surfaces)?;
+        }
         let model = setup::build_model(&scene, if is_complete { &surfaces } else { &[] }, map.as_ref())?;
         let recorder = Recorder::of(&scene, &table, &quantities);
         let progress = new_progress(&model, &recorder);

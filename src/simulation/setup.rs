@@ -1,5 +1,6 @@
 //! From a scene and the parameters that a host has set to the model that is stepped.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::SimulationError;
@@ -111,15 +112,15 @@ pub fn map_specification(scene: &Scene, side: RacewaySide) -> MapSpecification {
 
 /// A contact map that a scene needs.
 #[derive(Debug, Clone)]
-pub struct NeededMap {
-    surface: Surface,
+pub struct NeededMap<'s> {
+    surface: Cow<'s, Surface>,
     element: ElementOnRaceway,
     specification: MapSpecification,
     /// Fingerprint of all that it depends on.
     pub fingerprint: u64,
 }
 
-impl NeededMap {
+impl NeededMap<'_> {
     /// Computes it. `runner` says on how many cores.
     ///
     /// # Errors
@@ -134,19 +135,14 @@ impl NeededMap {
 ///
 /// # Errors
 /// Defects that overlap.
-pub fn needed_maps(scene: &Scene, surfaces: &[Surface]) -> Result<Vec<NeededMap>, SimulationError> {
+pub fn needed_maps<'s>(scene: &Scene, surfaces: &'s [Surface]) -> Result<Vec<NeededMap<'s>>, SimulationError> {
     let mut maps: Vec<NeededMap> = Vec::new();
     for spot in arranged(scene, surfaces)? {
         for &side in sides(spot.on) {
             let (element, specification) = (ElementOnRaceway::of(&scene.bearing, side), map_specification(scene, side));
             let fingerprint = ContactMap::fingerprint_of(&spot.surface, element, specification);
             if !maps.iter().any(|map| map.fingerprint == fingerprint) {
-                maps.push(NeededMap {
-                    surface: spot.surface.clone().into_owned(),
-                    element,
-                    specification,
-                    fingerprint,
-                });
+                maps.push(NeededMap { surface: spot.surface.clone(), element, specification, fingerprint });
             }
         }
     }
@@ -237,10 +233,10 @@ pub fn build_model(
     surfaces: &[Surface],
     map: Option<&Arc<ContactMaps>>,
 ) -> Result<Model, SimulationError> {
+    if surfaces.is_empty() {
+        return Ok(Model::smooth(scene));
+    }
     let mut computed = Vec::new();
-    // Where elements are at the start, in an irregular cage as well.
-    let start = CageState::at_rest(scene.cage.initial_angle);
-    let smooth = Model::smooth(scene);
     let (mut rings, mut defective) = ([Vec::new(), Vec::new()], Vec::<DefectiveElement>::new());
     for spot in &arranged(scene, surfaces)? {
         let mut near = |side| near(scene, spot, side, map, &mut computed);
@@ -250,7 +246,9 @@ pub fn build_model(
             DefectOn::Element { element, .. } => {
                 // At the start the defect is at its angle from the direction of its element, and the spin is counted
                 // from there; the inner raceway is met with the opposite side.
-                let facing = smooth.element_angle(element, &start);
+                // In an irregular cage it is the model that knows where that is.
+                let start = CageState::at_rest(scene.cage.initial_angle);
+                let facing = Model::smooth(scene).element_angle(element, &start);
                 let centre = facing + spot.centre;
                 let both = [(near(RacewaySide::Inner)?, centre - PI), (near(RacewaySide::Outer)?, centre)];
                 match defective.iter_mut().find(|other| other.element == element) {
@@ -258,16 +256,13 @@ pub fn build_model(
                         other.defects.iter_mut().zip(both).for_each(|(defects, one)| defects.add(one));
                     }
                     None => {
-                        let first = scene.defect_of_element(element).map_or(spot.centre, |defect| defect.angle);
+                        let first = scene.first_defect_of(element).map_or(spot.centre, |k| scene.defects[k].angle);
                         let defects = both.map(|one| Defects::new(Frame::Spin, [one]));
                         defective.push(DefectiveElement { element, defects, mark: facing + first });
                     }
                 }
             }
         }
-    }
-    if surfaces.is_empty() {
-        return Ok(smooth);
     }
     let [inner, outer] = rings;
     Ok(Model::new(scene, [Defects::new(Frame::Shaft, inner), Defects::new(Frame::Housing, outer)], defective))

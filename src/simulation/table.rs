@@ -211,7 +211,7 @@ impl Builder<'_> {
             Unit::Newton,
             100.0,
         );
-        if self.scene.defect_of_element(j).is_some() {
+        if self.scene.first_defect_of(j).is_some() {
             self.output(
                 &name("].spin_angle"),
                 &text("Angle of the defect of element ", ", counter-clockwise from where it faces the outer raceway"),

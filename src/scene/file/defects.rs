@@ -35,7 +35,7 @@ impl OneOrMore<DefectTable> {
     pub(super) fn into_defects(self, bearing: &Bearing) -> Result<Vec<Defect>, SceneError> {
         let count = self.0.len();
         let defects = self.0.into_iter().enumerate();
-        defects.map(|(k, table)| table.into_defect(bearing).map_err(|of| of.in_defect(k, count))).collect()
+        defects.map(|(k, table)| table.into_defect(bearing).map_err(|of| of.in_table("defect", k, count))).collect()
     }
 }
 
