@@ -9,7 +9,7 @@ use super::element_block::ElementBlock;
 use super::kinematics::{Kinematics, Stage};
 use super::model::Model;
 use crate::contact::force_law::DampedLaw;
-use crate::numerics::lanes::{Kernel, Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, sum_of};
+use crate::numerics::lanes::{Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, sum_of};
 use crate::numerics::plane::{Vector, turned};
 use crate::numerics::row::Row;
 
@@ -109,26 +109,9 @@ impl Record {
 
 impl Model {
     /// Smooth contacts of all elements: their part of the derivative, and, if `RECORD`, each of them. Gives their force
-    /// on the inner ring and on the outer.
+    /// on the inner ring and on the outer. If `UNEVEN`, each element has a speed of its own.
     #[inline(always)]
-    pub(super) fn smooth_contacts<S: Wide, const RECORD: bool>(
-        &self,
-        simd: S,
-        now: &Kinematics,
-        stage: &Stage,
-        derivative: &mut [f64],
-        (elements, contacts): (&[ElementBlock], &mut Record),
-    ) -> [f64; 4] {
-        if self.is_uneven() {
-            let part = (elements, contacts);
-            return simd.outlined(UnevenContacts::<RECORD> { model: self, now, stage, derivative, part });
-        }
-        self.contacts_of::<S, RECORD, false>(simd, now, stage, derivative, (elements, contacts))
-    }
-
-    /// As [`Self::smooth_contacts`], each element with a speed of its own if `UNEVEN`.
-    #[inline(always)]
-    fn contacts_of<S: Wide, const RECORD: bool, const UNEVEN: bool>(
+    pub(super) fn smooth_contacts<S: Wide, const RECORD: bool, const UNEVEN: bool>(
         &self,
         simd: S,
         now: &Kinematics,
@@ -167,24 +150,6 @@ impl Model {
         }
         let [shaft_x, shaft_y, housing_x, housing_y] = sums.lanes;
         [-sum_of(shaft_x), -sum_of(shaft_y), sum_of(housing_x), sum_of(housing_y)]
-    }
-}
-
-/// The contacts of an uneven cage, apart from those of even ones.
-struct UnevenContacts<'a, const RECORD: bool> {
-    model: &'a Model,
-    now: &'a Kinematics,
-    stage: &'a Stage<'a>,
-    derivative: &'a mut [f64],
-    part: (&'a [ElementBlock], &'a mut Record),
-}
-
-impl<const RECORD: bool> Kernel for UnevenContacts<'_, RECORD> {
-    type Output = [f64; 4];
-
-    #[inline(always)]
-    fn run<S: Wide>(self, simd: S) -> [f64; 4] {
-        self.model.contacts_of::<S, RECORD, true>(simd, self.now, self.stage, self.derivative, self.part)
     }
 }
 
@@ -242,7 +207,8 @@ impl Smooth<'_> {
             (square / (distance + q_r), q_r * per_distance, t * per_distance)
         };
         let delta = number(-model.radial_clearance) - u - p - longer;
-        let speed = if UNEVEN { of(&block.speed) } else { number(now.cage.speed) };
+        let pace = number(now.cage.speed);
+        let speed = if UNEVEN { of(&block.pace) * pace } else { pace };
         let along = dot(simd, -turned(self.drift), e_r) + rho * speed;
         let opening = n_r * (dot(simd, self.drift, e_r) + path_rate) + n_t * along;
 

@@ -8,7 +8,7 @@ use crate::numerics::sin_cos;
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(align(64))]
 pub(super) struct ElementBlock {
-    /// cos and sin of the element's angle ahead of the cage.
+    /// cos and sin of the element's angle ahead of the nominal cage.
     pub(super) cos: [f64; WIDEST],
     pub(super) sin: [f64; WIDEST],
     /// 1 where there is an element.
@@ -21,8 +21,10 @@ pub(super) struct ElementBlock {
     pub(super) outer: [f64; WIDEST],
     /// Acceleration of w by an outer contact that is not on it [m/s²].
     pub(super) other: [f64; WIDEST],
-    /// Angular speed of the element about the outer ring's centre [rad/s], where that is not the cage's.
-    pub(super) speed: [f64; WIDEST],
+    /// Angle of the element ahead of its place in an even cage [rad].
+    pub(super) lead: [f64; WIDEST],
+    /// Angular speed of the element about the outer ring's centre by that of the nominal cage.
+    pub(super) pace: [f64; WIDEST],
 }
 
 /// All elements of a bearing at these angles [rad] ahead of the cage, of mass 1/`per_mass` [kg].
@@ -32,7 +34,7 @@ pub(super) fn blocks(offsets: &[f64], per_mass: f64, hertz: HertzConstants) -> V
     for (j, &offset) in offsets.iter().enumerate() {
         let (sin, cos) = sin_cos(offset);
         let (block, i) = (&mut blocks[j / WIDEST], j % WIDEST);
-        (block.cos[i], block.sin[i], block.present[i]) = (cos, sin, 1.0);
+        (block.cos[i], block.sin[i], block.present[i], block.pace[i]) = (cos, sin, 1.0, 1.0);
         (block.per_mass[i], block.inner[i], block.outer[i]) = (per_mass, hertz.inner, hertz.outer);
     }
     blocks

@@ -69,15 +69,19 @@ impl Model {
     /// Element `j` at path `u` where it meets the outer raceway.
     #[inline]
     pub(super) fn outer_meeting(&self, j: usize, cells: [u32; 2], u: f64, cage: &CageState) -> Meeting {
-        let direction = self.element_angle(j, cage);
-        Meeting { element: j, cells, u, direction, distance: self.outer_centre_radius + u }
+        self.outer_meeting_at(self.element_angle(j, cage), j, cells, u)
     }
 
-    /// Element `j` with this gap where it meets the inner raceway.
+    /// As [`Self::outer_meeting`], for an element at this `angle` [rad].
+    #[inline(always)]
+    pub(super) fn outer_meeting_at(&self, angle: f64, j: usize, cells: [u32; 2], u: f64) -> Meeting {
+        Meeting { element: j, cells, u, direction: angle, distance: self.outer_centre_radius + u }
+    }
+
+    /// Element `j` at this angle [rad] and with this gap where it meets the inner raceway.
     #[inline]
-    pub(super) fn inner_meeting(&self, j: usize, cells: [u32; 2], gap: &InnerGap, cage: &CageState) -> Meeting {
-        let direction = self.element_angle(j, cage) + gap.lead();
-        Meeting { element: j, cells, u: gap.approach, direction, distance: gap.distance }
+    pub(super) fn inner_meeting(&self, j: usize, cells: [u32; 2], gap: &InnerGap, angle: f64) -> Meeting {
+        Meeting { element: j, cells, u: gap.approach, direction: angle + gap.lead(), distance: gap.distance }
     }
 
     /// Approach of an element in some cell near a defect, its own or the raceway's, of both the one that carries less;

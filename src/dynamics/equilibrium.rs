@@ -207,7 +207,7 @@ impl Model {
         for (j, &u) in u.iter().enumerate() {
             let cells = self.cells_of(given.cells, j);
             let gap = self.inner_gap(u - FURTHER, now.offset(), self.direction(j, &now.cage));
-            let inner = self.inner_meeting(j, cells[0], &gap, &now.cage);
+            let inner = self.inner_meeting(j, cells[0], &gap, self.element_angle(j, &now.cage));
             let outer = Meeting { u: u + FURTHER, ..self.outer_meeting(j, cells[1], u, &now.cage) };
             for (side, at) in [(RacewaySide::Outer, outer), (RacewaySide::Inner, inner)] {
                 if at.cells == [SMOOTH; 2] {

@@ -225,7 +225,13 @@ impl Model {
         let q_rate = now.drift() + e_r * path_rate + e_t * (rho * omega);
         let inner = match cells[0] {
             [SMOOTH, SMOOTH] => self.smooth_inner(&gap, n, q_rate),
-            cells => self.near_inner(&self.inner_meeting(j, cells, &gap, &now.cage), n, q_rate, now, bends),
+            cells => self.near_inner(
+                &self.inner_meeting(j, cells, &gap, self.element_angle(j, &now.cage)),
+                n,
+                q_rate,
+                now,
+                bends,
+            ),
         };
 
         let at = self.outer_meeting(j, cells[1], u, &now.cage);

@@ -17,7 +17,7 @@ use crate::contact::force_law::ForceLaw;
 use crate::geometry::hertz_constant::HertzConstants;
 use crate::geometry::kinematics::Ratios;
 use crate::numerics::lanes::{Partition, QUAD, WIDEST, padded};
-use crate::numerics::plane::Vector;
+use crate::numerics::plane::{Vector, turned_by};
 use crate::numerics::sin_cos;
 use crate::scene::{Motion, Ring, Scene};
 use std::f64::consts::TAU;
@@ -342,16 +342,18 @@ impl Model {
             None => (self.elements[j / WIDEST].sin[j % WIDEST], self.elements[j / WIDEST].cos[j % WIDEST]),
             Some(uneven) => uneven.direction_of_element(j, self.element_offset(j), *cage),
         };
-        let cage = cage.direction;
-        Vector::new(cage.x * cos - cage.y * sin, cage.y * cos + cage.x * sin)
+        turned_by(cage.direction, sin, cos)
     }
 
-    /// Puts directions and speeds of all elements at an instant into `elements`, where they are not always the same.
-    pub(super) fn place_uneven(&self, cage: &CageState, elements: &mut [ElementBlock]) {
+    /// Puts where all elements of an uneven cage are at an instant, and how fast they go, into `elements`.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn place_uneven(&self, drive: &Drive, cage: &CageState, elements: &mut [ElementBlock]) {
+        self.begin(drive);
         for j in 0..self.element_count {
             let (block, i, lead) = (&mut elements[j / WIDEST], j % WIDEST, self.lead(j, cage));
             (block.sin[i], block.cos[i]) = sin_cos(self.element_offset(j) + lead.angle);
-            block.speed[i] = cage.speed * (1.0 + lead.rate);
+            (block.lead[i], block.pace[i]) = (lead.angle, 1.0 + lead.rate);
         }
     }
 }

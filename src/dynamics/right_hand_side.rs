@@ -16,6 +16,7 @@
 //! What it takes is the cage torque.
 
 use super::drive::{Drive, Frame, Frames};
+use super::element_block::ElementBlock;
 use super::element_contacts::{InnerGap, Meeting};
 use super::forces::{Forces, Other, OtherContact, UnsolvedContact};
 use super::kinematics::{Kinematics, Stage, moved};
@@ -25,7 +26,7 @@ use crate::contact::error::ContactError;
 use crate::contact::near_defect::Approach;
 use crate::contact::rolling::RacewaySide;
 use crate::numerics::lanes::{Kernel, Lanes, WIDEST, Wide, dispatch};
-use crate::numerics::plane::{Vector, turned};
+use crate::numerics::plane::{Vector, turned, turned_by};
 
 impl Model {
     /// Derivative of `state` at `tau`, and each contact; `cells` says in which cell each contact is.
@@ -53,12 +54,33 @@ impl Model {
         derivative: &mut [f64],
         forces: &mut Forces,
     ) {
+        // Before anything else, so that nothing of it is in the way of even cages.
+        if self.is_uneven() {
+            return simd.outlined(UnevenDerivative::<RECORD>(Derivative {
+                model: self,
+                stage: *stage,
+                derivative,
+                forces,
+            }));
+        }
+        self.derivative_in::<S, RECORD, false>(simd, stage, derivative, forces);
+    }
+
+    /// As [`Self::derivative_on`]; if `UNEVEN`, in an uneven cage.
+    #[inline(always)]
+    fn derivative_in<S: Wide, const RECORD: bool, const UNEVEN: bool>(
+        &self,
+        simd: S,
+        stage: &Stage,
+        derivative: &mut [f64],
+        forces: &mut Forces,
+    ) {
         let Stage { drive, cage, state, ahead } = *stage;
+        if UNEVEN {
+            self.place_uneven(drive, cage, &mut forces.elements);
+        }
         let (now, tau) = (self.kinematics_of(stage), cage.tau);
         let [outer, inner] = [forces.other_outer.is_empty(), forces.other_inner.is_empty()].map(|none| !none);
-        if self.is_uneven() {
-            self.place_uneven(cage, &mut forces.elements);
-        }
         let (mut on_shaft, mut on_housing) = (Vector::zeros(), Vector::zeros());
         if outer || inner {
             if self.has_frames {
@@ -78,8 +100,13 @@ impl Model {
                 on_shaft = self.other_inner_contacts::<RECORD>(&{ now }, state, forces);
             }
         }
-        let [shaft_x, shaft_y, housing_x, housing_y] =
-            self.smooth_contacts::<S, RECORD>(simd, &now, stage, derivative, (&forces.elements, &mut forces.contacts));
+        let [shaft_x, shaft_y, housing_x, housing_y] = self.smooth_contacts::<S, RECORD, UNEVEN>(
+            simd,
+            &now,
+            stage,
+            derivative,
+            (&forces.elements, &mut forces.contacts),
+        );
         let (shaft_x, shaft_y) = (shaft_x + on_shaft.x, shaft_y + on_shaft.y);
         let (housing_x, housing_y) = (housing_x + on_housing.x, housing_y + on_housing.y);
         if RECORD && (outer || inner) {
@@ -116,49 +143,61 @@ impl Model {
         state: (&[f64], Option<f64>),
         forces: &mut Forces,
     ) -> Vector {
-        let mut on_housing = Vector::zeros();
         let Forces { other_outer, other_contacts: [_, contacts], elements, torques, .. } = forces;
         let (frames, defect_lookups, unsolved) = (&forces.frames, &mut forces.defect_lookups, &mut forces.unsolved);
         if RECORD {
             contacts.clear();
         }
+        let mut sum = OuterSum { on_housing: Vector::zeros(), elements, torques, contacts };
         for &Other { element: j, cells } in other_outer.iter() {
-            let OnPath { e_r, u, path_rate } = self.on_path(j, now, state);
-            // Each way its own numbers: an approach that is one or another is written to memory and read late.
-            let found = match cells {
-                [SMOOTH, SMOOTH] => self.yielding_contact(u, path_rate),
+            let at @ OnPath { u, path_rate, .. } = self.on_path(j, now, state, sum.elements);
+            // Each way to the end with its own numbers: what is one or another is written to memory and read late.
+            match cells {
+                [SMOOTH, SMOOTH] => sum.add::<RECORD>(self, &at, self.yielding_contact(u, path_rate)),
                 [_, SMOOTH] => {
                     *defect_lookups += 1;
-                    let (at, frame) = (self.outer_meeting(j, cells, u, &now.cage), self.outer.defects.frame);
-                    let near = self.near_ring_defect(RacewaySide::Outer, &at, frames).unwrap_or_else(|cause| {
-                        self.without_answer(RacewaySide::Outer, (&at, now, frames), cause, unsolved)
+                    let [angle, speed] = self.turning(j, now, sum.elements);
+                    let (meeting, frame) = (self.outer_meeting_at(angle, j, cells, u), self.outer.defects.frame);
+                    let near = self.near_ring_defect(RacewaySide::Outer, &meeting, frames).unwrap_or_else(|cause| {
+                        self.without_answer(RacewaySide::Outer, (&meeting, now, frames), cause, unsolved)
                     });
-                    let turning = self.element_speed(j, &now.cage)[0] - frames.of(frame).speed;
-                    self.outer_contact(&near, frame, [path_rate, turning], at.distance)
+                    let turning = speed - frames.of(frame).speed;
+                    let found = self.outer_contact(&near, frame, [path_rate, turning], meeting.distance);
+                    sum.add::<RECORD>(self, &at, found);
                 }
                 _ => {
                     *defect_lookups += 1;
-                    let at = self.outer_meeting(j, cells, u, &now.cage);
-                    self.own_outer_contact(&at, path_rate, (now, frames), unsolved)
+                    let [angle, speed] = self.turning(j, now, sum.elements);
+                    let meeting = self.outer_meeting_at(angle, j, cells, u);
+                    let found = self.own_outer_contact(&meeting, [path_rate, speed], (now, frames), unsolved);
+                    sum.add::<RECORD>(self, &at, found);
                 }
-            };
-            let [_, f_r, f_t] = found.force;
-            elements[j / WIDEST].other[j % WIDEST] = -f_r * self.inverse_element_mass;
-            on_housing += e_r * f_r - turned(e_r) * f_t;
-            if RECORD {
-                torques[found.frame as usize] += found.torque;
-                contacts.push(OtherContact { element: j, ..found });
             }
         }
-        on_housing
+        sum.on_housing
     }
 
     /// Where element `j` is, its path moved on by the time that is still `ahead`.
     #[inline(always)]
-    fn on_path(&self, j: usize, now: &Kinematics, (state, ahead): (&[f64], Option<f64>)) -> OnPath {
-        let e_r = self.direction(j, &now.cage);
+    fn on_path(
+        &self,
+        j: usize,
+        now: &Kinematics,
+        (state, ahead): (&[f64], Option<f64>),
+        elements: &[ElementBlock],
+    ) -> OnPath {
+        let (block, i, cage) = (&elements[j / WIDEST], j % WIDEST, &now.cage);
+        let (sin, cos) = (block.sin[i], block.cos[i]);
+        let e_r = turned_by(cage.direction, sin, cos);
         let path_rate = state[self.layout.radial_velocity + j] - now.housing.velocity.dot(&e_r);
-        OnPath { e_r, u: moved(state[j], path_rate, ahead), path_rate }
+        OnPath { element: j, e_r, u: moved(state[j], path_rate, ahead), path_rate }
+    }
+
+    /// Angle [rad] of element `j` about the outer ring's centre, and its speed [rad/s].
+    #[inline(always)]
+    fn turning(&self, j: usize, now: &Kinematics, elements: &[ElementBlock]) -> [f64; 2] {
+        let (block, i, cage) = (&elements[j / WIDEST], j % WIDEST, &now.cage);
+        [cage.angle + self.element_offset(j) + block.lead[i], cage.speed * block.pace[i]]
     }
 
     /// The inner contacts near defects; gives their force on the inner ring. After the outer ones, to whose part of an
@@ -178,15 +217,16 @@ impl Model {
             contacts.clear();
         }
         for &Other { element: j, cells } in other_inner.iter() {
-            let OnPath { e_r, u, path_rate } = self.on_path(j, now, state);
+            let OnPath { e_r, u, path_rate, .. } = self.on_path(j, now, state, elements);
+            let [angle, speed] = self.turning(j, now, elements);
             *lookups += 1;
             let gap = self.inner_gap(u, now.offset(), e_r);
-            let at = self.inner_meeting(j, cells, &gap, &now.cage);
+            let at = self.inner_meeting(j, cells, &gap, angle);
             let (near, frame) = self.near_defect(RacewaySide::Inner, &at, frames);
             let near = near
                 .unwrap_or_else(|cause| self.without_answer(RacewaySide::Inner, (&at, now, frames), cause, unsolved));
             let near = Near::new(near, frame, frames);
-            let around = (self.outer_centre_radius + u) * self.element_speed(j, &now.cage)[0];
+            let around = (self.outer_centre_radius + u) * speed;
             let q_rate = [now.drift().dot(&e_r) + path_rate, now.drift().dot(&turned(e_r)) + around];
             let found = self.inner_contact(&near, &gap, q_rate);
             let [_, f_r, f_t] = found.force;
@@ -234,14 +274,14 @@ impl Model {
     fn own_outer_contact(
         &self,
         at: &Meeting,
-        path_rate: f64,
+        [path_rate, speed]: [f64; 2],
         (now, frames): (&Kinematics, &Frames),
         unsolved: &mut Option<UnsolvedContact>,
     ) -> OtherContact {
         let (near, frame) = self.near_defect(RacewaySide::Outer, at, frames);
         let near =
             near.unwrap_or_else(|cause| self.without_answer(RacewaySide::Outer, (at, now, frames), cause, unsolved));
-        let turning = self.element_speed(at.element, &now.cage)[0] - frames.of(frame).speed;
+        let turning = speed - frames.of(frame).speed;
         self.outer_contact(&near, frame, [path_rate, turning], at.distance)
     }
 
@@ -307,8 +347,35 @@ impl Model {
     }
 }
 
+/// What outer contacts that are not those of the smooth rigid raceway add up to.
+struct OuterSum<'a> {
+    on_housing: Vector,
+    elements: &'a mut [ElementBlock],
+    torques: &'a mut [f64; 3],
+    contacts: &'a mut Vec<OtherContact>,
+}
+
+impl OuterSum<'_> {
+    #[inline(always)]
+    fn add<const RECORD: bool>(
+        &mut self,
+        model: &Model,
+        &OnPath { element: j, e_r, .. }: &OnPath,
+        found: OtherContact,
+    ) {
+        let [_, f_r, f_t] = found.force;
+        self.elements[j / WIDEST].other[j % WIDEST] = -f_r * model.inverse_element_mass;
+        self.on_housing += e_r * f_r - turned(e_r) * f_t;
+        if RECORD {
+            self.torques[found.frame as usize] += found.torque;
+            self.contacts.push(OtherContact { element: j, ..found });
+        }
+    }
+}
+
 /// An element on its path.
 struct OnPath {
+    element: usize,
     e_r: Vector,
     u: f64,
     path_rate: f64,
@@ -347,5 +414,18 @@ impl Kernel for Derivative<'_> {
     fn run<S: Wide>(self, simd: S) {
         let Self { model, stage, derivative, forces } = self;
         model.derivative_on::<S, true>(simd, &stage, derivative, forces);
+    }
+}
+
+/// As [`Derivative`], in an uneven cage.
+struct UnevenDerivative<'a, const RECORD: bool>(Derivative<'a>);
+
+impl<const RECORD: bool> Kernel for UnevenDerivative<'_, RECORD> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Wide>(self, simd: S) {
+        let Derivative { model, stage, derivative, forces } = self.0;
+        model.derivative_in::<S, RECORD, true>(simd, &stage, derivative, forces);
     }
 }

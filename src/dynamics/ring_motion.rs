@@ -9,6 +9,7 @@ use crate::scene::Motion;
 impl Model {
     /// Cage and rings at `tau`.
     pub fn kinematics(&self, drive: &Drive, tau: f64, state: &[f64]) -> FramedKinematics {
+        self.begin(drive);
         let motion = self.kinematics_of(&Stage { drive, cage: &drive.cage_at(tau), state, ahead: None });
         FramedKinematics { motion, frames: drive.frames_at(tau) }
     }
@@ -17,7 +18,6 @@ impl Model {
     #[inline(always)]
     pub(super) fn kinematics_of(&self, at: &Stage) -> Kinematics {
         let Stage { drive, cage, state, ahead } = *at;
-        self.begin(drive);
         let (shaft, housing) = (self.shaft.motion, self.housing.motion);
         Kinematics {
             cage: *cage,

@@ -13,3 +13,9 @@ pub type Matrix = nalgebra::Matrix2<f64>;
 pub fn turned(v: Vector) -> Vector {
     Vector::new(-v.y, v.x)
 }
+
+/// `v` turned counter-clockwise by an angle with this sine and cosine.
+#[inline(always)]
+pub fn turned_by(v: Vector, sin: f64, cos: f64) -> Vector {
+    Vector::new(v.x * cos - v.y * sin, v.y * cos + v.x * sin)
+}
