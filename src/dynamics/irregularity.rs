@@ -13,11 +13,13 @@
 //! A spline's third derivative jumps at its knots. Within a step that is some 1e-14 m of an element's way, far below
 //! what integration leaves, so steps do not end there.
 
+use super::element_block::ElementBlock;
 use super::kinematics::CageState;
 use crate::numerics::counter_noise::gaussian;
+use crate::numerics::lanes::WIDEST;
 use crate::numerics::sin_cos;
 use crate::scene::CageIrregularity;
-use std::cell::{Cell, RefCell};
+use std::cell::{Cell, Ref, RefCell};
 use std::f64::consts::TAU;
 
 /// Knots of the jitter in one turn are as many as elements; those of the wander are so many turns apart.
@@ -134,16 +136,46 @@ impl Irregularity {
         if self.jitter == 0.0 {
             return common;
         }
-        let per_turn = self.count as f64;
-        let (interval, share) = self.place(cage, per_turn);
-        let mut pieces = self.pieces.borrow_mut();
-        if pieces.jitter != Some(interval) {
-            pieces.jitter = Some(interval);
-            for (j, piece) in pieces.of_elements.iter_mut().enumerate() {
-                *piece = self.piece(Course::Jitter(j), interval, self.jitter);
+        let (pieces, share) = self.jitters(cage);
+        common + evaluated(&pieces.of_elements[j], share, self.count as f64 / TAU)
+    }
+
+    /// Puts what all elements are ahead at an instant of the nominal cage, and how fast they go, into their places.
+    #[inline(always)]
+    pub(super) fn place_all(&self, cage: &CageState, elements: &mut [ElementBlock]) {
+        let common = self.of_cage(cage);
+        if self.jitter == 0.0 {
+            for block in elements {
+                (block.lead, block.pace) = ([common.angle; WIDEST], [1.0 + common.rate; WIDEST]);
+            }
+            return;
+        }
+        let (pieces, share) = self.jitters(cage);
+        for (block, pieces) in elements.iter_mut().zip(pieces.of_elements.chunks(WIDEST)) {
+            for ((lead, pace), piece) in block.lead.iter_mut().zip(&mut block.pace).zip(pieces) {
+                let found = common + evaluated(piece, share, self.count as f64 / TAU);
+                (*lead, *pace) = (found.angle, 1.0 + found.rate);
             }
         }
-        common + evaluated(&pieces.of_elements[j], share, per_turn / TAU)
+    }
+
+    /// The polynomials of all elements' jitter at an instant, and the share of their interval that is behind.
+    #[inline(always)]
+    fn jitters(&self, cage: &CageState) -> (Ref<'_, Pieces>, f64) {
+        let (interval, share) = self.place(cage, self.count as f64);
+        if self.pieces.borrow().jitter != Some(interval) {
+            self.renew(&mut self.pieces.borrow_mut(), interval);
+        }
+        (self.pieces.borrow(), share)
+    }
+
+    /// The polynomials of all elements' jitter in another interval.
+    #[cold]
+    fn renew(&self, pieces: &mut Pieces, interval: i64) {
+        pieces.jitter = Some(interval);
+        for (j, piece) in pieces.of_elements.iter_mut().enumerate() {
+            *piece = self.piece(Course::Jitter(j), interval, self.jitter);
+        }
     }
 
     /// Speed [rad/s] and acceleration [rad/s²] of element `j`.
@@ -169,6 +201,7 @@ impl Irregularity {
     }
 
     /// Lead of the cage itself: that of all elements together. It is 0 at the start.
+    #[inline(always)]
     pub fn of_cage(&self, cage: &CageState) -> Lead {
         if self.wander == 0.0 {
             return Lead::default();
@@ -186,6 +219,7 @@ impl Irregularity {
     }
 
     /// Interval between knots, `per_turn` of them in a turn, and the share of it that is behind.
+    #[inline(always)]
     fn place(&self, cage: &CageState, per_turn: f64) -> (i64, f64) {
         // Whole turns first, so that no digits are lost to them.
         let turns = self.turns.get() as f64 * per_turn;
@@ -195,6 +229,7 @@ impl Irregularity {
     }
 
     /// The spline's polynomial in one interval.
+    #[cold]
     fn piece(&self, course: Course, interval: i64, deviation: f64) -> [f64; 4] {
         let [a, b, c, d] = [0, 1, 2, 3].map(|k| deviation * gaussian(self.seed, course.number(), interval + k));
         [(a + 4.0 * b + c) / 6.0, (c - a) / 2.0, (a - 2.0 * b + c) / 2.0, (3.0 * (b - c) + (d - a)) / 6.0]
@@ -203,6 +238,7 @@ impl Irregularity {
 
 /// A polynomial of the share of an interval, and its derivatives by the angle, of which `per_radian` intervals make one
 /// radian.
+#[inline(always)]
 fn evaluated(&[c0, c1, c2, c3]: &[f64; 4], t: f64, per_radian: f64) -> Lead {
     let square = per_radian * per_radian;
     Lead {

@@ -346,14 +346,15 @@ impl Model {
     }
 
     /// Puts where all elements of an uneven cage are at an instant, and how fast they go, into `elements`.
-    #[cold]
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn place_uneven(&self, drive: &Drive, cage: &CageState, elements: &mut [ElementBlock]) {
-        self.begin(drive);
-        for j in 0..self.element_count {
-            let (block, i, lead) = (&mut elements[j / WIDEST], j % WIDEST, self.lead(j, cage));
-            (block.sin[i], block.cos[i]) = sin_cos(self.element_offset(j) + lead.angle);
-            (block.lead[i], block.pace[i]) = (lead.angle, 1.0 + lead.rate);
+        let Some(uneven) = &self.irregularity else { return };
+        uneven.begin(drive.cage_turns);
+        uneven.place_all(cage, elements);
+        for (block, offsets) in elements.iter_mut().zip(self.offsets.chunks(WIDEST)) {
+            for (i, &offset) in offsets.iter().enumerate() {
+                (block.sin[i], block.cos[i]) = sin_cos(offset + block.lead[i]);
+            }
         }
     }
 }
