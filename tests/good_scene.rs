@@ -174,3 +174,45 @@ fn contact_laws_have_the_numbers_and_names_of_the_published_interface() {
     assert_eq!(ContactLaw::ALL.len(), interface.len());
     assert_eq!([0, 4, i32::MIN].map(ContactLaw::numbered), [None; 3]);
 }
+
+#[test]
+fn a_bearing_of_the_catalogue_is_the_one_with_its_dimensions_and_a_key_beside_the_name_wins() {
+    let dimensions = "element_count = 9\nelement_diameter_mm = 7.94\npitch_diameter_mm = 39.32\ngroove_diameter_mm = 8.19\n\
+                      youngs_modulus_gpa = 207\npoissons_ratio = 0.3\ndensity_kg_m3 = 7800\n";
+    assert!(SHORT.contains(dimensions));
+    let with = |keys: &str| Scene::from_toml(&SHORT.replace(dimensions, keys)).unwrap().bearing;
+    let published = "element_count = 9\nelement_diameter_mm = 7.94\npitch_diameter_mm = 39.04\nconformity_inner = 0.52\n\
+                     conformity_outer = 0.52\nyoungs_modulus_gpa = 207\npoissons_ratio = 0.3\ndensity_kg_m3 = 7800\n";
+    let catalogued = with("catalogue = \"6205\"\n");
+    assert_eq!(catalogued, with(published));
+    assert_eq!(catalogued, with("catalogue = \"6205-2RS\"\n"));
+    let other = with("catalogue = \"6205\"\nelement_count = 8\ngroove_diameter_mm = 8.19\nelement_mass_g = 2.0\n");
+    assert_eq!(other.element_count, 8);
+    assert!(near(other.conformity_outer, 8.19 / 15.88) && other.element_mass == Some(2e-3));
+}
+
+#[test]
+fn values_that_would_be_usual_in_another_unit_are_remarked_upon() {
+    let remarks = |old: &str, new: &str| {
+        assert!(SHORT.contains(old));
+        let found = Scene::from_toml(&SHORT.replace(old, new)).unwrap().remarks();
+        found.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+    };
+    assert_eq!(remarks("7800", "7800"), "");
+    for (old, new, meant) in [
+        ("density_kg_m3 = 7800", "density_kg_m3 = 7.8", "bearing.density_kg_m3 = 7.8: g/cm³?"),
+        ("speed_hz = 10", "speed_hz = 3000", "shaft.speed_hz = 3000: rev/min?"),
+    ] {
+        let said = remarks(old, new);
+        assert!(said.contains(meant), "{said}");
+    }
+    // Beyond all limits it is an error, with the same question.
+    for (old, new, meant) in [
+        ("diameter_mm = 7.94", "diameter_mm = 0.00794", "; was it meant in metres?"),
+        ("modulus_gpa = 207", "modulus_gpa = 207000", "; was it meant in MPa?"),
+        ("modulus_gpa = 207", "modulus_gpa = 2.07e11", "; was it meant in Pa?"),
+    ] {
+        let said = Scene::from_toml(&SHORT.replace(old, new)).unwrap_err().to_string();
+        assert!(said.contains(meant), "{said}");
+    }
+}

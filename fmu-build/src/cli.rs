@@ -8,7 +8,8 @@ use brinell_analysis::recording::Speed;
 use clap::{Args, Parser, Subcommand};
 
 use crate::library::{self, Library};
-use crate::{check, demo, fmu, model::Model, modes, project::Project, run, scenes, size, stiffness};
+use crate::new_scene::{self, Spall};
+use crate::{catalogue, check, demo, fmu, model::Model, modes, project::Project, run, scenes, size, stiffness};
 
 /// Rolling bearings with a real surface defect as FMI 2.0 co-simulation units.
 #[derive(Debug, Parser)]
@@ -37,6 +38,10 @@ pub enum Command {
     Demo(Demo),
     /// Lists the shipped scenes, or writes the files of those that are named
     Scenes(Scenes),
+    /// Writes a commented scene of a bearing of the catalogue that runs as it is
+    New(New),
+    /// Lists bearings that a scene can name: dimensions with their source, assumed ones marked
+    Catalogue(Catalogue),
 }
 
 /// Options of `build`.
@@ -189,6 +194,31 @@ pub struct Scenes {
     output: Option<PathBuf>,
 }
 
+/// Options of `new`.
+#[derive(Debug, Args)]
+pub struct New {
+    /// Name of the scene: letters, digits, - and _
+    #[arg(value_name = "NAME")]
+    name: String,
+    /// The bearing, as `brinell catalogue` lists it
+    #[arg(long, value_name = "NAME", default_value = "6205")]
+    bearing: String,
+    /// A spall: outer, inner or element, a colon and its length in mm or deg [default: none]
+    #[arg(long, value_name = "inner:1.2mm")]
+    defect: Option<Spall>,
+    /// Folder for the file [default: the current one]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+}
+
+/// Options of `catalogue`.
+#[derive(Debug, Args)]
+pub struct Catalogue {
+    /// How the names begin, as 62
+    #[arg(value_name = "FILTER", default_value = "", hide_default_value = true)]
+    filter: String,
+}
+
 #[derive(Debug, Args)]
 struct LibraryChoice {
     /// Compiled model library to pack, instead of building it from source; so does the environment's BRINELL_LIBRARY
@@ -266,6 +296,11 @@ impl Command {
                 demo::command(project, &options.library.into(), &folder)
             }
             Command::Scenes(options) => scenes::command(&options.names, &options.output.unwrap_or_default()),
+            Command::New(options) => {
+                let folder = options.output.unwrap_or_default();
+                new_scene::command(&options.name, &options.bearing, options.defect.as_ref(), &folder)
+            }
+            Command::Catalogue(options) => catalogue::command(&options.filter),
         }
     }
 }

@@ -8,6 +8,7 @@
 #![allow(rustdoc::broken_intra_doc_links)]
 
 pub mod archive;
+mod catalogue;
 pub mod check;
 pub mod cli;
 pub mod compile;
@@ -20,6 +21,7 @@ pub mod library;
 pub mod model;
 pub mod model_description;
 pub mod modes;
+mod new_scene;
 pub mod platform;
 pub mod project;
 pub mod python;

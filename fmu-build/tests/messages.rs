@@ -69,3 +69,21 @@ fn a_library_that_cannot_be_loaded_is_said_once() {
     assert!(!output.status.success());
     once(&said, "dlopen failed");
 }
+
+#[test]
+fn a_new_scene_runs_as_it_is_and_is_not_written_over() {
+    let folder = common::folder("new-scene");
+    let into = folder.display().to_string();
+    let new = ["new", "mine", "--bearing", "6206-2RS", "--defect", "inner:1.2mm", "--output", &into];
+    assert!(program(&new).status.success());
+    let scene = folder.join("mine.toml").display().to_string();
+    let run = program(&["run", &scene, "--no-figure", "--stop", "0.002", "--output", &into]);
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    let again = String::from_utf8(program(&new).stderr).unwrap();
+    once(&again, "is there already and stays as it is");
+    let unknown = String::from_utf8(program(&["new", "other", "--bearing", "NU205"]).stderr).unwrap();
+    once(&unknown, "6204, 6205, 6206");
+    let listed = String::from_utf8(program(&["catalogue", "62"]).stdout).unwrap();
+    once(&listed, "Case Western Reserve University's bearing data, drive end");
+    assert!(listed.lines().filter(|line| line.contains("assumed")).count() > 8 && !listed.contains("\n60"), "{listed}");
+}

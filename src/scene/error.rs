@@ -2,6 +2,7 @@
 //! limit.
 
 use super::key_fault::KeyFault;
+use super::unit_hint::meant;
 use std::fmt;
 
 /// Longest name of a scene.
@@ -93,7 +94,7 @@ pub enum SceneError {
     #[error("sensor name (sensor.name) {0:?}: at most {max} bytes without control characters", max = LONGEST_NAME)]
     SensorName(String),
     /// A quantity outside its limits, or not finite.
-    #[error("{quantity} ({key}) is {value}: it must be {limits}")]
+    #[error("{quantity} ({key}) is {value}: it must be {limits}{}", in_other_unit(key, *value, limits))]
     OutOfRange {
         /// The field's term for it.
         quantity: &'static str,
@@ -341,6 +342,10 @@ impl fmt::Display for Limits {
             Bound::Exclusive(bound) => write!(f, "and below {bound:?}"),
         }
     }
+}
+
+fn in_other_unit(key: &str, value: f64, limits: &Limits) -> String {
+    meant(key, value, |value| limits.hold(value)).map_or_else(String::new, |unit| format!("; was it meant in {unit}?"))
 }
 
 impl fmt::Display for super::Motion {

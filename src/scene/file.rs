@@ -8,6 +8,7 @@
 //! |---|---|
 //! | `description` | empty |
 //! | `gravity_m_s2` | `[0, -9.81]` |
+//! | `bearing.catalogue` | none; `"6205"` gives balls, pitch diameter, conformity 0.52, steel; a key beside it wins |
 //! | `bearing.radial_clearance_um` | 5: what separates a raceway from an element pressed to the other, R_o − R_i − 2r |
 //! | `bearing.internal_clearance_um` | instead: a catalogue's radial internal clearance (ISO 5753), twice as much |
 //! | `bearing.outer_compliance_m_n` | 0: rings and seats are rigid |
@@ -34,6 +35,7 @@
 //! | `recorder` | none; its `filter` `"linear-phase"`, or `"none"` |
 //! | `experiment.stop_s`, `.step_s` | 0.5, 1e-4 |
 
+mod bearing;
 mod cage;
 mod defects;
 mod keys;
@@ -42,13 +44,14 @@ mod one_or_more;
 mod rings;
 
 use super::error::SceneError;
-use super::{Bearing, Contact, ContactLaw, Damping, Experiment, Recorder, RecorderFilter, Scene};
+use super::{Contact, ContactLaw, Damping, Experiment, Recorder, RecorderFilter, Scene};
+use bearing::BearingTable;
 use cage::CageTable;
 use defects::DefectTable;
 use one_or_more::OneOrMore;
 use rings::{HousingTable, ProbeTable, SensorTable, ShaftTable};
 use serde::Deserialize;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 impl Scene {
     /// Reads the text of a scene file and checks it.
@@ -126,102 +129,6 @@ impl SceneFile {
 
 fn default_gravity() -> [f64; 2] {
     [0.0, -9.81]
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct BearingTable {
-    element_count: usize,
-    element_diameter_mm: f64,
-    pitch_diameter_mm: f64,
-    groove_diameter_mm: Option<f64>,
-    conformity_inner: Option<f64>,
-    conformity_outer: Option<f64>,
-    radial_clearance_um: Option<f64>,
-    internal_clearance_um: Option<f64>,
-    youngs_modulus_gpa: f64,
-    poissons_ratio: f64,
-    density_kg_m3: Option<f64>,
-    element_mass_g: Option<f64>,
-    hertz_inner_n_m1_5: Option<f64>,
-    hertz_outer_n_m1_5: Option<f64>,
-    #[serde(default)]
-    outer_compliance_m_n: f64,
-}
-
-/// Clearance where the file says none [µm].
-const DEFAULT_CLEARANCE_UM: f64 = 5.0;
-
-impl BearingTable {
-    // 1e3 is exact and 1e-3 is not, so a division rounds once and a product twice.
-    fn into_bearing(self) -> Result<Bearing, SceneError> {
-        let clearance = self.clearance()?;
-        let (conformity_inner, conformity_outer) = self.conformities()?;
-        Ok(Bearing {
-            element_count: self.element_count,
-            element_diameter: self.element_diameter_mm / 1e3,
-            pitch_diameter: self.pitch_diameter_mm / 1e3,
-            conformity_inner,
-            conformity_outer,
-            radial_clearance: clearance,
-            youngs_modulus: self.youngs_modulus_gpa * 1e9,
-            poissons_ratio: self.poissons_ratio,
-            density: self.density()?,
-            element_mass: self.element_mass_g.map(|mass| mass / 1e3),
-            hertz_inner: self.hertz_inner_n_m1_5,
-            hertz_outer: self.hertz_outer_n_m1_5,
-            outer_compliance: self.outer_compliance_m_n,
-        })
-    }
-
-    fn conformities(&self) -> Result<(f64, f64), SceneError> {
-        const GROOVE: &str = "bearing.groove_diameter_mm";
-        const INNER: &str = "bearing.conformity_inner";
-        const OUTER: &str = "bearing.conformity_outer";
-        match (self.groove_diameter_mm, self.conformity_inner, self.conformity_outer) {
-            (Some(groove), None, None) => {
-                let conformity = groove / (2.0 * self.element_diameter_mm);
-                Ok((conformity, conformity))
-            }
-            (None, Some(inner), Some(outer)) => Ok((inner, outer)),
-            (Some(_), Some(_), _) => Err(SceneError::Both { first: GROOVE, second: INNER }),
-            (Some(_), None, Some(_)) => Err(SceneError::Both { first: GROOVE, second: OUTER }),
-            (None, None, None) => Err(SceneError::Neither { first: GROOVE, second: INNER }),
-            (None, None, Some(_)) => {
-                Err(SceneError::Missing { key: INNER, why: "conformity_outer is given without it" })
-            }
-            (None, Some(_), None) => {
-                Err(SceneError::Missing { key: OUTER, why: "conformity_inner is given without it" })
-            }
-        }
-    }
-
-    /// G = R_o − R_i − 2r [m]. What a catalogue calls the radial internal clearance is how far one ring can be moved
-    /// against the other, from stop to stop: 2 G.
-    fn clearance(&self) -> Result<f64, SceneError> {
-        match (self.radial_clearance_um, self.internal_clearance_um) {
-            (Some(radial), None) => Ok(radial / 1e6),
-            (None, Some(internal)) => Ok(internal / 2e6),
-            (None, None) => Ok(DEFAULT_CLEARANCE_UM / 1e6),
-            (Some(_), Some(_)) => {
-                let (first, second) = ("bearing.radial_clearance_um", "bearing.internal_clearance_um");
-                Err(SceneError::Both { first, second })
-            }
-        }
-    }
-
-    fn density(&self) -> Result<f64, SceneError> {
-        match (self.density_kg_m3, self.element_mass_g) {
-            (Some(density), _) => Ok(density),
-            (None, Some(mass)) => {
-                let diameter = self.element_diameter_mm / 1e3;
-                Ok(mass / 1e3 / (PI / 6.0 * diameter * diameter * diameter))
-            }
-            (None, None) => {
-                Err(SceneError::Neither { first: "bearing.density_kg_m3", second: "bearing.element_mass_g" })
-            }
-        }
-    }
 }
 
 #[derive(Deserialize, Default)]

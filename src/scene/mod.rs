@@ -3,6 +3,7 @@
 //! A [`Scene`] that exists is possible: everything after this module relies on that and checks nothing again.
 
 mod builder;
+mod catalogue;
 mod check;
 mod defect;
 mod error;
@@ -10,8 +11,10 @@ mod file;
 mod key_fault;
 mod quantity;
 mod remark;
+mod unit_hint;
 
 pub use builder::SceneBuilder;
+pub use catalogue::{CatalogueBearing, Inside, catalogue, catalogued};
 pub use defect::{Defect, DefectOn, DefectShape};
 pub use error::{Bound, Limits, SceneError};
 pub use key_fault::{Hint, KeyFault};

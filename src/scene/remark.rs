@@ -1,6 +1,8 @@
 //! What a scene may say and hardly means: it is computed, and remarked upon.
 
 use super::Scene;
+use super::unit_hint::meant;
+use std::f64::consts::TAU;
 use std::fmt;
 
 /// Largest groove conformity of ball bearings that are built, self-aligning ones aside; ISO 281 rates up to 0.53.
@@ -16,6 +18,17 @@ pub enum Remark {
         /// Groove radius over element diameter.
         conformity: f64,
     },
+    /// A value far from what is built, and usual if it was meant in another unit.
+    OtherUnit {
+        /// The key of the scene file, with its unit.
+        key: &'static str,
+        /// The value in that unit.
+        value: f64,
+        /// Smallest and largest that is usual, in the same unit.
+        usual: [f64; 2],
+        /// The unit in which the value would be usual.
+        meant: &'static str,
+    },
 }
 
 impl fmt::Display for Remark {
@@ -27,6 +40,9 @@ impl fmt::Display for Remark {
                  {USUAL_CONFORMITY}. Rolling elements are balls here, so far; a roller bearing with a groove made up \
                  for it gets a ball's point contacts"
             ),
+            Self::OtherUnit { key, value, usual: [least, most], meant } => {
+                write!(f, "{key} = {value}: {meant}? Usual are {least} to {most} in the unit of the key")
+            }
         }
     }
 }
@@ -36,6 +52,22 @@ impl Scene {
     pub fn remarks(&self) -> Vec<Remark> {
         let grooves = [("inner", self.bearing.conformity_inner), ("outer", self.bearing.conformity_outer)];
         let open = grooves.into_iter().filter(|(_, conformity)| *conformity > USUAL_CONFORMITY);
-        open.map(|(ring, conformity)| Remark::OpenGroove { ring, conformity }).collect()
+        let open = open.map(|(ring, conformity)| Remark::OpenGroove { ring, conformity });
+        open.chain(self.other_units()).collect()
+    }
+
+    /// Values that would be usual in another unit.
+    fn other_units(&self) -> impl Iterator<Item = Remark> {
+        let bearing = &self.bearing;
+        let values = [
+            ("bearing.element_diameter_mm", bearing.element_diameter * 1e3, [0.3, 300.0]),
+            ("bearing.pitch_diameter_mm", bearing.pitch_diameter * 1e3, [2.0, 5000.0]),
+            ("bearing.density_kg_m3", bearing.density, [1e3, 25e3]),
+            ("shaft.speed_hz", self.shaft_speed.abs() / TAU, [0.0, 1500.0]),
+        ];
+        values.into_iter().filter_map(|(key, value, usual)| {
+            let meant = meant(key, value, |value| (usual[0]..=usual[1]).contains(&value))?;
+            Some(Remark::OtherUnit { key, value, usual, meant })
+        })
     }
 }

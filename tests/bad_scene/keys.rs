@@ -81,7 +81,7 @@ fn rollers_are_answered_with_balls_and_other_wishes_with_what_there_is() {
     // A catalogue's name for a bearing of rollers, or of balls.
     for key in ["bearing_type = \"NU205\"", "designation = \"NU 205 ECP\"", "series = \"NJ\"", "model = \"22210\""] {
         let name = key.split(' ').next().unwrap();
-        let balls = "not modelled: a bearing is given by its dimensions, and its rolling elements are balls, so far";
+        let balls = "not modelled: a bearing is given by its dimensions or by bearing.catalogue, and its rolling elements are balls";
         refused("element_count = 9", &with(key), &[&format!("bearing.{name} is {balls}")]);
         refused("[bearing]", &format!("{key}\n[bearing]"), &[&format!("{name} is {balls}")]);
     }
@@ -89,6 +89,18 @@ fn rollers_are_answered_with_balls_and_other_wishes_with_what_there_is() {
     refused("element_count = 9", &with("lubricant = \"oil\""), &["contacts without lubricant"]);
     // A slip of the pen is none of these.
     refused("element_count = 9", "element_cout = 9", &["bearing.element_cout is unknown: did you mean element_count?"]);
+}
+
+#[test]
+fn a_name_that_the_catalogue_has_not_is_refused_with_those_that_it_has() {
+    let named = |name: &str| format!("catalogue = \"{name}\"\nelement_count = 9");
+    for name in ["6299", "NU205", ""] {
+        refused(
+            "element_count = 9",
+            &named(name),
+            &[&format!("bearing.catalogue = {name:?} is no"), "6204, 6205, 6206"],
+        );
+    }
 }
 
 #[test]

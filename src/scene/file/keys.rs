@@ -2,12 +2,11 @@
 //! not looked at.
 
 use super::super::key_fault::{Hint, KeyFault};
+use super::bearing::BearingTable;
 use super::cage::CageTable;
 use super::not_modelled::instead_of;
 use super::rings::{HousingTable, ProbeTable, SensorTable, ShaftTable};
-use super::{
-    BearingTable, ContactTable, DefectTable, ExperimentTable, RecorderTable, SceneError, SceneFile, SolverTable,
-};
+use super::{ContactTable, DefectTable, ExperimentTable, RecorderTable, SceneError, SceneFile, SolverTable};
 use serde::Deserialize;
 use serde::de::{Deserializer, Visitor};
 use std::fmt;
@@ -102,6 +101,10 @@ fn of_table(breaks: &[usize], (name, keys): (&str, Keys), line: usize, table: &D
             None => KeyFault::Unknown { line, key: shown, hint: hint(name, keys, key) },
         });
         there.extend(nearest(keys, key));
+    }
+    // A bearing of the catalogue needs nothing beside its name.
+    if there.contains(&"catalogue") {
+        return faults;
     }
     for key in needed(name).iter().filter(|key| !there.contains(key)) {
         // Of the file itself all but the name are tables.

@@ -15,8 +15,8 @@ struct Asked {
 /// What is said to a defect that is given by another key.
 const DEFECTS: &str = "defects are said by a table [defect], or by several [[defect]], whose key `on` is \"outer\", \"inner\" or \"element\"";
 const BALLS: &str = "rolling elements are balls, so far; rollers with their line contacts are not";
-const BY_NAME: &str = "a bearing is given by its dimensions, and its rolling elements are balls, so far; rollers with their \
-                       line contacts are not";
+const BY_NAME: &str = "a bearing is given by its dimensions or by bearing.catalogue, and its rolling elements are balls, so \
+                       far; rollers with their line contacts are not";
 const PLANE: &str = "the rings move in one plane, so far: no axial load, no contact angle, no tilt";
 const DRY: &str = "contacts without lubricant and friction, so far";
 
@@ -45,7 +45,7 @@ const ASKED: [Asked; 6] = [
     },
     Asked {
         tables: &["", "bearing"],
-        names: &["designation", "series", "model", "catalogue", "catalog"],
+        names: &["designation", "series", "model"],
         parts: &["bearing_type", "bearing_kind", "bearing_name", "bearing_series", "bearing_model"],
         only: BY_NAME,
     },

@@ -1,0 +1,181 @@
+//! The table `[bearing]`: dimensions and material, or a catalogue's name instead of them.
+
+use super::super::Bearing;
+use super::super::catalogue::{CatalogueBearing, catalogue, catalogued};
+use super::super::error::SceneError;
+use serde::Deserialize;
+use std::f64::consts::PI;
+
+/// What a bearing of the catalogue is taken to be made of and how its grooves are curved: usual values of deep groove
+/// ball bearings of steel.
+const CONFORMITY: f64 = 0.52;
+const YOUNGS_MODULUS_GPA: f64 = 207.0;
+const POISSONS_RATIO: f64 = 0.3;
+const DENSITY_KG_M3: f64 = 7800.0;
+
+#[derive(Deserialize)]
+#[serde(try_from = "BearingKeys")]
+pub(super) struct BearingTable {
+    element_count: usize,
+    element_diameter_mm: f64,
+    pitch_diameter_mm: f64,
+    groove_diameter_mm: Option<f64>,
+    conformity_inner: Option<f64>,
+    conformity_outer: Option<f64>,
+    radial_clearance_um: Option<f64>,
+    internal_clearance_um: Option<f64>,
+    youngs_modulus_gpa: f64,
+    poissons_ratio: f64,
+    density_kg_m3: Option<f64>,
+    element_mass_g: Option<f64>,
+    hertz_inner_n_m1_5: Option<f64>,
+    hertz_outer_n_m1_5: Option<f64>,
+    outer_compliance_m_n: f64,
+}
+
+/// The keys as they stand in the file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BearingKeys {
+    catalogue: Option<String>,
+    element_count: Option<usize>,
+    element_diameter_mm: Option<f64>,
+    pitch_diameter_mm: Option<f64>,
+    groove_diameter_mm: Option<f64>,
+    conformity_inner: Option<f64>,
+    conformity_outer: Option<f64>,
+    radial_clearance_um: Option<f64>,
+    internal_clearance_um: Option<f64>,
+    youngs_modulus_gpa: Option<f64>,
+    poissons_ratio: Option<f64>,
+    density_kg_m3: Option<f64>,
+    element_mass_g: Option<f64>,
+    hertz_inner_n_m1_5: Option<f64>,
+    hertz_outer_n_m1_5: Option<f64>,
+    #[serde(default)]
+    outer_compliance_m_n: f64,
+}
+
+impl TryFrom<BearingKeys> for BearingTable {
+    type Error = String;
+
+    /// What the keys leave open, from the catalogue. A key that is missing is told as serde tells it.
+    fn try_from(keys: BearingKeys) -> Result<Self, String> {
+        let named = keys.catalogue.as_deref().map(bearing_named).transpose()?;
+        let inside = named.map(|bearing| bearing.inside);
+        let from_catalogue = |value: f64| named.map(|_| value);
+        let no_groove = keys.groove_diameter_mm.is_none() && keys.conformity_inner.or(keys.conformity_outer).is_none();
+        let conformity = from_catalogue(CONFORMITY).filter(|_| no_groove);
+        let density = from_catalogue(DENSITY_KG_M3).filter(|_| keys.element_mass_g.is_none());
+        let needed = |value: Option<f64>, name: &str| value.ok_or_else(|| missing(name));
+        let count = keys.element_count.or(inside.map(|inside| inside.element_count));
+        let diameter = keys.element_diameter_mm.or(inside.map(|inside| inside.element_diameter));
+        let pitch = keys.pitch_diameter_mm.or(inside.map(|inside| inside.pitch_diameter));
+        let youngs_modulus = keys.youngs_modulus_gpa.or(from_catalogue(YOUNGS_MODULUS_GPA));
+        Ok(Self {
+            element_count: count.ok_or_else(|| missing("element_count"))?,
+            element_diameter_mm: needed(diameter, "element_diameter_mm")?,
+            pitch_diameter_mm: needed(pitch, "pitch_diameter_mm")?,
+            groove_diameter_mm: keys.groove_diameter_mm,
+            conformity_inner: keys.conformity_inner.or(conformity),
+            conformity_outer: keys.conformity_outer.or(conformity),
+            radial_clearance_um: keys.radial_clearance_um,
+            internal_clearance_um: keys.internal_clearance_um,
+            youngs_modulus_gpa: needed(youngs_modulus, "youngs_modulus_gpa")?,
+            poissons_ratio: needed(keys.poissons_ratio.or(from_catalogue(POISSONS_RATIO)), "poissons_ratio")?,
+            density_kg_m3: keys.density_kg_m3.or(density),
+            element_mass_g: keys.element_mass_g,
+            hertz_inner_n_m1_5: keys.hertz_inner_n_m1_5,
+            hertz_outer_n_m1_5: keys.hertz_outer_n_m1_5,
+            outer_compliance_m_n: keys.outer_compliance_m_n,
+        })
+    }
+}
+
+fn missing(key: &str) -> String {
+    format!("missing field `{key}`")
+}
+
+fn bearing_named(name: &str) -> Result<CatalogueBearing, String> {
+    catalogued(name).ok_or_else(|| {
+        let known = catalogue().map(|bearing| bearing.designation).collect::<Vec<_>>().join(", ");
+        format!(
+            "bearing.catalogue = \"{name}\" is not in the catalogue of deep groove ball bearings, which has {known}"
+        )
+    })
+}
+
+/// Clearance where the file says none [µm].
+const DEFAULT_CLEARANCE_UM: f64 = 5.0;
+
+impl BearingTable {
+    // 1e3 is exact and 1e-3 is not, so a division rounds once and a product twice.
+    pub(super) fn into_bearing(self) -> Result<Bearing, SceneError> {
+        let clearance = self.clearance()?;
+        let (conformity_inner, conformity_outer) = self.conformities()?;
+        Ok(Bearing {
+            element_count: self.element_count,
+            element_diameter: self.element_diameter_mm / 1e3,
+            pitch_diameter: self.pitch_diameter_mm / 1e3,
+            conformity_inner,
+            conformity_outer,
+            radial_clearance: clearance,
+            youngs_modulus: self.youngs_modulus_gpa * 1e9,
+            poissons_ratio: self.poissons_ratio,
+            density: self.density()?,
+            element_mass: self.element_mass_g.map(|mass| mass / 1e3),
+            hertz_inner: self.hertz_inner_n_m1_5,
+            hertz_outer: self.hertz_outer_n_m1_5,
+            outer_compliance: self.outer_compliance_m_n,
+        })
+    }
+
+    fn conformities(&self) -> Result<(f64, f64), SceneError> {
+        const GROOVE: &str = "bearing.groove_diameter_mm";
+        const INNER: &str = "bearing.conformity_inner";
+        const OUTER: &str = "bearing.conformity_outer";
+        match (self.groove_diameter_mm, self.conformity_inner, self.conformity_outer) {
+            (Some(groove), None, None) => {
+                let conformity = groove / (2.0 * self.element_diameter_mm);
+                Ok((conformity, conformity))
+            }
+            (None, Some(inner), Some(outer)) => Ok((inner, outer)),
+            (Some(_), Some(_), _) => Err(SceneError::Both { first: GROOVE, second: INNER }),
+            (Some(_), None, Some(_)) => Err(SceneError::Both { first: GROOVE, second: OUTER }),
+            (None, None, None) => Err(SceneError::Neither { first: GROOVE, second: INNER }),
+            (None, None, Some(_)) => {
+                Err(SceneError::Missing { key: INNER, why: "conformity_outer is given without it" })
+            }
+            (None, Some(_), None) => {
+                Err(SceneError::Missing { key: OUTER, why: "conformity_inner is given without it" })
+            }
+        }
+    }
+
+    /// G = R_o − R_i − 2r [m]. What a catalogue calls the radial internal clearance is how far one ring can be moved
+    /// against the other, from stop to stop: 2 G.
+    fn clearance(&self) -> Result<f64, SceneError> {
+        match (self.radial_clearance_um, self.internal_clearance_um) {
+            (Some(radial), None) => Ok(radial / 1e6),
+            (None, Some(internal)) => Ok(internal / 2e6),
+            (None, None) => Ok(DEFAULT_CLEARANCE_UM / 1e6),
+            (Some(_), Some(_)) => {
+                let (first, second) = ("bearing.radial_clearance_um", "bearing.internal_clearance_um");
+                Err(SceneError::Both { first, second })
+            }
+        }
+    }
+
+    fn density(&self) -> Result<f64, SceneError> {
+        match (self.density_kg_m3, self.element_mass_g) {
+            (Some(density), _) => Ok(density),
+            (None, Some(mass)) => {
+                let diameter = self.element_diameter_mm / 1e3;
+                Ok(mass / 1e3 / (PI / 6.0 * diameter * diameter * diameter))
+            }
+            (None, None) => {
+                Err(SceneError::Neither { first: "bearing.density_kg_m3", second: "bearing.element_mass_g" })
+            }
+        }
+    }
+}
