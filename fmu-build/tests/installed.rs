@@ -153,8 +153,8 @@ mod all_platforms {
         let program = checked_wheel("-win_amd64.whl", &["py3-none-win_amd64".to_owned()], "brinell.exe");
         let file = object::File::parse(&*program).unwrap();
         assert_eq!((file.format(), file.architecture()), (BinaryFormat::Pe, Architecture::X86_64));
-        let tag = "py3-none-macosx_11_0_universal2".to_owned();
-        let program = checked_wheel("universal2.whl", &[tag], "brinell");
+        let tags = ["arm64", "universal2", "x86_64"].map(|kind| format!("py3-none-macosx_11_0_{kind}"));
+        let program = checked_wheel("macosx_11_0_x86_64.whl", &tags, "brinell");
         let parts = macos::parts(&program);
         macos::check(&parts);
         assert!(parts.iter().all(|part| part.kind == macho::MH_EXECUTE));
