@@ -16,6 +16,7 @@ pub mod contact_map;
 pub mod csv;
 pub mod demo;
 pub mod documentation;
+pub mod ending;
 pub mod fmu;
 pub mod library;
 pub mod model;

@@ -117,12 +117,17 @@ impl Python {
     }
 }
 
-/// The interpreter beside this program, where it can draw and drive FMUs.
+/// The interpreter beside this program, where it can draw and drive FMUs. A Windows' Python that is not a virtual
+/// environment has its programs in the folder `Scripts` beside the interpreter.
 fn around_this_program() -> Option<PathBuf> {
-    let interpreter = env::current_exe().ok()?.with_file_name(if cfg!(windows) { "python.exe" } else { "python" });
-    let script = "import fmpy, matplotlib, numpy";
-    let tried = || Command::new(&interpreter).args(["-c", script]).output();
-    (interpreter.is_file() && tried().is_ok_and(|output| output.status.success())).then_some(interpreter)
+    let program = env::current_exe().ok()?;
+    let beside = program.with_file_name(if cfg!(windows) { "python.exe" } else { "python" });
+    let above = program.parent()?.with_file_name("python.exe");
+    let candidates = if cfg!(windows) { vec![beside, above] } else { vec![beside] };
+    candidates.into_iter().find(|interpreter| {
+        let tried = || Command::new(interpreter).args(["-c", "import fmpy, matplotlib, numpy"]).output();
+        interpreter.is_file() && tried().is_ok_and(|output| output.status.success())
+    })
 }
 
 /// The first interpreter that is new enough.

@@ -6,53 +6,51 @@
 #![allow(clippy::unwrap_used)]
 
 mod common;
+#[path = "common/dist.rs"]
+mod dist;
+#[path = "common/machines.rs"]
+mod machines;
+#[path = "common/macos.rs"]
+mod macos;
 
 use std::collections::BTreeSet;
-use std::fs;
+use std::fs::{self, File};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use fmu_build::project::Project;
-
-/// The one file of `target/dist` whose name has these parts.
-fn made(start: &str, end: &str) -> PathBuf {
-    let folder = Project::find().results("dist");
-    let entries = fs::read_dir(&folder).unwrap_or_else(|_| panic!("{}: first `cargo fmu dist`", folder.display()));
-    let mut found: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
-    let fits = |path: &PathBuf| {
-        let name = path.file_name().unwrap().to_str().unwrap();
-        name.starts_with(start) && name.ends_with(end)
-    };
-    found.retain(fits);
-    assert_eq!(found.len(), 1, "{start}…{end}: {found:?}");
-    found.remove(0)
-}
+use dist::{made, names};
+use fmu_build::zig::{OLDEST_GLIBC, needed_glibc};
+use object::{Architecture, BinaryFormat, Object, macho};
+use zip::ZipArchive;
 
 fn said(output: &Output) -> String {
     format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr))
 }
 
-/// Names of all that is in a folder.
-fn names(folder: &Path) -> BTreeSet<String> {
-    fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
-}
-
-/// A user's machine: an empty folder to stand in, an empty home, nothing in the path but the system and `bin`.
+/// A program on a user's machine, and the empty folder that it stands in.
 fn user(name: &str, program: &Path, bin: &Path) -> (PathBuf, Command) {
-    let home = common::folder(&format!("{name}-home"));
     let here = common::folder(name);
     let mut command = Command::new(program);
-    command.current_dir(&here).env_clear().env("HOME", &home);
+    as_user(&mut command, &here, bin);
+    (here, command)
+}
+
+/// Lets a command stand in a folder, with nothing but the system and `bin` in its path and an empty home.
+fn as_user(command: &mut Command, here: &Path, bin: &Path) {
+    let home = common::folder(&format!("{}-home", here.file_name().unwrap().display()));
+    let of_the_machine: Vec<_> =
+        command.get_envs().map(|(name, value)| (name.to_owned(), value.unwrap().to_owned())).collect();
+    command.current_dir(here).env_clear().envs(of_the_machine).env("HOME", home);
     command.env("PATH", std::env::join_paths([bin, Path::new("/usr/bin"), Path::new("/bin")]).unwrap());
     // Where packages come from, and by which certificates.
     let kept = |name: &str| name.starts_with("PIP_") || name.starts_with("SSL_") || name.ends_with("_proxy");
     command.envs(std::env::vars().filter(|(name, _)| kept(name)));
-    (here, command)
 }
 
 /// An environment with the wheel and what draws figures, and its folder of programs.
 fn environment() -> PathBuf {
-    let wheel = made("brinell-", "manylinux_2_17_x86_64.whl");
+    let wheel = made("manylinux_2_17_x86_64.whl");
     let folder = common::folder("wheel-env");
     let done = Command::new("python3").args(["-m", "venv"]).arg(&folder).status().unwrap();
     assert!(done.success());
@@ -105,7 +103,7 @@ mod all_platforms {
     fn the_programs_for_windows_and_arm_build_the_fmu_that_the_one_for_linux_builds() {
         let folder = common::folder("archives");
         let unpacked = |end: &str| {
-            let archive = made("brinell-", end);
+            let archive = made(end);
             let name =
                 archive.file_name().unwrap().to_str().unwrap().trim_end_matches(".tar.gz").trim_end_matches(".zip");
             let unpack = "import shutil, sys; shutil.unpack_archive(sys.argv[1], sys.argv[2])";
@@ -119,21 +117,20 @@ mod all_platforms {
         };
         let mut fmus = Vec::new();
         for (end, start) in
-            [("linux64.tar.gz", None), ("win64.zip", Some("wine")), ("-aarch64-linux.tar.gz", Some("qemu-aarch64"))]
+            [("-linux64.tar.gz", None), ("-win64.zip", Some("wine")), ("-aarch64-linux.tar.gz", Some("qemu"))]
         {
             let top = unpacked(end);
-            let program = top.join(if end.contains("win64") { "brinell.exe" } else { "brinell" });
-            if start == Some("wine") {
-                let stub = Path::new(env!("CARGO_TARGET_TMPDIR")).join("machine-win64/bcryptprimitives.dll");
-                fs::copy(&stub, top.join("bcryptprimitives.dll")).unwrap_or_else(|e| panic!("{}: {e}", stub.display()));
-            }
-            let first = start.map_or(program.clone(), PathBuf::from);
-            let (here, mut command) = user(&format!("archive-{}", program.display().to_string().len()), &first, &top);
-            if start.is_some() {
-                command.arg(&program);
-            }
-            let prefix = Path::new(env!("CARGO_TARGET_TMPDIR")).join("wine");
-            command.env("WINEPREFIX", prefix).env("WINEDEBUG", "-all").env("QEMU_LD_PREFIX", "/usr/aarch64-linux-gnu");
+            let program = top.join(if start == Some("wine") { "brinell.exe" } else { "brinell" });
+            let here = common::folder(&format!("archive{end}"));
+            let mut command = match start {
+                Some("wine") => {
+                    machines::bring_what_wine_lacks(&top);
+                    machines::wine(&program)
+                }
+                Some(_) => machines::qemu(&program),
+                None => Command::new(&program),
+            };
+            as_user(&mut command, &here, &top);
             let output = command.args(["build", "6205-epps"]).output().unwrap();
             assert!(output.status.success(), "{end}: {}", said(&output));
             assert_eq!(names(&here), BTreeSet::from(["6205-epps.fmu".to_owned()]), "{end}");
@@ -143,4 +140,49 @@ mod all_platforms {
             assert!(*fmu == fmus[0].1, "{end}: another FMU, {} and {} bytes", fmu.len(), fmus[0].1.len());
         }
     }
+    #[test]
+    #[ignore = "needs what `cargo fmu dist` makes"]
+    fn every_wheel_has_its_systems_tag_and_program_the_module_and_the_licences() {
+        for (processor, kind) in [("x86_64", Architecture::X86_64), ("aarch64", Architecture::Aarch64)] {
+            let tags = ["manylinux_2_17", "manylinux2014"].map(|system| format!("py3-none-{system}_{processor}"));
+            let program = checked_wheel(&format!("manylinux_2_17_{processor}.whl"), &tags, "brinell");
+            let file = object::File::parse(&*program).unwrap();
+            assert_eq!((file.format(), file.architecture()), (BinaryFormat::Elf, kind));
+            assert!(needed_glibc(&program).unwrap() <= OLDEST_GLIBC, "{:?}", needed_glibc(&program));
+        }
+        let program = checked_wheel("-win_amd64.whl", &["py3-none-win_amd64".to_owned()], "brinell.exe");
+        let file = object::File::parse(&*program).unwrap();
+        assert_eq!((file.format(), file.architecture()), (BinaryFormat::Pe, Architecture::X86_64));
+        let tags = ["arm64", "universal2", "x86_64"].map(|kind| format!("py3-none-macosx_11_0_{kind}"));
+        let program = checked_wheel("macosx_11_0_x86_64.whl", &tags, "brinell");
+        let parts = macos::parts(&program);
+        macos::check(&parts);
+        assert!(parts.iter().all(|part| part.kind == macho::MH_EXECUTE));
+    }
+}
+
+/// Looks at all of a wheel but its program, which is given.
+fn checked_wheel(end: &str, tags: &[String], program: &str) -> Vec<u8> {
+    let mut wheel = ZipArchive::new(File::open(made(end)).unwrap()).unwrap();
+    let mut read = |name: &str| {
+        let mut bytes = Vec::new();
+        let mut file = wheel.by_name(name).unwrap_or_else(|error| panic!("{end}: {name}: {error}"));
+        file.read_to_end(&mut bytes).unwrap();
+        bytes
+    };
+    let top = concat!("brinell-", env!("CARGO_PKG_VERSION"));
+    let text = String::from_utf8(read(&format!("{top}.dist-info/WHEEL"))).unwrap();
+    let found: BTreeSet<_> = text.lines().filter_map(|line| line.strip_prefix("Tag: ")).collect();
+    assert_eq!(found, tags.iter().map(String::as_str).collect(), "{end}");
+    let about = String::from_utf8(read(&format!("{top}.dist-info/METADATA"))).unwrap();
+    assert!(about.contains(concat!("\nVersion: ", env!("CARGO_PKG_VERSION"), "\n")), "{about}");
+    for file in ["LICENSE-MIT", "LICENSE-APACHE", "fmu-build/assets/third-party-program.txt"] {
+        let ours = fs::read(common::root().join(file)).unwrap();
+        assert!(read(&format!("{top}.dist-info/licenses/{file}")) == ours, "{end}: {file}");
+    }
+    for file in ["__init__.py", "py.typed"] {
+        let ours = fs::read(common::root().join("fmu-build/module/brinell").join(file)).unwrap();
+        assert!(read(&format!("brinell/{file}")) == ours, "{end}: {file}");
+    }
+    read(&format!("{top}.data/scripts/{program}"))
 }

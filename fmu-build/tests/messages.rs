@@ -55,6 +55,15 @@ fn a_groove_that_no_ball_bearing_has_is_remarked_upon() {
     assert!(succeeded && !said.contains("note:"), "{said}");
 }
 
+#[test]
+fn a_reader_that_has_gone_ends_the_program_without_a_word() {
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let ended = Command::new(env!("CARGO_BIN_EXE_brinell")).arg("scenes").stdout(writer).output().unwrap();
+    assert!(!ended.status.success());
+    assert_eq!(String::from_utf8(ended.stderr).unwrap(), "");
+}
+
 #[cfg(unix)]
 #[test]
 fn a_library_that_cannot_be_loaded_is_said_once() {

@@ -5,6 +5,8 @@
 #![allow(clippy::unwrap_used)]
 
 mod common;
+#[path = "common/macos.rs"]
+mod macos;
 
 use std::process::Command;
 use std::sync::OnceLock;
@@ -13,9 +15,7 @@ use fmu_build::fmu;
 use fmu_build::library::{Binary, Choice, Library};
 use fmu_build::project::Project;
 use fmu_build::zig::{OLDEST_GLIBC, needed_glibc};
-use object::macho::{self, MachHeader64};
-use object::read::macho::{LoadCommandVariant, MachHeader, MachOFatFile32};
-use object::{BinaryFormat, LittleEndian, Object};
+use object::{LittleEndian, Object, macho};
 
 /// The functions of co-simulation and those of model exchange, which only refuse.
 const FUNCTIONS: usize = 44;
@@ -45,14 +45,6 @@ fn exports(bytes: &[u8]) -> Vec<String> {
     text.map(|name| name.strip_prefix('_').map_or(name.clone(), str::to_owned)).collect()
 }
 
-/// The two files in macOS's.
-fn slices() -> Vec<&'static [u8]> {
-    let bytes = binary("darwin64").bytes.as_slice();
-    let parts = MachOFatFile32::parse(bytes).unwrap();
-    use object::read::macho::FatArch;
-    parts.arches().iter().map(|part| part.data(bytes).unwrap()).collect()
-}
-
 /// Apart, so that the nightly run can leave them to `.ci/platforms`.
 mod all_platforms {
     use super::*;
@@ -62,8 +54,9 @@ mod all_platforms {
     fn every_library_exports_the_functions_of_the_standard_and_nothing_else() {
         let whole = libraries().binaries().iter().filter(|binary| binary.platform.name != "darwin64");
         let parts = whole.map(|binary| (binary.platform.name, binary.bytes.as_slice()));
+        let macos = macos::parts(&binary("darwin64").bytes);
         let mut seen = 0;
-        for (name, bytes) in parts.chain(slices().into_iter().map(|slice| ("darwin64", slice))) {
+        for (name, bytes) in parts.chain(macos.iter().map(|part| ("darwin64", part.bytes))) {
             let names = exports(bytes);
             assert_eq!(names.len(), FUNCTIONS, "{name}: {names:?}");
             assert!(names.iter().all(|name| name.starts_with("fmi2")), "{name}: {names:?}");
@@ -119,40 +112,12 @@ mod all_platforms {
     #[test]
     #[ignore = "compiles the library for all platforms"]
     fn the_file_of_macos_serves_both_processors_from_version_11_on_and_is_signed() {
-        let slices = slices();
-        let mut processors = Vec::new();
-        for slice in slices {
-            assert_eq!(object::File::parse(slice).unwrap().format(), BinaryFormat::MachO);
-            let header = MachHeader64::<LittleEndian>::parse(slice, 0).unwrap();
-            assert_eq!(header.filetype(LittleEndian), macho::MH_DYLIB);
-            let (mut name, mut oldest, mut system, mut signed) = (None, None, Vec::new(), false);
-            let mut commands = header.load_commands(LittleEndian, slice, 0).unwrap();
-            while let Some(command) = commands.next().unwrap() {
-                let text = |at| String::from_utf8_lossy(command.string(LittleEndian, at).unwrap()).into_owned();
-                match command.variant().unwrap() {
-                    LoadCommandVariant::IdDylib(id) => name = Some(text(id.dylib.name)),
-                    LoadCommandVariant::Dylib(used) => system.push(text(used.dylib.name)),
-                    LoadCommandVariant::BuildVersion(version, _) => {
-                        assert_eq!(version.platform.get(LittleEndian), macho::PLATFORM_MACOS);
-                        oldest = Some(version.minos.get(LittleEndian).0 >> 16);
-                    }
-                    LoadCommandVariant::LinkeditData(data) if command.cmd() == macho::LC_CODE_SIGNATURE => {
-                        let at = data.dataoff.get(LittleEndian) as usize;
-                        // The magic number of a signature that holds others (Apple's `cs_blobs.h`).
-                        signed = slice[at..at + 4] == [0xfa, 0xde, 0x0c, 0xc0];
-                    }
-                    _ => {}
-                }
-            }
-            let processor = header.cputype(LittleEndian);
-            assert_eq!(name.as_deref(), Some("@rpath/brinell_fmi.dylib"));
-            assert_eq!(oldest, Some(11));
-            assert_eq!(system, ["/usr/lib/libSystem.B.dylib"]);
-            // Macs with Apple's processors load nothing unsigned.
-            assert!(signed || processor == macho::CPU_TYPE_X86_64);
-            processors.push(processor);
+        let parts = macos::parts(&binary("darwin64").bytes);
+        macos::check(&parts);
+        for part in parts {
+            assert_eq!(part.kind, macho::MH_DYLIB);
+            assert_eq!(part.install_name.as_deref(), Some("@rpath/brinell_fmi.dylib"));
         }
-        assert_eq!(processors, [macho::CPU_TYPE_X86_64, macho::CPU_TYPE_ARM64]);
     }
 
     #[test]

@@ -6,6 +6,8 @@
 #![allow(clippy::unwrap_used)]
 
 mod common;
+#[path = "common/machines.rs"]
+mod machines;
 #[path = "../../tests/golden/runs.rs"]
 mod runs;
 
@@ -18,9 +20,8 @@ use brinell::scene::Motion;
 use brinell::simulation::variables::{Causality, Kind, Variable};
 use fmu_build::library::{Choice, Library};
 use fmu_build::model::Model;
-use fmu_build::platform::{Platform, Target};
+use fmu_build::platform::Platform;
 use fmu_build::project::Project;
-use fmu_build::toolchain::{self, Toolchain};
 use runs::{BY_PATH, STEP, STEPS, ring_motion};
 
 /// A kind of machine, on which a library and a host run.
@@ -47,19 +48,17 @@ impl Machine {
         let library = folder.join(platform.file());
         fs::write(&library, &Library::obtain(&Project::find(), &choice).unwrap().binaries()[0].bytes).unwrap();
         let host = folder.join(if kind == As::Wine { "host.exe" } else { "host" });
-        let built = compiled(platform.targets[0], &["--bin", "host"]);
+        let built = machines::compiled(platform.targets[0], &["--bin", "host"]);
         fs::copy(built.join(host.file_name().unwrap()), &host).unwrap();
         if kind == As::Wine {
-            let stub = compiled(platform.targets[0], &["--example", "bcryptprimitives"]);
-            fs::copy(stub.join("examples/bcryptprimitives.dll"), folder.join("bcryptprimitives.dll")).unwrap();
+            machines::bring_what_wine_lacks(&folder);
         }
         Self { folder, host, library, kind }
     }
 
     /// A path of this machine as that one names it: Wine shows the whole file system as drive Z.
     fn path(&self, path: &Path) -> String {
-        let path = path.to_str().unwrap();
-        if self.kind == As::Wine { format!("Z:{}", path.replace('/', "\\")) } else { path.to_owned() }
+        if self.kind == As::Wine { machines::on_windows(path) } else { path.to_str().unwrap().to_owned() }
     }
 
     /// Lets the host do a job and gives the lines that it prints.
@@ -68,11 +67,9 @@ impl Machine {
         fs::write(&file, job).unwrap();
         let mut command = match self.kind {
             As::Own => Command::new(&self.host),
-            As::Wine => with_first(Command::new("wine"), &self.host),
-            As::Qemu => with_first(Command::new("qemu-aarch64"), &self.host),
+            As::Wine => machines::wine(&self.host),
+            As::Qemu => machines::qemu(&self.host),
         };
-        let home = Path::new(env!("CARGO_TARGET_TMPDIR")).join("wine");
-        command.env("WINEPREFIX", home).env("WINEDEBUG", "-all").env("QEMU_LD_PREFIX", "/usr/aarch64-linux-gnu");
         let output = command.arg(self.path(&file)).output().unwrap_or_else(|e| panic!("{command:?}: {e}"));
         let text = String::from_utf8_lossy(&output.stdout).replace('\r', "");
         if output.status.success() {
@@ -100,28 +97,6 @@ impl Machine {
         }
         assert!(differ.is_empty(), "other bits than linux64's in {differ:#?}");
     }
-}
-
-fn with_first(mut command: Command, argument: &Path) -> Command {
-    command.arg(argument);
-    command
-}
-
-/// Compiles something of the host's package for a target, and gives the folder that it is in.
-fn compiled(target: Target, what: &[&str]) -> PathBuf {
-    let package = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/host");
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("host");
-    let toolchain = Toolchain::new(&Project::find(), &package, target, false).unwrap();
-    let output = Command::new(toolchain::cargo())
-        .current_dir(&package)
-        .args(["build", "--release", "--locked", "--target", target.triple, "--target-dir"])
-        .arg(&folder)
-        .args(what)
-        .envs(toolchain.variables)
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    folder.join(target.triple).join("release")
 }
 
 /// A scene with what a golden run asks of it.

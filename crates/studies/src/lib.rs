@@ -6,5 +6,6 @@
 pub mod cli;
 pub mod dist;
 pub mod report;
+pub mod scene_page;
 pub mod site;
 pub mod validation;

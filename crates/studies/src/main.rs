@@ -5,11 +5,5 @@ use std::process::ExitCode;
 use clap::Parser;
 
 fn main() -> ExitCode {
-    match brinell_studies::cli::Arguments::parse().execute() {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error:#}");
-            ExitCode::FAILURE
-        }
-    }
+    fmu_build::ending::program(|| brinell_studies::cli::Arguments::parse().execute())
 }

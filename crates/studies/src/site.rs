@@ -11,6 +11,8 @@ use anyhow::{Context, Result, bail};
 use fmu_build::project::Project;
 use fmu_build::whole_file;
 
+use crate::scene_page::scene_page;
+
 /// Chapters: a heading, and the pages under it in their order. Pages that are not named come last.
 const CHAPTERS: [(&str, &[&str]); 3] = [
     ("Use", &["guide.md", "platforms.md", "scene.md", "sizing.md", "modes.md", "fmi2.md"]),
@@ -22,10 +24,6 @@ const ABOVE: [(&str, &str); 3] =
     [("README.md", "index.md"), ("CHANGELOG.md", "changes.md"), ("ARCHITECTURE.md", "house.md")];
 const SETTINGS: &str = "[book]\ntitle = \"Brinell\"\nlanguage = \"en\"\nsrc = \"src\"\n\n\
                         [output.html]\nmathjax-support = false\nno-section-label = true\n";
-/// Files of the source with tables of the scene, and the doc comment that says what holds without a key.
-const READER: &str = "src/scene/file.rs";
-const TABLES: &str = "src/scene/file";
-
 /// The command: lays out `<folder>/src` and has mdBook write `<folder>/book`.
 pub fn command(project: &Project, folder: &Path) -> Result<()> {
     let source = project.source().context("the site is made of Brinell's source, which is not there")?;
@@ -46,6 +44,12 @@ pub fn lay_out(source: &Path, folder: &Path) -> Result<()> {
         fs::remove_dir_all(&pages).with_context(|| pages.display().to_string())?;
     }
     copy(&source.join("docs"), &pages)?;
+    for page in markdown(&pages)? {
+        // Without a heading it is a part that another page holds.
+        if title(&fs::read_to_string(&page)?).is_none() {
+            fs::remove_file(&page).with_context(|| page.display().to_string())?;
+        }
+    }
     whole_file::write(&folder.join("book.toml"), SETTINGS)?;
     let read = |name: &str| fs::read_to_string(source.join(name)).with_context(|| name.to_owned());
     whole_file::write(&pages.join("scene.md"), scene_page(source)?)?;
@@ -143,89 +147,6 @@ fn title(page: &str) -> Option<&str> {
     page.lines().find_map(|line| line.strip_prefix("# "))
 }
 
-/// Every key of a scene file: by table, whether it is needed, and what holds without it.
-pub fn scene_page(source: &Path) -> Result<String> {
-    let reader = fs::read_to_string(source.join(READER)).context(READER)?;
-    let mut files = vec![reader.clone()];
-    for entry in fs::read_dir(source.join(TABLES)).context(TABLES)? {
-        files.push(fs::read_to_string(entry?.path())?);
-    }
-    let mut tables: Vec<(String, Vec<Key>)> = files.iter().flat_map(|text| tables_in(text)).collect();
-    tables.sort_by_key(|(name, _)| reader.find(&format!(" {name}: ")).unwrap_or(0));
-    let mut page = String::from(
-        "# Keys of a scene\n\nA scene is a TOML file. Every key carries its unit. This page is made of the source that \
-         reads the file, so it names every key there is.\n",
-    );
-    for (name, keys) in &tables {
-        let heading = if name.is_empty() { "The file itself".to_owned() } else { format!("`[{name}]`") };
-        writeln!(page, "\n## {heading}\n\n| key | what it takes | needed |\n|---|---|---|")?;
-        for key in keys {
-            writeln!(page, "| `{}` | {} | {} |", key.name, key.takes, if key.optional { "" } else { "yes" })?;
-        }
-    }
-    page.push_str("\n## What holds without a key\n\n");
-    for line in reader.lines().map_while(|line| line.strip_prefix("//!")) {
-        writeln!(page, "{}", line.strip_prefix(' ').unwrap_or(line))?;
-    }
-    Ok(page)
-}
-
-struct Key {
-    name: String,
-    takes: &'static str,
-    optional: bool,
-}
-
-/// The tables that a source file declares: `struct BearingTable { … }` is `[bearing]`, `struct SceneFile` the file.
-fn tables_in(source: &str) -> Vec<(String, Vec<Key>)> {
-    let mut found = Vec::new();
-    let parts: Vec<&str> = source.split("struct ").collect();
-    for (before, part) in parts.iter().zip(&parts[1..]) {
-        let attributes = before.rsplit("\n\n").next().unwrap_or_default();
-        let whole_default = attributes.lines().any(|line| line.starts_with("#[serde(") && line.contains("default"));
-        let Some((name, rest)) = part.split_once(" {\n") else { continue };
-        let table = if name == "SceneFile" { Some("") } else { name.strip_suffix("Table") };
-        let (Some(table), Some((body, _))) = (table, rest.split_once("\n}")) else { continue };
-        found.push((table.to_lowercase(), keys_in(body, whole_default)));
-    }
-    found
-}
-
-/// The fields of a table, all of which may be left out where `whole_default` says so.
-fn keys_in(body: &str, whole_default: bool) -> Vec<Key> {
-    let mut keys = Vec::new();
-    let mut default = false;
-    for line in body.lines().map(str::trim) {
-        if line.starts_with("#[serde(default") {
-            default = true;
-        } else if let Some((name, kind)) = line.trim_end_matches(',').split_once(": ")
-            && !line.starts_with("//")
-        {
-            let name = name.trim_start_matches("pub(super) ").to_owned();
-            let optional = whole_default || default || kind.starts_with("Option<");
-            let kind = kind.trim_start_matches("Option<").trim_end_matches('>');
-            keys.push(Key { name, takes: takes(kind), optional });
-            default = false;
-        }
-    }
-    keys
-}
-
-/// What a user writes for a type of the source.
-fn takes(kind: &str) -> &'static str {
-    match kind {
-        "f64" => "number",
-        "usize" | "i64" | "u64" | "u32" => "whole number",
-        "[f64; 2]" => "two numbers",
-        "[usize; 2]" | "[u32; 2]" => "two whole numbers",
-        "String" => "text",
-        "bool" => "true or false",
-        kind if kind.ends_with("Table") => "table",
-        kind if kind.starts_with("Vec") || kind.starts_with('[') => "list",
-        _ => "a word",
-    }
-}
-
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
@@ -234,21 +155,6 @@ mod tests {
 
     fn root() -> &'static Path {
         Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
-    }
-
-    #[test]
-    fn the_list_of_keys_has_every_key_that_a_shipped_scene_gives() {
-        let page = scene_page(root()).unwrap();
-        for entry in fs::read_dir(root().join("scenes")).unwrap() {
-            let path = entry.unwrap().path();
-            let text = fs::read_to_string(&path).unwrap();
-            let lines = text.lines().filter(|line| path.extension().unwrap() == "toml" && !line.starts_with('#'));
-            for (key, _) in lines.filter_map(|line| line.split_once(" = ")) {
-                assert!(page.contains(&format!("| `{}` |", key.trim())), "{}: {key}", path.display());
-            }
-        }
-        assert!(page.contains("## `[bearing]`") && page.contains("| `element_count` | whole number | yes |"), "{page}");
-        assert!(page.contains("| `slip` | number |  |") && page.contains("`solver.tolerance`"), "{page}");
     }
 
     #[test]
@@ -263,6 +169,7 @@ mod tests {
                 continue;
             }
             assert_eq!(contents.matches(&format!("]({name})")).count(), 1, "{name} in:\n{contents}");
+            assert!(!contents.contains(&format!("[{name}]")), "{name} has no heading");
             for link in links(&fs::read_to_string(pages.join(&name)).unwrap()) {
                 assert!(pages.join(&link).exists() && !link.starts_with(".."), "{name} leads to {link}");
             }

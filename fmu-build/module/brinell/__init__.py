@@ -134,7 +134,8 @@ def size(
     options = [f"--{name}={value}" for name, value in given.items() if value]
     with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
         words = ["--scene", os.fspath(scene), "--no-figure", "--output", os.fspath(output or folder), *options]
-        return json.loads(_ask("size", *words, "--", *map(os.fspath, files)))
+        report: dict[str, Any] = json.loads(_ask("size", *words, "--", *(os.fspath(file) for file in files)))
+    return report
 
 
 def scenes() -> list[str]:
