@@ -4,6 +4,7 @@ use std::env;
 use std::path::PathBuf;
 
 use anyhow::Result;
+use brinell::scene::Scene;
 use brinell_analysis::recording::Speed;
 use clap::{Args, Parser, Subcommand};
 
@@ -42,6 +43,8 @@ pub enum Command {
     New(New),
     /// Lists bearings that a scene can name: dimensions with their source, assumed ones marked
     Catalogue(Catalogue),
+    /// Prints the JSON schema of scene files, by which editors complete and explain their keys
+    Schema,
 }
 
 /// Options of `build`.
@@ -301,6 +304,10 @@ impl Command {
                 new_scene::command(&options.name, &options.bearing, options.defect.as_ref(), &folder)
             }
             Command::Catalogue(options) => catalogue::command(&options.filter),
+            Command::Schema => {
+                println!("{}", serde_json::to_string_pretty(&Scene::schema())?);
+                Ok(())
+            }
         }
     }
 }

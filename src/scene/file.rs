@@ -41,6 +41,7 @@ mod defects;
 mod keys;
 mod not_modelled;
 mod one_or_more;
+mod pair;
 mod rings;
 
 use super::error::SceneError;
@@ -67,29 +68,54 @@ impl Scene {
     }
 }
 
+impl Scene {
+    /// The JSON schema of a scene file, by which editors complete and explain its keys.
+    #[cfg(feature = "schema")]
+    pub fn schema() -> schemars::Schema {
+        schemars::schema_for!(SceneFile)
+    }
+}
+
+/// A bearing in its surroundings. Every key carries its unit.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SceneFile {
+    /// Name of the scene and of its FMU: letters, digits, - and _.
     name: String,
+    /// One line for the reader.
     #[serde(default)]
     description: String,
-    #[serde(default = "default_gravity")]
+    /// Gravity, x and y.
+    #[serde(default = "default_gravity", deserialize_with = "pair::pair")]
     gravity_m_s2: [f64; 2],
+    /// Dimensions and material.
+    #[cfg_attr(feature = "schema", schemars(with = "bearing::BearingKeys"))]
     bearing: BearingTable,
+    /// Law and damping of the contacts.
     #[serde(default)]
     contact: ContactTable,
+    /// Slip, start and irregularity of the cage.
     #[serde(default)]
     cage: CageTable,
+    /// A defect; several as [[defect]]; none for a healthy bearing.
     #[serde(default)]
     defect: OneOrMore<DefectTable>,
+    /// The inner ring.
     shaft: ShaftTable,
+    /// The outer ring.
     housing: HousingTable,
+    /// An accelerometer on the housing; several as [[sensor]].
     #[serde(default)]
     sensor: OneOrMore<SensorTable>,
+    /// A displacement probe between the rings; a table without keys.
     probe: Option<ProbeTable>,
+    /// Time integration.
     #[serde(default)]
     solver: SolverTable,
+    /// Samples taken inside the step.
     recorder: Option<RecorderTable>,
+    /// Default run.
     #[serde(default)]
     experiment: ExperimentTable,
 }
@@ -131,19 +157,31 @@ fn default_gravity() -> [f64; 2] {
     [0.0, -9.81]
 }
 
+/// Law and damping of the contacts.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[derive(Deserialize, Default)]
 #[serde(deny_unknown_fields)]
 struct ContactTable {
+    /// Law of contacts near defects: "map" with a defect, else "hertz".
     law: Option<ContactLaw>,
+    /// Model of damping.
     #[serde(default)]
     damping: DampingModel,
+    /// Hunt and Crossley's coefficient; 0.5 without it.
     damping_chi_s_m: Option<f64>,
+    /// Force up to which the contact map reaches.
     largest_force_n: Option<f64>,
+    /// Cells along and across the contact at the largest force.
+    #[serde(default, deserialize_with = "pair::optional")]
     cells: Option<[u32; 2]>,
+    /// Error of the map over the largest force that is accepted.
     map_accuracy: Option<f64>,
+    /// Time constant of proportional damping.
     damping_tau_s: Option<f64>,
 }
 
+/// Model of contact damping.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[derive(Deserialize, Default, Clone, Copy)]
 #[serde(rename_all = "kebab-case")]
 enum DampingModel {
@@ -181,10 +219,14 @@ impl ContactTable {
     }
 }
 
+/// Time integration.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, default)]
 struct SolverTable {
+    /// Relative tolerance.
     tolerance: f64,
+    /// Most integration steps in one communication step.
     max_steps: u64,
 }
 
@@ -194,18 +236,26 @@ impl Default for SolverTable {
     }
 }
 
+/// Samples taken inside the step.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RecorderTable {
+    /// Sampling rate.
     rate_hz: f64,
+    /// What is done against aliases.
     #[serde(default)]
     filter: RecorderFilter,
 }
 
+/// Default run.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, default)]
 struct ExperimentTable {
+    /// How long it takes.
     stop_s: f64,
+    /// Communication step.
     step_s: f64,
 }
 

@@ -190,6 +190,7 @@ pub struct Contact {
 }
 
 /// Law of the contacts near defects. On smooth raceways all three are Hertz's.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ContactLaw {
@@ -285,6 +286,7 @@ pub(crate) fn centred(numbers: &[f64]) -> Vec<f64> {
 }
 
 /// Who moves a ring.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Motion {
@@ -348,6 +350,7 @@ pub struct Recorder {
 }
 
 /// What the recorder does against aliases of what is faster than half its rate.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum RecorderFilter {

@@ -104,6 +104,13 @@ fn a_name_that_the_catalogue_has_not_is_refused_with_those_that_it_has() {
 }
 
 #[test]
+fn a_vector_of_the_plane_has_two_components_neither_fewer_nor_more() {
+    for list in ["[0.0, -500.0, 0.0]", "[-500.0]", "[]"] {
+        refused("load_n = [0.0, -500.0]", &format!("load_n = {list}"), &["invalid length", "a list of two values"]);
+    }
+}
+
+#[test]
 fn a_missing_key_is_refused_with_its_name() {
     refused("pitch_diameter_mm = 39.32", "", &["line 4: bearing.pitch_diameter_mm is missing"]);
     refused("motion = \"internal\"\nspeed_hz", "speed_hz", &["line 25: shaft.motion is missing"]);

@@ -34,24 +34,41 @@ pub(super) struct BearingTable {
 }
 
 /// The keys as they stand in the file.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct BearingKeys {
+pub(super) struct BearingKeys {
+    /// Name of a deep groove ball bearing, as 6205; its dimensions hold where no key beside it says otherwise.
     catalogue: Option<String>,
+    /// Number of balls.
     element_count: Option<usize>,
+    /// Their diameter.
     element_diameter_mm: Option<f64>,
+    /// Diameter of the circle of their centres.
     pitch_diameter_mm: Option<f64>,
+    /// Diameter of the groove's circle across the track, of both rings; instead of the conformities.
     groove_diameter_mm: Option<f64>,
+    /// Groove radius of the inner ring over ball diameter.
     conformity_inner: Option<f64>,
+    /// The same of the outer ring.
     conformity_outer: Option<f64>,
+    /// What separates a raceway from a ball pressed to the other.
     radial_clearance_um: Option<f64>,
+    /// Radial internal clearance of catalogues (ISO 5753), twice the radial clearance; one of the two.
     internal_clearance_um: Option<f64>,
+    /// Of rings and balls.
     youngs_modulus_gpa: Option<f64>,
+    /// Of rings and balls.
     poissons_ratio: Option<f64>,
+    /// Of the balls.
     density_kg_m3: Option<f64>,
+    /// Mass of a ball; instead of the density.
     element_mass_g: Option<f64>,
+    /// Hertz constant of the inner contact; computed without it.
     hertz_inner_n_m1_5: Option<f64>,
+    /// Hertz constant of the outer contact; computed without it.
     hertz_outer_n_m1_5: Option<f64>,
+    /// By how much the outer raceway yields to one ball; 0 without it.
     #[serde(default)]
     outer_compliance_m_n: f64,
 }

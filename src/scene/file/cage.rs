@@ -5,20 +5,30 @@ use crate::scene::{Cage, CageIrregularity, SceneError, centred};
 use serde::Deserialize;
 use std::f64::consts::TAU;
 
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[derive(Deserialize, Default)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct CageTable {
+    /// Share by which the cage lags behind pure rolling.
     slip: f64,
+    /// Angle of element 1 at the start, counter-clockwise from +x; -90 without it.
     initial_angle_deg: Option<f64>,
+    /// Offset of each element from even spacing.
     spacing_deg: Option<Vec<f64>>,
+    /// Root mean square of offsets that are drawn; instead of the list.
     spacing_rms_deg: Option<f64>,
+    /// Root mean square of each element's motion in its pocket.
     jitter_rms_deg: Option<f64>,
+    /// Root mean square of the cage speed's relative wander.
     wander: Option<f64>,
+    /// Figures measured on recordings, instead of the four keys before.
     irregularity: Option<Preset>,
+    /// Which cage of that kind; needed where something is drawn.
     seed: Option<u64>,
 }
 
 /// Figures that stand for measured ones.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[derive(Deserialize, Clone, Copy)]
 #[serde(rename_all = "kebab-case")]
 enum Preset {

@@ -4,24 +4,34 @@ use super::one_or_more::OneOrMore;
 use crate::scene::{Bearing, Defect, DefectOn, DefectShape, SceneError};
 use serde::Deserialize;
 
+/// A defect.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct DefectTable {
+    /// The body that bears it.
     #[serde(default)]
     on: Body,
-    /// From 1.
+    /// Which element, from 1.
     element: Option<i64>,
+    /// How far the defect of a ball lies off its rolling track.
     tilt_deg: Option<f64>,
+    /// Where its middle is at the start, counter-clockwise from +x; on an element 0 faces the outer raceway.
     angle_deg: f64,
-    /// Turned into a length with the scene's own clearance: a host that sets another one leaves the length as it is.
+    /// Length as an angle about the centre of the body.
     length_deg: Option<f64>,
+    /// Length of the arc; instead of the angle.
     length_mm: Option<f64>,
+    /// Depth of the floor.
     depth_um: Option<f64>,
+    /// Slope of the edges; 90 without it.
     edge_slope_deg: Option<f64>,
+    /// File of a measured trace or topography, instead of length and depth.
     profile: Option<String>,
 }
 
 /// The body that bears a defect.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[derive(Deserialize, Default, Clone, Copy, PartialEq)]
 #[serde(rename_all = "kebab-case")]
 enum Body {

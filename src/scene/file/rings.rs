@@ -1,31 +1,52 @@
 //! The tables `[shaft]`, `[housing]`, `[sensor]` and `[probe]` of the scene file.
 
+use super::pair::optional;
 use crate::scene::{Motion, Ring, SceneError, Sensor};
 use serde::Deserialize;
 
+/// The inner ring.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ShaftTable {
+    /// Who moves it.
     motion: Motion,
+    /// Turns of the shaft per second.
     pub(super) speed_hz: f64,
+    /// Its angle at the start.
     #[serde(default)]
     pub(super) initial_angle_deg: f64,
+    /// Load, x and y; of a ring with mass only.
+    #[serde(default, deserialize_with = "optional")]
     load_n: Option<[f64; 2]>,
+    /// Mass; 3.2638 without it.
     mass_kg: Option<f64>,
+    /// Damping to the ground; 1376.8 without it.
     damping_n_s_m: Option<f64>,
+    /// Stiffness to the ground; 0 without it.
     stiffness_n_m: Option<f64>,
 }
 
+/// The outer ring.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct HousingTable {
+    /// Who moves it.
     motion: Motion,
+    /// Turns of the outer ring per second; without it it does not turn.
     pub(super) speed_hz: Option<f64>,
+    /// Its angle at the start.
     #[serde(default)]
     pub(super) initial_angle_deg: f64,
+    /// Load, x and y; of a ring with mass only.
+    #[serde(default, deserialize_with = "optional")]
     load_n: Option<[f64; 2]>,
+    /// Mass; 6.638 without it.
     mass_kg: Option<f64>,
+    /// Damping to the ground; 2210.7 without it.
     damping_n_s_m: Option<f64>,
+    /// Stiffness to the ground; 1.51056e7 without it.
     stiffness_n_m: Option<f64>,
 }
 
@@ -71,17 +92,25 @@ fn ring(
     Ok(Ring { motion, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 })
 }
 
+/// An accelerometer on the housing.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct SensorTable {
+    /// Name for descriptions.
     name: String,
+    /// Direction in which it measures, counter-clockwise from +x.
     direction_deg: f64,
+    /// Its mass.
     mass_kg: f64,
+    /// Stiffness of its mount.
     stiffness_n_m: f64,
+    /// Damping of its mount.
     damping_n_s_m: f64,
 }
 
 /// Says by being there that displacements between the rings are wanted.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ProbeTable {}
