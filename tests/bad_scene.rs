@@ -201,6 +201,8 @@ fn a_preload_beyond_the_elastic_range_leaves_no_room() {
     let parts = ["radial clearance (bearing.radial_clearance_um) is -60", "below -59.55", "overlap"];
     refused("radial_clearance_um = 5.0", "radial_clearance_um = -60.0", &parts);
     refused("radial_clearance_um = 5.0", "radial_clearance_um = -9000.0", &["is -9000"]);
+    let parts = ["is -250", "bearing.internal_clearance_um is twice as much"];
+    refused("radial_clearance_um = 5.0", "internal_clearance_um = -500.0", &parts);
 }
 
 #[test]
@@ -214,6 +216,8 @@ fn usual_preloads_and_very_loose_bearings_are_accepted() {
 fn a_clearance_above_the_elements_radius_is_refused() {
     let parts = ["bearing.radial_clearance_um) is 3971", "at most 3970"];
     refused("radial_clearance_um = 5.0", "radial_clearance_um = 3971.0", &parts);
+    let parts = ["is 4500", "at most 3970", "bearing.internal_clearance_um is twice as much"];
+    refused("radial_clearance_um = 5.0", "internal_clearance_um = 9000.0", &parts);
 }
 
 #[test]

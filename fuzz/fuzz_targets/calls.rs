@@ -43,7 +43,7 @@ enum Call {
     Null(u8),
 }
 
-thread_local!(static RESOURCES: OnceCell<[Resources; 3]> = const { OnceCell::new() });
+thread_local!(static RESOURCES: OnceCell<[Resources; 4]> = const { OnceCell::new() });
 
 /// Steps of more than this only take longer.
 const LONGEST: f64 = 1e-3;
@@ -240,9 +240,9 @@ impl Run<'_> {
 
 fuzz_target!(|data: &[u8]| {
     let mut data = Unstructured::new(data);
-    let Ok(scene) = data.int_in_range(0..=2usize) else { return };
+    let Ok(scene) = data.int_in_range(0..=3usize) else { return };
     RESOURCES.with(|resources| {
-        let resources = &resources.get_or_init(|| [0, 1, 2].map(Resources::new))[scene];
+        let resources = &resources.get_or_init(|| [0, 1, 2, 3].map(Resources::new))[scene];
         let all = resources.reals();
         let c = resources.instance();
         let mut run = Run { c, states: vec![ptr::null_mut()], all: &all };

@@ -13,11 +13,13 @@ use brinell::simulation::Simulation;
 use brinell::simulation::guid::guid;
 use brinell::simulation::variables::{Kind, Variable};
 
-/// Scenes: everything inside, one ring from the host, both.
-pub const SCENES: [&str; 3] = [
+/// Scenes: both rings moved by forces, one of them by the host, both by the host; and defects of all bodies, an outer
+/// ring that turns, an irregular cage, sensors and a probe.
+pub const SCENES: [&str; 4] = [
     concat!(include_str!("bearing.toml"), include_str!("internal.toml")),
     concat!(include_str!("bearing.toml"), include_str!("hosted_shaft.toml")),
     concat!(include_str!("bearing.toml"), include_str!("hosted.toml")),
+    include_str!("everything.toml"),
 ];
 
 /// Most integration steps in one communication step: a fuzzer finds the slowest inputs first.

@@ -147,7 +147,7 @@ pub enum SceneError {
     /// A preload that squeezes the elements beyond what the model describes.
     #[error(
         "radial clearance (bearing.radial_clearance_um) is {clearance_um}: below {limit_um} inner groove, element and outer \
-         groove overlap by more than the contacts can take elastically"
+         groove overlap by more than the contacts can take elastically; bearing.internal_clearance_um is twice as much"
     )]
     NoRoom {
         /// Clearance [µm].
@@ -157,7 +157,8 @@ pub enum SceneError {
     },
     /// A clearance from which the elements fall.
     #[error(
-        "radial clearance (bearing.radial_clearance_um) is {clearance_um}: it must be at most {limit_um}, the radius of an element"
+        "radial clearance (bearing.radial_clearance_um) is {clearance_um}: it must be at most {limit_um}, the radius \
+         of an element; bearing.internal_clearance_um is twice as much"
     )]
     TooLoose {
         /// Clearance [µm].
@@ -167,7 +168,7 @@ pub enum SceneError {
     },
     /// A spall as long as the raceway or longer.
     #[error(
-        "spall length (defect.length_deg or defect.length_mm) is {length_mm} mm: it must be below {limit_mm} mm, the \
+        "spall length (defect.length_deg or defect.length_mm) is {length_mm} mm: it must be below {limit_mm} mm, \
          {limit}"
     )]
     SpallTooLong {

@@ -27,11 +27,11 @@ fn every_defect_that_cannot_be_is_told_with_its_value_and_the_limit() {
         ),
         (
             "on = \"inner\"\nlength_deg = 324\ndepth_um = 50",
-            &["length", "88.7", "nine tenths of the circumference of the inner raceway"],
+            &["length", "88.7", "mm, nine tenths of the circumference of the inner raceway"],
         ),
         (
             "on = \"element\"\nelement = 1\nlength_mm = 22.5\ndepth_um = 50",
-            &["length", "22.5", "nine tenths of the circumference of an element"],
+            &["length", "22.5", "mm, nine tenths of the circumference of an element"],
         ),
         (
             "on = \"element\"\nelement = 1\nlength_mm = 3\ndepth_um = 800",

@@ -5,7 +5,11 @@ use super::{accepted, refused};
 #[test]
 fn a_spall_longer_than_the_raceway_is_refused() {
     // 2π × 23.6325 mm = 148.487 mm.
-    let parts = ["spall length (defect.length_deg or defect.length_mm) is 148.487", "below 148.487", "circumference"];
+    let parts = [
+        "spall length (defect.length_deg or defect.length_mm) is 148.487",
+        "below 148.487",
+        "mm, the circumference of",
+    ];
     refused("length_deg = 15.8", "length_deg = 360.0", &parts);
     refused("length_deg = 15.8", "length_mm = 149.0", &["is 149 mm"]);
     accepted("length_deg = 15.8", "length_deg = 359.0");

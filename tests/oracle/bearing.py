@@ -43,19 +43,20 @@ def hertz_constant(curvature_rolling, curvature_axial, e_star):
 class Ring:
     """One ring: moved by its forces, held, or following a given motion x0 + A sin(2πft)."""
 
-    motion: str = "internal"
-    mass: float = 1.0
-    damping: float = 0.0
-    stiffness: float = 0.0
+    motion: str
+    mass: float
+    damping: float
+    stiffness: float
     load: np.ndarray = field(default_factory=lambda: np.zeros(2))
     centre: np.ndarray = field(default_factory=lambda: np.zeros(2))
     amplitude: np.ndarray = field(default_factory=lambda: np.zeros(2))
     frequency: float = 0.0
 
     @classmethod
-    def from_scene(cls, table):
-        return cls(table.get("motion", "internal"), table.get("mass_kg", 1.0), table.get("damping_n_s_m", 0.0),
-                   table.get("stiffness_n_m", 0.0), np.array(table.get("load_n", [0.0, 0.0]), float))
+    def from_scene(cls, table, mass, damping, stiffness):
+        """The last three hold where the scene leaves them out."""
+        return cls(table.get("motion", "internal"), table.get("mass_kg", mass), table.get("damping_n_s_m", damping),
+                   table.get("stiffness_n_m", stiffness), np.array(table.get("load_n", [0.0, 0.0]), float))
 
     def given_motion(self, t):
         """Position and velocity of a ring that is not moved by its forces."""
@@ -92,10 +93,11 @@ class Bearing:
         inner, outer = self.omega_i * (1 - gamma), self.omega_o * (1 + gamma)
         self.omega_c = 0.5 * (inner + outer) * (1 - cage.get("slip", 0.0))
         self.omega_b = (outer - inner) / (2 * gamma)  # absolute
-        self.theta0 = np.radians(cage.get("initial_angle_deg", 0.0))
+        self.theta0 = np.radians(cage.get("initial_angle_deg", -90.0))
         self.spall = Spall(scene["defect"], self) if "defect" in scene else None
 
-        self.shaft, self.housing = Ring.from_scene(shaft), Ring.from_scene(housing)
+        self.shaft = Ring.from_scene(shaft, 3.2638, 1376.8, 0.0)
+        self.housing = Ring.from_scene(housing, 6.638, 2210.7, 1.51056e7)
         sensor = scene.get("sensor")
         self.sensor = (sensor["mass_kg"], sensor["stiffness_n_m"], sensor["damping_n_s_m"]) if sensor else None
         self.n_rings = 4 * (self.shaft.motion == "internal") + 4 * (self.housing.motion == "internal")
