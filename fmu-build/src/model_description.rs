@@ -72,7 +72,7 @@ pub fn write(model: &Model, capabilities: &Capabilities) -> io::Result<String> {
         type_definitions(xml, table)?;
         xml.element("LogCategories", vec![], |xml| {
             Category::LIST.iter().try_for_each(|category| {
-                let (name, description) = (category.name().into(), category.description().into());
+                let (name, description) = (category.name().into(), category.description("fmi2"));
                 xml.empty("Category", vec![("name", name), ("description", description)])
             })
         })?;
