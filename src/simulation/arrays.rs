@@ -17,7 +17,9 @@ pub struct ElementArray {
 impl Simulation {
     /// The arrays of this scene, in the order of the table.
     pub fn arrays(&self) -> Vec<ElementArray> {
-        let first = |wanted: &Q| matches!(wanted, Q::ElementAngle(0) | Q::ElementPath(0) | Q::ElementInnerForce(0) | Q::ElementOuterForce(0));
+        let first = |wanted: &Q| {
+            matches!(wanted, Q::ElementAngle(0) | Q::ElementPath(0) | Q::ElementInnerForce(0) | Q::ElementOuterForce(0))
+        };
         self.quantities.iter().filter(|quantity| first(quantity)).map(|&quantity| self.array_of(quantity)).collect()
     }
 

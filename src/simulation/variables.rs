@@ -20,6 +20,13 @@ pub struct Variable {
     pub variability: Variability,
 }
 
+impl Variable {
+    /// Whether its value inside a communication step is one of its own: that of a continuous input or output.
+    pub fn changes_within_steps(&self) -> bool {
+        matches!(self.causality, Causality::Input | Causality::Output) && self.variability == Variability::Continuous
+    }
+}
+
 /// What an output depends on.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Dependencies {
