@@ -21,6 +21,14 @@ pub struct Variable {
 }
 
 impl Variable {
+    /// The description, of an input without what FMI 2.0's derivatives of inputs do.
+    pub fn meaning(&self) -> &str {
+        match (self.causality, self.description.rsplit_once("; ")) {
+            (Causality::Input, Some((meaning, _))) => meaning,
+            _ => &self.description,
+        }
+    }
+
     /// Whether its value inside a communication step is one of its own: that of a continuous input or output.
     pub fn changes_within_steps(&self) -> bool {
         matches!(self.causality, Causality::Input | Causality::Output) && self.variability == Variability::Continuous
