@@ -50,7 +50,11 @@ where
 fn fail(instance: &mut Instance, function: &'static Function, failure: Failure) -> Status {
     let status = failure.status();
     if status >= Status::Error {
-        instance.mode = Mode::Error;
+        match &mut instance.updates {
+            // The step that is under way must find its instance: it fails when the host returns to it.
+            Some(updates) if instance.mode == Mode::IntermediateUpdate => updates.failed = true,
+            _ => instance.mode = Mode::Error,
+        }
     }
     let logger = &instance.logger;
     // Formatting is code too: if it panics, the line is lost and the status stands.

@@ -90,7 +90,10 @@ pub(super) enum Failure {
         /// The reason.
         why: &'static str,
     },
-    /// A call in the host's intermediate update has failed, or a second thread has.
+    /// The host's function for intermediate updates has unwound.
+    #[error("intermediateUpdate did not return: {0}; the step is lost")]
+    UpdateUnwound(String),
+    /// A call in the host's intermediate update has failed.
     #[error("a call inside the intermediate update at {0:?} s has failed; the step is lost")]
     FailedInUpdate(f64),
     /// A time for an early return that lies outside the step.

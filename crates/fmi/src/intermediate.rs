@@ -5,6 +5,7 @@
 //! for law `love`, see `brinell::simulation::stepping`). An early return ends the step where the host was told, or at a
 //! later instant that it names, and that exactly.
 
+use super::boundary;
 use super::c_types::{Bool, ComponentEnvironment, IntermediateUpdateCallback};
 use super::clock::Clock;
 use super::failure::Failure;
@@ -26,6 +27,8 @@ pub(super) struct IntermediateUpdates {
     pub(super) with_inputs: bool,
     /// Whether inputs may be set in the update under way.
     pub(super) may_set: bool,
+    /// Whether a call in the update under way has failed.
+    pub(super) failed: bool,
 }
 
 // SAFETY: the environment is the host's. It is handed back to the host's own function, in calls on this instance only,
@@ -84,22 +87,26 @@ fn update(instance: &mut Borrowed, (from, time, to): (f64, f64, f64), is_done: b
     let (callback, environment) = (updates.callback, updates.environment);
     let can_return = updates.early_return && !is_done;
     updates.may_set = updates.with_inputs && !is_done;
+    updates.failed = false;
     let may_set = updates.may_set;
     let clock = instance.clock;
     instance.clock = clock.map(|clock| Clock { time, ..clock });
     instance.mode = Mode::IntermediateUpdate;
     let (mut wanted, mut at): (Bool, f64) = (0, time);
-    instance.lend(|| {
-        let (wanted, at) = (&raw mut wanted, &raw mut at);
-        // SAFETY: the host promises a callable function for as long as the instance lives (FMI 3.0,
-        // fmi3InstantiateCoSimulation); the places are ours and outlive the call.
-        unsafe { callback(environment, time, may_set.into(), 1, 1, can_return.into(), wanted, at) };
+    let returned = boundary::guard(|| {
+        instance.lend(|| {
+            let (wanted, at) = (&raw mut wanted, &raw mut at);
+            // SAFETY: the host promises a callable function for as long as the instance lives (FMI 3.0,
+            // fmi3InstantiateCoSimulation); the places are ours and outlive the call.
+            unsafe { callback(environment, time, may_set.into(), 1, 1, can_return.into(), wanted, at) };
+        });
     });
-    if instance.mode != Mode::IntermediateUpdate {
-        return Err(Failure::FailedInUpdate(time));
-    }
     instance.mode = Mode::StepComplete;
     instance.clock = clock;
+    returned.map_err(Failure::UpdateUnwound)?;
+    if instance.updates.as_ref().is_some_and(|updates| updates.failed) {
+        return Err(Failure::FailedInUpdate(time));
+    }
     if wanted == 0 || !can_return {
         return Ok(None);
     }

@@ -116,6 +116,7 @@ fn arrange(
             with_inputs: sorted.iter().any(|&reference| Addressing::is_input(&instance.simulation, reference)),
             required: sorted,
             may_set: false,
+            failed: false,
         }),
         None if required.is_empty() => None,
         None => return Err(Refusal::NoCallback),
