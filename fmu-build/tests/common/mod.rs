@@ -71,6 +71,16 @@ pub(crate) fn fmu_of(name: &str, folder: &Path) -> PathBuf {
     fmu::write(&model(name), library(), Version::Fmi2, folder).unwrap()
 }
 
+/// The FMU of a shipped scene after FMI 3.0 in a folder.
+pub(crate) fn fmu3_of(name: &str, folder: &Path) -> PathBuf {
+    fmu::write(&model(name), library(), Version::Fmi3, folder).unwrap()
+}
+
+/// Names of the shipped scenes.
+pub(crate) fn names() -> Vec<String> {
+    scenes().iter().map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned()).collect()
+}
+
 /// Runs a script of `tests/python`; what it says on failure becomes the test's message.
 pub(crate) fn run_script<A: AsRef<std::ffi::OsStr>>(script: &str, arguments: impl IntoIterator<Item = A>) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python").join(script);
