@@ -32,6 +32,7 @@ pub mod scenes;
 pub mod shipped;
 pub mod size;
 pub mod slave;
+pub mod slave3;
 pub mod stiffness;
 pub mod terminals;
 pub mod toolchain;

@@ -6,6 +6,8 @@ mod common;
 
 use std::path::{Path, PathBuf};
 
+use fmu_build::{check, project::Project};
+
 fn all_fmus(folder: &Path) -> Vec<PathBuf> {
     common::names().iter().map(|name| common::fmu3_of(name, folder)).collect()
 }
@@ -29,6 +31,14 @@ fn every_shipped_scene_gives_the_bits_of_fmi_2_under_fmi_3() {
         .into_iter()
         .flat_map(|name| [common::fmu_of(&name, &two), common::fmu3_of(&name, &three)].map(PathBuf::into_os_string));
     println!("{}", common::run_script("equal_bits3.py", [std::ffi::OsString::from("300")].into_iter().chain(pairs)));
+}
+
+#[test]
+fn the_check_command_passes_an_fmu_of_fmi_3() {
+    let folder = common::folder("check3");
+    for name in ["6205-epps", "6205-hosted"] {
+        check::command(&Project::find(), &common::fmu3_of(name, &folder)).unwrap();
+    }
 }
 
 #[test]
