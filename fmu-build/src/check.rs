@@ -100,6 +100,10 @@ impl Description {
             "CoSimulation" => {
                 self.identifier = attribute(element, "modelIdentifier")?.context("no modelIdentifier")?;
                 let spelling = |old: &'static str, new| if self.version == Version::Fmi2 { old } else { new };
+                // A solver of fixed steps goes no shorter way; the experiment, which comes later, may say another.
+                if let Some(step) = attribute(element, "fixedInternalStepSize")? {
+                    self.step = step.parse()?;
+                }
                 self.state = flag(element, spelling("canGetAndSetFMUstate", "canGetAndSetFMUState"))?;
                 self.serialized_state = flag(element, spelling("canSerializeFMUstate", "canSerializeFMUState"))?;
             }
