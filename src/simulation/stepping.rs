@@ -67,11 +67,11 @@ impl StepUnderWay {
 impl Simulation {
     /// Advances by exactly `step` [s].
     pub fn step(&mut self, step: f64) -> Result<(), SimulationError> {
-        let mut under_way = self.begin_step(step)?;
-        while !under_way.is_done() {
-            self.go_on(&mut under_way)?;
-        }
-        self.end_step(under_way);
+        let control = self.prepare(step)?;
+        let drive = self.drive(true);
+        let advanced = self.stepper(&drive, control).advance(step);
+        advanced.map_err(|cause| self.failed(cause))?;
+        self.arrive(&drive, step);
         Ok(())
     }
 
@@ -80,25 +80,8 @@ impl Simulation {
     /// # Errors
     /// A step that is not finite and above 0, or before `initialize`; what cannot be integrated.
     pub fn begin_step(&mut self, step: f64) -> Result<StepUnderWay, SimulationError> {
-        if !(step > 0.0 && step.is_finite()) {
-            return Err(SimulationError::CommunicationStep(step));
-        }
-        if !self.state.started {
-            return Err(SimulationError::NotInitialized);
-        }
+        let control = self.prepare(step)?;
         let drive = self.drive(true);
-        let control = Control {
-            tolerance: self.inputs.tolerance.map_or(self.scene.tolerance, |i| self.state.reals[i]),
-            max_steps: self.scene.max_steps,
-            method: self.method,
-        };
-        self.fresh = Fresh::State;
-        self.model.forget_contacts();
-        match self.recorder.as_mut().filter(|recorder| recorder.is_on()) {
-            Some(recorder) => recorder.begin(self.state.time, self.state.angles()),
-            // What is not sampled cannot be made up for: whoever records on from here begins anew.
-            None => self.state.progress.due = Due::default(),
-        }
         let begun = self.stepper(&drive, control).start(step);
         let advance = begun.map_err(|cause| self.failed(cause))?;
         Ok(StepUnderWay { drive, control, advance })
@@ -156,6 +139,30 @@ impl Simulation {
         Ok(())
     }
 
+    /// Checks a step, and readies for it what goes along with the integration.
+    #[inline]
+    fn prepare(&mut self, step: f64) -> Result<Control, SimulationError> {
+        if !(step > 0.0 && step.is_finite()) {
+            return Err(SimulationError::CommunicationStep(step));
+        }
+        if !self.state.started {
+            return Err(SimulationError::NotInitialized);
+        }
+        self.fresh = Fresh::State;
+        self.model.forget_contacts();
+        match self.recorder.as_mut().filter(|recorder| recorder.is_on()) {
+            Some(recorder) => recorder.begin(self.state.time, self.state.angles()),
+            // What is not sampled cannot be made up for: whoever records on from here begins anew.
+            None => self.state.progress.due = Due::default(),
+        }
+        Ok(Control {
+            tolerance: self.inputs.tolerance.map_or(self.scene.tolerance, |i| self.state.reals[i]),
+            max_steps: self.scene.max_steps,
+            method: self.method,
+        })
+    }
+
+    #[inline]
     fn stepper<'a>(&'a mut self, drive: &'a Drive, control: Control) -> Stepper<'a> {
         Stepper {
             problem: Problem { model: &self.model, drive },
@@ -167,6 +174,7 @@ impl Simulation {
     }
 
     /// Time, angles and inputs move on by `step` [s].
+    #[inline]
     fn arrive(&mut self, drive: &Drive, step: f64) {
         self.state.cage = self.state.cage.advanced(drive.cage.at(step));
         if self.inputs.frames {
