@@ -34,6 +34,33 @@ fn every_shipped_scene_gives_the_bits_of_fmi_2_under_fmi_3() {
 }
 
 #[test]
+#[cfg(debug_assertions)]
+fn the_build_command_makes_either_version_and_names_those_that_there_are() {
+    let folder = common::folder("build3");
+    let scene = common::root().join("scenes/6205-healthy.toml");
+    let library = common::built_with_the_tests().unwrap();
+    let build = |options: &[&str]| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_brinell"));
+        command.arg("build").arg(&scene).arg("--library").arg(&library).arg("-o").arg(&folder);
+        let output = command.args(options).output().unwrap();
+        (output.status.success(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    let expected = common::folder("build3-expected");
+    let built = || std::fs::read(folder.join("6205-healthy.fmu")).unwrap();
+    for (options, make) in [
+        (&["--fmi", "3"][..], common::fmu3_of as fn(&str, &Path) -> PathBuf),
+        (&["--fmi", "2"], common::fmu_of),
+        (&[], common::fmu_of),
+    ] {
+        let (succeeded, said) = build(options);
+        assert!(succeeded, "{said}");
+        assert!(built() == std::fs::read(make("6205-healthy", &expected)).unwrap(), "{options:?}");
+    }
+    let (succeeded, said) = build(&["--fmi", "1"]);
+    assert!(!succeeded && said.contains("2, 3"), "{said}");
+}
+
+#[test]
 fn the_check_command_passes_an_fmu_of_fmi_3() {
     let folder = common::folder("check3");
     for name in ["6205-epps", "6205-hosted"] {
