@@ -222,8 +222,8 @@ fn step(folder: &Path, description: &Description) -> Result<()> {
         rewind(&mut slave, description, &state).context("save and restore")?;
         println!("state: restored, {STEPS} steps again, equal bits");
         if description.serialized_state {
-            let bytes = slave.to_bytes(&state)?;
-            let copy = slave.from_bytes(&bytes)?;
+            let bytes = slave.serialize(&state)?;
+            let copy = slave.deserialize(&bytes)?;
             rewind(&mut slave, description, &copy).context("serialize and deserialize")?;
             slave.free(copy)?;
             println!("serialized state: {} bytes, {STEPS} steps again, equal bits", bytes.len());
@@ -305,11 +305,11 @@ impl Unit {
         either!(self, slave => slave.free(state))
     }
 
-    fn to_bytes(&mut self, state: &SavedState) -> Result<Vec<u8>, SlaveError> {
+    fn serialize(&mut self, state: &SavedState) -> Result<Vec<u8>, SlaveError> {
         either!(self, slave => slave.to_bytes(state))
     }
 
-    fn from_bytes(&mut self, bytes: &[u8]) -> Result<SavedState, SlaveError> {
+    fn deserialize(&mut self, bytes: &[u8]) -> Result<SavedState, SlaveError> {
         either!(self, slave => slave.from_bytes(bytes))
     }
 

@@ -1,7 +1,8 @@
 //! Derivatives and dependencies under FMI 3.0.
 
-use crate::host::{Host, bits};
+use crate::host::Host;
 use crate::two;
+use crate::two::bits;
 use brinell::simulation::variables::{Causality, Kind};
 use brinell_fmi::fmi3::*;
 

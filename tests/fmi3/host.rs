@@ -1,7 +1,7 @@
 //! A host of FMI 3.0: unpacked resources, a logger that remembers, a function for intermediate updates, and the
 //! exported functions as methods.
 
-pub(crate) use crate::two::{Resources, bits};
+pub(crate) use crate::two::Resources;
 use brinell::simulation::Simulation;
 use brinell::simulation::arrays::of_all_elements;
 use brinell::simulation::variables::Variable;

@@ -188,7 +188,7 @@ fn a_reset_instance_of_fmi_3_runs_like_a_new_one_to_the_bit() {
     let run = |host: &Host| {
         host.start();
         (0..20).for_each(|n| host.step(f64::from(n) * 1e-4, 1e-4));
-        crate::host::bits(&host.all())
+        crate::two::bits(&host.all())
     };
     let host = Host::of("er16k-tb1");
     let first = run(&host);

@@ -1,7 +1,8 @@
 //! Saving, restoring and serializing under FMI 3.0, and to and from FMI 2.0.
 
-use crate::host::{Host, bits};
+use crate::host::Host;
 use crate::two;
+use crate::two::bits;
 use brinell_fmi::fmi3::*;
 
 const STEP: f64 = 1e-4;

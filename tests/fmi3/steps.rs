@@ -1,7 +1,8 @@
 //! Steps: the bits of FMI 2.0, what `fmi3DoStep` gives, and what it refuses.
 
-use crate::host::{Host, bits};
+use crate::host::Host;
 use crate::two;
+use crate::two::bits;
 use brinell_fmi::fmi3::*;
 use std::ptr;
 

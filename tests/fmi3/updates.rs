@@ -1,6 +1,7 @@
 //! Intermediate updates and the early returns that a host asks for in them.
 
-use crate::host::{Host, OnUpdate, Update, bits, get, reals, set};
+use crate::host::{Host, OnUpdate, Update, get, reals, set};
+use crate::two::bits;
 use brinell_fmi::fmi3::*;
 use std::cell::RefCell;
 use std::rc::Rc;

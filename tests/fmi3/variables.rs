@@ -1,7 +1,8 @@
 //! Reading and setting: scalars, arrays, types, and what is refused.
 
-use crate::host::{Host, bits};
+use crate::host::Host;
 use crate::two;
+use crate::two::bits;
 use brinell::simulation::variables::{Causality, Kind};
 use brinell_fmi::fmi3::*;
 use std::ffi::CStr;
