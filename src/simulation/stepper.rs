@@ -122,13 +122,17 @@ impl Stepper<'_> {
 
     /// What a communication step that ends where `advance` has come to leaves behind.
     pub fn finish(&mut self, advance: &Advance) {
-        let step = advance.tau;
+        self.finish_part(advance);
+        let since = advance.elapsed();
+        self.progress.mean_force = advance.impulse.map(|i| i / since);
+    }
+
+    /// The same of a part of a communication step, which has no mean of its own.
+    pub fn finish_part(&mut self, advance: &Advance) {
         let progress = &mut *self.progress;
         if let Some(recorder) = &self.recorder {
-            recorder.end(&mut progress.due, step);
+            recorder.end(&mut progress.due, advance.tau);
         }
-        let since = advance.before + step;
-        progress.mean_force = advance.impulse.map(|i| i / since);
         progress.defect_lookups += std::mem::take(&mut self.workspace.forces.defect_lookups);
     }
 

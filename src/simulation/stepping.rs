@@ -123,7 +123,7 @@ impl Simulation {
         self.fresh = Fresh::State;
         if self.input_values() != look.arrived && !under_way.is_done() {
             let StepUnderWay { drive, control, advance } = &*under_way;
-            self.stepper(drive, *control).finish(advance);
+            self.stepper(drive, *control).finish_part(advance);
             let mut next = self.begin_step(advance.end - advance.tau)?;
             next.advance.follow(advance);
             *under_way = next;

@@ -101,13 +101,15 @@ impl Addressing {
         (row, 0)
     }
 
-    /// Whether an intermediate update can touch a variable, as modelDescription.xml says: inputs and outputs that
-    /// change within a step.
+    /// Whether an intermediate update can touch a variable: inputs and outputs. modelDescription.xml names those that
+    /// change within a step; the mean force, which does not, may be read as well, for fmusim asks for every output that
+    /// it records.
     pub(super) fn is_intermediate(&self, simulation: &Simulation, reference: u32) -> bool {
         self.rows(&reference).is_ok_and(|rows| {
             let rows = rows.iter().filter_map(|&row| simulation.table().get(row as usize));
             let mut any = false;
-            let all = rows.inspect(|_| any = true).all(|row| row.changes_within_steps());
+            let all =
+                rows.inspect(|_| any = true).all(|row| matches!(row.causality, Causality::Input | Causality::Output));
             any && all
         })
     }
