@@ -1,6 +1,6 @@
 //! Writes `docs/fmi2-conformance.md` and `docs/fmi3-conformance.md`: each rule of FMI 2.0 co-simulation, what importers
-//! ask beyond it, and what FMI 3.0 asks beside it, with the tests that show it. A rule whose test is gone fails here; a test that fails fails the suite that this belongs to.
-//! After a change: `BLESS=1 cargo test --test conformance`.
+//! ask beyond it, and what FMI 3.0 asks beside it, with the tests that show it. A rule whose test is gone fails here; a
+//! test that fails fails the suite that this belongs to. After a change: `BLESS=1 cargo test --test conformance`.
 #![allow(clippy::unwrap_used)]
 
 #[path = "conformance/rules.rs"]
@@ -55,9 +55,9 @@ fn tests() -> BTreeMap<String, String> {
 const HEADS: [&str; 2] = [
     "# FMI 2.0, rule by rule\n\n",
     "# FMI 3.0, rule by rule\n\n\
-     What FMI 3.0.2 asks of a co-simulation FMU where FMI 2.0 asks something else or nothing. Handles, arguments, clock, \
-     saved states and panics are one and the same code for both versions: [fmi2-conformance.md](fmi2-conformance.md) shows them \
-     through FMI 2.0's functions.\n\n",
+     What FMI 3.0.2 asks of a co-simulation FMU where FMI 2.0 asks something else or nothing. Handles, arguments, \
+     clock, saved states and panics are one and the same code for both versions: \
+     [fmi2-conformance.md](fmi2-conformance.md) shows them through FMI 2.0's functions.\n\n",
 ];
 
 fn written(head: &str, rules: impl Iterator<Item = &'static Rule>) -> String {

@@ -58,7 +58,8 @@ impl StepUnderWay {
         self.advance.elapsed()
     }
 
-    /// Lets it end `elapsed` [s] after its beginning, if that is earlier than it would, and no earlier than where it is.
+    /// Lets it end `elapsed` [s] after its beginning, if that is earlier than it would, and no earlier than where it
+    /// is.
     pub fn bring_forward(&mut self, elapsed: f64) {
         self.advance.bring_forward(elapsed);
     }

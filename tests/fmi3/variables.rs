@@ -207,3 +207,49 @@ fn misaligned_and_overlapping_arrays_and_null_are_refused_under_fmi_3() {
         fmi3GetFloat64(h.c, place.cast(), 1, place, 1)
     });
 }
+
+#[test]
+fn every_pointer_may_be_null_in_every_function_of_fmi_3() {
+    /// NULL for whatever pointer a function takes.
+    macro_rules! nulls {
+        ($($name:ident($($argument:expr),*);)*) => {
+            // SAFETY of all the blocks: NULL is what is tested.
+            [$((stringify!($name), (|c| unsafe { $name(c, $($argument),*) }) as fn(Instance) -> Status)),*]
+        };
+    }
+    let calls = nulls! {
+        fmi3SetDebugLogging(TRUE, 1, ptr::null());
+        fmi3GetFloat32(ptr::null(), 1, ptr::null_mut(), 1);
+        fmi3GetFloat64(ptr::null(), 1, ptr::null_mut(), 1);
+        fmi3GetInt64(ptr::null(), 1, ptr::null_mut(), 1);
+        fmi3GetUInt64(ptr::null(), 1, ptr::null_mut(), 1);
+        fmi3GetBoolean(ptr::null(), 1, ptr::null_mut(), 1);
+        fmi3GetString(ptr::null(), 1, ptr::null_mut(), 1);
+        fmi3GetBinary(ptr::null(), 1, ptr::null_mut(), ptr::null_mut(), 1);
+        fmi3GetClock(ptr::null(), 1, ptr::null_mut());
+        fmi3SetFloat64(ptr::null(), 1, ptr::null(), 1);
+        fmi3SetInt64(ptr::null(), 1, ptr::null(), 1);
+        fmi3SetUInt64(ptr::null(), 1, ptr::null(), 1);
+        fmi3SetString(ptr::null(), 1, ptr::null(), 1);
+        fmi3GetNumberOfVariableDependencies(0, ptr::null_mut());
+        fmi3GetVariableDependencies(12, ptr::null_mut(), ptr::null_mut(), ptr::null_mut(), ptr::null_mut(), 5);
+        fmi3GetFMUState(ptr::null_mut());
+        fmi3SetFMUState(ptr::null_mut());
+        fmi3SerializedFMUStateSize(ptr::null_mut(), ptr::null_mut());
+        fmi3SerializeFMUState(ptr::null_mut(), ptr::null_mut(), 10);
+        fmi3DeserializeFMUState(ptr::null(), 10, ptr::null_mut());
+        fmi3GetDirectionalDerivative(ptr::null(), 1, ptr::null(), 1, ptr::null(), 1, ptr::null_mut(), 1);
+        fmi3GetAdjointDerivative(ptr::null(), 1, ptr::null(), 1, ptr::null(), 1, ptr::null_mut(), 1);
+        fmi3GetOutputDerivatives(ptr::null(), 1, ptr::null(), ptr::null_mut(), 1);
+        fmi3DoStep(0.0, 1e-4, TRUE, ptr::null_mut(), ptr::null_mut(), ptr::null_mut(), ptr::null_mut());
+    };
+    let host = Host::started("er16k-tb1");
+    let state = host.save();
+    for (name, call) in calls {
+        host.lines();
+        assert_eq!(call(host.c), Status::Error, "{name}");
+        assert!(host.last_message().starts_with(name));
+        assert_eq!(host.restore(state), Status::Ok);
+    }
+    host.step(0.0, 1e-4);
+}

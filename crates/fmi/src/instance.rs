@@ -128,8 +128,8 @@ impl Instance {
         Ok(())
     }
 
-    /// Lets a tolerance of the host's tighten that of the time integration, and never loosen it: hosts hand in their own
-    /// default without asking, and a scene's tolerance is chosen for its impacts.
+    /// Lets a tolerance of the host's tighten that of the time integration, and never loosen it: hosts hand in their
+    /// own default without asking, and a scene's tolerance is chosen for its impacts.
     pub(super) fn tighten(&mut self, tolerance: f64) -> Result<(), Failure> {
         if !(tolerance > 0.0 && tolerance.is_finite()) {
             return Err(Failure::Tolerance(tolerance));

@@ -54,8 +54,8 @@ impl From<UriError> for Refusal {
     }
 }
 
-/// Makes an instance. `logger` makes its logger of its name, or tells that there can be none; `prepare` reads its model,
-/// and `arrange` adds what a version of the standard needs.
+/// Makes an instance. `logger` makes its logger of its name, or tells that there can be none; `prepare` reads its
+/// model, and `arrange` adds what a version of the standard needs.
 pub(super) fn instantiate(
     function: &'static str,
     name: Option<&CStr>,

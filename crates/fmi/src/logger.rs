@@ -1,7 +1,7 @@
 //! The host's logger and the categories of messages.
 //!
-//! To FMI 2.0 a message is passed as the argument of the format `"%s"`, so a per cent sign in it is harmless; to FMI 3.0
-//! as it is, with `#`, which names variables there, doubled. Nothing is formatted while logging is off.
+//! To FMI 2.0 a message is passed as the argument of the format `"%s"`, so a per cent sign in it is harmless; to FMI
+//! 3.0 as it is, with `#`, which names variables there, doubled. Nothing is formatted while logging is off.
 
 use std::ffi::CString;
 

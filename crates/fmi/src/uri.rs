@@ -1,10 +1,10 @@
 //! From `fmuResourceLocation`, or FMI 3.0's `resourcePath`, to a path on this machine.
 //!
-//! FMI 3.0 passes a plain absolute path, in which nothing is escaped. FMI 2.0 asks for a URI after RFC 3986 with the scheme `file`. Importers send `file:/dir`, `file:///dir`,
-//! `file://localhost/dir`, on Windows also `file:///C:/dir` and the ill-formed `file://C:/dir`; some leave characters
-//! unescaped. All these name a path without doubt and are accepted; so is a plain absolute path. A `+` is a plus
-//! sign: it means a space only in web forms. Escapes that are none stay as they are. Other schemes and, except on
-//! Windows, other hosts are refused.
+//! FMI 3.0 passes a plain absolute path, in which nothing is escaped. FMI 2.0 asks for a URI after RFC 3986 with the
+//! scheme `file`. Importers send `file:/dir`, `file:///dir`, `file://localhost/dir`, on Windows also `file:///C:/dir`
+//! and the ill-formed `file://C:/dir`; some leave characters unescaped. All these name a path without doubt and are
+//! accepted; so is a plain absolute path. A `+` is a plus sign: it means a space only in web forms. Escapes that are
+//! none stay as they are. Other schemes and, except on Windows, other hosts are refused.
 
 use std::path::PathBuf;
 

@@ -194,8 +194,8 @@ pub unsafe extern "C" fn fmi3FreeInstance(instance: Instance) {
     }
 }
 
-/// `fmi3SetDebugLogging`: turns the categories listed on or off, all of them if none is listed. An unknown category is a
-/// warning; the others are set.
+/// `fmi3SetDebugLogging`: turns the categories listed on or off, all of them if none is listed. An unknown category is
+/// a warning; the others are set.
 ///
 /// # Safety
 /// `categories` is null or points to `nCategories` strings, each null or ended by NUL.
@@ -271,8 +271,8 @@ pub unsafe extern "C" fn fmi3Terminate(instance: Instance) -> Status {
     })
 }
 
-/// `fmi3Reset`: as after `fmi3InstantiateCoSimulation`. Saved states and the choice of log categories stay. A warning if
-/// samples of the recording could not be stored: they are lost, the instance is as good as new.
+/// `fmi3Reset`: as after `fmi3InstantiateCoSimulation`. Saved states and the choice of log categories stay. A warning
+/// if samples of the recording could not be stored: they are lost, the instance is as good as new.
 ///
 /// # Safety
 /// `instance` may be any value.

@@ -1,4 +1,5 @@
-//! The whole interface as a host in C uses it: raw pointers, memory that is not initialised, a callback that calls back.
+//! The whole interface as a host in C uses it: raw pointers, memory that is not initialised, a callback that calls
+//! back.
 //!
 //! These tests are small enough for Miri, as those of FMI 2.0 are.
 
