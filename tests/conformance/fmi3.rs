@@ -214,9 +214,9 @@ pub(crate) const RULES: &[Rule] = &[
     ),
     (
         "Importers",
-        "fmpy, fmusim and fmuloader run every shipped FMU.",
+        "fmpy, fmusim, FMI Library and fmuloader run every shipped FMU.",
         &[
-            Measured("fmusim 0.8.0, fmuloader 0.1.2rc0", "all scenes; fmuloader reads no arrays"),
+            Measured("fmusim 0.8.0, FMI Library 3.0a5, fmuloader 0.1.2rc0", "all scenes; fmuloader reads no arrays"),
             Test("simulate_fmu_runs_every_shipped_scene_under_fmi_3"),
             Test("the_check_command_passes_an_fmu_of_fmi_3"),
         ],
