@@ -1,12 +1,12 @@
-//! Writes `docs/fmi2-conformance.md`: each rule of FMI 2.0 co-simulation, and what importers ask beyond it, with the
-//! tests that show it. A rule whose test is gone fails here; a test that fails fails the suite that this belongs to.
-//! After a change: `BLESS=1 cargo test --test conformance`.
+//! Writes `docs/fmi2-conformance.md` and `docs/fmi3-conformance.md`: each rule of FMI 2.0 co-simulation, what importers
+//! ask beyond it, and what FMI 3.0 asks beside it, with the tests that show it. A rule whose test is gone fails here; a
+//! test that fails fails the suite that this belongs to. After a change: `BLESS=1 cargo test --test conformance`.
 #![allow(clippy::unwrap_used)]
 
 #[path = "conformance/rules.rs"]
 mod rules;
 
-use rules::{Evidence, rules};
+use rules::{Evidence, Rule, rules, rules_of_fmi3};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -51,16 +51,25 @@ fn tests() -> BTreeMap<String, String> {
     tests
 }
 
-fn written() -> String {
+/// How each page begins.
+const HEADS: [&str; 2] = [
+    "# FMI 2.0, rule by rule\n\n",
+    "# FMI 3.0, rule by rule\n\n\
+     What FMI 3.0.2 asks of a co-simulation FMU where FMI 2.0 asks something else or nothing. Handles, arguments, \
+     clock, saved states and panics are one and the same code for both versions: \
+     [fmi2-conformance.md](fmi2-conformance.md) shows them through FMI 2.0's functions.\n\n",
+];
+
+fn written(head: &str, rules: impl Iterator<Item = &'static Rule>) -> String {
     let tests = tests();
-    let mut page = String::from(
-        "# FMI 2.0, rule by rule\n\n\
-         Written by `tests/conformance.rs`; do not edit. Every test named here is run by `cargo test --workspace`, most against the \
+    let mut page = head.to_owned();
+    page.push_str(
+        "Written by `tests/conformance.rs`; do not edit. Every test named here is run by `cargo test --workspace`, most against the \
          exported C functions themselves; two of the library's own run with `--release`, which links the library that is shipped. The \
          suite fails with any of them, so a rule stands as *passes* only while its tests do. What is measured says with what.\n",
     );
     let mut section = "";
-    for (of, rule, evidence) in rules() {
+    for (of, rule, evidence) in rules {
         if *of != section {
             section = of;
             write!(page, "\n## {section}\n\n| rule | shown by | result |\n|---|---|---|\n").unwrap();
@@ -87,15 +96,16 @@ fn written() -> String {
     page
 }
 
-#[test]
-fn every_rule_has_a_test_or_a_measurement_and_the_page_says_which() {
-    let file = root().join("docs/fmi2-conformance.md");
-    let written = written();
+fn check(name: &str, written: &str) {
+    let file = root().join("docs").join(name);
     if env::var_os("BLESS").is_some_and(|value| value == "1") {
-        fs::write(&file, &written).unwrap();
+        fs::write(&file, written).unwrap();
     }
-    assert!(
-        fs::read_to_string(&file).unwrap_or_default() == written,
-        "fmi2-conformance.md is not up to date; bless it"
-    );
+    assert!(fs::read_to_string(&file).unwrap_or_default() == written, "{name} is not up to date; bless it");
+}
+
+#[test]
+fn every_rule_has_a_test_or_a_measurement_and_the_pages_say_which() {
+    check("fmi2-conformance.md", &written(HEADS[0], rules()));
+    check("fmi3-conformance.md", &written(HEADS[1], rules_of_fmi3()));
 }

@@ -248,3 +248,37 @@ fn no_folder_means_no_recording_and_a_scene_without_recorder_has_no_such_variabl
     assert!(named(scene(RecorderFilter::None)));
     assert!(!named(shipped("er16k-tb1")));
 }
+
+#[test]
+fn a_step_that_is_looked_at_and_parted_records_what_a_plain_one_does() {
+    for filter in FILTERS {
+        let (mut plain, mut looked, mut parted) =
+            (recorded(scene(filter)), recorded(scene(filter)), recorded(scene(filter)));
+        let speed = plain.reference("shaft.speed");
+        for _ in 0..8 {
+            plain.0.step(1e-3).unwrap();
+            for (run, nudge) in [(&mut looked, 0.0), (&mut parted, 1e-9)] {
+                let mut under_way = run.0.begin_step(1e-3).unwrap();
+                while !under_way.is_done() {
+                    run.0.go_on(&mut under_way).unwrap();
+                    let look = run.0.look(&under_way);
+                    let mut value = [0.0];
+                    run.0.reals(&[speed], &mut value).unwrap();
+                    run.0.get("sensor.acceleration").unwrap();
+                    run.0.set_reals(&[speed], &[value[0] + nudge]).unwrap();
+                    run.0.resume(&mut under_way, look).unwrap();
+                }
+                run.0.end_step(under_way);
+            }
+        }
+        let (width, expected) = samples(&plain);
+        assert_eq!(samples(&looked), (width, expected.clone()), "looking changes no bit");
+        // A speed that has been nudged some hundred times is another run, but its samples are as many, and at the
+        // same instants but for the roundings of the parts.
+        let (_, found) = samples(&parted);
+        assert_eq!(found.len(), expected.len());
+        for (a, b) in found.chunks_exact(width).zip(expected.chunks_exact(width)) {
+            assert!((a[0] - b[0]).abs() < 1e-12, "{} and {} s", a[0], b[0]);
+        }
+    }
+}

@@ -12,7 +12,7 @@ use crate::library::{self, Library};
 use crate::new_scene::{self, Spall};
 use crate::{catalogue, check, demo, fmu, model::Model, modes, project::Project, run, scenes, size, stiffness};
 
-/// Rolling bearings with a real surface defect as FMI 2.0 co-simulation units.
+/// Rolling bearings with a real surface defect as FMI co-simulation units.
 #[derive(Debug, Parser)]
 #[command(name = "brinell", version, max_term_width = 100)]
 pub struct Arguments {
@@ -56,6 +56,9 @@ pub struct Build {
     /// Folder for the FMUs [default: the current one]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
+    /// Version of the FMI standard
+    #[arg(long, value_enum, default_value_t, value_name = "VERSION")]
+    fmi: fmu::Version,
     #[command(flatten)]
     library: LibraryChoice,
 }
@@ -260,7 +263,7 @@ impl Command {
                 }
                 let folder = build.output.unwrap_or_else(|| project.results("fmu"));
                 for model in &models {
-                    let path = fmu::write(model, &library, &folder)?;
+                    let path = fmu::write(model, &library, build.fmi, &folder)?;
                     println!("{}", path.display());
                 }
                 Ok(())

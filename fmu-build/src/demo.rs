@@ -29,7 +29,7 @@ pub fn command(project: &Project, library: &Choice, folder: &Path) -> Result<()>
     for line in library.describe() {
         println!("{line}");
     }
-    let path = fmu::write(&model, &library, folder)?;
+    let path = fmu::write(&model, &library, fmu::Version::Fmi2, folder)?;
     println!("{}", path.display());
     let raceway = folder.join("raceway.csv");
     whole_file::write(&raceway, raceway_csv(&model)?)?;

@@ -3,10 +3,12 @@
 use std::fmt::Write;
 
 use brinell::scene::{Damping, Defect, DefectOn, DefectShape, Motion, Ring, Scene, Sensor};
-use brinell::simulation::Method;
+use brinell::simulation::arrays::of_all_elements;
 use brinell::simulation::variables::{Causality, Kind, Variable};
+use brinell::simulation::{Method, Simulation};
 use quick_xml::escape::escape;
 
+use crate::fmu::Version;
 use crate::model::Model;
 use crate::model_description::causality;
 use crate::units;
@@ -49,15 +51,16 @@ const GUIDE: &str = include_str!("../../docs/guide.md");
 const MASTERS: &str = "| bearing | master | the rotor is told |";
 
 /// Writes the page.
-pub fn write(model: &Model) -> String {
+pub fn write(model: &Model, version: Version) -> String {
     let scene = &model.scene;
     let (name, description) = (escape(&scene.name), escape(&scene.description));
     let mut page = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{name}</title>\n\
          <style>{STYLE}</style>\n</head>\n<body>\n<h1>{name}</h1>\n<p>{description}</p>\n<p>Made by Brinell {}. \
-         A rolling bearing as an FMI 2.0 co-simulation unit: x to the right, y up, angles counter-clockwise from +x, \
+         A rolling bearing as an FMI {} co-simulation unit: x to the right, y up, angles counter-clockwise from +x, \
          SI units throughout.</p>\n",
-        env!("CARGO_PKG_VERSION")
+        env!("CARGO_PKG_VERSION"),
+        version.number()
     );
     page.push_str("<h2>The bearing</h2>\n");
     facts(&mut page, scene);
@@ -65,7 +68,7 @@ pub fn write(model: &Model) -> String {
         line(&mut page, format_args!("<p>Note: {remark}.</p>"));
     }
     page.push_str("<h2>Coupling</h2>\n");
-    coupling(&mut page, scene);
+    coupling(&mut page, scene, version);
     page.push_str("<h2>Equations</h2>\n");
     page.push_str(EQUATIONS);
     line(
@@ -78,7 +81,7 @@ pub fn write(model: &Model) -> String {
     );
     page.push_str("<h2>Variables</h2>\n");
     for kind in [Causality::Input, Causality::Parameter, Causality::Output, Causality::Local] {
-        variables(&mut page, model.simulation.table(), kind);
+        variables(&mut page, &listed(&model.simulation, version), kind);
     }
     page.push_str("<h2>What is not modelled</h2>\n<ul>\n");
     for limit in LIMITS {
@@ -184,7 +187,7 @@ fn ring(ring: &Ring) -> String {
     }
 }
 
-fn coupling(page: &mut String, scene: &Scene) {
+fn coupling(page: &mut String, scene: &Scene, version: Version) {
     page.push_str(
         "<p>The start is the static equilibrium of the start values. Communication steps may have any positive \
          length and may differ; the solver's own steps are shorter and end on each communication point.</p>\n",
@@ -192,17 +195,31 @@ fn coupling(page: &mut String, scene: &Scene) {
     page.push_str(
         "<p>The state can be saved, put back and serialized, so steps may be iterated. Directional derivatives of every real \
          output by every input are given: at a communication point with the states as they are, in initialization mode through \
-         the static equilibrium. Derivatives of outputs by time are given of order 1, those of inputs are taken of orders 1 and \
-         2.</p>\n",
+         the static equilibrium. Derivatives of outputs by time are given of order 1",
     );
+    page.push_str(match version {
+        Version::Fmi2 => ", those of inputs are taken of orders 1 and 2.</p>\n",
+        Version::Fmi3 => {
+            ". Adjoint derivatives are given where directional ones are. A host that asks for intermediate updates is called \
+             after each of the solver's steps: it may read outputs there, set inputs that act from there on, and end the \
+             step there or at a later instant.</p>\n"
+        }
+    });
     if scene.shaft.motion == Motion::Host || scene.housing.motion == Motion::Host {
-        page.push_str(
-            "<p>This host moves a ring. Give position, velocity and, if it is known, acceleration: inputs are \
+        let derivative = match version {
+            Version::Fmi2 => "fmi2GetRealOutputDerivatives",
+            Version::Fmi3 => "fmi3GetOutputDerivatives",
+        };
+        line(
+            page,
+            format_args!(
+                "<p>This host moves a ring. Give position, velocity and, if it is known, acceleration: inputs are \
              continued by them inside the step. Which force the ring's body is to be told depends on the master. One \
              that steps the FMU first gives the body <code>mean_force</code> over the same step. One that steps all \
              units in parallel gives it <code>force</code> with its derivative, from \
-             <code>fmi2GetRealOutputDerivatives</code>; <code>mean_force</code> would come a step late there. Error of \
-             a rotor of 3 kg by the communication step, rms over rms of its motion:</p>\n",
+             <code>{derivative}</code>; <code>mean_force</code> would come a step late there. Error of \
+             a rotor of 3 kg by the communication step, rms over rms of its motion:</p>"
+            ),
         );
         masters(page);
     }
@@ -226,6 +243,24 @@ fn masters(page: &mut String) {
         line(page, format_args!("<tr>{}</tr>", cells.collect::<String>()));
     }
     page.push_str("</table>\n");
+}
+
+/// The variables as the version has them: in FMI 3.0 what every element has is an array.
+fn listed(simulation: &Simulation, version: Version) -> Vec<Variable> {
+    let table = simulation.table();
+    if version == Version::Fmi2 {
+        return table.to_vec();
+    }
+    let arrays = simulation.arrays();
+    let shown = |row: &Variable| match arrays.iter().find(|array| array.rows.contains(&row.reference)) {
+        None => Some(Variable { description: row.meaning().to_owned(), ..row.clone() }),
+        Some(array) if array.rows[0] == row.reference => {
+            let (name, description) = of_all_elements(row);
+            Some(Variable { name: format!("{name}[{}]", array.rows.len()), description, ..row.clone() })
+        }
+        Some(_) => None,
+    };
+    table.iter().filter_map(shown).collect()
 }
 
 fn variables(page: &mut String, table: &[Variable], kind: Causality) {
@@ -300,7 +335,7 @@ mod tests {
 
     fn page(scene: &str) -> String {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/");
-        write(&Model::read(&std::path::Path::new(path).join(scene).with_extension("toml")).unwrap())
+        write(&Model::read(&std::path::Path::new(path).join(scene).with_extension("toml")).unwrap(), Version::Fmi2)
     }
 
     #[test]

@@ -9,6 +9,8 @@ use crate::documentation;
 use crate::library::Library;
 use crate::model::Model;
 use crate::model_description::{self, CAPABILITIES};
+use crate::model_description3;
+use crate::terminals;
 use crate::whole_file;
 
 const ICON: &[u8] = include_bytes!("../assets/model.png");
@@ -17,15 +19,53 @@ const LICENSE: &str = "Brinell is licensed under either of\n\n\
     - the MIT license (LICENSE-MIT)\n\nat your option.\n\n\
     third-party.txt lists what else is compiled into the model library.\n";
 
+/// Version of the standard that an FMU keeps to. The library is the same for both.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
+pub enum Version {
+    /// FMI 2.0
+    #[default]
+    #[value(name = "2")]
+    Fmi2,
+    /// FMI 3.0
+    #[value(name = "3")]
+    Fmi3,
+}
+
+impl Version {
+    /// As the standard writes it.
+    pub fn number(self) -> &'static str {
+        match self {
+            Self::Fmi2 => "2.0",
+            Self::Fmi3 => "3.0",
+        }
+    }
+}
+
 /// Packs a scene and the compiled library.
-pub fn pack(model: &Model, library: &Library) -> Result<Vec<u8>> {
+pub fn pack(model: &Model, library: &Library, version: Version) -> Result<Vec<u8>> {
     let mut archive = Archive::default();
-    archive.add("modelDescription.xml", model_description::write(model, &CAPABILITIES)?)?;
-    archive.add("model.png", ICON)?;
+    match version {
+        Version::Fmi2 => {
+            archive.add("modelDescription.xml", model_description::write(model, &CAPABILITIES)?)?;
+            archive.add("model.png", ICON)?;
+        }
+        Version::Fmi3 => {
+            archive.add("modelDescription.xml", model_description3::write(model)?)?;
+            archive.add("terminalsAndIcons/terminalsAndIcons.xml", terminals::write(model.simulation.table())?)?;
+            archive.add("terminalsAndIcons/icon.png", ICON)?;
+        }
+    }
     for binary in library.binaries() {
         let platform = &binary.platform;
-        let file = format!("binaries/{}/{}.{}", platform.name, model.scene.model_identifier(), platform.extension);
-        archive.add(file, binary.bytes.as_slice())?;
+        let folders = match version {
+            Version::Fmi2 => &[platform.name],
+            // A library for both kinds of Mac stands in the folders of both.
+            Version::Fmi3 => platform.fmi3,
+        };
+        for folder in folders {
+            let file = format!("binaries/{folder}/{}.{}", model.scene.model_identifier(), platform.extension);
+            archive.add(file, binary.bytes.as_slice())?;
+        }
     }
     archive.add("resources/scene.toml", model.scene_text.as_str())?;
     for profile in &model.profiles {
@@ -34,7 +74,7 @@ pub fn pack(model: &Model, library: &Library) -> Result<Vec<u8>> {
     if let Some(map) = &model.map {
         archive.add("resources/map.bin", map.as_slice())?;
     }
-    archive.add("documentation/index.html", documentation::write(model))?;
+    archive.add("documentation/index.html", documentation::write(model, version))?;
     archive.add("documentation/licenses/license.txt", LICENSE)?;
     archive.add("documentation/licenses/LICENSE-MIT", include_str!("../../LICENSE-MIT"))?;
     archive.add("documentation/licenses/LICENSE-APACHE", include_str!("../../LICENSE-APACHE"))?;
@@ -43,9 +83,9 @@ pub fn pack(model: &Model, library: &Library) -> Result<Vec<u8>> {
 }
 
 /// Packs a scene and writes `<scene name>.fmu` into the folder, making it if need be. Gives the file's path.
-pub fn write(model: &Model, library: &Library, folder: &Path) -> Result<PathBuf> {
+pub fn write(model: &Model, library: &Library, version: Version, folder: &Path) -> Result<PathBuf> {
     let path = folder.join(format!("{}.fmu", model.scene.name));
-    let bytes = pack(model, library).with_context(|| path.display().to_string())?;
+    let bytes = pack(model, library, version).with_context(|| path.display().to_string())?;
     whole_file::write(&path, bytes)?;
     Ok(path)
 }

@@ -62,6 +62,11 @@ impl Library {
         Ok(Self { binaries: platforms.into_iter().map(build).collect::<Result<Vec<_>>>()? })
     }
 
+    /// A library of these binaries.
+    pub fn of(binaries: Vec<Binary>) -> Self {
+        Self { binaries }
+    }
+
     /// One binary for each platform.
     pub fn binaries(&self) -> &[Binary] {
         &self.binaries

@@ -8,13 +8,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 
+use brinell::scene::Scene;
 use brinell::simulation::log_category::Category;
 use brinell::simulation::variables::{Causality, Dependencies, Kind, Unit, Variability, Variable};
-use quick_xml::events::{BytesDecl, Event};
-use quick_xml::writer::Writer;
 
 use crate::model::Model;
 use crate::units;
+use crate::xml::{Attributes, Xml, number};
 
 /// What the compiled library declares that it can do beyond the least of co-simulation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,9 +46,6 @@ pub const CAPABILITIES: Capabilities = Capabilities {
     own_memory: true,
 };
 
-/// Attributes of one element, in the order written.
-type Attributes = Vec<(&'static str, String)>;
-
 /// Writes the model description of a scene.
 pub fn write(model: &Model, capabilities: &Capabilities) -> io::Result<String> {
     let scene = &model.scene;
@@ -70,21 +67,8 @@ pub fn write(model: &Model, capabilities: &Capabilities) -> io::Result<String> {
         xml.empty("CoSimulation", co_simulation(&scene.model_identifier(), capabilities))?;
         unit_definitions(xml, table)?;
         type_definitions(xml, table)?;
-        xml.element("LogCategories", vec![], |xml| {
-            Category::LIST.iter().try_for_each(|category| {
-                let (name, description) = (category.name().into(), category.description().into());
-                xml.empty("Category", vec![("name", name), ("description", description)])
-            })
-        })?;
-        xml.empty(
-            "DefaultExperiment",
-            vec![
-                ("startTime", number(0.0)),
-                ("stopTime", number(scene.experiment.stop)),
-                ("tolerance", number(scene.tolerance)),
-                ("stepSize", number(scene.experiment.step)),
-            ],
-        )?;
+        log_categories(xml, "fmi2")?;
+        default_experiment(xml, scene)?;
         xml.element("ModelVariables", vec![], |xml| {
             table.iter().try_for_each(|variable| scalar_variable(xml, variable))
         })?;
@@ -109,7 +93,28 @@ fn co_simulation(identifier: &str, capabilities: &Capabilities) -> Attributes {
     ]
 }
 
-fn unit_definitions(xml: &mut Xml, table: &[Variable]) -> io::Result<()> {
+/// The categories of messages; `prefix` is that of the standard's names.
+pub(crate) fn log_categories(xml: &mut Xml, prefix: &str) -> io::Result<()> {
+    xml.element("LogCategories", vec![], |xml| {
+        Category::LIST.iter().try_for_each(|category| {
+            let (name, description) = (category.name().into(), category.description(prefix));
+            xml.empty("Category", vec![("name", name), ("description", description)])
+        })
+    })
+}
+
+pub(crate) fn default_experiment(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
+    let times = vec![
+        ("startTime", number(0.0)),
+        ("stopTime", number(scene.experiment.stop)),
+        ("tolerance", number(scene.tolerance)),
+        ("stepSize", number(scene.experiment.step)),
+    ];
+    xml.empty("DefaultExperiment", times)
+}
+
+/// Every unit that is used, by its base units.
+pub(crate) fn unit_definitions(xml: &mut Xml, table: &[Variable]) -> io::Result<()> {
     let used: BTreeSet<Unit> = table.iter().filter_map(|variable| unit(&variable.kind)).collect();
     if used.is_empty() {
         return Ok(());
@@ -133,33 +138,37 @@ fn unit_definitions(xml: &mut Xml, table: &[Variable]) -> io::Result<()> {
 }
 
 fn type_definitions(xml: &mut Xml, table: &[Variable]) -> io::Result<()> {
-    let used: BTreeMap<_, _> = table
-        .iter()
-        .filter_map(|variable| match variable.kind {
-            Kind::Enumeration { type_name, items, .. } => Some((type_name, items)),
-            _ => None,
-        })
-        .collect();
+    let used = enumerations(table);
     if used.is_empty() {
         return Ok(());
     }
     xml.element("TypeDefinitions", vec![], |xml| {
-        used.iter().try_for_each(|(type_name, items)| {
+        used.iter().try_for_each(|(type_name, list)| {
             xml.element("SimpleType", vec![("name", type_name.to_string())], |xml| {
-                xml.element("Enumeration", vec![], |xml| {
-                    (1..).zip(items.iter()).try_for_each(|(value, (name, description)): (usize, _)| {
-                        xml.empty(
-                            "Item",
-                            vec![
-                                ("name", name.to_string()),
-                                ("value", value.to_string()),
-                                ("description", description.to_string()),
-                            ],
-                        )
-                    })
-                })
+                xml.element("Enumeration", vec![], |xml| items(xml, list))
             })
         })
+    })
+}
+
+/// Name and description of each item of an enumeration.
+pub(crate) type Items = &'static [(&'static str, &'static str)];
+
+/// The enumeration types that are used.
+pub(crate) fn enumerations(table: &[Variable]) -> BTreeMap<&'static str, Items> {
+    let of = |variable: &Variable| match variable.kind {
+        Kind::Enumeration { type_name, items, .. } => Some((type_name, items)),
+        _ => None,
+    };
+    table.iter().filter_map(of).collect()
+}
+
+/// The items of an enumeration, counted from 1.
+pub(crate) fn items(xml: &mut Xml, list: Items) -> io::Result<()> {
+    (1..).zip(list).try_for_each(|(value, (name, description)): (usize, _)| {
+        let attributes =
+            vec![("name", name.to_string()), ("value", value.to_string()), ("description", description.to_string())];
+        xml.empty("Item", attributes)
     })
 }
 
@@ -181,17 +190,22 @@ fn scalar_variable(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
     xml.element("ScalarVariable", attributes, |xml| xml.empty(kind, values))
 }
 
+/// What belongs to a real variable.
+pub(crate) fn real(kind: &Kind) -> Attributes {
+    let Kind::Real { unit, start, min, max, nominal } = kind else { return vec![] };
+    let mut values: Attributes = vec![("unit", units::name(*unit).into())];
+    values.extend(units::display_unit(*unit).map(|shown| ("displayUnit", shown.name.into())));
+    values.extend(min.map(|min| ("min", number(min))));
+    values.extend(max.map(|max| ("max", number(max))));
+    values.push(("nominal", number(*nominal)));
+    values.extend(start.map(|start| ("start", number(start))));
+    values
+}
+
+/// The type's word and what belongs to it.
 fn typed(kind: &Kind) -> (&'static str, Attributes) {
     match kind {
-        Kind::Real { unit, start, min, max, nominal } => {
-            let mut values: Attributes = vec![("unit", units::name(*unit).into())];
-            values.extend(units::display_unit(*unit).map(|shown| ("displayUnit", shown.name.into())));
-            values.extend(min.map(|min| ("min", number(min))));
-            values.extend(max.map(|max| ("max", number(max))));
-            values.push(("nominal", number(*nominal)));
-            values.extend(start.map(|start| ("start", number(start))));
-            ("Real", values)
-        }
+        Kind::Real { .. } => ("Real", real(kind)),
         Kind::Integer => ("Integer", vec![]),
         Kind::Enumeration { type_name, items, start } => (
             "Enumeration",
@@ -247,54 +261,11 @@ pub fn causality(causality: Causality) -> &'static str {
     }
 }
 
-fn variability(variability: Variability) -> &'static str {
+/// The standard's word.
+pub(crate) fn variability(variability: Variability) -> &'static str {
     match variability {
         Variability::Fixed => "fixed",
         Variability::Discrete => "discrete",
         Variability::Continuous => "continuous",
     }
-}
-
-/// The shortest text that reads back to the same number; `xs:double` takes Rust's form.
-fn number(value: f64) -> String {
-    format!("{value:?}")
-}
-
-/// A thin layer over the XML writer: elements with owned attributes, indented by two spaces.
-struct Xml(Writer<Vec<u8>>);
-
-impl Xml {
-    fn new() -> io::Result<Self> {
-        let mut writer = Writer::new_with_indent(Vec::new(), b' ', 2);
-        writer.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
-        Ok(Self(writer))
-    }
-
-    fn element(
-        &mut self,
-        name: &str,
-        attributes: Attributes,
-        content: impl FnOnce(&mut Self) -> io::Result<()>,
-    ) -> io::Result<()> {
-        let start = start(name, &attributes);
-        self.0.write_event(Event::Start(start.borrow()))?;
-        content(self)?;
-        self.0.write_event(Event::End(start.to_end()))
-    }
-
-    fn empty(&mut self, name: &str, attributes: Attributes) -> io::Result<()> {
-        self.0.write_event(Event::Empty(start(name, &attributes)))
-    }
-
-    fn finish(self) -> io::Result<String> {
-        let mut bytes = self.0.into_inner();
-        bytes.push(b'\n');
-        String::from_utf8(bytes).map_err(io::Error::other)
-    }
-}
-
-fn start<'a>(name: &'a str, attributes: &'a Attributes) -> quick_xml::events::BytesStart<'a> {
-    let mut start = quick_xml::events::BytesStart::new(name);
-    start.extend_attributes(attributes.iter().map(|(key, value)| (*key, value.as_str())));
-    start
 }

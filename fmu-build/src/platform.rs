@@ -108,6 +108,12 @@ impl Platform {
         }
     }
 
+    /// The folder's name after FMI 3.0 for the processor that this program runs on.
+    pub fn fmi3_of_this_machine(&self) -> String {
+        let own = self.fmi3.iter().find(|name| name.starts_with(&format!("{}-", env::consts::ARCH)));
+        own.unwrap_or(&self.name).to_string()
+    }
+
     /// Name of its file in a folder of libraries.
     pub fn file(&self) -> String {
         format!("{}.{}", self.name, self.extension)

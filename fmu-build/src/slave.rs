@@ -1,4 +1,5 @@
-//! A small FMI 2.0 host: just enough to try an FMU through its C interface. The only file here with `unsafe` code.
+//! A small FMI 2.0 host: just enough to try an FMU through its C interface. With [`crate::slave3`], which
+//! does the same for FMI 3.0, the only file here with `unsafe` code.
 //!
 //! It trusts the library to follow the standard's binary interface; that is what loading a library means.
 
@@ -59,10 +60,15 @@ pub enum SlaveError {
     /// A name with a zero byte.
     #[error("a name for the C interface")]
     ZeroByte(#[from] std::ffi::NulError),
-    /// `fmi2Instantiate` gave NULL.
-    #[error("fmi2Instantiate gave NULL; log: {0}")]
-    NoInstance(String),
-    /// A function answered neither fmi2OK nor fmi2Warning.
+    /// No instance was made.
+    #[error("{function} gave NULL; log: {log}")]
+    NoInstance {
+        /// The function.
+        function: &'static str,
+        /// The last line of the log.
+        log: String,
+    },
+    /// A function answered neither OK nor Warning.
     #[error("{function} answered {status}; log: {log}")]
     Status {
         /// The function.
@@ -105,7 +111,7 @@ impl std::fmt::Debug for Callbacks {
 
 /// A saved state; to be freed by the slave that gave it.
 #[derive(Debug)]
-pub struct SavedState(State);
+pub struct SavedState(pub(crate) State);
 
 /// Takes the symbol and calls it. The signature stands beside each use, next to the standard's name.
 macro_rules! call {
@@ -159,7 +165,8 @@ impl Slave {
             instantiate(instance.as_ptr(), 1, guid.as_ptr(), uri.as_ptr(), &*slave.callbacks, 0, 1)
         };
         if slave.component.is_null() {
-            return Err(SlaveError::NoInstance(slave.last_line()));
+            let log = slave.last_line();
+            return Err(SlaveError::NoInstance { function: "fmi2Instantiate", log });
         }
         Ok(slave)
     }

@@ -4,22 +4,25 @@
 mod common;
 
 use fmu_build::archive::{Archive, ArchiveError};
-use fmu_build::fmu;
+use fmu_build::fmu::{self, Version};
+use fmu_build::library::{Binary, Library};
+use fmu_build::platform::PLATFORMS;
 
 #[test]
 fn packing_a_scene_twice_gives_equal_bytes() {
     for name in ["6205-epps", "er16k-tb1"] {
-        let first = fmu::pack(&common::model(name), common::library()).unwrap();
+        let packed = |version| fmu::pack(&common::model(name), common::library(), version).unwrap();
+        let first = [Version::Fmi2, Version::Fmi3].map(packed);
         // Zip counts time in steps of two seconds: a clock that got in would show after three.
         std::thread::sleep(std::time::Duration::from_secs(3));
-        let second = fmu::pack(&common::model(name), common::library()).unwrap();
-        assert!(first == second, "{name}: {} and {} bytes differ", first.len(), second.len());
+        let second = [Version::Fmi2, Version::Fmi3].map(packed);
+        assert!(first == second, "{name}: bytes differ");
     }
 }
 
 #[test]
 fn an_fmu_holds_what_the_standard_names_and_nothing_else() {
-    let bytes = fmu::pack(&common::model("6205-epps"), common::library()).unwrap();
+    let bytes = fmu::pack(&common::model("6205-epps"), common::library(), Version::Fmi2).unwrap();
     let names: Vec<_> = headers(&bytes).into_iter().map(|header| header.name).collect();
     let library = format!(
         "binaries/{}/Brinell_6205_epps.{}",
@@ -43,9 +46,35 @@ fn an_fmu_holds_what_the_standard_names_and_nothing_else() {
 }
 
 #[test]
+fn an_fmu_of_fmi_3_holds_the_library_in_the_folder_of_every_processor_and_terminals_with_an_icon() {
+    let binaries = PLATFORMS.map(|platform| Binary { platform, bytes: platform.name.as_bytes().to_vec() });
+    let bytes = fmu::pack(&common::model("6205-epps"), &Library::of(binaries.to_vec()), Version::Fmi3).unwrap();
+    let names: Vec<_> = headers(&bytes).into_iter().map(|header| header.name).collect();
+    let expected = [
+        "binaries/aarch64-darwin/Brinell_6205_epps.dylib",
+        "binaries/aarch64-linux/Brinell_6205_epps.so",
+        "binaries/x86_64-darwin/Brinell_6205_epps.dylib",
+        "binaries/x86_64-linux/Brinell_6205_epps.so",
+        "binaries/x86_64-windows/Brinell_6205_epps.dll",
+        "documentation/index.html",
+        "documentation/licenses/LICENSE-APACHE",
+        "documentation/licenses/LICENSE-MIT",
+        "documentation/licenses/license.txt",
+        "documentation/licenses/third-party.txt",
+        "modelDescription.xml",
+        "resources/6205-epps-trace.csv",
+        "resources/map.bin",
+        "resources/scene.toml",
+        "terminalsAndIcons/icon.png",
+        "terminalsAndIcons/terminalsAndIcons.xml",
+    ];
+    assert_eq!(names, expected);
+}
+
+#[test]
 fn every_entry_is_plain_zip_2_0_without_extra_fields() {
-    let bytes = fmu::pack(&common::model("6205-epps"), common::library()).unwrap();
-    for header in headers(&bytes) {
+    let packed = |version| fmu::pack(&common::model("6205-epps"), common::library(), version).unwrap();
+    for header in [Version::Fmi2, Version::Fmi3].into_iter().flat_map(|version| headers(&packed(version))) {
         let name = &header.name;
         assert!(header.version_needed <= 20, "{name}: needs version {}", header.version_needed);
         assert!([0, 8].contains(&header.method), "{name}: method {} is neither store nor deflate", header.method);

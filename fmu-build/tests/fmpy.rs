@@ -8,6 +8,7 @@ use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
 use brinell::scene::Experiment;
+use fmu_build::fmu::Version;
 use fmu_build::model::Model;
 use fmu_build::run::{self, Columns, Grid};
 use fmu_build::{check, project::Project};
@@ -53,7 +54,7 @@ fn a_host_that_steps_by_milliseconds_records_at_51200_hz() {
     let scene = folder.join("recorded.toml");
     let text = fs::read_to_string(common::root().join("scenes/6205-healthy.toml")).unwrap();
     fs::write(&scene, format!("{text}\n[recorder]\nrate_hz = 51200.0\nfilter = \"none\"\n")).unwrap();
-    let fmu = fmu_build::fmu::write(&Model::read(&scene).unwrap(), common::library(), &folder).unwrap();
+    let fmu = fmu_build::fmu::write(&Model::read(&scene).unwrap(), common::library(), Version::Fmi2, &folder).unwrap();
     common::run_script("recorder.py", [fmu]);
 }
 

@@ -10,6 +10,7 @@ use std::{env, fs};
 use brinell::simulation::variables::{Causality, Kind, Variability};
 use fmu_build::model::Model;
 use fmu_build::model_description::{self, CAPABILITIES};
+use fmu_build::model_description3;
 use fmu_build::units;
 
 #[test]
@@ -32,8 +33,69 @@ fn the_committed_model_descriptions_are_those_of_the_shipped_scenes() {
         assert_eq!(written.len(), committed.len(), "{} is shorter or longer; bless it if it is meant", file.display());
         expected.insert(file);
     }
+    expected.insert(folder.join("fmi3"));
     let there: BTreeSet<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    assert_eq!(there, expected, "modelDescription/ holds one file for each scene and nothing else");
+    assert_eq!(there, expected, "modelDescription/ holds one file for each scene and a folder for FMI 3.0");
+}
+
+/// Scenes whose interfaces after FMI 3.0 are kept: inputs for forces and for motion, a scalar of one element, several
+/// sensors. All others follow from the same rows.
+const KEPT: [&str; 4] = ["6205-hosted", "6205-two-defects", "er16k-element", "er16k-tb1"];
+
+#[test]
+fn the_committed_model_descriptions_of_fmi_3_are_those_of_their_scenes() {
+    let folder = common::root().join("modelDescription/fmi3");
+    for name in KEPT {
+        let written = model_description3::write(&common::model(name)).unwrap();
+        let file = folder.join(name).with_extension("xml");
+        if env::var_os("BLESS").is_some_and(|value| value == "1") {
+            fs::create_dir_all(&folder).unwrap();
+            fs::write(&file, &written).unwrap();
+        }
+        let committed = fs::read_to_string(&file).unwrap_or_default();
+        let pairs = written.lines().zip(committed.lines());
+        let differing = pairs.clone().find(|(new, old)| new != old);
+        assert!(differing.is_none(), "{}: now and committed {differing:#?}; bless it if it is meant", file.display());
+        assert_eq!(written.len(), committed.len(), "{} is shorter or longer", file.display());
+    }
+    let there: BTreeSet<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    assert_eq!(there, KEPT.map(|name| folder.join(name).with_extension("xml")).into());
+}
+
+#[test]
+fn both_versions_have_the_same_variables_by_the_same_names() {
+    for scene in common::scenes() {
+        let model = Model::read(&scene).unwrap();
+        let written = model_description3::write(&model).unwrap();
+        let mut names: BTreeSet<String> = BTreeSet::new();
+        let mut reader = quick_xml::reader::Reader::from_str(&written);
+        let mut last = String::new();
+        loop {
+            use quick_xml::events::Event;
+            match reader.read_event().unwrap() {
+                Event::Eof => break,
+                Event::Start(element) | Event::Empty(element) => {
+                    let attribute = |name| {
+                        let found = element.try_get_attribute(name).unwrap()?;
+                        Some(found.normalized_value(quick_xml::XmlVersion::Implicit1_0).unwrap().into_owned())
+                    };
+                    if attribute("causality").is_some() {
+                        last = attribute("name").unwrap();
+                        assert!(names.insert(last.clone()), "{last} twice");
+                    } else if element.name().as_ref() == "Dimension" {
+                        names.remove(&last);
+                        let count: u32 = attribute("start").unwrap().parse().unwrap();
+                        let (head, tail) = last.split_once('.').unwrap();
+                        names.extend((1..=count).map(|j| format!("{head}[{j}].{tail}")));
+                    }
+                }
+                _ => {}
+            }
+        }
+        assert!(names.remove("time"));
+        let expected: BTreeSet<String> = model.simulation.table().iter().map(|row| row.name.clone()).collect();
+        assert_eq!(names, expected, "{}", model.scene.name);
+    }
 }
 
 #[test]

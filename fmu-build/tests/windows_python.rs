@@ -73,7 +73,7 @@ mod all_platforms {
             .iter()
             .map(|scene| {
                 let model = common::model(scene.file_stem().unwrap().to_str().unwrap());
-                fmu_build::fmu::write(&model, &library, &folder).unwrap()
+                fmu_build::fmu::write(&model, &library, fmu_build::fmu::Version::Fmi2, &folder).unwrap()
             })
             .collect();
         let here = common::run_script("bits.py", words(&folder.join("here"), &fmus, Path::to_path_buf));

@@ -225,6 +225,11 @@ impl Model {
             .chain(self.defective.iter().flat_map(|element| &element.defects))
     }
 
+    /// Whether contacts near any defect are solved on grids inside the step.
+    pub fn solves_grids(&self) -> bool {
+        self.all_defects().flat_map(Defects::iter).any(|defect| defect.surface.solves_grids())
+    }
+
     /// Whether the model has all of these cells.
     pub fn has_cells(&self, cells: &Cells) -> bool {
         let own = self.defective.iter().zip(&cells.own);

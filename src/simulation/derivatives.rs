@@ -104,6 +104,33 @@ impl Simulation {
         Ok(())
     }
 
+    /// What a change of each of `knowns`, real inputs, adds to the sum of `unknowns`, real outputs, weighted by `seed`:
+    /// the seed's product with the Jacobian from the left. As many directional derivatives are computed as there are
+    /// knowns.
+    ///
+    /// # Errors
+    /// As [`directional_derivative`](Self::directional_derivative).
+    pub fn adjoint_derivative(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+        values: &mut [f64],
+    ) -> Result<(), SimulationError> {
+        for (&reference, &weight) in unknowns.iter().zip(seed) {
+            let variable = self.unknown(reference)?;
+            if !weight.is_finite() {
+                return Err(out_of_range(variable, weight, f64::MIN, f64::MAX).into());
+            }
+        }
+        let mut column = vec![0.0; unknowns.len()];
+        for (value, known) in values.iter_mut().zip(knowns) {
+            self.directional_derivative(unknowns, std::slice::from_ref(known), &[1.0], &mut column)?;
+            *value = column.iter().zip(seed).map(|(derivative, weight)| weight * derivative).sum();
+        }
+        Ok(())
+    }
+
     /// The variable, if it is a real output.
     fn unknown(&self, reference: u32) -> Result<&Variable, VariableError> {
         let variable = self.variable(reference)?;

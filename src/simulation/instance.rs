@@ -9,14 +9,13 @@ use super::error::{SimulationError, VariableError};
 use super::inputs::Inputs;
 use super::progress::Progress;
 use super::quantity::{Parameter, Quantity, RingName};
-use super::recorder::{Due, Recorder};
+use super::recorder::Recorder;
 use super::setup;
 use super::state::{Ended, State};
-use super::stepper::{Control, Stepper};
 use super::switching::Method;
 use super::table;
 use super::variables::{Causality, Dependencies, Variable};
-use super::workspace::{Problem, Workspace};
+use super::workspace::Workspace;
 use crate::contact::contact_maps::ContactMaps;
 use crate::dynamics::drive::{Drive, WholeAngle};
 use crate::dynamics::forces::Forces;
@@ -43,7 +42,7 @@ pub struct Simulation {
     pub(super) access: Arc<[Access]>,
     pub(super) inputs: Inputs,
     pub(super) model: Model,
-    workspace: Workspace,
+    pub(super) workspace: Workspace,
     /// `None` where the scene has no recorder.
     pub(super) recorder: Option<Recorder>,
     pub(super) method: Method,
@@ -252,44 +251,6 @@ impl Simulation {
         self.state.time = start;
         self.state.started = true;
         self.forget_samples();
-        Ok(())
-    }
-
-    /// Advances by exactly `step` [s].
-    pub fn step(&mut self, step: f64) -> Result<(), SimulationError> {
-        if !(step > 0.0 && step.is_finite()) {
-            return Err(SimulationError::CommunicationStep(step));
-        }
-        if !self.state.started {
-            return Err(SimulationError::NotInitialized);
-        }
-        let drive = self.drive(true);
-        let control = Control {
-            tolerance: self.inputs.tolerance.map_or(self.scene.tolerance, |i| self.state.reals[i]),
-            max_steps: self.scene.max_steps,
-            method: self.method,
-        };
-        self.fresh = Fresh::State;
-        self.model.forget_contacts();
-        let mut recorder = self.recorder.as_mut().filter(|recorder| recorder.is_on());
-        match &mut recorder {
-            Some(recorder) => recorder.begin(self.state.time, self.state.angles()),
-            // What is not sampled cannot be made up for: whoever records on from here begins anew.
-            None => self.state.progress.due = Due::default(),
-        }
-        let time = self.state.time;
-        let problem = Problem { model: &self.model, drive: &drive };
-        Stepper { problem, control, workspace: &mut self.workspace, progress: &mut self.state.progress, recorder }
-            .advance(step)
-            .map_err(|cause| SimulationError::Step { time, cause })?;
-        self.state.cage = self.state.cage.advanced(drive.cage.at(step));
-        if self.inputs.frames {
-            for (angle, turning) in self.state.frames.iter_mut().zip(&drive.frames) {
-                *angle = angle.advanced(turning.since.at(step));
-            }
-        }
-        self.state.time += step;
-        driving::follow(&mut self.state, &self.inputs, &self.model.ratios, &drive, step);
         Ok(())
     }
 

@@ -9,13 +9,13 @@ use std::ffi::CStr;
 pub enum Category {
     /// Changes of mode.
     Events = 1,
-    /// Lines that go with `fmi2Warning`.
+    /// Lines that go with the status warning.
     StatusWarning = 2,
-    /// Lines that go with `fmi2Discard`.
+    /// Lines that go with the status discard.
     StatusDiscard = 4,
-    /// Lines that go with `fmi2Error`.
+    /// Lines that go with the status error.
     StatusError = 8,
-    /// Lines that go with `fmi2Fatal`; there are none.
+    /// Lines that go with the status fatal; there are none.
     StatusFatal = 16,
     /// Everything.
     All = 31,
@@ -50,15 +50,15 @@ impl Category {
         }
     }
 
-    /// One line for the reader.
-    pub fn description(self) -> &'static str {
+    /// One line for the reader, with the prefix that the standard's version gives to names: `fmi2` or `fmi3`.
+    pub fn description(self, prefix: &str) -> String {
         match self {
-            Category::Events => "Changes of mode",
-            Category::StatusWarning => "Reasons for fmi2Warning",
-            Category::StatusDiscard => "Reasons for fmi2Discard",
-            Category::StatusError => "Reasons for fmi2Error",
-            Category::StatusFatal => "Reasons for fmi2Fatal (none is ever returned)",
-            Category::All => "All messages",
+            Category::Events => "Changes of mode".to_owned(),
+            Category::StatusWarning => format!("Reasons for {prefix}Warning"),
+            Category::StatusDiscard => format!("Reasons for {prefix}Discard"),
+            Category::StatusError => format!("Reasons for {prefix}Error"),
+            Category::StatusFatal => format!("Reasons for {prefix}Fatal (none is ever returned)"),
+            Category::All => "All messages".to_owned(),
         }
     }
 }

@@ -1,9 +1,11 @@
 //! One bearing that is stepped through time: integrator, variable table, plain state. Does no I/O and reads no clock.
 //!
-//! This is the whole of what `fmi2` and `fmu-build` see of the model.
+//! This is the whole of what `crates/fmi` and `fmu-build` see of the model.
 
 mod access;
+mod advance;
 mod arrangement;
+pub mod arrays;
 pub mod arrow;
 mod change;
 mod contact_changes;
@@ -36,6 +38,7 @@ mod state;
 pub mod state_bytes;
 pub mod step_error;
 pub mod stepper;
+mod stepping;
 pub mod switching;
 pub mod table;
 mod table_parameters;
@@ -46,4 +49,5 @@ pub mod workspace;
 pub use error::{SimulationError, VariableError};
 pub use instance::Simulation;
 pub use state::State;
+pub use stepping::{Look, StepUnderWay};
 pub use switching::Method;

@@ -4,7 +4,6 @@ use super::SimulationError;
 use super::instance::{Fresh, Simulation};
 use super::outputs::Outputs;
 use super::quantity::Quantity;
-use crate::dynamics::raceway::Defects;
 
 impl Simulation {
     /// Computes all outputs but the stiffness, unless they are still those of the values set.
@@ -32,7 +31,7 @@ impl Simulation {
             self.state.angles(),
         );
         self.present_acceleration = outputs.housing_acceleration();
-        let solves_grids = self.model.all_defects().flat_map(Defects::iter).any(|defect| defect.surface.solves_grids());
+        let solves_grids = self.model.solves_grids();
         for (i, quantity) in self.quantities.iter().enumerate().skip(self.inputs.count) {
             let value = match *quantity {
                 Quantity::MeanForce(ring, axis) => Some(progress.mean_force[2 * ring.index() + axis]),

@@ -10,6 +10,7 @@
 //!
 //! Three methods step, one at a time ([`super::switching`]); error control and landing are the same for all.
 
+use super::advance::Advance;
 use super::contact_changes::first_change;
 use super::crossings::{Crossing, first_crossing};
 use super::failing::{check_rings, check_step, worst};
@@ -76,53 +77,75 @@ struct Taken {
 impl Stepper<'_> {
     /// Advances the state by `step` [s].
     pub fn advance(&mut self, step: f64) -> Result<(), StepError> {
-        let mut tau = 0.0;
-        let mut impulse = [0.0; 4];
+        let mut advance = self.start(step)?;
+        while !advance.is_done() {
+            self.go_on(&mut advance)?;
+        }
+        self.finish(&advance);
+        Ok(())
+    }
+
+    /// Begins to advance by `step` [s].
+    pub fn start(&mut self, step: f64) -> Result<Advance, StepError> {
         let first_count = self.progress.steps + self.progress.rejected_steps;
         self.begin()?;
-        let mut knot = self.next_knot((tau, Legs::OUT), step);
-        let mut at_once = 0;
-        while tau < step {
-            if let Some(at) = knot
-                && at.tau <= tau
-            {
-                knot = self.pass(at, tau, step, &mut at_once)?;
-                self.workspace.first_stage(self.problem, tau, self.progress);
-                continue;
-            }
-            let target = knot.map_or(step, |k| k.tau.min(step));
-            let by = (self.progress.choice.implicit, self.workspace.pair);
-            let h = self.accepted_step(tau, target)?;
-            for (sum, force) in impulse.iter_mut().zip(self.workspace.weighted_force) {
-                *sum += h * force;
-            }
-            at_once = 0;
-            tau = if h == target - tau { target } else { tau + h };
-            let taken = self.progress.steps + self.progress.rejected_steps - first_count;
-            if taken > self.control.max_steps && tau < step {
-                // The accepted step's stages have been handed on: back for a look.
-                self.workspace.explicit.carry_over();
-                return Err(StepError::TooManySteps {
-                    steps: taken,
-                    limit: self.control.max_steps,
-                    since: tau,
-                    step: self.progress.next_step,
-                    component: worst(self.workspace, self.problem.model, h, by),
-                });
-            }
+        let mut advance = Advance::new(step, self.next_knot((0.0, Legs::OUT), step), first_count);
+        self.pass_what_is_due(&mut advance)?;
+        Ok(advance)
+    }
+
+    /// Takes one accepted step, and passes the knots at its end, so that outputs there are those of the new cell.
+    pub fn go_on(&mut self, advance: &mut Advance) -> Result<(), StepError> {
+        let (tau, end) = (advance.tau, advance.end);
+        let target = advance.knot.map_or(end, |k| k.tau.min(end));
+        let by = (self.progress.choice.implicit, self.workspace.pair);
+        let h = self.accepted_step(tau, target)?;
+        for (sum, force) in advance.impulse.iter_mut().zip(self.workspace.weighted_force) {
+            *sum += h * force;
         }
-        // A knot right at the communication point is passed now, so that outputs there are those of the new cell.
-        while let Some(at) = knot
-            && at.tau <= tau
-        {
-            knot = self.pass(at, tau, step, &mut at_once)?;
+        advance.at_once = 0;
+        advance.tau = if h == target - tau { target } else { tau + h };
+        let taken = self.progress.steps + self.progress.rejected_steps - advance.first_count;
+        if taken > self.control.max_steps && !advance.is_done() {
+            // The accepted step's stages have been handed on: back for a look.
+            self.workspace.explicit.carry_over();
+            return Err(StepError::TooManySteps {
+                steps: taken,
+                limit: self.control.max_steps,
+                since: advance.tau,
+                step: self.progress.next_step,
+                component: worst(self.workspace, self.problem.model, h, by),
+            });
         }
+        self.pass_what_is_due(advance)
+    }
+
+    /// What a communication step that ends where `advance` has come to leaves behind.
+    pub fn finish(&mut self, advance: &Advance) {
+        self.finish_part(advance);
+        let since = advance.elapsed();
+        self.progress.mean_force = advance.impulse.map(|i| i / since);
+    }
+
+    /// The same of a part of a communication step, which has no mean of its own.
+    pub fn finish_part(&mut self, advance: &Advance) {
         let progress = &mut *self.progress;
         if let Some(recorder) = &self.recorder {
-            recorder.end(&mut progress.due, step);
+            recorder.end(&mut progress.due, advance.tau);
         }
-        progress.mean_force = impulse.map(|i| i / step);
         progress.defect_lookups += std::mem::take(&mut self.workspace.forces.defect_lookups);
+    }
+
+    /// Passes all knots that have been reached.
+    fn pass_what_is_due(&mut self, advance: &mut Advance) -> Result<(), StepError> {
+        while let Some(at) = advance.knot
+            && at.tau <= advance.tau
+        {
+            advance.knot = self.pass(at, advance.tau, advance.end, &mut advance.at_once)?;
+            if !advance.is_done() {
+                self.workspace.first_stage(self.problem, advance.tau, self.progress);
+            }
+        }
         Ok(())
     }
 

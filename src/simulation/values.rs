@@ -3,6 +3,7 @@
 use super::access;
 use super::error::{SimulationError, VariableError};
 use super::instance::{Fresh, Simulation};
+use super::quantity::Quantity;
 use super::state::Ended;
 use super::variables::{Causality, Kind, Variable};
 
@@ -106,6 +107,22 @@ impl Simulation {
         }
         for (value, &reference) in values.iter_mut().zip(references) {
             *value = self.state.integers[reference as usize];
+        }
+        Ok(())
+    }
+
+    /// Reads what the solver has counted, as far as it has counted.
+    ///
+    /// # Errors
+    /// Variables that are no counters.
+    pub fn counts(&self, references: &[u32], values: &mut [u64]) -> Result<(), VariableError> {
+        let solves_grids = self.model.solves_grids();
+        for (value, &reference) in values.iter_mut().zip(references) {
+            let variable = self.variable(reference)?;
+            *value = match self.quantities[reference as usize] {
+                Quantity::Count(count) => self.state.progress.count(count, solves_grids),
+                _ => return Err(wrong_type(variable, "UInt64")),
+            };
         }
         Ok(())
     }

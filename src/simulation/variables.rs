@@ -20,6 +20,21 @@ pub struct Variable {
     pub variability: Variability,
 }
 
+impl Variable {
+    /// The description, of an input without what FMI 2.0's derivatives of inputs do.
+    pub fn meaning(&self) -> &str {
+        match (self.causality, self.description.rsplit_once("; ")) {
+            (Causality::Input, Some((meaning, _))) => meaning,
+            _ => &self.description,
+        }
+    }
+
+    /// Whether its value inside a communication step is one of its own: that of a continuous input or output.
+    pub fn changes_within_steps(&self) -> bool {
+        matches!(self.causality, Causality::Input | Causality::Output) && self.variability == Variability::Continuous
+    }
+}
+
 /// What an output depends on.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Dependencies {

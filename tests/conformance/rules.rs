@@ -1,6 +1,7 @@
 //! The rules, in our words, and what shows each.
 
 mod calls;
+mod fmi3;
 mod host;
 mod instance;
 
@@ -17,7 +18,12 @@ pub(crate) enum Evidence {
 /// Section, rule, evidence.
 pub(crate) type Rule = (&'static str, &'static str, &'static [Evidence]);
 
-/// All rules, section by section.
+/// What FMI 3.0 asks beside that, section by section.
+pub(crate) fn rules_of_fmi3() -> impl Iterator<Item = &'static Rule> {
+    fmi3::RULES.iter()
+}
+
+/// All rules of FMI 2.0, section by section.
 pub(crate) fn rules() -> impl Iterator<Item = &'static Rule> {
     [instance::RULES, calls::RULES, host::RULES].into_iter().flatten()
 }

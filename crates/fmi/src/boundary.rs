@@ -1,15 +1,15 @@
 //! The one border between the host and the model: every function that takes an instance passes through [`call`].
 //!
 //! No panic crosses it. After a panic the instance alone is in error; it can be reset, or a saved state restored,
-//! since both set the simulation up anew. Whoever returns `fmi2Error` leaves the instance in error, as the standard
-//! wants it.
+//! since both set the simulation up anew. Whoever returns an error leaves the instance in error, as the standard wants
+//! it.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::c_types::{Component, Status};
 use super::failure::Failure;
-use super::handles;
+use super::handles::{self, Borrowed};
 use super::instance::Instance;
 use super::mode::{Function, Mode};
 
@@ -19,10 +19,19 @@ pub(super) fn call<B>(component: Component, function: &'static Function, body: B
 where
     B: FnOnce(&mut Instance) -> Result<(), Failure>,
 {
+    call_lending(component, function, |instance| body(instance))
+}
+
+/// As [`call`], for a body that lends the instance to calls of the host while it runs.
+#[inline]
+pub(super) fn call_lending<B>(component: Component, function: &'static Function, body: B) -> Status
+where
+    B: FnOnce(&mut Borrowed) -> Result<(), Failure>,
+{
     // There is no instance, so there is no logger: the status has to say it all.
     let Ok(mut instance) = handles::borrow(component) else { return Status::Error };
     if !function.allowed.contains(instance.mode) {
-        let failure = Failure::OutOfMode { mode: instance.mode, allowed: function.allowed };
+        let failure = Failure::OutOfMode { mode: instance.mode, function };
         return fail(&mut instance, function, failure);
     }
     match catch_unwind(AssertUnwindSafe(|| body(&mut instance))) {
@@ -41,13 +50,17 @@ where
 fn fail(instance: &mut Instance, function: &'static Function, failure: Failure) -> Status {
     let status = failure.status();
     if status >= Status::Error {
-        instance.mode = Mode::Error;
+        match &mut instance.updates {
+            // The step that is under way must find its instance: it fails when the host returns to it.
+            Some(updates) if instance.mode == Mode::IntermediateUpdate => updates.failed = true,
+            _ => instance.mode = Mode::Error,
+        }
     }
     let logger = &instance.logger;
     // Formatting is code too: if it panics, the line is lost and the status stands.
     let logged = catch_unwind(AssertUnwindSafe(|| {
-        let text = || format!("{}: {failure}.{}", function.name, failure.advice());
-        if failure.must_be_told() { logger.insist(status, text()) } else { logger.line(status, text) }
+        let text = || format!("{}: {failure}.{}", function.name, failure.advice(function.version));
+        if failure.must_be_told() { logger.tell(status, text()) } else { logger.line(status, text) }
     }));
     drop(logged.map_err(words));
     status

@@ -1,4 +1,4 @@
-//! C types of the interface that its versions share, by the names of FMI 2.0.
+//! C types of the interface that its versions share, by the names of FMI 2.0, and the callbacks of both.
 
 use libc::{c_char, c_uint, c_void};
 
@@ -49,6 +49,19 @@ pub type AllocateMemoryCallback = unsafe extern "C" fn(usize, usize) -> *mut c_v
 pub type FreeMemoryCallback = unsafe extern "C" fn(*mut c_void);
 /// `fmi2StepFinished`; never called.
 pub type StepFinishedCallback = unsafe extern "C" fn(ComponentEnvironment, Status);
+
+/// `fmi3Boolean`: C's `bool`, of one byte; every value but 0 counts as true. An importer's `bool` is 0 or 1, and a
+/// plain byte can be refused or taken whatever it is.
+pub type Bool = u8;
+
+/// `fmi3LogMessageCallback`: environment, status, category, message. It should not unwind either.
+pub type LogMessageCallback = unsafe extern "C-unwind" fn(ComponentEnvironment, Status, FmiString, FmiString);
+
+/// `fmi3IntermediateUpdateCallback`: environment, time, whether inputs are asked for, whether outputs may be read,
+/// whether the integration step is accepted, whether an early return is possible; then the places for whether one is
+/// wanted, and at which time.
+pub type IntermediateUpdateCallback =
+    unsafe extern "C-unwind" fn(ComponentEnvironment, f64, Bool, Bool, Bool, Bool, *mut Bool, *mut f64);
 
 /// `fmi2CallbackFunctions`. Only the logger is required.
 #[repr(C)]

@@ -130,11 +130,17 @@ impl Clock {
         }
         match self.stop {
             Some(stop) if end > stop + self.allowed(step, step) => Err(ClockError::PastStop { point, step, stop }),
-            _ => {
-                let rounded = self.rounded + 0.5 * f64::EPSILON * end.abs();
-                Ok(Self { time: end, last: step, drift: drift + rounding_of(point, step, end), rounded, ..*self })
-            }
+            _ => Ok(self.moved(point, step)),
         }
+    }
+
+    /// The clock at the end of a step that has been accepted, or that ends earlier than one that was.
+    #[inline]
+    pub(super) fn moved(&self, point: f64, step: f64) -> Self {
+        let end = point + step;
+        let drift = self.drift + (point - self.time) + rounding_of(point, step, end);
+        let rounded = self.rounded + 0.5 * f64::EPSILON * end.abs();
+        Self { time: end, last: step, drift, rounded, ..*self }
     }
 
     /// Difference [s] that passes for a host's rounding around a step, next to which the `shortest` step lies.

@@ -1,13 +1,13 @@
 //! What can go wrong in a call: the status that the host gets, and the line that tells its user what to do.
 //!
-//! `fmi2Error` condemns the instance until it is reset or restored. `fmi2Discard` is kept for what a host can put right
-//! by itself: a value outside its variable's range, a status that is not known here, a derivative that does not exist
+//! An error condemns the instance until it is reset or restored. Discarding is kept for what a host can put right by
+//! itself: a value outside its variable's range, a status that is not known here, a derivative that does not exist
 //! or would have no effect.
 
 use super::blob::BlobError;
 use super::c_types::Status;
 use super::clock::ClockError;
-use super::mode::{Mode, Modes};
+use super::mode::{Function, Mode, Version};
 use brinell::recording::{RecordingError, Unstored};
 use brinell::simulation::{SimulationError, VariableError};
 use libc::c_int;
@@ -16,12 +16,12 @@ use libc::c_int;
 #[derive(Debug, thiserror::Error)]
 pub(super) enum Failure {
     /// The function may not be called in this mode.
-    #[error("not allowed in mode \"{mode}\", only in: {allowed}")]
+    #[error("not allowed in mode \"{}\", only in: {function}", .mode.name(function.version))]
     OutOfMode {
         /// Mode of the instance.
         mode: Mode,
-        /// Modes in which it is allowed.
-        allowed: Modes,
+        /// The function, with the modes in which it is allowed.
+        function: &'static Function,
     },
     /// A null pointer where there must be none.
     #[error("argument {0} is NULL")]
@@ -54,6 +54,58 @@ pub(super) enum Failure {
     /// A function of the other kind of FMU.
     #[error("this FMU is for co-simulation: step it with fmi2DoStep")]
     ModelExchange,
+    /// A function that belongs to a capability which is not declared.
+    #[error("this FMU {0}")]
+    NotProvided(&'static str),
+    /// A reference of no variable.
+    #[error("value reference {0} is unknown: modelDescription.xml lists those of this model")]
+    UnknownReference(u32),
+    /// Another number of values than the variables have.
+    #[error("{name} = {given}: the variables referred to have {needed} values")]
+    ValueCount {
+        /// The argument.
+        name: &'static str,
+        /// Number given.
+        given: usize,
+        /// Number needed.
+        needed: usize,
+    },
+    /// Another number of places than there are dependencies.
+    #[error("{name} = {given}: the variable has {needed} dependencies now")]
+    DependencyCount {
+        /// The argument.
+        name: &'static str,
+        /// Number given.
+        given: usize,
+        /// Number needed.
+        needed: usize,
+    },
+    /// A variable that an intermediate update may not touch.
+    #[error("variable {name} cannot be {what} in an intermediate update: {why}")]
+    NotIntermediate {
+        /// Its name.
+        name: String,
+        /// What was tried.
+        what: &'static str,
+        /// The reason.
+        why: &'static str,
+    },
+    /// The host's function for intermediate updates has unwound.
+    #[error("intermediateUpdate did not return: {0}; the step is lost")]
+    UpdateUnwound(String),
+    /// A call in the host's intermediate update has failed.
+    #[error("a call inside the intermediate update at {0:?} s has failed; the step is lost")]
+    FailedInUpdate(f64),
+    /// A time for an early return that lies outside the step.
+    #[error("earlyReturnTime {at:?} s: it must lie between {from:?} s and {to:?} s, the ends of the step")]
+    EarlyReturnTime {
+        /// Time given.
+        at: f64,
+        /// Communication point.
+        from: f64,
+        /// End of the step.
+        to: f64,
+    },
     /// Initialization without an experiment.
     #[error("call fmi2SetupExperiment first")]
     NotSetUp,
@@ -92,15 +144,15 @@ pub(super) enum Failure {
     },
     /// A handle of a state that this instance did not give out, or that was freed.
     #[error(
-        "the FMU state is not one of this instance's: initialise the variable to NULL before fmi2GetFMUstate, \
-         and take a state to another instance through fmi2SerializeFMUstate"
+        "the FMU state is not one of this instance's: initialise the variable to NULL before a state is saved to it, \
+         and take a state to another instance in serialized form"
     )]
     UnknownState,
     /// Bytes that are not a state of this model.
     #[error(transparent)]
     Blob(#[from] BlobError),
     /// A buffer of another size than the state needs.
-    #[error("size {given}: the serialized state has {needed} bytes, see fmi2SerializedFMUstateSize")]
+    #[error("size {given}: the serialized state has {needed} bytes")]
     Size {
         /// Size given.
         given: usize,
@@ -139,13 +191,17 @@ impl Failure {
     }
 
     /// What the host can do after this.
-    pub(super) fn advice(&self) -> &'static str {
-        match self.status() {
-            Status::Warning => "",
-            Status::Discard => " Nothing was changed; the run can go on.",
-            _ => {
+    pub(super) fn advice(&self, version: Version) -> &'static str {
+        match (self.status(), version) {
+            (Status::Warning, _) => "",
+            (Status::Discard, _) => " Nothing was changed; the run can go on.",
+            (_, Version::Fmi2) => {
                 " The instance is in error: call fmi2Reset, restore a saved state with fmi2SetFMUstate, \
                  or call fmi2FreeInstance."
+            }
+            (_, Version::Fmi3) => {
+                " The instance is in error: call fmi3Reset, restore a saved state with fmi3SetFMUState, \
+                 or call fmi3FreeInstance."
             }
         }
     }

@@ -53,6 +53,27 @@ pub(super) struct Borrowed {
     instance: *mut Instance,
 }
 
+impl Borrowed {
+    /// Lets the host's own calls have the instance while `f` runs. The mode decides which of them may; it must be one
+    /// in which nobody can free the instance.
+    pub(super) fn lend<R>(&mut self, f: impl FnOnce() -> R) -> R {
+        /// Takes the instance back, also when `f` unwinds.
+        struct TakeBack<'b>(&'b Borrowed);
+        impl Drop for TakeBack<'_> {
+            fn drop(&mut self) {
+                let Borrowed { slot, key, .. } = *self.0;
+                // A second thread that is in the instance, against the standard, leaves it in a moment.
+                while slot.key.compare_exchange(key, key | IN_USE, Ordering::Acquire, Ordering::Relaxed).is_err() {
+                    std::thread::yield_now();
+                }
+            }
+        }
+        self.slot.key.store(self.key, Ordering::Release);
+        let _taken_back = TakeBack(self);
+        f()
+    }
+}
+
 impl Deref for Borrowed {
     type Target = Instance;
     #[inline]

@@ -2,24 +2,30 @@
 
 use std::ffi::{CString, c_char};
 
+use super::addressing::Addressing;
 use super::c_types::{FmuState, Status, ValueReference};
 use super::clock::Clock;
 use super::failure::Failure;
+use super::intermediate::IntermediateUpdates;
 use super::logger::{Logger, c_string};
-use super::mode::Mode;
+use super::mode::{Function, Mode};
 use super::shared_models::SharedModel;
 use super::snapshots::{Snapshot, Snapshots};
 use brinell::recording::{Recording, Unstored};
+use brinell::simulation::variables::Kind;
 use brinell::simulation::{Simulation, VariableError};
+
+/// Name by which the tolerance of the time integration is found in the variable table.
+const TOLERANCE: &str = "solver.tolerance";
 
 /// One instance of the FMU.
 #[derive(Debug)]
 pub(super) struct Instance {
     /// Mode, which decides what may be called.
     pub(super) mode: Mode,
-    /// Where the experiment begins, is, and ends; `None` before `fmi2SetupExperiment`.
+    /// Where the experiment begins, is, and ends; `None` before the host has told.
     pub(super) clock: Option<Clock>,
-    /// Status of the last `fmi2DoStep`.
+    /// Status of the last step.
     pub(super) last_step: Status,
     /// Whether a panic has left the simulation in an unknown condition.
     pub(super) damaged: bool,
@@ -31,9 +37,15 @@ pub(super) struct Instance {
     pub(super) model: SharedModel,
     /// States that the host has saved.
     pub(super) snapshots: Snapshots,
+    /// What references stand for in FMI 3.0; `None` in FMI 2.0, where each is a row of the table.
+    pub(super) addressing: Option<Addressing>,
+    /// What the host wants of intermediate updates; `None` if nothing.
+    pub(super) updates: Option<IntermediateUpdates>,
+    /// Room for the rows behind arrays.
+    pub(super) rows: Vec<ValueReference>,
     /// The file that the recorder's samples go to.
     recording: Option<Recording>,
-    /// Strings handed out last, which stay valid until the next call of `fmi2GetString`.
+    /// Strings handed out last, which stay valid until strings are read again.
     texts: Vec<CString>,
 }
 
@@ -49,6 +61,9 @@ impl Instance {
             logger,
             model,
             snapshots: Snapshots::default(),
+            addressing: None,
+            updates: None,
+            rows: Vec::new(),
             recording: None,
             texts: Vec::new(),
         }
@@ -83,13 +98,67 @@ impl Instance {
         Ok(())
     }
 
-    /// Takes a step of the model.
-    pub(super) fn step(&mut self, step: f64) -> Result<(), Failure> {
+    /// Takes a step from a communication point.
+    #[inline]
+    pub(super) fn take_step(&mut self, point: f64, step: f64) -> Result<(), Failure> {
+        let after = self.begin_step(point, step)?;
         self.simulation.step(step)?;
+        self.finish_step(after)
+    }
+
+    /// Checks point and step. Gives the clock at the step's end.
+    #[inline]
+    pub(super) fn begin_step(&mut self, point: f64, step: f64) -> Result<Clock, Failure> {
+        // Stands if the step fails or panics.
+        self.last_step = Status::Error;
+        let after = self.clock.as_ref().ok_or(Failure::NotSetUp)?.after(point, step)?;
+        #[cfg(feature = "panic-on-demand")]
+        self.logger.panic_on_demand();
+        Ok(after)
+    }
+
+    /// Notes that the model has come to where this clock is.
+    #[inline]
+    pub(super) fn finish_step(&mut self, reached: Clock) -> Result<(), Failure> {
         if let Some(recording) = &mut self.recording {
             recording.keep_up(&mut self.simulation)?;
         }
+        self.clock = Some(reached);
+        self.last_step = Status::Ok;
         Ok(())
+    }
+
+    /// Lets a tolerance of the host's tighten that of the time integration, and never loosen it: hosts hand in their
+    /// own default without asking, and a scene's tolerance is chosen for its impacts.
+    pub(super) fn tighten(&mut self, tolerance: f64) -> Result<(), Failure> {
+        if !(tolerance > 0.0 && tolerance.is_finite()) {
+            return Err(Failure::Tolerance(tolerance));
+        }
+        let Some(variable) = self.simulation.table().iter().find(|variable| variable.name == TOLERANCE) else {
+            return Ok(());
+        };
+        let reference = variable.reference;
+        let least = match variable.kind {
+            Kind::Real { min: Some(min), .. } => min,
+            _ => 0.0,
+        };
+        let mut present = [0.0];
+        self.simulation.reals(&[reference], &mut present)?;
+        if tolerance < present[0] {
+            self.simulation.set_reals(&[reference], &[tolerance.max(least)])?;
+        }
+        Ok(())
+    }
+
+    /// Changes the mode, and says so.
+    pub(super) fn enter(&mut self, mode: Mode, function: &Function) {
+        self.mode = mode;
+        let name = mode.name(function.version);
+        let line = || match self.clock {
+            Some(clock) => format!("{}: {name} at {:?} s.", function.name, clock.time),
+            None => format!("{}: {name}.", function.name),
+        };
+        self.logger.line(Status::Ok, line);
     }
 
     /// Stores what the recorder still holds. What becomes of it if that fails is told as `fate`: never more than a
@@ -145,25 +214,25 @@ impl Instance {
         }
     }
 
-    /// Refuses results that are not finite.
-    #[inline]
-    pub(super) fn finite(&self, references: &[ValueReference], values: &[f64]) -> Result<(), Failure> {
-        // 0·x is 0 for what is finite and NaN otherwise, and so is the sum: no branch in the loop.
-        if values.iter().map(|value| 0.0 * value).sum::<f64>() == 0.0 {
-            return Ok(());
-        }
-        let index = values.iter().position(|value| !value.is_finite()).unwrap_or_default();
-        let name = references
-            .get(index)
-            .and_then(|reference| self.simulation.table().get(*reference as usize))
-            .map(|variable| variable.name.clone())
-            .unwrap_or_default();
-        Err(Failure::NotFinite { name, value: values.get(index).copied().unwrap_or(f64::NAN) })
-    }
-
     /// Keeps strings alive for the host and hands out their addresses.
     pub(super) fn keep(&mut self, texts: Vec<String>) -> impl Iterator<Item = *const c_char> {
         self.texts = texts.into_iter().map(c_string).collect();
         self.texts.iter().map(|text| text.as_ptr())
     }
+}
+
+/// Refuses results that are not finite.
+#[inline]
+pub(super) fn finite(simulation: &Simulation, references: &[ValueReference], values: &[f64]) -> Result<(), Failure> {
+    // 0·x is 0 for what is finite and NaN otherwise, and so is the sum: no branch in the loop.
+    if values.iter().map(|value| 0.0 * value).sum::<f64>() == 0.0 {
+        return Ok(());
+    }
+    let index = values.iter().position(|value| !value.is_finite()).unwrap_or_default();
+    let name = references
+        .get(index)
+        .and_then(|reference| simulation.table().get(*reference as usize))
+        .map(|variable| variable.name.clone())
+        .unwrap_or_default();
+    Err(Failure::NotFinite { name, value: values.get(index).copied().unwrap_or(f64::NAN) })
 }

@@ -5,24 +5,28 @@
 //!
 //! | file | knows |
 //! |---|---|
-//! | `c_types` | the C types that the versions of the interface share |
+//! | `c_types` | the C types that the versions of the interface share, and the callbacks of both |
 //! | `mode` | the modes of an instance |
 //! | `boundary` | how a call reaches its instance, and what becomes of panics and failures |
 //! | `handles` | which handles are alive; a stale or invented one is refused without being dereferenced |
 //! | `arguments` | how an argument from C becomes a slice or a string |
 //! | `failure` | what can go wrong, with which status and which advice |
 //! | `logger` | the host's logger and its categories |
+//! | `instantiation` | how an instance comes to be, or why it does not |
 //! | `uri`, `resources` | where the scene lies, and how it is read |
 //! | `shared_models` | the models read, one for all instances that have the same resources |
 //! | `clock` | communication points and steps |
 //! | `instance` | one instance: model, clock, mode |
 //! | `snapshots`, `blob` | saved states as handles and as bytes |
-//! | [`fmi2`] | the functions of FMI 2.0 |
+//! | `addressing` | what references stand for in FMI 3.0: rows of the variable table, arrays, the time |
+//! | `intermediate` | steps that tell the host how far they have come, and return early |
+//! | [`fmi2`], [`fmi3`] | the functions of FMI 2.0 and of FMI 3.0 |
 
 // Units in brackets, as in `[m]`, are no links.
 #![allow(rustdoc::broken_intra_doc_links)]
 #![allow(unsafe_code)]
 
+mod addressing;
 mod arguments;
 mod blob;
 mod boundary;
@@ -30,8 +34,11 @@ mod c_types;
 mod clock;
 mod failure;
 pub mod fmi2;
+pub mod fmi3;
 mod handles;
 mod instance;
+mod instantiation;
+mod intermediate;
 mod logger;
 mod mode;
 mod resources;

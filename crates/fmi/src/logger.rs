@@ -1,13 +1,13 @@
 //! The host's logger and the categories of messages.
 //!
-//! A message is passed as the argument of the format `"%s"`, so a per cent sign in it is harmless. Nothing is formatted
-//! while logging is off.
+//! To FMI 2.0 a message is passed as the argument of the format `"%s"`, so a per cent sign in it is harmless; to FMI
+//! 3.0 as it is, with `#`, which names variables there, doubled. Nothing is formatted while logging is off.
 
 use std::ffi::CString;
 
 use brinell::simulation::log_category::Category;
 
-use super::c_types::{CallbackFunctions, ComponentEnvironment, LoggerCallback, Status};
+use super::c_types::{CallbackFunctions, ComponentEnvironment, LogMessageCallback, LoggerCallback, Status};
 
 /// The category of lines that go with a status.
 fn category_of(status: Status) -> Category {
@@ -20,10 +20,21 @@ fn category_of(status: Status) -> Category {
     }
 }
 
+/// The host's function.
+#[derive(Debug, Clone, Copy)]
+enum Sink {
+    /// FMI 2.0's.
+    Formatted(LoggerCallback),
+    /// FMI 3.0's.
+    Plain(LogMessageCallback),
+    /// FMI 3.0's hosts may have none.
+    Nothing,
+}
+
 /// An instance's way to the host's logger. Copies what it needs of the callbacks and of the instance's name.
 #[derive(Debug)]
 pub(super) struct Logger {
-    callback: LoggerCallback,
+    sink: Sink,
     environment: ComponentEnvironment,
     instance_name: CString,
     /// Categories that are switched on, as a sum of [`Category`] values.
@@ -31,7 +42,7 @@ pub(super) struct Logger {
 }
 
 // SAFETY: the environment is the host's. It is handed back to the host's own logger, in calls on this instance only,
-// and a host that makes those from one thread after another (FMI 2.0 allows it) expects its logger there.
+// and a host that makes those from one thread after another (the standard allows it) expects its logger there.
 unsafe impl Send for Logger {}
 
 impl Logger {
@@ -41,14 +52,36 @@ impl Logger {
         self.instance_name.to_str().unwrap_or("instance")
     }
 
-    /// A logger with all categories on or off; `None` when the host gave no callback.
-    pub(super) fn new(callbacks: &CallbackFunctions, instance_name: CString, on: bool) -> Option<Self> {
-        Some(Self {
-            callback: callbacks.logger?,
-            environment: callbacks.component_environment,
-            instance_name,
-            switched_on: if on { Category::All as u8 } else { 0 },
-        })
+    /// FMI 2.0's logger with all categories on or off; `None` when the host gave no callback.
+    pub(super) fn formatted(callbacks: &CallbackFunctions, instance_name: CString, on: bool) -> Option<Self> {
+        Some(Self::new(Sink::Formatted(callbacks.logger?), callbacks.component_environment, instance_name, on))
+    }
+
+    /// FMI 3.0's logger with all categories on or off.
+    pub(super) fn plain(
+        callback: Option<LogMessageCallback>,
+        environment: ComponentEnvironment,
+        instance_name: CString,
+        on: bool,
+    ) -> Self {
+        Self::new(callback.map_or(Sink::Nothing, Sink::Plain), environment, instance_name, on)
+    }
+
+    fn new(sink: Sink, environment: ComponentEnvironment, instance_name: CString, on: bool) -> Self {
+        Self { sink, environment, instance_name, switched_on: if on { Category::All as u8 } else { 0 } }
+    }
+
+    /// Switches the listed categories on or off, all of them if none is listed, and leaves the others. Gives the first
+    /// unknown name.
+    pub(super) fn turn<'a>(&mut self, on: bool, names: &[&'a str]) -> Result<(), &'a str> {
+        let named = |name: &str| Category::LIST.into_iter().find(|category| category.name() == name);
+        let wanted = if names.is_empty() {
+            Category::All as u8
+        } else {
+            names.iter().filter_map(|name| named(name)).fold(0, |sum, category| sum | category as u8)
+        };
+        self.switched_on = if on { self.switched_on | wanted } else { self.switched_on & !wanted };
+        names.iter().find(|name| named(name).is_none()).map_or(Ok(()), |name| Err(*name))
     }
 
     /// Switches all categories off, or on as listed; an empty list means all. Gives the first unknown name.
@@ -73,8 +106,16 @@ impl Logger {
         }
     }
 
-    /// Sends a line whatever is switched on: for `fmi2Instantiate`, which leaves no instance to switch logging on for,
-    /// and for what a host must not miss.
+    /// Sends a line that a host must not miss: whatever is switched on, unless the standard forbids that, as 3.0 does.
+    pub(super) fn tell(&self, status: Status, text: String) {
+        match self.sink {
+            Sink::Formatted(_) => self.insist(status, text),
+            Sink::Plain(_) | Sink::Nothing => self.line(status, || text),
+        }
+    }
+
+    /// Sends a line whatever is switched on: for an instantiation that fails, which leaves no instance to switch
+    /// logging on for.
     pub(super) fn insist(&self, status: Status, text: String) {
         self.send(status, category_of(status), text);
     }
@@ -86,18 +127,21 @@ impl Logger {
     }
 
     fn send(&self, status: Status, category: Category, text: String) {
-        let text = c_string(text);
-        // SAFETY: the host promises a callable logger for as long as the instance lives (FMI 2.0, fmi2Instantiate).
-        // All strings end in NUL and outlive the call; the format takes exactly one string.
-        unsafe {
-            (self.callback)(
-                self.environment,
-                self.instance_name.as_ptr(),
-                status,
-                category.c_name().as_ptr(),
-                c"%s".as_ptr(),
-                text.as_ptr(),
-            );
+        let Self { sink, environment, ref instance_name, .. } = *self;
+        let category = category.c_name().as_ptr();
+        match sink {
+            Sink::Formatted(callback) => {
+                let (name, text) = (instance_name.as_ptr(), c_string(text));
+                // SAFETY: the host promises a callable logger for as long as the instance lives (FMI 2.0,
+                // fmi2Instantiate). All strings end in NUL and outlive the call; the format takes exactly one string.
+                unsafe { callback(environment, name, status, category, c"%s".as_ptr(), text.as_ptr()) }
+            }
+            Sink::Plain(callback) => {
+                let text = c_string(text.replace('#', "##"));
+                // SAFETY: as above (FMI 3.0, logMessage).
+                unsafe { callback(environment, status, category, text.as_ptr()) }
+            }
+            Sink::Nothing => {}
         }
     }
 }

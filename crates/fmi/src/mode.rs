@@ -1,5 +1,7 @@
 //! The modes of an instance, and in which of them a function may be called.
 //!
+//! FMI 3.0 calls *step mode* what FMI 2.0 calls *step complete*; *intermediate update* is its own.
+//!
 //! Modes that cannot occur here are left out: *step in progress* and *step canceled* need a step that runs in the
 //! background, *step failed* needs a step that is discarded, *fatal* condemns other instances.
 //!
@@ -21,29 +23,47 @@ pub(super) enum Mode {
     Terminated = 8,
     /// After an error.
     Error = 16,
+    /// Inside a step, while the host is told how far it has come.
+    IntermediateUpdate = 32,
 }
 
 impl Mode {
     /// All modes, in the order of a run.
-    pub(super) const ALL: [Mode; 5] =
-        [Mode::Instantiated, Mode::Initialization, Mode::StepComplete, Mode::Terminated, Mode::Error];
+    pub(super) const ALL: [Mode; 6] = [
+        Mode::Instantiated,
+        Mode::Initialization,
+        Mode::StepComplete,
+        Mode::IntermediateUpdate,
+        Mode::Terminated,
+        Mode::Error,
+    ];
 
-    /// The mode with this number, if there is one.
+    /// The mode with this number, if there is one in which a state can be saved.
     pub(super) fn from_number(number: u8) -> Option<Mode> {
-        Mode::ALL.into_iter().find(|mode| *mode as u8 == number)
+        Mode::ALL.into_iter().find(|mode| *mode as u8 == number && *mode != Mode::IntermediateUpdate)
+    }
+
+    /// Its name in a version of the standard.
+    pub(super) fn name(self, version: Version) -> &'static str {
+        match self {
+            Mode::Instantiated => "instantiated",
+            Mode::Initialization => "initialization mode",
+            Mode::StepComplete if version == Version::Fmi3 => "step mode",
+            Mode::StepComplete => "step complete",
+            Mode::IntermediateUpdate => "intermediate update mode",
+            Mode::Terminated => "terminated",
+            Mode::Error => "error",
+        }
     }
 }
 
-impl fmt::Display for Mode {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Mode::Instantiated => "instantiated",
-            Mode::Initialization => "initialization mode",
-            Mode::StepComplete => "step complete",
-            Mode::Terminated => "terminated",
-            Mode::Error => "error",
-        })
-    }
+/// A version of the standard.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Version {
+    /// 2.0.
+    Fmi2,
+    /// 3.0.
+    Fmi3,
 }
 
 /// A set of modes.
@@ -58,24 +78,27 @@ impl Modes {
     }
 }
 
-impl fmt::Display for Modes {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut separator = "";
-        for mode in Mode::ALL.into_iter().filter(|mode| self.contains(*mode)) {
-            write!(f, "{separator}{mode}")?;
-            separator = ", ";
-        }
-        if separator.is_empty() { f.write_str("no mode, for no step runs in the background") } else { Ok(()) }
-    }
-}
-
-/// An exported function and where it may be called: one row of the table.
+/// An exported function and where it may be called: one row of the table of its version.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Function {
     /// Its name in C.
     pub(super) name: &'static str,
+    /// Version of the standard that it belongs to.
+    pub(super) version: Version,
     /// Modes in which it may be called.
     pub(super) allowed: Modes,
+}
+
+/// The modes in which it may be called, in words.
+impl fmt::Display for Function {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut separator = "";
+        for mode in Mode::ALL.into_iter().filter(|mode| self.allowed.contains(*mode)) {
+            write!(f, "{separator}{}", mode.name(self.version))?;
+            separator = ", ";
+        }
+        if separator.is_empty() { f.write_str("no mode, for no step runs in the background") } else { Ok(()) }
+    }
 }
 
 pub(super) const fn modes<const N: usize>(list: [Mode; N]) -> Modes {
@@ -93,10 +116,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_mode_survives_its_number() {
-        for mode in Mode::ALL {
+    fn a_mode_survives_its_number_unless_no_state_is_saved_in_it() {
+        for mode in Mode::ALL.into_iter().filter(|mode| *mode != Mode::IntermediateUpdate) {
             assert_eq!(Mode::from_number(mode as u8), Some(mode));
         }
+        assert_eq!(Mode::from_number(Mode::IntermediateUpdate as u8), None);
         assert_eq!(Mode::from_number(3), None);
     }
 }

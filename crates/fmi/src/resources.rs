@@ -1,13 +1,12 @@
 //! The FMU's `resources/` directory: `scene.toml`, the profile that the scene names, and the contact map `map.bin`.
 //!
-//! The one place in the FMU that reads files, and only in `fmi2Instantiate`.
+//! The one place in the FMU that reads files, and only when an instance is made.
 
-use std::ffi::CStr;
 use std::path::{Component, Path, PathBuf};
 use std::{fs, io};
 
 use super::shared_models::SharedModel;
-use super::uri::{self, UriError};
+use super::uri::UriError;
 use brinell::scene::{Scene, SceneError};
 use brinell::simulation::guid::guid;
 use brinell::simulation::{Simulation, SimulationError};
@@ -48,13 +47,12 @@ impl ResourceError {
     }
 }
 
-/// The model that the resources at a location given as a URI describe.
-pub(super) fn load(location: &CStr) -> Result<SharedModel, ResourceError> {
-    let directory = uri::path(location.to_bytes())?;
+/// The model that the resources in a directory describe.
+pub(super) fn load(directory: &Path) -> Result<SharedModel, ResourceError> {
     let path = directory.join("scene.toml");
     let text = read(&path)?;
     let scene = Scene::from_toml(&text).map_err(|source| ResourceError::Scene { path, source })?;
-    let profile = |name| read(&beside(&directory, name)?);
+    let profile = |name| read(&beside(directory, name)?);
     let profiles: Vec<String> = scene.profile_names().into_iter().map(profile).collect::<Result<_, _>>()?;
     let guid = guid(&text, profiles.iter().map(String::as_str));
     let set_up = |map| Simulation::with_shared_map(scene, profiles.iter().map(String::as_str), map);

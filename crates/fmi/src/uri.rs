@@ -1,10 +1,10 @@
-//! From `fmuResourceLocation` to a path on this machine.
+//! From `fmuResourceLocation`, or FMI 3.0's `resourcePath`, to a path on this machine.
 //!
-//! The standard asks for a URI after RFC 3986 with the scheme `file`. Importers send `file:/dir`, `file:///dir`,
-//! `file://localhost/dir`, on Windows also `file:///C:/dir` and the ill-formed `file://C:/dir`; some leave characters
-//! unescaped. All these name a path without doubt and are accepted; so is a plain absolute path. A `+` is a plus
-//! sign: it means a space only in web forms. Escapes that are none stay as they are. Other schemes and, except on
-//! Windows, other hosts are refused.
+//! FMI 3.0 passes a plain absolute path, in which nothing is escaped. FMI 2.0 asks for a URI after RFC 3986 with the
+//! scheme `file`. Importers send `file:/dir`, `file:///dir`, `file://localhost/dir`, on Windows also `file:///C:/dir`
+//! and the ill-formed `file://C:/dir`; some leave characters unescaped. All these name a path without doubt and are
+//! accepted; so is a plain absolute path. A `+` is a plus sign: it means a space only in web forms. Escapes that are
+//! none stay as they are. Other schemes and, except on Windows, other hosts are refused.
 
 use std::path::PathBuf;
 
@@ -22,6 +22,9 @@ pub(super) enum UriError {
         /// The host in it.
         host: String,
     },
+    /// A relative path, or a URI, where FMI 3.0 has a path.
+    #[error("resourcePath \"{0}\": it must be an absolute path, as in /dir/resources/")]
+    NotAbsolute(String),
     /// An escaped NUL, or bytes that cannot be a path here.
     #[error("resource location \"{0}\": it cannot be a path on this machine")]
     NotAPath(String),
@@ -31,6 +34,13 @@ pub(super) enum UriError {
 pub(super) fn path(uri: &[u8]) -> Result<PathBuf, UriError> {
     let bytes = local_path(uri, cfg!(windows))?;
     to_path(bytes).ok_or_else(|| UriError::NotAPath(String::from_utf8_lossy(uri).into_owned()))
+}
+
+/// The path that FMI 3.0 passes as it is.
+pub(super) fn plain_path(path: &[u8]) -> Result<PathBuf, UriError> {
+    let shown = || String::from_utf8_lossy(path).into_owned();
+    let found = to_path(path.to_vec()).ok_or_else(|| UriError::NotAPath(shown()))?;
+    if found.is_absolute() { Ok(found) } else { Err(UriError::NotAbsolute(shown())) }
 }
 
 #[cfg(unix)]
@@ -136,6 +146,15 @@ mod tests {
             assert_eq!(windows(uri).unwrap(), "C:/a b", "{uri}");
         }
         assert_eq!(windows("file://server/share/a").unwrap(), "//server/share/a");
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_plain_path_is_absolute_and_keeps_every_byte() {
+        assert_eq!(plain_path(b"/a%20b/+/").unwrap(), PathBuf::from("/a%20b/+/"));
+        for path in [&b"a/b"[..], b"file:///a", b""] {
+            assert!(matches!(plain_path(path), Err(UriError::NotAbsolute(_))));
+        }
     }
 
     #[test]

@@ -9,7 +9,7 @@ use fmu_build::project::Project;
 
 use crate::{dist, report, site, validation};
 
-/// Turns bearing scenes into FMI 2.0 co-simulation FMUs and runs them; computes the pages in docs/ anew. Where a
+/// Turns bearing scenes into FMI 2.0 or 3.0 co-simulation FMUs and runs them; computes the pages in docs/ anew. Where a
 /// command speaks of the current folder, results go into target/ here.
 #[derive(Debug, Parser)]
 #[command(name = "cargo fmu", bin_name = "cargo fmu", version, max_term_width = 100)]

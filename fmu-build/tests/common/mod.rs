@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use fmu_build::fmu;
+use fmu_build::fmu::{self, Version};
 use fmu_build::library::{Choice, Library};
 use fmu_build::model::Model;
 use fmu_build::project::Project;
@@ -68,7 +68,17 @@ pub(crate) fn folder(name: &str) -> PathBuf {
 
 /// The FMU of a shipped scene in a folder.
 pub(crate) fn fmu_of(name: &str, folder: &Path) -> PathBuf {
-    fmu::write(&model(name), library(), folder).unwrap()
+    fmu::write(&model(name), library(), Version::Fmi2, folder).unwrap()
+}
+
+/// The FMU of a shipped scene after FMI 3.0 in a folder.
+pub(crate) fn fmu3_of(name: &str, folder: &Path) -> PathBuf {
+    fmu::write(&model(name), library(), Version::Fmi3, folder).unwrap()
+}
+
+/// Names of the shipped scenes.
+pub(crate) fn names() -> Vec<String> {
+    scenes().iter().map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned()).collect()
 }
 
 /// Runs a script of `tests/python`; what it says on failure becomes the test's message.

@@ -6,6 +6,7 @@ use super::functions;
 use super::types::{Component, Integer, Real, Status, ValueReference};
 use crate::arguments::{array, array_mut, disjoint};
 use crate::boundary;
+use crate::instance::finite;
 
 /// `fmi2GetDirectionalDerivative`: J·`dvKnown`, where J holds the partial derivatives of the unknowns by the knowns.
 ///
@@ -35,7 +36,7 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
             )
         };
         instance.simulation.directional_derivative(unknowns, knowns, seed, values)?;
-        instance.finite(unknowns, values)
+        finite(&instance.simulation, unknowns, values)
     })
 }
 
@@ -78,6 +79,6 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
         let (references, orders, values) =
             unsafe { (array("vr", vr, nvr)?, array("order", order, nvr)?, array_mut("value", value, nvr)?) };
         instance.simulation.output_derivatives(references, orders, values)?;
-        instance.finite(references, values)
+        finite(&instance.simulation, references, values)
     })
 }

@@ -10,7 +10,7 @@ use super::functions::ALWAYS;
 use super::types::{Boolean, Component, EventInfo, Real, Status};
 use crate::boundary;
 use crate::failure::Failure;
-use crate::mode::Function;
+use crate::mode::{Function, Version};
 
 macro_rules! not_provided {
     ($($name:ident($($argument:ty),*);)*) => {$(
@@ -20,7 +20,7 @@ macro_rules! not_provided {
         /// `c` may be any value; the other arguments are not looked at.
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $name(c: Component, $(_: $argument),*) -> Status {
-            const FUNCTION: &Function = &Function { name: stringify!($name), allowed: ALWAYS };
+            const FUNCTION: &Function = &Function { name: stringify!($name), version: Version::Fmi2, allowed: ALWAYS };
             boundary::call(c, FUNCTION, |_| Err(Failure::ModelExchange))
         }
     )*};

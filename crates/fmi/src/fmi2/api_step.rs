@@ -28,16 +28,7 @@ pub unsafe extern "C" fn fmi2DoStep(
     _noSetFMUStatePriorToCurrentPoint: Boolean,
 ) -> Status {
     boundary::call(c, &functions::DO_STEP, |instance| {
-        // Stands if the step fails or panics.
-        instance.last_step = Status::Error;
-        let clock = instance.clock.as_ref().ok_or(Failure::NotSetUp)?;
-        let after = clock.after(currentCommunicationPoint, communicationStepSize)?;
-        #[cfg(feature = "panic-on-demand")]
-        instance.logger.panic_on_demand();
-        instance.step(communicationStepSize)?;
-        instance.clock = Some(after);
-        instance.last_step = Status::Ok;
-        Ok(())
+        instance.take_step(currentCommunicationPoint, communicationStepSize)
     })
 }
 

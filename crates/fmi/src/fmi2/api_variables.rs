@@ -9,6 +9,7 @@ use super::types::{Boolean, Component, FmiString, Integer, Real, Status, ValueRe
 use crate::arguments::{array, array_mut, disjoint, store_all, string};
 use crate::boundary;
 use crate::failure::Failure;
+use crate::instance::finite;
 
 /// `fmi2GetReal`.
 ///
@@ -21,7 +22,7 @@ pub unsafe extern "C" fn fmi2GetReal(c: Component, vr: *const ValueReference, nv
         // SAFETY: this function's contract; null, misaligned and overlapping arrays are refused.
         let (references, values) = unsafe { (array("vr", vr, nvr)?, array_mut("value", value, nvr)?) };
         instance.simulation.reals(references, values)?;
-        instance.finite(references, values)
+        finite(&instance.simulation, references, values)
     })
 }
 

@@ -3,7 +3,7 @@
 //! row.
 
 use crate::mode::Mode::{Error, Initialization, Instantiated, StepComplete, Terminated};
-use crate::mode::{Function, Modes, modes};
+use crate::mode::{Function, Modes, Version, modes};
 
 /// Every mode.
 pub(super) const ALWAYS: Modes = modes([Instantiated, Initialization, StepComplete, Terminated, Error]);
@@ -15,7 +15,7 @@ const QUERY: Modes = modes([StepComplete, Terminated]);
 
 macro_rules! functions {
     ($($row:ident $name:literal $allowed:expr;)*) => {
-        $(pub(super) const $row: Function = Function { name: $name, allowed: $allowed };)*
+        $(pub(super) const $row: Function = Function { name: $name, version: Version::Fmi2, allowed: $allowed };)*
         /// Every row of the table.
         #[cfg(test)]
         pub(super) const FUNCTIONS: &[Function] = &[$($row),*];

@@ -1,0 +1,80 @@
+//! The exported functions that tell what a variable depends on, element by element.
+//!
+//! Only outputs depend on anything: before the end of initialization on inputs and parameters, at communication points
+//! on inputs. What they depend on are scalars, whose element index is 0: all of the variable.
+
+#![allow(non_snake_case)]
+
+use super::functions;
+use super::types::{DEPENDENT, DependencyKind, Instance, Status, ValueReference};
+use super::values::addressing;
+use crate::arguments::{store, store_all};
+use crate::boundary;
+use crate::failure::Failure;
+use crate::instance;
+use crate::mode::Mode;
+
+/// Element of the dependent variable, reference of the independent one.
+type Dependency = (usize, ValueReference);
+
+fn dependencies(instance: &instance::Instance, reference: ValueReference) -> Result<Vec<Dependency>, Failure> {
+    let addressing = addressing(instance)?;
+    let rows = addressing.rows(&reference)?;
+    let initial = matches!(instance.mode, Mode::Instantiated | Mode::Initialization);
+    let all = instance.simulation.dependencies();
+    let of_row = |row: &u32| {
+        let place = addressing.place_of(*row).1;
+        let found = all.iter().find(|of| of.output == *row);
+        let known = found.map_or(&[][..], |of| if initial { &of.initial } else { &of.direct });
+        known.iter().map(move |&known| (place, addressing.place_of(known).0)).collect::<Vec<_>>()
+    };
+    Ok(rows.iter().flat_map(of_row).collect())
+}
+
+/// `fmi3GetNumberOfVariableDependencies`.
+///
+/// # Safety
+/// `nDependencies` is null or points to a number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3GetNumberOfVariableDependencies(
+    instance: Instance,
+    valueReference: ValueReference,
+    nDependencies: *mut usize,
+) -> Status {
+    boundary::call(instance, &functions::NUMBER_OF_DEPENDENCIES, |instance| {
+        let count = dependencies(instance, valueReference)?.len();
+        // SAFETY: this function's contract; null and misaligned pointers are refused.
+        unsafe { store("nDependencies", nDependencies, count) }
+    })
+}
+
+/// `fmi3GetVariableDependencies`.
+///
+/// # Safety
+/// The arrays are null, or have `nDependencies` places.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3GetVariableDependencies(
+    instance: Instance,
+    dependent: ValueReference,
+    elementIndicesOfDependent: *mut usize,
+    independents: *mut ValueReference,
+    elementIndicesOfIndependents: *mut usize,
+    dependencyKinds: *mut DependencyKind,
+    nDependencies: usize,
+) -> Status {
+    boundary::call(instance, &functions::DEPENDENCIES, |instance| {
+        let found = dependencies(instance, dependent)?;
+        if found.len() != nDependencies {
+            let (name, given, needed) = ("nDependencies", nDependencies, found.len());
+            return Err(Failure::DependencyCount { name, given, needed });
+        }
+        let (places, references): (Vec<_>, Vec<_>) = found.into_iter().unzip();
+        // SAFETY: this function's contract; null and misaligned arrays are refused.
+        unsafe {
+            store_all("elementIndicesOfDependent", elementIndicesOfDependent, &places)?;
+            store_all("independents", independents, &references)?;
+            store_all("elementIndicesOfIndependents", elementIndicesOfIndependents, &vec![0; nDependencies])?;
+            store_all("dependencyKinds", dependencyKinds, &vec![DEPENDENT; nDependencies])
+        }
+    })
+}

@@ -1,0 +1,170 @@
+//! The exported functions that give derivatives. Those of inputs by time, which FMI 2.0 takes, FMI 3.0 has given up for
+//! intermediate updates.
+
+#![allow(non_snake_case)]
+
+use super::functions;
+use super::types::{Instance, Status, ValueReference};
+use super::values::{expand, may_read};
+use crate::arguments::{array, array_mut, disjoint};
+use crate::boundary;
+use crate::failure::Failure;
+use crate::instance::{self, finite};
+use crate::mode::Function;
+use brinell::simulation::{Simulation, SimulationError};
+
+/// References and values of a product with the Jacobian.
+struct Product {
+    unknowns: (*const ValueReference, usize),
+    knowns: (*const ValueReference, usize),
+    seed: (*const f64, usize),
+    sensitivity: (*mut f64, usize),
+}
+
+/// What the model computes of rows of unknowns and knowns and a seed.
+type Computed = fn(&mut Simulation, &[u32], &[u32], &[f64], &mut [f64]) -> Result<(), SimulationError>;
+
+/// Computes a product. `adjoint` says which of unknowns and knowns the seed belongs to.
+///
+/// # Safety
+/// Pointers are null or point to as many elements as said.
+unsafe fn product(handle: Instance, function: &'static Function, product: Product, adjoint: bool) -> Status {
+    boundary::call(handle, function, |instance| {
+        let Product { unknowns, knowns, seed, sensitivity } = product;
+        disjoint(unknowns.0, unknowns.1, sensitivity.0, sensitivity.1)?;
+        disjoint(knowns.0, knowns.1, sensitivity.0, sensitivity.1)?;
+        disjoint(seed.0, seed.1, sensitivity.0, sensitivity.1)?;
+        // SAFETY: this function's contract; null, misaligned and overlapping arrays are refused.
+        let (unknowns, knowns, seed, sensitivity) = unsafe {
+            (
+                array("unknowns", unknowns.0, unknowns.1)?,
+                array("knowns", knowns.0, knowns.1)?,
+                array("seed", seed.0, seed.1)?,
+                array_mut("sensitivity", sensitivity.0, sensitivity.1)?,
+            )
+        };
+        let counts = [("nSeed", seed.len()), ("nSensitivity", sensitivity.len())];
+        let [of_unknowns, of_knowns] = if adjoint { counts } else { [counts[1], counts[0]] };
+        with_rows(instance, |instance, rows| {
+            expand(instance, unknowns, of_unknowns, rows)?;
+            let count = rows.len();
+            expand(instance, knowns, of_knowns, rows)?;
+            let (unknowns, knowns) = rows.split_at(count);
+            let (compute, of): (Computed, _) = if adjoint {
+                (Simulation::adjoint_derivative, knowns)
+            } else {
+                (Simulation::directional_derivative, unknowns)
+            };
+            compute(&mut instance.simulation, unknowns, knowns, seed, sensitivity)?;
+            finite(&instance.simulation, of, sensitivity)
+        })
+    })
+}
+
+/// Lends the instance's room for rows, empty.
+fn with_rows<R>(
+    instance: &mut instance::Instance,
+    body: impl FnOnce(&mut instance::Instance, &mut Vec<u32>) -> R,
+) -> R {
+    let mut rows = std::mem::take(&mut instance.rows);
+    rows.clear();
+    let result = body(instance, &mut rows);
+    instance.rows = rows;
+    result
+}
+
+/// `fmi3GetDirectionalDerivative`: J·`seed`, where J holds the partial derivatives of the unknowns by the knowns.
+///
+/// # Safety
+/// Pointers are null or point to as many elements as said.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3GetDirectionalDerivative(
+    instance: Instance,
+    unknowns: *const ValueReference,
+    nUnknowns: usize,
+    knowns: *const ValueReference,
+    nKnowns: usize,
+    seed: *const f64,
+    nSeed: usize,
+    sensitivity: *mut f64,
+    nSensitivity: usize,
+) -> Status {
+    let wanted = Product {
+        unknowns: (unknowns, nUnknowns),
+        knowns: (knowns, nKnowns),
+        seed: (seed, nSeed),
+        sensitivity: (sensitivity, nSensitivity),
+    };
+    // SAFETY: this function's contract.
+    unsafe { product(instance, &functions::GET_DIRECTIONAL_DERIVATIVE, wanted, false) }
+}
+
+/// `fmi3GetAdjointDerivative`: `seed`ᵀ·J.
+///
+/// # Safety
+/// Pointers are null or point to as many elements as said.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3GetAdjointDerivative(
+    instance: Instance,
+    unknowns: *const ValueReference,
+    nUnknowns: usize,
+    knowns: *const ValueReference,
+    nKnowns: usize,
+    seed: *const f64,
+    nSeed: usize,
+    sensitivity: *mut f64,
+    nSensitivity: usize,
+) -> Status {
+    let wanted = Product {
+        unknowns: (unknowns, nUnknowns),
+        knowns: (knowns, nKnowns),
+        seed: (seed, nSeed),
+        sensitivity: (sensitivity, nSensitivity),
+    };
+    // SAFETY: this function's contract.
+    unsafe { product(instance, &functions::GET_ADJOINT_DERIVATIVE, wanted, true) }
+}
+
+/// `fmi3GetOutputDerivatives`: derivatives of outputs by time where the instance is. An order holds for all elements of
+/// its variable.
+///
+/// # Safety
+/// Pointers are null or point to as many elements as said, `orders` to `nValueReferences`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3GetOutputDerivatives(
+    instance: Instance,
+    valueReferences: *const ValueReference,
+    nValueReferences: usize,
+    orders: *const i32,
+    values: *mut f64,
+    nValues: usize,
+) -> Status {
+    boundary::call(instance, &functions::GET_OUTPUT_DERIVATIVES, |instance| {
+        disjoint(valueReferences, nValueReferences, values, nValues)?;
+        disjoint(orders, nValueReferences, values, nValues)?;
+        // SAFETY: this function's contract; null, misaligned and overlapping arrays are refused.
+        let (references, orders, values) = unsafe {
+            (
+                array("valueReferences", valueReferences, nValueReferences)?,
+                array("orders", orders, nValueReferences)?,
+                array_mut("values", values, nValues)?,
+            )
+        };
+        may_read(instance, references)?;
+        with_rows(instance, |instance, rows| {
+            expand(instance, references, ("nValues", values.len()), rows)?;
+            let of_rows = orders_of_rows(instance, references, orders)?;
+            instance.simulation.output_derivatives(rows, &of_rows, values)?;
+            finite(&instance.simulation, rows, values)
+        })
+    })
+}
+
+fn orders_of_rows(instance: &instance::Instance, references: &[u32], orders: &[i32]) -> Result<Vec<i32>, Failure> {
+    let mut of_rows = Vec::new();
+    for (reference, &order) in references.iter().zip(orders) {
+        let count = super::values::addressing(instance)?.rows(reference)?.len();
+        of_rows.extend(std::iter::repeat_n(order, count));
+    }
+    Ok(of_rows)
+}

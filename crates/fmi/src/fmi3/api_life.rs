@@ -1,0 +1,286 @@
+//! The exported functions that begin, arrange and end the life of an instance.
+
+#![allow(non_snake_case)]
+
+use std::ffi::CStr;
+use std::slice;
+
+use super::functions;
+use super::types::{
+    Bool, ClockUpdateCallback, FALSE, FmiString, Instance, InstanceEnvironment, IntermediateUpdateCallback,
+    LogMessageCallback, PreemptionCallback, Status, ValueReference,
+};
+use crate::addressing::Addressing;
+use crate::arguments;
+use crate::boundary;
+use crate::clock::Clock;
+use crate::failure::Failure;
+use crate::handles;
+use crate::instance;
+use crate::instantiation::{self, Refusal, text};
+use crate::intermediate::IntermediateUpdates;
+use crate::logger::Logger;
+use crate::mode::Mode;
+use crate::shared_models::SharedModel;
+use crate::uri;
+
+/// `fmi3GetVersion`: "3.0".
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi3GetVersion() -> FmiString {
+    c"3.0".as_ptr()
+}
+
+/// `fmi3InstantiateCoSimulation`: a new instance, or NULL after a line to the logger. `visible` is ignored: there is
+/// nothing to see. `eventModeUsed` must be false, for there is no event mode.
+///
+/// # Safety
+/// Pointers are null or as FMI 3.0 describes them: strings end in NUL, `requiredIntermediateVariables` points to as
+/// many references as said.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
+    instanceName: FmiString,
+    instantiationToken: FmiString,
+    resourcePath: FmiString,
+    _visible: Bool,
+    loggingOn: Bool,
+    eventModeUsed: Bool,
+    earlyReturnAllowed: Bool,
+    requiredIntermediateVariables: *const ValueReference,
+    nRequiredIntermediateVariables: usize,
+    instanceEnvironment: InstanceEnvironment,
+    logMessage: Option<LogMessageCallback>,
+    intermediateUpdate: Option<IntermediateUpdateCallback>,
+) -> Instance {
+    // SAFETY: null or ended by NUL, by this function's contract.
+    let [name, token, path] = unsafe { [text(instanceName), text(instantiationToken), text(resourcePath)] };
+    let required = (requiredIntermediateVariables, nRequiredIntermediateVariables);
+    instantiation::instantiate(
+        "fmi3InstantiateCoSimulation",
+        name,
+        |name| Some(Logger::plain(logMessage, instanceEnvironment, name, loggingOn != FALSE)),
+        || {
+            if eventModeUsed != FALSE {
+                return Err(Refusal::NotProvided("has no event mode: eventModeUsed must be fmi3False"));
+            }
+            model(token, path)
+        },
+        |instance| {
+            // SAFETY: this function's contract.
+            let required = unsafe { references(required)? };
+            let early_return = earlyReturnAllowed != FALSE;
+            arrange(instance, required, (intermediateUpdate, instanceEnvironment), early_return)
+        },
+    )
+}
+
+fn model(token: Option<&CStr>, path: Option<&CStr>) -> Result<SharedModel, Refusal> {
+    let token = token.ok_or(Refusal::NoToken("instantiation token"))?;
+    let path = path.ok_or(Refusal::NoResources(
+        "resourcePath is NULL: pass the path of the unpacked directory \"resources\", which this FMU reads",
+    ))?;
+    instantiation::model("instantiation token", token, uri::plain_path(path.to_bytes())?)
+}
+
+/// # Safety
+/// If the pointer is neither null nor misaligned, it points to as many references.
+unsafe fn references<'a>((pointer, count): (*const ValueReference, usize)) -> Result<&'a [ValueReference], Refusal> {
+    if count == 0 {
+        return Ok(&[]);
+    }
+    if pointer.is_null() || !pointer.is_aligned() {
+        return Err(Refusal::Array("requiredIntermediateVariables", count));
+    }
+    // SAFETY: not null and aligned; the rest is the contract.
+    Ok(unsafe { slice::from_raw_parts(pointer, count) })
+}
+
+/// Adds to a new instance what FMI 3.0 needs.
+fn arrange(
+    instance: &mut instance::Instance,
+    required: &[ValueReference],
+    (callback, environment): (Option<IntermediateUpdateCallback>, InstanceEnvironment),
+    early_return: bool,
+) -> Result<(), Refusal> {
+    let addressing = Addressing::of(&instance.simulation);
+    let is_possible = |reference: &&u32| addressing.is_intermediate(&instance.simulation, **reference);
+    if let Some(&impossible) = required.iter().find(|reference| !is_possible(reference)) {
+        return Err(Refusal::NotIntermediate(impossible));
+    }
+    let mut sorted = required.to_vec();
+    sorted.sort_unstable();
+    instance.updates = match callback {
+        Some(callback) => Some(IntermediateUpdates {
+            callback,
+            environment,
+            early_return,
+            with_inputs: sorted.iter().any(|&reference| Addressing::is_input(&instance.simulation, reference)),
+            required: sorted,
+            may_set: false,
+            failed: false,
+        }),
+        None if required.is_empty() => None,
+        None => return Err(Refusal::NoCallback),
+    };
+    instance.addressing = Some(addressing);
+    Ok(())
+}
+
+/// `fmi3InstantiateModelExchange`: NULL after a line to the logger, for this FMU is for co-simulation.
+///
+/// # Safety
+/// Pointers are null or as FMI 3.0 describes them.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3InstantiateModelExchange(
+    instanceName: FmiString,
+    _instantiationToken: FmiString,
+    _resourcePath: FmiString,
+    _visible: Bool,
+    loggingOn: Bool,
+    instanceEnvironment: InstanceEnvironment,
+    logMessage: Option<LogMessageCallback>,
+) -> Instance {
+    let logging = (instanceEnvironment, logMessage, loggingOn);
+    // SAFETY: this function's contract.
+    unsafe { refuse("fmi3InstantiateModelExchange", instanceName, logging) }
+}
+
+/// `fmi3InstantiateScheduledExecution`: NULL after a line to the logger, for this FMU is for co-simulation.
+///
+/// # Safety
+/// Pointers are null or as FMI 3.0 describes them.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3InstantiateScheduledExecution(
+    instanceName: FmiString,
+    _instantiationToken: FmiString,
+    _resourcePath: FmiString,
+    _visible: Bool,
+    loggingOn: Bool,
+    instanceEnvironment: InstanceEnvironment,
+    logMessage: Option<LogMessageCallback>,
+    _clockUpdate: Option<ClockUpdateCallback>,
+    _lockPreemption: Option<PreemptionCallback>,
+    _unlockPreemption: Option<PreemptionCallback>,
+) -> Instance {
+    let logging = (instanceEnvironment, logMessage, loggingOn);
+    // SAFETY: this function's contract.
+    unsafe { refuse("fmi3InstantiateScheduledExecution", instanceName, logging) }
+}
+
+/// # Safety
+/// `name` is null or ends in NUL; the callback may be called.
+unsafe fn refuse(
+    function: &'static str,
+    name: FmiString,
+    (environment, callback, on): (InstanceEnvironment, Option<LogMessageCallback>, Bool),
+) -> Instance {
+    // SAFETY: this function's contract.
+    let name = unsafe { text(name) };
+    let logger = |name| Some(Logger::plain(callback, environment, name, on != FALSE));
+    let why = "is for co-simulation: use fmi3InstantiateCoSimulation";
+    instantiation::instantiate(function, name, logger, || Err(Refusal::NotProvided(why)), |_| Ok(()))
+}
+
+/// `fmi3FreeInstance`: ends an instance and frees its saved states. NULL and dead handles are ignored.
+///
+/// # Safety
+/// `instance` may be any value. The standard forbids a call while another one on the same instance runs; it is then
+/// ignored.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3FreeInstance(instance: Instance) {
+    if let Ok(instance) = handles::borrow(instance)
+        && functions::FREE_INSTANCE.allowed.contains(instance.mode)
+    {
+        instantiation::free(instance, "fmi3FreeInstance");
+    }
+}
+
+/// `fmi3SetDebugLogging`: turns the categories listed on or off, all of them if none is listed. An unknown category is
+/// a warning; the others are set.
+///
+/// # Safety
+/// `categories` is null or points to `nCategories` strings, each null or ended by NUL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3SetDebugLogging(
+    instance: Instance,
+    loggingOn: Bool,
+    nCategories: usize,
+    categories: *const FmiString,
+) -> Status {
+    boundary::call(instance, &functions::SET_DEBUG_LOGGING, |instance| {
+        // SAFETY: this function's contract; null is refused.
+        let pointers = unsafe { arguments::array("categories", categories, nCategories)? };
+        let names = pointers
+            .iter()
+            // SAFETY: this function's contract; null is refused.
+            .map(|pointer| unsafe { arguments::string("categories", *pointer) })
+            .collect::<Result<Vec<_>, _>>()?;
+        let turned = instance.logger.turn(loggingOn != FALSE, &names);
+        turned.map_err(|name| Failure::UnknownCategory(name.to_owned()))
+    })
+}
+
+/// `fmi3EnterInitializationMode`: start, stop and tolerance. A tolerance can only tighten the one in force
+/// (`solver.tolerance`); to loosen it, set `solver.tolerance`.
+///
+/// # Safety
+/// `instance` may be any value.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3EnterInitializationMode(
+    instance: Instance,
+    toleranceDefined: Bool,
+    tolerance: f64,
+    startTime: f64,
+    stopTimeDefined: Bool,
+    stopTime: f64,
+) -> Status {
+    boundary::call(instance, &functions::ENTER_INITIALIZATION_MODE, |instance| {
+        let clock = Clock::new(startTime, (stopTimeDefined != FALSE).then_some(stopTime))?;
+        if toleranceDefined != FALSE {
+            instance.tighten(tolerance)?;
+        }
+        instance.clock = Some(clock);
+        instance.enter(Mode::Initialization, &functions::ENTER_INITIALIZATION_MODE);
+        Ok(())
+    })
+}
+
+/// `fmi3ExitInitializationMode`: finds the static equilibrium at the start time.
+///
+/// # Safety
+/// `instance` may be any value.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3ExitInitializationMode(instance: Instance) -> Status {
+    boundary::call(instance, &functions::EXIT_INITIALIZATION_MODE, |instance| {
+        let clock = instance.clock.ok_or(Failure::NotSetUp)?;
+        instance.initialize(clock.start)?;
+        instance.enter(Mode::StepComplete, &functions::EXIT_INITIALIZATION_MODE);
+        Ok(())
+    })
+}
+
+/// `fmi3Terminate`: no more steps; results may still be read. A warning if the recording cannot be stored.
+///
+/// # Safety
+/// `instance` may be any value.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3Terminate(instance: Instance) -> Status {
+    boundary::call(instance, &functions::TERMINATE, |instance| {
+        let finished = instance.finish_recording("stay in memory: fmi3FreeInstance and fmi3Reset try once more");
+        instance.enter(Mode::Terminated, &functions::TERMINATE);
+        finished
+    })
+}
+
+/// `fmi3Reset`: as after `fmi3InstantiateCoSimulation`. Saved states and the choice of log categories stay. A warning
+/// if samples of the recording could not be stored: they are lost, the instance is as good as new.
+///
+/// # Safety
+/// `instance` may be any value.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3Reset(instance: Instance) -> Status {
+    boundary::call(instance, &functions::RESET, |instance| {
+        let unstored = instance.reset()?;
+        instance.enter(Mode::Instantiated, &functions::RESET);
+        unstored.map_or(Ok(()), Err)
+    })
+}

@@ -1,0 +1,64 @@
+//! The functions of capabilities that this FMU does not declare. The standard wants them exported, and recommends that
+//! they say why they fail; nothing else may be relied on. They touch no argument.
+
+#![allow(non_snake_case)]
+
+use super::functions::ALWAYS;
+use super::types::{Bool, Instance, IntervalQualifier, Status, ValueReference};
+use crate::boundary;
+use crate::failure::Failure;
+use crate::mode::{Function, Version};
+
+const MODEL_EXCHANGE: &str = "is for co-simulation: step it with fmi3DoStep";
+const EVENTS: &str = "has no event mode: modelDescription.xml says so with hasEventMode=\"false\"";
+const STRUCTURE: &str = "has no structural parameters";
+const CLOCKS: &str = "has no clocks";
+
+macro_rules! not_provided {
+    ($($why:ident: $($name:ident($($argument:ty),*))*;)*) => {$($(
+        /// A function that is not provided: always an error.
+        ///
+        /// # Safety
+        /// `instance` may be any value; the other arguments are not looked at.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $name(instance: Instance, $(_: $argument),*) -> Status {
+            const FUNCTION: &Function =
+                &Function { name: stringify!($name), version: Version::Fmi3, allowed: ALWAYS };
+            boundary::call(instance, FUNCTION, |_| Err(Failure::NotProvided($why)))
+        }
+    )*)*};
+}
+
+type References = *const ValueReference;
+
+not_provided! {
+    MODEL_EXCHANGE:
+        fmi3EnterContinuousTimeMode()
+        fmi3CompletedIntegratorStep(Bool, *mut Bool, *mut Bool)
+        fmi3SetTime(f64)
+        fmi3SetContinuousStates(*const f64, usize)
+        fmi3GetContinuousStateDerivatives(*mut f64, usize)
+        fmi3GetEventIndicators(*mut f64, usize)
+        fmi3GetContinuousStates(*mut f64, usize)
+        fmi3GetNominalsOfContinuousStates(*mut f64, usize)
+        fmi3GetNumberOfEventIndicators(*mut usize)
+        fmi3GetNumberOfContinuousStates(*mut usize);
+    EVENTS:
+        fmi3EnterEventMode()
+        fmi3EnterStepMode()
+        fmi3EvaluateDiscreteStates()
+        fmi3UpdateDiscreteStates(*mut Bool, *mut Bool, *mut Bool, *mut Bool, *mut Bool, *mut f64);
+    STRUCTURE:
+        fmi3EnterConfigurationMode()
+        fmi3ExitConfigurationMode();
+    CLOCKS:
+        fmi3GetIntervalDecimal(References, usize, *mut f64, *mut IntervalQualifier)
+        fmi3GetIntervalFraction(References, usize, *mut u64, *mut u64, *mut IntervalQualifier)
+        fmi3GetShiftDecimal(References, usize, *mut f64)
+        fmi3GetShiftFraction(References, usize, *mut u64, *mut u64)
+        fmi3SetIntervalDecimal(References, usize, *const f64)
+        fmi3SetIntervalFraction(References, usize, *const u64, *const u64)
+        fmi3SetShiftDecimal(References, usize, *const f64)
+        fmi3SetShiftFraction(References, usize, *const u64, *const u64)
+        fmi3ActivateModelPartition(ValueReference, f64);
+}

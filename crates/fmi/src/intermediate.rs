@@ -1,0 +1,117 @@
+//! A step that tells its host how far it has come: FMI 3.0's intermediate update, and the early return it may ask for.
+//!
+//! The host is called after each accepted integration step. It may read outputs as they are there and set inputs, which
+//! then act from there on. A run that is looked at so has the bits of one that is not, unless inputs are set (and but
+//! for law `love`, see `brinell::simulation::stepping`). An early return ends the step where the host was told, or at a
+//! later instant that it names, and that exactly.
+
+use super::boundary;
+use super::c_types::{Bool, ComponentEnvironment, IntermediateUpdateCallback};
+use super::clock::Clock;
+use super::failure::Failure;
+use super::handles::Borrowed;
+use super::mode::Mode;
+
+/// What a host wants of intermediate updates.
+#[derive(Debug)]
+pub(super) struct IntermediateUpdates {
+    /// Its function.
+    pub(super) callback: IntermediateUpdateCallback,
+    /// Its own pointer, handed back.
+    pub(super) environment: ComponentEnvironment,
+    /// Whether it can handle an early return.
+    pub(super) early_return: bool,
+    /// References of the variables it wants to read or set, ascending.
+    pub(super) required: Vec<u32>,
+    /// Whether inputs are among them.
+    pub(super) with_inputs: bool,
+    /// Whether inputs may be set in the update under way.
+    pub(super) may_set: bool,
+    /// Whether a call in the update under way has failed.
+    pub(super) failed: bool,
+}
+
+// SAFETY: the environment is the host's. It is handed back to the host's own function, in calls on this instance only,
+// and a host that makes those from one thread after another (the standard allows it) expects it there.
+unsafe impl Send for IntermediateUpdates {}
+
+impl IntermediateUpdates {
+    /// Whether the host has named this variable.
+    pub(super) fn has(&self, reference: u32) -> bool {
+        self.required.binary_search(&reference).is_ok()
+    }
+}
+
+/// Where a step has ended.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Reached {
+    /// Time [s].
+    pub(super) time: f64,
+    /// Whether that is before the end asked for.
+    pub(super) early: bool,
+}
+
+/// Takes a step from a communication point, with intermediate updates if the host wants them.
+pub(super) fn take_step(instance: &mut Borrowed, point: f64, step: f64) -> Result<Reached, Failure> {
+    if instance.updates.is_none() {
+        instance.take_step(point, step)?;
+        let clock = instance.clock.ok_or(Failure::NotSetUp)?;
+        return Ok(Reached { time: clock.time, early: false });
+    }
+    let whole = instance.begin_step(point, step)?;
+    let mut under_way = instance.simulation.begin_step(step)?;
+    let mut early = false;
+    while !under_way.is_done() {
+        instance.simulation.go_on(&mut under_way)?;
+        let look = instance.simulation.look(&under_way);
+        let time = if under_way.is_done() && !early { whole.time } else { point + under_way.elapsed() };
+        // Rounding may not lead beyond the step.
+        let time = time.clamp(point, whole.time);
+        let wanted = update(instance, (point, time, whole.time), under_way.is_done())?;
+        instance.simulation.resume(&mut under_way, look)?;
+        if let Some(at) = wanted {
+            under_way.bring_forward(at - point);
+            early |= at < whole.time;
+        }
+    }
+    let clock = instance.clock.ok_or(Failure::NotSetUp)?;
+    let reached = if early { clock.moved(point, under_way.elapsed()) } else { whole };
+    instance.simulation.end_step(under_way);
+    instance.finish_step(reached)?;
+    Ok(Reached { time: reached.time, early })
+}
+
+/// Calls the host. Gives the time at which it wants the step to return early, if it does.
+fn update(instance: &mut Borrowed, (from, time, to): (f64, f64, f64), is_done: bool) -> Result<Option<f64>, Failure> {
+    let Some(updates) = &mut instance.updates else { return Ok(None) };
+    let (callback, environment) = (updates.callback, updates.environment);
+    let can_return = updates.early_return && !is_done;
+    updates.may_set = updates.with_inputs && !is_done;
+    updates.failed = false;
+    let may_set = updates.may_set;
+    let clock = instance.clock;
+    instance.clock = clock.map(|clock| Clock { time, ..clock });
+    instance.mode = Mode::IntermediateUpdate;
+    let (mut wanted, mut at): (Bool, f64) = (0, time);
+    let returned = boundary::guard(|| {
+        instance.lend(|| {
+            let (wanted, at) = (&raw mut wanted, &raw mut at);
+            // SAFETY: the host promises a callable function for as long as the instance lives (FMI 3.0,
+            // fmi3InstantiateCoSimulation); the places are ours and outlive the call.
+            unsafe { callback(environment, time, may_set.into(), 1, 1, can_return.into(), wanted, at) };
+        });
+    });
+    instance.mode = Mode::StepComplete;
+    instance.clock = clock;
+    returned.map_err(Failure::UpdateUnwound)?;
+    if instance.updates.as_ref().is_some_and(|updates| updates.failed) {
+        return Err(Failure::FailedInUpdate(time));
+    }
+    if wanted == 0 || !can_return {
+        return Ok(None);
+    }
+    if !(at >= from && at <= to) {
+        return Err(Failure::EarlyReturnTime { at, from, to });
+    }
+    Ok(Some(at))
+}

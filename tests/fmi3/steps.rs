@@ -1,0 +1,96 @@
+//! Steps: the bits of FMI 2.0, what `fmi3DoStep` gives, and what it refuses.
+
+use crate::host::Host;
+use crate::two;
+use crate::two::bits;
+use brinell_fmi::fmi3::*;
+use std::ptr;
+
+const SCENES: [&str; 5] = ["er16k-tb1", "6205-hosted", "6205-epps", "6205-irregular-cage", "er16k-turning-outer"];
+
+#[test]
+fn the_same_scene_and_steps_give_the_bits_of_fmi_2() {
+    for scene in SCENES {
+        let (host, other) = (Host::started(scene), two::Host::started(scene));
+        let (speed, all) = (host.reference("shaft.speed"), other.reals());
+        // Row by row, as FMI 2.0 has them: arrays give all their elements where their first stands.
+        let sorted = |mut values: Vec<u64>| {
+            values.sort_unstable();
+            values
+        };
+        for n in 0..60 {
+            let (point, value) = (f64::from(n) * 1e-4, 60.0 + 0.1 * f64::from(n));
+            assert_eq!(host.set(&[speed], &[value]), Status::Ok);
+            assert_eq!(other.set(&[speed], &[value]), Status::Ok);
+            host.step(point, 1e-4);
+            assert_eq!(other.step(point, 1e-4), Status::Ok);
+            let (found, expected) = (sorted(bits(&host.all())), sorted(bits(&other.get(&all).unwrap())));
+            assert_eq!(found, expected, "{scene} after step {n}");
+        }
+    }
+}
+
+#[test]
+fn a_step_gives_no_event_no_end_no_early_return_and_its_end() {
+    let host = Host::started("er16k-tb1");
+    assert_eq!(host.do_step(0.0, 1e-3), Ok((false, false, false, 1e-3)));
+    assert_eq!(host.do_step(1e-3, 0.1e-3), Ok((false, false, false, 1e-3 + 0.1e-3)));
+}
+
+#[test]
+fn a_wrong_point_a_wrong_step_and_one_past_the_stop_time_are_errors_with_the_numbers() {
+    for (point, size, words) in [
+        (0.5, 1e-4, ["0.5 s", "0.0 s"]),
+        (0.0, 0.0, ["0.0 s", "above 0"]),
+        (0.0, -1e-4, ["-0.0001 s", "above 0"]),
+        (0.0, f64::NAN, ["NaN", "above 0"]),
+        (0.0, 2e-3, ["stop time 0.001 s", "past"]),
+    ] {
+        let host = Host::of("6205-healthy");
+        assert_eq!(host.enter(None, 0.0, Some(1e-3)), Status::Ok);
+        assert_eq!(host.exit(), Status::Ok);
+        let state = host.save();
+        host.lines();
+        assert_eq!(host.do_step(point, size), Err(Status::Error));
+        let message = host.last_message();
+        assert!(message.starts_with("fmi3DoStep") && words.iter().all(|word| message.contains(word)), "{message}");
+        // Nothing is lost.
+        assert_eq!(host.restore(state), Status::Ok);
+        host.step(0.0, 1e-3);
+    }
+}
+
+#[test]
+fn start_and_stop_must_be_finite_and_a_tolerance_can_only_tighten() {
+    for (tolerance, start, stop) in
+        [(None, f64::NAN, None), (None, 0.0, Some(f64::NAN)), (None, 1.0, Some(1.0)), (Some(0.0), 0.0, None)]
+    {
+        let host = Host::of("6205-healthy");
+        assert_eq!(host.enter(tolerance, start, stop), Status::Error, "{tolerance:?} {start} {stop:?}");
+    }
+    let host = Host::of("6205-healthy");
+    let tolerance = host.reference("solver.tolerance");
+    let own = host.get(&[tolerance]).unwrap()[0];
+    assert_eq!(host.enter(Some(1e-2), 0.0, None), Status::Ok);
+    assert_eq!(host.get(&[tolerance]).unwrap(), [own]);
+    assert_eq!(host.reset(), Status::Ok);
+    assert_eq!(host.enter(Some(1e-9), 0.0, None), Status::Ok);
+    assert_eq!(host.get(&[tolerance]).unwrap(), [1e-9]);
+}
+
+#[test]
+fn a_step_without_a_place_for_its_results_is_refused_before_anything_is_done() {
+    for missing in 0..4 {
+        let host = Host::started("6205-healthy");
+        let state = host.save();
+        let (mut flags, mut time) = ([0; 3], 0.0);
+        let place = |index: usize, pointer| if index == missing { ptr::null_mut() } else { pointer };
+        let [event, end, early] = std::array::from_fn(|i| place(i, &raw mut flags[i]));
+        let reached = if missing == 3 { ptr::null_mut() } else { &raw mut time };
+        // SAFETY: NULL, or places for one value each.
+        assert_eq!(unsafe { fmi3DoStep(host.c, 0.0, 1e-4, TRUE, event, end, early, reached) }, Status::Error);
+        assert!(host.last_message().contains("is NULL"));
+        assert_eq!(host.restore(state), Status::Ok);
+        host.step(0.0, 1e-4);
+    }
+}

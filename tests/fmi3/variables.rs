@@ -1,0 +1,255 @@
+//! Reading and setting: scalars, arrays, types, and what is refused.
+
+use crate::host::Host;
+use crate::two;
+use crate::two::bits;
+use brinell::simulation::variables::{Causality, Kind};
+use brinell_fmi::fmi3::*;
+use std::ffi::CStr;
+use std::ptr;
+
+#[test]
+fn an_array_has_the_values_of_all_elements_in_their_order() {
+    for scene in ["er16k-tb1", "er16k-element"] {
+        let (host, other) = (Host::started(scene), two::Host::started(scene));
+        for n in 0..30 {
+            let point = f64::from(n) * 1e-4;
+            host.step(point, 1e-4);
+            assert_eq!(other.step(point, 1e-4), brinell_fmi::fmi2::Status::Ok);
+        }
+        for quantity in ["angle", "path", "force.inner", "force.outer"] {
+            let names = (1..=9).map(|j| other.reference(&format!("element[{j}].{quantity}")));
+            let expected = other.get(&names.collect::<Vec<_>>()).unwrap();
+            let found = host.array(&format!("element.{quantity}")).unwrap();
+            assert_eq!(bits(&found), bits(&expected), "{quantity}");
+        }
+        // Scalars and arrays in one call, in any order.
+        let (path, y, time) = (host.reference("element.path"), host.reference("shaft.y"), host.reference("time"));
+        let mixed = host.get_values(&[y, path, time, y], 12).unwrap();
+        assert_eq!((mixed[0], mixed[10], mixed[11]), (mixed[11], 29.0 * 1e-4 + 1e-4, mixed[0]));
+        assert_eq!(mixed[1..10], host.array("element.path").unwrap());
+    }
+}
+
+#[test]
+fn what_only_a_defective_element_has_is_a_scalar() {
+    let host = Host::started("er16k-element");
+    let name = host.table().iter().find(|row| row.name.ends_with("spin_angle")).unwrap().name.clone();
+    assert!(name.starts_with("element[1]."));
+    assert!(host.get(&[host.reference(&name)]).unwrap()[0].is_finite());
+}
+
+/// Refuses, says so, and is restored.
+fn refused(host: &Host, state: FmuState, status: Status, words: &[&str], call: impl FnOnce(&Host) -> Status) {
+    host.lines();
+    assert_eq!(call(host), status);
+    let message = host.last_message();
+    for word in words {
+        assert!(message.contains(word), "{word}: {message}");
+    }
+    assert_eq!(host.restore(state), Status::Ok);
+}
+
+fn status_of<T>(result: Result<T, Status>) -> Status {
+    result.map_or_else(|status| status, |_| Status::Ok)
+}
+
+#[test]
+fn a_number_of_values_that_does_not_fit_is_an_error_with_both_numbers() {
+    let host = Host::started("er16k-tb1");
+    let (state, path, y) = (host.save(), host.reference("element.path"), host.reference("shaft.y"));
+    for (references, count, needed) in [
+        (&[path][..], 1, "9 values"),
+        (&[path], 10, "9 values"),
+        (&[y, path], 9, "10 values"),
+        (&[y], 2, "1 values"),
+        (&[y, y], 1, "2 values"),
+        (&[], 1, "0 values"),
+    ] {
+        let words = ["nValues", &format!("= {count}:"), needed];
+        refused(&host, state, Status::Error, &words, |h| status_of(h.get_values(references, count)));
+    }
+    let speed = host.reference("shaft.speed");
+    refused(&host, state, Status::Error, &["nValues = 2", "1 values"], |h| h.set(&[speed], &[1.0, 2.0]));
+}
+
+#[test]
+fn unknown_references_wrong_types_and_what_cannot_be_set_are_errors_that_say_so() {
+    let host = Host::started("er16k-tb1");
+    let state = host.save();
+    let hidden = host.simulation().reference("element[2].path").unwrap();
+    let steps = host.reference("solver.steps");
+    let law = host.reference("contact.law");
+    let y = host.reference("shaft.y");
+    for unknown in [hidden, 5_000, u32::MAX] {
+        let word = format!("value reference {unknown} is unknown");
+        refused(&host, state, Status::Error, &[&word], |h| status_of(h.get(&[unknown])));
+        refused(&host, state, Status::Error, &[&word], |h| h.set(&[unknown], &[1.0]));
+    }
+    for wrong in [steps, law] {
+        refused(&host, state, Status::Error, &["is not of type Real"], |h| status_of(h.get(&[wrong])));
+    }
+    // SAFETY of all the blocks: one reference and one place each.
+    refused(&host, state, Status::Error, &["shaft.y", "Int64"], |h| unsafe { fmi3GetInt64(h.c, &y, 1, &mut 0, 1) });
+    refused(&host, state, Status::Error, &["shaft.y", "UInt64"], |h| unsafe { fmi3GetUInt64(h.c, &y, 1, &mut 0, 1) });
+    refused(&host, state, Status::Error, &["shaft.y", "Boolean"], |h| unsafe { fmi3GetBoolean(h.c, &y, 1, &mut 0, 1) });
+    refused(&host, state, Status::Error, &["shaft.y", "Int32"], |h| unsafe { fmi3SetInt32(h.c, &y, 1, &0, 1) });
+    refused(&host, state, Status::Error, &["shaft.y", "Binary"], |h| unsafe {
+        fmi3GetBinary(h.c, &y, 1, &mut 0, &mut ptr::null(), 1)
+    });
+    refused(&host, state, Status::Error, &["shaft.y", "Clock"], |h| unsafe { fmi3GetClock(h.c, &y, 1, &mut 0) });
+    refused(&host, state, Status::Error, &["solver.steps", "computed"], |h| unsafe {
+        fmi3SetUInt64(h.c, &steps, 1, &0, 1)
+    });
+    refused(&host, state, Status::Error, &["contact.law", "fixed after"], |h| unsafe {
+        fmi3SetInt64(h.c, &law, 1, &1, 1)
+    });
+    refused(&host, state, Status::Error, &["shaft.y", "computed"], |h| h.set(&[y], &[1.0]));
+    refused(&host, state, Status::Error, &["cage.slip", "fixed after"], |h| h.set(&[h.reference("cage.slip")], &[0.1]));
+    let time = host.reference("time");
+    refused(&host, state, Status::Error, &["time", "computed"], |h| h.set(&[time], &[1.0]));
+    let path = host.reference("element.path");
+    refused(&host, state, Status::Error, &["element.path", "computed"], |h| h.set(&[path], &[0.0; 9]));
+}
+
+#[test]
+fn values_outside_their_range_and_nan_are_discarded_under_fmi_3_and_change_nothing() {
+    let host = Host::started("er16k-tb1");
+    let (speed, load) = (host.reference("shaft.speed"), host.reference("shaft.load.y"));
+    let before = bits(&host.all());
+    for wrong in [f64::NAN, f64::INFINITY, 1e6] {
+        host.lines();
+        assert_eq!(host.set(&[load, speed], &[-400.0, wrong]), Status::Discard);
+        let message = host.last_message();
+        assert!(message.contains("shaft.speed") && message.contains("100000"), "{message}");
+        assert_eq!(bits(&host.all()), before, "all or none");
+    }
+    host.step(0.0, 1e-4);
+}
+
+#[test]
+fn counters_enumerations_and_strings_have_their_types() {
+    let host = Host::with(
+        crate::host::Resources::edited("er16k-tb1", "resources", |text| {
+            text + "\n[recorder]\nrate_hz = 51200.0\nfilter = \"none\"\n"
+        }),
+        "instance 1",
+        &[],
+        None,
+    );
+    let law = host.reference("contact.law");
+    let mut value = 0;
+    // SAFETY of all the blocks: one reference and one place each; strings end in NUL.
+    unsafe {
+        assert_eq!(fmi3GetInt64(host.c, &law, 1, &mut value, 1), Status::Ok);
+        let other = if value == 1 { 2 } else { 1 };
+        assert_eq!(fmi3SetInt64(host.c, &law, 1, &other, 1), Status::Ok);
+        let mut now = 0;
+        assert_eq!(fmi3GetInt64(host.c, &law, 1, &mut now, 1), Status::Ok);
+        assert_eq!(now, other);
+        for wrong in [0, 4, i64::MAX, i64::MIN] {
+            assert_eq!(fmi3SetInt64(host.c, &law, 1, &wrong, 1), Status::Discard);
+            assert!(host.last_message().contains("contact.law"));
+        }
+        assert_eq!(fmi3SetInt64(host.c, &law, 1, &value, 1), Status::Ok);
+        let folder = host.reference("recorder.folder");
+        let mut text = ptr::null();
+        assert_eq!(fmi3SetString(host.c, &folder, 1, &c"".as_ptr(), 1), Status::Ok);
+        assert_eq!(fmi3GetString(host.c, &folder, 1, &mut text, 1), Status::Ok);
+        assert_eq!(CStr::from_ptr(text), c"");
+    }
+    host.start();
+    let steps = host.reference("solver.steps");
+    let count = || {
+        let mut count = 77;
+        // SAFETY: one reference and one place.
+        assert_eq!(unsafe { fmi3GetUInt64(host.c, &steps, 1, &mut count, 1) }, Status::Ok);
+        count
+    };
+    assert_eq!(count(), 0);
+    host.step(0.0, 1e-3);
+    assert!(count() > 10);
+}
+
+#[test]
+fn start_values_are_read_before_initialization_and_the_time_is_where_the_instance_is() {
+    let host = Host::of("er16k-tb1");
+    for row in host.table().iter().filter(|row| row.causality != Causality::Output) {
+        if let Kind::Real { start: Some(start), .. } = row.kind {
+            assert_eq!(host.get(&[row.reference]).unwrap(), [start], "{}", row.name);
+        }
+    }
+    let time = host.reference("time");
+    assert_eq!(host.enter(None, 3.5, None), Status::Ok);
+    assert_eq!(host.get(&[time]).unwrap(), [3.5]);
+    assert_eq!(host.exit(), Status::Ok);
+    host.step(3.5, 0.25e-3);
+    assert_eq!(host.get(&[time]).unwrap(), [3.5 + 0.25e-3]);
+}
+
+#[test]
+fn misaligned_and_overlapping_arrays_and_null_are_refused_under_fmi_3() {
+    let host = Host::started("er16k-tb1");
+    let state = host.save();
+    let mut memory = [0.0f64; 8];
+    let odd = memory.as_mut_ptr().wrapping_byte_add(1);
+    let y = host.reference("shaft.y");
+    // SAFETY of all the blocks: refused before memory is touched, or good.
+    refused(&host, state, Status::Error, &["values", "aligned"], |h| unsafe { fmi3GetFloat64(h.c, &y, 1, odd, 1) });
+    refused(&host, state, Status::Error, &["values", "NULL"], |h| unsafe {
+        fmi3GetFloat64(h.c, &y, 1, ptr::null_mut(), 1)
+    });
+    refused(&host, state, Status::Error, &["valueReferences", "NULL"], |h| unsafe {
+        fmi3GetFloat64(h.c, ptr::null(), 1, memory.as_mut_ptr(), 1)
+    });
+    refused(&host, state, Status::Error, &["overlap"], |h| unsafe {
+        let place = memory.as_mut_ptr();
+        fmi3GetFloat64(h.c, place.cast(), 1, place, 1)
+    });
+}
+
+#[test]
+fn every_pointer_may_be_null_in_every_function_of_fmi_3() {
+    /// NULL for whatever pointer a function takes.
+    macro_rules! nulls {
+        ($($name:ident($($argument:expr),*);)*) => {
+            // SAFETY of all the blocks: NULL is what is tested.
+            [$((stringify!($name), (|c| unsafe { $name(c, $($argument),*) }) as fn(Instance) -> Status)),*]
+        };
+    }
+    let calls = nulls! {
+        fmi3SetDebugLogging(TRUE, 1, ptr::null());
+        fmi3GetFloat32(ptr::null(), 1, ptr::null_mut(), 1);
+        fmi3GetFloat64(ptr::null(), 1, ptr::null_mut(), 1);
+        fmi3GetInt64(ptr::null(), 1, ptr::null_mut(), 1);
+        fmi3GetUInt64(ptr::null(), 1, ptr::null_mut(), 1);
+        fmi3GetBoolean(ptr::null(), 1, ptr::null_mut(), 1);
+        fmi3GetString(ptr::null(), 1, ptr::null_mut(), 1);
+        fmi3GetBinary(ptr::null(), 1, ptr::null_mut(), ptr::null_mut(), 1);
+        fmi3GetClock(ptr::null(), 1, ptr::null_mut());
+        fmi3SetFloat64(ptr::null(), 1, ptr::null(), 1);
+        fmi3SetInt64(ptr::null(), 1, ptr::null(), 1);
+        fmi3SetUInt64(ptr::null(), 1, ptr::null(), 1);
+        fmi3SetString(ptr::null(), 1, ptr::null(), 1);
+        fmi3GetNumberOfVariableDependencies(0, ptr::null_mut());
+        fmi3GetVariableDependencies(12, ptr::null_mut(), ptr::null_mut(), ptr::null_mut(), ptr::null_mut(), 5);
+        fmi3GetFMUState(ptr::null_mut());
+        fmi3SetFMUState(ptr::null_mut());
+        fmi3SerializedFMUStateSize(ptr::null_mut(), ptr::null_mut());
+        fmi3SerializeFMUState(ptr::null_mut(), ptr::null_mut(), 10);
+        fmi3DeserializeFMUState(ptr::null(), 10, ptr::null_mut());
+        fmi3GetDirectionalDerivative(ptr::null(), 1, ptr::null(), 1, ptr::null(), 1, ptr::null_mut(), 1);
+        fmi3GetAdjointDerivative(ptr::null(), 1, ptr::null(), 1, ptr::null(), 1, ptr::null_mut(), 1);
+        fmi3GetOutputDerivatives(ptr::null(), 1, ptr::null(), ptr::null_mut(), 1);
+        fmi3DoStep(0.0, 1e-4, TRUE, ptr::null_mut(), ptr::null_mut(), ptr::null_mut(), ptr::null_mut());
+    };
+    let host = Host::started("er16k-tb1");
+    let state = host.save();
+    for (name, call) in calls {
+        host.lines();
+        assert_eq!(call(host.c), Status::Error, "{name}");
+        assert!(host.last_message().starts_with(name));
+        assert_eq!(host.restore(state), Status::Ok);
+    }
+    host.step(0.0, 1e-4);
+}
