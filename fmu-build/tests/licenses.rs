@@ -20,15 +20,24 @@ Rust's standard library: MIT or Apache-2.0, copyright the Rust project's contrib
 LLVM's libunwind, where the library was linked through zig: Apache-2.0 with LLVM exception, https://llvm.org
 ";
 
-fn metadata() -> Value {
+fn cargo(arguments: &[&str]) -> Vec<u8> {
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let output = Command::new(cargo)
-        .current_dir(common::root())
-        .args(["metadata", "--locked", "--format-version", "1"])
-        .output()
-        .unwrap();
+    let output = Command::new(cargo).current_dir(common::root()).args(arguments).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    serde_json::from_slice(&output.stdout).unwrap()
+    output.stdout
+}
+
+fn metadata() -> Value {
+    serde_json::from_slice(&cargo(&["metadata", "--locked", "--format-version", "1"])).unwrap()
+}
+
+/// Names and versions of all packages with the features that one of ours asks for. The metadata has those of the whole
+/// workspace.
+fn with_its_features(ours: &str) -> BTreeSet<String> {
+    let options = ["--edges", "normal", "--target", "all", "--prefix", "none", "--format", "{p}"];
+    let tree = cargo(&[&["tree", "--locked", "--package", ours], &options[..]].concat());
+    let words = |line: &str| line.split(' ').take(2).collect::<Vec<_>>().join(" v").replace("vv", "v");
+    String::from_utf8(tree).unwrap().lines().map(words).collect()
 }
 
 fn is_macro(package: &Value) -> bool {
@@ -44,12 +53,17 @@ fn needed<'a>(metadata: &'a Value, ours: &str) -> Vec<&'a Value> {
     };
     let (packages, nodes) = (by_id("packages"), by_id("nodes"));
     let root = packages.values().find(|package| package["name"] == ours).unwrap()["id"].as_str().unwrap();
+    let chosen = with_its_features(ours);
+    let is_chosen = |package: &Value| {
+        chosen.contains(&format!("{} v{}", package["name"].as_str().unwrap(), package["version"].as_str().unwrap()))
+    };
     let (mut found, mut open) = (BTreeSet::new(), vec![root]);
     while let Some(id) = open.pop() {
         for dependency in nodes[id]["deps"].as_array().unwrap() {
             let next = dependency["pkg"].as_str().unwrap();
             let runs = dependency["dep_kinds"].as_array().unwrap().iter().any(|kind| kind["kind"].is_null());
-            if runs && next != root && !is_macro(packages[next]) && found.insert(next) {
+            let runs = runs && next != root && !is_macro(packages[next]) && is_chosen(packages[next]);
+            if runs && found.insert(next) {
                 open.push(next);
             }
         }
