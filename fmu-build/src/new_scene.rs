@@ -63,7 +63,8 @@ fn text(name: &str, bearing: &CatalogueBearing, spall: Option<&Spall>) -> String
         spall.map_or("healthy".to_owned(), |Spall { on, length, unit }| format!("spall of {length} {unit}, {on}"));
     let defect = spall.map(of_spall).unwrap_or_default();
     format!(
-        r#"# What is marked as assumed is a start: put in what you know of your machine.
+        r#"#:schema scene.schema.json
+# What is marked as assumed is a start: put in what you know of your machine.
 
 name = "{name}"
 description = "{designation}, {what}, {load} N, 25 Hz"

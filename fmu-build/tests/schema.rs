@@ -4,6 +4,7 @@
 mod common;
 
 use std::collections::HashMap;
+use std::env;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -62,6 +63,19 @@ fn the_schema_takes_every_scene_and_refuses_wrong_keys_types_and_words() {
     for (k, file) in files.iter().enumerate() {
         let verdict = verdicts[file.as_str()];
         assert_eq!(verdict == "valid", k < good, "{file}: {verdict}");
+    }
+}
+
+#[test]
+fn editors_find_the_schema_of_shipped_scenes() {
+    let file = common::root().join("scenes/scene.schema.json");
+    let schema = program(&["schema"]);
+    if env::var_os("BLESS").is_some_and(|value| value == "1") {
+        fs::write(&file, &schema).unwrap();
+    }
+    assert!(fs::read_to_string(&file).unwrap_or_default() == schema, "{} is an old one; bless it", file.display());
+    for path in common::scenes() {
+        assert!(fs::read_to_string(&path).unwrap().starts_with("#:schema scene.schema.json\n"), "{}", path.display());
     }
 }
 

@@ -17,6 +17,7 @@ pub mod jacobian;
 pub mod kinematics;
 mod linearized;
 pub mod model;
+mod other_contacts;
 pub mod raceway;
 mod right_hand_side;
 mod ring_motion;

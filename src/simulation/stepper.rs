@@ -198,14 +198,7 @@ impl Stepper<'_> {
         loop {
             let Self { problem, workspace, progress, .. } = self;
             let wanted = progress.choice.limited(progress.next_step);
-            // One step a little beyond what is stable rather than two, where error control has no objection.
-            let reach = progress.next_step.min(STABLE_SLACK * wanted);
-            let h = landing.unwrap_or(if reach >= remaining * (1.0 - 1e-9) {
-                remaining
-            } else {
-                // Equal steps rather than a remnant, and one fewer where that makes them hardly longer.
-                remaining / (remaining / (EQUAL_SLACK * wanted)).ceil()
-            });
+            let h = landing.unwrap_or_else(|| share_of(remaining, wanted, progress.next_step));
             let span = Span { from, length: h };
             tried += 1;
             try_step(workspace, *problem, span, progress);
@@ -254,20 +247,27 @@ impl Stepper<'_> {
             if workspace.changed && landing.is_none() {
                 workspace.forces.note_pushing(&mut progress.pushing);
             }
-            let proposal = h * step_factor(workspace, error, progress.last_error, progress).clamp(0.2, 5.0);
             // A step cut short to land somewhere says nothing against the step wanted before it.
             let short = h < SHORT * wanted;
+            let proposal = h * step_factor(workspace, error, progress.last_error, progress).clamp(0.2, 5.0);
             progress.next_step = if short { proposal.max(wanted) } else { proposal };
             progress.last_error = error.max(1e-4);
-            self.record(span);
-            self.accept(span)?;
-            self.choose(span, Taken { tried, short });
-            if let Some(found) = crossing {
-                found.contact.enter(found.cell, &mut self.progress.cells);
-                self.workspace.first_stage(self.problem, span.end(), self.progress);
-            }
+            self.conclude(span, Taken { tried, short }, crossing)?;
             return Ok(h);
         }
+    }
+
+    /// Records and accepts the step tried last; a contact that crosses a knot at its end then enters the cell beyond.
+    #[inline(always)]
+    fn conclude(&mut self, span: Span, taken: Taken, crossing: Option<Crossing>) -> Result<(), StepError> {
+        self.record(span);
+        self.accept(span)?;
+        self.choose(span, taken);
+        if let Some(found) = crossing {
+            found.contact.enter(found.cell, &mut self.progress.cells);
+            self.workspace.first_stage(self.problem, span.end(), self.progress);
+        }
+        Ok(())
     }
 
     /// Takes the samples that are due within the step tried last.
@@ -356,4 +356,16 @@ fn step_factor(workspace: &Workspace, error: f64, last_error: f64, progress: &Pr
         _ => [-0.17, 0.04],
     };
     0.9 * rough_power(error.max(1e-10), now) * rough_power(last_error, before)
+}
+
+/// Length of the next step within what remains, `wanted` being stable and `next` what error control wants.
+#[inline(always)]
+fn share_of(remaining: f64, wanted: f64, next: f64) -> f64 {
+    // One step a little beyond what is stable rather than two, where error control has no objection.
+    if next.min(STABLE_SLACK * wanted) >= remaining * (1.0 - 1e-9) {
+        remaining
+    } else {
+        // Equal steps rather than a remnant, and one fewer where that makes them hardly longer.
+        remaining / (remaining / (EQUAL_SLACK * wanted)).ceil()
+    }
 }

@@ -43,25 +43,7 @@ impl Builder<'_> {
             Unit::Radian,
             limited(scene.cage.initial_angle, -1e3, 1e3, 1.0),
         );
-        for (index, defect) in scene.defects.iter().enumerate() {
-            let name = match scene.defects.len() {
-                1 => "defect.angle".to_owned(),
-                _ => format!("defect[{}].angle", index + 1),
-            };
-            self.parameter(
-                &name,
-                match defect.on {
-                    DefectOn::Outer => "Angle of the defect's centre, counter-clockwise from +x",
-                    DefectOn::Inner => {
-                        "Angle of the defect's centre on the inner ring, counter-clockwise from shaft.initial_angle"
-                    }
-                    DefectOn::Element { .. } => "Angle of the defect's centre at the start, 0 facing the outer raceway",
-                },
-                Q::Parameter(Parameter::DefectAngle(index)),
-                Unit::Radian,
-                limited(defect.angle, -1e3, 1e3, 1.0),
-            );
-        }
+        self.defect_angles();
         self.turning_parameters();
         for ring in RINGS {
             if self.motion(ring) == Motion::Internal {
@@ -82,6 +64,29 @@ impl Builder<'_> {
                 Kind::Text { start: String::new() },
                 (Causality::Parameter, Variability::Fixed),
                 Q::Parameter(Parameter::RecorderFolder),
+            );
+        }
+    }
+
+    /// Where each defect is.
+    fn defect_angles(&mut self) {
+        for (index, defect) in self.scene.defects.iter().enumerate() {
+            let name = match self.scene.defects.len() {
+                1 => "defect.angle".to_owned(),
+                _ => format!("defect[{}].angle", index + 1),
+            };
+            self.parameter(
+                &name,
+                match defect.on {
+                    DefectOn::Outer => "Angle of the defect's centre, counter-clockwise from +x",
+                    DefectOn::Inner => {
+                        "Angle of the defect's centre on the inner ring, counter-clockwise from shaft.initial_angle"
+                    }
+                    DefectOn::Element { .. } => "Angle of the defect's centre at the start, 0 facing the outer raceway",
+                },
+                Q::Parameter(Parameter::DefectAngle(index)),
+                Unit::Radian,
+                limited(defect.angle, -1e3, 1e3, 1.0),
             );
         }
     }

@@ -93,7 +93,7 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
         "| recording | nominal (°) | looks like | found (°) | 95 % (°) | error | onset (°) | impacts (°) |\n|---|---:|---|---:|---:|---:|---:|---|\n",
     );
     let mut groups: Vec<(f64, Fault, Vec<Recording>)> = Vec::new();
-    let mut beside: Vec<(f64, Figure, RecordingReport, Vec<f64>)> = Vec::new();
+    let mut beside: Vec<Beside> = Vec::new();
     let mut inside: Vec<(f64, RecordingReport, Loud)> = Vec::new();
     for one in known {
         let recording = read(one)?;
@@ -129,26 +129,36 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
             report.standing.map_or(String::new(), |standing| format!("{standing:?}").to_lowercase())
         )?;
     }
-    if !beside.is_empty() {
-        text += "\n### The scene beside the recording of 5°\n\n";
-        text += "| shaft (Hz) | | onset before the first impact (°) | first to last impact (°) | length by events (°) | null of the envelope's harmonics |\n|---:|---|---:|---:|---:|---:|\n";
-        for (speed, figure, found, comb) in &beside {
-            writeln!(text, "{}", beside_row(*speed, "recording", Some(found), comb))?;
-            for (label, case) in [("scene", &case), ("with flanks", &with_flanks)] {
-                let case = case.clone().at_speed(*speed);
-                // By its events, like the recording: a scene without sensor is no rig to compare with.
-                let recording = Recording::new("scene", blind::recorded(project, &case)?, RATE, *speed)?;
-                let blind = Scene { defects: Vec::new(), sensors: Vec::new(), ..case.scene.clone() };
-                let report = spall_size::size(std::slice::from_ref(&recording), &blind)?;
-                let own = harmonics(&recording, &blind)?;
-                writeln!(text, "{}", beside_row(*speed, label, report.recordings.first(), &own))?;
-                // The figure shows the last, which is nearer.
-                let stem = format!("beside-{speed:.0}hz");
-                write_beside(project, &stem, figure, report.figures.first(), comb, &own)?;
-            }
+    text += &outer_beside(project, [&case, &with_flanks], &beside)?;
+    text += &inner_beside(project, &inside)?;
+    Ok(text)
+}
+
+/// What stands beside an outer recording: speed, figure, report and harmonics of its envelope.
+type Beside = (f64, Figure, RecordingReport, Vec<f64>);
+
+/// The outer scene and that with flanks beside recordings of their length, as Markdown; nothing without these.
+fn outer_beside(project: &Project, [case, with_flanks]: [&Case; 2], beside: &[Beside]) -> Result<String> {
+    if beside.is_empty() {
+        return Ok(String::new());
+    }
+    let mut text = String::from("\n### The scene beside the recording of 5°\n\n");
+    text += "| shaft (Hz) | | onset before the first impact (°) | first to last impact (°) | length by events (°) | null of the envelope's harmonics |\n|---:|---|---:|---:|---:|---:|\n";
+    for (speed, figure, found, comb) in beside {
+        writeln!(text, "{}", beside_row(*speed, "recording", Some(found), comb))?;
+        for (label, case) in [("scene", case), ("with flanks", with_flanks)] {
+            let case = case.clone().at_speed(*speed);
+            // By its events, like the recording: a scene without sensor is no rig to compare with.
+            let recording = Recording::new("scene", blind::recorded(project, &case)?, RATE, *speed)?;
+            let blind = Scene { defects: Vec::new(), sensors: Vec::new(), ..case.scene.clone() };
+            let report = spall_size::size(std::slice::from_ref(&recording), &blind)?;
+            let own = harmonics(&recording, &blind)?;
+            writeln!(text, "{}", beside_row(*speed, label, report.recordings.first(), &own))?;
+            // The figure shows the last, which is nearer.
+            let stem = format!("beside-{speed:.0}hz");
+            write_beside(project, &stem, figure, report.figures.first(), comb, &own)?;
         }
     }
-    text += &inner_beside(project, &inside)?;
     Ok(text)
 }
 
