@@ -22,11 +22,10 @@ use super::events::{self, Impact};
 use super::load_zone::MODULATED;
 use super::measured::Measured;
 use super::passages;
-use super::raceway::Raceway;
+use super::raceway::{self, Raceway};
 use super::report::Fault;
 use super::statistics::{self, Random};
-use brinell::geometry::hertz_constant::HertzConstants;
-use brinell::scene::{Motion, Scene};
+use brinell::scene::Scene;
 
 /// Share of a period before the first impact.
 const LEAD: f64 = 0.3;
@@ -206,7 +205,8 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Result<EventLength, Unres
     let onset_to_extreme = (entry.extreme - entry.at) / grid.degree;
     let bearing = &scene.bearing;
     let raceway = measured.raceway;
-    let unloading = approach(scene).map_or(onset_to_extreme, |d| raceway.sunk_after(bearing, d).min(onset_to_extreme));
+    let unloading =
+        raceway::approach(scene).map_or(onset_to_extreme, |d| raceway.sunk_after(bearing, d).min(onset_to_extreme));
     let length = way + 0.5 * (unloading - rounding);
     let systematic = ((unloading * unloading + rounding * rounding) / 12.0).sqrt();
     let approach = raceway.depth_at(bearing, unloading);
@@ -294,7 +294,7 @@ impl Grid {
 
     /// Impacts in the mean of the chosen rows, without echoes.
     fn impacts(&self, envelopes: &[Vec<f64>], chosen: &[usize]) -> Vec<Impact> {
-        let level = decibels(average_of(envelopes, chosen));
+        let level = decibels(statistics::average_of(envelopes, chosen));
         let impacts = events::impacts(&level, self.width, self.smallest, self.turns);
         events::without_echoes(impacts, envelopes, chosen, self.width, self.rate, self.turns)
     }
@@ -337,8 +337,8 @@ impl Picked {
 impl Rows {
     /// Entry, and the way from it to the last impact [degrees], in the average over the chosen rows.
     fn way(&self, picked: &Picked, chosen: &[usize], grid: &Grid) -> Option<(Entry, f64)> {
-        let signal = average_of(&self.signal, chosen);
-        let level = decibels(average_of(&self.envelope, chosen));
+        let signal = statistics::average_of(&self.signal, chosen);
+        let level = decibels(statistics::average_of(&self.envelope, chosen));
         let reach = (0.4 * grid.degree) as usize;
         let impact = events::jump_near(&level, grid.width, picked.impact, reach);
         let last = events::jump_near(&level, grid.width, picked.last, reach);
@@ -391,32 +391,4 @@ fn check_halves(rows: &Rows, picked: &Picked, grid: &Grid, way: f64) -> Result<(
 fn decibels(mut amplitudes: Vec<f64>) -> Vec<f64> {
     amplitudes.iter_mut().for_each(|x| *x = 20.0 * libm::log10(*x + f64::MIN_POSITIVE));
     amplitudes
-}
-
-fn average_of(rows: &[Vec<f64>], chosen: &[usize]) -> Vec<f64> {
-    let mut sum = vec![0.0; rows.first().map_or(0, Vec::len)];
-    for &k in chosen {
-        for (s, x) in sum.iter_mut().zip(&rows[k]) {
-            *s += x;
-        }
-    }
-    sum.iter_mut().for_each(|s| *s /= chosen.len() as f64);
-    sum
-}
-
-/// Approach of the most loaded element's two contacts together [m]; Q = 5F/Z holds for usual clearances (Stribeck).
-pub(super) fn approach(scene: &Scene) -> Option<f64> {
-    let load = scene.shaft.load[0].hypot(scene.shaft.load[1]);
-    if scene.shaft.motion != Motion::Internal || load == 0.0 {
-        return None;
-    }
-    let force = 5.0 * load / scene.bearing.element_count as f64;
-    let ratio = force / HertzConstants::of(&scene.bearing).in_series();
-    Some(libm::cbrt(ratio * ratio))
-}
-
-/// Shortest length that the scene's load and clearance allow [degrees], where the load is known.
-pub(super) fn limit(scene: &Scene, raceway: Raceway) -> Option<f64> {
-    let free = approach(scene)? + scene.bearing.radial_clearance.max(0.0);
-    Some(2.0 * raceway.sunk_after(&scene.bearing, free))
 }

@@ -9,7 +9,8 @@
 //! itself, and what travels over it is the element: on the inner one at the difference of shaft's and cage's speed.
 
 use super::report::Fault;
-use brinell::scene::Bearing;
+use brinell::geometry::hertz_constant::HertzConstants;
+use brinell::scene::{Bearing, Motion, Scene};
 
 /// The raceway that bears the spall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,6 +59,23 @@ impl Raceway {
         let s = degrees.to_radians() * self.radius(bearing);
         0.5 * s * s * self.relative_curvature(bearing)
     }
+}
+
+/// Approach of the most loaded element's two contacts together [m]; Q = 5F/Z holds for usual clearances (Stribeck).
+pub(super) fn approach(scene: &Scene) -> Option<f64> {
+    let load = scene.shaft.load[0].hypot(scene.shaft.load[1]);
+    if scene.shaft.motion != Motion::Internal || load == 0.0 {
+        return None;
+    }
+    let force = 5.0 * load / scene.bearing.element_count as f64;
+    let ratio = force / HertzConstants::of(&scene.bearing).in_series();
+    Some(libm::cbrt(ratio * ratio))
+}
+
+/// Shortest length that the scene's load and clearance allow [degrees], where the load is known.
+pub(super) fn shortest_length(scene: &Scene, raceway: Raceway) -> Option<f64> {
+    let free = approach(scene)? + scene.bearing.radial_clearance.max(0.0);
+    Some(2.0 * raceway.sunk_after(&scene.bearing, free))
 }
 
 #[cfg(test)]

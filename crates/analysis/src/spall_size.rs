@@ -13,7 +13,7 @@ use super::error::SizingError;
 use super::event_length::{self, EventLength, Unresolved};
 use super::kind::Judged;
 use super::measured::Measured;
-use super::raceway::Raceway;
+use super::raceway::{self, Raceway};
 use super::recording::Recording;
 use super::report::{Fault, Figure, Kind, Method, RecordingReport, Report, Standing, Verdict};
 use super::ringing::Ringing;
@@ -237,7 +237,7 @@ impl Sized {
 fn of_waveform(waveform: &WaveformLength, scene: &Scene, kind: Kind) -> Result<Length, Unresolved> {
     let WaveformLength { length, statistical, systematic, .. } = *waveform;
     let uncertainty = statistical.hypot(systematic).hypot(FLOOR);
-    let limit = event_length::limit(scene, Raceway::Outer);
+    let limit = raceway::shortest_length(scene, Raceway::Outer);
     if limit.is_some_and(|limit| length - COVERAGE * uncertainty < limit) {
         return Err(Unresolved::TooShort(length, uncertainty, limit.unwrap_or_default()));
     }

@@ -89,3 +89,15 @@ impl Random {
         (-2.0 * libm::log(u)).sqrt() * libm::cos(2.0 * std::f64::consts::PI * v)
     }
 }
+
+/// Mean of some of the rows, place by place.
+pub(super) fn average_of(rows: &[Vec<f64>], chosen: &[usize]) -> Vec<f64> {
+    let mut sum = vec![0.0; rows.first().map_or(0, Vec::len)];
+    for &k in chosen {
+        for (s, x) in sum.iter_mut().zip(&rows[k]) {
+            *s += x;
+        }
+    }
+    sum.iter_mut().for_each(|s| *s /= chosen.len() as f64);
+    sum
+}

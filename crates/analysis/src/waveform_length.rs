@@ -8,10 +8,9 @@
 //!
 //! [`synthesis`]: super::synthesis
 
-use super::event_length;
 use super::measured::Measured;
 use super::passages;
-use super::raceway::Raceway;
+use super::raceway::{self, Raceway};
 use super::statistics::{self, Random};
 use super::synthesis::{POINTS, Rig, Run, Trial, below_cut, best_shift};
 use super::trial_search::{FINE, Fit, OwnLaw, Peak, Search, lengths, top};
@@ -91,7 +90,7 @@ fn search(measured: &Measured, scene: &Scene, rig: &Rig<'_>, heard: &mut NotAlik
     heard.similarity = found.first()?.similarity;
     let mut climbed = climbs(&search, &found);
     if climbed.first().is_none_or(|best| best.similarity < LIKE)
-        && let Some(approach) = event_length::approach(scene)
+        && let Some(approach) = raceway::approach(scene)
     {
         let shallow: Vec<Trial> = SHALLOW.iter().flat_map(|times| ladder(times * approach, 0.5 * STEP)).collect();
         found.extend(search.fits(&shallow, Run::Short));
@@ -115,7 +114,7 @@ fn search(measured: &Measured, scene: &Scene, rig: &Rig<'_>, heard: &mut NotAlik
     // The first is the usual depth, if it is as good: a depth that elements do not reach leaves no trace.
     let cheap = peaks.into_iter().next()?;
     // Below what can be resolved the law's last tenth of a degree decides nothing, and its map is dear.
-    let short = event_length::limit(scene, Raceway::Outer).is_some_and(|limit| cheap.length + 2.0 * FINE < limit);
+    let short = raceway::shortest_length(scene, Raceway::Outer).is_some_and(|limit| cheap.length + 2.0 * FINE < limit);
     let own = if short { None } else { search.with_law(&cheap, scene.contact.law) };
     let best = own.unwrap_or_else(|| OwnLaw {
         length: cheap.length,
