@@ -6,9 +6,8 @@
 //! kink in its slope, on a line across the map.
 
 use crate::numerics::hermite;
-use std::collections::BTreeMap;
-
 use crate::surface::Surface;
+use std::collections::BTreeMap;
 
 use super::{
     error::ContactError,
