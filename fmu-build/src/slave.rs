@@ -82,7 +82,7 @@ pub enum SlaveError {
 
 type Component = *mut c_void;
 type State = *mut c_void;
-type Log = Mutex<Vec<String>>;
+pub(crate) type Log = Mutex<Vec<String>>;
 
 #[repr(C)]
 struct Callbacks {
@@ -125,6 +125,40 @@ macro_rules! call {
         $slave.answer($function, status)
     }};
 }
+pub(crate) use call;
+
+/// Loads a library that has all of these functions.
+pub(crate) fn loaded(path: &Path, functions: &[&str]) -> Result<Library, SlaveError> {
+    // SAFETY: the user asked for this library to be run; its initialisers are his trust.
+    let library = unsafe { Library::new(path)? };
+    for function in functions {
+        // SAFETY: the symbol is looked up, not used.
+        unsafe { library.get::<unsafe extern "C" fn()>(*function) }?;
+    }
+    Ok(library)
+}
+
+/// # Safety
+/// The pointer is null or to a zero-terminated string.
+pub(crate) unsafe fn text(pointer: *const c_char) -> String {
+    if pointer.is_null() {
+        return String::from("NULL");
+    }
+    // SAFETY: not null; the rest is the contract.
+    unsafe { CStr::from_ptr(pointer) }.to_string_lossy().into_owned()
+}
+
+/// Adds a line to the log.
+///
+/// # Safety
+/// `environment` points to a living [`Log`]; `category` is null or a zero-terminated string.
+pub(crate) unsafe fn keep(environment: *mut c_void, category: *const c_char, line: &str) {
+    // SAFETY: this function's contract.
+    let (log, category) = unsafe { (&*environment.cast::<Log>(), text(category)) };
+    if let Ok(mut log) = log.lock() {
+        log.push(format!("{category}: {line}"));
+    }
+}
 
 impl Slave {
     /// Loads the library and makes an instance. `resources` is the unpacked folder of that name.
@@ -134,12 +168,7 @@ impl Slave {
 
     /// The same with the folder as a URI, written as the caller likes.
     pub fn with_uri(path: &Path, instance: &str, guid: &str, uri: &str) -> Result<Self, SlaveError> {
-        // SAFETY: the user asked for this library to be run; its initialisers are his trust.
-        let library = unsafe { Library::new(path)? };
-        for function in FUNCTIONS {
-            // SAFETY: the symbol is looked up, not used.
-            unsafe { library.get::<unsafe extern "C" fn()>(function) }?;
-        }
+        let library = loaded(path, &FUNCTIONS)?;
         let log: Box<Log> = Box::default();
         let callbacks = Box::new(Callbacks {
             logger: note,
@@ -311,21 +340,13 @@ unsafe extern "C" fn note(
     first: *const c_char,
 ) {
     let variadic_like_named = cfg!(not(all(target_os = "macos", target_arch = "aarch64")));
-    let text = |pointer: *const c_char| {
-        if pointer.is_null() {
-            return String::from("NULL");
+    // SAFETY: the standard passes zero-terminated strings; the slave passed its own log, which outlives the instance.
+    unsafe {
+        let mut line = text(message);
+        if line == "%s" && variadic_like_named {
+            line = text(first);
         }
-        // SAFETY: not null, and the standard passes zero-terminated strings.
-        unsafe { CStr::from_ptr(pointer) }.to_string_lossy().into_owned()
-    };
-    let mut line = text(message);
-    if line == "%s" && variadic_like_named {
-        line = text(first);
-    }
-    // SAFETY: the slave passed its own log, which outlives the instance.
-    let log = unsafe { &*environment.cast::<Log>() };
-    if let Ok(mut log) = log.lock() {
-        log.push(format!("{}: {line}", text(category)));
+        keep(environment, category, &line);
     }
 }
 

@@ -4,14 +4,13 @@
 
 #![allow(unsafe_code)]
 
-use std::ffi::{CStr, CString, c_char, c_int, c_void};
+use std::ffi::{CString, c_char, c_int, c_void};
 use std::path::Path;
 use std::ptr;
-use std::sync::Mutex;
 
 use libloading::{Library, Symbol};
 
-use crate::slave::{SavedState, SlaveError};
+use crate::slave::{Log, SavedState, SlaveError, call, keep, loaded, text};
 
 /// All functions, which the standard wants of an FMU of whatever kind.
 const FUNCTIONS: [&str; 75] = [
@@ -93,7 +92,6 @@ const FUNCTIONS: [&str; 75] = [
 ];
 
 type Handle = *mut c_void;
-type Log = Mutex<Vec<String>>;
 type Logger = unsafe extern "C" fn(*mut c_void, c_int, *const c_char, *const c_char);
 
 /// One instance of a co-simulation FMU. It wants no intermediate updates and no early return.
@@ -105,28 +103,10 @@ pub struct Slave3 {
     log: Box<Log>,
 }
 
-/// Takes the symbol and calls it. The signature stands beside each use, next to the standard's name.
-macro_rules! call {
-    ($slave:expr, $function:literal, ($($kind:ty),*), ($($value:expr),*)) => {{
-        // SAFETY: the symbol has the standard's signature, written here; pointers among the arguments point to
-        // live places of the lengths passed along, and the first is a living instance of this library.
-        let status = unsafe {
-            let function: Symbol<'_, unsafe extern "C" fn($($kind),*) -> c_int> = $slave.library.get($function)?;
-            function($($value),*)
-        };
-        $slave.answer($function, status)
-    }};
-}
-
 impl Slave3 {
     /// Loads the library and makes an instance. `resources` is the unpacked folder of that name, if there is one.
     pub fn new(path: &Path, instance: &str, token: &str, resources: &Path) -> Result<Self, SlaveError> {
-        // SAFETY: the user asked for this library to be run; its initialisers are his trust.
-        let library = unsafe { Library::new(path)? };
-        for function in FUNCTIONS {
-            // SAFETY: the symbol is looked up, not used.
-            unsafe { library.get::<unsafe extern "C" fn()>(function) }?;
-        }
+        let library = loaded(path, &FUNCTIONS)?;
         let mut slave = Self { instance: ptr::null_mut(), library, log: Box::default() };
         let separator = std::path::MAIN_SEPARATOR;
         let folder = CString::new(format!("{}{separator}", resources.display()))?;
@@ -271,16 +251,6 @@ impl Drop for Slave3 {
 
 /// The host's logger.
 unsafe extern "C" fn note(environment: *mut c_void, _status: c_int, category: *const c_char, message: *const c_char) {
-    let text = |pointer: *const c_char| {
-        if pointer.is_null() {
-            return String::from("NULL");
-        }
-        // SAFETY: not null, and the standard passes zero-terminated strings.
-        unsafe { CStr::from_ptr(pointer) }.to_string_lossy().into_owned()
-    };
-    // SAFETY: the slave passed its own log, which outlives the instance.
-    let log = unsafe { &*environment.cast::<Log>() };
-    if let Ok(mut log) = log.lock() {
-        log.push(format!("{}: {}", text(category), text(message)));
-    }
+    // SAFETY: the standard passes zero-terminated strings; the slave passed its own log, which outlives the instance.
+    unsafe { keep(environment, category, &text(message)) };
 }
