@@ -11,6 +11,7 @@ use super::drive::Drive;
 use super::kinematics::CageState;
 use super::model::Model;
 use crate::numerics::plane::turned;
+use crate::numerics::quintic::Quintic;
 
 /// What is known at one instant.
 #[derive(Debug, Clone, Copy)]
@@ -34,7 +35,7 @@ impl Model {
     ) {
         self.begin(drive);
         let layout = &self.layout;
-        let basis = Basis::new(h, share);
+        let basis = Quintic::new(h, share);
         let value = |i: usize| ends.map(|end| end.state[i]);
         let rate = |i: usize| ends.map(|end| end.derivative[i]);
         let rings = [layout.shaft, layout.housing].into_iter().flatten().map(|start| (start, 2));
@@ -57,37 +58,6 @@ impl Model {
             out[j] = path;
             out[w + j] = path_rate + self.direction(j, cage).dot(&velocity);
         }
-    }
-}
-
-/// Hermite's polynomials of degree five at a share of a step of this length.
-struct Basis {
-    h: f64,
-    share: f64,
-}
-
-impl Basis {
-    fn new(h: f64, share: f64) -> Self {
-        Self { h, share }
-    }
-
-    /// Value and rate from the values, rates and second derivatives at both ends.
-    #[inline(always)]
-    fn at(&self, [x, end]: [f64; 2], rates: [f64; 2], bends: [f64; 2]) -> (f64, f64) {
-        let (h, s) = (self.h, self.share);
-        let [rate, end_rate] = rates.map(|rate| h * rate);
-        let [bend, end_bend] = bends.map(|bend| h * h * bend);
-        let difference = end - x - rate - 0.5 * bend;
-        let turn = end_rate - rate - bend;
-        let change = end_bend - bend;
-        let [third, fourth, fifth] = [
-            10.0 * difference - 4.0 * turn + 0.5 * change,
-            -15.0 * difference + 7.0 * turn - change,
-            6.0 * difference - 3.0 * turn + 0.5 * change,
-        ];
-        let value = x + s * (rate + s * (0.5 * bend + s * (third + s * (fourth + s * fifth))));
-        let slope = rate + s * (bend + s * (3.0 * third + s * (4.0 * fourth + s * 5.0 * fifth)));
-        (value, slope / h)
     }
 }
 
@@ -148,19 +118,6 @@ mod tests {
                     assert!(miss < limit, "{}: {miss:e} at {share}", model.layout.name(i));
                 }
             }
-        }
-    }
-
-    #[test]
-    fn a_polynomial_of_degree_five_comes_out_as_it_is() {
-        let x = |t: f64| 1.0 + t * (2.0 + t * (-3.0 + t * (0.5 + t * (4.0 - t))));
-        let rate = |t: f64| 2.0 + t * (-6.0 + t * (1.5 + t * (16.0 - 5.0 * t)));
-        let bend = |t: f64| -6.0 + t * (3.0 + t * (48.0 - 20.0 * t));
-        let h = 0.7;
-        for share in [0.0, 0.2, 0.5, 0.9, 1.0] {
-            let ends = [0.0, h];
-            let (value, slope) = Basis::new(h, share).at(ends.map(x), ends.map(rate), ends.map(bend));
-            assert!((value - x(share * h)).abs() < 1e-14 && (slope - rate(share * h)).abs() < 1e-13, "{share}");
         }
     }
 }

@@ -21,6 +21,7 @@ mod other_contacts;
 pub mod raceway;
 mod right_hand_side;
 mod ring_motion;
+pub mod sensor_modes;
 pub mod supports;
 pub mod tangent;
 pub mod variation;

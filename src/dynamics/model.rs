@@ -11,6 +11,7 @@ use super::element_block::{ElementBlock, blocks};
 use super::irregularity::{Irregularity, Lead};
 use super::kinematics::CageState;
 use super::raceway::{Cells, DefectiveElement, Defects, Raceway};
+use super::sensor_modes::SensorModes;
 use super::supports::Supports;
 use crate::contact::compliant::CompliantContact;
 use crate::contact::force_law::ForceLaw;
@@ -52,6 +53,8 @@ pub struct Model {
     pub housing: Ring,
     /// What holds rings and sensor.
     pub supports: Supports,
+    /// What lies between the outer ring and the sensors.
+    pub sensor_modes: SensorModes,
     /// Speeds of cage and elements per speed of the rings.
     pub ratios: Ratios,
     /// Places of the state vector.
@@ -198,6 +201,7 @@ impl Model {
             shaft: scene.shaft,
             housing: scene.housing,
             supports: Supports::new(scene),
+            sensor_modes: SensorModes::new(scene),
             ratios: Ratios::new(bearing, scene.cage.slip, scene.cage.spin_slip),
             layout: Layout::new(scene),
             may_have_inner_defects: scene.has_defect_inside(),

@@ -12,6 +12,7 @@ pub mod lanes;
 pub mod low_pass;
 pub mod plane;
 mod power;
+pub(crate) mod quintic;
 pub mod row;
 #[cfg(test)]
 pub(crate) mod trees;

@@ -112,7 +112,8 @@ impl Default for Sensor {
     /// A resonator of 15 kHz with 5 % of critical damping that measures along y, from the same models as the rings'
     /// supports.
     fn default() -> Self {
-        Self { name: String::new(), direction: FRAC_PI_2, mass: 1.0, stiffness: 8.8826e9, damping: 9424.8 }
+        let (name, modes) = (String::new(), Vec::new());
+        Self { name, direction: FRAC_PI_2, mass: 1.0, stiffness: 8.8826e9, damping: 9424.8, modes }
     }
 }
 

@@ -13,7 +13,9 @@
 
 use super::error::{LONGEST_NAME, SceneError};
 use super::quantity::*;
-use super::{Bearing, Contact, Damping, Defect, DefectOn, DefectShape, Motion, Recorder, RecorderFilter, Ring, Scene};
+use super::{
+    Bearing, Contact, Damping, Defect, DefectOn, DefectShape, Motion, Recorder, RecorderFilter, Ring, Scene, SensorMode,
+};
 use std::f64::consts::{PI, TAU};
 
 /// Smallest clearance over element diameter; see the head of this file.
@@ -101,6 +103,10 @@ impl Scene {
                 SENSOR_MASS.check(sensor.mass)?;
                 SENSOR_STIFFNESS.check(sensor.stiffness)?;
                 SENSOR_DAMPING.check(sensor.damping)?;
+                SENSOR_MODE_COUNT.check(sensor.modes.len() as f64)?;
+                for (index, mode) in sensor.modes.iter().enumerate() {
+                    mode.check().map_err(|of| of.in_table("sensor.mode", index, sensor.modes.len()))?;
+                }
                 if sensor.name.chars().any(char::is_control) || sensor.name.len() > LONGEST_NAME {
                     return Err(SceneError::SensorName(sensor.name.clone()));
                 }
@@ -289,6 +295,14 @@ fn check_groove(ring: &'static str, conformity: f64, range: &Quantity) -> Result
         return Err(SceneError::GrooveTooNarrow { ring, conformity: shown(conformity), limit: SMALLEST_CONFORMITY });
     }
     range.check(conformity)
+}
+
+impl SensorMode {
+    fn check(&self) -> Result<(), SceneError> {
+        SENSOR_MODE_FREQUENCY.check(self.frequency)?;
+        SENSOR_MODE_DAMPING_RATIO.check(self.damping_ratio)?;
+        SENSOR_MODE_GAIN.check(self.gain)
+    }
 }
 
 fn check_ring(ring: &Ring, name: &'static str, of: &RingQuantities) -> Result<(), SceneError> {

@@ -83,7 +83,7 @@ pub enum SceneError {
     /// Something wrong with one of several tables of a name.
     #[error("[[{table}]] number {number}: {of}")]
     InTable {
-        /// "defect" or "sensor".
+        /// "defect", "sensor" or "sensor.mode".
         table: &'static str,
         /// Its number in the scene file, from 1.
         number: usize,

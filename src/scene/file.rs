@@ -30,6 +30,7 @@
 //! | `shaft.initial_angle_deg`, `housing.initial_angle_deg` | 0 |
 //! | `housing.speed_hz` | none: the outer ring does not turn |
 //! | `sensor` | none; its `direction_deg` 90, `name` empty, `mass_kg`, `stiffness_n_m`, `damping_n_s_m` 1, 8.8826e9, 9424.8; several as `[[sensor]]` |
+//! | `sensor.mode` | none; several as `[[sensor.mode]]` below their sensor, all three keys needed |
 //! | `probe` | none; a table without keys |
 //! | `solver.tolerance`, `.max_steps` | 1e-5, 10 000 000 |
 //! | `recorder` | none; its `filter` `"linear-phase"`, or `"none"` |

@@ -330,6 +330,22 @@ pub struct Sensor {
     pub stiffness: f64,
     /// Damping [N s/m].
     pub damping: f64,
+    /// Modes of the structure between the outer ring and it.
+    pub modes: Vec<SensorMode>,
+}
+
+/// Most modes between the outer ring and one sensor.
+pub const MOST_SENSOR_MODES: usize = 32;
+
+/// A mode of the structure between the outer ring and a sensor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SensorMode {
+    /// Natural frequency [Hz].
+    pub frequency: f64,
+    /// Share of critical damping.
+    pub damping_ratio: f64,
+    /// Participation factor times shape where the sensor sits; those of all modes of a structure add up to 1.
+    pub gain: f64,
 }
 
 impl Sensor {

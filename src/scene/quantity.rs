@@ -1,7 +1,7 @@
 //! The quantities of the scene file: what each is called, its key, its unit and the limits that depend on nothing else.
 
-use super::MOST_SENSORS;
 use super::error::{Bound, Limits, SceneError};
+use super::{MOST_SENSOR_MODES, MOST_SENSORS};
 use Bound::{Exclusive, Inclusive};
 use std::f64::consts::{PI, TAU};
 
@@ -163,6 +163,14 @@ pub(super) const SENSOR_STIFFNESS: Quantity =
     quantity("sensor stiffness", "sensor.stiffness_n_m", 1.0, Exclusive(0.0), Inclusive(1e15));
 pub(super) const SENSOR_DAMPING: Quantity =
     quantity("sensor damping", "sensor.damping_n_s_m", 1.0, Inclusive(0.0), Inclusive(1e12));
+pub(super) const SENSOR_MODE_COUNT: Quantity =
+    quantity("number of a sensor's modes", "[[sensor.mode]]", 1.0, Inclusive(0.0), Inclusive(MOST_SENSOR_MODES as f64));
+pub(super) const SENSOR_MODE_FREQUENCY: Quantity =
+    quantity("frequency of a sensor's mode", "sensor.mode.frequency_hz", 1.0, Inclusive(1.0), Inclusive(1e6));
+pub(super) const SENSOR_MODE_DAMPING_RATIO: Quantity =
+    quantity("damping ratio of a sensor's mode", "sensor.mode.damping_ratio", 1.0, Exclusive(0.0), Inclusive(1.0));
+pub(super) const SENSOR_MODE_GAIN: Quantity =
+    quantity("gain of a sensor's mode", "sensor.mode.gain", 1.0, Inclusive(-1e3), Inclusive(1e3));
 pub(super) const TOLERANCE: Quantity = quantity("tolerance", "solver.tolerance", 1.0, Inclusive(1e-12), Inclusive(0.1));
 pub(super) const MAX_STEPS: Quantity =
     quantity("most integration steps", "solver.max_steps", 1.0, Inclusive(1.0), Inclusive(1e15));

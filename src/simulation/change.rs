@@ -19,6 +19,8 @@ pub(super) struct Change {
     /// Of the accelerations of inner and outer ring [m/s²].
     pub(super) accelerations: [Vector; 2],
     pub(super) sensor_accelerations: [f64; MOST_SENSORS],
+    /// Of what they measure, by the motion of the modes under them.
+    pub(super) by_sensor_modes: [f64; MOST_SENSORS],
     pub(super) cage_torque: f64,
     pub(super) stiffness: Matrix,
 }
@@ -32,6 +34,7 @@ impl Change {
             sensors: [[0.0; 2]; MOST_SENSORS],
             accelerations: [Vector::zeros(); 2],
             sensor_accelerations: [0.0; MOST_SENSORS],
+            by_sensor_modes: [0.0; MOST_SENSORS],
             cage_torque: 0.0,
             stiffness: Matrix::zeros(),
         }
@@ -41,6 +44,7 @@ impl Change {
         self.variation.clear();
         (self.loads, self.accelerations) = (Rings::zeros(), [Vector::zeros(); 2]);
         (self.sensors, self.sensor_accelerations) = ([[0.0; 2]; MOST_SENSORS], [0.0; MOST_SENSORS]);
+        self.by_sensor_modes = [0.0; MOST_SENSORS];
         self.cage_torque = 0.0;
         self.stiffness = Matrix::zeros();
     }

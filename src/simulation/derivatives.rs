@@ -180,6 +180,10 @@ impl Simulation {
         for (sensor, i) in change.sensors.iter_mut().zip(layout.sensor_places()) {
             *sensor = [self.derivative[i], self.derivative[i + 1]];
         }
+        for (k, i) in layout.sensor_places().enumerate() {
+            change.by_sensor_modes[k] =
+                self.model.sensor_modes.rate(k, self.derivative[i + 1], &self.state.progress.sensor_modes);
+        }
         // Those of internal rings follow from the forces' change.
         change.accelerations = [&drive.shaft, &drive.housing].map(|[x, y]| Vector::new(x.0[3], y.0[3]));
         for (axis, load) in drive.shaft_load.iter().chain(&drive.housing_load).enumerate() {
@@ -261,7 +265,9 @@ impl Simulation {
             // Before the first step the mean is the force itself.
             Quantity::MeanForce(name, axis) if !self.state.started => ring(name).2[axis],
             Quantity::Stiffness(row, column) => -self.change.stiffness[(row, column)],
-            Quantity::SensorAcceleration(k) => self.change.sensor_accelerations[k],
+            Quantity::SensorAcceleration(k) => {
+                self.model.sensor_modes.direct(k) * self.change.sensor_accelerations[k] + self.change.by_sensor_modes[k]
+            }
             Quantity::Probe(axis) => variation.shaft.position[axis] - variation.housing.position[axis],
             Quantity::CageAngle => self.cage_change()[0],
             Quantity::ElementAngle(j) => self.element_turn(j),

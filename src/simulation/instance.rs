@@ -338,5 +338,5 @@ impl Simulation {
 /// A state at rest of this model.
 fn new_progress(model: &Model, recorder: &Option<Recorder>) -> Progress {
     let under_way = recorder.as_ref().map_or(0, Recorder::under_way);
-    Progress::new(model.layout.len, [model.element_count, model.defective.len()], under_way)
+    Progress::new(model, under_way)
 }

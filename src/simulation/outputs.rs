@@ -40,18 +40,18 @@ impl<'a> Outputs<'a> {
     }
 
     /// Those of the instant `tau` [s] after the communication point. `derivative` and `forces` are the model's for
-    /// `state`; `start` are the angles at the communication point.
+    /// `state`, `sensor_modes` the state of the modes between outer ring and sensors; `start` are the angles at the communication point.
     pub fn new(
         model: &'a Model,
         (drive, tau): (&'a Drive, f64),
-        (state, derivative): (&'a [f64], &[f64]),
+        (state, derivative, sensor_modes): (&'a [f64], &[f64], &[f64]),
         forces: &'a Forces,
         start: Angles,
     ) -> Self {
         model.begin(drive);
         let mut sensors = [0.0; MOST_SENSORS];
-        for (sensor, place) in sensors.iter_mut().zip(model.layout.sensor_places()) {
-            *sensor = derivative[place + 1];
+        for (k, place) in model.layout.sensor_places().enumerate() {
+            sensors[k] = model.sensor_modes.measured(k, derivative[place + 1], sensor_modes);
         }
         Self {
             state,

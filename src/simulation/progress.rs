@@ -3,6 +3,7 @@
 use super::quantity::Count;
 use super::recorder::Due;
 use super::switching::Choice;
+use crate::dynamics::model::Model;
 use crate::dynamics::raceway::Cells;
 use crate::numerics::lanes::padded;
 use crate::numerics::row::Row;
@@ -15,6 +16,8 @@ const FIRST_STEP: f64 = 1e-6;
 pub struct Progress {
     /// State vector, as [`crate::dynamics::model::Layout`] lays it out.
     pub state: Row,
+    /// State of the modes between outer ring and sensors, z and z' of each; of no length without any.
+    pub sensor_modes: Row,
     /// Cells of defects in which all contacts are.
     pub cells: Cells,
     /// 1 where a contact pushes and −1 where it does not, the inner ones and then the outer; each list filled up to a
@@ -43,12 +46,13 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// A state at rest in `len` places for `count` elements, so many of them defective, with so many places for rows of
-    /// the recorder.
-    pub fn new(len: usize, [count, defective]: [usize; 2], under_way: usize) -> Self {
+    /// A model's state at rest, with so many places for rows of the recorder.
+    pub fn new(model: &Model, under_way: usize) -> Self {
+        let count = model.element_count;
         Self {
-            state: Row::zeros(len),
-            cells: Cells::smooth(count, defective),
+            state: Row::zeros(model.layout.len),
+            sensor_modes: Row::zeros(model.sensor_modes.state_len()),
+            cells: Cells::smooth(count, model.defective.len()),
             pushing: Row::from_fn(2 * padded(count), |_| -1.0),
             next_step: FIRST_STEP,
             last_error: 1.0,
@@ -77,7 +81,8 @@ impl Progress {
 
     /// Copies the progress of another state of the same model; allocates nothing.
     pub fn copy_from(&mut self, other: &Progress) {
-        let Self { state, cells, pushing, under_way, .. } = self;
+        let Self { state, sensor_modes, cells, pushing, under_way, .. } = self;
+        sensor_modes.copy_from_slice(&other.sensor_modes);
         state.copy_from_slice(&other.state);
         cells.copy_from(&other.cells);
         pushing.copy_from_slice(&other.pushing);

@@ -26,7 +26,7 @@ impl Simulation {
         let outputs = Outputs::new(
             &self.model,
             (&drive, 0.0),
-            (&progress.state, &self.derivative),
+            (&progress.state, &self.derivative, &progress.sensor_modes),
             &self.forces,
             self.state.angles(),
         );

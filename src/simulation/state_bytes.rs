@@ -30,7 +30,7 @@ impl State {
     pub fn byte_count(&self) -> usize {
         let progress = &self.progress;
         let fixed = 8 + 1 + 4 * (8 + 8) + 3 * 8 + 2 * 8 + (1 + 4 * 4 + 2 * 8 + 1) + 4 * 8 + 4 * 8 + 2 * 8;
-        let real = progress.state.len() + progress.under_way.len() + self.reals.len();
+        let real = progress.state.len() + progress.sensor_modes.len() + progress.under_way.len() + self.reals.len();
         let rates = self.input_rates.as_flattened().len();
         fixed
             + 8 * real
@@ -66,7 +66,13 @@ impl State {
         real(&mut choice.gained, field)?;
         real(&mut choice.stable_step, field)?;
         flag(&mut choice.damped, field)?;
-        let lists = [&mut progress.mean_force[..], &mut progress.state, &mut progress.under_way, &mut self.reals];
+        let lists = [
+            &mut progress.mean_force[..],
+            &mut progress.state,
+            &mut progress.sensor_modes,
+            &mut progress.under_way,
+            &mut self.reals,
+        ];
         for value in lists.into_iter().flatten() {
             real(value, field)?;
         }
@@ -139,6 +145,7 @@ impl Simulation {
             &[progress.next_step, progress.due.delay],
             &progress.mean_force,
             &progress.state,
+            &progress.sensor_modes,
             &progress.under_way,
             &state.reals,
         ];

@@ -22,7 +22,7 @@ use super::progress::Progress;
 use super::recorder::Recorder;
 use super::step_error::StepError;
 use super::switching::Method;
-use super::workspace::{Problem, Span, Workspace};
+use super::workspace::{Problem, Span, Workspace, step_ends};
 use crate::dynamics::raceway::Defects;
 use crate::numerics::rough_power;
 use crate::scene::Motion;
@@ -276,10 +276,15 @@ impl Stepper<'_> {
         let Some(recorder) = recorder else { return };
         let lookups = workspace.forces.defect_lookups;
         while let Some(tau) = recorder.due_before(&progress.due, span.end()) {
-            probe(workspace, *problem, span, (tau - span.from).max(0.0) / span.length, progress);
-            let Workspace { dense, scratch, forces, .. } = &**workspace;
-            let outputs =
-                Outputs::new(problem.model, (problem.drive, tau), (dense, scratch), forces, recorder.angles());
+            let share = (tau - span.from).max(0.0) / span.length;
+            probe(workspace, *problem, span, share, progress);
+            workspace.sensor_modes.copy_from_slice(&progress.sensor_modes);
+            let Workspace { explicit, implicit, sensor_modes, .. } = &mut **workspace;
+            let ends = step_ends(explicit, implicit, progress, (problem.model.layout.sensors, span.length));
+            problem.model.sensor_modes.advance(ends, share, sensor_modes);
+            let Workspace { dense, scratch, sensor_modes, forces, .. } = &**workspace;
+            let at = (&dense[..], &scratch[..], &sensor_modes[..]);
+            let outputs = Outputs::new(problem.model, (problem.drive, tau), at, forces, recorder.angles());
             recorder.take(&mut progress.due, &mut progress.under_way, &outputs);
         }
         // What the recorder looks up is not the solver's work.
@@ -291,6 +296,13 @@ impl Stepper<'_> {
             self.weigh_forces(span);
         }
         let Self { problem, workspace, progress, .. } = self;
+        if !progress.sensor_modes.is_empty() {
+            let place = problem.model.layout.sensors;
+            let ends = step_ends(&workspace.explicit, &workspace.implicit, progress, (place, span.length));
+            workspace.sensor_modes.copy_from_slice(&progress.sensor_modes);
+            problem.model.sensor_modes.advance(ends, 1.0, &mut workspace.sensor_modes);
+            progress.sensor_modes.copy_from_slice(&workspace.sensor_modes);
+        }
         if progress.choice.implicit {
             progress.implicit_steps += 1;
             std::mem::swap(&mut progress.state, &mut workspace.implicit.end);

@@ -12,6 +12,7 @@ use crate::dynamics::drive::Drive;
 use crate::dynamics::forces::Forces;
 use crate::dynamics::jacobian::Jacobian;
 use crate::dynamics::model::{Layout, Model};
+use crate::dynamics::sensor_modes::StepEnds;
 use crate::numerics::row::Row;
 
 /// Approach below which errors are no longer measured relative to it [m]: a contact of about 0.2 N.
@@ -61,6 +62,8 @@ pub struct Workspace {
     pub(super) arrow: Arrow,
     pub(super) forces: Forces,
     pub(super) dense: Row,
+    /// State of the sensors' modes at that instant.
+    pub(super) sensor_modes: Row,
     pub(super) scratch: Row,
     /// Sum over the stages of the step tried last of weight × ring force.
     pub(super) weighted_force: [f64; 4],
@@ -91,6 +94,7 @@ impl Workspace {
             arrow: Arrow::new(model),
             forces: Forces::of(model),
             dense: Row::zeros(len),
+            sensor_modes: Row::zeros(model.sensor_modes.state_len()),
             scratch: Row::zeros(len),
             weighted_force: [0.0; 4],
             first_force: [0.0; 4],
@@ -123,6 +127,18 @@ impl Workspace {
     pub(super) fn error(&self, tolerance: f64) -> f64 {
         self.largest_error / (tolerance * (self.largest_approach + SMALLEST_APPROACH))
     }
+}
+
+/// Both ends of the step tried last, whichever method took it, of `length` [s], the sensors standing at place `sensors`.
+pub(super) fn step_ends<'a>(
+    explicit: &'a Explicit,
+    implicit: &'a Rodas,
+    progress: &'a Progress,
+    (sensors, length): (usize, f64),
+) -> StepEnds<'a> {
+    let end = if progress.choice.implicit { &implicit.end } else { &explicit.end };
+    let [first, .., last] = &explicit.stages;
+    StepEnds { sensors, states: [&progress.state, end], derivatives: [first, last], length }
 }
 
 /// Weight that turns the error of state `i` into a length.

@@ -20,7 +20,8 @@ pub fn scene_page(source: &Path) -> Result<String> {
     }
     let mut tables: Vec<(String, Vec<Key>)> = files.iter().flat_map(|text| tables_in(text)).collect();
     files.push(fs::read_to_string(source.join(WORDS)).context(WORDS)?);
-    tables.sort_by_key(|(name, _)| reader.find(&format!(" {name}: ")).unwrap_or(0));
+    let outermost = |name: &str| name.split('.').next().unwrap_or_default().to_owned();
+    tables.sort_by_key(|(name, _)| (reader.find(&format!(" {}: ", outermost(name))).unwrap_or(0), name.clone()));
     let mut page = String::from(
         "# Keys of a scene\n\nA scene is a TOML file. Every key carries its unit. This page is made of the source that \
          reads the file, so it names every key there is.\n",
@@ -62,9 +63,21 @@ fn tables_in(source: &str) -> Vec<(String, Vec<Key>)> {
         let Some((name, body)) = part.split_once('}').and_then(|(whole, _)| whole.split_once(" {")) else { continue };
         let table = if name == "SceneFile" { Some("") } else { name.strip_suffix("Table") };
         let Some(table) = table.filter(|table| table.chars().all(char::is_alphabetic)) else { continue };
-        found.push((table.to_lowercase(), keys_in(body, whole_default)));
+        found.push((path_of(table), keys_in(body, whole_default)));
     }
     found
+}
+
+/// The table's name in a file: `SensorMode` is `sensor.mode`.
+fn path_of(table: &str) -> String {
+    let mut path = String::new();
+    for letter in table.chars() {
+        if letter.is_uppercase() && !path.is_empty() {
+            path.push('.');
+        }
+        path.extend(letter.to_lowercase());
+    }
+    path
 }
 
 /// The fields of a table, all of which may be left out where `whole_default` says so.
@@ -98,6 +111,10 @@ fn takes(key: &Key, files: &[String]) -> Option<String> {
         "bool" => "true or false",
         kind if kind.starts_with("OneOrMore<") => {
             return Some(format!("table; `[[{}]]` for each of several", key.name));
+        }
+        kind if kind.ends_with("Table>") => {
+            let table = kind.trim_start_matches("Vec<").trim_end_matches("Table>");
+            return Some(format!("table `[[{}]]`, each as often as wanted", path_of(table)));
         }
         kind if kind.ends_with("Table") => "table",
         kind if kind.starts_with("Vec<") => "list",
@@ -158,7 +175,10 @@ mod tests {
         let of_the_file: BTreeSet<_> = page
             .lines()
             .filter(|line| line.contains("| table"))
-            .map(|line| format!("`[{}]`", line.split('`').nth(1).unwrap()))
+            .map(|line| match line.split_once("| table `[[") {
+                Some((_, nested)) => format!("`[{}]`", nested.split(']').next().unwrap()),
+                None => format!("`[{}]`", line.split('`').nth(1).unwrap()),
+            })
             .collect();
         let parts: BTreeSet<_> = page
             .lines()
@@ -167,7 +187,12 @@ mod tests {
             .map(str::to_owned)
             .collect();
         assert_eq!(parts, of_the_file);
-        assert!(of_the_file.contains("`[probe]`") && page.contains("A table without keys."), "{page}");
+        assert!(
+            of_the_file.contains("`[sensor.mode]`")
+                && of_the_file.contains("`[probe]`")
+                && page.contains("A table without keys."),
+            "{page}"
+        );
         assert!(page.contains("| `motion` | `\"host\"`, `\"internal\"`, `\"fixed\"` | yes |"), "{page}");
         assert!(page.contains("| `filter` | `\"linear-phase\"`, `\"none\"` |  |"), "{page}");
         assert!(page.contains("| `defect` | table; `[[defect]]` for each of several |"), "{page}");

@@ -5,7 +5,7 @@ use super::super::key_fault::{Hint, KeyFault};
 use super::bearing::BearingTable;
 use super::cage::CageTable;
 use super::not_modelled::instead_of;
-use super::rings::{HousingTable, ProbeTable, SensorTable, ShaftTable};
+use super::rings::{HousingTable, ProbeTable, SensorModeTable, SensorTable, ShaftTable};
 use super::{ContactTable, DefectTable, ExperimentTable, RecorderTable, SceneError, SceneFile, SolverTable};
 use serde::Deserialize;
 use serde::de::{Deserializer, Visitor};
@@ -15,12 +15,13 @@ use toml::de::{DeTable, DeValue};
 type Keys = &'static [&'static str];
 
 /// Keys that a table cannot be without. The file itself is the table without a name.
-const NEEDED: [(&str, Keys); 6] = [
+const NEEDED: [(&str, Keys); 7] = [
     ("", &["name", "bearing", "shaft", "housing"]),
     ("bearing", &["element_count", "element_diameter_mm", "pitch_diameter_mm", "youngs_modulus_gpa", "poissons_ratio"]),
     ("defect", &["angle_deg"]),
     ("shaft", &["motion", "speed_hz"]),
     ("housing", &["motion"]),
+    ("sensor.mode", &["frequency_hz", "damping_ratio", "gain"]),
     ("recorder", &["rate_hz"]),
 ];
 
@@ -33,7 +34,7 @@ const ALTERNATIVES: [(&str, [&str; 2], Keys); 4] = [
 ];
 
 /// All tables and the keys that each takes, as the tables themselves say.
-fn tables() -> [(&'static str, Keys); 12] {
+fn tables() -> [(&'static str, Keys); 13] {
     [
         ("", fields::<SceneFile>()),
         ("bearing", fields::<BearingTable>()),
@@ -43,6 +44,7 @@ fn tables() -> [(&'static str, Keys); 12] {
         ("shaft", fields::<ShaftTable>()),
         ("housing", fields::<HousingTable>()),
         ("sensor", fields::<SensorTable>()),
+        ("sensor.mode", fields::<SensorModeTable>()),
         ("probe", fields::<ProbeTable>()),
         ("solver", fields::<SolverTable>()),
         ("recorder", fields::<RecorderTable>()),
@@ -67,25 +69,36 @@ fn faults(text: &str, file: &DeTable<'_>) -> Vec<KeyFault> {
     for (name, keys) in tables() {
         if name.is_empty() {
             faults.extend(of_table(&breaks, (name, keys), 0, file));
-        } else if let Some(value) = file.get(name) {
-            let line = line_of(&breaks, value.span().start);
-            match value.get_ref() {
-                DeValue::Table(table) => faults.extend(of_table(&breaks, (name, keys), line, table)),
-                DeValue::Array(tables) if ["defect", "sensor"].contains(&name) => {
-                    for table in tables.iter() {
-                        let line = line_of(&breaks, table.span().start);
-                        if let DeValue::Table(table) = table.get_ref() {
-                            faults.extend(of_table(&breaks, (name, keys), line, table));
-                        }
-                    }
-                }
-                // Of the wrong type, which is no matter of keys.
-                _ => {}
-            }
+        }
+        for (at, table) in all_of(name, file) {
+            faults.extend(of_table(&breaks, (name, keys), line_of(&breaks, at), table));
         }
     }
     faults.sort_by_key(KeyFault::line);
     faults
+}
+
+/// Names of tables of which there may be several.
+const SEVERAL: [&str; 3] = ["defect", "sensor", "sensor.mode"];
+
+/// All tables of a name, and where each begins. What is of the wrong type is no matter of keys.
+fn all_of<'a, 'f>(name: &str, file: &'a DeTable<'f>) -> Vec<(usize, &'a DeTable<'f>)> {
+    let (within, last) = match name.rsplit_once('.') {
+        None => (vec![file], name),
+        Some((outer, last)) => (all_of(outer, file).into_iter().map(|(_, table)| table).collect(), last),
+    };
+    let mut found = Vec::new();
+    for value in within.into_iter().filter_map(|table| table.get(last)) {
+        match value.get_ref() {
+            DeValue::Table(table) => found.push((value.span().start, table)),
+            DeValue::Array(tables) if SEVERAL.contains(&name) => {
+                let tables = tables.iter().map(|value| (value.span().start, value.get_ref()));
+                found.extend(tables.filter_map(|(at, value)| value.as_table().map(|table| (at, table))));
+            }
+            _ => {}
+        }
+    }
+    found
 }
 
 /// Faults of a table whose head stands in `line`; lines end at `breaks`.
@@ -253,6 +266,7 @@ mod tests {
             "shaft" => of::<ShaftTable>(text),
             "housing" => of::<HousingTable>(text),
             "sensor" => of::<SensorTable>(text),
+            "sensor.mode" => of::<SensorModeTable>(text),
             "probe" => of::<ProbeTable>(text),
             "solver" => of::<SolverTable>(text),
             "recorder" => of::<RecorderTable>(text),

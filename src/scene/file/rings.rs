@@ -1,7 +1,7 @@
 //! The tables `[shaft]`, `[housing]`, `[sensor]` and `[probe]` of the scene file.
 
 use super::pair::optional;
-use crate::scene::{Motion, Ring, SceneError, Sensor};
+use crate::scene::{Motion, Ring, SceneError, Sensor, SensorMode};
 use serde::Deserialize;
 
 /// The inner ring.
@@ -107,6 +107,21 @@ pub(super) struct SensorTable {
     stiffness_n_m: f64,
     /// Damping of its mount.
     damping_n_s_m: f64,
+    /// Modes of the structure between the outer ring and it.
+    mode: Vec<SensorModeTable>,
+}
+
+/// A mode of the structure between the outer ring and a sensor.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SensorModeTable {
+    /// Its natural frequency.
+    frequency_hz: f64,
+    /// Its share of critical damping.
+    damping_ratio: f64,
+    /// Its participation factor times its shape where the sensor sits; those of all modes add up to 1.
+    gain: f64,
 }
 
 /// Says by being there that displacements between the rings are wanted.
@@ -123,14 +138,21 @@ impl SensorTable {
             mass: self.mass_kg,
             stiffness: self.stiffness_n_m,
             damping: self.damping_n_s_m,
+            modes: self.mode.into_iter().map(SensorModeTable::into_mode).collect(),
         }
+    }
+}
+
+impl SensorModeTable {
+    fn into_mode(self) -> SensorMode {
+        SensorMode { frequency: self.frequency_hz, damping_ratio: self.damping_ratio, gain: self.gain }
     }
 }
 
 impl Default for SensorTable {
     fn default() -> Self {
-        let Sensor { name, direction, mass, stiffness, damping } = Sensor::default();
-        let direction_deg = direction.to_degrees();
-        Self { name, direction_deg, mass_kg: mass, stiffness_n_m: stiffness, damping_n_s_m: damping }
+        let Sensor { name, direction, mass, stiffness, damping, modes: _ } = Sensor::default();
+        let (direction_deg, mode) = (direction.to_degrees(), Vec::new());
+        Self { name, direction_deg, mass_kg: mass, stiffness_n_m: stiffness, damping_n_s_m: damping, mode }
     }
 }
