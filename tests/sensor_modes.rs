@@ -7,9 +7,10 @@ use brinell::scene::{Recorder, RecorderFilter, Ring, Scene, Sensor, SensorMode};
 use std::f64::consts::TAU;
 use support::{Named, shipped};
 
+/// The first as damping that couples modes would have it.
 const MODES: [SensorMode; 2] = [
-    SensorMode { frequency: 2_300.0, damping_ratio: 0.03, gain: 0.8 },
-    SensorMode { frequency: 7_100.0, damping_ratio: 0.01, gain: -0.5 },
+    SensorMode { frequency: 2_300.0, damping_ratio: 0.03, gain: 0.8, quadrature_gain: 0.2 },
+    SensorMode { frequency: 7_100.0, damping_ratio: 0.01, gain: -0.5, quadrature_gain: 0.0 },
 ];
 
 /// An element over a spall; a bare sensor, and its like behind a structure.
@@ -38,7 +39,8 @@ fn behind(modes: &[SensorMode], h: f64, accelerations: &[f64]) -> Vec<f64> {
             let swing = (speed + decay * free) / ringing;
             z = p + q * h + fall * (free * cos + swing * sin);
             rate = q + fall * (speed * cos - (decay * swing + ringing * free) * sin);
-            shown[k + 1] += mode.gain * (-pair[1] - 2.0 * zeta * w * rate - w * w * z);
+            shown[k + 1] +=
+                mode.gain * (-pair[1] - 2.0 * zeta * w * rate - w * w * z) + mode.quadrature_gain * w * rate;
         }
     }
     shown
@@ -211,6 +213,7 @@ fn what_is_wrong_with_a_mode_is_said_with_its_key_and_limit() {
         (|mode| mode.damping_ratio = 0.0, ["sensor.mode.damping_ratio", "0"]),
         (|mode| mode.damping_ratio = 1.5, ["sensor.mode.damping_ratio", "1.5"]),
         (|mode| mode.gain = -2e3, ["sensor.mode.gain", "-2000"]),
+        (|mode| mode.quadrature_gain = 2e3, ["sensor.mode.quadrature_gain", "2000"]),
     ] {
         let message = refused(change, 1);
         assert!(words.iter().all(|word| message.contains(word)), "{message}");
@@ -223,7 +226,7 @@ fn what_is_wrong_with_a_mode_is_said_with_its_key_and_limit() {
 fn tables_of_modes_belong_to_the_sensor_before_them() {
     // What stands after the sensor goes with it; all of it has defaults.
     let (text, _) = include_str!("../scenes/6205-spall-5deg.toml").split_once("\n[sensor]\n").unwrap();
-    let mode = "[[sensor.mode]]\nfrequency_hz = 2300\ndamping_ratio = 0.03\ngain = 0.8\n";
+    let mode = "[[sensor.mode]]\nfrequency_hz = 2300\ndamping_ratio = 0.03\ngain = 0.8\nquadrature_gain = 0.2\n";
     let with = |tables: &str| Scene::from_toml(&format!("{text}\n{tables}"));
     let count =
         |tables: &str| with(tables).unwrap().sensors.iter().map(|sensor| sensor.modes.len()).collect::<Vec<_>>();
@@ -231,7 +234,7 @@ fn tables_of_modes_belong_to_the_sensor_before_them() {
     assert_eq!(count(&format!("[[sensor]]\n{mode}[[sensor]]\n{mode}{mode}")), [1, 2]);
     assert_eq!(with(&format!("[sensor]\n{mode}")).unwrap().sensors[0].modes, MODES[..1]);
     let refused = |tables: &str| with(tables).unwrap_err().to_string();
-    let message = refused(&format!("[[sensor]]\n{mode}[[sensor]]\n{}", mode.replace("gain", "gane")));
+    let message = refused(&format!("[[sensor]]\n{mode}[[sensor]]\n{}", mode.replace("\ngain", "\ngane")));
     assert!(message.contains("sensor.mode.gane") && message.contains("gain"), "{message}");
     let message = refused("[sensor]\n[[sensor.mode]]\nfrequency_hz = 2300\n");
     assert!(message.contains("sensor.mode.damping_ratio") && message.contains("sensor.mode.gain"), "{message}");

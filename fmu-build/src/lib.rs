@@ -29,6 +29,7 @@ pub mod project;
 pub mod python;
 pub mod run;
 pub mod scenes;
+mod sensor_response;
 pub mod shipped;
 pub mod size;
 pub mod slave;

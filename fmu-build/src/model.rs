@@ -9,6 +9,7 @@ use brinell::simulation::guid::guid;
 
 use crate::contact_map;
 use crate::project::Project;
+use crate::sensor_response;
 use crate::shipped;
 
 /// A scene that was read, with its files' texts and a simulation of it.
@@ -35,12 +36,21 @@ pub struct Profile {
     pub text: String,
 }
 
+/// Reads a scene file, or a shipped scene by its name: its text, with the modes of sensors' responses, and the scene.
+/// An error names the file.
+pub fn read_scene(path: &Path) -> Result<(String, Scene)> {
+    let about = || path.display().to_string();
+    let text = sensor_response::resolved(&shipped::scene_text(path)?, |name| shipped::text_beside(path, name));
+    let text = text.with_context(about)?;
+    let scene = Scene::from_toml(&text).with_context(about)?;
+    Ok((text, scene))
+}
+
 impl Model {
     /// Reads a scene file, or a shipped scene by its name, and the profile beside it. An error names the file.
     pub fn read(path: &Path) -> Result<Self> {
         let about = || path.display().to_string();
-        let scene_text = shipped::scene_text(path)?;
-        let scene = Scene::from_toml(&scene_text).with_context(about)?;
+        let (scene_text, scene) = read_scene(path)?;
         for remark in scene.remarks() {
             eprintln!("note: {}: {remark}", about());
         }

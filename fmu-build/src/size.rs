@@ -6,7 +6,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use brinell::scene::Scene;
 use brinell_analysis::raceway::Raceway;
 use brinell_analysis::recording::{Recording, Source, Speed};
@@ -15,9 +15,9 @@ use brinell_analysis::spall_size;
 
 use crate::contact_map;
 use crate::csv;
+use crate::model::read_scene;
 use crate::project::Project;
 use crate::python::Python;
-use crate::shipped;
 use crate::whole_file;
 
 /// What the user says.
@@ -41,8 +41,7 @@ pub fn command(
     options: &Options,
     folder: &Path,
 ) -> Result<()> {
-    let text = shipped::scene_text(scene)?;
-    let scene = Scene::from_toml(&text).with_context(|| scene.display().to_string())?;
+    let (_, scene) = read_scene(scene)?;
     let recordings = read(recordings, options)?;
     for r in &recordings {
         eprintln!("{}: {:.3} s at {} Hz, shaft {:.4} Hz", r.name(), r.duration(), r.rate(), r.speed());

@@ -2,10 +2,12 @@
 //!
 //! A structure on a base that accelerates by a vibrates against it in its modes, and takes the sensor along:
 //! ```text
-//! z'' + 2 ζ ω z' + ω² z = −a        measured: a + Σ Γ z''        H(s) = 1 − Σ Γ s² / (s² + 2 ζ ω s + ω²)
+//! z'' + 2 ζ ω z' + ω² z = −a        measured: a + Σ (Γ z'' + Κ ω z')
+//! H(s) = 1 − Σ (Γ s² + Κ ω s) / (s² + 2 ζ ω s + ω²)
 //! ```
 //! Γ, a mode's gain, is its participation factor times its shape where the sensor sits; of a structure with all its
-//! modes they add up to 1. The base is the sensor's own body. The structure is light: nothing of it acts back, so its
+//! modes they add up to 1. Κ is 0 unless damping couples the modes, so that points of the structure swing out of phase.
+//! The base is the sensor's own body. The structure is light: nothing of it acts back, so its
 //! modes are no states of the equations of motion. They follow each integration step once it is accepted, under the
 //! acceleration that its dense output has: a cubic, for which the response is a power series with no error but
 //! rounding.
@@ -39,6 +41,8 @@ struct Mode {
     damping_ratio: f64,
     /// Γ.
     gain: f64,
+    /// Κ.
+    quadrature_gain: f64,
 }
 
 /// State and derivative of the equations of motion at both ends of a step of `length` [s], and where the first sensor's
@@ -62,6 +66,7 @@ impl SensorModes {
                     frequency: TAU * mode.frequency,
                     damping_ratio: mode.damping_ratio,
                     gain: mode.gain,
+                    quadrature_gain: mode.quadrature_gain,
                 })
                 .collect::<Vec<_>>()
         };
@@ -91,7 +96,8 @@ impl SensorModes {
 
     /// What sensor `k` measures [m/s²] while its body accelerates by `acceleration` [m/s²].
     pub fn measured(&self, k: usize, acceleration: f64, state: &[f64]) -> f64 {
-        let own = self.of(k, state).map(|(mode, z)| mode.gain * mode.returning(z));
+        let by_mode = |(mode, z): (&Mode, [f64; 2])| mode.shown([mode.returning(z), z[1]]);
+        let own = self.of(k, state).map(by_mode);
         self.direct[k] * acceleration + own.sum::<f64>()
     }
 
@@ -102,7 +108,11 @@ impl SensorModes {
 
     /// Change per second [m/s³] of what sensor `k` measures, but for that of its body's acceleration.
     pub fn rate(&self, k: usize, acceleration: f64, state: &[f64]) -> f64 {
-        self.of(k, state).map(|(mode, z)| mode.gain * mode.returning([z[1], mode.returning(z) - acceleration])).sum()
+        let by_mode = |(mode, z): (&Mode, [f64; 2])| {
+            let bend = mode.returning(z) - acceleration;
+            mode.shown([mode.returning([z[1], bend]), bend])
+        };
+        self.of(k, state).map(by_mode).sum()
     }
 
     fn of(&self, k: usize, state: &[f64]) -> impl Iterator<Item = (&Mode, [f64; 2])> {
@@ -114,6 +124,11 @@ impl Mode {
     /// Acceleration by its spring and damper, −2 ζ ω z' − ω² z.
     fn returning(&self, [z, rate]: [f64; 2]) -> f64 {
         -self.frequency * (2.0 * self.damping_ratio * rate + self.frequency * z)
+    }
+
+    /// What a sensor sees [m/s²] of z'' and z'.
+    fn shown(&self, [bend, rate]: [f64; 2]) -> f64 {
+        self.gain * bend + self.quadrature_gain * self.frequency * rate
     }
 
     /// Moves z and z' on to a `share` of a step of `length` [s], in pieces of a radian at most.
@@ -176,7 +191,7 @@ mod tests {
     const ROUNDING: f64 = 1e-14;
 
     fn mode(damping_ratio: f64) -> Mode {
-        Mode { sensor: 0, frequency: TAU * 3e3, damping_ratio, gain: 1.0 }
+        Mode { sensor: 0, frequency: TAU * 3e3, damping_ratio, gain: 1.0, quadrature_gain: 0.0 }
     }
 
     #[test]

@@ -301,7 +301,8 @@ impl SensorMode {
     fn check(&self) -> Result<(), SceneError> {
         SENSOR_MODE_FREQUENCY.check(self.frequency)?;
         SENSOR_MODE_DAMPING_RATIO.check(self.damping_ratio)?;
-        SENSOR_MODE_GAIN.check(self.gain)
+        SENSOR_MODE_GAIN.check(self.gain)?;
+        SENSOR_MODE_QUADRATURE_GAIN.check(self.quadrature_gain)
     }
 }
 

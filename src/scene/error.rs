@@ -90,6 +90,11 @@ pub enum SceneError {
         /// What is wrong with it.
         of: Box<SceneError>,
     },
+    /// A sensor's frequency or impulse response to which no modes have been fitted.
+    #[error(
+        "sensor.response = {0:?}: modes are fitted to it by the program brinell; read from Rust, a scene gives them as [[sensor.mode]]"
+    )]
+    ResponseNotFitted(String),
     /// A sensor's name that does not fit into a description.
     #[error("sensor name (sensor.name) {0:?}: at most {max} bytes without control characters", max = LONGEST_NAME)]
     SensorName(String),

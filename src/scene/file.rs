@@ -30,7 +30,8 @@
 //! | `shaft.initial_angle_deg`, `housing.initial_angle_deg` | 0 |
 //! | `housing.speed_hz` | none: the outer ring does not turn |
 //! | `sensor` | none; its `direction_deg` 90, `name` empty, `mass_kg`, `stiffness_n_m`, `damping_n_s_m` 1, 8.8826e9, 9424.8; several as `[[sensor]]` |
-//! | `sensor.mode` | none; several as `[[sensor.mode]]` below their sensor, all three keys needed |
+//! | `sensor.mode` | none; several as `[[sensor.mode]]` below their sensor; its `quadrature_gain` 0, the rest needed |
+//! | `sensor.response` | none; a file instead of the modes |
 //! | `probe` | none; a table without keys |
 //! | `solver.tolerance`, `.max_steps` | 1e-5, 10 000 000 |
 //! | `recorder` | none; its `filter` `"linear-phase"`, or `"none"` |
@@ -144,7 +145,7 @@ impl SceneFile {
             housing: self.housing.into_ring()?,
             housing_speed: housing_speed.map(|speed| speed * TAU),
             housing_initial_angle: housing_angle.to_radians(),
-            sensors: self.sensor.0.into_iter().map(SensorTable::into_sensor).collect(),
+            sensors: self.sensor.into_sensors()?,
             probe: self.probe.is_some(),
             tolerance: self.solver.tolerance,
             max_steps: self.solver.max_steps,

@@ -346,6 +346,8 @@ pub struct SensorMode {
     pub damping_ratio: f64,
     /// Participation factor times shape where the sensor sits; those of all modes of a structure add up to 1.
     pub gain: f64,
+    /// The same of its velocity times its angular frequency: 0 unless the structure's points swing out of phase.
+    pub quadrature_gain: f64,
 }
 
 impl Sensor {

@@ -169,6 +169,8 @@ pub(super) const SENSOR_MODE_FREQUENCY: Quantity =
     quantity("frequency of a sensor's mode", "sensor.mode.frequency_hz", 1.0, Inclusive(1.0), Inclusive(1e6));
 pub(super) const SENSOR_MODE_DAMPING_RATIO: Quantity =
     quantity("damping ratio of a sensor's mode", "sensor.mode.damping_ratio", 1.0, Exclusive(0.0), Inclusive(1.0));
+pub(super) const SENSOR_MODE_QUADRATURE_GAIN: Quantity =
+    quantity("quadrature gain of a sensor's mode", "sensor.mode.quadrature_gain", 1.0, Inclusive(-1e3), Inclusive(1e3));
 pub(super) const SENSOR_MODE_GAIN: Quantity =
     quantity("gain of a sensor's mode", "sensor.mode.gain", 1.0, Inclusive(-1e3), Inclusive(1e3));
 pub(super) const TOLERANCE: Quantity = quantity("tolerance", "solver.tolerance", 1.0, Inclusive(1e-12), Inclusive(0.1));

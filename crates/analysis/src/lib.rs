@@ -14,6 +14,7 @@ pub mod error;
 pub mod event_length;
 pub mod events;
 pub mod fault;
+pub mod frequency_response;
 mod kind;
 mod linear_prediction;
 mod load_zone;

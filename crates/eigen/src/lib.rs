@@ -7,7 +7,7 @@
 
 use faer::Mat;
 pub use faer::c64;
-use faer::linalg::solvers::Solve;
+use faer::linalg::solvers::{Solve, SolveLstsq};
 
 /// Why an eigenproblem has no solution that can be trusted.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -16,6 +16,16 @@ pub enum EigenError {
     /// An entry of the matrix is no finite number.
     #[error("an entry of the matrix is not finite")]
     NotFinite,
+    /// Least squares with fewer rows than unknowns, or other rows than known numbers.
+    #[error("{rows} rows and {known} known numbers for {unknown} unknowns")]
+    Shape {
+        /// Number of rows.
+        rows: usize,
+        /// Of known numbers.
+        known: usize,
+        /// Of unknowns.
+        unknown: usize,
+    },
     /// The iteration did not end.
     #[error("the iteration for eigenvalues did not converge")]
     NoConvergence,
@@ -125,6 +135,24 @@ pub fn null_space(matrix: &[Vec<f64>], share: f64) -> Result<Vec<Vec<f64>>, Eige
     let largest = (0..size).map(|k| values[k]).fold(0.0, f64::max);
     let nothing = (0..size).filter(|&k| values[k] <= share * largest);
     Ok(nothing.map(|k| (0..size).map(|i| vectors[(i, k)]).collect()).collect())
+}
+
+/// The numbers for which the rows' products with them come nearest to `known`, by Householder's method with pivots.
+///
+/// # Errors
+/// Fewer rows than columns have no nearest; entries or a result that are not finite.
+pub fn least_squares(rows: &[Vec<f64>], known: &[f64]) -> Result<Vec<f64>, EigenError> {
+    let columns = rows.first().map_or(0, Vec::len);
+    if rows.len() < columns || rows.len() != known.len() {
+        return Err(EigenError::Shape { rows: rows.len(), known: known.len(), unknown: columns });
+    }
+    if !rows.iter().flatten().chain(known).all(|entry| entry.is_finite()) {
+        return Err(EigenError::NotFinite);
+    }
+    let matrix = Mat::from_fn(rows.len(), columns, |i, k| rows[i][k]);
+    let solution = matrix.col_piv_qr().solve_lstsq(Mat::from_fn(known.len(), 1, |i, _| known[i]));
+    let found: Vec<f64> = (0..columns).map(|k| solution[(k, 0)]).collect();
+    if found.iter().all(|number| number.is_finite()) { Ok(found) } else { Err(EigenError::NotFinite) }
 }
 
 fn to_faer(matrix: &[Vec<f64>], size: usize) -> Mat<f64> {

@@ -1,5 +1,6 @@
 //! The tables `[shaft]`, `[housing]`, `[sensor]` and `[probe]` of the scene file.
 
+use super::one_or_more::OneOrMore;
 use super::pair::optional;
 use crate::scene::{Motion, Ring, SceneError, Sensor, SensorMode};
 use serde::Deserialize;
@@ -109,6 +110,8 @@ pub(super) struct SensorTable {
     damping_n_s_m: f64,
     /// Modes of the structure between the outer ring and it.
     mode: Vec<SensorModeTable>,
+    /// File of a measured frequency or impulse response, to which `brinell` fits the modes.
+    response: Option<String>,
 }
 
 /// A mode of the structure between the outer ring and a sensor.
@@ -122,6 +125,9 @@ pub(super) struct SensorModeTable {
     damping_ratio: f64,
     /// Its participation factor times its shape where the sensor sits; those of all modes add up to 1.
     gain: f64,
+    /// Gain of its velocity times its angular frequency; 0 unless points of the structure swing out of phase.
+    #[serde(default)]
+    quadrature_gain: f64,
 }
 
 /// Says by being there that displacements between the rings are wanted.
@@ -130,22 +136,36 @@ pub(super) struct SensorModeTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct ProbeTable {}
 
+impl OneOrMore<SensorTable> {
+    pub(super) fn into_sensors(self) -> Result<Vec<Sensor>, SceneError> {
+        let count = self.0.len();
+        let sensors = self.0.into_iter().enumerate();
+        sensors.map(|(k, table)| table.into_sensor().map_err(|of| of.in_table("sensor", k, count))).collect()
+    }
+}
+
 impl SensorTable {
-    pub(super) fn into_sensor(self) -> Sensor {
-        Sensor {
+    pub(super) fn into_sensor(self) -> Result<Sensor, SceneError> {
+        if let Some(file) = self.response {
+            let both = (!self.mode.is_empty())
+                .then_some(SceneError::Both { first: "sensor.response", second: "[[sensor.mode]]" });
+            return Err(both.unwrap_or(SceneError::ResponseNotFitted(file)));
+        }
+        Ok(Sensor {
             name: self.name,
             direction: self.direction_deg.to_radians(),
             mass: self.mass_kg,
             stiffness: self.stiffness_n_m,
             damping: self.damping_n_s_m,
             modes: self.mode.into_iter().map(SensorModeTable::into_mode).collect(),
-        }
+        })
     }
 }
 
 impl SensorModeTable {
     fn into_mode(self) -> SensorMode {
-        SensorMode { frequency: self.frequency_hz, damping_ratio: self.damping_ratio, gain: self.gain }
+        let Self { frequency_hz: frequency, damping_ratio, gain, quadrature_gain } = self;
+        SensorMode { frequency, damping_ratio, gain, quadrature_gain }
     }
 }
 
@@ -153,6 +173,14 @@ impl Default for SensorTable {
     fn default() -> Self {
         let Sensor { name, direction, mass, stiffness, damping, modes: _ } = Sensor::default();
         let (direction_deg, mode) = (direction.to_degrees(), Vec::new());
-        Self { name, direction_deg, mass_kg: mass, stiffness_n_m: stiffness, damping_n_s_m: damping, mode }
+        Self {
+            name,
+            direction_deg,
+            mass_kg: mass,
+            stiffness_n_m: stiffness,
+            damping_n_s_m: damping,
+            mode,
+            response: None,
+        }
     }
 }
