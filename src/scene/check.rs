@@ -12,9 +12,11 @@
 //! less; the limit is not scaled for them.
 
 use super::error::{LONGEST_NAME, SceneError};
+use super::faults::Faults;
 use super::quantity::*;
 use super::{
-    Bearing, Contact, Damping, Defect, DefectOn, DefectShape, Motion, Recorder, RecorderFilter, Ring, Scene, SensorMode,
+    Bearing, Contact, Damping, Defect, DefectOn, DefectShape, Motion, Recorder, RecorderFilter, Ring, Scene, Sensor,
+    SensorMode,
 };
 use std::f64::consts::{PI, TAU};
 
@@ -29,32 +31,30 @@ impl Scene {
     /// Checks every physical quantity.
     ///
     /// # Errors
-    /// The first quantity that is outside its limits.
+    /// All quantities that are outside their limits. What follows from one that is wrong is not looked at.
     pub fn check(&self) -> Result<(), SceneError> {
-        check_name(&self.name)?;
-        GRAVITY.check_all(&self.gravity)?;
-        self.bearing.check()?;
-        self.contact.check()?;
-        CAGE_SLIP.check(self.cage.slip)?;
-        INITIAL_ANGLE.check(self.cage.initial_angle)?;
-        SPIN_SLIP.check(self.cage.spin_slip)?;
-        self.check_irregularity()?;
-        SHAFT_INITIAL_ANGLE.check(self.shaft_initial_angle)?;
-        HOUSING_INITIAL_ANGLE.check(self.housing_initial_angle)?;
+        let mut faults = Faults::default();
+        faults.passes(check_name(&self.name));
+        faults.passes(GRAVITY.check_all(&self.gravity));
+        let sound = faults.passes(self.bearing.check());
+        faults.passes(self.contact.check());
+        faults.passes(CAGE_SLIP.check(self.cage.slip));
+        faults.passes(INITIAL_ANGLE.check(self.cage.initial_angle));
+        faults.passes(SPIN_SLIP.check(self.cage.spin_slip));
+        faults.passes(self.check_irregularity());
+        faults.passes(SHAFT_INITIAL_ANGLE.check(self.shaft_initial_angle));
+        faults.passes(HOUSING_INITIAL_ANGLE.check(self.housing_initial_angle));
+        let bearing = Some(&self.bearing).filter(|_| sound);
         for (index, defect) in self.defects.iter().enumerate() {
-            defect.check(&self.bearing).map_err(|of| of.in_table("defect", index, self.defects.len()))?;
+            faults.passes(defect.check(bearing).map_err(|of| of.in_table("defect", index, self.defects.len())));
         }
-        self.check_rings()?;
-        self.check_sensors()?;
-        TOLERANCE.check(self.tolerance)?;
-        MAX_STEPS.check(self.max_steps as f64)?;
-        if let Some(Recorder { rate, filter }) = self.recorder {
-            RECORDER_RATE.check(rate)?;
-            if filter == RecorderFilter::LinearPhase {
-                FILTERED_RATE.check(rate)?;
-            }
-        }
-        self.check_experiment()
+        faults.passes(self.check_rings());
+        faults.passes(self.check_sensors());
+        faults.passes(TOLERANCE.check(self.tolerance));
+        faults.passes(MAX_STEPS.check(self.max_steps as f64));
+        faults.passes(self.check_recorder());
+        faults.passes(self.check_experiment());
+        faults.told()
     }
 
     fn check_irregularity(&self) -> Result<(), SceneError> {
@@ -78,53 +78,65 @@ impl Scene {
     }
 
     fn check_rings(&self) -> Result<(), SceneError> {
-        check_ring(&self.shaft, "shaft", &SHAFT)?;
-        check_ring(&self.housing, "housing", &HOUSING)?;
-        SPEED.check(self.shaft_speed)?;
-        HOUSING_SPEED.check_all(self.housing_speed.as_slice())?;
+        let mut faults = Faults::default();
+        faults.passes(check_ring(&self.shaft, "shaft", &SHAFT));
+        faults.passes(check_ring(&self.housing, "housing", &HOUSING));
+        faults.passes(SPEED.check(self.shaft_speed));
+        faults.passes(HOUSING_SPEED.check_all(self.housing_speed.as_slice()));
         let free = |ring: &Ring| ring.motion == Motion::Internal && ring.stiffness == 0.0;
         if free(&self.shaft) && free(&self.housing) {
-            return Err(SceneError::NothingHolds);
+            faults.passes(Err(SceneError::NothingHolds));
         }
-        Ok(())
+        faults.told()
     }
 
     fn check_sensors(&self) -> Result<(), SceneError> {
         if self.sensors.is_empty() {
             return Ok(());
         }
+        let mut faults = Faults::default();
         if self.housing.motion == Motion::Fixed {
-            return Err(SceneError::SensorOnFixedHousing);
+            faults.passes(Err(SceneError::SensorOnFixedHousing));
         }
-        SENSOR_COUNT.check(self.sensors.len() as f64)?;
+        faults.passes(SENSOR_COUNT.check(self.sensors.len() as f64));
         for (index, sensor) in self.sensors.iter().enumerate() {
-            let check = || {
-                SENSOR_DIRECTION.check(sensor.direction)?;
-                SENSOR_MASS.check(sensor.mass)?;
-                SENSOR_STIFFNESS.check(sensor.stiffness)?;
-                SENSOR_DAMPING.check(sensor.damping)?;
-                SENSOR_MODE_COUNT.check(sensor.modes.len() as f64)?;
-                for (index, mode) in sensor.modes.iter().enumerate() {
-                    mode.check().map_err(|of| of.in_table("sensor.mode", index, sensor.modes.len()))?;
-                }
-                if sensor.name.chars().any(char::is_control) || sensor.name.len() > LONGEST_NAME {
-                    return Err(SceneError::SensorName(sensor.name.clone()));
-                }
-                Ok(())
-            };
-            check().map_err(|of: SceneError| of.in_table("sensor", index, self.sensors.len()))?;
+            faults.passes(sensor.check().map_err(|of| of.in_table("sensor", index, self.sensors.len())));
         }
-        Ok(())
+        faults.told()
+    }
+
+    fn check_recorder(&self) -> Result<(), SceneError> {
+        let Some(Recorder { rate, filter }) = self.recorder else { return Ok(()) };
+        RECORDER_RATE.check(rate)?;
+        if filter == RecorderFilter::LinearPhase { FILTERED_RATE.check(rate) } else { Ok(()) }
     }
 
     fn check_experiment(&self) -> Result<(), SceneError> {
         let (stop, step) = (self.experiment.stop, self.experiment.step);
-        STOP.check(stop)?;
-        STEP.check(step)?;
-        if step > stop {
-            return Err(SceneError::StepBeyondStop { step, stop });
+        let mut faults = Faults::default();
+        let possible = [faults.passes(STOP.check(stop)), faults.passes(STEP.check(step))];
+        if possible == [true; 2] && step > stop {
+            faults.passes(Err(SceneError::StepBeyondStop { step, stop }));
         }
-        Ok(())
+        faults.told()
+    }
+}
+
+impl Sensor {
+    fn check(&self) -> Result<(), SceneError> {
+        let mut faults = Faults::default();
+        faults.passes(SENSOR_DIRECTION.check(self.direction));
+        faults.passes(SENSOR_MASS.check(self.mass));
+        faults.passes(SENSOR_STIFFNESS.check(self.stiffness));
+        faults.passes(SENSOR_DAMPING.check(self.damping));
+        faults.passes(SENSOR_MODE_COUNT.check(self.modes.len() as f64));
+        for (index, mode) in self.modes.iter().enumerate() {
+            faults.passes(mode.check().map_err(|of| of.in_table("sensor.mode", index, self.modes.len())));
+        }
+        if self.name.chars().any(char::is_control) || self.name.len() > LONGEST_NAME {
+            faults.passes(Err(SceneError::SensorName(self.name.clone())));
+        }
+        faults.told()
     }
 }
 
@@ -140,20 +152,25 @@ impl Bearing {
     }
 
     fn check(&self) -> Result<(), SceneError> {
-        ELEMENT_COUNT.check(self.element_count as f64)?;
-        ELEMENT_DIAMETER.check(self.element_diameter)?;
-        PITCH_DIAMETER.check(self.pitch_diameter)?;
-        self.check_overlap()?;
-        check_groove("inner", self.conformity_inner, &CONFORMITY_INNER)?;
-        check_groove("outer", self.conformity_outer, &CONFORMITY_OUTER)?;
-        self.check_clearance()?;
-        YOUNGS_MODULUS.check(self.youngs_modulus)?;
-        POISSONS_RATIO.check(self.poissons_ratio)?;
-        ELEMENT_MASS.check_all(self.element_mass.as_slice())?;
-        DENSITY.check(self.density)?;
-        HERTZ_INNER.check_all(self.hertz_inner.as_slice())?;
-        HERTZ_OUTER.check_all(self.hertz_outer.as_slice())?;
-        OUTER_COMPLIANCE.check(self.outer_compliance)
+        let mut faults = Faults::default();
+        let count = faults.passes(ELEMENT_COUNT.check(self.element_count as f64));
+        let diameter = faults.passes(ELEMENT_DIAMETER.check(self.element_diameter));
+        let pitch = faults.passes(PITCH_DIAMETER.check(self.pitch_diameter));
+        let fits = count && diameter && pitch && faults.passes(self.check_overlap());
+        faults.passes(if fits { self.check_clearance() } else { CLEARANCE.check(self.radial_clearance) });
+        if diameter {
+            // Conformity and density may have been computed with it.
+            faults.passes(check_groove("inner", self.conformity_inner, &CONFORMITY_INNER));
+            faults.passes(check_groove("outer", self.conformity_outer, &CONFORMITY_OUTER));
+            faults.passes(DENSITY.check(self.density));
+        }
+        faults.passes(YOUNGS_MODULUS.check(self.youngs_modulus));
+        faults.passes(POISSONS_RATIO.check(self.poissons_ratio));
+        faults.passes(ELEMENT_MASS.check_all(self.element_mass.as_slice()));
+        faults.passes(HERTZ_INNER.check_all(self.hertz_inner.as_slice()));
+        faults.passes(HERTZ_OUTER.check_all(self.hertz_outer.as_slice()));
+        faults.passes(OUTER_COMPLIANCE.check(self.outer_compliance));
+        faults.told()
     }
 
     fn check_overlap(&self) -> Result<(), SceneError> {
@@ -199,49 +216,66 @@ impl Bearing {
 
 impl Contact {
     fn check(&self) -> Result<(), SceneError> {
-        match self.damping {
+        let mut faults = Faults::default();
+        faults.passes(match self.damping {
             Damping::HuntCrossley(chi) => DAMPING_CHI.check(chi),
             Damping::Proportional(tau) => DAMPING_TAU.check(tau),
-        }?;
-        self.largest_force.map_or(Ok(()), |force| LARGEST_FORCE.check(force))?;
-        self.cells.into_iter().flatten().try_for_each(|cells| CONTACT_CELLS.check(f64::from(cells)))?;
-        self.map_accuracy.map_or(Ok(()), |accuracy| MAP_ACCURACY.check(accuracy))
+        });
+        faults.passes(LARGEST_FORCE.check_all(self.largest_force.as_slice()));
+        let cells = self.cells.map(|cells| CONTACT_CELLS.check_all(&cells.map(f64::from)));
+        faults.passes(cells.unwrap_or(Ok(())));
+        faults.passes(MAP_ACCURACY.check_all(self.map_accuracy.as_slice()));
+        faults.told()
     }
 }
 
 impl Defect {
-    fn check(&self, bearing: &Bearing) -> Result<(), SceneError> {
-        DEFECT_ANGLE.check(self.angle)?;
+    /// `bearing` where that is possible itself.
+    fn check(&self, bearing: Option<&Bearing>) -> Result<(), SceneError> {
+        let mut faults = Faults::default();
+        faults.passes(DEFECT_ANGLE.check(self.angle));
         if let DefectOn::Element { element, tilt } = self.on {
-            if element >= bearing.element_count {
-                let (element, count) = (element as i64 + 1, bearing.element_count);
-                return Err(SceneError::NoSuchElement { element, count });
+            if let Some(count) = bearing.map(|bearing| bearing.element_count).filter(|count| element >= *count) {
+                let element = element as i64 + 1;
+                faults.passes(Err(SceneError::NoSuchElement { element, count }));
             }
-            TILT.check(tilt)?;
+            faults.passes(TILT.check(tilt));
         }
-        match &self.shape {
+        faults.passes(match &self.shape {
             DefectShape::Spall { length, depth, edge_slope } => {
                 self.check_spall([*length, *depth, *edge_slope], bearing)
             }
             DefectShape::Profile(name) => self.check_profile(name),
-        }
+        });
+        faults.told()
     }
 
-    fn check_spall(&self, [length, depth, edge_slope]: [f64; 3], bearing: &Bearing) -> Result<(), SceneError> {
-        SPALL_LENGTH.check(length)?;
-        SPALL_DEPTH.check(depth)?;
-        EDGE_SLOPE.check(edge_slope)?;
+    fn check_spall(&self, [length, depth, edge_slope]: [f64; 3], bearing: Option<&Bearing>) -> Result<(), SceneError> {
+        let mut faults = Faults::default();
+        faults.passes(SPALL_DEPTH.check(depth));
+        faults.passes(EDGE_SLOPE.check(edge_slope));
+        // A length in degrees has become one in metres by the bearing's dimensions.
+        let Some(bearing) = bearing else { return faults.told() };
+        faults.passes(SPALL_LENGTH.check(length));
+        faults.told()?;
+        self.check_proportions([length, depth, edge_slope], bearing)
+    }
+
+    /// Of a spall whose length, depth and slope are possible by themselves.
+    fn check_proportions(&self, [length, depth, edge_slope]: [f64; 3], bearing: &Bearing) -> Result<(), SceneError> {
+        let mut faults = Faults::default();
         let (length_mm, depth_um) = (shown(length * 1e3), shown(depth * 1e6));
         let (longest, limit) = self.on.longest(bearing);
         let limit_mm = shown(longest * 1e3);
         if length_mm >= limit_mm {
-            return Err(SceneError::SpallTooLong { length_mm, limit_mm, limit });
+            faults.passes(Err(SceneError::SpallTooLong { length_mm, limit_mm, limit }));
         }
         let (deepest, limit) = self.on.deepest(bearing);
         let limit_um = shown(deepest * 1e6);
         if depth_um >= limit_um {
-            return Err(SceneError::SpallTooDeep { depth_um, limit_um, limit });
+            faults.passes(Err(SceneError::SpallTooDeep { depth_um, limit_um, limit }));
         }
+        faults.told()?;
         let met = self.on.met_length(length, bearing);
         if met <= 0.0 {
             return Err(SceneError::PitNotMet { length_mm, limit_mm: shown(self.off_track(bearing) * 1e3) });
@@ -299,22 +333,24 @@ fn check_groove(ring: &'static str, conformity: f64, range: &Quantity) -> Result
 
 impl SensorMode {
     fn check(&self) -> Result<(), SceneError> {
-        SENSOR_MODE_FREQUENCY.check(self.frequency)?;
-        SENSOR_MODE_DAMPING_RATIO.check(self.damping_ratio)?;
-        SENSOR_MODE_GAIN.check(self.gain)?;
-        SENSOR_MODE_QUADRATURE_GAIN.check(self.quadrature_gain)
+        let mut faults = Faults::default();
+        faults.passes(SENSOR_MODE_FREQUENCY.check(self.frequency));
+        faults.passes(SENSOR_MODE_DAMPING_RATIO.check(self.damping_ratio));
+        faults.passes(SENSOR_MODE_GAIN.check(self.gain));
+        faults.passes(SENSOR_MODE_QUADRATURE_GAIN.check(self.quadrature_gain));
+        faults.told()
     }
 }
 
 fn check_ring(ring: &Ring, name: &'static str, of: &RingQuantities) -> Result<(), SceneError> {
-    of.load.check_all(&ring.load)?;
-    if ring.motion != Motion::Internal {
-        if ring.load != [0.0; 2] {
-            return Err(SceneError::LoadNotInternal { ring: name, load: ring.load });
-        }
-        return Ok(());
+    let mut faults = Faults::default();
+    faults.passes(of.load.check_all(&ring.load));
+    if ring.motion == Motion::Internal {
+        faults.passes(of.mass.check(ring.mass));
+        faults.passes(of.damping.check(ring.damping));
+        faults.passes(of.stiffness.check(ring.stiffness));
+    } else if ring.load != [0.0; 2] {
+        faults.passes(Err(SceneError::LoadNotInternal { ring: name, load: ring.load }));
     }
-    of.mass.check(ring.mass)?;
-    of.damping.check(ring.damping)?;
-    of.stiffness.check(ring.stiffness)
+    faults.told()
 }

@@ -21,6 +21,9 @@ pub enum SceneError {
     /// Keys that are unknown, missing, or ask for what is not modelled, in the order of their lines.
     #[error("scene file: {}", super::key_fault::list(.0))]
     Keys(Vec<KeyFault>),
+    /// Several faults, each of which is there whatever becomes of the others.
+    #[error("{} faults{}", .0.len(), lines(.0))]
+    Several(Vec<SceneError>),
     /// Two keys that exclude each other.
     #[error("scene file: {first} and {second} exclude each other: give only one")]
     Both {
@@ -300,8 +303,31 @@ pub enum SceneError {
 impl SceneError {
     /// This error of the table of a name and number, from 0, said to belong to it where there are several.
     pub(super) fn in_table(self, table: &'static str, index: usize, count: usize) -> Self {
-        if count > 1 { Self::InTable { table, number: index + 1, of: Box::new(self) } } else { self }
+        match self {
+            Self::Several(all) => Self::Several(all.into_iter().map(|of| of.in_table(table, index, count)).collect()),
+            of if count > 1 => Self::InTable { table, number: index + 1, of: Box::new(of) },
+            of => of,
+        }
     }
+
+    /// The faults one by one.
+    pub(super) fn each(self) -> Vec<SceneError> {
+        match self {
+            Self::Several(all) => all,
+            one => vec![one],
+        }
+    }
+
+    /// The message without the words that a list of faults of the file begins with.
+    pub(super) fn in_list(&self) -> String {
+        let said = self.to_string();
+        said.strip_prefix("scene file: ").map_or(said.clone(), str::to_owned)
+    }
+}
+
+/// Each fault on a line of its own.
+fn lines(faults: &[SceneError]) -> String {
+    faults.iter().map(|fault| format!("\n  {}", fault.in_list())).collect()
 }
 
 /// Limits of a quantity.

@@ -45,8 +45,10 @@ mod not_modelled;
 mod one_or_more;
 mod pair;
 mod rings;
+mod values;
 
 use super::error::SceneError;
+use super::faults::Faults;
 use super::{Contact, ContactLaw, Damping, Experiment, Recorder, RecorderFilter, Scene};
 use bearing::BearingTable;
 use cage::CageTable;
@@ -60,13 +62,12 @@ impl Scene {
     /// Reads the text of a scene file and checks it.
     ///
     /// # Errors
-    /// Broken TOML, unknown and missing keys, all of them at once; contradicting keys, and every value that
-    /// [`Scene::check`] refuses.
+    /// Broken TOML; unknown, missing and contradicting keys and every value that [`Scene::check`] refuses, all of them
+    /// at once, as far as one does not hide the other.
     pub fn from_toml(text: &str) -> Result<Self, SceneError> {
         let read = toml::from_str(text).map_err(SceneError::Toml).and_then(SceneFile::into_scene);
-        let scene = read.map_err(|error| keys::all_faults(text, error))?;
-        scene.check()?;
-        Ok(scene)
+        let checked = read.and_then(|scene| scene.check().map(|()| scene));
+        checked.map_err(|error| keys::all_faults(text, error))
     }
 }
 
@@ -124,13 +125,24 @@ struct SceneFile {
 
 impl SceneFile {
     fn into_scene(self) -> Result<Scene, SceneError> {
-        let bearing = self.bearing.into_bearing()?;
-        let contact = self.contact.into_contact(!self.defect.0.is_empty())?;
-        let defects = self.defect.into_defects(&bearing)?;
-        let cage = self.cage.into_cage(bearing.element_count)?;
-        let shaft_speed = self.shaft.speed_hz * TAU;
-        let shaft_initial_angle = self.shaft.initial_angle_deg.to_radians();
+        let mut faults = Faults::default();
+        let bearing = faults.take(self.bearing.into_bearing());
+        let contact = faults.take(self.contact.into_contact(!self.defect.0.is_empty()));
+        let (shaft_speed, shaft_angle) = (self.shaft.speed_hz, self.shaft.initial_angle_deg);
         let (housing_speed, housing_angle) = (self.housing.speed_hz, self.housing.initial_angle_deg);
+        let shaft = faults.take(self.shaft.into_ring());
+        let housing = faults.take(self.housing.into_ring());
+        let sensors = faults.take(self.sensor.into_sensors());
+        let inside = bearing.and_then(|bearing| {
+            let defects = faults.take(self.defect.into_defects(&bearing));
+            let cage = faults.take(self.cage.into_cage(bearing.element_count));
+            Some((bearing, defects?, cage?))
+        });
+        let (Some((bearing, defects, cage)), Some(contact), Some(shaft), Some(housing), Some(sensors)) =
+            (inside, contact, shaft, housing, sensors)
+        else {
+            return Err(faults.into_error());
+        };
         Ok(Scene {
             name: self.name,
             description: self.description,
@@ -139,13 +151,13 @@ impl SceneFile {
             contact,
             cage,
             defects,
-            shaft: self.shaft.into_ring()?,
-            shaft_speed,
-            shaft_initial_angle,
-            housing: self.housing.into_ring()?,
+            shaft,
+            shaft_speed: shaft_speed * TAU,
+            shaft_initial_angle: shaft_angle.to_radians(),
+            housing,
             housing_speed: housing_speed.map(|speed| speed * TAU),
             housing_initial_angle: housing_angle.to_radians(),
-            sensors: self.sensor.into_sensors()?,
+            sensors,
             probe: self.probe.is_some(),
             tolerance: self.solver.tolerance,
             max_steps: self.solver.max_steps,

@@ -1,4 +1,4 @@
-//! What can be wrong with a key of a scene file, apart from its value.
+//! What can be wrong with the keys of a scene file and with the values that stand for themselves.
 
 use std::fmt;
 
@@ -39,6 +39,13 @@ pub enum KeyFault {
         /// The two, each with its table.
         keys: [String; 2],
     },
+    /// A value that is wrong whatever the rest of the file says, or keys that contradict each other.
+    Value {
+        /// Its line in the file, from 1; 0 where it is about several.
+        line: usize,
+        /// What is wrong.
+        said: String,
+    },
 }
 
 /// What to do about an unknown key.
@@ -59,7 +66,8 @@ impl KeyFault {
             Self::Unknown { line, .. }
             | Self::NotModelled { line, .. }
             | Self::Missing { line, .. }
-            | Self::Neither { line, .. } => *line,
+            | Self::Neither { line, .. }
+            | Self::Value { line, .. } => *line,
         }
     }
 }
@@ -77,6 +85,7 @@ impl fmt::Display for KeyFault {
             Self::Neither { keys: [first, second], .. } => {
                 write!(f, "one of {first} and {second} is needed, neither is given")
             }
+            Self::Value { said, .. } => f.write_str(said),
         }
     }
 }

@@ -7,6 +7,7 @@ mod catalogue;
 mod check;
 mod defect;
 mod error;
+mod faults;
 mod file;
 mod key_fault;
 mod quantity;

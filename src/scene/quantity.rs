@@ -38,6 +38,20 @@ impl Quantity {
         Err(SceneError::OutOfRange { quantity: self.quantity, key: self.key, value, limits })
     }
 
+    /// Its key in the scene file.
+    pub(super) fn key(&self) -> &'static str {
+        self.key
+    }
+
+    /// Checks a value in the key's unit, as it stands in the file.
+    pub(super) fn check_written(&self, value: f64) -> Result<(), SceneError> {
+        let limits = Limits { low: self.low, high: self.high };
+        if limits.hold(value) {
+            return Ok(());
+        }
+        Err(SceneError::OutOfRange { quantity: self.quantity, key: self.key, value, limits })
+    }
+
     pub(super) fn check_all(&self, si: &[f64]) -> Result<(), SceneError> {
         si.iter().try_for_each(|&value| self.check(value))
     }
@@ -189,3 +203,55 @@ pub(super) const FILTERED_RATE: Quantity = quantity(
 pub(super) const STOP: Quantity = quantity("stop time", "experiment.stop_s", 1.0, Exclusive(0.0), Inclusive(1e9));
 pub(super) const STEP: Quantity =
     quantity("communication step", "experiment.step_s", 1.0, Exclusive(0.0), Inclusive(1e9));
+
+/// All that the file says by one key in one unit.
+pub(super) const WRITTEN: [&Quantity; 52] = [
+    &GRAVITY,
+    &ELEMENT_COUNT,
+    &ELEMENT_DIAMETER,
+    &PITCH_DIAMETER,
+    &CLEARANCE,
+    &YOUNGS_MODULUS,
+    &POISSONS_RATIO,
+    &DENSITY,
+    &ELEMENT_MASS,
+    &HERTZ_INNER,
+    &HERTZ_OUTER,
+    &OUTER_COMPLIANCE,
+    &DAMPING_CHI,
+    &DAMPING_TAU,
+    &LARGEST_FORCE,
+    &CONTACT_CELLS,
+    &MAP_ACCURACY,
+    &CAGE_SLIP,
+    &CAGE_SPACING,
+    &CAGE_SPACING_RMS,
+    &CAGE_JITTER,
+    &CAGE_WANDER,
+    &INITIAL_ANGLE,
+    &SHAFT_INITIAL_ANGLE,
+    &HOUSING_INITIAL_ANGLE,
+    &TILT,
+    &DEFECT_ANGLE,
+    &SPALL_DEPTH,
+    &EDGE_SLOPE,
+    &HOUSING_SPEED,
+    &SPEED,
+    &SENSOR_DIRECTION,
+    &SENSOR_MASS,
+    &SENSOR_STIFFNESS,
+    &SENSOR_DAMPING, &SENSOR_MODE_FREQUENCY, &SENSOR_MODE_DAMPING_RATIO, &SENSOR_MODE_GAIN, &SENSOR_MODE_QUADRATURE_GAIN,
+    &TOLERANCE,
+    &MAX_STEPS,
+    &RECORDER_RATE,
+    &STOP,
+    &STEP,
+    &SHAFT.load,
+    &SHAFT.mass,
+    &SHAFT.damping,
+    &SHAFT.stiffness,
+    &HOUSING.load,
+    &HOUSING.mass,
+    &HOUSING.damping,
+    &HOUSING.stiffness,
+];

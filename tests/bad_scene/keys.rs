@@ -124,3 +124,89 @@ fn a_missing_table_is_refused_with_its_name() {
         &["[housing] is missing, it needs at least motion"],
     );
 }
+
+/// Four bodies, two rings and a run with something wrong each.
+fn spoilt() -> String {
+    GOOD.replace("element_diameter_mm = 7.94", "element_diameter_mm = -1.5")
+        .replace("poissons_ratio = 0.3", "poissons_ratio = 0.7")
+        .replace("damping_chi_s_m = 0.5", "damping_chi_s_m = -0.5")
+        .replace("depth_um = 100.0", "depth_um = 0")
+        .replace("load_n = [0.0, -500.0]", "load_n = [0.0, nan]")
+        .replace("step_s = 1e-4", "step_s = 2e9")
+}
+
+const OF_VALUES: [&str; 6] = [
+    "  line 6: element diameter (bearing.element_diameter_mm) is -1.5: it must be at least 0.01 and at most 2000.0",
+    "  line 11: Poisson's ratio (bearing.poissons_ratio) is 0.7: it must be above -1.0 and below 0.5",
+    "  line 16: contact damping (contact.damping_chi_s_m) is -0.5: it must be at least 0.0 and at most 1000.0",
+    "  line 23: spall depth (defect.depth_um) is 0: it must be above 0.0 and at most 1000000000.0",
+    "  line 28: load on the shaft (shaft.load_n) is NaN: it must be at least -1000000000.0 and at most 1000000000.0",
+    "  line 40: communication step (experiment.step_s) is 2000000000: it must be above 0.0 and at most 1000000000.0; \
+     was it meant in milliseconds?",
+];
+
+#[test]
+fn all_values_outside_their_limits_are_told_at_once() {
+    let message = Scene::from_toml(&spoilt()).unwrap_err().to_string();
+    let lines: Vec<&str> = message.lines().collect();
+    assert_eq!(lines[0], "scene file: 6 faults", "{message}");
+    assert_eq!(lines[1..], OF_VALUES, "{message}");
+}
+
+#[test]
+fn wrong_keys_do_not_hide_wrong_values_nor_values_wrong_keys() {
+    let text = spoilt()
+        .replace("edge_slope_deg", "edge_slop_deg")
+        .replace("speed_hz = 10.0\n", "")
+        .replace("mass_kg = 1.0", "mass_kg = \"1.0\"");
+    let message = Scene::from_toml(&text).unwrap_err().to_string();
+    for part in
+        ["8 faults", "defect.edge_slop_deg is unknown: did you mean edge_slope_deg?", "shaft.speed_hz is missing"]
+    {
+        assert!(message.contains(part), "`{part}` is missing in: {message}");
+    }
+    // Without keys that are wrong the value of a wrong type is told as well, at its line.
+    let text = spoilt().replace("mass_kg = 1.0", "mass_kg = \"1.0\"");
+    let message = Scene::from_toml(&text).unwrap_err().to_string();
+    assert!(message.contains("7 faults"), "{message}");
+    assert!(message.contains("\n  line 33: invalid type: string \"1.0\", expected f64\n"), "{message}");
+}
+
+#[test]
+fn faults_that_concern_several_values_are_told_beside_one_another() {
+    let text = GOOD
+        .replace("length_deg = 15.8", "length_deg = 400.0")
+        .replace("depth_um = 100.0", "depth_um = 5000.0")
+        .replace("stop_s = 0.1", "stop_s = 1e-5")
+        .replace("stiffness_n_m = 1.51056e7", "stiffness_n_m = 0.0");
+    let message = Scene::from_toml(&text).unwrap_err().to_string();
+    let parts =
+        ["4 faults", "spall length (", "spall depth (", "it must be at most 0.00001", "nothing holds the bearing"];
+    for part in parts {
+        assert!(message.contains(part), "`{part}` is missing in: {message}");
+    }
+    // Keys that exclude each other hide neither a wrong value nor those of another table.
+    let text = GOOD
+        .replace("groove_diameter_mm = 8.19", "groove_diameter_mm = 8.19\nconformity_inner = 0.52")
+        .replace("motion = \"internal\"\nspeed_hz", "motion = \"host\"\nmass_kg = 3.0\nspeed_hz")
+        .replace("tolerance = 1e-5", "tolerance = 1.0");
+    let message = Scene::from_toml(&text).unwrap_err().to_string();
+    for part in [
+        "4 faults",
+        "bearing.groove_diameter_mm and bearing.conformity_inner exclude each other",
+        "shaft.load_n = [0.0, -500.0] has no effect",
+        "shaft.mass_kg = 3 has no effect",
+        "line 37: tolerance (solver.tolerance) is 1: it must be",
+    ] {
+        assert!(message.contains(part), "`{part}` is missing in: {message}");
+    }
+}
+
+#[test]
+fn one_fault_is_told_as_before_and_what_follows_from_it_is_not() {
+    // The diameter alone: groove, clearance and overlap would be wrong because of it.
+    let text = GOOD.replace("element_diameter_mm = 7.94", "element_diameter_mm = -1.5");
+    let message = Scene::from_toml(&text).unwrap_err().to_string();
+    assert!(message.starts_with("element diameter (bearing.element_diameter_mm) is -1.5: it must be"), "{message}");
+    assert_eq!(message.lines().count(), 1, "{message}");
+}

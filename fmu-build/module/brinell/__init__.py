@@ -148,6 +148,7 @@ def _ask(*words: str) -> str:
     """Runs the program and gives what it prints."""
     done = subprocess.run([program(), *words], capture_output=True, text=True, encoding="utf-8")
     if done.returncode != 0:
-        said = done.stderr.strip().splitlines() or ["it said nothing"]
-        raise BrinellError(said[-1].removeprefix("error: "))
+        # Notes may stand before it; of a scene's faults each has its line.
+        _, _, said = ("\n" + done.stderr.strip()).rpartition("\nerror: ")
+        raise BrinellError(said or "it said nothing")
     return done.stdout

@@ -1,6 +1,7 @@
 //! The table `[defect]` of the scene file, or several of them as `[[defect]]`.
 
 use super::one_or_more::OneOrMore;
+use crate::scene::faults::Faults;
 use crate::scene::{Bearing, Defect, DefectOn, DefectShape, SceneError};
 use serde::Deserialize;
 
@@ -44,8 +45,13 @@ enum Body {
 impl OneOrMore<DefectTable> {
     pub(super) fn into_defects(self, bearing: &Bearing) -> Result<Vec<Defect>, SceneError> {
         let count = self.0.len();
-        let defects = self.0.into_iter().enumerate();
-        defects.map(|(k, table)| table.into_defect(bearing).map_err(|of| of.in_table("defect", k, count))).collect()
+        let mut faults = Faults::default();
+        let mut defects = Vec::new();
+        for (k, table) in self.0.into_iter().enumerate() {
+            let defect = table.into_defect(bearing).map_err(|of| of.in_table("defect", k, count));
+            defects.extend(faults.take(defect));
+        }
+        faults.told().map(|()| defects)
     }
 }
 

@@ -1,11 +1,11 @@
-//! What is wrong with the keys of a scene file, all of it at once. Asked only of a file that was refused; values are
-//! not looked at.
+//! What is wrong with the keys of a scene file, all of it at once. Asked only of a file that was refused.
 
 use super::super::key_fault::{Hint, KeyFault};
 use super::bearing::BearingTable;
 use super::cage::CageTable;
 use super::not_modelled::instead_of;
 use super::rings::{HousingTable, ProbeTable, SensorModeTable, SensorTable, ShaftTable};
+use super::values;
 use super::{ContactTable, DefectTable, ExperimentTable, RecorderTable, SceneError, SceneFile, SolverTable};
 use serde::Deserialize;
 use serde::de::{Deserializer, Visitor};
@@ -52,14 +52,36 @@ fn tables() -> [(&'static str, Keys); 13] {
     ]
 }
 
-/// The error for a file that was refused with `error`: all faults of its keys, where it was refused for one of them.
+/// The error for a file that was refused with `error`: with it all faults of its keys, and of its values that are wrong
+/// by themselves.
 pub(super) fn all_faults(text: &str, error: SceneError) -> SceneError {
-    if !matches!(error, SceneError::Toml(_) | SceneError::Neither { .. } | SceneError::Missing { .. }) {
-        return error;
+    let Ok(mut faults) = DeTable::parse(text).map(|file| faults(text, file.get_ref())) else { return error };
+    // A file that is not understood is not understood for one of its keys; without them it says where.
+    let of_keys = faults.iter().any(|fault| !matches!(fault, KeyFault::Value { .. }));
+    let breaks: Vec<usize> = text.match_indices('\n').map(|(at, _)| at).collect();
+    let mut more = Vec::new();
+    for other in error.clone().each() {
+        let said = other.in_list();
+        let (line, said) = match &other {
+            SceneError::Toml(_) | SceneError::Neither { .. } if of_keys => continue,
+            SceneError::Toml(wrong) => {
+                (wrong.span().map_or(0, |at| line_of(&breaks, at.start)), wrong.message().to_owned())
+            }
+            _ => (0, said),
+        };
+        let is_told = |fault: &KeyFault| match fault {
+            KeyFault::Value { line: at, said: told } => said.ends_with(told) || (line > 0 && *at == line),
+            _ => false,
+        };
+        if !faults.iter().any(is_told) {
+            more.push(KeyFault::Value { line, said });
+        }
     }
-    match DeTable::parse(text).map(|file| faults(text, file.get_ref())) {
-        Ok(faults) if !faults.is_empty() => SceneError::Keys(faults),
-        _ => error,
+    faults.extend(more);
+    faults.sort_by_key(KeyFault::line);
+    match &faults[..] {
+        [] | [KeyFault::Value { .. }] => error,
+        _ => SceneError::Keys(faults),
     }
 }
 
@@ -114,6 +136,11 @@ fn of_table(breaks: &[usize], (name, keys): (&str, Keys), line: usize, table: &D
             None => KeyFault::Unknown { line, key: shown, hint: hint(name, keys, key) },
         });
         there.extend(nearest(keys, key));
+    }
+    for (key, value) in table {
+        let wrong = values::fault(&path(name, key.get_ref(), false), value.get_ref());
+        let line = line_of(breaks, key.span().start);
+        faults.extend(wrong.map(|wrong| KeyFault::Value { line, said: wrong.to_string() }));
     }
     // A bearing of the catalogue needs nothing beside its name.
     if there.contains(&"catalogue") {

@@ -2,6 +2,7 @@
 
 use super::one_or_more::OneOrMore;
 use super::pair::optional;
+use crate::scene::faults::Faults;
 use crate::scene::{Motion, Ring, SceneError, Sensor, SensorMode};
 use serde::Deserialize;
 
@@ -82,14 +83,16 @@ fn ring(
     // A key without effect is refused: whoever wrote it expects one.
     let refuse =
         |key: &str, value: String| SceneError::NotInternal { ring: name, key: format!("{name}.{key}"), value, motion };
+    let mut faults = Faults::default();
     if let Some(load) = load {
-        return Err(refuse("load_n", format!("{load:?}")));
+        faults.passes(Err(refuse("load_n", format!("{load:?}"))));
     }
     for (key, value) in ["mass_kg", "damping_n_s_m", "stiffness_n_m"].into_iter().zip(given) {
         if let Some(value) = value {
-            return Err(refuse(key, value.to_string()));
+            faults.passes(Err(refuse(key, value.to_string())));
         }
     }
+    faults.told()?;
     Ok(Ring { motion, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 })
 }
 
@@ -139,8 +142,12 @@ pub(super) struct ProbeTable {}
 impl OneOrMore<SensorTable> {
     pub(super) fn into_sensors(self) -> Result<Vec<Sensor>, SceneError> {
         let count = self.0.len();
-        let sensors = self.0.into_iter().enumerate();
-        sensors.map(|(k, table)| table.into_sensor().map_err(|of| of.in_table("sensor", k, count))).collect()
+        let mut faults = Faults::default();
+        let mut sensors = Vec::new();
+        for (k, table) in self.0.into_iter().enumerate() {
+            sensors.extend(faults.take(table.into_sensor().map_err(|of| of.in_table("sensor", k, count))));
+        }
+        faults.told().map(|()| sensors)
     }
 }
 
