@@ -65,7 +65,7 @@ impl Recording {
             return Err(RecordingError::Unwritable { path, cause });
         }
         let claim = Claim::new(&path, name)?;
-        let header = header(&names, 0).len() as u64;
+        let header = npy_header(&names, 0).len() as u64;
         let mut recording = Self { path, claim, names, header, first: recorder.samples().first, rows: 0 };
         recording.count(0).map_err(|cause| recording.failed(cause))?;
         recording.write(simulation)?;
@@ -139,7 +139,7 @@ impl Recording {
     fn count(&mut self, rows: u64) -> io::Result<()> {
         let file = &mut self.claim.file;
         file.seek(SeekFrom::Start(0))?;
-        file.write_all(&header(&self.names, rows))?;
+        file.write_all(&npy_header(&self.names, rows))?;
         self.rows = rows;
         let end = self.end(rows);
         self.claim.file.set_len(end)
@@ -161,8 +161,8 @@ impl Unstored {
     }
 }
 
-/// The header of an array of `rows` rows; its length does not depend on `rows`.
-fn header(names: &[String], rows: u64) -> Vec<u8> {
+/// The header of a NumPy file of `rows` rows with a number for each of these names; its length does not depend on `rows`.
+pub fn npy_header(names: &[String], rows: u64) -> Vec<u8> {
     let fields: String = names.iter().map(|name| format!("('{name}', '<f8'), ")).collect();
     let shape = format!("({rows},)");
     let mut text = format!("{{'descr': [{fields}], 'fortran_order': False, 'shape': {shape:<24}}}");

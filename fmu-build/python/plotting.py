@@ -36,6 +36,38 @@ plt.rcParams.update(
 )
 
 
+# Samples of a curve across a figure beyond which they are a solid block; bands then have so many parts.
+MOST_SAMPLES, PARTS = 12_000, 450
+
+
+def is_long(time):
+    """Whether a curve over these times is drawn as bands."""
+    return len(time) > MOST_SAMPLES
+
+
+def bands_said(time):
+    """How bands are to be read, for a title."""
+    if not is_long(time):
+        return ""
+    return "; in each part of the time: line the middle value, dark two thirds of all, light all of them"
+
+
+def curve(axis, time, values, colour, label):
+    """A line through the samples, or where they are too many: all of them, the middle two thirds and the middle one in
+    each of equal parts of the time."""
+    if not is_long(time):
+        axis.plot(time, values, color=colour, label=label, linewidth=0.9)
+        return
+    every = -(-len(time) // PARTS)
+    count = len(time) // every * every
+    parts = values[:count].reshape(-1, every)
+    middle = time[:count].reshape(-1, every).mean(axis=1)
+    low, lower, half, upper, high = np.quantile(parts, [0.0, 1 / 6, 0.5, 5 / 6, 1.0], axis=1)
+    axis.fill_between(middle, low, high, color=colour, alpha=0.25, linewidth=0)
+    axis.fill_between(middle, lower, upper, color=colour, alpha=0.5, linewidth=0)
+    axis.plot(middle, half, color=colour, label=label, linewidth=0.9)
+
+
 def read_csv(path):
     """Columns of a CSV file by their names without units."""
     with open(path, encoding="utf-8") as file:

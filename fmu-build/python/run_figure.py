@@ -1,21 +1,26 @@
 """Overview of a run: what moves, the forces on both rings, the outer forces of the elements, and the sensor; with the
-spectrum of its envelope, if there is one."""
+spectrum of its envelope, if there is one. Where a run is too long for its samples to be seen, bands show what they do.
+
+Arguments: the signals as a NumPy file, the figure without its ending, the spectrum's CSV if there is one."""
 
 import json
 import sys
 from pathlib import Path
 
+import numpy as np
 import plotting
 from plotting import BLUE, GREEN, ORANGE, PURPLE, VERMILION, plt
 
-path = Path(sys.argv[1])
-data = plotting.read_csv(path)
-time = data["time"] * 1e3
+path = Path(sys.argv[2])
+data = np.load(sys.argv[1])
+data = {name: data[name] for name in data.dtype.names}
+in_seconds = data["time"][-1] > 2.0
+time = data["time"] * (1.0 if in_seconds else 1e3)
 
 
 def curves(axis, names, colours, scale=1.0, labels=None):
     for name, colour, label in zip(names, colours, labels or names):
-        axis.plot(time, data[name] * scale, color=colour, label=label, linewidth=0.9)
+        plotting.curve(axis, time, data[name] * scale, colour, label)
 
 
 def panels():
@@ -46,6 +51,11 @@ def panels():
 
     def outer(axis):
         count = sum(name.startswith("element[") and name.endswith("].force.outer") for name in data)
+        if plotting.is_long(time):
+            # Each element's way through the load zone cannot be seen; what the one that carries most carries can.
+            largest = np.max([data[f"element[{j}].force.outer"] for j in range(1, count + 1)], axis=0)
+            plotting.curve(axis, time, largest, GREEN, "the largest of all")
+            return
         for j in range(1, count + 1):
             colour = plt.cm.viridis((j - 1) / max(count, 2))
             axis.plot(time, data[f"element[{j}].force.outer"], color=colour, linewidth=0.9, label=str(j))
@@ -83,7 +93,7 @@ def envelope(axis, path):
 
 
 drawn = list(panels())
-spectra = [Path(argument) for argument in sys.argv[2:]]
+spectra = [Path(argument) for argument in sys.argv[3:]]
 heights = [1.5] * len(drawn) + [2.6] * len(spectra)
 figure, axes = plt.subplots(
     len(heights), 1, figsize=(plotting.WIDTH, 0.6 + sum(heights)), height_ratios=heights, squeeze=False
@@ -96,10 +106,10 @@ for axis, (label, draw) in zip(times, drawn):
     axis.tick_params(labelbottom=axis is times[-1])
     if len(axis.get_legend_handles_labels()[1]) > 1:
         axis.legend(loc="lower right", bbox_to_anchor=(1, 0.93), ncols=24, handlelength=1, columnspacing=1)
-times[0].set_title(path.stem)
-times[-1].set_xlabel("time (ms)")
+times[0].set_title(path.name + plotting.bands_said(time))
+times[-1].set_xlabel("time (s)" if in_seconds else "time (ms)")
 times[-1].set_xlim(time[0], time[-1])
 for axis, spectrum in zip(axes[len(drawn) :, 0], spectra):
     envelope(axis, spectrum)
 figure.align_ylabels()
-plotting.save(figure, path.with_suffix(""))
+plotting.save(figure, path)

@@ -3,13 +3,18 @@
 use std::env;
 use std::path::PathBuf;
 
-use anyhow::Result;
-use brinell::scene::Scene;
+use anyhow::{Context, Result};
+use brinell::scene::{Experiment, Scene};
 use brinell_analysis::recording::Speed;
 use clap::{Args, Parser, Subcommand};
 
 use crate::library::{self, Library};
 use crate::new_scene::{self, Spall};
+use crate::run::grid::Grid;
+use crate::run::noise::Noise;
+use crate::run::speed_profile::SpeedProfile;
+use crate::run::table::Format;
+use crate::run::wav::Wav;
 use crate::{catalogue, check, demo, fmu, model::Model, modes, project::Project, run, scenes, size, stiffness};
 
 /// Rolling bearings with a real surface defect as FMI co-simulation units.
@@ -25,7 +30,7 @@ pub struct Arguments {
 pub enum Command {
     /// Builds the FMU of each scene
     Build(Build),
-    /// Simulates a scene without a host and writes CSV and figure
+    /// Simulates a scene without a host and writes its signals, a figure, sound, a page to look at
     Run(Run),
     /// Unzips, validates, loads and steps an FMU
     Check(Check),
@@ -74,12 +79,62 @@ pub struct Run {
     /// Communication step in seconds [default: the scene's]
     #[arg(long, value_name = "H")]
     step: Option<f64>,
-    /// Folder for CSV and figure [default: the current one]
+    /// Columns beside the time, separated by commas; * stands for any characters [default: all]
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    columns: Vec<String>,
+    /// What the table is written as
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    format: Format,
+    /// The shaft's speed over time: CSV with the columns time_s and speed_hz; the run then ends with it
+    #[arg(long, value_name = "FILE")]
+    speed_profile: Option<PathBuf>,
+    /// Noise of the sensors: their signal's root mean square over its own, in decibels
+    #[arg(long, value_name = "DB", allow_negative_numbers = true)]
+    noise_db: Option<f64>,
+    /// Which noise: equal seeds give equal bits
+    #[arg(long, value_name = "SEED", default_value_t = 1, requires = "noise_db")]
+    noise_seed: u64,
+    /// Write what the sensors show as sound, through the recorder's filter against aliases
+    #[arg(long)]
+    wav: bool,
+    /// Its samples per second [default: the scene's recorder's, or 51200]
+    #[arg(long, value_name = "HZ", requires = "wav")]
+    wav_rate: Option<f64>,
+    /// Acceleration in m/s² that becomes 1 in it
+    #[arg(long, value_name = "M_S2", default_value_t = 1.0, requires = "wav")]
+    wav_scale: f64,
+    /// Write a page to look at in a browser: signals, path over the defect, spectra
+    #[arg(long)]
+    html: bool,
+    /// Folder for what is written [default: the current one]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Leave the figure out; no Python is needed then
+    /// Leave the figure out; without --html no Python is needed then
     #[arg(long)]
     no_figure: bool,
+}
+
+impl Run {
+    fn options(&self, experiment: &Experiment) -> Result<run::Options> {
+        let profile = self.speed_profile.as_deref().map(SpeedProfile::read).transpose()?;
+        let stop = self.stop.or(profile.as_ref().map(SpeedProfile::end));
+        let grid = Grid::new(experiment, stop, self.step)?;
+        if let (Some(profile), Some(file)) = (&profile, &self.speed_profile) {
+            profile.check_covers(grid.end()).with_context(|| file.display().to_string())?;
+        }
+        let wav = self.wav.then_some(Wav { rate: self.wav_rate, scale: self.wav_scale });
+        wav.map_or(Ok(()), |wav| wav.check())?;
+        Ok(run::Options {
+            grid,
+            columns: self.columns.clone(),
+            format: self.format,
+            profile,
+            noise: self.noise_db.map(|ratio| Noise::new(ratio, self.noise_seed)).transpose()?,
+            wav,
+            figure: !self.no_figure,
+            page: self.html,
+        })
+    }
 }
 
 /// Options of `check`.
@@ -270,9 +325,9 @@ impl Command {
             }
             Command::Run(options) => {
                 let model = Model::read(&options.scene)?;
-                let grid = run::Grid::new(&model.scene.experiment, options.stop, options.step)?;
+                let wanted = options.options(&model.scene.experiment)?;
                 let folder = options.output.unwrap_or_else(|| project.results("run"));
-                run::command(project, model, grid, &folder, !options.no_figure)
+                run::command(project, model, &wanted, &folder)
             }
             Command::Check(options) => check::command(project, &options.fmu),
             Command::Stiffness(options) => {

@@ -25,6 +25,8 @@ const SCRIPTS: &[(&str, &str)] = &[
     ("plotting.py", include_str!("../python/plotting.py")),
     ("report.py", include_str!("../python/report.py")),
     ("run_figure.py", include_str!("../python/run_figure.py")),
+    ("run_page.js", include_str!("../python/run_page.js")),
+    ("run_page.py", include_str!("../python/run_page.py")),
     ("size.py", include_str!("../python/size.py")),
     ("modes.py", include_str!("../python/modes.py")),
     ("stiffness.py", include_str!("../python/stiffness.py")),
@@ -46,7 +48,16 @@ impl Python {
     /// The environment that this program lies in, if it has what is needed; else makes this program's own, unless it
     /// is there.
     pub fn prepare(project: &Project) -> Result<Self> {
-        if let Some(interpreter) = around_this_program() {
+        Self::prepare_with(project, "fmpy, matplotlib, numpy")
+    }
+
+    /// The same with what pages are made of.
+    pub fn prepare_for_pages(project: &Project) -> Result<Self> {
+        Self::prepare_with(project, "fmpy, matplotlib, numpy, plotly")
+    }
+
+    fn prepare_with(project: &Project, modules: &str) -> Result<Self> {
+        if let Some(interpreter) = around_this_program(modules) {
             let python = Self { interpreter, scripts: project.cache().join("scripts"), variables: Vec::new() };
             python.lay_scripts()?;
             return Ok(python);
@@ -117,15 +128,15 @@ impl Python {
     }
 }
 
-/// The interpreter beside this program, where it can draw and drive FMUs. A Windows' Python that is not a virtual
+/// The interpreter beside this program, where it has these modules. A Windows' Python that is not a virtual
 /// environment has its programs in the folder `Scripts` beside the interpreter.
-fn around_this_program() -> Option<PathBuf> {
+fn around_this_program(modules: &str) -> Option<PathBuf> {
     let program = env::current_exe().ok()?;
     let beside = program.with_file_name(if cfg!(windows) { "python.exe" } else { "python" });
     let above = program.parent()?.with_file_name("python.exe");
     let candidates = if cfg!(windows) { vec![beside, above] } else { vec![beside] };
     candidates.into_iter().find(|interpreter| {
-        let tried = || Command::new(interpreter).args(["-c", "import fmpy, matplotlib, numpy"]).output();
+        let tried = || Command::new(interpreter).args(["-c", &format!("import {modules}")]).output();
         interpreter.is_file() && tried().is_ok_and(|output| output.status.success())
     })
 }

@@ -1,186 +1,248 @@
-//! A run without a host: the simulation is stepped directly, with its inputs at their start values.
+//! A run without a host: the simulation is stepped directly, its inputs at their start values but for the shaft's speed,
+//! where that has a profile.
 
-use std::f64::consts::TAU;
-use std::io::Write;
+pub mod columns;
+pub mod grid;
+pub mod noise;
+mod page;
+pub mod signals;
+mod spectra;
+pub mod speed_profile;
+pub mod table;
+pub mod wav;
+
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use brinell::recording::Recording;
-use brinell::scene::{Experiment, Scene};
-use brinell::simulation::variables::{Causality, Kind, Variable};
-use brinell::simulation::{Simulation, SimulationError};
-use brinell_analysis::envelope_spectrum::{self, EnvelopeSpectrum};
+use brinell::scene::{Recorder, RecorderFilter, Scene};
+use brinell::simulation::Simulation;
 
-use crate::csv;
 use crate::model::Model;
 use crate::project::Project;
 use crate::python::Python;
-use crate::units;
-use crate::whole_file;
+use crate::whole_file::{self, NotWritten};
+use columns::Columns;
+use grid::Grid;
+use noise::Noise;
+use signals::{Growing, Signals};
+use spectra::{Acceleration, Spectra};
+use speed_profile::SpeedProfile;
+use table::Format;
+use wav::Wav;
 
-/// Equal communication steps from 0 on.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Grid {
-    /// Communication step [s].
-    pub step: f64,
-    /// Number of steps.
-    pub count: u64,
-}
+/// Rate of a recorder that a sound or a page needs and the scene does not have [Hz].
+const USUAL_RATE: f64 = 51_200.0;
 
-impl Grid {
-    /// The scene's default run, with what the user says instead. The run ends with the last whole step.
-    pub fn new(experiment: &Experiment, stop: Option<f64>, step: Option<f64>) -> Result<Self> {
-        let stop = stop.unwrap_or(experiment.stop);
-        let step = step.unwrap_or(experiment.step);
-        for (quantity, value) in [("stop time", stop), ("communication step", step)] {
-            if !(value.is_finite() && value > 0.0) {
-                bail!("{quantity} {value} s: it must be finite and above 0");
-            }
-        }
-        // A stop time that is a multiple of the step up to rounding counts as one.
-        let count = (stop / step * (1.0 + 1e-9)).floor();
-        if !(1.0..=1e9).contains(&count) {
-            bail!("{count} communication steps of {step} s until {stop} s: between 1 and 1e9 are possible");
-        }
-        Ok(Self { step, count: count as u64 })
-    }
-}
-
-/// The columns of a run: all inputs and outputs that are numbers.
+/// What the user says.
 #[derive(Debug, Clone)]
-pub struct Columns {
-    names: Vec<(String, &'static str)>,
-    reals: Vec<u32>,
-    integers: Vec<u32>,
-    /// Among the reals, the acceleration whose envelope is drawn: a sensor's, else the housing's.
-    acceleration: Option<usize>,
+pub struct Options {
+    /// Communication points.
+    pub grid: Grid,
+    /// Patterns of the table's columns; all where there are none.
+    pub columns: Vec<String>,
+    /// What the table is written as.
+    pub format: Format,
+    /// The shaft's speed over time.
+    pub profile: Option<SpeedProfile>,
+    /// Noise of the sensors.
+    pub noise: Option<Noise>,
+    /// What the sensors show as sound.
+    pub wav: Option<Wav>,
+    /// Whether to draw.
+    pub figure: bool,
+    /// Whether to write a page to look at.
+    pub page: bool,
 }
 
-impl Columns {
-    /// All of the table but parameters, reals first.
-    pub fn new(table: &[Variable]) -> Self {
-        let mut columns = Self { names: Vec::new(), reals: Vec::new(), integers: Vec::new(), acceleration: None };
-        let mut counters = Vec::new();
-        for variable in table.iter().filter(|variable| variable.causality != Causality::Parameter) {
-            match variable.kind {
-                Kind::Real { unit, .. } => {
-                    columns.names.push((variable.name.clone(), units::name(unit)));
-                    columns.reals.push(variable.reference);
-                }
-                Kind::Integer => {
-                    counters.push((variable.name.clone(), "1"));
-                    columns.integers.push(variable.reference);
-                }
-                _ => {}
-            }
-        }
-        let place = |wanted: &dyn Fn(&str) -> bool| columns.names.iter().position(|(name, _)| wanted(name));
-        columns.acceleration = place(&|name| name.starts_with("sensor") && name.ends_with("acceleration"))
-            .or_else(|| place(&|name| name == "housing.ay"));
-        columns.names.extend(counters);
-        columns
-    }
+/// What a run leaves in its own folder.
+struct Done {
+    signals: Signals,
+    /// Name and unit of its columns, the time's first.
+    units: Vec<(String, &'static str)>,
+    recording: Option<Signals>,
 }
 
-/// Runs an initialized simulation over the grid and writes one row at the start and one after each step. Gives the
-/// acceleration of these rows, if there is one.
-pub fn write(
-    simulation: &mut Simulation,
-    columns: &Columns,
-    grid: Grid,
-    out: &mut impl Write,
-    mut recording: Option<&mut Recording>,
-) -> Result<Vec<f64>> {
-    let names = columns.names.iter().map(|(name, unit)| (name.as_str(), *unit));
-    csv::header(out, std::iter::once(("time", "s")).chain(names))?;
-    let mut reals = vec![0.0; columns.reals.len()];
-    let mut integers = vec![0; columns.integers.len()];
-    let mut acceleration = Vec::new();
-    for index in 0..=grid.count {
-        if index > 0 {
-            let at = simulation.time();
-            simulation.step(grid.step).with_context(|| format!("at {at} s"))?;
-            if let Some(recording) = &mut recording {
-                recording.keep_up(simulation)?;
-            }
-        }
-        read(simulation, columns, &mut reals, &mut integers)?;
-        acceleration.extend(columns.acceleration.map(|place| reals[place]));
-        let counts = integers.iter().map(|&count| f64::from(count));
-        csv::row(out, std::iter::once(simulation.time()).chain(reals.iter().copied()).chain(counts))?;
-    }
-    Ok(acceleration)
-}
-
-fn read(
-    simulation: &mut Simulation,
-    columns: &Columns,
-    reals: &mut [f64],
-    integers: &mut [i32],
-) -> Result<(), SimulationError> {
-    simulation.reals(&columns.reals, reals)?;
-    simulation.integers(&columns.integers, integers)
-}
-
-/// The command: `<folder>/<scene>.csv`, `.npy` where the scene has a recorder, and, if wanted, `.svg` and `.png`.
-pub fn command(project: &Project, model: Model, grid: Grid, folder: &Path, figure: bool) -> Result<()> {
-    let mut simulation = model.simulation;
-    let columns = Columns::new(simulation.table());
-    // The recording grows in a folder of its own, so that it too is whole before it takes the place of an earlier one.
+/// The command: `<folder>/<scene>.csv` or what else the table is to be, `.npy` where the scene has a recorder, and, if
+/// wanted, `.wav`, `.html`, `.svg` and `.png`.
+pub fn command(project: &Project, model: Model, options: &Options, folder: &Path) -> Result<()> {
+    let records = model.scene.recorder.is_some();
+    let mut model = with_recorder(model, options)?;
+    // It goes on in a folder of its own, so that what is in it is whole before it takes the place of an earlier run's.
     let growing = whole_file::folder_in(folder)?;
-    simulation.record_into(&growing.path().to_string_lossy());
-    simulation.initialize(0.0).context("initial equilibrium")?;
-    let mut recording = Recording::begin(&simulation, &model.scene.name)?;
-    let path = folder.join(format!("{}.csv", model.scene.name));
-    let mut acceleration = Vec::new();
-    whole_file::write_with(&path, |mut out| {
-        acceleration = write(&mut simulation, &columns, grid, &mut out, recording.as_mut())?;
-        Ok(recording.as_mut().map_or(Ok(()), |recording| recording.store(&mut simulation))?)
-    })?;
-    println!("{}", path.display());
-    if let Some(file) = recording.map(|recording| recording.path().to_owned()) {
-        println!("{}", whole_file::take_out(&file, folder)?.display());
+    let path = options.format.path(folder, &model.scene.name);
+    let chosen = chosen(&model.simulation, &options.columns)?;
+    let done = simulate(&mut model, options, growing.path(), &path)?;
+    let sensors = |signals: &Signals| signals.places(|name| shows_a_sensor(&model.scene, name));
+    if let Some(noise) = &options.noise {
+        noise.add(&done.signals, &sensors(&done.signals), 0)?;
+        if let Some(recording) = &done.recording {
+            noise.add(recording, &sensors(recording), 1)?;
+        }
     }
-    if figure {
-        let mut files = vec![path];
-        files.extend(write_envelope(&model.scene, &acceleration, grid, folder)?);
-        let python = Python::prepare(project)?;
-        print!("{}", python.run("run_figure.py", &files)?);
+    let columns: Vec<(usize, &str)> = std::iter::once("time")
+        .chain(chosen.names().map(|(name, _)| name))
+        .filter_map(|name| done.units.iter().position(|(known, _)| known == name))
+        .map(|place| (place, done.units[place].1))
+        .collect();
+    options.format.write(&done.signals, &columns, &path)?;
+    println!("{}", path.display());
+    if let (Some(wav), Some(recording), Some(recorder)) = (&options.wav, &done.recording, model.scene.recorder) {
+        let path = folder.join(format!("{}.wav", model.scene.name));
+        let largest = wav.write(recording, &sensors(recording), recorder.rate, &path)?;
+        println!("{}", path.display());
+        eprintln!("note: {} Hz, 1 is {} m/s2, the largest sample {largest:.3}", recorder.rate, wav.scale);
+    }
+    if options.figure || options.page {
+        draw(project, &model, options, &done, folder)?;
+    }
+    if let Some(recording) = done.recording.filter(|_| records) {
+        println!("{}", whole_file::take_out(recording.path(), folder)?.display());
     }
     Ok(())
 }
 
-/// Spectrum of the acceleration's envelope as `<scene>-envelope.csv`, and beside it, as `.json`, band, width of a line
-/// and the frequencies to mark; nothing where the run is too short or too coarse, or nothing shakes.
-fn write_envelope(scene: &Scene, acceleration: &[f64], grid: Grid, folder: &Path) -> Result<Option<PathBuf>> {
-    let (rate, speed) = (1.0 / grid.step, scene.shaft_speed / TAU);
-    let Some(characteristic) = envelope_spectrum::frequencies(scene) else { return Ok(None) };
-    let shortest = libm::ceil(100.0 * envelope_spectrum::FEWEST_PASSAGES / characteristic.bpfo) / 100.0;
-    if !acceleration.is_empty() && acceleration.len() as f64 * grid.step < shortest {
-        eprintln!(
-            "note: no spectrum of the envelope: its lines would run into each other; --stop {shortest:.2} is enough"
-        );
+fn chosen(simulation: &Simulation, patterns: &[String]) -> Result<Columns> {
+    if patterns.is_empty() {
+        return Ok(Columns::all(simulation.table()));
     }
-    let Some(found) = EnvelopeSpectrum::of(acceleration, rate, characteristic, speed) else { return Ok(None) };
-    let path = folder.join(format!("{}-envelope.csv", scene.name));
-    whole_file::write_with(&path, |mut out| {
-        csv::header(&mut out, [("frequency", "Hz"), ("amplitude", "1")].into_iter())?;
-        for (&frequency, &amplitude) in found.frequency.iter().zip(&found.amplitude) {
-            csv::row(&mut out, [frequency, amplitude].into_iter())?;
+    Columns::matching(simulation.table(), patterns)
+}
+
+/// Whether a signal is what an accelerometer shows.
+fn shows_a_sensor(scene: &Scene, name: &str) -> bool {
+    (0..scene.sensors.len()).any(|number| scene.sensor_variable(number) == name)
+}
+
+/// The model with the recorder that a sound or a page needs.
+fn with_recorder(model: Model, options: &Options) -> Result<Model> {
+    let named = options.wav.and_then(|wav| wav.rate);
+    if options.wav.is_some() || options.noise.is_some() {
+        if model.scene.sensors.is_empty() {
+            bail!("the scene has no [sensor]: --wav and --noise-db are about what sensors show");
         }
-        Ok(())
-    })?;
-    let said = serde_json::json!({
-        "band_hz": [found.band.low, found.band.high],
-        "line_width_hz": found.line_width,
-        "rate_hz": rate,
-        "frequencies_hz": {
-            "BPFO": characteristic.bpfo,
-            "BPFI": characteristic.bpfi,
-            "2 BSF": 2.0 * characteristic.bsf,
-            "FTF": characteristic.ftf,
-        },
+        if named.is_none()
+            && options.wav.is_some()
+            && model.scene.recorder.is_some_and(|recorder| recorder.filter == RecorderFilter::None)
+        {
+            bail!("recorder.filter is \"none\": sound needs \"linear-phase\", or a rate of its own by --wav-rate");
+        }
+    }
+    let rate = match (named, model.scene.recorder) {
+        (Some(rate), _) => rate,
+        (None, None) if options.wav.is_some() || options.page => USUAL_RATE,
+        _ => return Ok(model),
+    };
+    let mut scene = model.scene;
+    scene.recorder = Some(Recorder { rate, filter: RecorderFilter::LinearPhase });
+    scene.check().context("--wav-rate")?;
+    let texts = model.profiles.iter().map(|profile| profile.text.as_str());
+    let simulation = Simulation::with_map(scene.clone(), texts, model.map.as_deref())?;
+    Ok(Model { scene, simulation, ..model })
+}
+
+/// Runs the simulation; its signals go into `growing`. A disk that is full is told of the table at `about`.
+fn simulate(model: &mut Model, options: &Options, growing: &Path, about: &Path) -> Result<Done> {
+    let simulation = &mut model.simulation;
+    let mut columns = if options.figure || options.page {
+        Columns::all(simulation.table())
+    } else {
+        chosen(simulation, &options.columns)?
+    };
+    simulation.record_into(&growing.to_string_lossy());
+    let shaft_speed = simulation.reference("shaft.speed")?;
+    if let Some(profile) = &options.profile {
+        simulation.set_reals(&[shaft_speed], &[profile.at(0.0)])?;
+    }
+    simulation.initialize(0.0).context("initial equilibrium")?;
+    let mut recording = Recording::begin(simulation, &model.scene.name)?;
+    let units: Vec<(String, &str)> =
+        std::iter::once(("time", "s")).chain(columns.names()).map(|(name, unit)| (name.to_owned(), unit)).collect();
+    let full = |error| NotWritten::new(about, error);
+    let names = units.iter().map(|(name, _)| name.clone()).collect();
+    // No recording has that name: those of scenes end in .npy alone.
+    let file = growing.join("signals.table");
+    let mut rows = Growing::create(&file, names, options.grid.count + 1).map_err(full)?;
+    let mut row = vec![0.0; units.len()];
+    for index in 0..=options.grid.count {
+        if index > 0 {
+            step(simulation, shaft_speed, options)?;
+            if let Some(recording) = &mut recording {
+                recording.keep_up(simulation)?;
+            }
+        }
+        row[0] = simulation.time();
+        columns.read(simulation, &mut row[1..])?;
+        rows.push(&row).map_err(full)?;
+    }
+    let signals = rows.end().map_err(full)?;
+    let recording = match recording {
+        None => None,
+        Some(mut recording) => {
+            recording.store(simulation)?;
+            let recorder = simulation.recorder().into_iter().flat_map(|recorder| recorder.references());
+            let names = recorder.map(|reference| simulation.table()[reference as usize].name.clone());
+            Some(Signals::of_recording(recording.path(), std::iter::once("time".to_owned()).chain(names).collect())?)
+        }
+    };
+    Ok(Done { signals, units, recording })
+}
+
+/// One communication step, with the speed going straight from the profile's value at its start to that at its end.
+fn step(simulation: &mut Simulation, shaft_speed: u32, options: &Options) -> Result<()> {
+    let (at, step) = (simulation.time(), options.grid.step);
+    if let Some(profile) = &options.profile {
+        let (from, to) = (profile.at(at), profile.at(at + step));
+        simulation.set_reals(&[shaft_speed], &[from])?;
+        simulation.set_input_derivatives(&[shaft_speed], &[1], &[(to - from) / step])?;
+    }
+    simulation.step(step).with_context(|| format!("at {at} s"))
+}
+
+/// Spectra, figure and page.
+fn draw(project: &Project, model: &Model, options: &Options, done: &Done, folder: &Path) -> Result<()> {
+    let scene = &model.scene;
+    let filtered = |_: &&Signals| scene.recorder.is_some_and(|recorder| recorder.filter == RecorderFilter::LinearPhase);
+    let (source, rate) = match done.recording.as_ref().filter(filtered).zip(scene.recorder) {
+        Some((recording, recorder)) => (recording, recorder.rate),
+        None => (&done.signals, 1.0 / options.grid.step),
+    };
+    let place = match scene.sensors.is_empty() {
+        true => source.places(|name| name == "housing.ay"),
+        false => source.places(|name| name == scene.sensor_variable(0)),
+    };
+    let samples = place.first().map_or(Ok(Vec::new()), |&place| source.column(place))?;
+    let acceleration = Acceleration { samples, rate };
+    let spectra = Spectra { scene, profile: options.profile.as_ref(), acceleration };
+    let envelope = spectra.write_envelope(folder)?;
+    let python = if options.page { Python::prepare_for_pages(project)? } else { Python::prepare(project)? };
+    let stem = folder.join(&scene.name);
+    if options.figure {
+        let mut files: Vec<PathBuf> = vec![done.signals.path().to_owned(), stem.clone()];
+        files.extend(envelope.clone());
+        print!("{}", python.run("run_figure.py", &files)?);
+    }
+    if options.page {
+        let orders = spectra.write_orders(folder)?;
+        let files = page::Files {
+            signals: &done.signals,
+            recording: done.recording.as_ref(),
+            envelope: envelope.as_deref(),
+            orders: orders.as_ref(),
+        };
+        let described = page::described(model, &files, &notes(options))?;
+        let about = done.signals.path().with_extension("json");
+        whole_file::write(&about, described.to_string())?;
+        print!("{}", python.run("run_page.py", [about, folder.join(format!("{}.html", scene.name))])?);
+    }
+    Ok(())
+}
+
+/// What a reader of the page must know of the run.
+fn notes(options: &Options) -> Vec<String> {
+    let noise = options.noise.map(|noise| noise.to_string());
+    let profile = options.profile.as_ref().map(|profile| {
+        format!("the shaft's speed has a profile: {} Hz at the start, {} Hz at the end", profile.hertz(0.0), profile.hertz(options.grid.end()))
     });
-    whole_file::write(&path.with_extension("json"), serde_json::to_string_pretty(&said)? + "\n")?;
-    Ok(Some(path))
+    noise.into_iter().chain(profile).collect()
 }

@@ -22,6 +22,12 @@ pub struct NotWritten {
     source: io::Error,
 }
 
+impl NotWritten {
+    pub(crate) fn new(path: &Path, source: io::Error) -> Self {
+        Self { path: path.display().to_string(), source }
+    }
+}
+
 /// Writes a file of these bytes.
 pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> Result<()> {
     write_with(path, |out| Ok(out.write_all(bytes.as_ref())?))
@@ -31,8 +37,8 @@ pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> Result<()> {
 ///
 /// # Errors
 /// Of `fill`, as they are; what the system says of writing, with the path and what to do.
-pub fn write_with(path: &Path, fill: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
-    let failed = |source: io::Error| NotWritten { path: path.display().to_string(), source };
+pub fn write_with(path: &Path, fill: impl FnOnce(&mut (dyn Write + Send)) -> Result<()>) -> Result<()> {
+    let failed = |source: io::Error| NotWritten::new(path, source);
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
@@ -65,7 +71,7 @@ pub fn take_out(file: &Path, folder: &Path) -> Result<PathBuf> {
     let path = folder.join(file.file_name().unwrap_or_default());
     match fs::rename(file, &path) {
         Ok(()) => Ok(path),
-        Err(source) => Err(NotWritten { path: path.display().to_string(), source }.into()),
+        Err(source) => Err(NotWritten::new(&path, source).into()),
     }
 }
 

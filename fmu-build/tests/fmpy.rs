@@ -4,13 +4,14 @@
 mod common;
 
 use std::ffi::OsStr;
-use std::fs::{self, File};
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use brinell::scene::Experiment;
 use fmu_build::fmu::Version;
 use fmu_build::model::Model;
-use fmu_build::run::{self, Columns, Grid};
+use fmu_build::run::{self, grid::Grid};
+use fmu_build::run::table::Format;
 use fmu_build::{check, project::Project};
 
 fn all_fmus(folder: &Path) -> Vec<PathBuf> {
@@ -83,14 +84,19 @@ fn two_instances_of_two_scenes_do_not_disturb_each_other() {
 fn an_fmu_and_a_run_without_a_host_give_equal_bits() {
     let folder = common::folder("bits");
     for name in ["6205-epps", "er16k-tb1"] {
-        let model = common::model(name);
-        let mut simulation = model.simulation;
-        let columns = Columns::new(simulation.table());
-        simulation.initialize(0.0).unwrap();
-        let csv = folder.join(name).with_extension("csv");
         let step = 1e-5;
-        let grid = Grid::new(&Experiment { stop: 0.02, step }, None, None).unwrap();
-        run::write(&mut simulation, &columns, grid, &mut File::create(&csv).unwrap(), None).unwrap();
+        let csv = folder.join(name).with_extension("csv");
+        let options = run::Options {
+            grid: Grid::new(&Experiment { stop: 0.02, step }, None, None).unwrap(),
+            columns: Vec::new(),
+            format: Format::Csv,
+            profile: None,
+            noise: None,
+            wav: None,
+            figure: false,
+            page: false,
+        };
+        run::command(&Project::find(), common::model(name), &options, &folder).unwrap();
         assert_eq!(fs::read_to_string(&csv).unwrap().lines().count(), 2002, "a header and 2001 points");
         let fmu = common::fmu_of(name, &folder);
         common::run_script("equal_bits.py", [fmu.as_os_str(), csv.as_os_str(), OsStr::new(&step.to_string())]);

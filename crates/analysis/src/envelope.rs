@@ -76,13 +76,25 @@ pub fn find_combs<const N: usize>(
     bpfo: f64,
     speed: f64,
 ) -> [Comb; N] {
+    find_combs_of(&mut |band| (spectrum.squared_envelope(band), rate), rate, patterns, bpfo, speed)
+}
+
+/// The same of the squared envelopes that `envelope` gives of a band, each with its own rate [Hz]: those at equal shaft
+/// angles, where the speed changes.
+pub fn find_combs_of<const N: usize>(
+    envelope: &mut dyn FnMut(Band) -> (Vec<f64>, f64),
+    rate: f64,
+    patterns: [Pattern; N],
+    bpfo: f64,
+    speed: f64,
+) -> [Comb; N] {
     let mut bands = bands(rate, bpfo);
     if bands.is_empty() {
         bands.push(Band { low: 0.0, high: 0.45 * rate });
     }
     let mut best: [Option<Comb>; N] = std::array::from_fn(|_| None);
     for band in bands {
-        let envelope = spectrum.squared_envelope(band);
+        let (envelope, rate) = envelope(band);
         for (best, &pattern) in best.iter_mut().zip(&patterns) {
             let found = comb_within(&envelope, rate, pattern, [1.0 - SLIP.end(), 1.0 - SLIP.start()], speed, band);
             if best.as_ref().is_none_or(|best| found.significance >= best.significance) {

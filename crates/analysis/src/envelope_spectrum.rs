@@ -12,6 +12,7 @@
 
 use super::envelope;
 use super::fault::Combs;
+use super::order_spectrum::EvenAngles;
 use super::spectrum::{self, Band, Spectrum};
 use super::statistics;
 use brinell::geometry::kinematics::{Frequencies, Ratios};
@@ -57,14 +58,40 @@ pub fn frequencies(scene: &Scene) -> Option<Frequencies> {
 impl EnvelopeSpectrum {
     /// Of a signal sampled at `rate` [Hz] on a bearing whose shaft turns at `speed` [Hz].
     pub fn of(signal: &[f64], rate: f64, characteristic: Frequencies, speed: f64) -> Option<Self> {
-        let duration = signal.len() as f64 / rate;
+        Self::at(signal, rate, characteristic, speed, &|squared| (squared, rate))
+    }
+
+    /// The same of a shaft whose speed changes: the envelope is taken in time, where a resonance stays in its band, and
+    /// then at equal shaft angles. Frequencies are those of a shaft that turns at the mean speed, as `characteristic`
+    /// must be.
+    pub fn of_changing_speed(
+        signal: &[f64],
+        rate: f64,
+        characteristic: Frequencies,
+        angles: &EvenAngles,
+    ) -> Option<Self> {
+        let (speed, even_rate) = (angles.mean_speed(), angles.per_turn() * angles.mean_speed());
+        Self::at(signal, rate, characteristic, speed, &|squared| (angles.resampled(&squared), even_rate))
+    }
+
+    /// `even` gives a squared envelope at equal times or angles, and its rate [Hz].
+    fn at(
+        signal: &[f64],
+        rate: f64,
+        characteristic: Frequencies,
+        speed: f64,
+        even: &dyn Fn(Vec<f64>) -> (Vec<f64>, f64),
+    ) -> Option<Self> {
         let top = RANGE * characteristic.bpfi;
-        if duration * characteristic.bpfo < FEWEST_PASSAGES || envelope::bands(rate, characteristic.bpfo).is_empty() {
+        let bands = envelope::bands(rate, characteristic.bpfo);
+        if signal.len() as f64 / rate * characteristic.bpfo < FEWEST_PASSAGES || bands.is_empty() {
             return None;
         }
         let mut spectrum = Spectrum::of(signal, rate);
-        let band = Combs::find(&mut spectrum, rate, characteristic, speed).strongest().band;
-        let squared = spectrum.squared_envelope(band);
+        let mut envelope = |band| even(spectrum.squared_envelope(band));
+        let band = Combs::find_of(&mut envelope, rate, characteristic, speed).strongest().band;
+        let (squared, rate) = envelope(band);
+        let duration = squared.len() as f64 / rate;
         let mean = statistics::mean(&squared);
         if mean <= 0.0 {
             return None;
@@ -72,7 +99,7 @@ impl EnvelopeSpectrum {
         let relative: Vec<f64> = squared.iter().map(|x| x / mean - 1.0).collect();
         let (power, bin) = spectrum::power(&relative, rate, FINENESS * relative.len());
         // Hann's window sums to half of its length.
-        let scale = 4.0 / signal.len() as f64;
+        let scale = 4.0 / squared.len() as f64;
         let count = ((top / bin) as usize + 1).min(power.len());
         Some(Self {
             band,

@@ -7,9 +7,9 @@
 //! cage that carries it. Of those that stand above chance the one whose harmonics stand highest above the noise is the
 //! fault's: sidebands are weaker than what they belong to, and a comb that shares some lines has not all of them.
 
-use super::envelope::{Comb, Pattern, find_combs};
+use super::envelope::{Comb, Pattern, find_combs_of};
 use super::report::{CombReport, CombsReport, Fault};
-use super::spectrum::Spectrum;
+use super::spectrum::{Band, Spectrum};
 use brinell::geometry::kinematics::Frequencies;
 
 /// How much stronger than any other that is significant a comb must be to be the fault's [nepers of power]: twice the
@@ -30,9 +30,19 @@ pub struct Combs {
 impl Combs {
     /// Searches a recording of a shaft that turns at `speed` [Hz] near the nominal frequencies.
     pub fn find(spectrum: &mut Spectrum, rate: f64, nominal: Frequencies, speed: f64) -> Self {
+        Self::find_of(&mut |band| (spectrum.squared_envelope(band), rate), rate, nominal, speed)
+    }
+
+    /// The same in the squared envelopes that `envelope` gives of a band, each with its own rate [Hz].
+    pub fn find_of(
+        envelope: &mut dyn FnMut(Band) -> (Vec<f64>, f64),
+        rate: f64,
+        nominal: Frequencies,
+        speed: f64,
+    ) -> Self {
         let patterns = [(nominal.bpfo, 0.0), (nominal.bpfi, speed), (2.0 * nominal.bsf, nominal.ftf)];
         let patterns = patterns.map(|(frequency, sideband)| Pattern { frequency, sideband });
-        let [outer, inner, element] = find_combs(spectrum, rate, patterns, nominal.bpfo, speed);
+        let [outer, inner, element] = find_combs_of(envelope, rate, patterns, nominal.bpfo, speed);
         Self { outer, inner, element }
     }
 

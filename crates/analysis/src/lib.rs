@@ -23,6 +23,7 @@ pub mod mode_lines;
 pub mod modes;
 pub mod modes_report;
 mod npy_header;
+pub mod order_spectrum;
 pub mod passages;
 pub mod raceway;
 pub mod recording;

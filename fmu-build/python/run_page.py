@@ -1,0 +1,260 @@
+"""The page of a run: one file with signals, paths over the defects and spectra, to hover over and to zoom into.
+
+Arguments: a JSON file that says where the signals are and what there is to mark; the page. Plotly's own script stands in
+the page, which asks no network for anything.
+"""
+
+import base64
+import html
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+import plotting
+import plotly
+from plotting import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
+
+# Numbers of all signals together, 5.3 bytes each in the page.
+MOST_NUMBERS = 600_000
+# Points of the paths over one defect, and of one spectrum.
+MOST_OF_PATH, MOST_OF_SPECTRUM = 40_000, 40_000
+COLOURS = [BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY]
+MARKS = {"BPFO": (BLUE, "solid"), "BPFI": (VERMILION, "dash"), "2 BSF": (GREEN, "dashdot"), "FTF": (PURPLE, "dot")}
+HARMONICS = 5
+
+
+def packed(values):
+    return base64.b64encode(np.asarray(values, dtype="<f4").tobytes()).decode("ascii")
+
+
+def extremes(values, every):
+    """The least and the greatest of each `every` values, in the order in which they come."""
+    count = len(values) // every * every
+    blocks = values[:count].reshape(-1, every)
+    low, high = np.argmin(blocks, axis=1), np.argmax(blocks, axis=1)
+    places = np.sort(np.column_stack([low, high]), axis=1)
+    pairs = blocks[np.arange(len(blocks))[:, None], places].ravel()
+    rest = values[count:]
+    return np.append(pairs, [rest.min(), rest.max()]) if rest.size else pairs
+
+
+class Run:
+    """Signals of a run by name: those of the recorder where it filters them, else those at communication points."""
+
+    def __init__(self, about):
+        self.table = np.load(about["signals"], mmap_mode="r")
+        self.recording = np.load(about["recording"], mmap_mode="r") if about["recording"] else None
+
+    def source(self, name):
+        recorded = self.recording is not None and name in self.recording.dtype.names and len(self.recording) > 1
+        return self.recording if recorded else self.table
+
+    def has(self, name):
+        return name in self.table.dtype.names
+
+    def moves(self, name):
+        return self.has(name) and np.ptp(self.table[name]) > 0
+
+    def at(self, name, time):
+        """A signal of the table at other times; 0 where there is none."""
+        return np.interp(time, self.table["time"], self.table[name]) if self.has(name) else np.zeros(len(time))
+
+
+def panels(run, count):
+    """Panels of signals: unit, and name, factor and colour of each signal."""
+    names = run.table.dtype.names
+    sensors = [name for name in names if name.startswith("sensor")]
+    yield "m/s²", [(name, 1.0) for name in sensors]
+    yield "µm", [(name, 1e6) for name in ("probe.x", "probe.y")]
+    yield "m/s²", [(f"{ring}.ay", 1.0) for ring in ("housing", "shaft")]
+    yield "µm", [(f"{ring}.{axis}", 1e6) for ring in ("shaft", "housing") for axis in "xy"]
+    yield "N", [("shaft.force.x", 1.0), ("shaft.force.y", 1.0)]
+    yield "N", [(f"element[{j}].force.outer", 1.0) for j in range(1, count + 1)]
+    yield "Hz", [("shaft.speed", 1 / (2 * np.pi)), ("cage.speed", 1 / (2 * np.pi))]
+
+
+def signals(run, count):
+    """What the page shows over time, and in words how it was made shorter."""
+    chosen = [(unit, [s for s in of if run.moves(s[0]) or (unit == "Hz" and run.has(s[0]))]) for unit, of in panels(run, count)]
+    chosen = [(unit, of) for unit, of in chosen if of]
+    total = sum(len(run.source(name)) for _, of in chosen for name, _ in of)
+    every = 1 if total <= MOST_NUMBERS else int(np.ceil(2 * total / MOST_NUMBERS))
+    shown, words = [], {}
+    for unit, of in chosen:
+        row = []
+        for (name, factor), colour in zip(of, COLOURS * 20):
+            source = run.source(name)
+            values, time = np.ascontiguousarray(source[name]) * factor, source["time"]
+            step = float(time[-1] - time[0]) / (len(time) - 1)
+            kept = extremes(values, every) if every > 1 else values
+            # A pair of extremes stands for so many samples.
+            width = step if every == 1 else 0.5 * every * step
+            row.append({"name": name, "unit": unit, "colour": colour, "start": float(time[0]), "step": width, "values": packed(kept)})
+            words["recorder" if source is run.recording else "communication points"] = step
+        shown.append({"unit": unit, "signals": row})
+    said = "; ".join(f"{name}: a sample every {1e6 * step:.4g} µs" for name, step in words.items())
+    if every > 1:
+        said += f". The run is long: of each {every} samples the page has the least and the greatest"
+    return shown, said
+
+
+def wrapped(angle):
+    return (angle + np.pi) % (2 * np.pi) - np.pi
+
+
+def path(run, about, defect, number):
+    """The surface of a defect and the ways of elements over it."""
+    surface = np.array(defect["surface"])
+    radius, count = defect["radius"], about["count"]
+    half = 0.5 * (surface[-1, 0] - surface[0, 0])
+    room = half + max(0.8 * half, 0.4e-3)
+    source = run.source("element[1].path")
+    time = np.asarray(source["time"])
+    pieces = []
+    for j in [defect["element"]] if defect["on"] == "element" else range(1, count + 1):
+        angle = run.at(f"element[{j}].angle", time)
+        way = np.asarray(source[f"element[{j}].path"]).copy()
+        if defect["on"] == "outer":
+            along = angle - run.at("housing.angle", time) if about["turns"] else angle
+            along = radius * wrapped(along - defect["angle"])
+        elif defect["on"] == "inner":
+            along = radius * wrapped(angle - run.at("shaft.angle", time) - defect["angle"])
+            moved = [run.at(f"shaft.{axis}", time) - run.at(f"housing.{axis}", time) for axis in "xy"]
+            # Against the inner ring: 0 where the element just touches its smooth raceway.
+            way += about["clearance"] - moved[0] * np.cos(angle) - moved[1] * np.sin(angle)
+        else:
+            along, room = np.degrees(wrapped(run.at(f"element[{j}].spin_angle", time))), 180.0
+        # Into the outer raceway is down.
+        way *= 1.0 if defect["on"] == "inner" else -1.0
+        near = np.flatnonzero(np.abs(along) <= room)
+        for piece in np.split(near, np.flatnonzero((np.diff(near) > 1) | (np.abs(np.diff(along[near])) > room)) + 1):
+            if piece.size > 1:
+                pieces.append((time[piece[0]], np.column_stack([along[piece], way[piece] * 1e6, time[piece], np.full(piece.size, j)])))
+    pieces = [piece for _, piece in sorted(pieces, key=lambda piece: -piece[0])]
+    kept, points = [], 0
+    for piece in pieces:
+        if kept and points + len(piece) > MOST_OF_PATH:
+            break
+        kept += [piece, np.full((1, 4), np.nan)]
+        points += len(piece)
+    if not kept:
+        return None
+    rows = np.concatenate(kept)
+    element = defect["on"] == "element"
+    scale = 1.0 if element else 1e3
+    outline = np.vstack([[-room, 0], surface, [room, 0]]) * [scale, -1e6] if not element else np.array([[-180.0, 0.0], [180.0, 0.0]])
+    told = f"{len(kept) // 2} passages" if len(kept) // 2 == len(pieces) else f"the last {len(kept) // 2} of {len(pieces)} passages"
+    body = {"outer": "outer raceway", "inner": "inner raceway", "element": "smooth outer raceway"}[defect["on"]]
+    where = "spin of the element, 0: the defect faces the outer raceway (degrees)" if element else f"arc of the {body} from the defect's middle (mm)"
+    return {
+        "title": f"Defect {number}: {body if not element else 'element ' + str(defect['element'])}, {told}",
+        "body": body, "axis": where, "along": "°" if element else "mm", "surface": outline.tolist(),
+        "x": packed(rows[:, 0] * scale), "y": packed(rows[:, 1]), "time": packed(rows[:, 2]), "element": packed(rows[:, 3]),
+    }
+
+
+def marks(frequencies, top):
+    found = []
+    for name, (colour, dash) in MARKS.items():
+        if 0 < frequencies[name] <= top:
+            count = 1 if name == "FTF" else min(HARMONICS, int(top / frequencies[name]))
+            found.append({"name": name, "colour": colour, "dash": dash, "at": [k * frequencies[name] for k in range(1, count + 1)]})
+    return found
+
+
+def spectrum(x, y, wide, frequencies, **words):
+    """What is drawn of a spectrum: where there are many points, the greatest of several."""
+    every = -(-len(y) // MOST_OF_SPECTRUM)
+    step = float(x[1] - x[0])
+    if every > 1:
+        x, y = x[: len(y) // every * every], y[: len(y) // every * every].reshape(-1, every).max(axis=1)
+    beyond = np.arange(len(y)) * step * every > 0.5 * wide
+    top, middle = float(y[beyond].max()), float(np.median(y[beyond]))
+    return {
+        "step": step * every, "y": packed(y), "top": 1.5 * top if words["log"] else 1.08 * top, "floor": max(0.1 * middle, 1e-7 * top) if words["log"] else 0.0,
+        "marks": marks(frequencies, float(x[-1])), **words,
+    }
+
+
+def spectra(about):
+    if about["envelope"]:
+        data = plotting.read_csv(about["envelope"])
+        said = json.loads(Path(about["envelope"]).with_suffix(".json").read_text(encoding="utf-8"))
+        low, high = (f / 1e3 for f in said["band_hz"])
+        at = f", at the mean speed of {said['mean_speed_hz']:.4g} turns per second" if "mean_speed_hz" in said else ""
+        yield (
+            f"Envelope spectrum, {low:.3g} to {high:.3g} kHz{at}; lines are {said['line_width_hz']:.2g} Hz wide",
+            spectrum(
+                data["frequency"], data["amplitude"], said["line_width_hz"], said["frequencies_hz"], log=False, unit="Hz",
+                name="squared envelope", axis="frequency (Hz)", label="squared envelope<br>(share of its mean)",
+                shown=float(data["frequency"][-1]),
+            ),
+        )
+    if about["orders"]:
+        data, said = plotting.read_csv(about["orders"]["file"]), about["orders"]["said"]
+        yield (
+            f"Order spectrum of the acceleration, {said['from_s']:.4g} to {said['to_s']:.4g} s; lines are {said['line_width']:.2g} orders wide",
+            spectrum(
+                data["order"], data["amplitude"], said["line_width"], said["orders"], log=True, unit="×",
+                name="acceleration", axis="order (times per turn)", label="amplitude (m/s²)",
+                shown=min(float(data["order"][-1]), 6 * said["orders"]["BPFI"]),
+            ),
+        )
+
+
+HEAD = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy"
+ content="default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:">
+<title>{name}</title>
+<style>
+body {{ font: 15px system-ui, sans-serif; max-width: 1200px; margin: 1.5em auto; padding: 0 1em; color: #222; }}
+h1 {{ font-size: 1.5em; margin-bottom: 0.2em; }}
+h2 {{ font-size: 1.1em; margin: 1.6em 0 0.3em; }}
+p {{ margin: 0.3em 0; color: #555; }}
+#errors {{ color: #b00020; white-space: pre-line; }}
+</style>
+<script>
+addEventListener("error", (event) => {{ document.getElementById("errors").textContent += event.message + "\\n"; }});
+addEventListener("unhandledrejection", (event) => {{ document.getElementById("errors").textContent += event.reason + "\\n"; }});
+</script>
+</head>
+<body data-state="empty">
+<h1>{name}</h1>
+{lines}
+<div id="errors"></div>
+<h2>Signals</h2>
+<p>Drag to zoom, double-click to see all. Zoomed out, a line goes through the least and the greatest value of each pixel.</p>
+<div id="signals"></div>
+"""
+
+
+def main():
+    about = json.loads(Path(sys.argv[1]).read_text(encoding="utf-8"))
+    run = Run(about)
+    shown, said = signals(run, about["count"])
+    if about["recorder_rate"]:
+        said += f". What the recorder samples at {about['recorder_rate']:g} Hz of accelerations and forces on rings is filtered"
+    paths = [path(run, about, defect, k) for k, defect in enumerate(about["defects"], 1)]
+    paths = [one for one in paths if one]
+    drawn = list(spectra(about))
+    data = {"panels": shown, "paths": paths, "spectra": [of for _, of in drawn]}
+    lines = "\n".join(f"<p>{html.escape(line)}</p>" for line in [about["description"], said, *about["notes"]] if line)
+    text = HEAD.format(name=html.escape(about["name"]), lines=lines)
+    text += "".join(f'<h2>{html.escape(one["title"])}</h2><div id="path-{k}"></div>\n' for k, one in enumerate(paths))
+    text += "".join(f'<h2>{html.escape(title)}</h2><div id="spectrum-{k}"></div>\n' for k, (title, _) in enumerate(drawn))
+    library = (Path(plotly.__file__).parent / "package_data" / "plotly.min.js").read_text(encoding="utf-8")
+    program = (Path(__file__).parent / "run_page.js").read_text(encoding="utf-8")
+    # No "</" inside a script ends it.
+    text += f"<script>{library}</script>\n<script>const DATA = {json.dumps(data).replace('</', '<' + chr(92) + '/')};\n{program}</script>\n"
+    text += "</body>\n</html>\n"
+    with plotting.whole(sys.argv[2]) as part:
+        part.write_text(text, encoding="utf-8")
+    print(sys.argv[2])
+
+
+if __name__ == "__main__":
+    main()

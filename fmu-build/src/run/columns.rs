@@ -1,0 +1,120 @@
+//! The columns of a run's table: which variables, in which order.
+
+use anyhow::{Result, bail};
+use brinell::simulation::variables::{Causality, Kind, Variable};
+use brinell::simulation::{Simulation, SimulationError};
+
+use crate::units;
+
+/// Columns beside the time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Columns {
+    /// Names and units, those of integers last.
+    names: Vec<(String, &'static str)>,
+    reals: Vec<u32>,
+    integers: Vec<u32>,
+    /// Room for the integers of a row.
+    counts: Vec<i32>,
+}
+
+impl Columns {
+    /// All inputs and outputs that are numbers, and the counters.
+    pub fn all(table: &[Variable]) -> Self {
+        Self::those(table, &|_| true)
+    }
+
+    /// Those that `patterns` name, in the order of the table; `*` in a pattern stands for any characters.
+    ///
+    /// # Errors
+    /// A pattern that no variable has.
+    pub fn matching(table: &[Variable], patterns: &[String]) -> Result<Self> {
+        let all = Self::all(table);
+        for pattern in patterns {
+            if !all.names.iter().any(|(name, _)| matches(pattern, name)) {
+                bail!("column {pattern:?}: no input or output of this scene has that name; {}", all.near(pattern));
+            }
+        }
+        Ok(Self::those(table, &|name| patterns.iter().any(|pattern| matches(pattern, name))))
+    }
+
+    fn those(table: &[Variable], wanted: &dyn Fn(&str) -> bool) -> Self {
+        let mut columns = Self { names: Vec::new(), reals: Vec::new(), integers: Vec::new(), counts: Vec::new() };
+        let mut counters = Vec::new();
+        let shown = |variable: &&Variable| variable.causality != Causality::Parameter && wanted(&variable.name);
+        for variable in table.iter().filter(shown) {
+            match variable.kind {
+                Kind::Real { unit, .. } => {
+                    columns.names.push((variable.name.clone(), units::name(unit)));
+                    columns.reals.push(variable.reference);
+                }
+                Kind::Integer => {
+                    counters.push((variable.name.clone(), "1"));
+                    columns.integers.push(variable.reference);
+                }
+                _ => {}
+            }
+        }
+        columns.names.extend(counters);
+        columns.counts = vec![0; columns.integers.len()];
+        columns
+    }
+
+    /// Names and units.
+    pub fn names(&self) -> impl Iterator<Item = (&str, &'static str)> {
+        self.names.iter().map(|(name, unit)| (name.as_str(), *unit))
+    }
+
+    /// Puts the present values into `row`, which has a place for each column.
+    pub fn read(&mut self, simulation: &mut Simulation, row: &mut [f64]) -> Result<(), SimulationError> {
+        let (reals, counts) = row.split_at_mut(self.reals.len());
+        simulation.reals(&self.reals, reals)?;
+        simulation.integers(&self.integers, &mut self.counts)?;
+        counts.iter_mut().zip(&self.counts).for_each(|(place, &count)| *place = f64::from(count));
+        Ok(())
+    }
+
+    /// Names that begin like a pattern, or else how names begin.
+    fn near(&self, pattern: &str) -> String {
+        let head = |name: &str| name.split(['.', '[', '*']).next().unwrap_or_default().to_owned();
+        let like: Vec<&str> = self.names().map(|(name, _)| name).filter(|name| head(name) == head(pattern)).collect();
+        if !like.is_empty() {
+            return format!("beginning so there are {}", like.join(", "));
+        }
+        let mut heads: Vec<String> = self.names().map(|(name, _)| format!("{}*", head(name))).collect();
+        heads.dedup();
+        format!("there are {}", heads.join(", "))
+    }
+}
+
+/// Whether a name is as the pattern says.
+fn matches(pattern: &str, name: &str) -> bool {
+    match pattern.split_once('*') {
+        None => pattern == name,
+        Some((start, rest)) => name
+            .strip_prefix(start)
+            .is_some_and(|name| name.char_indices().any(|(at, _)| matches(rest, &name[at..])) || matches(rest, "")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_star_stands_for_any_characters_and_brackets_for_themselves() {
+        for (pattern, name, expected) in [
+            ("shaft.x", "shaft.x", true),
+            ("shaft.x", "shaft.xy", false),
+            ("shaft.*", "shaft.load.x", true),
+            ("*.x", "shaft.load.x", true),
+            ("element[*].path", "element[12].path", true),
+            ("element[1*].path", "element[2].path", false),
+            ("*", "time", true),
+            ("s*t*x", "shaft.x", true),
+            ("shaft*", "shaft", true),
+            ("shaft.x*y", "shaft.x", false),
+        ] {
+            assert_eq!(matches(pattern, name), expected, "{pattern} {name}");
+        }
+    }
+}

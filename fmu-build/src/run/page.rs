@@ -1,0 +1,70 @@
+//! What the page of a run is made of beside its signals: the bearing's frequencies, the defects with their surfaces, and
+//! where the files are.
+
+use std::path::Path;
+
+use anyhow::Result;
+use brinell::scene::DefectOn;
+use brinell::surface::Surface;
+use serde_json::{Value, json};
+
+use super::signals::Signals;
+use crate::model::Model;
+
+/// Most points of a surface that are drawn.
+const POINTS: usize = 4000;
+
+/// Files of a run.
+pub(super) struct Files<'a> {
+    /// At communication points, with all variables.
+    pub(super) signals: &'a Signals,
+    /// The recorder's samples.
+    pub(super) recording: Option<&'a Signals>,
+    /// Spectrum of the envelope, a CSV with a JSON beside it.
+    pub(super) envelope: Option<&'a Path>,
+    /// Orders, with what there is to mark.
+    pub(super) orders: Option<&'a (std::path::PathBuf, Value)>,
+}
+
+/// All of it as JSON.
+///
+/// # Errors
+/// Those of a profile's file.
+pub(super) fn described(model: &Model, files: &Files, notes: &[String]) -> Result<Value> {
+    let scene = &model.scene;
+    let bearing = &scene.bearing;
+    let surfaces = Surface::load_all(scene, model.profile_texts())?;
+    let defects = scene.defects.iter().zip(surfaces).map(|(defect, surface)| {
+        let profile = match surface {
+            Surface::Profile(profile) => profile,
+            Surface::Topography(topography) => topography.profile_at(0.0),
+        };
+        let every = profile.points().len().div_ceil(POINTS);
+        let (on, element) = match defect.on {
+            DefectOn::Outer => ("outer", None),
+            DefectOn::Inner => ("inner", None),
+            DefectOn::Element { element, .. } => ("element", Some(element + 1)),
+        };
+        json!({
+            "on": on,
+            "element": element,
+            "angle": defect.angle,
+            "radius": defect.on.radius(bearing),
+            "surface": profile.points().iter().step_by(every).collect::<Vec<_>>(),
+        })
+    });
+    Ok(json!({
+        "name": scene.name,
+        "description": scene.description,
+        "count": bearing.element_count,
+        "clearance": bearing.radial_clearance,
+        "turns": scene.housing_speed.is_some(),
+        "signals": files.signals.path(),
+        "recording": files.recording.map(Signals::path),
+        "recorder_rate": scene.recorder.map(|recorder| recorder.rate),
+        "envelope": files.envelope,
+        "orders": files.orders.map(|(path, said)| json!({ "file": path, "said": said })),
+        "defects": defects.collect::<Vec<_>>(),
+        "notes": notes,
+    }))
+}

@@ -1,0 +1,138 @@
+//! Spectra of a run: that of the acceleration's envelope, and its orders, each as CSV with what there is to mark.
+
+use std::f64::consts::TAU;
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+use brinell::geometry::kinematics::Frequencies;
+use brinell::scene::Scene;
+use brinell_analysis::envelope_spectrum::{self, EnvelopeSpectrum};
+use brinell_analysis::order_spectrum::{EvenAngles, OrderSpectrum};
+use serde_json::{Value, json};
+
+use super::speed_profile::SpeedProfile;
+use crate::csv;
+use crate::whole_file;
+
+/// Highest order that is kept: some harmonics of BPFI in bearings of any size.
+const HIGHEST_ORDER: f64 = 200.0;
+
+/// An acceleration at even times.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Acceleration {
+    /// Samples [m/s²]; none where nothing measures.
+    pub(super) samples: Vec<f64>,
+    /// Samples per second [Hz].
+    pub(super) rate: f64,
+}
+
+/// Spectra of one run.
+pub(super) struct Spectra<'a> {
+    /// The scene.
+    pub(super) scene: &'a Scene,
+    /// Speed of its shaft where that changes.
+    pub(super) profile: Option<&'a SpeedProfile>,
+    /// What is looked at.
+    pub(super) acceleration: Acceleration,
+}
+
+impl Spectra<'_> {
+    /// Spectrum of the envelope as `<scene>-envelope.csv`, and beside it, as `.json`, band, width of a line and the
+    /// frequencies to mark; nothing where the run is too short or too coarse, or nothing shakes. With a speed that changes
+    /// frequencies are those at the mean speed.
+    pub(super) fn write_envelope(&self, folder: &Path) -> Result<Option<PathBuf>> {
+        let Acceleration { samples, rate } = &self.acceleration;
+        let Some((characteristic, speed)) = self.frequencies() else { return Ok(None) };
+        let shortest = libm::ceil(100.0 * envelope_spectrum::FEWEST_PASSAGES / characteristic.bpfo) / 100.0;
+        if !samples.is_empty() && samples.len() as f64 / rate < shortest {
+            eprintln!(
+                "note: no spectrum of the envelope: its lines would run into each other; --stop {shortest:.2} is enough"
+            );
+        }
+        let found = match self.angles().filter(|_| self.changes()) {
+            Some(angles) => EnvelopeSpectrum::of_changing_speed(samples, *rate, characteristic, &angles),
+            None if self.changes() => None,
+            None => EnvelopeSpectrum::of(samples, *rate, characteristic, speed),
+        };
+        let Some(found) = found else { return Ok(None) };
+        let path = folder.join(format!("{}-envelope.csv", self.scene.name));
+        write(&path, [("frequency", "Hz"), ("amplitude", "1")], [&found.frequency, &found.amplitude])?;
+        let mut said = json!({
+            "band_hz": [found.band.low, found.band.high],
+            "line_width_hz": found.line_width,
+            "rate_hz": rate,
+            "frequencies_hz": marks(&characteristic, 1.0),
+        });
+        if self.changes() {
+            said["mean_speed_hz"] = json!(speed);
+        }
+        whole_file::write(&path.with_extension("json"), serde_json::to_string_pretty(&said)? + "\n")?;
+        Ok(Some(path))
+    }
+
+    /// Orders of the acceleration as `<scene>-orders.csv`; nothing where nothing turns twice, or nothing shakes. Gives
+    /// the file, and width of a line and orders to mark.
+    pub(super) fn write_orders(&self, folder: &Path) -> Result<Option<(PathBuf, Value)>> {
+        let Some((characteristic, speed)) = self.frequencies() else { return Ok(None) };
+        let Some(angles) = self.angles() else { return Ok(None) };
+        if self.acceleration.samples.is_empty() {
+            return Ok(None);
+        }
+        let found = OrderSpectrum::of(&self.acceleration.samples, &angles, HIGHEST_ORDER);
+        let path = folder.join(format!("{}-orders.csv", self.scene.name));
+        write(&path, [("order", "1"), ("amplitude", "m/s2")], [&found.order, &found.amplitude])?;
+        let used = angles.used();
+        let said = json!({
+            "line_width": found.line_width,
+            "orders": marks(&characteristic, speed),
+            "from_s": used.0 / self.acceleration.rate,
+            "to_s": used.1 / self.acceleration.rate,
+        });
+        Ok(Some((path, said)))
+    }
+
+    fn changes(&self) -> bool {
+        self.profile.is_some_and(|profile| !profile.is_constant())
+    }
+
+    /// Characteristic frequencies and the shaft's speed [Hz], at the mean speed where it changes; `None` where nothing
+    /// turns, or where two rings turn in a ratio that changes.
+    fn frequencies(&self) -> Option<(Frequencies, f64)> {
+        let mut scene = self.scene.clone();
+        if let Some(profile) = self.profile {
+            let speed = if self.changes() { self.angles()?.mean_speed() } else { profile.hertz(0.0) };
+            scene.shaft_speed = TAU * speed;
+            if self.changes() && scene.housing_speed.is_some_and(|speed| speed != 0.0) {
+                eprintln!("note: no spectra: the rings' speeds have no constant ratio");
+                return None;
+            }
+        }
+        Some((envelope_spectrum::frequencies(&scene)?, scene.shaft_speed.abs() / TAU))
+    }
+
+    /// Where the shaft has turned by equal angles.
+    fn angles(&self) -> Option<EvenAngles> {
+        let rate = self.acceleration.rate;
+        let count = self.acceleration.samples.len();
+        let speed = |i: usize| match self.profile {
+            Some(profile) => profile.hertz(i as f64 / rate),
+            None => self.scene.shaft_speed / TAU,
+        };
+        EvenAngles::of(&(0..count).map(speed).collect::<Vec<_>>(), rate)
+    }
+}
+
+/// What is marked, as multiples of `unit` [Hz].
+fn marks(of: &Frequencies, unit: f64) -> Value {
+    json!({ "BPFO": of.bpfo / unit, "BPFI": of.bpfi / unit, "2 BSF": 2.0 * of.bsf / unit, "FTF": of.ftf / unit })
+}
+
+fn write(path: &Path, names: [(&str, &str); 2], columns: [&[f64]; 2]) -> Result<()> {
+    whole_file::write_with(path, |mut out| {
+        csv::header(&mut out, names.into_iter())?;
+        for (&x, &y) in columns[0].iter().zip(columns[1]) {
+            csv::row(&mut out, [x, y].into_iter())?;
+        }
+        Ok(())
+    })
+}

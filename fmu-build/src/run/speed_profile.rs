@@ -1,0 +1,142 @@
+//! The shaft's speed over time, from a file with the columns `time_s` and `speed_hz`: straight lines between its rows.
+
+use std::f64::consts::TAU;
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context, Result, bail};
+
+/// Largest speed [Hz], as that of a scene.
+const LARGEST: f64 = 1e4;
+/// The columns.
+const NAMES: [&str; 2] = ["time_s", "speed_hz"];
+
+/// A speed that changes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpeedProfile {
+    /// Times [s], ascending from 0, and speeds [Hz].
+    points: Vec<(f64, f64)>,
+}
+
+impl SpeedProfile {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// What is no such profile, with the line, the value and what it must be.
+    pub fn read(path: &Path) -> Result<Self> {
+        let about = || path.display().to_string();
+        let text = fs::read_to_string(path).with_context(about)?;
+        Self::parse(&text).with_context(about)
+    }
+
+    fn parse(text: &str) -> Result<Self> {
+        let mut lines = (1..).zip(text.lines().map(|line| line.trim_start_matches('\u{feff}').trim()));
+        let (_, heading) = lines.next().unwrap_or((1, ""));
+        let names: Vec<&str> = heading.split(',').map(str::trim).collect();
+        if names != NAMES {
+            bail!("line 1 is {heading:?}: a speed profile begins with the heading time_s,speed_hz");
+        }
+        let mut points: Vec<(f64, f64)> = Vec::new();
+        for (number, line) in lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#')) {
+            let point = point(line, points.last().copied()).with_context(|| format!("line {number}"))?;
+            points.push(point);
+        }
+        if points.len() < 2 {
+            bail!("it has {} rows of numbers: a speed profile needs at least 2", points.len());
+        }
+        Ok(Self { points })
+    }
+
+    /// Its last time [s].
+    pub fn end(&self) -> f64 {
+        self.points.last().map_or(0.0, |&(time, _)| time)
+    }
+
+    /// Refuses a run that goes on after the profile has ended [s].
+    pub fn check_covers(&self, stop: f64) -> Result<()> {
+        // The stop time is a multiple of the step up to rounding.
+        if stop > self.end() * (1.0 + 1e-9) {
+            bail!("the run goes to {stop} s: it must end by {} s, the last time_s of the speed profile", self.end());
+        }
+        Ok(())
+    }
+
+    /// Speed at a time [s] [Hz].
+    pub fn hertz(&self, time: f64) -> f64 {
+        let after = self.points.partition_point(|&(t, _)| t <= time).clamp(1, self.points.len() - 1);
+        let ((t0, f0), (t1, f1)) = (self.points[after - 1], self.points[after]);
+        f0 + (f1 - f0) * ((time - t0) / (t1 - t0)).clamp(0.0, 1.0)
+    }
+
+    /// Speed at a time [s] [rad/s].
+    pub fn at(&self, time: f64) -> f64 {
+        TAU * self.hertz(time)
+    }
+
+    /// Whether the shaft keeps one speed.
+    pub fn is_constant(&self) -> bool {
+        self.points.iter().all(|&(_, speed)| speed == self.points[0].1)
+    }
+}
+
+/// Time and speed of a line after the row `before`.
+fn point(line: &str, before: Option<(f64, f64)>) -> Result<(f64, f64)> {
+    let cells: Vec<&str> = line.split(',').map(str::trim).collect();
+    if cells.len() != NAMES.len() {
+        bail!("{line:?} has {} cells: it must have 2, time_s and speed_hz", cells.len());
+    }
+    let mut values = [0.0; 2];
+    for ((value, cell), name) in values.iter_mut().zip(cells).zip(NAMES) {
+        *value = cell.parse().ok().filter(|value: &f64| value.is_finite()).with_context(|| {
+            format!("{name} is {cell:?}: it must be a finite number")
+        })?;
+    }
+    let [time, speed] = values;
+    match before {
+        None if time != 0.0 => bail!("time_s is {time}: the first must be 0, where runs begin"),
+        Some((last, _)) if time <= last => bail!("time_s is {time}: it must be above {last}, that of the row before"),
+        _ => {}
+    }
+    if speed.abs() > LARGEST {
+        bail!("speed_hz is {speed}: it must be between -{LARGEST} and {LARGEST}; are they rev/min?");
+    }
+    Ok((time, speed))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    #[test]
+    fn speeds_lie_on_straight_lines_between_the_rows() {
+        let profile = SpeedProfile::parse("time_s,speed_hz\n0,10\n0.5,20\n# a pause\n1,20\n2,-20\n").unwrap();
+        for (time, speed) in [(0.0, 10.0), (0.25, 15.0), (0.5, 20.0), (0.7, 20.0), (1.5, 0.0), (2.0, -20.0)] {
+            assert!((profile.hertz(time) - speed).abs() < 1e-12, "{time}: {}", profile.hertz(time));
+        }
+        assert!(profile.check_covers(2.0 + 1e-12).is_ok() && !profile.is_constant());
+        let why = profile.check_covers(2.5).unwrap_err().to_string();
+        assert!(why.contains("goes to 2.5 s") && why.contains("by 2 s"), "{why}");
+    }
+
+    #[test]
+    fn what_is_no_profile_is_refused_with_line_value_and_limit() {
+        let head = "time_s,speed_hz\n";
+        for (rows, said) in [
+            ("", "0 rows of numbers: a speed profile needs at least 2"),
+            ("0,10\n", "1 rows"),
+            ("0.1,10\n1,10\n", "line 2: time_s is 0.1: the first must be 0"),
+            ("0,10\n1,10\n1,12\n", "line 4: time_s is 1: it must be above 1"),
+            ("0,10\n1,ten\n", "line 3: speed_hz is \"ten\": it must be a finite number"),
+            ("0,10\n1,inf\n", "speed_hz is \"inf\""),
+            ("0,10\n1\n", "has 1 cells"),
+            ("0,600\n1,18000\n", "line 3: speed_hz is 18000: it must be between -10000 and 10000; are they rev/min?"),
+        ] {
+            let why = format!("{:#}", SpeedProfile::parse(&format!("{head}{rows}")).unwrap_err());
+            assert!(why.contains(said), "{why}");
+        }
+        let why = format!("{:#}", SpeedProfile::parse("time,rpm\n0,1\n").unwrap_err());
+        assert!(why.contains("\"time,rpm\"") && why.contains("time_s,speed_hz"), "{why}");
+    }
+}
