@@ -37,7 +37,7 @@ plt.rcParams.update(
 
 
 # Samples of a curve across a figure beyond which they are a solid block; bands then have so many parts.
-MOST_SAMPLES, PARTS = 12_000, 450
+MOST_SAMPLES, PARTS = 12_000, 120
 
 
 def is_long(time):

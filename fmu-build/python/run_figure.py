@@ -54,13 +54,13 @@ def panels():
         if plotting.is_long(time):
             # Each element's way through the load zone cannot be seen; what the one that carries most carries can.
             largest = np.max([data[f"element[{j}].force.outer"] for j in range(1, count + 1)], axis=0)
-            plotting.curve(axis, time, largest, GREEN, "the largest of all")
+            plotting.curve(axis, time, largest, GREEN, None)
             return
         for j in range(1, count + 1):
             colour = plt.cm.viridis((j - 1) / max(count, 2))
             axis.plot(time, data[f"element[{j}].force.outer"], color=colour, linewidth=0.9, label=str(j))
 
-    yield "outer force on\nelements (N)", outer
+    yield ("largest outer\nforce on an\nelement (N)" if plotting.is_long(time) else "outer force on\nelements (N)"), outer
 
 
 def lines(axis, name, frequency, colour, style, top):

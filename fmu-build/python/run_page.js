@@ -1,7 +1,8 @@
 // Draws a run's page. DATA is what run_page.py has written before it; Plotly stands before that.
 "use strict";
 
-const CONFIG = { responsive: true, displaylogo: false };
+// Nothing of a run leaves the page.
+const CONFIG = { responsive: true, displaylogo: false, modeBarButtonsToRemove: ["sendChartToCloud"] };
 const FONT = { family: "system-ui, sans-serif", size: 13 };
 // Points across a window: more than there are pixels.
 const ACROSS = 2000;
@@ -56,7 +57,8 @@ function drawSignals(place) {
   DATA.panels.forEach((panel, row) => {
     const top = 1 - row / count;
     layout[row ? `yaxis${row + 1}` : "yaxis"] = { ...GRID, domain: [top - 0.88 / count, top - 0.04 / count], title: { text: panel.unit }, fixedrange: false };
-    const names = panel.signals.map((s) => `<span style="color:${s.colour}">${s.name}</span>`).join("&nbsp; ");
+    const inOrder = [...panel.signals].sort((a, b) => a.name.localeCompare(b.name, "en", { numeric: true }));
+    const names = [panel.title, ...inOrder.map((s) => `<span style="color:${s.colour}">${s.label}</span>`)].join("&nbsp; ");
     layout.annotations.push({ text: names, x: 0, y: top, xref: "paper", yref: "paper", xanchor: "left", yanchor: "middle", showarrow: false, font: { size: 12 } });
   });
   return Plotly.newPlot(place, traces, layout, CONFIG).then(() => {
@@ -79,7 +81,7 @@ function drawPath(place, defect) {
   const gaps = (values) => Array.from(values, (value) => (Number.isNaN(value) ? null : value));
   const traces = [
     { x: defect.surface.map((p) => p[0]), y: defect.surface.map((p) => p[1]), name: defect.body, mode: "lines", line: { color: "#666666", width: 1.5 }, fill: "tozeroy", fillcolor: "rgba(0,0,0,0.06)", hovertemplate: "%{x:.3f} " + defect.along + ", %{y:.2f} µm<extra>surface</extra>" },
-    { x: gaps(x), y: gaps(y), name: "an element's centre, passage after passage", mode: "lines", line: { color: "#0072B2", width: 1 }, customdata: Array.from(time, (t, i) => [t, element[i]]), hovertemplate: "element %{customdata[1]} at %{customdata[0]:.5f} s<br>%{x:.3f} " + defect.along + ", %{y:.2f} µm<extra></extra>" },
+    { x: gaps(x), y: gaps(y), name: "an element's centre, passage after passage", mode: "lines", opacity: 0.5, line: { color: "#0072B2", width: 1 }, customdata: Array.from(time, (t, i) => [t, element[i]]), hovertemplate: "element %{customdata[1]} at %{customdata[0]:.5f} s<br>%{x:.3f} " + defect.along + ", %{y:.2f} µm<extra></extra>" },
   ];
   const layout = { font: FONT, height: 360, margin: { l: 80, r: 20, t: 10, b: 45 }, hovermode: "closest", legend: { orientation: "h", y: 1.12 }, xaxis: { ...GRID, title: { text: defect.axis } }, yaxis: { ...GRID, title: { text: "µm" } } };
   return Plotly.newPlot(place, traces, layout, CONFIG);

@@ -16,9 +16,9 @@ import plotly
 from plotting import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
 
 # Numbers of all signals together, 5.3 bytes each in the page.
-MOST_NUMBERS = 600_000
+MOST_NUMBERS = 400_000
 # Points of the paths over one defect, and of one spectrum.
-MOST_OF_PATH, MOST_OF_SPECTRUM = 40_000, 40_000
+MOST_OF_PATH, MOST_OF_SPECTRUM = 20_000, 40_000
 COLOURS = [BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY]
 MARKS = {"BPFO": (BLUE, "solid"), "BPFI": (VERMILION, "dash"), "2 BSF": (GREEN, "dashdot"), "FTF": (PURPLE, "dot")}
 HARMONICS = 5
@@ -62,7 +62,7 @@ class Run:
 
 
 def panels(run, count):
-    """Panels of signals: unit, and name, factor and colour of each signal."""
+    """Panels of signals: unit, and name and factor of each signal."""
     names = run.table.dtype.names
     sensors = [name for name in names if name.startswith("sensor")]
     yield "m/s²", [(name, 1.0) for name in sensors]
@@ -83,20 +83,27 @@ def signals(run, count):
     shown, words = [], {}
     for unit, of in chosen:
         row = []
-        for (name, factor), colour in zip(of, COLOURS * 20):
+        # What moves most is drawn first, so that it hides nothing.
+        of = sorted(zip(of, COLOURS * 20), key=lambda one: -np.ptp(run.source(one[0][0])[one[0][0]]))
+        for (name, factor), colour in of:
             source = run.source(name)
             values, time = np.ascontiguousarray(source[name]) * factor, source["time"]
             step = float(time[-1] - time[0]) / (len(time) - 1)
             kept = extremes(values, every) if every > 1 else values
             # A pair of extremes stands for so many samples.
             width = step if every == 1 else 0.5 * every * step
-            row.append({"name": name, "unit": unit, "colour": colour, "start": float(time[0]), "step": width, "values": packed(kept)})
+            row.append({"name": name, "label": short(name, len(of)), "unit": unit, "colour": colour, "start": float(time[0]), "step": width, "values": packed(kept)})
             words["recorder" if source is run.recording else "communication points"] = step
-        shown.append({"unit": unit, "signals": row})
+        shown.append({"unit": unit, "signals": row, "title": "force of the outer raceway on element" if of[0][0][0].endswith("].force.outer") else ""})
     said = "; ".join(f"{name}: a sample every {1e6 * step:.4g} µs" for name, step in words.items())
     if every > 1:
         said += f". The run is long: of each {every} samples the page has the least and the greatest"
     return shown, said
+
+
+def short(name, count):
+    """What a signal is called above its panel, where a dozen must stand side by side."""
+    return name.split("[")[1].split("]")[0] if name.endswith("].force.outer") and count > 4 else name
 
 
 def wrapped(angle):

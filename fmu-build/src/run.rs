@@ -242,7 +242,11 @@ fn draw(project: &Project, model: &Model, options: &Options, done: &Done, folder
 fn notes(options: &Options) -> Vec<String> {
     let noise = options.noise.map(|noise| noise.to_string());
     let profile = options.profile.as_ref().map(|profile| {
-        format!("the shaft's speed has a profile: {} Hz at the start, {} Hz at the end", profile.hertz(0.0), profile.hertz(options.grid.end()))
+        format!(
+            "the shaft's speed has a profile: {} Hz at the start, {} Hz at the end",
+            profile.hertz(0.0),
+            profile.hertz(options.grid.end())
+        )
     });
     noise.into_iter().chain(profile).collect()
 }

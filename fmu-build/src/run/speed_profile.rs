@@ -87,9 +87,11 @@ fn point(line: &str, before: Option<(f64, f64)>) -> Result<(f64, f64)> {
     }
     let mut values = [0.0; 2];
     for ((value, cell), name) in values.iter_mut().zip(cells).zip(NAMES) {
-        *value = cell.parse().ok().filter(|value: &f64| value.is_finite()).with_context(|| {
-            format!("{name} is {cell:?}: it must be a finite number")
-        })?;
+        *value = cell
+            .parse()
+            .ok()
+            .filter(|value: &f64| value.is_finite())
+            .with_context(|| format!("{name} is {cell:?}: it must be a finite number"))?;
     }
     let [time, speed] = values;
     match before {

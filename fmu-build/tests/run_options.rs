@@ -1,0 +1,254 @@
+//! What `run` can be told, as a program: columns and formats of its table, a speed that changes, noise, sound.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::f64::consts::TAU;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::RowAccessor;
+
+/// A scene that is quick: of law `hertz`, without a defect.
+const QUICK: &str = "6205-healthy";
+
+fn try_run(scene: &Path, out: &Path, more: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    command.arg("run").arg(scene).args(["--no-figure", "-o"]).arg(out).args(more).output().unwrap()
+}
+
+#[track_caller]
+fn run(scene: &Path, out: &Path, more: &[&str]) -> String {
+    let output = try_run(scene, out, more);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{said}");
+    said
+}
+
+#[track_caller]
+fn refused(scene: &Path, out: &Path, more: &[&str], parts: &[&str]) {
+    let output = try_run(scene, out, more);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(!output.status.success(), "{more:?} was accepted");
+    for part in parts {
+        assert!(said.contains(part), "`{part}` is missing in: {said}");
+    }
+    let left: Vec<_> =
+        fs::read_dir(out).map(|entries| entries.map(|e| e.unwrap().file_name()).collect()).unwrap_or_default();
+    assert!(left.is_empty(), "left behind: {left:?}");
+}
+
+fn shipped(name: &str) -> PathBuf {
+    common::root().join("scenes").join(name).with_extension("toml")
+}
+
+/// A changed copy of the quick scene.
+fn changed(folder: &Path, by: impl Fn(&str) -> String) -> PathBuf {
+    let path = folder.join("changed.toml");
+    fs::write(&path, by(&fs::read_to_string(shipped(QUICK)).unwrap())).unwrap();
+    path
+}
+
+/// Headings without units, and rows.
+fn csv(path: &Path) -> (Vec<String>, Vec<Vec<f64>>) {
+    let text = fs::read_to_string(path).unwrap();
+    let mut lines = text.lines();
+    let names = lines.next().unwrap().split(',').map(|head| head.split(" [").next().unwrap().to_owned()).collect();
+    let row = |line: &str| line.split(',').map(|cell| cell.parse().unwrap()).collect();
+    (names, lines.map(row).collect())
+}
+
+fn column(table: &(Vec<String>, Vec<Vec<f64>>), name: &str) -> Vec<f64> {
+    let place = table.0.iter().position(|known| known == name).unwrap_or_else(|| panic!("no {name} in {:?}", table.0));
+    table.1.iter().map(|row| row[place]).collect()
+}
+
+/// Header and rows of a NumPy file of doubles.
+fn npy(path: &Path, width: usize) -> (String, Vec<Vec<f64>>) {
+    let bytes = fs::read(path).unwrap();
+    assert!(bytes.starts_with(b"\x93NUMPY\x02\x00"));
+    let length = 12 + u32::from_le_bytes(bytes[8..12].try_into().unwrap()) as usize;
+    let numbers: Vec<f64> =
+        bytes[length..].chunks_exact(8).map(|eight| f64::from_le_bytes(eight.try_into().unwrap())).collect();
+    assert_eq!(numbers.len() % width, 0);
+    (
+        String::from_utf8_lossy(&bytes[12..length]).into_owned(),
+        numbers.chunks_exact(width).map(<[f64]>::to_vec).collect(),
+    )
+}
+
+fn rms(values: impl Iterator<Item = f64> + Clone) -> f64 {
+    let count = values.clone().count() as f64;
+    let mean = values.clone().sum::<f64>() / count;
+    (values.map(|x| (x - mean) * (x - mean)).sum::<f64>() / count).sqrt()
+}
+
+#[test]
+fn the_columns_that_are_asked_for_have_the_same_bits_in_every_format() {
+    let folder = common::folder("run-columns");
+    let (whole, part) = (folder.join("whole"), folder.join("part"));
+    run(&shipped(QUICK), &whole, &["--stop", "0.01"]);
+    let asked = ["--stop", "0.01", "--columns", "shaft.x,sensor.acceleration,element[*].force.outer,solver.steps"];
+    for format in ["csv", "npy", "parquet"] {
+        run(&shipped(QUICK), &part, &[&asked[..], &["--format", format]].concat());
+    }
+    let all = csv(&whole.join("6205-healthy.csv"));
+    let some = csv(&part.join("6205-healthy.csv"));
+    assert_eq!(some.0.len(), 13, "time, three and nine: {:?}", some.0);
+    assert_eq!(some.1.len(), 101);
+    for name in &some.0 {
+        assert_eq!(column(&some, name), column(&all, name), "{name}");
+    }
+    let (header, rows) = npy(&part.join("6205-healthy-signals.npy"), 13);
+    assert!(header.contains("('element[9].force.outer', '<f8')") && header.contains("(101,)"), "{header}");
+    assert_eq!(rows, some.1);
+    let file = fs::File::open(part.join("6205-healthy.parquet")).unwrap();
+    let reader = SerializedFileReader::new(file).unwrap();
+    let names: Vec<String> =
+        reader.metadata().file_metadata().schema().get_fields().iter().map(|f| f.name().to_owned()).collect();
+    assert_eq!(names, some.0);
+    let units = reader.metadata().file_metadata().key_value_metadata().unwrap();
+    assert!(units.iter().any(|pair| pair.key == "unit:shaft.x" && pair.value.as_deref() == Some("m")), "{units:?}");
+    let read: Vec<Vec<f64>> = reader
+        .get_row_iter(None)
+        .unwrap()
+        .map(|row| (0..13).map(|place| row.as_ref().unwrap().get_double(place).unwrap()).collect())
+        .collect();
+    assert_eq!(read, some.1);
+}
+
+#[test]
+fn a_column_that_no_variable_has_is_refused_with_those_there_are() {
+    let out = common::folder("run-no-column");
+    let refuse = |columns: &str, parts: &[&str]| {
+        refused(&shipped(QUICK), &out, &["--stop", "0.001", "--columns", columns], parts);
+    };
+    refuse("shaft.x,shaft.z", &["column \"shaft.z\"", "beginning so there are shaft.", "shaft.force.x"]);
+    refuse("velocity", &["column \"velocity\"", "there are ", "element*", "sensor*"]);
+    refused(&shipped(QUICK), &out, &["--format", "xlsx"], &["xlsx", "csv, npy, parquet"]);
+}
+
+#[test]
+fn the_shaft_turns_as_the_profile_says_and_the_run_ends_with_it() {
+    let folder = common::folder("run-profile");
+    let (profile, out) = (folder.join("up.csv"), folder.join("out"));
+    fs::write(&profile, "time_s,speed_hz\n0,10\n0.02,10\n0.06,30\n0.08,0\n0.1,-20\n").unwrap();
+    let columns = ["--columns", "shaft.speed,cage.*,shaft.force.y"];
+    run(&shipped(QUICK), &out, &[&["--speed-profile", profile.to_str().unwrap()], &columns[..]].concat());
+    let table = csv(&out.join("6205-healthy.csv"));
+    let [time, speed, angle] = ["time", "shaft.speed", "cage.angle"].map(|name| column(&table, name));
+    assert_eq!(time.len(), 1001);
+    // Turns of the shaft until each row of the profile, by trapezia.
+    let turns_until = [(0.0, 10.0, 0.0), (0.02, 10.0, 0.2), (0.06, 30.0, 1.0), (0.08, 0.0, 1.3), (0.1, -20.0, 1.1)];
+    let mut most = 0.0f64;
+    for i in 0..time.len() {
+        let next = turns_until.iter().position(|row| row.0 >= time[i] - 1e-12).unwrap().max(1);
+        let ((t0, f0, n0), (t1, f1, _)) = (turns_until[next - 1], turns_until[next]);
+        let f = f0 + (f1 - f0) * (time[i] - t0) / (t1 - t0);
+        assert!((speed[i] / TAU - f).abs() < 1e-9, "{} s: {} Hz", time[i], speed[i] / TAU);
+        let turns = n0 + 0.5 * (f0 + f) * (time[i] - t0);
+        // Pure rolling: a 6205's cage makes ½ (1 − γ) of the shaft's turns, 0.398316.
+        let ratio = 0.5 * (1.0 - 7.94 / 39.04);
+        let cage = (angle[i] - angle[0] - ratio * TAU * turns + 9.5 * TAU).rem_euclid(TAU) - 0.5 * TAU;
+        most = most.max(cage.abs());
+    }
+    // Rounding of a thousand steps.
+    assert!(most < 1e-9, "the cage is {most} rad off");
+    assert!(column(&table, "shaft.force.y").iter().all(|force| (force - 1500.0).abs() < 400.0));
+}
+
+#[test]
+fn a_profile_that_is_none_or_too_short_is_refused() {
+    let folder = common::folder("run-bad-profile");
+    let (profile, out) = (folder.join("speeds.csv"), folder.join("out"));
+    let name = profile.to_str().unwrap();
+    fs::write(&profile, "time_s,speed_hz\n0,10\n0.05,20\n").unwrap();
+    refused(
+        &shipped(QUICK),
+        &out,
+        &["--speed-profile", name, "--stop", "0.1"],
+        &["speeds.csv", "goes to 0.1 s", "by 0.05 s"],
+    );
+    fs::write(&profile, "time_s,speed_hz\n0,10\n0.05,nan\n").unwrap();
+    refused(&shipped(QUICK), &out, &["--speed-profile", name], &["speeds.csv: line 3: speed_hz is \"nan\""]);
+    fs::remove_file(&profile).unwrap();
+    refused(&shipped(QUICK), &out, &["--speed-profile", name], &["speeds.csv", "No such file"]);
+}
+
+#[test]
+fn noise_is_of_the_sensors_alone_as_strong_as_asked_and_the_same_again() {
+    let folder = common::folder("run-noise");
+    // Shaken by a load that turns, and recorded.
+    let scene = changed(&folder, |text| format!("{text}\n[recorder]\nrate_hz = 12800.0\n"));
+    let table = |name: &str, more: &[&str]| {
+        let out = folder.join(name);
+        run(&scene, &out, &[&["--stop", "0.2"], more].concat());
+        (csv(&out.join("6205-healthy.csv")), fs::read(out.join("6205-healthy.npy")).unwrap())
+    };
+    let (clean, recorded) = table("clean", &[]);
+    let (noisy, noisy_recorded) = table("noisy", &["--noise-db", "10"]);
+    assert!((noisy.clone(), noisy_recorded.clone()) == table("again", &["--noise-db", "10"]), "other bits");
+    let other = table("other", &["--noise-db", "10", "--noise-seed", "2"]);
+    for name in &clean.0 {
+        let same = column(&clean, name) == column(&noisy, name);
+        assert_eq!(same, name != "sensor.acceleration", "{name}");
+    }
+    let (before, after) = (column(&clean, "sensor.acceleration"), column(&noisy, "sensor.acceleration"));
+    let ratio = rms(before.iter().copied()) / rms(before.iter().zip(&after).map(|(a, b)| b - a));
+    // Four standard errors of 2001 draws are 0.55 dB.
+    assert!((20.0 * ratio.log10() - 10.0).abs() < 0.55, "{} dB", 20.0 * ratio.log10());
+    assert_ne!(after, column(&other.0, "sensor.acceleration"));
+    assert!(recorded.len() == noisy_recorded.len() && recorded != noisy_recorded);
+    let out = folder.join("refused");
+    refused(&scene, &out, &["--noise-db", "500"], &["ratio 500 dB", "from -60 to 200"]);
+    refused(&scene, &out, &["--noise-seed", "3"], &["--noise-db"]);
+}
+
+#[test]
+fn sound_is_what_the_recorder_filters_at_the_rate_and_scale_that_are_asked_for() {
+    let folder = common::folder("run-wav");
+    let scene = changed(&folder, |text| format!("{text}\n[recorder]\nrate_hz = 12800.0\n"));
+    let wav = |name: &str| {
+        let mut reader = hound::WavReader::open(folder.join(name).join("6205-healthy.wav")).unwrap();
+        let samples: Vec<f32> = reader.samples::<f32>().map(Result::unwrap).collect();
+        (reader.spec().sample_rate, samples)
+    };
+    run(&scene, &folder.join("own"), &["--stop", "0.05", "--wav", "--wav-scale", "20"]);
+    let (rate, samples) = wav("own");
+    let path = folder.join("own/6205-healthy.npy");
+    let fields = String::from_utf8_lossy(&fs::read(&path).unwrap()[12..2000]).matches("'<f8'").count();
+    let (header, rows) = npy(&path, fields);
+    let place = header.split("'<f8'").position(|field| field.contains("'sensor.acceleration'")).unwrap();
+    let expected: Vec<f32> = rows.iter().map(|row| (row[place] / 20.0) as f32).collect();
+    // The filter's reach is taken off the end.
+    assert_eq!((rate, samples.len()), (12_800, 640 - 15));
+    assert_eq!(samples, expected);
+    // Without a recorder in the scene there is sound, and no recording; another rate is another filter's.
+    let said = run(&shipped(QUICK), &folder.join("usual"), &["--stop", "0.05", "--wav"]);
+    assert!(said.contains("51200 Hz, 1 is 1 m/s2"), "{said}");
+    assert_eq!((wav("usual").0, wav("usual").1.len()), (51_200, 2560 - 15));
+    assert!(!folder.join("usual/6205-healthy.npy").exists());
+    run(&scene, &folder.join("other"), &["--stop", "0.05", "--wav", "--wav-rate", "25600"]);
+    assert_eq!((wav("other").0, wav("other").1.len()), (25_600, 1280 - 15));
+}
+
+#[test]
+fn sound_that_cannot_be_is_refused() {
+    let folder = common::folder("run-no-wav");
+    let out = folder.join("out");
+    let scene = shipped(QUICK);
+    refused(&scene, &out, &["--wav", "--wav-rate", "44100.5"], &["44100.5 Hz", "whole number"]);
+    refused(&scene, &out, &["--wav", "--wav-rate", "50"], &["--wav-rate", "is 50", "at least 100"]);
+    refused(&scene, &out, &["--wav", "--wav-scale", "0"], &["0 m/s2", "above 0"]);
+    refused(&scene, &out, &["--wav-rate", "44100"], &["--wav"]);
+    let unfiltered = changed(&folder, |text| format!("{text}\n[recorder]\nrate_hz = 12800.0\nfilter = \"none\"\n"));
+    refused(&unfiltered, &out, &["--wav"], &["recorder.filter is \"none\"", "--wav-rate"]);
+    let deaf = changed(&folder, |text| {
+        let (before, after) = text.split_once("[sensor]").unwrap();
+        format!("{before}[solver]{}", after.split_once("[solver]").unwrap().1)
+    });
+    refused(&deaf, &out, &["--wav"], &["no [sensor]"]);
+    refused(&deaf, &out, &["--noise-db", "20"], &["no [sensor]"]);
+}
