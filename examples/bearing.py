@@ -79,6 +79,13 @@ def changed_scene(base, name, changes, folder):
     return path
 
 
+def whole_numbers(base):
+    """Keys of a scene whose values are whole numbers there, as `bearing.element_count`."""
+    scene = tomllib.loads(Path(base).read_text(encoding="utf-8"))
+    tables = {name: table for name, table in scene.items() if isinstance(table, dict)}
+    return {f"{name}.{key}" for name, table in tables.items() for key, value in table.items() if type(value) is int}
+
+
 def toml(value):
     if isinstance(value, bool):
         return str(value).lower()
@@ -146,7 +153,7 @@ class Instance:
             modelIdentifier=self.description.coSimulation.modelIdentifier,
             instanceName=name,
         )
-        self.kept = callbacks
+        self.kept, self.name = callbacks, name
         self.slave.instantiate(callbacks=callbacks)
         # Without this an error would say no more than its status.
         self.slave.setDebugLogging(True, ["logStatusWarning", "logStatusDiscard", "logStatusError", "logStatusFatal"])

@@ -5,6 +5,7 @@
         --grid defect.length_deg=2,5,10,15.8 --grid defect.depth_um=20,50,100
         --random shaft.load_n=300:1500 --random shaft.speed_hz=8:40
     python examples/sweep.py --kinds healthy,outer,inner,element --law hertz --signals …       labelled classes
+    python examples/sweep.py --speed-profile up.csv --noise-db 10:30 --rate 25600 --filter --write wav,npy …
     python examples/sweep.py --scheduler tcp://127.0.0.1:8786 …     on a dask cluster that runs already
 
 Run i takes the grid's point i modulo its size and random values that depend on seed and i alone: the same design to the
@@ -16,12 +17,15 @@ With `--kinds` runs take the kinds of fault in turn, each at every point of the 
 columns what it is a run of: kind, length, depth and position of the defect, load and speed. Under law `map` each size of a
 defect inside needs a map of some minutes; `--law hertz` needs none.
 
+A `--speed-profile` (CSV: time_s, speed_hz; several are taken in turn) moves the shaft's speed in straight lines, noise is
+white and so many decibels below the signal, `--filter` takes the sensor's samples through the FMU's recorder, which lets
+nothing be folded, and `--write` puts each run's signal beside the rows, as run-0000000.wav and .npy.
+
 FMUs are built once and shipped to each worker once, also to one that starts later; a worker keeps one instance per FMU
 and resets it between runs. Results go to part-*.parquet in the output folder as they come; started again, the
 sweep does what is missing. A run that fails has its error in the column `error`, and the others go on.
 """
 
-import argparse
 import itertools
 import json
 import os
@@ -35,52 +39,47 @@ import bearing
 import numpy as np
 import pyarrow
 import pyarrow.parquet as parquet
+import sweep_options
+import sweep_signals
 from bearing import tomllib
 from dask.distributed import Client, LocalCluster, WorkerPlugin, as_completed, get_worker
+from sweep_options import KINDS, OF_RUNS
+from sweep_signals import TOLD
 
-# What an instance is told: scene key → variable, factor.
-TOLD = {
-    "shaft.load_n": ("shaft.load.y", -1.0),  # downwards
-    "shaft.speed_hz": ("shaft.speed", 2 * np.pi),
-    "bearing.radial_clearance_um": ("bearing.radial_clearance", 1e-6),
-    "cage.slip": ("cage.slip", 1.0),
-    "cage.initial_angle_deg": ("cage.initial_angle", np.pi / 180),
-    "defect.angle_deg": ("defect.angle", np.pi / 180),
-}
-# What a kind of fault is in the scene.
-KINDS = {
-    "healthy": {"defect": None},
-    "outer": {"defect.on": "outer"},
-    "inner": {"defect.on": "inner"},
-    "element": {"defect.on": "element", "defect.element": 1},
-}
 LABELS = ["label_kind", "label_length_mm", "label_depth_um", "label_angle_deg", "label_load_n", "label_speed_hz"]
+LABELS += ["label_speed_profile", "label_noise_db"]
 # Maps for many defects are coarser than that of one studied closely: 0.4 % of the largest force, for a third of the
 # time.
 MAP_ACCURACY = 4e-3
-HARMONICS = 5
-FEATURES = ["bpfo_hz", "rms_m_s2", "kurtosis", *(f"envelope_{k}_bpfo_m_s2" for k in range(1, HARMONICS + 1))]
-FEATURES += ["unloaded_s", "loaded_again_s", "unloaded_deg"]
 SIZED = ["sized_verdict", "sized_length_mm", "sized_uncertainty_mm", "sized_kind"]
 
 
-def design(count, grid, random, seed, kinds=()):
+def design(count, grid, random, seed, kinds=(), profiles=()):
     """The runs: a list of {key: value}."""
     points = [dict(zip(grid, values)) for values in itertools.product(*grid.values())]
     if kinds:
         points = [{"kind": kind, **point} for point in points for kind in kinds]
+    if profiles:
+        points = [{"speed_profile": profile, **point} for profile in profiles for point in points]
     runs = []
     for index in range(count):
         # One draw per key, from a stream of this run's own.
         draws = np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, index]))).random(len(random))
-        values = {key: low + (high - low) * float(draw) for (key, (low, high)), draw in zip(random.items(), draws)}
+        values = {key: drawn(*limits, float(draw)) for (key, limits), draw in zip(random.items(), draws)}
         runs.append({**points[index % len(points)], **values})
     return runs
 
 
+def drawn(low, high, draw):
+    """A value between two limits for a draw from [0, 1); a whole number between whole ones of a key that counts."""
+    if isinstance(low, int) and isinstance(high, int):
+        return low + int((high - low + 1) * draw)
+    return low + (high - low) * draw
+
+
 def is_told(key, run):
     """Whether an instance is told a key of this run, and not the scene that its FMU is made of."""
-    return key in TOLD or key == "kind" or (run.get("kind") == "healthy" and key.startswith("defect."))
+    return key in TOLD or key in OF_RUNS or (run.get("kind") == "healthy" and key.startswith("defect."))
 
 
 def changes(run):
@@ -89,18 +88,20 @@ def changes(run):
     # The base scene's length may be in the other unit.
     given = {"defect.length_mm", "defect.length_deg"} & set(built_in)
     if given:
-        built_in = {"defect.length_mm": None, "defect.length_deg": None, **built_in}
+        built_in = {"defect.length_mm": None, "defect.length_deg": None, "defect.profile": None, **built_in}
     return {**KINDS.get(run.get("kind"), {}), **built_in}
 
 
-def prepare(base, runs, folder, law=None):
+def prepare(base, runs, folder, law=None, recorder=None):
     """Builds one FMU for each set of values that an instance cannot be told. Gives {name: path}, name of each run."""
     names, scenes = [], {}
     contact = tomllib.loads(Path(base).read_text(encoding="utf-8")).get("contact", {})
     law = law or contact.get("law", "map")
     all_runs = {"contact.law": law, **({"contact.map_accuracy": MAP_ACCURACY} if law == "map" else {})}
+    if recorder:
+        all_runs.update({"recorder.rate_hz": recorder, "recorder.filter": "linear-phase"})
     for run in runs:
-        values = [f"{value:g}".replace(".", "p") for key, value in run.items() if not is_told(key, run)]
+        values = [(value if isinstance(value, str) else f"{value:g}").replace(".", "p") for key, value in run.items() if not is_told(key, run)]
         name = "-".join([Path(base).stem, *([run["kind"]] if "kind" in run else []), *values])
         if name not in scenes:
             scenes[name] = bearing.changed_scene(base, name, {**all_runs, **changes(run)}, folder)
@@ -116,6 +117,7 @@ def label(scene, run):
     row = dict.fromkeys(LABELS)
     row["label_load_n"] = run.get("shaft.load_n", load)
     row["label_speed_hz"] = run.get("shaft.speed_hz", shaft["speed_hz"])
+    row["label_speed_profile"], row["label_noise_db"] = run.get("speed_profile"), run.get("noise_db")
     row["label_kind"] = "healthy" if defect is None else "several" if isinstance(defect, list) else defect.get("on", "outer")
     if isinstance(defect, dict):
         length = defect.get("length_mm")
@@ -127,7 +129,10 @@ def label(scene, run):
 
 
 def radius_mm(dimensions, kind):
-    """Radius of the body that bears a defect, at the groove's bottom or on the element's track."""
+    """Radius of the body that bears a defect, at the groove's bottom or on the element's track; NaN where a catalogue has
+    the dimensions."""
+    if not {"pitch_diameter_mm", "element_diameter_mm"} <= set(dimensions):
+        return float("nan")
     pitch, element = dimensions["pitch_diameter_mm"], dimensions["element_diameter_mm"]
     clearance = dimensions.get("radial_clearance_um", 0.5 * dimensions.get("internal_clearance_um", 10.0)) * 1e-3
     return 0.5 * {"outer": pitch + element + clearance, "inner": pitch - element - clearance, "element": element}[kind]
@@ -144,16 +149,18 @@ class Bearings(WorkerPlugin):
 
     def __init__(self, paths, module, program=None):
         self.program = program
-        self.module = Path(module).read_bytes()
+        modules = [Path(module), Path(module).with_name("sweep_signals.py")]
+        self.modules = {path.name: path.read_bytes() for path in modules}
         self.files = {name: Path(path).read_bytes() for name, path in paths.items()}
         self.scenes = {name: Path(path).with_suffix(".toml").read_text(encoding="utf-8") for name, path in paths.items()}
 
     def setup(self, worker):
         self.folder = Path(worker.local_directory) / "bearings"
         self.folder.mkdir(parents=True, exist_ok=True)
-        (self.folder / "bearing.py").write_bytes(self.module)
         sys.path.insert(0, str(self.folder))
-        sys.modules.pop("bearing", None)  # an earlier sweep's
+        for name, text in self.modules.items():
+            (self.folder / name).write_bytes(text)
+            sys.modules.pop(name.removesuffix(".py"), None)  # an earlier sweep's
         self.instances = {}
 
     def teardown(self, worker):
@@ -166,7 +173,7 @@ class Bearings(WorkerPlugin):
         if name not in self.instances:
             path = self.folder / f"{name}.fmu"
             path.write_bytes(self.files[name])
-            self.instances[name] = Instance(str(path))
+            self.instances[name] = Instance(str(path), name)
         self.instances[name].reset()
         return self.instances[name]
 
@@ -202,86 +209,20 @@ def simulate(index, name, values, options):
     row = {"run": index, "fmu": name, **values, "error": None}
     begin = time.process_time()
     try:
+        # Not above: the scheduler unpacks this function too, and has no such module.
+        from sweep_signals import run_one
+
         bearings = get_worker().plugins[Bearings.name]
         row.update(label(bearings.scene(name), values))
-        row.update(run_one(bearings.instance(name), values, options))
+        row.update(run_one(bearings.instance(name), values, options, index, bearings.folder))
         if options["size"]:
             row.update(bearings.sized(index, name, values, row["signal"], options))
     except Exception as error:  # whatever it is, the other runs go on
         row["error"] = f"{type(error).__name__}: {error}"
-    if not options["signals"]:
+    if not (options["signals"] or options.get("write")):
         row.pop("signal", None)
     row["cpu_s"] = time.process_time() - begin
     return row
-
-
-def run_one(instance, values, options):
-    """Steps an instance that is reset, and gives the features of what the sensor shows."""
-    from bearing import Numbers  # not above: the scheduler unpacks this function too, and has no such module
-
-    told = {TOLD[key][0]: TOLD[key][1] * value for key, value in values.items() if key in TOLD}
-    instance.enter({name: value for name, value in told.items() if name in instance.reference})
-    instance.run()
-    count = sum(name.endswith(".path") for name in instance.reference)
-    elements = [f"element[{j}].{what}" for what in ("angle", "force.outer") for j in range(1, count + 1)]
-    seen = Numbers(instance, ["sensor.acceleration", "cage.speed", *elements])
-    slave, h = instance.slave, 1.0 / options["rate"]
-    table = np.empty((round(options["stop"] * options["rate"]), len(seen.array)))
-    for index in range(len(table)):
-        instance.step(h)
-        slave.fmi2GetReal(*seen.arguments)
-        table[index] = seen.array
-    t = h * np.arange(1, len(table) + 1)
-    late = t > options["settle"]
-    signal = table[late, 0]
-    row = features(signal, options["rate"], count * table[-1, 1] / (2 * np.pi))
-    # Where elements pass a defect of the outer raceway is known from their angles alone.
-    outer = "defect.angle" in instance.reference and not {"shaft.angle", "housing.angle"} & set(instance.reference)
-    outer = outer and not any(name.endswith(".spin_angle") for name in instance.reference)
-    defect = instance.read(["defect.angle"])[0] if outer else None
-    if defect is not None:
-        row.update(passage(t, table[:, 2 : 2 + count], table[:, 2 + count :], defect, options["settle"]))
-    row["signal"] = signal.astype(np.float32)
-    return row
-
-
-def features(signal, rate, bpfo):
-    """RMS [m/s²], kurtosis, and the envelope's amplitudes at multiples of the passage frequency [m/s²]."""
-    signal = signal - signal.mean()
-    rms = float(np.sqrt(np.mean(signal**2)))
-    spectrum = np.fft.fft(signal)
-    spectrum[1 : (len(signal) + 1) // 2] *= 2
-    spectrum[len(signal) // 2 + 1 :] = 0
-    envelope = np.abs(np.fft.ifft(spectrum))
-    window = np.hanning(len(signal))
-    t = np.arange(len(signal)) / rate
-    row = {"bpfo_hz": bpfo, "rms_m_s2": rms, "kurtosis": float(np.mean(signal**4) / rms**4)}
-    weighed = window * (envelope - envelope.mean()) * 2 / window.sum()
-    for k in range(1, HARMONICS + 1):
-        row[f"envelope_{k}_bpfo_m_s2"] = float(np.abs(weighed @ np.exp(-2j * np.pi * k * bpfo * t)))
-    return row
-
-
-def passage(t, angles, forces, defect, settle):
-    """The first passage after settling: when an element loses and regains half its force over the defect [s].
-
-    `unloaded_deg` is how far it goes in between: a lower bound of a line spall's length.
-    """
-    for j in range(angles.shape[1]):
-        normal = np.median(forces[:, j][forces[:, j] > 0]) if np.any(forces[:, j] > 0) else 0.0
-        away = (angles[:, j] - defect + np.pi) % (2 * np.pi) - np.pi
-        near = np.abs(away) < 0.75 * np.pi / angles.shape[1] + 0.3
-        light = near & (forces[:, j] < 0.5 * normal) & (t > settle)
-        begins = np.flatnonzero(light[1:] & ~light[:-1] & near[:-1]) + 1
-        for first in begins:
-            again = first + np.flatnonzero(~light[first:])
-            if again.size and near[again[0]] and t[first] - settle < 0.5 * (t[-1] - settle):
-                turned = angles[again[0], j] - angles[first, j]
-                return {
-                    "unloaded_s": float(t[first]), "loaded_again_s": float(t[again[0]]),
-                    "unloaded_deg": float(np.degrees(turned)),
-                }
-    return {"unloaded_s": None, "loaded_again_s": None, "unloaded_deg": None}
 
 
 def done_already(folder):
@@ -297,8 +238,10 @@ def columns(runs, options):
     known = {"run": pyarrow.int64(), "fmu": pyarrow.string(), "error": pyarrow.string()}
     known.update({"signal": pyarrow.list_(pyarrow.float32()), "sized_verdict": pyarrow.string(), "sized_kind": pyarrow.string()})
     known.update({"kind": pyarrow.string(), "label_kind": pyarrow.string()})
+    known["label_speed_profile"] = pyarrow.string()
     keys = dict.fromkeys(itertools.chain.from_iterable(runs))
-    names = ["run", "fmu", *keys, *LABELS, *FEATURES, *(SIZED if options["size"] else [])]
+    known.update({key: pyarrow.string() for run in runs for key, value in run.items() if isinstance(value, str)})
+    names = ["run", "fmu", *keys, *LABELS, *sweep_signals.FEATURES, *(SIZED if options["size"] else [])]
     names += [*(["signal"] if options["signals"] else []), "error", "cpu_s"]
     return pyarrow.schema([(name, known.get(name, pyarrow.float64())) for name in names])
 
@@ -331,6 +274,10 @@ def collect(client, runs, names, options, folder, every=50, at_result=lambda cou
                 row = future.result()
             except Exception as error:  # the run ended its worker more often than dask allows
                 row = {"run": index, "fmu": names[index], **runs[index], "error": repr(error)}
+            if options.get("write") and "signal" in row:
+                sweep_signals.write(row["signal"], options["rate"], folder / f"run-{index:07d}", options["write"])
+            if not options["signals"]:
+                row.pop("signal", None)
             rows.append(row)
             future.release()
             for fresh in give(1):
@@ -365,54 +312,47 @@ def same_design(folder, **design):
         part.write_text(text, encoding="utf-8")
 
 
-def pair(text):
-    key, _, value = text.partition("=")
-    return key, value
-
-
 def main(arguments=None):
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--base", type=Path, default=bearing.SCENES / "er16k-tb1.toml", help="scene that the runs change")
-    parser.add_argument("--grid", action="append", default=[], metavar="KEY=V,V,…", help="values of a scene key")
-    parser.add_argument("--random", action="append", default=[], metavar="KEY=LOW:HIGH", help="range of a scene key")
-    parser.add_argument("--kinds", help="kinds of fault to take in turn, of " + ",".join(KINDS))
-    parser.add_argument("--law", choices=["hertz", "map", "love"], help="contact law near defects; default: the scene's")
-    parser.add_argument("--runs", type=int, default=20)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--stop", type=float, default=0.3, help="end of each run [s]")
-    parser.add_argument("--settle", type=float, default=0.05, help="left out of the features [s]")
-    parser.add_argument("--rate", type=float, default=51200.0, help="samples per second")
-    parser.add_argument("--signals", action="store_true", help="keep the sensor's signal of each run")
-    parser.add_argument("--size", action="store_true", help="size the spall from each signal: some 15 s of a core per run; "
-                        "`cargo fmu` as built here must be at the same place on each worker")
-    parser.add_argument("--workers", type=int, default=os.cpu_count())
-    parser.add_argument("--scheduler", help="address of a dask scheduler; default: workers of our own")
-    parser.add_argument("-o", "--output", type=Path, default=Path("target/sweep"))
+    parser = sweep_options.parser()
     chosen = parser.parse_args(arguments)
-    grid = {key: [float(v) for v in values.split(",")] for key, values in map(pair, chosen.grid)}
-    random = {key: tuple(float(v) for v in values.split(":")) for key, values in map(pair, chosen.random)}
+    sweep_options.check(parser, chosen)
+    grid, random = dict(chosen.grid), dict(chosen.random)
     kinds = chosen.kinds.split(",") if chosen.kinds else []
     if unknown := [kind for kind in kinds if kind not in KINDS]:
         parser.error(f"--kinds: {unknown[0]} is none of {', '.join(KINDS)}")
+    speeds = {} if chosen.speed_profile else {"shaft.speed_hz": (8.0, 40.0)}
     if not grid and not random and kinds:
         grid = {"defect.length_mm": [0.4, 0.8, 1.6], "defect.depth_um": [30.0, 100.0]}
-        random = {"shaft.load_n": (300.0, 1500.0), "shaft.speed_hz": (8.0, 40.0), "defect.angle_deg": (-120.0, -60.0)}
+        random = {"shaft.load_n": (300.0, 1500.0), **speeds, "defect.angle_deg": (-120.0, -60.0)}
     elif not grid and not random:
         grid = {"defect.length_deg": [2.0, 5.0, 10.0, 15.8], "defect.depth_um": [20.0, 50.0, 100.0]}
-        random = {"shaft.load_n": (300.0, 1500.0), "shaft.speed_hz": (8.0, 40.0)}
-    runs = design(chosen.runs, grid, random, chosen.seed, kinds)
-    options = {name: getattr(chosen, name) for name in ("stop", "settle", "rate", "signals", "size")}
+        random = {"shaft.load_n": (300.0, 1500.0), **speeds}
+    if chosen.noise_db:
+        random["noise_db"] = chosen.noise_db
+    try:
+        profiles = {path.stem: sweep_signals.speed_profile(path, chosen.stop) for path in chosen.speed_profile}
+    except (OSError, ValueError) as error:
+        parser.error(str(error))
+    counts = bearing.whole_numbers(chosen.base)
+    random = {key: limits if key in counts else tuple(map(float, limits)) for key, limits in random.items()}
+    runs = design(chosen.runs, grid, random, chosen.seed, kinds, list(profiles))
+    names = ("stop", "settle", "rate", "signals", "size", "filter", "write", "seed")
+    told = {**{name: getattr(chosen, name) for name in names}, "profiles": profiles}
     chosen.output.mkdir(parents=True, exist_ok=True)
     scene = chosen.base.read_text(encoding="utf-8")
-    design_of = {"grid": grid, "random": random, "seed": chosen.seed, "options": options, "kinds": kinds, "law": chosen.law}
+    design_of = {"grid": grid, "random": random, "seed": chosen.seed, "options": told, "kinds": kinds, "law": chosen.law}
     same_design(chosen.output, scene=scene, **design_of)
-    paths, names = prepare(chosen.base, runs, chosen.output / "fmu", chosen.law)
+    try:
+        recorder = chosen.rate if chosen.filter else None
+        paths, names = prepare(chosen.base, runs, chosen.output / "fmu", chosen.law, recorder)
+    except subprocess.CalledProcessError:
+        sys.exit("the FMUs were not built: the program says why above")
     cluster = chosen.scheduler or LocalCluster(
         n_workers=chosen.workers, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
     )
     with Client(cluster) as client:
         client.register_plugin(Bearings(paths, bearing.__file__, bearing.executable()))
-        count, failed, seconds = collect(client, runs, names, options, chosen.output)
+        count, failed, seconds = collect(client, runs, names, told, chosen.output)
     if not chosen.scheduler:
         cluster.close()
     size = sum(part.stat().st_size for part in chosen.output.glob("part-*.parquet"))

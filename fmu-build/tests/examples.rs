@@ -24,6 +24,7 @@ const COST: &str = "python examples/step_cost.py --steps 200";
 const SWEEP: &str =
     "python examples/sweep.py --runs 8 --stop 0.1 --grid defect.length_deg=15.8 --random shaft.speed_hz=10:40";
 const LABELLED: &str = "python examples/sweep.py --kinds healthy,outer,inner,element --law hertz --runs 8 --stop 0.1 --settle 0.02 --signals -o target/labelled";
+const MEASURED: &str = "python examples/sweep.py --kinds healthy,outer,inner --law hertz --runs 12 --stop 0.2 --settle 0.02 --speed-profile up.csv --noise-db 10:30 --rate 12800 --filter --write wav,npy --signals --grid bearing.element_count=8,9 --grid defect.length_mm=1.2 -o target/measured";
 const SIZED: &str = "python examples/sweep.py --runs 1 --stop 0.6 --grid defect.length_deg=15.8 --random shaft.speed_hz=10:40 --size -o target/sized";
 const SCHEDULER: &str = "dask scheduler --host 127.0.0.1 --port 8786 --no-dashboard";
 const WORKER: &str = "dask worker tcp://127.0.0.1:8786 --nworkers 2 --nthreads 1 --no-dashboard";
@@ -320,6 +321,54 @@ fn a_labelled_sweep_says_beside_each_signal_what_it_is_a_run_of() {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python/sweep_labels.py");
     let said = python().run_file(&script, [folder]).unwrap_or_else(|error| panic!("{error:#}"));
     assert!(said.contains("8 labelled"), "{said}");
+}
+
+/// A profile for `MEASURED` in the place of the guide's `up.csv`.
+fn measured(folder: &Path) -> String {
+    let profile = folder.join("up.csv");
+    fs::write(&profile, "time_s,speed_hz\n0,10\n0.1,30\n0.2,30\n").unwrap();
+    run(&MEASURED.replace("up.csv", profile.to_str().unwrap()), &folder.join("out"))
+}
+
+#[test]
+fn a_sweep_measures_with_noise_a_filter_and_a_speed_that_changes() {
+    let folder = common::folder("example-measured");
+    let said = last(&measured(&folder));
+    assert_eq!((said["runs"].as_u64(), said["failed"].as_u64()), (Some(12), Some(0)), "{said}");
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python/sweep_measured.py");
+    let said = python().run_file(&script, [folder.join("out")]).unwrap_or_else(|error| panic!("{error:#}"));
+    assert!(said.contains("12 measured"), "{said}");
+}
+
+#[test]
+fn a_sweep_that_cannot_be_is_refused_in_a_line_and_without_a_traceback() {
+    let folder = common::folder("example-refused");
+    let script = common::root().join("examples/sweep.py");
+    let profile = folder.join("short.csv");
+    fs::write(&profile, "time_s,speed_hz\n0,10\n0.1,30\n").unwrap();
+    let profile = profile.to_str().unwrap();
+    for (words, expected) in [
+        ("--grid shaft.speed_hz=ten", "shaft.speed_hz: 'ten' is no number"),
+        ("--grid shaft.speed_hz", "it must be KEY=V,V,"),
+        ("--random shaft.load_n=300", "two numbers LOW:HIGH"),
+        ("--random shaft.load_n=500:300", "the lower one first"),
+        ("--grid defect.length_mm=1 --grid defect.length_deg=3", "exclude each other"),
+        ("--grid defect.depth=3", "defect.depth is unknown: did you mean depth_um?"),
+        ("--grid bearing.element_count=9.5", "element_count"),
+        ("--runs 0", "--runs is 0: it must be at least 1"),
+        ("--settle 0.5", "--settle is 0.5 s: it must be from 0 to below --stop, 0.3 s"),
+        ("--rate 10", "--rate is 10.0 Hz: it must be from 100"),
+        ("--noise-db 300", "from -60 to 200 dB"),
+        ("--write mp3", "'mp3' is none of wav, npy"),
+        ("--kinds inner,cage", "--kinds: cage is none of"),
+        ("--base nowhere.toml", "there is no such scene file"),
+        (&format!("--speed-profile {profile}"), "it ends at 0.1 s: it must go to 0.3 s"),
+        (&format!("--speed-profile {profile} --grid shaft.speed_hz=10"), "exclude each other"),
+    ] {
+        let words = words.split(' ').map(OsString::from).chain(["-o".into(), folder.join("out").into()]);
+        let said = python().run_file(&script, words.chain(["--workers".into(), "1".into()])).unwrap_err().to_string();
+        assert!(said.contains(expected) && !said.contains("Traceback"), "{expected}: {said}");
+    }
 }
 
 #[test]

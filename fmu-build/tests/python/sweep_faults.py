@@ -13,6 +13,7 @@ import bearing  # noqa: E402
 import numpy as np  # noqa: E402
 import pyarrow.parquet as parquet  # noqa: E402
 import sweep  # noqa: E402
+import sweep_signals  # noqa: E402
 from dask.distributed import Client, LocalCluster  # noqa: E402
 
 RUNS, BAD = 24, 5
@@ -82,7 +83,7 @@ def main():
 
     # An instance that had many runs gives what a fresh one gives.
     last = RUNS - 1
-    fresh = sweep.run_one(bearing.Instance(str(paths[names[last]])), runs[last], OPTIONS)
+    fresh = sweep_signals.run_one(bearing.Instance(str(paths[names[last]])), runs[last], OPTIONS)
     same({**found[last], **fresh}, found[last])
     print("kept", kept, "failed", failed)
 
