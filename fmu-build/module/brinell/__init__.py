@@ -90,12 +90,27 @@ def build(scene: PathLike, output: PathLike = ".", *, platforms: str | Iterable[
     return Path(said.splitlines()[-1])
 
 
-def run(scene: PathLike, *, stop: float | None = None, step: float | None = None) -> Run:
+def run(
+    scene: PathLike,
+    *,
+    stop: float | None = None,
+    step: float | None = None,
+    columns: str | Iterable[str] = (),
+    speed_profile: PathLike | None = None,
+    noise_db: float | None = None,
+    noise_seed: int = 1,
+) -> Run:
     """Runs a scene without a host, its inputs at their start values, and gives all inputs and outputs.
 
-    ``stop`` and ``step`` are the stop time and the communication step [s]; without them, the scene's.
+    ``stop`` and ``step`` are the stop time and the communication step [s]; without them, the scene's. ``columns`` are
+    the names wanted beside the time, in which ``*`` stands for any characters; ``speed_profile`` is a CSV file with
+    time_s and speed_hz; ``noise_db`` is the signal-to-noise ratio of the sensors.
     """
-    options = [f"--{name}={value!r}" for name, value in (("stop", stop), ("step", step)) if value is not None]
+    given = {"stop": stop, "step": step, "noise-db": noise_db, "noise-seed": noise_seed if noise_db is not None else None}
+    options = [f"--{name}={value!r}" for name, value in given.items() if value is not None]
+    options += [f"--speed-profile={os.fspath(speed_profile)}"] if speed_profile is not None else []
+    names = columns if isinstance(columns, str) else ",".join(columns)
+    options += [f"--columns={names}"] if names else []
     with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
         _ask("run", os.fspath(scene), "--no-figure", "--output", folder, *options)
         (table,) = Path(folder).glob("*.csv")
