@@ -302,14 +302,11 @@ def bar(count, total, failed, seconds):
     print(text, end=end, file=sys.stderr, flush=True)
 
 
-def same_design(folder, **design):
+def refuse_another_design(folder, text):
     """Refuses to mix two designs in one folder."""
-    text = json.dumps(design, indent=1)
     path = folder / "design.json"
     if path.exists() and path.read_text(encoding="utf-8") != text:
         sys.exit(f"{path} says that the folder holds another design: choose another folder, or take this one away")
-    with bearing.whole(path) as part:
-        part.write_text(text, encoding="utf-8")
 
 
 def main(arguments=None):
@@ -341,12 +338,16 @@ def main(arguments=None):
     chosen.output.mkdir(parents=True, exist_ok=True)
     scene = chosen.base.read_text(encoding="utf-8")
     design_of = {"grid": grid, "random": random, "seed": chosen.seed, "options": told, "kinds": kinds, "law": chosen.law}
-    same_design(chosen.output, scene=scene, **design_of)
+    text = json.dumps({"scene": scene, **design_of}, indent=1)
+    refuse_another_design(chosen.output, text)
     try:
         recorder = chosen.rate if chosen.filter else None
         paths, names = prepare(chosen.base, runs, chosen.output / "fmu", chosen.law, recorder)
     except subprocess.CalledProcessError:
         sys.exit("the FMUs were not built: the program says why above")
+    # Only now: a design that cannot be built is none that the folder holds.
+    with bearing.whole(chosen.output / "design.json") as part:
+        part.write_text(text, encoding="utf-8")
     cluster = chosen.scheduler or LocalCluster(
         n_workers=chosen.workers, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
     )

@@ -215,6 +215,10 @@ fn draw(project: &Project, model: &Model, options: &Options, done: &Done, folder
     let acceleration = Acceleration { samples, rate };
     let spectra = Spectra { scene, profile: options.profile.as_ref(), acceleration };
     let envelope = spectra.write_envelope(folder)?;
+    let too_short = spectra.too_short();
+    if let Some(why) = &too_short {
+        eprintln!("note: {why}");
+    }
     let python = if options.page { Python::prepare_for_pages(project)? } else { Python::prepare(project)? };
     let stem = folder.join(&scene.name);
     if options.figure {
@@ -230,7 +234,8 @@ fn draw(project: &Project, model: &Model, options: &Options, done: &Done, folder
             envelope: envelope.as_deref(),
             orders: orders.as_ref(),
         };
-        let described = page::described(model, &files, &notes(options))?;
+        let notes: Vec<String> = notes(options).into_iter().chain(too_short).collect();
+        let described = page::described(model, &files, &notes)?;
         let about = done.signals.path().with_extension("json");
         whole_file::write(&about, described.to_string())?;
         print!("{}", python.run("run_page.py", [about, folder.join(format!("{}.html", scene.name))])?);

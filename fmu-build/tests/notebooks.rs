@@ -71,3 +71,45 @@ fn what_the_program_refuses_is_an_error_of_the_module_in_its_words() {
     assert!(said.starts_with("no-such-scene: neither a file nor a shipped scene"), "{said}");
     assert!(said.contains("stop time -1 s") && said.contains("none.npy"), "{said}");
 }
+
+#[test]
+fn the_module_hands_on_columns_speed_and_noise_and_tells_all_faults_of_a_scene() {
+    let folder = common::folder("module-run");
+    let script = folder.join("module.py");
+    fs::write(&script, MODULE).unwrap();
+    let module = Path::new(env!("CARGO_MANIFEST_DIR")).join("module");
+    let python = common::python().clone().with_variable("BRINELL_PROGRAM", env!("CARGO_BIN_EXE_brinell"));
+    let said = python.run_file(&script, [module, folder]).unwrap_or_else(|error| panic!("{error:#}"));
+    assert!(said.contains("handed on"), "{said}");
+}
+
+const MODULE: &str = r#"
+import sys
+from pathlib import Path
+
+sys.path.insert(0, sys.argv[1])
+import brinell
+import numpy as np
+
+folder = Path(sys.argv[2])
+profile = folder / "up.csv"
+profile.write_text("time_s,speed_hz\n0,10\n0.02,20\n")
+names = ["shaft.speed", "sensor.*"]
+clean = brinell.run("6205-healthy", columns=names, speed_profile=profile)
+assert list(clean) == ["time", "shaft.speed", "sensor.acceleration"], list(clean)
+assert clean["time"][-1] == 0.02 or abs(clean["time"][-1] - 0.02) < 1e-12
+assert np.allclose(clean["shaft.speed"], 2 * np.pi * (10 + 500 * clean["time"]), rtol=1e-12)
+noisy = [brinell.run("6205-healthy", columns=names, speed_profile=profile, noise_db=20, noise_seed=s) for s in (1, 1, 2)]
+first, again, other = (run["sensor.acceleration"] for run in noisy)
+assert np.array_equal(first, again) and not np.array_equal(first, other)
+scene = folder / "bad.toml"
+scene.write_text("name = 'bad'\ncolour = 1\n")
+try:
+    brinell.run(scene)
+except brinell.BrinellError as error:
+    told = str(error)
+    assert "4 faults" in told and "colour is unknown" in told and "[shaft] is missing" in told, told
+else:
+    raise AssertionError("accepted")
+print("handed on")
+"#;

@@ -43,12 +43,6 @@ impl Spectra<'_> {
     pub(super) fn write_envelope(&self, folder: &Path) -> Result<Option<PathBuf>> {
         let Acceleration { samples, rate } = &self.acceleration;
         let Some((characteristic, speed)) = self.frequencies() else { return Ok(None) };
-        let shortest = libm::ceil(100.0 * envelope_spectrum::FEWEST_PASSAGES / characteristic.bpfo) / 100.0;
-        if !samples.is_empty() && samples.len() as f64 / rate < shortest {
-            eprintln!(
-                "note: no spectrum of the envelope: its lines would run into each other; --stop {shortest:.2} is enough"
-            );
-        }
         let found = match self.angles().filter(|_| self.changes()) {
             Some(angles) => EnvelopeSpectrum::of_changing_speed(samples, *rate, characteristic, &angles),
             None if self.changes() => None,
@@ -68,6 +62,16 @@ impl Spectra<'_> {
         }
         whole_file::write(&path.with_extension("json"), serde_json::to_string_pretty(&said)? + "\n")?;
         Ok(Some(path))
+    }
+
+    /// Why there is no spectrum of the envelope, and how long a run would be enough.
+    pub(super) fn too_short(&self) -> Option<String> {
+        let (characteristic, _) = self.frequencies()?;
+        let shortest = libm::ceil(100.0 * envelope_spectrum::FEWEST_PASSAGES / characteristic.bpfo) / 100.0;
+        let Acceleration { samples, rate } = &self.acceleration;
+        (!samples.is_empty() && (samples.len() as f64) < shortest * rate).then(|| {
+            format!("no spectrum of the envelope: its lines would run into each other; --stop {shortest:.2} is enough")
+        })
     }
 
     /// Orders of the acceleration as `<scene>-orders.csv`; nothing where nothing turns twice, or nothing shakes. Gives
