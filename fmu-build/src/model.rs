@@ -9,8 +9,8 @@ use brinell::simulation::guid::guid;
 
 use crate::contact_map;
 use crate::project::Project;
-use crate::sensor_response;
 use crate::reference::Reference;
+use crate::sensor_response;
 use crate::shipped;
 
 /// A scene that was read, with its files' texts and a simulation of it.

@@ -1,8 +1,8 @@
-//! The pages `docs/hour-*.md` are transcripts: what a new user types and what comes back. Their commands are run here, in
-//! an empty folder each, and must say what the page says; `write_the_hours` writes the pages anew.
+//! The pages `docs/hour-*.md` are transcripts: what a new user types and what comes back. Their commands are run here,
+//! in an empty folder each, and must say what the page says; `write_the_hours` writes the pages anew.
 //!
-//! In a block ```` ```console ```` each line that begins with `$ ` is a command, and what follows is what it said. A block
-//! ```` ```python NAME ```` is a file that the user writes before. The last line of a page counts lines and seconds.
+//! In a block ```` ```console ```` each line that begins with `$ ` is a command, and what follows is what it said. A
+//! block ```` ```python NAME ```` is a file that the user writes before. The last line counts lines and seconds.
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #![allow(clippy::unwrap_used)]
 
@@ -20,6 +20,7 @@ use fmu_build::python::Python;
 
 const PAGES: [&str; 4] = ["hour-catalogue.md", "hour-monitoring.md", "hour-data.md", "hour-rotor.md"];
 const COUNTED: &str = "*Typed: ";
+const WHERE: &str = "on two cores that others used as well.*";
 
 /// The environment of the examples: it has ROSS, dask and what reads their results.
 fn python() -> &'static Python {
@@ -85,9 +86,8 @@ fn anew(page: &str) -> String {
     while let Some(line) = lines.next() {
         if line.starts_with(COUNTED) {
             let seconds = waited.as_secs_f64().ceil();
-            out += &format!(
-                "{COUNTED}{commands} commands and {written} lines of a file. Waited: {seconds} s, on two cores that others used as well.*\n"
-            );
+            out += &format!("{COUNTED}{commands} commands and {written} lines of a file. ");
+            out += &format!("Waited: {seconds} s, {WHERE}\n");
             continue;
         }
         out += &format!("{line}\n");
