@@ -89,6 +89,8 @@ def simulate(
     `unbalance` makes them, 0 at the start. `seen` are the outputs kept of each bearing. FMUs are built in `folder`.
     Hosts, passes: at the top of this file.
     """
+    if host not in ("exact", "ross") or passes < 1:
+        raise ValueError(f"host {host!r}, {passes} passes: exact or ross, at least one pass")
     machine = Machine(rotor, tuple(nodes), dict(loads or {}), dict(forces or {}))
     fmus = fmus_of(scenes, folder)
     if len(fmus) != len(machine.nodes):
