@@ -14,7 +14,8 @@ from pathlib import Path
 import numpy as np
 import step_by_step
 from bearing import Bearing
-from rotor_ross import exact, fmus_in, shown, with_ross
+from ross_bearings import exact, with_ross
+from rotor_ross import fmus_in, shown
 
 SPEED = 2 * np.pi * 30.0
 TOLERANCE = 1e-8
@@ -56,7 +57,7 @@ def rigid(fmus, h, stop, passes):
 
 def ross(run, fmu, h, stop, **options):
     machine = shown()
-    return run(machine, fmu, SPEED, h, stop, tolerance=TOLERANCE, **options)[1][:, 4 * machine.bearing + 1]
+    return run(machine, [fmu], SPEED, h, stop, tolerance=TOLERANCE, **options)[1][:, 4 * machine.nodes[0] + 1]
 
 
 def check(q, t):

@@ -14,7 +14,8 @@ from pathlib import Path
 import numpy as np
 import step_by_step
 from bearing import Bearing
-from rotor_ross import exact, fmus_in, shown, with_ross
+from ross_bearings import exact, with_ross
+from rotor_ross import fmus_in, shown
 
 SPEED = 2 * np.pi * 30.0
 
@@ -95,9 +96,9 @@ def main():
     for h in (2e-5, 1e-4):
         for host, run in {
             "rigid rotor, 2 FMUs, 1 pass": lambda n: step_by_step.simulate((healthy, spalled), h, 1, n * h),
-            "ROSS matrices, 1 pass": lambda n: exact(machine, spalled, SPEED, h, n * h),
-            "ROSS matrices, 2 passes": lambda n: exact(machine, spalled, SPEED, h, n * h, 2),
-            "ROSS": lambda n: with_ross(machine, spalled, SPEED, h, n * h),
+            "ROSS matrices, 1 pass": lambda n: exact(machine, [spalled], SPEED, h, n * h),
+            "ROSS matrices, 2 passes": lambda n: exact(machine, [spalled], SPEED, h, n * h, 2),
+            "ROSS": lambda n: with_ross(machine, [spalled], SPEED, h, n * h),
         }.items():
             whole, *parts = cost(run, options.steps, idle)
             shares = " | ".join(f"{part:.1f} µs ({100 * part / whole:.0f} %)" for part in parts)

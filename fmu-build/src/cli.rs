@@ -10,6 +10,7 @@ use clap::{Args, Parser, Subcommand};
 
 use crate::library::{self, Library};
 use crate::new_scene::{self, Spall};
+use crate::reference::Reference;
 use crate::run::grid::Grid;
 use crate::run::noise::Noise;
 use crate::run::speed_profile::SpeedProfile;
@@ -64,6 +65,10 @@ pub struct Build {
     /// Version of the FMI standard
     #[arg(long, value_enum, default_value_t, value_name = "VERSION")]
     fmi: fmu::Version,
+    /// Beside each FMU the inputs, outputs and options of a reference run, as the FMI cross-check wants them; an FMU of
+    /// FMI 3.0 holds them as well
+    #[arg(long)]
+    reference: bool,
     #[command(flatten)]
     library: LibraryChoice,
 }
@@ -309,20 +314,7 @@ impl Command {
     /// Does what was asked. An error is one line for the user.
     pub fn execute(self, project: &Project) -> Result<()> {
         match self {
-            Command::Build(build) => {
-                // Scenes first: a typing error should not wait for a compiler.
-                let models = build.scenes.iter().map(|path| Model::read(path)).collect::<Result<Vec<_>>>()?;
-                let library = Library::obtain(project, &build.library.into())?;
-                for line in library.describe() {
-                    println!("{line}");
-                }
-                let folder = build.output.unwrap_or_else(|| project.results("fmu"));
-                for model in &models {
-                    let path = fmu::write(model, &library, build.fmi, &folder)?;
-                    println!("{}", path.display());
-                }
-                Ok(())
-            }
+            Command::Build(options) => build(project, options),
             Command::Run(options) => {
                 let model = Model::read(&options.scene)?;
                 let wanted = options.options(&model.scene.experiment)?;
@@ -368,6 +360,33 @@ impl Command {
             }
         }
     }
+}
+
+fn build(project: &Project, options: Build) -> Result<()> {
+    let read = |path: &PathBuf| {
+        let mut model = Model::read(path)?;
+        if options.reference {
+            model.reference = Some(Reference::of(&model).with_context(|| path.display().to_string())?);
+        }
+        Ok(model)
+    };
+    // Scenes first: a typing error should not wait for a compiler.
+    let models = options.scenes.iter().map(read).collect::<Result<Vec<_>>>()?;
+    let library = Library::obtain(project, &options.library.into())?;
+    for line in library.describe() {
+        println!("{line}");
+    }
+    let folder = options.output.unwrap_or_else(|| project.results("fmu"));
+    for model in &models {
+        if let Some(reference) = &model.reference {
+            for path in reference.write(&folder)? {
+                println!("{}", path.display());
+            }
+        }
+        let path = fmu::write(model, &library, options.fmi, &folder)?;
+        println!("{}", path.display());
+    }
+    Ok(())
 }
 
 /// What the commands that sweep the cage angle are told.

@@ -53,6 +53,9 @@ pub fn pack(model: &Model, library: &Library, version: Version) -> Result<Vec<u8
             archive.add("modelDescription.xml", model_description3::write(model)?)?;
             archive.add("terminalsAndIcons/terminalsAndIcons.xml", terminals::write(model.simulation.table())?)?;
             archive.add("terminalsAndIcons/icon.png", ICON)?;
+            if let Some(reference) = &model.reference {
+                reference.add_to(&mut archive)?;
+            }
         }
     }
     for binary in library.binaries() {

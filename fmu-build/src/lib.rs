@@ -27,6 +27,7 @@ mod new_scene;
 pub mod platform;
 pub mod project;
 pub mod python;
+pub mod reference;
 pub mod run;
 pub mod scenes;
 mod sensor_response;

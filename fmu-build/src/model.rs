@@ -9,6 +9,7 @@ use brinell::simulation::guid::guid;
 
 use crate::contact_map;
 use crate::project::Project;
+use crate::reference::Reference;
 use crate::sensor_response;
 use crate::shipped;
 
@@ -25,6 +26,8 @@ pub struct Model {
     pub map: Option<Vec<u8>>,
     /// A simulation of the scene, not initialized.
     pub simulation: Simulation,
+    /// The reference run, where one is to go along with the FMU.
+    pub reference: Option<Reference>,
 }
 
 /// A defect's profile file.
@@ -60,7 +63,7 @@ impl Model {
         let texts = || profiles.iter().map(|profile| profile.text.as_str());
         let map = contact_map::of(&scene, texts(), &Project::find()).with_context(about)?;
         let simulation = Simulation::with_map(scene.clone(), texts(), map.as_deref()).with_context(about)?;
-        Ok(Self { scene, scene_text, profiles, map, simulation })
+        Ok(Self { scene, scene_text, profiles, map, simulation, reference: None })
     }
 
     /// Texts of the profile files.

@@ -20,6 +20,8 @@ const ROSS_ITSELF: &str = "python examples/rotor_ross.py --host ross --stop 0.2"
 const LINEAR: &str = "python examples/rotor_linear.py --short";
 const ERROR: &str = "python examples/coupling_error.py --short";
 const MASTERS: &str = "python examples/masters.py --short";
+const SYSTEMS: &str = "python examples/system_of_fmus.py --build";
+const SYSTEM: &str = "python examples/system_of_fmus.py --short";
 const COST: &str = "python examples/step_cost.py --steps 200";
 const SWEEP: &str =
     "python examples/sweep.py --runs 8 --stop 0.1 --grid defect.length_deg=15.8 --random shaft.speed_hz=10:40";
@@ -30,10 +32,16 @@ const SCHEDULER: &str = "dask scheduler --host 127.0.0.1 --port 8786 --no-dashbo
 const WORKER: &str = "dask worker tcp://127.0.0.1:8786 --nworkers 2 --nthreads 1 --no-dashboard";
 const CLUSTER: &str = "python examples/sweep.py --scheduler tcp://127.0.0.1:8786 --runs 8 --stop 0.1 --grid defect.length_deg=15.8 --random shaft.speed_hz=10:40";
 /// What this file's environment does itself.
-const SET_UP: [&str; 3] = [
+const SET_UP: [&str; 7] = [
     "python3 -m venv target/examples-env",
     ". target/examples-env/bin/activate",
     "pip install -r examples/requirements.txt",
+    // Packages that only this page of measurements needs.
+    "pip install libcosimpy==0.0.6 ecospy==0.7.2 tbb",
+    "LD_LIBRARY_PATH=target/examples-env/lib python examples/system_of_fmus.py --masters ours,fmpy,libcosim,ecos",
+    // tests/reference.rs runs it, with all scenes.
+    "brinell build er16k-tb1 --reference",
+    "brinell build er16k-tb1 --reference --fmi 3",
 ];
 
 fn python() -> &'static Python {
@@ -101,9 +109,13 @@ fn has_figure(stem: PathBuf) {
     }
 }
 
-/// Blocks of the guide in this language.
+fn page(name: &str) -> String {
+    fs::read_to_string(common::root().join("docs").join(name)).unwrap()
+}
+
+/// Blocks of the guide and its page of systems in this language.
 fn blocks(language: &str) -> Vec<String> {
-    let guide = fs::read_to_string(common::root().join("docs/guide.md")).unwrap();
+    let guide = page("guide.md") + &page("systems.md");
     let fence = format!("```{language}\n");
     let parts = guide.split(&fence).skip(1);
     parts.map(|part| part.split("```").next().unwrap().to_owned()).collect()
@@ -122,6 +134,8 @@ fn every_command_of_the_guide_is_run_here() {
         SWEEP,
         LABELLED,
         MEASURED,
+        SYSTEMS,
+        SYSTEM,
         SIZED,
         SCHEDULER,
         WORKER,
@@ -274,7 +288,7 @@ fn the_coupling_is_as_exact_as_the_guide_says() {
 fn each_master_is_as_exact_with_each_force_as_the_guide_says() {
     let rows = table(&run(MASTERS, &common::folder("example-masters")), 3);
     assert_eq!(rows.len(), 14);
-    let guide = fs::read_to_string(common::root().join("docs/guide.md")).unwrap();
+    let guide = page("guide.md");
     for (words, _) in &rows {
         let row = words.replacen(' ', " | ", 2);
         assert!(guide.contains(&format!("| {row} |")), "not in the guide: {row}");
@@ -294,6 +308,44 @@ fn each_master_is_as_exact_with_each_force_as_the_guide_says() {
         assert!(late > 1.8 * held && held > 20.0 * derivative, "{bearing}: {late} %, {held} %, {derivative} %");
         let same = found("parallel `mean_force` and its derivative, which is 0");
         assert_eq!(same, late, "{bearing}: the mean's derivative is not 0");
+    }
+}
+
+#[test]
+fn a_system_of_bearing_and_rotor_is_as_exact_in_each_master_as_its_page_says() {
+    let folder = common::folder("example-system");
+    let said = run(SYSTEMS, &folder);
+    assert_eq!(said.lines().count(), 4, "{said}");
+    for system in said.lines() {
+        let archive = zip::ZipArchive::new(fs::File::open(system).unwrap()).unwrap();
+        assert_eq!(archive.file_names().filter(|name| name.as_ref().unwrap().ends_with(".fmu")).count(), 2);
+    }
+    // The rotor is an FMU that any importer can take.
+    common::python().run("validate.py", [folder.join("rotor.fmu")]).unwrap_or_else(|error| panic!("{error:#}"));
+
+    let rows = table(&run(SYSTEM, &folder), 4);
+    assert_eq!(rows.len(), 14);
+    let here = page("systems.md");
+    for bearing in ["healthy", "spalled"] {
+        // Steps of 10 µs over the first 5 ms. Limits: twice what was found.
+        let found = |told: &str| {
+            let words = format!("{bearing} {told}");
+            let (_, cells) = rows.iter().find(|(row, _)| *row == words).unwrap_or_else(|| panic!("no row {words}"));
+            percent(&cells[0])
+        };
+        let (held, derivative) =
+            (found("ours parallel `force`, held"), found("ours parallel `force` and its derivative"));
+        let (late, mean) = (found("ours parallel `mean_force`, held"), found("ours sequential `mean_force`, held"));
+        assert!(held < 4.0 && derivative < 0.07 && mean < 0.03, "{bearing}: {held} %, {derivative} %, {mean} %");
+        // A force that comes a whole step late instead of half a one.
+        assert!(late > 1.8 * held && held > 20.0 * derivative, "{bearing}: {late} %, {held} %, {derivative} %");
+        // An input of 0 in the first step.
+        assert!(found("fmpy parallel, begins with 0 `force`, held") > 10.0 * held);
+    }
+    for (words, _) in &rows {
+        let told = words.split_once('`').unwrap().1;
+        let stands = |line: &&str| line.starts_with(&format!("| {} | ", words.split(' ').next().unwrap()));
+        assert!(here.lines().filter(stands).any(|line| line.contains(told)), "not in the page: {words}");
     }
 }
 

@@ -14,8 +14,22 @@ use fmu_build::whole_file;
 use crate::scene_page::scene_page;
 
 /// Chapters: a heading, and the pages under it in their order. Pages that are not named come last.
-const CHAPTERS: [(&str, &[&str]); 3] = [
-    ("Use", &["guide.md", "runs.md", "platforms.md", "scene.md", "sizing.md", "modes.md", "fmi2.md", "fmi3.md"]),
+const CHAPTERS: [(&str, &[&str]); 4] = [
+    ("First hours", &["hour-catalogue.md", "hour-monitoring.md", "hour-data.md", "hour-rotor.md"]),
+    (
+        "Use",
+        &[
+            "guide.md",
+            "runs.md",
+            "systems.md",
+            "platforms.md",
+            "scene.md",
+            "sizing.md",
+            "modes.md",
+            "fmi2.md",
+            "fmi3.md",
+        ],
+    ),
     ("How right it is", &["error-vs-run-time.md", "validation.md", "contact.md", "stability.md"]),
     ("Behind it", &[]),
 ];

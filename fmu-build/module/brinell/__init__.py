@@ -78,14 +78,22 @@ def program() -> str:
     return found
 
 
-def build(scene: PathLike, output: PathLike = ".", *, platforms: str | Iterable[str] = (), fmi: int = 2) -> Path:
+def build(
+    scene: PathLike,
+    output: PathLike = ".",
+    *,
+    platforms: str | Iterable[str] = (),
+    fmi: int = 2,
+    reference: bool = False,
+) -> Path:
     """Builds the FMU of a scene into the folder ``output`` and gives its path.
 
     ``platforms``: "all", or any of linux64, win64, darwin64 and aarch64-linux; without it, all that the program holds.
-    ``fmi``: version of the FMI standard, 2 or 3.
+    ``fmi``: version of the FMI standard, 2 or 3. With ``reference`` the inputs, outputs and options of a reference run
+    are written beside it, and into an FMU of FMI 3.0.
     """
     names = platforms if isinstance(platforms, str) else ",".join(platforms)
-    chosen = ["--fmi", str(fmi), *(["--platforms", names] if names else [])]
+    chosen = ["--fmi", str(fmi), *(["--platforms", names] if names else []), *["--reference"] * reference]
     said = _ask("build", os.fspath(scene), "--output", os.fspath(output), *chosen)
     return Path(said.splitlines()[-1])
 

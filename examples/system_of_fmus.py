@@ -1,0 +1,351 @@
+#!/usr/bin/env python3
+"""A bearing and an elastic rotor, two FMUs wired in an SSP file: error over master, wiring and step, as Markdown.
+
+    python examples/system_of_fmus.py [--build] [--short] [--masters ours,fmpy,libcosim,ecos] [-o target/examples]
+
+The rotor is `examples/system/rotor.c`, an overhung mass of 3 kg on a shaft of 1e7 N/m without a damper, compiled here
+with the C compiler that CC names, else `cc`. It rests in the bearing under half of its 500 N; at the start the other
+half is added. The error is that of its position, rms over rms of its way, against one FMU that holds mass and spring:
+the scene's own `shaft.mass_kg` and `shaft.stiffness_n_m`, no coupling at all.
+
+`--build` writes the systems only, bearing and rotor in one `.ssp` each (System Structure and Parameterization 1.0):
+`healthy-force.ssp`, `healthy-mean_force.ssp`, `spalled-force.ssp`, `spalled-mean_force.ssp`, by what the rotor is told.
+
+Masters that read them:
+  ours      parallel (Jacobi) and sequential (Gauss-Seidel, in the order of the file), inputs held, continued with the
+            derivatives that the other FMU gives, or interpolated; nothing but the standard's functions
+  fmpy      fmpy.ssp.simulation: parallel, held, and every input 0 in the first step
+  libcosim  libcosimpy: parallel, held      (pip install libcosimpy==0.0.6)
+  ecos      ecospy: parallel, held          (pip install ecospy==0.7.2 tbb, and LD_LIBRARY_PATH=…/lib for libtbb.so.12)
+"""
+
+import argparse
+import os
+import shlex
+import subprocess
+import tempfile
+import zipfile
+from ctypes import c_int
+from pathlib import Path
+from xml.etree import ElementTree
+
+import fmpy
+import numpy as np
+from bearing import SCENES, Instance, Numbers, build, changed_scene, unzipped, whole
+from fmpy.fmi1 import FMICallException
+from fmpy.ssp.simulation import simulate_ssp
+from fmpy.ssp.ssd import ParameterSet, read_ssd
+
+HERE = Path(__file__).resolve().parent / "system"
+MASS, STIFFNESS, LOAD = 3.0, 1e7, 500.0  # kg, N/m, N
+GUID = ElementTree.parse(HERE / "rotor.xml").getroot().get("guid")
+GRID = 1e-4  # s between the positions that are compared
+MOTION = {"x": "shaft.x", "y": "shaft.y", "vx": "shaft.vx", "vy": "shaft.vy", "ax": "shaft.ax", "ay": "shaft.ay"}
+
+
+def rotor_fmu(folder):
+    """Compiles the rotor and packs it; gives the FMU's path."""
+    headers = Path(fmpy.__file__).parent / "c-code"
+    library = Path(folder) / f"rotor{fmpy.sharedLibraryExtension}"
+    compiler = shlex.split(os.environ.get("CC", "cc"))
+    words = ["-std=c11", "-O2", "-shared", "-fPIC", f'-DROTOR_GUID="{GUID}"', "-I", headers, HERE / "rotor.c"]
+    try:
+        subprocess.run([*compiler, *map(str, words), "-lm", "-o", str(library)], check=True)
+    except FileNotFoundError:
+        raise SystemExit(f"{compiler[0]}: no such C compiler; name one by the environment's CC") from None
+    path = Path(folder) / "rotor.fmu"
+    with whole(path) as part, zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as fmu:
+        fmu.write(HERE / "rotor.xml", "modelDescription.xml")
+        fmu.write(HERE / "rotor.c", "sources/rotor.c")
+        fmu.write(library, f"binaries/{fmpy.platform}/{library.name}")
+    library.unlink()
+    return path
+
+
+def fmus_in(folder):
+    """The bearings, healthy and spalled: below a shaft that the host moves, and with mass and spring inside."""
+    base = SCENES / "er16k-tb1-hosted-shaft.toml"
+    common = {"shaft.speed_hz": 30.0, "housing.load_n": [0.0, 0.0], "solver.tolerance": 1e-9}
+    ring = {"mass_kg": MASS, "stiffness_n_m": STIFFNESS, "damping_n_s_m": 0.0, "load_n": [0.0, -LOAD / 2]}
+    inside = {"shaft.motion": "internal", **{f"shaft.{key}": value for key, value in ring.items()}}
+    scenes = []
+    for name, changes in (("healthy", {"defect": None, "contact": None}), ("spalled", {})):
+        scenes.append(changed_scene(base, f"system-{name}", {**changes, **common}, folder))
+        scenes.append(changed_scene(base, f"system-{name}-whole", {**changes, **common, **inside}, folder))
+    paths = build(scenes, folder)
+    return {"healthy": paths[:2], "spalled": paths[2:]}
+
+
+def whole_run(fmu, stop):
+    """Positions of the mass inside one FMU, every GRID seconds."""
+    instance = Instance(fmu)
+    instance.enter()
+    seen = ["shaft.x", "shaft.y"]
+    positions = [instance.read(seen)]
+    instance.run()
+    instance.write(["shaft.load.y"], [-LOAD])
+    for _ in range(round(stop / GRID)):
+        instance.step(GRID)
+        positions.append(instance.read(seen))
+    instance.close()
+    return np.array(positions)
+
+
+def connector(name, kind):
+    return f'<ssd:Connector name="{name}" kind="{kind}"><ssc:Real/></ssd:Connector>'
+
+
+def structure(bearing, force, start):
+    """SystemStructure.ssd: bearing first, which is the order in which a sequential master steps."""
+    forces = {f"shaft.{force}.{axis}": f"force.{axis}" for axis in "xy"}
+    to_bearing = "".join(connector(name, "input") for name in MOTION.values())
+    from_bearing = "".join(connector(name, "output") for name in forces)
+    to_rotor = "".join(connector(name, "input") for name in forces.values())
+    from_rotor = "".join(connector(name, "output") for name in MOTION)
+    parameters = {"mass": MASS, "stiffness": STIFFNESS, "load.y": -LOAD, "start.x": start[0], "start.y": start[1]}
+    values = "".join(
+        f'<ssv:Parameter name="{name}"><ssv:Real value="{float(value)!r}"/></ssv:Parameter>'
+        for name, value in parameters.items()
+    )
+    wires = [("bearing", a, "rotor", b) for a, b in forces.items()]
+    wires += [("rotor", a, "bearing", b) for a, b in MOTION.items()]
+    connections = "".join(
+        f'<ssd:Connection startElement="{a}" startConnector="{b}" endElement="{c}" endConnector="{d}"/>\n'
+        for a, b, c, d in wires
+    )
+    kind = 'type="application/x-fmu-sharedlibrary"'
+    return f"""<?xml version="1.0" encoding="UTF-8"?>
+<ssd:SystemStructureDescription name="bearing-and-rotor" version="1.0"
+    xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescription"
+    xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon"
+    xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues">
+<ssd:System name="system">
+<ssd:Elements>
+<ssd:Component name="bearing" {kind} source="resources/{bearing}">
+<ssd:Connectors>{to_bearing}{from_bearing}</ssd:Connectors>
+</ssd:Component>
+<ssd:Component name="rotor" {kind} source="resources/rotor.fmu">
+<ssd:Connectors>{to_rotor}{from_rotor}</ssd:Connectors>
+<ssd:ParameterBindings><ssd:ParameterBinding><ssd:ParameterValues>
+<ssv:ParameterSet version="1.0" name="rotor"><ssv:Parameters>{values}</ssv:Parameters></ssv:ParameterSet>
+</ssd:ParameterValues></ssd:ParameterBinding></ssd:ParameterBindings>
+</ssd:Component>
+</ssd:Elements>
+<ssd:Connections>
+{connections}</ssd:Connections>
+</ssd:System>
+<ssd:DefaultExperiment startTime="0" stopTime="0.02"/>
+</ssd:SystemStructureDescription>
+"""
+
+
+def write_system(path, bearing, rotor, force, start):
+    with whole(path) as part, zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as system:
+        system.writestr("SystemStructure.ssd", structure(bearing.name, force, start))
+        system.write(bearing, f"resources/{bearing.name}")
+        system.write(rotor, "resources/rotor.fmu")
+    return path
+
+
+class Unit(Instance):
+    """A component of a system: its values and derivatives by connector."""
+
+    def __init__(self, component, folder):
+        super().__init__(os.path.join(folder, component.source), component.name)
+        self.enter({parameter.name: float(parameter.value) for parameter in parameters_of(component)})
+        names = {kind: [c.name for c in component.connectors if c.kind == kind] for kind in ("input", "output")}
+        self.inputs, self.outputs = (Numbers(self, names[kind]) for kind in ("input", "output"))
+        self.names = names["output"]
+        self.orders = (c_int * max(map(len, names.values())))(*[1] * max(map(len, names.values())))
+        what = self.description.coSimulation
+        self.gives_derivatives, self.takes_derivatives = what.maxOutputDerivativeOrder > 0, what.canInterpolateInputs
+
+    def give(self):
+        self.call(self.slave.fmi2GetReal, *self.outputs.arguments)
+        return self.outputs.array.copy()
+
+    def derivatives(self):
+        component, references, count, values = self.outputs.arguments
+        self.call(self.slave.fmi2GetRealOutputDerivatives, component, references, count, self.orders, values)
+        return self.outputs.array.copy()
+
+    def tell(self, values, slopes=None):
+        self.inputs.array[:] = values
+        component, references, count, place = self.inputs.arguments
+        self.call(self.slave.fmi2SetReal, component, references, count, place)
+        if slopes is not None:
+            self.inputs.array[:] = slopes
+            self.call(self.slave.fmi2SetRealInputDerivatives, component, references, count, self.orders, place)
+
+
+def ours(kind, told):
+    """A master: `kind` parallel or sequential; inputs `told` held, with the other's derivative, or interpolated."""
+
+    def run(ssp, h, stop):
+        system = read_ssd(str(ssp)).system
+        units = {component.name: Unit(component, unzipped(str(ssp))) for component in system.elements}
+        ends = {(c.endElement, c.endConnector): (c.startElement, c.startConnector) for c in system.connections}
+        wires = {}
+        for component in system.elements:
+            sources = [ends[component.name, c.name] for c in component.connectors if c.kind == "input"]
+            wires[component.name] = [(name, units[name].names.index(output)) for name, output in sources]
+        rotor = units["rotor"]
+        try:
+            # What the rotor starts from moves the bearing, whose force the rotor is then told.
+            for name in ("bearing", "rotor"):
+                given = {other: unit.give() for other, unit in units.items()}
+                units[name].tell([given[other][i] for other, i in wires[name]])
+            for unit in units.values():
+                unit.run()
+            positions, every = [rotor.give()[:2]], round(GRID / h)
+            for count in range(1, round(stop / h) + 1):
+                step(units, wires, h, kind, told)
+                if not np.all(np.abs(rotor.give()[:2]) < 1e-3):
+                    raise RuntimeError(f"unstable at {count * h:.4g} s")
+                if count % every == 0:
+                    positions.append(rotor.give()[:2])
+        finally:
+            for unit in units.values():
+                unit.close()
+        return np.array(positions)
+
+    return run
+
+
+def step(units, wires, h, kind, told):
+    """One communication step of all units."""
+    begin = {name: unit.give() for name, unit in units.items()}
+    slopes = {name: np.zeros(len(values)) for name, values in begin.items()}
+    if told == "derivative":
+        slopes.update({name: unit.derivatives() for name, unit in units.items() if unit.gives_derivatives})
+    known = dict(begin)
+    for name, unit in units.items():
+        values = [known[other][i] for other, i in wires[name]]
+        if told == "interpolated":
+            # Of those that have stepped already: from where they were to where they are.
+            values = [begin[other][i] for other, i in wires[name]]
+            slopes = {other: (known[other] - begin[other]) / h for other in known}
+        rates = [slopes[other][i] for other, i in wires[name]]
+        unit.tell(values, rates if unit.takes_derivatives and any(rates) else None)
+        unit.step(h)
+        if kind == "sequential":
+            known[name] = unit.give()
+
+
+def parameters_of(component):
+    sets = [values for binding in component.parameterBindings for values in binding.parameterValues]
+    return [parameter for values in sets for parameter in values.parameters]
+
+
+def start_of(ssp):
+    """Where the rotor is at the start."""
+    rotor = next(component for component in read_ssd(str(ssp)).system.elements if component.name == "rotor")
+    return [float(parameter.value) for parameter in parameters_of(rotor) if parameter.name.startswith("start.")]
+
+
+def by_fmpy(ssp, h, stop):
+    parameters = ParameterSet(name="rotor")
+    for component in read_ssd(str(ssp)).system.elements:
+        for parameter in parameters_of(component):
+            parameter.name = f"{component.name}.{parameter.name}"
+            parameters.parameters.append(parameter)
+    # It adds up the time: half a step less ends where the last step does. Its rows are those after each step.
+    found = simulate_ssp(str(ssp), stop_time=stop - 0.5 * h, step_size=h, parameter_set=parameters)
+    positions = np.column_stack([found["rotor.x"], found["rotor.y"]])
+    return np.vstack([start_of(ssp), positions[round(GRID / h) - 1 :: round(GRID / h)]])
+
+
+def by_libcosim(ssp, h, stop):
+    from libcosimpy.CosimExecution import CosimExecution
+    from libcosimpy.CosimLogging import CosimLogLevel, log_output_level
+    from libcosimpy.CosimObserver import CosimObserver
+
+    log_output_level(CosimLogLevel.ERROR)
+
+    with tempfile.TemporaryDirectory() as folder:
+        with zipfile.ZipFile(ssp) as archive:
+            archive.extractall(folder)
+        execution = CosimExecution.from_ssp_file(folder, round(h * 1e9))
+        observer = CosimObserver.create_last_value()
+        execution.add_observer(observer)
+        rotor = execution.slave_index_from_instance_name("rotor")
+        positions = [start_of(ssp)]
+        for _ in range(round(stop / GRID)):
+            if not execution.step(round(GRID / h)):
+                raise RuntimeError("libcosim: a step failed")
+            positions.append(observer.last_real_values(rotor, [2, 3]))
+    return np.array(positions)
+
+
+def by_ecos(ssp, h, stop):
+    from ecospy import EcosSimulation
+
+    with EcosSimulation(h, ssp_path=str(ssp)) as simulation:
+        # A set of parameters acts where it is named.
+        simulation.init(parameter_set="rotor")
+        positions = [start_of(ssp)]
+        for _ in range(round(stop / GRID)):
+            simulation.step(round(GRID / h))
+            positions.append([simulation.get_real("rotor::x"), simulation.get_real("rotor::y")])
+        simulation.terminate()
+    return np.array(positions)
+
+
+# Whose master, how it steps, what the rotor is told, and of which system.
+MASTERS = [
+    ("ours", "parallel", "`mean_force`, held", "mean_force", ours("parallel", "held")),
+    ("ours", "parallel", "`force`, held", "force", ours("parallel", "held")),
+    ("ours", "parallel", "`force` and its derivative", "force", ours("parallel", "derivative")),
+    ("ours", "sequential", "`force`, held", "force", ours("sequential", "held")),
+    ("ours", "sequential", "`force`, interpolated", "force", ours("sequential", "interpolated")),
+    ("ours", "sequential", "`mean_force`, held", "mean_force", ours("sequential", "held")),
+    ("fmpy", "parallel, begins with 0", "`force`, held", "force", by_fmpy),
+    ("libcosim", "parallel", "`force`, held", "force", by_libcosim),
+    ("libcosim", "parallel", "`mean_force`, held", "mean_force", by_libcosim),
+    ("ecos", "parallel", "`force`, held", "force", by_ecos),
+    ("ecos", "parallel", "`mean_force`, held", "mean_force", by_ecos),
+]
+
+
+def error(run, ssp, exact, h, stop):
+    """As a cell of the table."""
+    try:
+        found = run(ssp, h, stop)
+    except (RuntimeError, FMICallException):
+        return "unstable"
+    apart = np.sqrt(np.mean(np.sum((found - exact) ** 2, axis=1)))
+    way = np.sqrt(np.mean(np.sum((exact - exact[0]) ** 2, axis=1)))
+    return f"{100 * apart / way:.2g} %" if apart < way else "> 100 %"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--build", action="store_true", help="write the systems, run nothing")
+    parser.add_argument("--short", action="store_true", help="two steps, 5 ms")
+    parser.add_argument("--masters", default="ours,fmpy", help="whose, separated by commas [default: ours,fmpy]")
+    parser.add_argument("-o", "--output", type=Path, default=Path("target/examples"))
+    options = parser.parse_args()
+    steps = (1e-5, 1e-4) if options.short else (1e-6, 2e-6, 5e-6, 1e-5, 2e-5, 5e-5, 1e-4)
+    stop = 5e-3 if options.short else 0.02
+    fmus = fmus_in(options.output)
+    rotor = rotor_fmu(options.output)
+    if not options.build:
+        heads = ["bearing", "whose", "master", "the rotor is told", *(f"{h * 1e6:g} µs" for h in steps)]
+        print("| " + " | ".join(heads) + " |")
+        print("|---|---|---|---|" + "---|" * len(steps))
+    for name, (bearing, inside) in fmus.items():
+        exact = whole_run(inside, GRID if options.build else stop)
+        systems = {}
+        for force in ("force", "mean_force"):
+            path = options.output / f"{name}-{force}.ssp"
+            systems[force] = write_system(path, bearing, rotor, force, exact[0])
+            if options.build:
+                print(path)
+        for whose, kind, told, force, run in MASTERS:
+            if not options.build and whose in options.masters.split(","):
+                cells = [error(run, systems[force], exact, h, stop) for h in steps]
+                print(f"| {name} | {whose} | {kind} | {told} | " + " | ".join(cells) + " |", flush=True)
+
+
+if __name__ == "__main__":
+    main()

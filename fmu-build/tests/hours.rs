@@ -1,0 +1,172 @@
+//! The pages `docs/hour-*.md` are transcripts: what a new user types and what comes back. Their commands are run here,
+//! in an empty folder each, and must say what the page says; `write_the_hours` writes the pages anew.
+//!
+//! In a block ```` ```console ```` each line that begins with `$ ` is a command, and what follows is what it said. A
+//! block ```` ```python NAME ```` is a file that the user writes before. The last line counts lines and seconds.
+#![cfg(all(target_os = "linux", target_arch = "x86_64"))]
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::env;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use std::sync::OnceLock;
+use std::time::{Duration, Instant};
+
+use fmu_build::project::Project;
+use fmu_build::python::Python;
+
+const PAGES: [&str; 4] = ["hour-catalogue.md", "hour-monitoring.md", "hour-data.md", "hour-rotor.md"];
+const COUNTED: &str = "*Typed: ";
+const WHERE: &str = "on two cores that others used as well.*";
+
+/// The environment of the examples: it has ROSS, dask and what reads their results.
+fn python() -> &'static Python {
+    static PYTHON: OnceLock<Python> = OnceLock::new();
+    PYTHON.get_or_init(|| {
+        let requirements = fs::read_to_string(common::root().join("examples/requirements.txt")).unwrap();
+        Python::prepare_from(&Project::find(), "examples-python", &requirements).unwrap()
+    })
+}
+
+/// A folder of a user's, with the repository's examples in it.
+fn user(page: &str) -> std::path::PathBuf {
+    let folder = common::folder(page);
+    std::os::unix::fs::symlink(common::root().join("examples"), folder.join("examples")).unwrap();
+    folder
+}
+
+/// What a command says. Python's packages warn about what the machine lacks: their warnings are left out, ours are not.
+fn said(command: &str, folder: &Path) -> String {
+    let program = Path::new(env!("CARGO_BIN_EXE_brinell"));
+    let places = [program.parent().unwrap(), python().interpreter().parent().unwrap()].map(Path::to_path_buf);
+    let path = env::join_paths(places.into_iter().chain(env::split_paths(&env::var_os("PATH").unwrap()))).unwrap();
+    let modules = [common::root().join("examples"), Path::new(env!("CARGO_MANIFEST_DIR")).join("module")];
+    // Around a redirection of its own.
+    let whole = if command.starts_with("python ") { command.to_owned() } else { format!("{{ {command}; }} 2>&1") };
+    let mut shell = Command::new("sh");
+    shell.current_dir(folder).args(["-c", &whole]).env("PATH", path);
+    shell.env("PYTHONPATH", env::join_paths(modules).unwrap()).env("PYTHONDONTWRITEBYTECODE", "1");
+    shell.env("MPLBACKEND", "Agg").env("BRINELL_FMU", program);
+    if let Some(library) = common::built_with_the_tests() {
+        shell.env("BRINELL_LIBRARY", library);
+    }
+    let output = shell.output().unwrap();
+    // What the program refuses is part of a transcript; a script that fails is not.
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() || command.starts_with("brinell "), "{command}: {errors}");
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(!text.contains(common::root().to_str().unwrap()), "{command} names a folder of this machine: {text}");
+    text.lines().filter(|line| !of_the_machine(line)).map(|line| timeless(line) + "\n").collect()
+}
+
+/// Which libraries are packed, and for which systems.
+fn of_the_machine(line: &str) -> bool {
+    line.starts_with("linux64: ") && line.contains(" KiB")
+}
+
+/// A sweep's JSON without the seconds that it took and the bytes of its compressed files.
+fn timeless(line: &str) -> String {
+    ["\"seconds\": ", "\"bytes\": "].iter().fold(line.to_owned(), |line, key| match line.split_once(key) {
+        Some((before, after)) => {
+            format!("{before}{key}…{}", after.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.'))
+        }
+        None => line,
+    })
+}
+
+/// The page as it comes out now.
+fn anew(page: &str) -> String {
+    let folder = user(page);
+    let text = fs::read_to_string(common::root().join("docs").join(page)).unwrap();
+    let (mut out, mut lines) = (String::new(), text.lines().peekable());
+    let (mut commands, mut written, mut waited) = (0, 0, Duration::ZERO);
+    while let Some(line) = lines.next() {
+        if line.starts_with(COUNTED) {
+            let seconds = waited.as_secs_f64().ceil();
+            out += &format!("{COUNTED}{commands} commands and {written} lines of a file. ");
+            out += &format!("Waited: {seconds} s, {WHERE}\n");
+            continue;
+        }
+        out += &format!("{line}\n");
+        let block = line.strip_prefix("```").unwrap_or_default();
+        let mut held = String::new();
+        if block == "console" {
+            for line in lines.by_ref().take_while(|line| *line != "```") {
+                let Some(command) = line.strip_prefix("$ ") else { continue };
+                let begin = Instant::now();
+                held += &format!("{line}\n{}", said(command, &folder));
+                waited += begin.elapsed();
+                commands += 1;
+            }
+        } else if let Some((_, name)) = block.split_once(' ') {
+            held = lines.by_ref().take_while(|line| *line != "```").map(|line| format!("{line}\n")).collect();
+            written += held.lines().filter(|line| !line.trim().is_empty()).count();
+            fs::write(folder.join(name), &held).unwrap();
+        } else {
+            continue;
+        }
+        out += &format!("{held}```\n");
+    }
+    out
+}
+
+/// Without the seconds.
+fn compared(text: &str) -> String {
+    text.lines().map(|line| line.split(" Waited: ").next().unwrap().to_owned() + "\n").collect()
+}
+
+fn is_what_happens(page: &str) {
+    let there = fs::read_to_string(common::root().join("docs").join(page)).unwrap();
+    assert!(there.contains(COUNTED), "{page} counts no lines");
+    let (there, found) = (compared(&there), compared(&anew(page)));
+    for (number, (there, found)) in there.lines().zip(found.lines()).enumerate() {
+        assert_eq!(found, there, "docs/{page}, line {}", number + 1);
+    }
+    assert_eq!(found.lines().count(), there.lines().count(), "docs/{page}");
+}
+
+#[test]
+fn an_hour_with_a_catalogue_is_what_happens() {
+    is_what_happens("hour-catalogue.md");
+}
+
+#[test]
+#[ignore = "sizes three recordings, a minute of a core; `size` has tests of its own"]
+fn an_hour_with_a_recording_is_what_happens() {
+    is_what_happens("hour-monitoring.md");
+}
+
+#[test]
+#[ignore = "runs forty signals; the examples' tests have a labelled sweep as well"]
+fn an_hour_with_a_data_set_is_what_happens() {
+    if has_ross() {
+        is_what_happens("hour-data.md");
+    }
+}
+
+#[test]
+fn an_hour_with_a_rotor_is_what_happens() {
+    if has_ross() {
+        is_what_happens("hour-rotor.md");
+    }
+}
+
+/// Neither ROSS nor the learners that come along with it run on Python 3.9.
+fn has_ross() -> bool {
+    let script = common::folder("hours-version").join("version.py");
+    fs::write(&script, "import sys\nprint(sys.version_info >= (3, 10))").unwrap();
+    python().run_file(&script, [""; 0]).unwrap().trim() == "True"
+}
+
+/// All, or the one that the environment's `BRINELL_PAGE` names.
+#[test]
+#[ignore = "writes docs/hour-*.md"]
+fn write_the_hours() {
+    let one = env::var("BRINELL_PAGE").ok();
+    for page in PAGES.into_iter().filter(|page| one.as_ref().is_none_or(|one| one == page)) {
+        fs::write(common::root().join("docs").join(page), anew(page)).unwrap();
+    }
+}

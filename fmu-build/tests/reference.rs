@@ -1,0 +1,42 @@
+//! Reference results as the FMI cross-check and FMI-LS-REF want them: fmpy accepts the files, and finds the results.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::ffi::OsString;
+use std::path::Path;
+use std::process::Command;
+
+fn build(options: &[&str], folder: &Path) -> String {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    if let Some(library) = common::built_with_the_tests() {
+        command.env("BRINELL_LIBRARY", library);
+    }
+    let output = command.args(["build", "--reference"]).args(options).arg("-o").arg(folder).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn the_cross_check_finds_the_reference_results_of_every_shipped_scene() {
+    let folder = common::folder("reference");
+    let names = common::names();
+    let said = build(&names.iter().map(String::as_str).collect::<Vec<_>>(), &folder);
+    assert!(said.lines().last().unwrap().ends_with(".fmu"), "the FMU comes last: {said}");
+    let arguments = std::iter::once(OsString::from(&folder)).chain(names.iter().map(OsString::from));
+    println!("{}", common::run_script("reference.py", arguments));
+}
+
+#[test]
+fn an_fmu_of_fmi_3_holds_its_reference_results_with_their_manifest() {
+    let folder = common::folder("reference3");
+    build(&["er16k-tb1", "6205-hosted", "--fmi", "3"], &folder);
+    println!("{}", common::run_script("reference3.py", [folder.join("er16k-tb1.fmu"), folder.join("6205-hosted.fmu")]));
+}
+
+#[test]
+fn without_being_asked_an_fmu_holds_no_reference_results() {
+    let bytes = std::fs::read(common::fmu3_of("6205-healthy", &common::folder("no-reference"))).unwrap();
+    let archive = zip::ZipArchive::new(std::io::Cursor::new(bytes)).unwrap();
+    assert!(archive.file_names().all(|name| !name.unwrap().starts_with("extra/")));
+}
