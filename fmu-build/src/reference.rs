@@ -22,7 +22,7 @@ use brinell::simulation::variables::{Causality, Kind};
 use crate::archive::{Archive, ArchiveError};
 use crate::csv;
 use crate::model::Model;
-use crate::run::Grid;
+use crate::run::grid::Grid;
 use crate::whole_file;
 use crate::xml::Xml;
 
