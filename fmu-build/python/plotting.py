@@ -58,11 +58,11 @@ def curve(axis, time, values, colour, label):
     if not is_long(time):
         axis.plot(time, values, color=colour, label=label, linewidth=0.9)
         return
-    every = -(-len(time) // PARTS)
-    count = len(time) // every * every
-    parts = values[:count].reshape(-1, every)
-    middle = time[:count].reshape(-1, every).mean(axis=1)
-    low, lower, half, upper, high = np.quantile(parts, [0.0, 1 / 6, 0.5, 5 / 6, 1.0], axis=1)
+    parts = np.array_split(values, PARTS)
+    middle = [times.mean() for times in np.array_split(time, PARTS)]
+    # What the first and the last part stand for reaches to the ends.
+    middle[0], middle[-1] = time[0], time[-1]
+    low, lower, half, upper, high = np.array([np.quantile(part, [0.0, 1 / 6, 0.5, 5 / 6, 1.0]) for part in parts]).T
     axis.fill_between(middle, low, high, color=colour, alpha=0.25, linewidth=0)
     axis.fill_between(middle, lower, upper, color=colour, alpha=0.5, linewidth=0)
     axis.plot(middle, half, color=colour, label=label, linewidth=0.9)

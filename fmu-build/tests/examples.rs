@@ -389,17 +389,13 @@ fn a_labelled_sweep_says_beside_each_signal_what_it_is_a_run_of() {
     assert!(said.contains("8 labelled"), "{said}");
 }
 
-/// A profile for `MEASURED` in the place of the guide's `up.csv`.
-fn measured(folder: &Path) -> String {
-    let profile = folder.join("up.csv");
-    fs::write(&profile, "time_s,speed_hz\n0,10\n0.1,30\n0.2,30\n").unwrap();
-    run(&MEASURED.replace("up.csv", profile.to_str().unwrap()), &folder.join("out"))
-}
-
 #[test]
 fn a_sweep_measures_with_noise_a_filter_and_a_speed_that_changes() {
     let folder = common::folder("example-measured");
-    let said = last(&measured(&folder));
+    // In the place of the guide's.
+    let profile = folder.join("up.csv");
+    fs::write(&profile, "time_s,speed_hz\n0,10\n0.1,30\n0.2,30\n").unwrap();
+    let said = last(&run(&MEASURED.replace("up.csv", profile.to_str().unwrap()), &folder.join("out")));
     assert_eq!((said["runs"].as_u64(), said["failed"].as_u64()), (Some(12), Some(0)), "{said}");
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python/sweep_measured.py");
     let said = python().run_file(&script, [folder.join("out")]).unwrap_or_else(|error| panic!("{error:#}"));

@@ -52,3 +52,29 @@ fn a_run_too_short_for_it_says_how_long_it_would_have_to_be() {
     assert!(!out.join("6205-healthy-envelope.csv").exists());
     assert!(out.join("6205-healthy.png").is_file());
 }
+
+#[test]
+fn bands_of_a_long_run_reach_to_its_ends_and_hold_every_extreme() {
+    let script = common::folder("run-figure-bands").join("bands.py");
+    fs::write(&script, BANDS).unwrap();
+    let said = common::python().run_file(&script, [""; 0]).unwrap_or_else(|error| panic!("{error:#}"));
+    assert!(said.contains("held"), "{said}");
+}
+
+/// One sample far above and one far below all others, the latter among the last that do not fill a part.
+const BANDS: &str = r#"
+import numpy as np
+import plotting
+
+time = np.linspace(0.0, 20.0, 200_001)
+values = np.sin(1000 * time)
+values[123_456], values[-2] = 50.0, -70.0
+figure, axis = plotting.plt.subplots()
+assert plotting.is_long(time) and not plotting.is_long(time[:1000])
+plotting.curve(axis, time, values, plotting.BLUE, None)
+light = axis.collections[0].get_paths()[0].vertices
+assert light[:, 0].min() == 0.0 and light[:, 0].max() == 20.0, light[:, 0].max()
+assert light[:, 1].max() == 50.0 and light[:, 1].min() == -70.0
+assert abs(light[light[:, 1] > 40][0, 0] - time[123_456]) < 20 / 120
+print("held")
+"#;

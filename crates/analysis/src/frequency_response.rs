@@ -260,7 +260,7 @@ fn zeros(poles: &[c64], weights: &[f64]) -> Option<Vec<c64>> {
             (_, 1, 0) => -pole.im,
             _ => pole.re,
         };
-        own - if i % 2 == 0 { 2.0 * weights[k] } else { 0.0 }
+        own - if i.is_multiple_of(2) { 2.0 * weights[k] } else { 0.0 }
     };
     let matrix: Vec<Vec<f64>> = (0..size).map(|i| (0..size).map(|k| entry(i, k)).collect()).collect();
     let values = eigenvalues(&matrix).ok()?;
