@@ -8,6 +8,8 @@ mod bodies;
 mod defect;
 #[path = "bad_scene/keys.rs"]
 mod keys;
+#[path = "bad_scene/rollers.rs"]
+mod rollers;
 
 use brinell::scene::Scene;
 

@@ -9,7 +9,7 @@ use std::fmt::Write;
 use brinell::contact::love::LoveContact;
 use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::{MapSpecification, Sequential};
-use brinell::contact::raceway_grid::{ElementOnRaceway, Resolution};
+use brinell::contact::raceway_grid::{Across, ElementOnRaceway, Resolution};
 use brinell::contact::rolling::RacewaySide;
 use brinell::simulation::setup;
 use brinell::surface::{Surface, Topography};
@@ -17,7 +17,7 @@ use brinell::surface::{Surface, Topography};
 const ER16K: ElementOnRaceway = ElementOnRaceway {
     element_radius: 3.97e-3,
     raceway_radius: 23.6325e-3,
-    groove_radius: 4.095e-3,
+    across: Across::Groove(4.095e-3),
     raceway: RacewaySide::Outer,
 };
 

@@ -11,7 +11,7 @@ use std::f64::consts::FRAC_PI_2;
 use brinell::contact::love::LoveContact;
 use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::{MapSpecification, Sequential};
-use brinell::contact::raceway_grid::{ElementOnRaceway, Resolution};
+use brinell::contact::raceway_grid::{Across, ElementOnRaceway, Resolution};
 use brinell::contact::rolling::RacewaySide;
 use brinell::surface::{Profile, Surface};
 use counting::counted;
@@ -21,7 +21,7 @@ fn contacts_of_an_element_that_passes_an_edge_allocate_nothing() {
     let element = ElementOnRaceway {
         element_radius: 3.97e-3,
         raceway_radius: 23.6325e-3,
-        groove_radius: 4.095e-3,
+        across: Across::Groove(4.095e-3),
         raceway: RacewaySide::Outer,
     };
     let surface = Surface::Profile(Profile::spall(6.517e-3, 100e-6, FRAC_PI_2));

@@ -5,7 +5,7 @@
 use brinell::contact::love::LoveContact;
 use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::{MapSpecification, Sequential};
-use brinell::contact::raceway_grid::{ElementOnRaceway, Resolution};
+use brinell::contact::raceway_grid::{Across, ElementOnRaceway, Resolution};
 use brinell::contact::rolling::RacewaySide;
 use brinell::surface::{Profile, Surface};
 use std::f64::consts::FRAC_PI_2;
@@ -14,7 +14,7 @@ use std::f64::consts::FRAC_PI_2;
 const INNER: ElementOnRaceway = ElementOnRaceway {
     element_radius: 3.97e-3,
     raceway_radius: 15.6875e-3,
-    groove_radius: 4.095e-3,
+    across: Across::Groove(4.095e-3),
     raceway: RacewaySide::Inner,
 };
 const OUTER: ElementOnRaceway = ElementOnRaceway { raceway_radius: 23.6325e-3, raceway: RacewaySide::Outer, ..INNER };

@@ -8,14 +8,14 @@ use brinell::contact::error::ContactError;
 use brinell::contact::love::LoveContact;
 use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::{MapSpecification, Sequential};
-use brinell::contact::raceway_grid::{ElementOnRaceway, Resolution};
+use brinell::contact::raceway_grid::{Across, ElementOnRaceway, Resolution};
 use brinell::contact::rolling::RacewaySide;
 use brinell::surface::{Profile, Surface, Topography};
 
 const ER16K: ElementOnRaceway = ElementOnRaceway {
     element_radius: 3.97e-3,
     raceway_radius: 23.6325e-3,
-    groove_radius: 4.095e-3,
+    across: Across::Groove(4.095e-3),
     raceway: RacewaySide::Outer,
 };
 const LENGTH: f64 = 6.517e-3;
@@ -184,7 +184,7 @@ fn a_trace_coarser_than_the_cells_is_refused_and_a_polygon_is_not() {
 fn impossible_elements_and_approaches_are_refused() {
     let resolution = Resolution { columns: 16, rows: 8 };
     for element in [
-        ElementOnRaceway { groove_radius: 3.9e-3, ..ER16K },
+        ElementOnRaceway { across: Across::Groove(3.9e-3), ..ER16K },
         ElementOnRaceway { element_radius: f64::NAN, ..ER16K },
         ElementOnRaceway { raceway_radius: 1e-3, ..ER16K },
     ] {

@@ -239,6 +239,8 @@ scenes! {
     tb2_30um_gives_the_numbers_it_gave "er16k-tb2-30um"
     tb2_compliant_gives_the_numbers_it_gave "er16k-tb2-compliant"
     turning_outer_gives_the_numbers_it_gave "er16k-turning-outer"
+    rollers_give_the_numbers_they_gave "nu205-healthy"
+    rollers_over_a_spall_give_the_numbers_they_gave "nu205-inner"
 }
 
 #[test]

@@ -107,7 +107,11 @@ fn an_open_groove_is_remarked_upon_and_usual_ones_are_not() {
     let grooves = "conformity_inner = 0.6\nconformity_outer = 126.0";
     let scene = Scene::from_toml(&SHORT.replace("groove_diameter_mm = 8.19", grooves)).unwrap();
     assert_eq!(scene.remarks(), [Remark::OpenGroove { ring: "outer", conformity: 126.0 }]);
-    assert!(scene.remarks()[0].to_string().contains("Rolling elements are balls here, so far"));
+    assert!(
+        scene.remarks()[0]
+            .to_string()
+            .contains("gets a ball's point contacts: cylindrical rollers are bearing.element")
+    );
 }
 
 #[test]

@@ -9,14 +9,19 @@ pub(crate) fn command(filter: &str) -> Result<()> {
     if found.is_empty() {
         bail!("no bearing of the catalogue begins with {filter:?}; `brinell catalogue` lists all");
     }
-    println!("Deep groove ball bearings. Bore, outside diameter and width by ISO 15; balls as the last column says.");
-    println!("Cylindrical rollers are not modelled.\n");
-    println!("name      d    D    B [mm]  balls   ball [mm]  pitch [mm]  balls and pitch diameter");
+    println!(
+        "Deep groove ball bearings (6...) and cylindrical roller bearings (NU...; NJ, NUP and N are the same inside)."
+    );
+    println!("Bore, outside diameter and width by ISO 15; elements as the last column says.\n");
+    println!(
+        "name      d    D    B [mm]  elements  diameter [mm]  length [mm]  pitch [mm]  elements and pitch diameter"
+    );
     for bearing in found {
         let ([bore, outside, width], inside) = (bearing.boundary, bearing.inside);
-        let Inside { element_count, element_diameter, pitch_diameter, source } = inside;
+        let Inside { element_count, element_diameter, pitch_diameter, roller_length, source } = inside;
+        let length = roller_length.map_or("-".to_owned(), |length| format!("{length:.1}"));
         println!(
-            "{:<6} {bore:>4} {outside:>4} {width:>4}       {element_count:>5}  {element_diameter:>10.3}  \
+            "{:<6} {bore:>4} {outside:>4} {width:>4}       {element_count:>8}  {element_diameter:>13.3}  {length:>11}  \
              {pitch_diameter:>10.3}  {}",
             bearing.designation,
             source.unwrap_or("assumed: estimated from the boundary, the number may be one off")

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use brinell::scene::{Damping, Defect, DefectOn, DefectShape, Motion, Ring, Scene, Sensor};
+use brinell::scene::{Bearing, Damping, Defect, DefectOn, DefectShape, Motion, Ring, RollerProfile, Scene, Sensor};
 use brinell::simulation::arrays::of_all_elements;
 use brinell::simulation::variables::{Causality, Kind, Variable};
 use brinell::simulation::{Method, Simulation};
@@ -15,7 +15,8 @@ use crate::units;
 
 /// What the model leaves out, in one place for every reader.
 pub const LIMITS: [&str; 8] = [
-    "Rolling elements are balls: rollers with their line contacts need another law.",
+    "Rolling elements are balls or cylindrical rollers. Rollers do not tilt and carry no axial load; their law was measured \
+     on steel.",
     "One defect, on a raceway or on a rolling element; a defective ball turns about an axis parallel to the bearing's.",
     "Love's half-space at a vertical edge ignores the corner's own compliance: at the edge of a spall 100 µm deep the \
      force is 12 to 16 % too large, of one 15 to 30 µm deep 2 to 5 %, and the pressure at the edge diverges.",
@@ -38,7 +39,8 @@ const EQUATIONS: &str = "<p>For each element u is its path, ρ the distance of i
     the inner ring's centre to its own and n = q/|q|; v<sub>i</sub>, v<sub>o</sub> are the rings' velocities.</p>\n\
     <pre>u' = w − e_r·v_o\n\
     w' = (Q_i n·e_r − F_r)/m + g·e_r + ω (v_o·e_t + ρ ω)\n\
-    δ_i = R_i + r − |q|,   Q = K δ^1.5 max(0, 1 + χ δ') or max(0, K δ^1.5 + 1.5 τ K δ^0.5 δ')\n\
+    δ_i = R_i + r − |q|,   Q = Q_e max(0, 1 + χ δ') or max(0, Q_e + τ δ' dQ_e/dδ)\n\
+    Q_e = K δ^1.5 of a ball, K δ^(10/9) c(δ) of a roller, c the part of its length that its crown lets carry\n\
     m_i x_i'' = F_i − Σ Q_i n − c_i v_i − k_i x_i\n\
     m_o x_o'' = F_o + Σ (F_r e_r − F_t e_t) − c_o v_o − k_o x_o + f_s,   m_s y_s'' = −f_s</pre>\n\
     <p>F<sub>r</sub> and F<sub>t</sub> are what the outer raceway exerts on an element. On the smooth raceway the approach is u; \
@@ -111,19 +113,12 @@ fn facts(page: &mut String, scene: &Scene) {
     let defects: Vec<(&str, String)> = scene.defects.iter().map(defect_row).collect();
     let healthy = [("Defect", "none".to_owned())];
     let defects = if defects.is_empty() { &healthy[..] } else { &defects };
-    let mm = |length: f64| format!("{} mm", digits(length * 1e3));
-    let mut rows = vec![
-        ("Rolling elements", format!("{} balls", bearing.element_count)),
-        ("Ball diameter", mm(bearing.element_diameter)),
-        ("Pitch diameter", mm(bearing.pitch_diameter)),
-        (
-            "Groove conformity, inner and outer",
-            format!("{}, {}", digits(bearing.conformity_inner), digits(bearing.conformity_outer)),
-        ),
+    let mut rows = elements(bearing);
+    rows.extend([
         ("Radial clearance", format!("{} µm", digits(bearing.radial_clearance * 1e6))),
         ("Contact law near the defect", law.to_owned()),
         ("Contact damping", damping),
-    ];
+    ]);
     rows.extend(defects.iter().cloned());
     rows.extend([
         ("Shaft (inner ring)", ring(&scene.shaft)),
@@ -137,6 +132,33 @@ fn facts(page: &mut String, scene: &Scene) {
         line(page, format_args!("<tr><th>{what}</th><td>{value}</td></tr>"));
     }
     page.push_str("</table>\n");
+}
+
+/// Rolling elements and their circle.
+fn elements(bearing: &Bearing) -> Vec<(&'static str, String)> {
+    let mm = |length: f64| format!("{} mm", digits(length * 1e3));
+    let pitch = ("Pitch diameter", mm(bearing.pitch_diameter));
+    let Some(roller) = bearing.roller() else {
+        let conformities = format!("{}, {}", digits(bearing.conformity_inner), digits(bearing.conformity_outer));
+        return vec![
+            ("Rolling elements", format!("{} balls", bearing.element_count)),
+            ("Ball diameter", mm(bearing.element_diameter)),
+            pitch,
+            ("Groove conformity, inner and outer", conformities),
+        ];
+    };
+    let profile = match &roller.profile {
+        RollerProfile::Straight => "straight".to_owned(),
+        RollerProfile::Logarithmic => "logarithmic crown of ISO/TS 16281".to_owned(),
+        RollerProfile::Measured(crown) => format!("<code>resources/{}</code>", escape(&crown.name)),
+    };
+    vec![
+        ("Rolling elements", format!("{} cylindrical rollers", bearing.element_count)),
+        ("Roller diameter", mm(bearing.element_diameter)),
+        ("Effective roller length", mm(roller.length)),
+        ("Roller profile", format!("{profile}, {} laminae", roller.laminae)),
+        pitch,
+    ]
 }
 
 /// Directions of the accelerometers.
@@ -369,7 +391,7 @@ mod tests {
     #[test]
     fn the_page_says_balls_and_outer_raceway() {
         let page = page("6205-healthy");
-        assert!(page.contains("<td>9 balls</td>") && page.contains("Rolling elements are balls:"));
+        assert!(page.contains("<td>9 balls</td>") && page.contains("Rolling elements are balls or"));
         assert!(page.contains("One defect, on a raceway or on a rolling element"));
     }
 }

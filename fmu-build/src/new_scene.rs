@@ -12,6 +12,8 @@ use crate::whole_file;
 const LOAD_SHARE: f64 = 0.05;
 /// Static load rating of deep groove ball bearings by Z·D² [N/mm²], about ISO 76's f₀ for them.
 const RATING_FACTOR: f64 = 12.3;
+/// The same of cylindrical roller bearings by (1 − D/D_pw) Z L D [N/mm²], ISO 76.
+const ROLLERS_FACTOR: f64 = 44.0;
 
 /// What `--defect` says: on which body, and how long.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,7 +43,7 @@ impl FromStr for Spall {
 pub(crate) fn command(name: &str, bearing: &str, spall: Option<&Spall>, folder: &Path) -> Result<()> {
     let Some(bearing) = catalogued(bearing) else {
         let known = catalogue().map(|bearing| bearing.designation).collect::<Vec<_>>().join(", ");
-        bail!("{bearing:?} is not in the catalogue of deep groove ball bearings, which has {known}");
+        bail!("{bearing:?} is not in the catalogue, which has {known}");
     };
     let text = text(name, &bearing, spall);
     Scene::from_toml(&text).with_context(|| format!("a scene {name} of this bearing and defect is not possible"))?;
@@ -57,8 +59,21 @@ pub(crate) fn command(name: &str, bearing: &str, spall: Option<&Spall>, folder: 
 fn text(name: &str, bearing: &CatalogueBearing, spall: Option<&Spall>) -> String {
     let (designation, inside) = (bearing.designation, bearing.inside);
     let source = inside.source.unwrap_or("assumed: estimated from bore and outside diameter; put in what you know");
-    let rating = RATING_FACTOR * inside.element_count as f64 * inside.element_diameter.powi(2);
+    let (count, diameter) = (inside.element_count as f64, inside.element_diameter);
+    let (rating, formula) = match inside.roller_length {
+        None => (RATING_FACTOR * count * diameter * diameter, "12.3 Z D²"),
+        Some(length) => {
+            let rating = ROLLERS_FACTOR * (1.0 - diameter / inside.pitch_diameter) * count * length * diameter;
+            (rating, "44 (1 - D/Dpw) Z L D")
+        }
+    };
     let load = (LOAD_SHARE * rating / 10.0).round().max(1.0) * 10.0;
+    let roller = inside.roller_length.map_or(String::new(), |length| {
+        format!(
+            "# roller_length_mm = {length:<16} # the same; effective, without chamfers\n\
+             roller_profile = \"log\"                # assumed: the crown of ISO/TS 16281; or \"straight\"\n"
+        )
+    });
     let what =
         spall.map_or("healthy".to_owned(), |Spall { on, length, unit }| format!("spall of {length} {unit}, {on}"));
     let defect = spall.map(of_spall).unwrap_or_default();
@@ -74,12 +89,12 @@ catalogue = {name_of_bearing:<25} # gives the keys below; a key given beside it 
 # element_count = {count:<19} # {source}
 # element_diameter_mm = {diameter:.3}
 # pitch_diameter_mm = {pitch:.3}
-radial_clearance_um = 5.0             # assumed; or internal_clearance_um, as catalogues count: twice as much
+{roller}radial_clearance_um = 5.0             # assumed; or internal_clearance_um, as catalogues count: twice as much
 {defect}
 [shaft]
 motion = "internal"                   # or "host": an FMU's host gives its position
 speed_hz = 25.0                       # assumed
-load_n = {vector:<28} # assumed: 5 % of the static rating 12.3 Z D² in N and mm; downwards
+load_n = {vector:<28} # assumed: 5 % of the static rating {formula} in N and mm; downwards
 # mass_kg, damping_n_s_m, stiffness_n_m: without them those of a published model of a test rig
 
 [housing]

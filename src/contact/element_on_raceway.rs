@@ -1,12 +1,18 @@
-//! An element on one raceway: radii, curvatures, and the gap between the two circles.
+//! An element on one raceway: radii, curvatures, and the gap between the two bodies.
+//!
+//! Of a ball the gap across the raceway is that of two circles, its own and the groove's. Of a roller it is the crown's
+//! depth, and the contact ends where the roller does: the raceway goes on beyond, which a half-space has right, and the
+//! roller's free end is as stiff here as if it went on, too. Pressures at the ends of a straight roller grow without
+//! bound as a grid is refined; forces do not.
 
 // `!(a > b)` is true for NaN as well, and is meant to be.
 #![allow(clippy::neg_cmp_op_on_partial_ord)]
 
-use super::{error::ContactError, rolling::RacewaySide};
+use super::{elasticity::LINE_ORDER, error::ContactError, rolling::RacewaySide};
 use crate::geometry::hertz_constant::squared_eccentricity;
+use crate::geometry::line_contact::{half_width_under, logarithmic_depth};
 use crate::numerics::elliptic;
-use crate::scene::Bearing;
+use crate::scene::{Bearing, RollerProfile};
 
 /// Radii of an element and of the raceway it runs on.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,10 +21,24 @@ pub struct ElementOnRaceway {
     pub element_radius: f64,
     /// Radius of the raceway at the groove's bottom, R_o or R_i [m].
     pub raceway_radius: f64,
-    /// Radius of the groove r_g [m].
-    pub groove_radius: f64,
+    /// What the contact is across the raceway.
+    pub across: Across,
     /// Which raceway: the outer one is concave, the inner one convex.
     pub raceway: RacewaySide,
+}
+
+/// What a contact is across the raceway.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Across {
+    /// A ball in a groove of this radius r_g [m].
+    Groove(f64),
+    /// A roller on a straight raceway.
+    Roller {
+        /// Its effective length [m].
+        length: f64,
+        /// Whether it has the logarithmic crown.
+        crowned: bool,
+    },
 }
 
 impl ElementOnRaceway {
@@ -31,7 +51,12 @@ impl ElementOnRaceway {
         Self {
             element_radius: bearing.element_radius(),
             raceway_radius: raceway.radius(bearing),
-            groove_radius: conformity * bearing.element_diameter,
+            across: match bearing.roller() {
+                None => Across::Groove(conformity * bearing.element_diameter),
+                Some(roller) => {
+                    Across::Roller { length: roller.length, crowned: roller.profile == RollerProfile::Logarithmic }
+                }
+            },
             raceway,
         }
     }
@@ -39,18 +64,19 @@ impl ElementOnRaceway {
     /// Checks the radii.
     ///
     /// # Errors
-    /// When a groove or an outer raceway is not wider than the element or a number is not finite.
+    /// When a groove or an outer raceway is not wider than the element, a roller has no length or a number is not finite.
     pub fn checked(self) -> Result<Self, ContactError> {
         let r = self.element_radius;
         let (least, limit) = match self.raceway {
             RacewaySide::Inner => (0.0, "positive"),
             RacewaySide::Outer => (r, "larger than the element's radius"),
         };
-        let checks = [
-            ("element radius", r, 0.0, "positive"),
-            ("raceway radius", self.raceway_radius, least, limit),
-            ("groove radius", self.groove_radius, r, "larger than the element's radius"),
-        ];
+        let across = match self.across {
+            Across::Groove(radius) => ("groove radius", radius, r, "larger than the element's radius"),
+            Across::Roller { length, .. } => ("roller length", length, 0.0, "positive"),
+        };
+        let checks =
+            [("element radius", r, 0.0, "positive"), ("raceway radius", self.raceway_radius, least, limit), across];
         for (quantity, value, above, limit) in checks {
             if !(value > above && value.is_finite()) {
                 return Err(ContactError::BadInput { quantity, value, unit: "m", limit: limit.to_owned() });
@@ -66,13 +92,21 @@ impl ElementOnRaceway {
             RacewaySide::Inner => r + 1.0 / self.raceway_radius,
             RacewaySide::Outer => r - 1.0 / self.raceway_radius,
         };
-        [along, r - 1.0 / self.groove_radius]
+        let across = match self.across {
+            Across::Groove(radius) => r - 1.0 / radius,
+            Across::Roller { .. } => 0.0,
+        };
+        [along, across]
     }
 
-    /// Half-axes of Hertz's contact ellipse along and across the raceway [m] at the approach δ [m]: with A ≤ B half the
-    /// curvatures, a² = δ (K − E)/(A e² K) and b = a √(1 − e²).
+    /// Half-axes of the contact along and across the raceway [m] at the approach δ [m]. Of a ball those of Hertz's
+    /// ellipse: with A ≤ B half the curvatures, a² = δ (K − E)/(A e² K) and b = a √(1 − e²). Of a roller half the width
+    /// of the line and half its length.
     pub fn contact_half_axes(&self, approach: f64) -> [f64; 2] {
         let [along, across] = self.curvatures();
+        if let Across::Roller { length, .. } = self.across {
+            return [half_width_under(approach, length, along), 0.5 * length];
+        }
         let (low, high) = (along.min(across), along.max(across));
         let m = squared_eccentricity(high / low);
         let (k, e) = elliptic::complete(m);
@@ -92,8 +126,26 @@ impl ElementOnRaceway {
         }
     }
 
+    /// Part of the gap across the raceway, at distance t [m] from the element's middle.
     pub(super) fn across(&self, t: f64) -> f64 {
-        circle(self.element_radius, t)[0] - circle(self.groove_radius, t)[0]
+        match self.across {
+            Across::Groove(radius) => circle(self.element_radius, t)[0] - circle(radius, t)[0],
+            Across::Roller { crowned: false, .. } => 0.0,
+            Across::Roller { length, crowned: true } => logarithmic_depth(2.0 * self.element_radius, length, t),
+        }
+    }
+
+    /// Length [m] on which the contact ends by itself; `None` of a ball.
+    pub(super) fn length(&self) -> Option<f64> {
+        match self.across {
+            Across::Groove(_) => None,
+            Across::Roller { length, .. } => Some(length),
+        }
+    }
+
+    /// Power n by which the force grows with the approach, about: 3/2 of a ball, 10/9 of a roller.
+    pub(super) fn order(&self) -> f64 {
+        if self.length().is_some() { LINE_ORDER } else { 1.5 }
     }
 }
 

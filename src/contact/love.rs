@@ -59,6 +59,8 @@ struct Energy {
 pub struct LoveContact {
     layers: Vec<Layer>,
     largest_approach: f64,
+    /// n of a force that grows as δ^n.
+    order: f64,
     smooth: SmoothScale,
     solves: u64,
 }
@@ -86,7 +88,8 @@ impl LoveContact {
     ) -> Result<Self, ContactError> {
         let grid = RacewayGrid::new(element, Some(surface), largest_approach, resolution)?;
         let layers = vec![Layer::new(grid.interlaced(), largest_approach)?, Layer::new(grid, largest_approach)?];
-        let mut contact = Self { layers, largest_approach, smooth: SmoothScale::default(), solves: 0 };
+        let (order, smooth) = (element.order(), SmoothScale::default());
+        let mut contact = Self { layers, largest_approach, order, smooth, solves: 0 };
         contact.smooth = contact.smooth_scale()?;
         // The largest contact once, beside the defect: solvers then have the room for all others.
         contact.energy(largest_approach, surface.extent().0 - 4.0 * element.contact_half_axes(largest_approach)[0])?;
@@ -232,17 +235,19 @@ impl LoveContact {
         let s = self.grid().centre(0);
         let onset = (ONSET_TOUCHES * self.grid().first_touch(s)).max(ONSET * self.largest_approach);
         let (low, high) = (onset.sqrt(), (1.02 * self.largest_approach).sqrt());
+        // W grows as Δ^(n + 1), about.
+        let power = 1.0 / (1.0 + self.order);
         let mut nodes = Vec::new();
         for k in 0..=SMOOTH_NODES {
             let root = low + (high - low) * k as f64 / SMOOTH_NODES as f64;
             let u = root * root;
             let energy = self.energy(u, s)?;
-            let v = two_fifths(energy.w);
-            let slope = 0.4 * v / energy.w * energy.u;
+            let v = pow(energy.w, power);
+            let slope = power * v / energy.w * energy.u;
             nodes.push([v, u, 1.0 / slope]);
         }
         self.layers = with_defect;
-        Ok(SmoothScale { nodes })
+        Ok(SmoothScale { nodes, power })
     }
 }
 
@@ -273,7 +278,7 @@ impl Layer {
             self.solver.solve(window)?;
             let rows = self.grid.rows();
             let border = |row: usize| row + 1 == rows || (row == 0 && !self.grid.mirrored());
-            if !self.solver.runs().iter().any(|run| border(run.row)) {
+            if !self.grid.can_widen() || !self.solver.runs().iter().any(|run| border(run.row)) {
                 return Ok(self.collect(span.0));
             }
             // The contact is wider than the grid across the raceway: more rows, and once more.
@@ -323,10 +328,12 @@ fn solver_for(grid: &RacewayGrid, largest_approach: f64) -> Result<ActiveSet, Co
     ActiveSet::new(&kernel, grid.rows(), grid.mirror())
 }
 
-/// Δ as a function of V = W^{2/5}, cubic Hermite between nodes [V, Δ, dΔ/dV].
+/// Δ as a function of V = W^p, p = 2/5 of balls and 9/19 of rollers, cubic Hermite between nodes [V, Δ, dΔ/dV].
 #[derive(Debug, Clone, Default)]
 struct SmoothScale {
     nodes: Vec<[f64; 3]>,
+    /// p
+    power: f64,
 }
 
 impl SmoothScale {
@@ -339,10 +346,10 @@ impl SmoothScale {
         if e.w <= 0.0 {
             return EquivalentApproach::default();
         }
-        let v = two_fifths(e.w);
+        let v = pow(e.w, self.power);
         // V as a function of u and s.
-        let per_w = 0.4 * v / e.w;
-        let bend = -0.6 * per_w / e.w;
+        let per_w = self.power * v / e.w;
+        let bend = (self.power - 1.0) * per_w / e.w;
         let (v_u, v_s) = (per_w * e.u, per_w * e.s);
         let v_uu = per_w * e.uu + bend * e.u * e.u;
         let v_us = per_w * e.us + bend * e.u * e.s;
@@ -385,9 +392,4 @@ impl SmoothScale {
             (2.0 * c2 + 6.0 * t * c3) / width,
         ]
     }
-}
-
-/// w^(2/5), the same bits everywhere.
-fn two_fifths(w: f64) -> f64 {
-    pow(w, 0.4)
 }

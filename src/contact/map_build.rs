@@ -6,6 +6,7 @@ use crate::numerics::checksum::Checksum;
 use crate::surface::Surface;
 
 use super::{
+    element_on_raceway::Across,
     error::ContactError,
     map::ContactMap,
     map_plan::MapPlan,
@@ -46,8 +47,16 @@ impl ContactMap {
         let mut hash = Checksum::default();
         hash.write(env!("CARGO_PKG_VERSION").as_bytes());
         let mut number = |value: f64| hash.write(&value.to_bits().to_le_bytes());
-        for value in [element.element_radius, element.raceway_radius, element.groove_radius] {
+        for value in [element.element_radius, element.raceway_radius] {
             number(value);
+        }
+        match element.across {
+            Across::Groove(radius) => number(radius),
+            Across::Roller { length, crowned } => {
+                // No groove is so narrow.
+                number(if crowned { -2.0 } else { -1.0 });
+                number(length);
+            }
         }
         // Maps of the outer raceway are older than those of the inner one, and their fingerprints stay.
         if element.raceway == RacewaySide::Inner {

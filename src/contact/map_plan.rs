@@ -5,7 +5,7 @@
 //! in four. That happens where a second contact begins, of the floor beside that of the edge: there the force has a
 //! kink in its slope, on a line across the map.
 
-use crate::numerics::hermite;
+use crate::numerics::{hermite, ninth_root};
 use crate::surface::Surface;
 use std::collections::BTreeMap;
 
@@ -75,6 +75,8 @@ pub struct MapPlan {
     specification: MapSpecification,
     fingerprint: u64,
     contact: LoveContact,
+    /// Whether the element is a roller.
+    line: bool,
     patches: Vec<PatchPlan>,
 }
 
@@ -103,7 +105,8 @@ impl MapPlan {
         let contact =
             LoveContact::new(element, surface, PREPARED * specification.largest_approach, specification.resolution)?;
         let fingerprint = ContactMap::fingerprint_of(surface, element, specification);
-        let mut plan = Self { specification, fingerprint, contact, patches: Vec::new() };
+        let line = element.length().is_some();
+        let mut plan = Self { specification, fingerprint, contact, line, patches: Vec::new() };
         plan.patches = plan.patches_for(surface, element);
         if let (Some(first), Some(last)) = (plan.patches.first(), plan.patches.last()) {
             let felt = (first.start, last.end());
@@ -339,7 +342,7 @@ impl MapPlan {
         s: f64,
     ) -> Result<Option<Error>, ContactError> {
         let largest = self.specification.largest_approach;
-        let full_scale = largest * largest.sqrt();
+        let full_scale = self.grown(largest);
         let exact = match contact.solve(u, s) {
             Ok(exact) if exact.value <= largest => exact,
             Ok(_) | Err(ContactError::OutOfRange { .. }) => return Ok(None),
@@ -354,8 +357,18 @@ impl MapPlan {
         if exact.value <= 0.0 && found.value <= 0.0 {
             return Ok(None);
         }
-        let (found, exact) = (found.forces(1.0), exact.forces(1.0));
+        let [found, exact] = [found, exact].map(|at| {
+            let smooth = self.grown(at.value.max(0.0));
+            [smooth * at.du, -smooth * at.ds]
+        });
         Ok(Some([(found[0] - exact[0]) / full_scale, (found[1] - exact[1]) / full_scale]))
+    }
+}
+
+impl MapPlan {
+    /// The smooth contact's force at an approach [m], but for a factor; of a roller as if it were straight.
+    fn grown(&self, approach: f64) -> f64 {
+        approach * if self.line { ninth_root(approach) } else { approach.sqrt() }
     }
 }
 

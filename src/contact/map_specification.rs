@@ -24,6 +24,12 @@ impl MapSpecification {
     pub fn new(largest_approach: f64) -> Self {
         Self { largest_approach, accuracy: 1e-3, tolerated: None, resolution: Resolution { columns: 48, rows: 32 } }
     }
+
+    /// The same for a roller on 48 × 16 cells, of which the rows share its whole length: twice as many change forces at
+    /// an edge by 0.1 %, their slope by 0.4 %.
+    pub fn of_roller(largest_approach: f64) -> Self {
+        Self { resolution: Resolution { columns: 48, rows: 16 }, ..Self::new(largest_approach) }
+    }
 }
 
 /// Nodes, or errors between them, whichever job was asked for.

@@ -11,6 +11,8 @@
 //! two bodies bears the defect does not matter: in the half-space a defect of the element is the same problem as one of
 //! the raceway with the same depth over arc.
 //!
+//! Of a roller the two terms in y give way to its crown's depth, and rows end with its length.
+//!
 //! d is the exact mean depth of a cell, so a sharp edge counts where it is; cell borders lie on the first and the last
 //! sharp edge, because an edge 0.17 cell off costs fifty times the error. The grid does not move with the element: one
 //! that does turns its own resolution into a tangential force.
@@ -20,7 +22,7 @@
 
 use crate::surface::Surface;
 
-pub use super::element_on_raceway::ElementOnRaceway;
+pub use super::element_on_raceway::{Across, ElementOnRaceway};
 use super::{active_set::Mirror, error::ContactError};
 
 /// Number of cells across Hertz's ellipse at the largest approach.
@@ -138,8 +140,12 @@ impl RacewayGrid {
             deepest: 0.0,
             surface,
         };
-        // Contact must end inside: a fifth more than the ellipse, and two rows to see it.
-        grid.set_rows((0.6 * resolution.rows as f64).ceil() as usize + 2);
+        // A ball's contact must end inside: a fifth more than the ellipse, and two rows to see it. A roller's rows end
+        // where it does.
+        grid.set_rows(match element.length() {
+            None => (0.6 * resolution.rows as f64).ceil() as usize + 2,
+            Some(_) => resolution.rows.div_ceil(2).max(2),
+        });
         Ok(grid)
     }
 
@@ -147,6 +153,10 @@ impl RacewayGrid {
     pub fn set_rows(&mut self, half_rows: usize) {
         let below = if self.mirrored { 0 } else { half_rows };
         self.rows = below + half_rows + usize::from(self.middle_row && !self.mirrored);
+        if let Some(length) = self.element.length() {
+            let middle = if self.middle_row { 0.5 } else { 0.0 };
+            self.cell[1] = 0.5 * length / (half_rows as f64 + if self.mirrored { -middle } else { middle });
+        }
         // Lower side of row 0, in rows.
         let first_row = -(below as f64) - if self.middle_row { 0.5 } else { 0.0 };
         let width = self.cell[1];
@@ -182,6 +192,11 @@ impl RacewayGrid {
         let mut grid = Self { middle_row: !self.middle_row, ..self.clone() };
         grid.set_rows(self.half_rows());
         grid
+    }
+
+    /// Whether more rows make the grid wider: a roller ends where its last row does.
+    pub(super) fn can_widen(&self) -> bool {
+        self.element.length().is_none()
     }
 
     /// Rows on one side of the groove's bottom.

@@ -8,14 +8,16 @@
 use super::element_block::ElementBlock;
 use super::kinematics::{Kinematics, Stage};
 use super::model::Model;
+use crate::contact::elasticity::{Elastic, Line, Point};
 use crate::contact::force_law::DampedLaw;
-use crate::numerics::lanes::{Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, sum_of};
+use crate::numerics::lanes::{Kernel, Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, sum_of};
 use crate::numerics::plane::{Vector, turned};
 use crate::numerics::row::Row;
 
 /// The smooth contacts of elements at one instant.
-struct Smooth<'a> {
+struct Smooth<'a, E> {
     model: &'a Model,
+    elastic: E,
     now: &'a Kinematics,
     offset: Vector,
     drift: Vector,
@@ -119,6 +121,32 @@ impl Model {
         derivative: &mut [f64],
         (elements, contacts): (&[ElementBlock], &mut Record),
     ) -> [f64; 4] {
+        // A function of its own, so that nothing of it is in the way of balls.
+        if let Some(line) = self.inner.contact.law.elasticity.line() {
+            let found = (elements, contacts);
+            return simd.outlined(Rollers::<RECORD, UNEVEN> {
+                model: self,
+                line,
+                now: &{ *now },
+                stage,
+                derivative,
+                found,
+            });
+        }
+        self.contacts_of::<S, Point, RECORD, UNEVEN>(simd, Point, now, stage, derivative, (elements, contacts))
+    }
+
+    /// As [`smooth_contacts`](Self::smooth_contacts), for contacts of one elasticity.
+    #[inline(always)]
+    fn contacts_of<S: Wide, E: Elastic, const RECORD: bool, const UNEVEN: bool>(
+        &self,
+        simd: S,
+        elastic: E,
+        now: &Kinematics,
+        stage: &Stage,
+        derivative: &mut [f64],
+        (elements, contacts): (&[ElementBlock], &mut Record),
+    ) -> [f64; 4] {
         let start = self.layout.radial_velocity;
         let (offset, v, omega) = (now.offset(), now.housing.velocity, now.cage.speed);
         let limit = SERIES * self.outer_centre_radius;
@@ -127,7 +155,7 @@ impl Model {
         let omega = if UNEVEN { 0.0 } else { omega };
         let body = Vector::new(self.gravity.x + omega * v.y, self.gravity.y - omega * v.x);
         let drift = now.drift();
-        let smooth = Smooth { model: self, now, offset, drift, body, series, ahead: stage.ahead };
+        let smooth = Smooth { model: self, elastic, now, offset, drift, body, series, ahead: stage.ahead };
         let mut sums = Sums::default();
         if RECORD {
             contacts.outer_tangential.fill(0.0);
@@ -174,7 +202,7 @@ impl<S: Wide> Found<S> {
     }
 }
 
-impl Smooth<'_> {
+impl<E: Elastic> Smooth<'_, E> {
     #[inline(always)]
     fn contacts<S: Wide, const UNEVEN: bool>(
         &self,
@@ -212,7 +240,7 @@ impl Smooth<'_> {
         let along = dot(simd, -turned(self.drift), e_r) + rho * speed;
         let opening = n_r * (dot(simd, self.drift, e_r) + path_rate) + n_t * along;
 
-        let law = DampedLaw::new(model.inner.contact.law.damping, number);
+        let law = DampedLaw::new(model.inner.contact.law.damping, self.elastic, number);
         let inner = law.force(of(&block.inner), delta, -opening);
         let outer = law.force(of(&block.outer), u, path_rate);
         let mut turning = rho * (speed * speed);
@@ -239,6 +267,26 @@ impl Smooth<'_> {
             approach: delta * present,
             pushing: [law.pushing(delta, -opening) * present, law.pushing(u, path_rate) * present],
         }
+    }
+}
+
+/// The smooth contacts of rollers.
+struct Rollers<'a, const RECORD: bool, const UNEVEN: bool> {
+    model: &'a Model,
+    line: Line<'a>,
+    now: &'a Kinematics,
+    stage: &'a Stage<'a>,
+    derivative: &'a mut [f64],
+    found: (&'a [ElementBlock], &'a mut Record),
+}
+
+impl<const RECORD: bool, const UNEVEN: bool> Kernel for Rollers<'_, RECORD, UNEVEN> {
+    type Output = [f64; 4];
+
+    #[inline(always)]
+    fn run<S: Wide>(self, simd: S) -> [f64; 4] {
+        let Self { model, line, now, stage, derivative, found } = self;
+        model.contacts_of::<S, Line, RECORD, UNEVEN>(simd, line, now, stage, derivative, found)
     }
 }
 

@@ -1,6 +1,5 @@
 //! What differs from element to element, eight of them at a time.
 
-use crate::geometry::hertz_constant::HertzConstants;
 use crate::numerics::lanes::{WIDEST, padded};
 use crate::numerics::sin_cos;
 
@@ -15,7 +14,7 @@ pub(super) struct ElementBlock {
     pub(super) present: [f64; WIDEST],
     /// 1/mass [1/kg].
     pub(super) per_mass: [f64; WIDEST],
-    /// Hertz constant of the inner contact [N/m^1.5].
+    /// Constant K of the inner contact [N/m^n], n = 3/2 of balls and 10/9 of rollers.
     pub(super) inner: [f64; WIDEST],
     /// That of the outer contact on the smooth rigid raceway; 0 for an element that is not on it.
     pub(super) outer: [f64; WIDEST],
@@ -27,15 +26,16 @@ pub(super) struct ElementBlock {
     pub(super) pace: [f64; WIDEST],
 }
 
-/// All elements of a bearing at these angles [rad] ahead of the cage, of mass 1/`per_mass` [kg].
-pub(super) fn blocks(offsets: &[f64], per_mass: f64, hertz: HertzConstants) -> Vec<ElementBlock> {
+/// All elements of a bearing at these angles [rad] ahead of the cage, of mass 1/`per_mass` [kg]
+/// and with these constants of the inner and the outer contact [N/m^n].
+pub(super) fn blocks(offsets: &[f64], per_mass: f64, [inner, outer]: [f64; 2]) -> Vec<ElementBlock> {
     let count = offsets.len();
     let mut blocks = vec![ElementBlock::default(); padded(count) / WIDEST];
     for (j, &offset) in offsets.iter().enumerate() {
         let (sin, cos) = sin_cos(offset);
         let (block, i) = (&mut blocks[j / WIDEST], j % WIDEST);
         (block.cos[i], block.sin[i], block.present[i], block.pace[i]) = (cos, sin, 1.0, 1.0);
-        (block.per_mass[i], block.inner[i], block.outer[i]) = (per_mass, hertz.inner, hertz.outer);
+        (block.per_mass[i], block.inner[i], block.outer[i]) = (per_mass, inner, outer);
     }
     blocks
 }

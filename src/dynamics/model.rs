@@ -14,8 +14,7 @@ use super::raceway::{Cells, DefectiveElement, Defects, Raceway};
 use super::sensor_modes::SensorModes;
 use super::supports::Supports;
 use crate::contact::compliant::CompliantContact;
-use crate::contact::force_law::ForceLaw;
-use crate::geometry::hertz_constant::HertzConstants;
+use crate::contact::smooth_laws::smooth_laws;
 use crate::geometry::kinematics::Ratios;
 use crate::numerics::lanes::{Partition, QUAD, WIDEST, padded};
 use crate::numerics::plane::{Vector, turned_by};
@@ -171,11 +170,9 @@ impl Model {
     /// law, and of `defective` elements.
     pub fn new(scene: &Scene, [inner, outer]: [Defects; 2], defective: Vec<DefectiveElement>) -> Self {
         let bearing = &scene.bearing;
-        let hertz = HertzConstants::of(bearing);
-        let raceway = |stiffness, compliance, defects| {
-            let law = ForceLaw { stiffness, damping: scene.contact.damping };
-            Raceway { contact: CompliantContact { law, compliance }, defects }
-        };
+        let [inner_law, outer_law] = smooth_laws(bearing, scene.contact.damping);
+        let stiffness = [inner_law.stiffness, outer_law.stiffness];
+        let raceway = |law, compliance, defects| Raceway { contact: CompliantContact { law, compliance }, defects };
         let element_radius = bearing.element_radius();
         let turns = scene.turns();
         let count = bearing.element_count;
@@ -194,8 +191,8 @@ impl Model {
             element_radius,
             outer_centre_radius: bearing.outer_raceway_radius() - element_radius,
             radial_clearance: bearing.radial_clearance,
-            inner: raceway(hertz.inner, 0.0, inner),
-            outer: raceway(hertz.outer, bearing.outer_compliance, outer),
+            inner: raceway(inner_law, 0.0, inner),
+            outer: raceway(outer_law, bearing.outer_compliance, outer),
             defective,
             gravity: scene.gravity.into(),
             shaft: scene.shaft,
@@ -206,7 +203,7 @@ impl Model {
             layout: Layout::new(scene),
             may_have_inner_defects: scene.has_defect_inside(),
             has_frames,
-            elements: blocks(&offsets, 1.0 / bearing.mass_of_element(), hertz).into(),
+            elements: blocks(&offsets, 1.0 / bearing.mass_of_element(), stiffness).into(),
             offsets,
             irregularity,
         }

@@ -258,7 +258,7 @@ impl Model {
         let (force, k) =
             (self.inner.contact.law.elastic(gap.approach), self.inner.contact.law.elastic_stiffness(gap.approach));
         let c = force / gap.distance;
-        let dk = -0.75 * self.inner.contact.law.stiffness / gap.approach.sqrt() * away;
+        let dk = -self.inner.contact.law.hardening(gap.approach) * away;
         let dc = -(k + c) * away / gap.distance;
         let dn = (q - n * away) / gap.distance;
         let mixed = dn * n.transpose();
@@ -276,7 +276,7 @@ impl Model {
         (path, turn, frames): (f64, f64, [[f64; 2]; 3]),
     ) -> f64 {
         if cells[1] == [SMOOTH; 2] && self.outer.contact.compliance == 0.0 {
-            return if u > 0.0 { 0.75 * self.outer.contact.law.stiffness / u.sqrt() * path } else { 0.0 };
+            return if u > 0.0 { self.outer.contact.law.hardening(u) * path } else { 0.0 };
         }
         let radial = |u: f64, angle: f64| {
             // Nothing moves and the rings' offset does not matter to the outer contact.

@@ -214,7 +214,7 @@ pub fn after<const I: usize>(lists: [&[f64]; I], start: usize) -> [&[f64]; I] {
 
 /// Some numbers in one register.
 #[derive(Debug, Clone, Copy)]
-pub struct Lanes<S: Simd>(S, S::f64s);
+pub struct Lanes<S: Simd>(pub(super) S, pub(super) S::f64s);
 
 impl<S: Wide> Lanes<S> {
     /// The same number in all lanes.

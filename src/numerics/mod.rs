@@ -10,6 +10,8 @@ pub mod elliptic;
 pub mod hermite;
 pub mod lanes;
 pub mod low_pass;
+mod ninth_root;
+pub mod number;
 pub mod plane;
 mod power;
 pub(crate) mod quintic;
@@ -18,5 +20,6 @@ pub mod row;
 pub(crate) mod trees;
 mod trigonometry;
 
+pub use ninth_root::ninth_root;
 pub use power::rough_power;
 pub use trigonometry::{sin_cos, wrap};

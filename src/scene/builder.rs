@@ -2,7 +2,7 @@
 
 use super::{
     Bearing, Cage, CageIrregularity, Contact, ContactLaw, Damping, Defect, DefectShape, Experiment, Motion, Recorder,
-    Ring, Scene, SceneError, Sensor,
+    Ring, Roller, RollerProfile, RollingElement, Scene, SceneError, Sensor,
 };
 use std::f64::consts::FRAC_PI_2;
 
@@ -67,6 +67,7 @@ impl Bearing {
     /// values.
     pub fn steel_balls(count: usize, element_diameter: f64, pitch_diameter: f64) -> Self {
         Self {
+            element: RollingElement::Ball,
             element_count: count,
             element_diameter,
             pitch_diameter,
@@ -80,6 +81,18 @@ impl Bearing {
             hertz_inner: None,
             hertz_outer: None,
             outer_compliance: 0.0,
+        }
+    }
+
+    /// A cylindrical roller bearing of steel: `count` rollers of a diameter and an effective length [m] on a pitch
+    /// diameter [m], with the logarithmic crown of ISO/TS 16281. The rest as [`steel_balls`](Self::steel_balls) has it.
+    pub fn steel_rollers(count: usize, element_diameter: f64, length: f64, pitch_diameter: f64) -> Self {
+        let roller = Roller { length, profile: RollerProfile::Logarithmic, laminae: Roller::LAMINAE };
+        Self {
+            element: RollingElement::CylindricalRoller(roller),
+            conformity_inner: f64::INFINITY,
+            conformity_outer: f64::INFINITY,
+            ..Self::steel_balls(count, element_diameter, pitch_diameter)
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Common deep groove ball bearings by their catalogue's name.
+//! Common deep groove ball bearings and cylindrical roller bearings by their catalogue's name.
 //!
 //! Catalogues give the boundary dimensions of ISO 15 and keep what is inside to themselves. Where the number of balls,
 //! their diameter and the pitch diameter are published, they stand here with their source. For all others they are
@@ -6,11 +6,42 @@
 //! 195° of the pitch circle, about what can be put in between two rings that are moved to one side. That gives 6203 and
 //! 6205 the number and size of balls that are published of them; in a bearing on a shelf there may be one more or less,
 //! and every frequency changes with it.
+//!
+//! Of roller bearings all that is inside is estimated: rollers of 0.28 (D − d) to the nearest half millimetre, an effective
+//! length of 0.6 B, as many as take four fifths of the pitch circle (d + D)/2. Makers crown their rollers each in their
+//! own way. NU, NJ, NUP and N differ in their flanges alone.
 
 /// Millimetres of 1/64 inch, in which balls are made.
 const STEP_OF_BALLS: f64 = 25.4 / 64.0;
 /// Part of the pitch circle that balls fill [°], from the outermost edge of the first to that of the last but one.
 const FILLED: f64 = 195.0;
+
+/// Cylindrical roller bearings, and the ball bearing that has the same boundary by ISO 15.
+const ROLLER_BEARINGS: [(&str, &str); 21] = [
+    ("NU202", "6202"),
+    ("NU203", "6203"),
+    ("NU204", "6204"),
+    ("NU205", "6205"),
+    ("NU206", "6206"),
+    ("NU207", "6207"),
+    ("NU208", "6208"),
+    ("NU209", "6209"),
+    ("NU210", "6210"),
+    ("NU211", "6211"),
+    ("NU212", "6212"),
+    ("NU303", "6303"),
+    ("NU304", "6304"),
+    ("NU305", "6305"),
+    ("NU306", "6306"),
+    ("NU307", "6307"),
+    ("NU308", "6308"),
+    ("NU309", "6309"),
+    ("NU310", "6310"),
+    ("NU311", "6311"),
+    ("NU312", "6312"),
+];
+/// Letters before the number of a roller bearing, which say where its flanges are.
+const FLANGES: [&str; 4] = ["NU", "NJ", "NUP", "N"];
 
 /// A bearing of the catalogue.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,12 +57,14 @@ pub struct CatalogueBearing {
 /// The rolling elements of a bearing of the catalogue.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inside {
-    /// Number of balls.
+    /// Number of balls or rollers.
     pub element_count: usize,
     /// Their diameter [mm].
     pub element_diameter: f64,
     /// Pitch diameter [mm].
     pub pitch_diameter: f64,
+    /// Effective length of a roller [mm]; `None` of balls.
+    pub roller_length: Option<f64>,
     /// Who has published that; `None` where it is estimated.
     pub source: Option<&'static str>,
 }
@@ -83,8 +116,19 @@ const PUBLISHED: [(&str, usize, [f64; 2], &str); 2] = [
     ("6205", 9, [7.94, 39.04], "Case Western Reserve University's bearing data, drive end"),
 ];
 
-/// All bearings of the catalogue.
+/// All bearings of the catalogue, those with balls first.
 pub fn catalogue() -> impl Iterator<Item = CatalogueBearing> {
+    ball_bearings().chain(roller_bearings())
+}
+
+fn roller_bearings() -> impl Iterator<Item = CatalogueBearing> {
+    ROLLER_BEARINGS.iter().filter_map(|&(designation, same_boundary)| {
+        let (_, boundary) = *BOUNDARIES.iter().find(|(name, _)| *name == same_boundary)?;
+        Some(CatalogueBearing { designation, boundary, inside: estimated_rollers(boundary) })
+    })
+}
+
+fn ball_bearings() -> impl Iterator<Item = CatalogueBearing> {
     BOUNDARIES.iter().map(|&(designation, boundary)| {
         let published = PUBLISHED.iter().find(|(name, ..)| *name == designation);
         let inside = published.map_or_else(
@@ -93,6 +137,7 @@ pub fn catalogue() -> impl Iterator<Item = CatalogueBearing> {
                 element_count,
                 element_diameter,
                 pitch_diameter,
+                roller_length: None,
                 source: Some(source),
             },
         );
@@ -100,17 +145,34 @@ pub fn catalogue() -> impl Iterator<Item = CatalogueBearing> {
     })
 }
 
-/// The bearing of this name, what makers put behind it (`-2RS`, `ZZ`, ` C3`) left out; `None` if there is none.
+/// The bearing of this name, what makers put behind it (`-2RS`, `ZZ`, ` ECP`, ` C3`) left out; `None` if there is none.
 pub fn catalogued(designation: &str) -> Option<CatalogueBearing> {
-    let number: String = designation.trim().chars().take_while(char::is_ascii_digit).collect();
-    catalogue().find(|bearing| bearing.designation == number)
+    let name = designation.trim();
+    let letters = name.len() - name.trim_start_matches(|c: char| c.is_ascii_alphabetic()).len();
+    let (letters, rest) = name.split_at(letters);
+    let number: String = rest.trim_start().chars().take_while(char::is_ascii_digit).collect();
+    let wanted = match letters {
+        "" => number,
+        letters if FLANGES.contains(&letters) => format!("NU{number}"),
+        _ => return None,
+    };
+    catalogue().find(|bearing| bearing.designation == wanted)
+}
+
+fn estimated_rollers([bore, outside, width]: [f64; 3]) -> Inside {
+    let pitch_diameter = 0.5 * (bore + outside);
+    let element_diameter = (0.28 * (outside - bore) * 2.0).round() / 2.0;
+    let element_count = (0.8 * std::f64::consts::PI * pitch_diameter / element_diameter).round() as usize;
+    let roller_length = Some((0.6 * width * 10.0).round() / 10.0);
+    Inside { element_count, element_diameter, pitch_diameter, roller_length, source: None }
 }
 
 fn estimated([bore, outside, _]: [f64; 3]) -> Inside {
     let pitch_diameter = 0.5 * (bore + outside);
     let element_diameter = (0.3 * (outside - bore) / STEP_OF_BALLS).round() * STEP_OF_BALLS;
     let taken = 2.0 * libm::asin(element_diameter / pitch_diameter).to_degrees();
-    Inside { element_count: 1 + (FILLED / taken) as usize, element_diameter, pitch_diameter, source: None }
+    let element_count = 1 + (FILLED / taken) as usize;
+    Inside { element_count, element_diameter, pitch_diameter, roller_length: None, source: None }
 }
 
 #[cfg(test)]
@@ -131,14 +193,17 @@ mod tests {
     }
 
     #[test]
-    fn balls_have_room_between_the_rings_and_beside_each_other() {
+    fn elements_have_room_between_the_rings_and_beside_each_other() {
         for bearing in catalogue() {
             let ([bore, outside, _], inside) = (bearing.boundary, bearing.inside);
             let Inside { element_count, element_diameter, pitch_diameter, .. } = inside;
             assert!(pitch_diameter - element_diameter > bore && pitch_diameter + element_diameter < outside);
             let spacing = pitch_diameter * (std::f64::consts::PI / element_count as f64).sin();
             assert!(spacing > 1.05 * element_diameter, "{bearing:?}");
-            assert!((6..=13).contains(&element_count), "{bearing:?}");
+            let most = if inside.roller_length.is_some() { 16 } else { 13 };
+            assert!((6..=most).contains(&element_count), "{bearing:?}");
+            let shape = inside.roller_length.map_or(1.0, |length| length / element_diameter);
+            assert!((0.6..1.6).contains(&shape), "{bearing:?}");
         }
     }
 
@@ -147,7 +212,10 @@ mod tests {
         for name in ["6205", "6205-2RS", "6205 ZZ/C3", " 6205"] {
             assert_eq!(catalogued(name).map(|bearing| bearing.designation), Some("6205"), "{name}");
         }
-        for name in ["", "NU205", "62055", "bearing 6205"] {
+        for name in ["NU205", "NU 205 ECP", "NJ205", "N 205", "NUP205/C3"] {
+            assert_eq!(catalogued(name).map(|bearing| bearing.designation), Some("NU205"), "{name}");
+        }
+        for name in ["", "NA205", "NU", "62055", "bearing 6205"] {
             assert_eq!(catalogued(name), None, "{name}");
         }
     }

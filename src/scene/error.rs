@@ -80,7 +80,8 @@ pub enum SceneError {
     Name(String),
     /// A profile that is not a plain file name.
     #[error(
-        "defect profile (defect.profile) \"{0}\": it must be the name of a file beside the scene file, without a folder"
+        "profile (defect.profile or bearing.roller_profile) \"{0}\": it must be the name of a file beside the scene file, \
+         without a folder"
     )]
     ProfileName(String),
     /// Something wrong with one of several tables of a name.
@@ -125,6 +126,72 @@ pub enum SceneError {
         conformity: f64,
         /// Smallest conformity.
         limit: f64,
+    },
+    /// A key of rollers in a ball bearing.
+    #[error("{key} is given: only rollers have it, and bearing.element is \"ball\"; it may be \"cylindrical-roller\"")]
+    OnlyRollers {
+        /// The key.
+        key: &'static str,
+    },
+    /// A key of balls in a roller bearing.
+    #[error(
+        "{key} is given: only balls have it, and bearing.element is \"cylindrical-roller\", whose raceways are straight \
+         and whose contacts are lines"
+    )]
+    OnlyBalls {
+        /// The key.
+        key: &'static str,
+    },
+    /// A relief of a roller's ends that is not known.
+    #[error("bearing.roller_profile is \"{given}\": it must be \"log\", \"straight\", or the name of a .csv file")]
+    RollerProfile {
+        /// What was given.
+        given: String,
+    },
+    /// A roller so short or so long that its law does not hold.
+    #[error(
+        "effective roller length (bearing.roller_length_mm) is {length_mm}: it must be at least {low_mm} and at most \
+         {high_mm} mm, 0.3 and 3 times bearing.element_diameter_mm, for cylindrical rollers; needle rollers bend"
+    )]
+    RollerLength {
+        /// Length [mm].
+        length_mm: f64,
+        /// Smallest length [mm].
+        low_mm: f64,
+        /// Largest length [mm].
+        high_mm: f64,
+    },
+    /// Rollers of another material than steel.
+    #[error(
+        "{quantity} ({key}) is {value}: with cylindrical rollers it must be {limits}, as of steel, on which their contact law \
+         was measured"
+    )]
+    NotSteel {
+        /// The field's term for it.
+        quantity: &'static str,
+        /// Its key.
+        key: &'static str,
+        /// Its value in the unit of the key.
+        value: f64,
+        /// What it may be, in the same unit.
+        limits: Limits,
+    },
+    /// A measured crown near a defect, under a law that solves grids.
+    #[error(
+        "contact.law is \"{law}\": a roller with a measured crown (bearing.roller_profile \"{name}\") has \"hertz\" near a \
+         defect; grids and maps are of rollers that are \"log\" or \"straight\", so far"
+    )]
+    CrownLaw {
+        /// The law.
+        law: &'static str,
+        /// File of the crown.
+        name: String,
+    },
+    /// A defect off the track of a roller, whose track is as wide as the roller.
+    #[error("defect.tilt_deg is {tilt_deg}: it must be 0 on a roller, which touches over its whole length")]
+    TiltOnRoller {
+        /// Tilt [°].
+        tilt_deg: f64,
     },
     /// More or larger elements than the pitch circle holds.
     #[error(

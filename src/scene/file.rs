@@ -8,7 +8,9 @@
 //! |---|---|
 //! | `description` | empty |
 //! | `gravity_m_s2` | `[0, -9.81]` |
-//! | `bearing.catalogue` | none; `"6205"` gives balls, pitch diameter, conformity 0.52, steel; a key beside it wins |
+//! | `bearing.element` | `"ball"`; or `"cylindrical-roller"`, which needs `roller_length_mm` and has no groove |
+//! | `bearing.roller_profile`, `.roller_laminae` | `"log"`, the crown of ISO/TS 16281, or `"straight"`, or a file; 40 |
+//! | `bearing.catalogue` | none; `"6205"` or `"NU205"` gives elements, pitch diameter, conformity 0.52, steel; a key beside it wins |
 //! | `bearing.radial_clearance_um` | 5: what separates a raceway from an element pressed to the other, R_o − R_i − 2r |
 //! | `bearing.internal_clearance_um` | instead: a catalogue's radial internal clearance (ISO 5753), twice as much |
 //! | `bearing.outer_compliance_m_n` | 0: rings and seats are rigid |
@@ -16,7 +18,7 @@
 //! | `bearing.element_mass_g`, `hertz_inner_n_m1_5`, `hertz_outer_n_m1_5` | computed |
 //! | `contact.law` | `"map"` with a defect, else `"hertz"` |
 //! | `contact.largest_force_n` | four times the static force on the most loaded element, at least 1000 N |
-//! | `contact.cells` | `[48, 32]`: cells along and across the contact at the largest force, laws `map` and `love` |
+//! | `contact.cells` | `[48, 32]`, rollers `[48, 16]`: cells along and across the contact at the largest force, laws `map` and `love` |
 //! | `contact.map_accuracy` | 1e-3 of the largest force; without the key up to 2e-2 is tolerated and reported |
 //! | `contact.damping` | `"hunt-crossley"`; its `damping_chi_s_m` 0.5 |
 //! | `cage.slip`, `cage.initial_angle_deg` | 0, −90 |

@@ -12,6 +12,7 @@ mod file;
 mod key_fault;
 mod quantity;
 mod remark;
+mod rolling_element;
 mod unit_hint;
 
 pub use builder::SceneBuilder;
@@ -20,6 +21,7 @@ pub use defect::{Defect, DefectOn, DefectShape};
 pub use error::{Bound, Limits, SceneError};
 pub use key_fault::{Hint, KeyFault};
 pub use remark::Remark;
+pub use rolling_element::{Crown, Roller, RollerProfile, RollingElement};
 
 use crate::numerics::counter_noise::gaussian;
 use serde::Deserialize;
@@ -84,7 +86,7 @@ impl Scene {
         self.defects.iter().position(|defect| matches!(defect.on, DefectOn::Element { element: j, .. } if j == element))
     }
 
-    /// The profile files that defects name, each once, in the order of the defects.
+    /// The profile files that defects name, each once, in the order of the defects; then that of the roller's crown.
     pub fn profile_names(&self) -> Vec<&str> {
         let mut names: Vec<&str> = Vec::new();
         for defect in &self.defects {
@@ -92,6 +94,11 @@ impl Scene {
                 DefectShape::Profile(name) if !names.contains(&name.as_str()) => names.push(name),
                 _ => {}
             }
+        }
+        if let Some(Roller { profile: RollerProfile::Measured(crown), .. }) = self.bearing.roller()
+            && !names.contains(&crown.name.as_str())
+        {
+            names.push(&crown.name);
         }
         names
     }
@@ -121,15 +128,18 @@ impl Scene {
 /// Dimensions and material of the bearing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bearing {
+    /// What rolls.
+    pub element: RollingElement,
     /// Number of rolling elements Z.
     pub element_count: usize,
     /// Rolling element diameter D_w [m].
     pub element_diameter: f64,
     /// Pitch diameter D_pw [m].
     pub pitch_diameter: f64,
-    /// Groove conformity of the inner ring f_i = r_gi/D_w, above 0.5.
+    /// Groove conformity of the inner ring f_i = r_gi/D_w, above 0.5; infinite with rollers, whose raceways are
+    /// straight.
     pub conformity_inner: f64,
-    /// Groove conformity of the outer ring f_o = r_go/D_w, above 0.5.
+    /// Groove conformity of the outer ring f_o = r_go/D_w, above 0.5; infinite with rollers.
     pub conformity_outer: f64,
     /// Radial internal clearance G_r [m]; negative is a preload.
     pub radial_clearance: f64,
@@ -139,7 +149,7 @@ pub struct Bearing {
     pub poissons_ratio: f64,
     /// Density of the elements [kg/m³].
     pub density: f64,
-    /// Mass of one element [kg], when it overrides the solid sphere's.
+    /// Mass of one element [kg], when it overrides the solid element's.
     pub element_mass: Option<f64>,
     /// Hertz constant of the inner contact [N/m^1.5], when it overrides the computed one.
     pub hertz_inner: Option<f64>,
@@ -166,10 +176,17 @@ impl Bearing {
         (self.pitch_diameter - self.element_diameter - self.radial_clearance) / 2.0
     }
 
-    /// Mass of one element [kg]: the scene's, or a solid sphere's.
+    /// Mass of one element [kg]: the scene's, or a solid ball's or roller's.
     pub fn mass_of_element(&self) -> f64 {
-        let d = self.element_diameter;
-        self.element_mass.unwrap_or(std::f64::consts::PI / 6.0 * d * d * d * self.density)
+        self.element_mass.unwrap_or_else(|| self.element.volume(self.element_diameter) * self.density)
+    }
+
+    /// The roller; `None` of a ball bearing.
+    pub fn roller(&self) -> Option<&Roller> {
+        match &self.element {
+            RollingElement::Ball => None,
+            RollingElement::CylindricalRoller(roller) => Some(roller),
+        }
     }
 }
 
@@ -230,9 +247,9 @@ impl ContactLaw {
 /// Contact damping; never pulls.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Damping {
-    /// Q = Kδ^1.5 · max(0, 1 + χ δ̇), with χ [s/m].
+    /// Q = Q_e · max(0, 1 + χ δ̇), with the elastic force Q_e(δ), of a ball Kδ^1.5, and χ [s/m].
     HuntCrossley(f64),
-    /// Q = max(0, Kδ^1.5 + 1.5 τ K δ^0.5 δ̇), with τ [s].
+    /// Q = max(0, Q_e + τ Q_e′ δ̇), with τ [s].
     Proportional(f64),
 }
 

@@ -77,6 +77,15 @@ pub(super) const ELEMENT_COUNT: Quantity =
     quantity("number of elements", "bearing.element_count", 1.0, Inclusive(1.0), Inclusive(1000.0));
 pub(super) const ELEMENT_DIAMETER: Quantity =
     quantity("element diameter", "bearing.element_diameter_mm", 1e3, Inclusive(0.01), Inclusive(2e3));
+pub(super) const ROLLER_LENGTH: Quantity =
+    quantity("effective roller length", "bearing.roller_length_mm", 1e3, Inclusive(0.003), Inclusive(6e3));
+pub(super) const ROLLER_LAMINAE: Quantity =
+    quantity("number of laminae of a roller", "bearing.roller_laminae", 1.0, Inclusive(10.0), Inclusive(1000.0));
+/// Of rolling bearing steels.
+pub(super) const STEELS_MODULUS: Quantity =
+    quantity("Young's modulus", "bearing.youngs_modulus_gpa", 1e-9, Inclusive(200.0), Inclusive(212.0));
+pub(super) const STEELS_RATIO: Quantity =
+    quantity("Poisson's ratio", "bearing.poissons_ratio", 1.0, Inclusive(0.3), Inclusive(0.3));
 pub(super) const PITCH_DIAMETER: Quantity =
     quantity("pitch diameter", "bearing.pitch_diameter_mm", 1e3, Inclusive(0.01), Inclusive(2e4));
 pub(super) const CONFORMITY_INNER: Quantity = quantity(

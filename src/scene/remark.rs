@@ -11,7 +11,7 @@ const USUAL_CONFORMITY: f64 = 0.6;
 /// Something in a scene that is possible and unusual.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Remark {
-    /// A groove as of a raceway for rollers, or made up for one.
+    /// A groove as of a raceway for rollers, or invented for one.
     OpenGroove {
         /// "inner" or "outer".
         ring: &'static str,
@@ -37,8 +37,8 @@ impl fmt::Display for Remark {
             Self::OpenGroove { ring, conformity } => write!(
                 f,
                 "the groove conformity of the {ring} ring is {conformity:.4}: ball bearings have 0.51 to \
-                 {USUAL_CONFORMITY}. Rolling elements are balls here, so far; a roller bearing with a groove made up \
-                 for it gets a ball's point contacts"
+                 {USUAL_CONFORMITY}. A roller bearing with a groove invented for it gets a ball's point contacts: cylindrical \
+                 rollers are bearing.element = \"cylindrical-roller\""
             ),
             Self::OtherUnit { key, value, usual: [least, most], meant } => {
                 write!(f, "{key} = {value}: {meant}? Usual are {least} to {most} in the unit of the key")
@@ -51,7 +51,8 @@ impl Scene {
     /// What is possible and unusual in this scene.
     pub fn remarks(&self) -> Vec<Remark> {
         let grooves = [("inner", self.bearing.conformity_inner), ("outer", self.bearing.conformity_outer)];
-        let open = grooves.into_iter().filter(|(_, conformity)| *conformity > USUAL_CONFORMITY);
+        let balls = self.bearing.roller().is_none();
+        let open = grooves.into_iter().filter(|(_, conformity)| balls && *conformity > USUAL_CONFORMITY);
         let open = open.map(|(ring, conformity)| Remark::OpenGroove { ring, conformity });
         open.chain(self.other_units()).collect()
     }

@@ -8,7 +8,7 @@
 
 use crate::contact::element_on_raceway::ElementOnRaceway;
 use crate::contact::rolling::RacewaySide;
-use crate::geometry::hertz_constant::HertzConstants;
+use crate::contact::smooth_laws::elastic_law;
 use crate::scene::{Bearing, DefectOn, Scene};
 use crate::surface::{Surface, SurfaceError};
 use std::borrow::Cow;
@@ -184,10 +184,9 @@ pub fn largest_force(scene: &Scene) -> f64 {
 
 /// Approach [m] of an element to a raceway under a force [N], what the ring yields outside included.
 pub(super) fn largest_approach(bearing: &Bearing, side: RacewaySide, force: f64) -> f64 {
-    let hertz = HertzConstants::of(bearing);
-    let (stiffness, compliance) = match side {
-        RacewaySide::Inner => (hertz.inner, 0.0),
-        RacewaySide::Outer => (hertz.outer, bearing.outer_compliance),
+    let compliance = match side {
+        RacewaySide::Inner => 0.0,
+        RacewaySide::Outer => bearing.outer_compliance,
     };
-    libm::pow(force / stiffness, 2.0 / 3.0) + compliance * force
+    elastic_law(bearing, side).approach_under(force) + compliance * force
 }

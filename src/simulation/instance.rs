@@ -23,7 +23,7 @@ use crate::dynamics::model::Model;
 use crate::dynamics::raceway::Cells;
 use crate::numerics::plane::Vector;
 use crate::scene::{ContactLaw, Scene};
-use crate::surface::Surface;
+use crate::surface::{Surface, with_roller_profile};
 use std::sync::Arc;
 
 /// A bearing that is stepped through time.
@@ -105,6 +105,8 @@ impl Simulation {
         map: Option<Arc<ContactMaps>>,
     ) -> Result<Self, SimulationError> {
         scene.check()?;
+        let profiles: Vec<&str> = profiles.into_iter().collect();
+        let scene = with_roller_profile(&scene, profiles.iter().copied())?;
         let surfaces = Surface::load_all(&scene, profiles)?;
         Self::with_surfaces(scene, surfaces.into(), map)
     }

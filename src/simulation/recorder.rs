@@ -15,7 +15,8 @@ use super::outputs::{Angles, Outputs};
 use super::quantity::Quantity;
 use super::setup::largest_force;
 use super::variables::{Causality, Variable};
-use crate::geometry::hertz_constant::HertzConstants;
+use crate::contact::elasticity::Elasticity;
+use crate::contact::smooth_laws::smooth_laws;
 use crate::scene::{self, RecorderFilter, Scene};
 
 /// Share of a sampling period by which an instant may lie before the end of a step and still be left to the next one:
@@ -238,12 +239,14 @@ fn fill(places: &mut [f64], signals: &[(u32, Quantity)], outputs: &Outputs) {
 }
 
 /// Frequency of an element between its raceways when the largest force presses on it [Hz]: the fastest oscillation of a
-/// bearing, with dQ/dδ = 1.5 K^⅔ Q^⅓ for each contact.
+/// bearing. Of a ball dQ/dδ = 1.5 K^⅔ Q^⅓ for each contact.
 fn element_frequency(scene: &Scene) -> f64 {
     let force = largest_force(scene);
-    let HertzConstants { inner, outer } = HertzConstants::of(&scene.bearing);
-    let stiffness = |k: f64| 1.5 * libm::cbrt(k * k * force);
-    ((stiffness(inner) + stiffness(outer)) / scene.bearing.mass_of_element()).sqrt() / TAU
+    let [inner, outer] = smooth_laws(&scene.bearing, scene.contact.damping).map(|law| match law.elasticity {
+        Elasticity::Point => 1.5 * libm::cbrt(law.stiffness * law.stiffness * force),
+        _ => law.elastic_stiffness(law.approach_under(force)),
+    });
+    ((inner + outer) / scene.bearing.mass_of_element()).sqrt() / TAU
 }
 
 /// What a measuring chain could show.

@@ -22,7 +22,8 @@ use crate::dynamics::kinematics::CageState;
 use crate::dynamics::model::Model;
 use crate::dynamics::raceway::{DefectiveElement, Defects};
 use crate::scene::{ContactLaw, Damping, DefectOn, Ring, Scene};
-use crate::surface::Surface;
+use crate::surface::roller_profile::unread;
+use crate::surface::{Surface, SurfaceError};
 use std::f64::consts::PI;
 
 /// Start values of the table: reals, and beside them integers.
@@ -98,7 +99,12 @@ const TOLERATED: f64 = 0.02;
 /// seats' compliance as well. An accuracy that the scene asks for is held; the usual one may be missed, in defects
 /// deeper than they are long, by what `TOLERATED` says.
 pub fn map_specification(scene: &Scene, side: RacewaySide) -> MapSpecification {
-    let usual = MapSpecification::new(largest_approach(&scene.bearing, side, largest_force(scene)));
+    let largest = largest_approach(&scene.bearing, side, largest_force(scene));
+    let usual = if scene.bearing.roller().is_some() {
+        MapSpecification::of_roller(largest)
+    } else {
+        MapSpecification::new(largest)
+    };
     MapSpecification {
         accuracy: scene.contact.map_accuracy.unwrap_or(usual.accuracy),
         tolerated: if scene.contact.map_accuracy.is_none() { Some(TOLERATED) } else { None },
@@ -233,6 +239,9 @@ pub fn build_model(
     surfaces: &[Surface],
     map: Option<&Arc<ContactMaps>>,
 ) -> Result<Model, SimulationError> {
+    if let Some(name) = unread(scene) {
+        return Err(SurfaceError::no_crown(name).into());
+    }
     if surfaces.is_empty() {
         return Ok(Model::smooth(scene));
     }

@@ -10,6 +10,24 @@ pub enum SurfaceError {
         /// Its name in the scene.
         name: String,
     },
+    /// A measured crown that cannot be a roller's.
+    #[error("roller profile \"{name}\" (bearing.roller_profile): {why}")]
+    RollerProfile {
+        /// Its name in the scene.
+        name: String,
+        /// What is wrong with it.
+        why: String,
+    },
+    /// A crown whose axial coordinate does not grow from line to line.
+    #[error("profile, line {line}: axial_mm is {axial_mm}, it must be above {previous_mm}, that of the point before")]
+    AxialNotAscending {
+        /// The line.
+        line: usize,
+        /// Axial coordinate there [mm].
+        axial_mm: f64,
+        /// That of the point before [mm].
+        previous_mm: f64,
+    },
     /// Nothing but comments and blank lines.
     #[error("defect profile: the file is empty, it must begin with a header such as arc_mm,depth_um")]
     Empty,
@@ -196,4 +214,11 @@ pub enum SurfaceError {
         /// What that is.
         limit: &'static str,
     },
+}
+
+impl SurfaceError {
+    /// A roller's crown whose file, of this name, was not handed over.
+    pub(crate) fn no_crown(name: &str) -> Self {
+        Self::RollerProfile { name: name.to_owned(), why: "the file is missing".to_owned() }
+    }
 }

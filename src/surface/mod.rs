@@ -7,11 +7,13 @@
 mod csv;
 mod error;
 mod profile;
+pub(crate) mod roller_profile;
 mod topography;
 mod trace;
 
 pub use error::SurfaceError;
 pub use profile::Profile;
+pub use roller_profile::with_roller_profile;
 pub use topography::Topography;
 
 use crate::scene::{Bearing, Defect, DefectOn, DefectShape, Scene};

@@ -15,7 +15,7 @@ use brinell::dynamics::raceway::Cells;
 use brinell::numerics::wrap;
 use brinell::scene::{Motion, Scene};
 use brinell::simulation::setup::{build_model, largest_force, stored_map};
-use brinell::surface::Surface;
+use brinell::surface::{Surface, with_roller_profile};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -108,6 +108,8 @@ impl Assembly {
         profiles: impl IntoIterator<Item = &'p str>,
         map: Option<&[u8]>,
     ) -> Result<Self, StaticError> {
+        let profiles: Vec<&str> = profiles.into_iter().collect();
+        let scene = &with_roller_profile(scene, profiles.iter().copied())?;
         let held = scene.shaft.motion != Motion::Internal;
         let mut still = scene.clone();
         if held {

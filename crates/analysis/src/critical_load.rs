@@ -122,7 +122,7 @@ impl StaticBearing {
             Ok(inside.iter().map(|&j| balance.elements[j].inner_approach).fold(f64::NEG_INFINITY, f64::max))
         };
         // That of one contact squeezed by the depth: the scale of loads here.
-        let scale = self.model.outer.contact.law.stiffness * deepest * deepest.sqrt();
+        let scale = self.model.outer.contact.law.elastic(deepest);
         let load = crossing(squeeze, scale)?;
         Ok(load.map(|load| CriticalLoad { load, cage_angle, elements: inside.len() }))
     }

@@ -9,6 +9,8 @@
 //! itself, and what travels over it is the element: on the inner one at the difference of shaft's and cage's speed.
 
 use super::report::Fault;
+use brinell::contact::rolling::RacewaySide;
+use brinell::contact::smooth_laws::elastic_law;
 use brinell::geometry::hertz_constant::HertzConstants;
 use brinell::scene::{Bearing, Motion, Scene};
 
@@ -68,6 +70,10 @@ pub(super) fn approach(scene: &Scene) -> Option<f64> {
         return None;
     }
     let force = 5.0 * load / scene.bearing.element_count as f64;
+    if scene.bearing.roller().is_some() {
+        let both = [RacewaySide::Inner, RacewaySide::Outer];
+        return Some(both.map(|side| elastic_law(&scene.bearing, side).approach_under(force)).iter().sum());
+    }
     let ratio = force / HertzConstants::of(&scene.bearing).in_series();
     Some(libm::cbrt(ratio * ratio))
 }

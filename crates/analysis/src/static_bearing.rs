@@ -24,7 +24,7 @@ use brinell::numerics::wrap;
 use brinell::scene::{DefectOn, Motion, Ring, Scene, SceneError};
 use brinell::simulation::SimulationError;
 use brinell::simulation::setup::{build_model, largest_force, stored_map};
-use brinell::surface::{Surface, SurfaceError};
+use brinell::surface::{Surface, SurfaceError, with_roller_profile};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
@@ -134,6 +134,8 @@ impl StaticBearing {
         map: Option<&[u8]>,
     ) -> Result<Self, StaticError> {
         scene.check()?;
+        let profiles: Vec<&str> = profiles.into_iter().collect();
+        let scene = &with_roller_profile(scene, profiles.iter().copied())?;
         let surfaces = Surface::load_all(scene, profiles)?;
         let map = map.filter(|_| !surfaces.is_empty()).map(|bytes| stored_map(scene, &surfaces, bytes));
         let map = map.transpose()?.map(Arc::new);

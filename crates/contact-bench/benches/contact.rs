@@ -11,13 +11,13 @@ use brinell::contact::grid::{Border, GridActiveSet, GridProblem, GridSolver};
 use brinell::contact::love::LoveContact;
 use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::{MapSpecification, Sequential};
-use brinell::contact::raceway_grid::{ElementOnRaceway, Resolution};
+use brinell::contact::raceway_grid::{Across, ElementOnRaceway, Resolution};
 use brinell::contact::rolling::RacewaySide;
 use brinell::surface::{Profile, Surface};
 use criterion::{Criterion, criterion_group, criterion_main};
 
 const ER16K: ElementOnRaceway =
-    ElementOnRaceway { element_radius: 3.97e-3, raceway_radius: 23.6325e-3, groove_radius: 4.095e-3, raceway: RacewaySide::Outer };
+    ElementOnRaceway { element_radius: 3.97e-3, raceway_radius: 23.6325e-3, across: Across::Groove(4.095e-3), raceway: RacewaySide::Outer };
 const LENGTH: f64 = 6.517e-3;
 const LARGEST: f64 = 10e-6;
 

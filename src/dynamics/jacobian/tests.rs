@@ -8,7 +8,7 @@ use crate::dynamics::drive::{Cubic, Quadratic};
 use crate::dynamics::drive::{Frame, Turning};
 use crate::dynamics::forces::Forces;
 use crate::dynamics::raceway::{Cells, DefectiveElement, Defects, SMOOTH};
-use crate::scene::{CageIrregularity, Damping, DefectOn, Scene, Sensor};
+use crate::scene::{CageIrregularity, Damping, DefectOn, Roller, RollerProfile, RollingElement, Scene, Sensor};
 
 /// Who bears a defect, and for an element the raceway that it faces.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,8 +25,20 @@ pub(crate) fn lively(motions: [Motion; 2], damping: Damping, cage_angle: f64) ->
 
 /// As [`lively`], with a defect of any body under the elements below.
 pub(crate) fn lively_on(bearer: Bearer, motions: [Motion; 2], damping: Damping, cage_angle: f64) -> (Model, Drive) {
+    lively_with(&RollingElement::Ball, bearer, motions, damping, cage_angle)
+}
+
+/// As [`lively_on`], with these elements.
+fn lively_with(
+    element: &RollingElement,
+    bearer: Bearer,
+    motions: [Motion; 2],
+    damping: Damping,
+    cage_angle: f64,
+) -> (Model, Drive) {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/er16k-tb1.toml");
     let mut scene = Scene::from_toml(&std::fs::read_to_string(path).unwrap()).unwrap();
+    scene.bearing.element = element.clone();
     scene.contact.damping = damping;
     if damping == Damping::HuntCrossley(5.0) {
         let offsets = (0..9).map(|j| 0.01 * (f64::from(j) - 4.0)).collect();
@@ -135,24 +147,37 @@ fn branch(forces: &Forces) -> Vec<bool> {
 #[test]
 fn jacobian_and_time_derivative_equal_difference_quotients() {
     for bearer in [Bearer::Ring(RacewaySide::Outer), Bearer::Ring(RacewaySide::Inner)] {
-        let [compared, left_out, near_defect] = compare(bearer, [-1.73, -1.66, -1.58, -1.5, -1.45, 0.3]);
+        let [compared, left_out, near_defect] =
+            compare(&RollingElement::Ball, bearer, [-1.73, -1.66, -1.58, -1.5, -1.45, 0.3]);
         assert!(compared > 10_000 && left_out < 30 && near_defect > 30, "{compared} {left_out} {near_defect}");
     }
     for facing in [RacewaySide::Outer, RacewaySide::Inner] {
-        let [compared, _, near_defect] = compare(Bearer::Element(facing), [-1.66, -1.58, -1.5]);
+        let [compared, _, near_defect] = compare(&RollingElement::Ball, Bearer::Element(facing), [-1.66, -1.58, -1.5]);
         assert!(compared > 7_000 && near_defect > 30, "{compared} {near_defect}");
     }
 }
 
+#[test]
+fn jacobian_and_time_derivative_of_rollers_equal_difference_quotients() {
+    let roller = Roller { length: 9e-3, profile: RollerProfile::Straight, laminae: Roller::LAMINAE };
+    let rollers = RollingElement::CylindricalRoller(roller);
+    for bearer in [Bearer::Ring(RacewaySide::Outer), Bearer::Ring(RacewaySide::Inner)] {
+        let [compared, left_out, near_defect] = compare(&rollers, bearer, [-1.66, -1.58, -1.5]);
+        assert!(compared > 5_000 && left_out < 30 && near_defect > 15, "{compared} {left_out} {near_defect}");
+    }
+    let [compared, _, near_defect] = compare(&rollers, Bearer::Element(RacewaySide::Inner), [-1.58, -1.5]);
+    assert!(compared > 4_000 && near_defect > 15, "{compared} {near_defect}");
+}
+
 /// Compares at these cage angles; gives how many numbers, how many columns were left out, and how many contacts were
 /// near the defect.
-fn compare(bearer: Bearer, angles: impl IntoIterator<Item = f64> + Clone) -> [usize; 3] {
+fn compare(element: &RollingElement, bearer: Bearer, angles: impl IntoIterator<Item = f64> + Clone) -> [usize; 3] {
     let (mut compared, mut left_out, mut near_defect) = (0, 0, 0);
     for (case, (motions, damping)) in
         MOTIONS.into_iter().flat_map(|m| DAMPINGS.into_iter().map(move |d| (m, d))).enumerate()
     {
         for angle in angles.clone() {
-            let (model, drive) = lively_on(bearer, motions, damping, angle);
+            let (model, drive) = lively_with(element, bearer, motions, damping, angle);
             let (state, _) = moving(&model, &drive, case as u64 + 1);
             let tau = 1e-5;
             let cells = model.cells_at(&drive, tau, &state);

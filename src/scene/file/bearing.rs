@@ -3,11 +3,12 @@
 use super::super::Bearing;
 use super::super::catalogue::{CatalogueBearing, catalogue, catalogued};
 use super::super::error::SceneError;
+use super::super::{Crown, Roller, RollerProfile, RollingElement};
 use serde::Deserialize;
-use std::f64::consts::PI;
+use std::sync::Arc;
 
-/// What a bearing of the catalogue is taken to be made of and how its grooves are curved: usual values of deep groove
-/// ball bearings of steel.
+/// What a bearing of the catalogue is taken to be made of and how the grooves of balls are curved: usual values of
+/// bearings of steel.
 const CONFORMITY: f64 = 0.52;
 const YOUNGS_MODULUS_GPA: f64 = 207.0;
 const POISSONS_RATIO: f64 = 0.3;
@@ -16,6 +17,10 @@ const DENSITY_KG_M3: f64 = 7800.0;
 #[derive(Deserialize)]
 #[serde(try_from = "BearingKeys")]
 pub(super) struct BearingTable {
+    element: ElementKind,
+    roller_length_mm: Option<f64>,
+    roller_profile: Option<String>,
+    roller_laminae: Option<u32>,
     element_count: usize,
     element_diameter_mm: f64,
     pitch_diameter_mm: f64,
@@ -38,39 +43,61 @@ pub(super) struct BearingTable {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct BearingKeys {
-    /// Name of a deep groove ball bearing, as 6205; its dimensions hold where no key beside it says otherwise.
+    /// Name of a deep groove ball bearing or cylindrical roller bearing, as 6205 or NU205; its dimensions hold where no key
+    /// beside it says otherwise.
     catalogue: Option<String>,
-    /// Number of balls.
+    /// What rolls; without it balls, or what the bearing of the catalogue has.
+    element: Option<ElementKind>,
+    /// Effective length of a roller, without its chamfers; rollers only, as the next two.
+    roller_length_mm: Option<f64>,
+    /// Relief of a roller's ends: "log", the crown of ISO/TS 16281, without it; or "straight", or a file of
+    /// axial_mm and depth_um.
+    roller_profile: Option<String>,
+    /// Laminae into which a roller is cut; 40 without it.
+    roller_laminae: Option<u32>,
+    /// Number of balls or rollers.
     element_count: Option<usize>,
     /// Their diameter.
     element_diameter_mm: Option<f64>,
     /// Diameter of the circle of their centres.
     pitch_diameter_mm: Option<f64>,
-    /// Diameter of the groove's circle across the track, of both rings; instead of the conformities.
+    /// Diameter of the groove's circle across the track, of both rings; instead of the conformities. Balls only.
     groove_diameter_mm: Option<f64>,
     /// Groove radius of the inner ring over ball diameter.
     conformity_inner: Option<f64>,
     /// The same of the outer ring.
     conformity_outer: Option<f64>,
-    /// What separates a raceway from a ball pressed to the other.
+    /// What separates a raceway from an element pressed to the other.
     radial_clearance_um: Option<f64>,
     /// Radial internal clearance of catalogues (ISO 5753), twice the radial clearance; one of the two.
     internal_clearance_um: Option<f64>,
-    /// Of rings and balls.
+    /// Of rings and elements.
     youngs_modulus_gpa: Option<f64>,
-    /// Of rings and balls.
+    /// Of rings and elements.
     poissons_ratio: Option<f64>,
-    /// Of the balls.
+    /// Of the elements.
     density_kg_m3: Option<f64>,
-    /// Mass of a ball; instead of the density.
+    /// Mass of one element; instead of the density.
     element_mass_g: Option<f64>,
-    /// Hertz constant of the inner contact; computed without it.
+    /// Hertz constant of the inner contact; computed without it. Balls only.
     hertz_inner_n_m1_5: Option<f64>,
-    /// Hertz constant of the outer contact; computed without it.
+    /// Hertz constant of the outer contact; computed without it. Balls only.
     hertz_outer_n_m1_5: Option<f64>,
-    /// By how much the outer raceway yields to one ball; 0 without it.
+    /// By how much the outer raceway yields to one element; 0 without it.
     #[serde(default)]
     outer_compliance_m_n: f64,
+}
+
+/// What rolls.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Deserialize, Default, Clone, Copy, PartialEq)]
+#[serde(rename_all = "kebab-case")]
+enum ElementKind {
+    /// Balls in grooves.
+    #[default]
+    Ball,
+    /// Cylindrical rollers on straight raceways.
+    CylindricalRoller,
 }
 
 impl TryFrom<BearingKeys> for BearingTable {
@@ -79,10 +106,21 @@ impl TryFrom<BearingKeys> for BearingTable {
     /// What the keys leave open, from the catalogue. A key that is missing is told as serde tells it.
     fn try_from(keys: BearingKeys) -> Result<Self, String> {
         let named = keys.catalogue.as_deref().map(bearing_named).transpose()?;
+        let kind = named.map(|bearing| match bearing.inside.roller_length {
+            None => (ElementKind::Ball, "balls"),
+            Some(_) => (ElementKind::CylindricalRoller, "cylindrical rollers"),
+        });
+        if let (Some(bearing), Some((kind, elements)), Some(asked)) = (named, kind, keys.element)
+            && kind != asked
+        {
+            let name = bearing.designation;
+            return Err(format!("bearing.catalogue = \"{name}\" has {elements}: bearing.element says otherwise"));
+        }
+        let element = keys.element.or(kind.map(|(kind, _)| kind)).unwrap_or_default();
         let inside = named.map(|bearing| bearing.inside);
         let from_catalogue = |value: f64| named.map(|_| value);
         let no_groove = keys.groove_diameter_mm.is_none() && keys.conformity_inner.or(keys.conformity_outer).is_none();
-        let conformity = from_catalogue(CONFORMITY).filter(|_| no_groove);
+        let conformity = from_catalogue(CONFORMITY).filter(|_| no_groove && element == ElementKind::Ball);
         let density = from_catalogue(DENSITY_KG_M3).filter(|_| keys.element_mass_g.is_none());
         let needed = |value: Option<f64>, name: &str| value.ok_or_else(|| missing(name));
         let count = keys.element_count.or(inside.map(|inside| inside.element_count));
@@ -90,6 +128,10 @@ impl TryFrom<BearingKeys> for BearingTable {
         let pitch = keys.pitch_diameter_mm.or(inside.map(|inside| inside.pitch_diameter));
         let youngs_modulus = keys.youngs_modulus_gpa.or(from_catalogue(YOUNGS_MODULUS_GPA));
         Ok(Self {
+            element,
+            roller_length_mm: keys.roller_length_mm.or(inside.and_then(|inside| inside.roller_length)),
+            roller_profile: keys.roller_profile,
+            roller_laminae: keys.roller_laminae,
             element_count: count.ok_or_else(|| missing("element_count"))?,
             element_diameter_mm: needed(diameter, "element_diameter_mm")?,
             pitch_diameter_mm: needed(pitch, "pitch_diameter_mm")?,
@@ -116,9 +158,7 @@ fn missing(key: &str) -> String {
 fn bearing_named(name: &str) -> Result<CatalogueBearing, String> {
     catalogued(name).ok_or_else(|| {
         let known = catalogue().map(|bearing| bearing.designation).collect::<Vec<_>>().join(", ");
-        format!(
-            "bearing.catalogue = \"{name}\" is not in the catalogue of deep groove ball bearings, which has {known}"
-        )
+        format!("bearing.catalogue = \"{name}\" is not in the catalogue, which has {known}")
     })
 }
 
@@ -129,8 +169,14 @@ impl BearingTable {
     // 1e3 is exact and 1e-3 is not, so a division rounds once and a product twice.
     pub(super) fn into_bearing(self) -> Result<Bearing, SceneError> {
         let clearance = self.clearance()?;
-        let (conformity_inner, conformity_outer) = self.conformities()?;
+        let element = self.rolling_element()?;
+        let (conformity_inner, conformity_outer) = match element {
+            RollingElement::Ball => self.conformities()?,
+            RollingElement::CylindricalRoller(_) => (f64::INFINITY, f64::INFINITY),
+        };
         Ok(Bearing {
+            density: self.density(&element)?,
+            element,
             element_count: self.element_count,
             element_diameter: self.element_diameter_mm / 1e3,
             pitch_diameter: self.pitch_diameter_mm / 1e3,
@@ -139,12 +185,46 @@ impl BearingTable {
             radial_clearance: clearance,
             youngs_modulus: self.youngs_modulus_gpa * 1e9,
             poissons_ratio: self.poissons_ratio,
-            density: self.density()?,
             element_mass: self.element_mass_g.map(|mass| mass / 1e3),
             hertz_inner: self.hertz_inner_n_m1_5,
             hertz_outer: self.hertz_outer_n_m1_5,
             outer_compliance: self.outer_compliance_m_n,
         })
+    }
+
+    fn rolling_element(&self) -> Result<RollingElement, SceneError> {
+        const LENGTH: &str = "bearing.roller_length_mm";
+        if self.element == ElementKind::Ball {
+            let keys = [
+                (LENGTH, self.roller_length_mm.is_some()),
+                ("bearing.roller_profile", self.roller_profile.is_some()),
+                ("bearing.roller_laminae", self.roller_laminae.is_some()),
+            ];
+            let given = keys.into_iter().find_map(|(key, given)| given.then_some(key));
+            return given.map_or(Ok(RollingElement::Ball), |key| Err(SceneError::OnlyRollers { key }));
+        }
+        let keys = [
+            ("bearing.groove_diameter_mm", self.groove_diameter_mm.is_some()),
+            ("bearing.conformity_inner", self.conformity_inner.is_some()),
+            ("bearing.conformity_outer", self.conformity_outer.is_some()),
+            ("bearing.hertz_inner_n_m1_5", self.hertz_inner_n_m1_5.is_some()),
+            ("bearing.hertz_outer_n_m1_5", self.hertz_outer_n_m1_5.is_some()),
+        ];
+        if let Some((key, _)) = keys.into_iter().find(|(_, given)| *given) {
+            return Err(SceneError::OnlyBalls { key });
+        }
+        let why = "bearing.element is \"cylindrical-roller\"";
+        let length = self.roller_length_mm.ok_or(SceneError::Missing { key: LENGTH, why })? / 1e3;
+        let profile = match self.roller_profile.as_deref() {
+            None | Some("log") => RollerProfile::Logarithmic,
+            Some("straight") => RollerProfile::Straight,
+            Some(file) if file.ends_with(".csv") => {
+                RollerProfile::Measured(Crown { name: file.to_owned(), points: Arc::default() })
+            }
+            Some(other) => return Err(SceneError::RollerProfile { given: other.to_owned() }),
+        };
+        let laminae = self.roller_laminae.unwrap_or(Roller::LAMINAE);
+        Ok(RollingElement::CylindricalRoller(Roller { length, profile, laminae }))
     }
 
     fn conformities(&self) -> Result<(f64, f64), SceneError> {
@@ -183,13 +263,10 @@ impl BearingTable {
         }
     }
 
-    fn density(&self) -> Result<f64, SceneError> {
+    fn density(&self, element: &RollingElement) -> Result<f64, SceneError> {
         match (self.density_kg_m3, self.element_mass_g) {
             (Some(density), _) => Ok(density),
-            (None, Some(mass)) => {
-                let diameter = self.element_diameter_mm / 1e3;
-                Ok(mass / 1e3 / (PI / 6.0 * diameter * diameter * diameter))
-            }
+            (None, Some(mass)) => Ok(mass / 1e3 / element.volume(self.element_diameter_mm / 1e3)),
             (None, None) => {
                 Err(SceneError::Neither { first: "bearing.density_kg_m3", second: "bearing.element_mass_g" })
             }

@@ -27,11 +27,17 @@ const NEEDED: [(&str, Keys); 7] = [
 
 /// Table, two keys of which one is needed, and keys that go without both.
 const ALTERNATIVES: [(&str, [&str; 2], Keys); 4] = [
-    ("bearing", ["groove_diameter_mm", "conformity_inner"], &["conformity_outer"]),
+    ("bearing", GROOVES, &["conformity_outer"]),
     ("bearing", ["density_kg_m3", "element_mass_g"], &[]),
     ("defect", ["length_deg", "length_mm"], &["profile"]),
     ("defect", ["depth_um", "profile"], &[]),
 ];
+
+/// Two keys of which balls need one, and the key that rollers need instead, with the words for both.
+const GROOVES: [&str; 2] = ["groove_diameter_mm", "conformity_inner"];
+const BALL: &str = "ball";
+const ROLLER: &str = "cylindrical-roller";
+const ROLLER_LENGTH: &str = "roller_length_mm";
 
 /// All tables and the keys that each takes, as the tables themselves say.
 fn tables() -> [(&'static str, Keys); 13] {
@@ -131,7 +137,9 @@ fn of_table(breaks: &[usize], (name, keys): (&str, Keys), line: usize, table: &D
     for (key, value) in table.iter().filter(|(key, _)| !keys.contains(&key.get_ref().as_ref())) {
         let (line, key) = (line_of(breaks, key.span().start), key.get_ref());
         let shown = path(name, key, matches!(value.get_ref(), DeValue::Table(_) | DeValue::Array(_)));
-        faults.push(match instead_of(name, key) {
+        // A slip of the pen in a key of rollers asks for nothing that there is not.
+        let slip = key.starts_with("roller_") && nearest(keys, key).is_some();
+        faults.push(match instead_of(name, key).filter(|_| !slip) {
             Some(only) => KeyFault::NotModelled { line, key: shown, only },
             None => KeyFault::Unknown { line, key: shown, hint: hint(name, keys, key) },
         });
@@ -152,7 +160,14 @@ fn of_table(breaks: &[usize], (name, keys): (&str, Keys), line: usize, table: &D
         let with = if is_table { needed(key) } else { &[] };
         faults.push(KeyFault::Missing { line, key: path(name, key, is_table), with });
     }
+    let kind = table.get("element").filter(|_| name == "bearing").and_then(|kind| kind.get_ref().as_str());
+    if kind == Some(ROLLER) && !there.contains(&ROLLER_LENGTH) {
+        faults.push(KeyFault::Missing { line, key: path(name, ROLLER_LENGTH, false), with: &[] });
+    }
     for (_, two, instead) in ALTERNATIVES.iter().filter(|(table, ..)| *table == name) {
+        if two == &GROOVES && kind.is_some_and(|kind| kind != BALL) {
+            continue;
+        }
         if !two.iter().chain(*instead).any(|key| there.contains(key)) {
             faults.push(KeyFault::Neither { line, keys: two.map(|key| path(name, key, false)) });
         }

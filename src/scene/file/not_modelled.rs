@@ -14,9 +14,10 @@ struct Asked {
 
 /// What is said to a defect that is given by another key.
 const DEFECTS: &str = "defects are said by a table [defect], or by several [[defect]], whose key `on` is \"outer\", \"inner\" or \"element\"";
-const BALLS: &str = "rolling elements are balls, so far; rollers with their line contacts are not";
-const BY_NAME: &str = "a bearing is given by its dimensions or by bearing.catalogue, and its rolling elements are balls, so \
-                       far; rollers with their line contacts are not";
+const ELEMENTS: &str = "rolling elements are said by bearing.element, \"ball\" or \"cylindrical-roller\" with \
+                        bearing.roller_length_mm; other rollers are not modelled, so far";
+const BY_NAME: &str =
+    "a bearing is given by its dimensions or by bearing.catalogue, its rolling elements by bearing.element";
 const PLANE: &str = "the rings move in one plane, so far: no axial load, no contact angle, no tilt";
 const DRY: &str = "contacts without lubricant and friction, so far";
 
@@ -41,7 +42,7 @@ const ASKED: [Asked; 6] = [
             "kind",
         ],
         parts: &["roller", "needle", "element_shape", "element_length"],
-        only: BALLS,
+        only: ELEMENTS,
     },
     Asked {
         tables: &["", "bearing"],

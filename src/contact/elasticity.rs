@@ -1,0 +1,96 @@
+//! How the force of a contact without damping grows with its approach, for one contact or for several side by side.
+//!
+//! ```text
+//! point    Q = K δ^(3/2)           a ball in a groove (Hertz)
+//! line     Q = K δ^(10/9)          a straight roller (ISO/TS 16281)
+//! crowned  Q = K δ^(10/9) c(δ)     a crowned roller (super::crown)
+//! ```
+//! All are Q = S δ with the secant stiffness S, and δ Q′ = n Q with the order n: 3/2, 10/9, or what the crown makes of
+//! it.
+
+use super::crown::Crown;
+use crate::numerics::ninth_root;
+use crate::numerics::number::Number;
+use std::sync::Arc;
+
+/// Order of a line contact.
+pub const LINE_ORDER: f64 = 10.0 / 9.0;
+
+/// Growth of a contact's force, chosen where code is compiled.
+pub trait Elastic: Copy {
+    /// Secant stiffness Q/δ [N/m] and order δ Q′/Q of a contact of this constant K at an approach [m] that is not
+    /// negative.
+    fn secant_and_order<T: Number>(&self, stiffness: T, delta: T) -> [T; 2];
+}
+
+/// A ball in a groove.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Point;
+
+/// A roller, crowned or straight.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Line<'c>(pub Option<&'c Crown>);
+
+impl Elastic for Point {
+    #[inline(always)]
+    fn secant_and_order<T: Number>(&self, stiffness: T, delta: T) -> [T; 2] {
+        [stiffness * delta.sqrt(), delta.all(1.5)]
+    }
+}
+
+impl Elastic for Line<'_> {
+    #[inline(always)]
+    fn secant_and_order<T: Number>(&self, stiffness: T, delta: T) -> [T; 2] {
+        let straight = stiffness * delta.each(ninth_root);
+        match self.0 {
+            None => [straight, delta.all(LINE_ORDER)],
+            Some(crown) => {
+                let [part, order] = delta.each_pair(|delta| crown.part_and_order(delta));
+                [straight * part, order]
+            }
+        }
+    }
+}
+
+/// Growth of a contact's force.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Elasticity {
+    /// A ball in a groove.
+    Point,
+    /// A straight roller.
+    Line,
+    /// A crowned roller.
+    Crowned(Arc<Crown>),
+}
+
+impl Elasticity {
+    /// That of a roller; `None` of a ball.
+    #[inline(always)]
+    pub fn line(&self) -> Option<Line<'_>> {
+        match self {
+            Self::Point => None,
+            Self::Line => Some(Line(None)),
+            Self::Crowned(crown) => Some(Line(Some(crown))),
+        }
+    }
+
+    /// Secant stiffness [N/m] and order, as [`Elastic::secant_and_order`].
+    #[inline(always)]
+    pub fn secant_and_order(&self, stiffness: f64, delta: f64) -> [f64; 2] {
+        match self.line() {
+            None => Point.secant_and_order(stiffness, delta),
+            Some(line) => line.secant_and_order(stiffness, delta),
+        }
+    }
+
+    /// Q″ [N/m²] of a contact of this constant at an approach [m] above 0.
+    #[inline]
+    pub fn second_derivative(&self, stiffness: f64, delta: f64) -> f64 {
+        let straight = || stiffness * ninth_root(delta) / delta;
+        match self {
+            Self::Point => 0.75 * stiffness / delta.sqrt(),
+            Self::Line => 10.0 / 81.0 * straight(),
+            Self::Crowned(crown) => straight() * crown.carrying(delta).bend,
+        }
+    }
+}
