@@ -2,14 +2,14 @@
 
 use std::fmt::Write;
 
-use brinell::scene::{Damping, Defect, DefectOn, DefectShape, Motion, Ring, Scene, Sensor};
+use brinell::scene::{Damping, Defect, DefectOn, DefectShape, Film, Motion, Ring, Scene, Sensor};
 use brinell::simulation::arrays::of_all_elements;
 use brinell::simulation::variables::{Causality, Kind, Variable};
 use brinell::simulation::{Method, Simulation};
 use quick_xml::escape::escape;
 
 use crate::fmu::Version;
-use crate::model::Model;
+use crate::model::{Model, remarks};
 use crate::model_description::causality;
 use crate::units;
 
@@ -23,7 +23,8 @@ pub const LIMITS: [&str; 8] = [
      to 0.6 near unloading.",
     "Rings are rigid; they move in the plane, without tilting.",
     "Material stays elastic: no plasticity.",
-    "No lubricant film.",
+    "Contacts are dry, unless the scene has an oil film: one of an even temperature, pressed out of gaps before contacts \
+     begin, and taken off the clearance.",
     "The cage is kinematic: it keeps the elements apart and has no dynamics; elements do not slip tangentially.",
 ];
 
@@ -64,7 +65,7 @@ pub fn write(model: &Model, version: Version) -> String {
     );
     page.push_str("<h2>The bearing</h2>\n");
     facts(&mut page, scene);
-    for remark in scene.remarks() {
+    for remark in remarks(scene) {
         line(&mut page, format_args!("<p>Note: {remark}.</p>"));
     }
     page.push_str("<h2>Coupling</h2>\n");
@@ -124,6 +125,7 @@ fn facts(page: &mut String, scene: &Scene) {
         ("Contact law near the defect", law.to_owned()),
         ("Contact damping", damping),
     ];
+    rows.extend(scene.film.as_ref().map(|film| ("Oil", oil(film))));
     rows.extend(defects.iter().cloned());
     rows.extend([
         ("Shaft (inner ring)", ring(&scene.shaft)),
@@ -137,6 +139,13 @@ fn facts(page: &mut String, scene: &Scene) {
         line(page, format_args!("<tr><th>{what}</th><td>{value}</td></tr>"));
     }
     page.push_str("</table>\n");
+}
+
+/// What oil there is.
+fn oil(film: &Film) -> String {
+    let Film { viscosity, pressure_viscosity, layer } = film;
+    let layer = layer.map_or("every gap".to_owned(), |layer| format!("gaps up to {} µm", digits(layer * 1e6)));
+    format!("viscosity {viscosity} Pa s, its pressure coefficient {pressure_viscosity:e} 1/Pa; it fills {layer}")
 }
 
 /// Directions of the accelerometers.

@@ -27,3 +27,4 @@ pub mod rigid_path;
 mod rigid_roller;
 pub mod rolling;
 mod row_pairs;
+pub mod squeeze_film;

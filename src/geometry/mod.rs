@@ -1,4 +1,5 @@
-//! Bearing geometry: Hertz constants of its contacts, kinematics and characteristic frequencies.
+//! Bearing geometry: Hertz constants of its contacts, their oil films, kinematics and characteristic frequencies.
 
+pub mod film_thickness;
 pub mod hertz_constant;
 pub mod kinematics;

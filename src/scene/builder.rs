@@ -42,6 +42,7 @@ impl Scene {
                 cells: None,
                 map_accuracy: None,
             },
+            film: None,
             cage: Cage { slip: 0.0, spin_slip: 0.0, initial_angle: -FRAC_PI_2, irregularity: None },
             defects: Vec::new(),
             shaft: Ring::default_shaft(),

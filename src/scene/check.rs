@@ -15,7 +15,7 @@ use super::error::{LONGEST_NAME, SceneError};
 use super::faults::Faults;
 use super::quantity::*;
 use super::{
-    Bearing, Contact, Damping, Defect, DefectOn, DefectShape, Motion, Recorder, RecorderFilter, Ring, Scene, Sensor,
+    Bearing, Contact, Damping, Defect, DefectOn, DefectShape, Film, Motion, Recorder, RecorderFilter, Ring, Scene, Sensor,
     SensorMode,
 };
 use std::f64::consts::{PI, TAU};
@@ -38,6 +38,7 @@ impl Scene {
         faults.passes(GRAVITY.check_all(&self.gravity));
         let sound = faults.passes(self.bearing.check());
         faults.passes(self.contact.check());
+        faults.passes(self.film.map_or(Ok(()), |film| film.check()));
         faults.passes(CAGE_SLIP.check(self.cage.slip));
         faults.passes(INITIAL_ANGLE.check(self.cage.initial_angle));
         faults.passes(SPIN_SLIP.check(self.cage.spin_slip));
@@ -225,6 +226,16 @@ impl Contact {
         let cells = self.cells.map(|cells| CONTACT_CELLS.check_all(&cells.map(f64::from)));
         faults.passes(cells.unwrap_or(Ok(())));
         faults.passes(MAP_ACCURACY.check_all(self.map_accuracy.as_slice()));
+        faults.told()
+    }
+}
+
+impl Film {
+    fn check(&self) -> Result<(), SceneError> {
+        let mut faults = Faults::default();
+        faults.passes(VISCOSITY.check(self.viscosity));
+        faults.passes(PRESSURE_VISCOSITY.check(self.pressure_viscosity));
+        faults.passes(FILM_LAYER.check_all(self.layer.as_slice()));
         faults.told()
     }
 }

@@ -34,12 +34,14 @@
 //! | `sensor.response` | none; a file instead of the modes |
 //! | `probe` | none; a table without keys |
 //! | `solver.tolerance`, `.max_steps` | 1e-5, 10 000 000 |
+//! | `film` | none: dry contacts; its `layer_um` fills every gap |
 //! | `recorder` | none; its `filter` `"linear-phase"`, or `"none"` |
 //! | `experiment.stop_s`, `.step_s` | 0.5, 1e-4 |
 
 mod bearing;
 mod cage;
 mod defects;
+mod film;
 mod keys;
 mod not_modelled;
 mod one_or_more;
@@ -53,6 +55,7 @@ use super::{Contact, ContactLaw, Damping, Experiment, Recorder, RecorderFilter, 
 use bearing::BearingTable;
 use cage::CageTable;
 use defects::DefectTable;
+use film::FilmTable;
 use one_or_more::OneOrMore;
 use rings::{HousingTable, ProbeTable, SensorTable, ShaftTable};
 use serde::Deserialize;
@@ -98,6 +101,8 @@ struct SceneFile {
     /// Law and damping of the contacts.
     #[serde(default)]
     contact: ContactTable,
+    /// An oil film; without it contacts are dry.
+    film: Option<FilmTable>,
     /// Slip, start and irregularity of the cage.
     #[serde(default)]
     cage: CageTable,
@@ -149,6 +154,7 @@ impl SceneFile {
             gravity: self.gravity_m_s2,
             bearing,
             contact,
+            film: self.film.map(FilmTable::into_film),
             cage,
             defects,
             shaft,

@@ -37,6 +37,8 @@ pub struct Scene {
     pub bearing: Bearing,
     /// Contact law and damping.
     pub contact: Contact,
+    /// The oil film; `None` for dry contacts.
+    pub film: Option<Film>,
     /// The cage's kinematics.
     pub cage: Cage,
     /// The defects; none for a healthy bearing.
@@ -234,6 +236,17 @@ pub enum Damping {
     HuntCrossley(f64),
     /// Q = max(0, Kδ^1.5 + 1.5 τ K δ^0.5 δ̇), with τ [s].
     Proportional(f64),
+}
+
+/// Oil in the contacts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Film {
+    /// Viscosity at the pressure of the surroundings [Pa s].
+    pub viscosity: f64,
+    /// How the viscosity's logarithm grows with pressure [1/Pa].
+    pub pressure_viscosity: f64,
+    /// Height up to which oil fills gaps [m]; `None` for all of them.
+    pub layer: Option<f64>,
 }
 
 /// Kinematics of the cage.

@@ -3,6 +3,7 @@
 use super::super::key_fault::{Hint, KeyFault};
 use super::bearing::BearingTable;
 use super::cage::CageTable;
+use super::film::FilmTable;
 use super::not_modelled::instead_of;
 use super::rings::{HousingTable, ProbeTable, SensorModeTable, SensorTable, ShaftTable};
 use super::values;
@@ -18,6 +19,7 @@ type Keys = &'static [&'static str];
 const NEEDED: [(&str, Keys); 7] = [
     ("", &["name", "bearing", "shaft", "housing"]),
     ("bearing", &["element_count", "element_diameter_mm", "pitch_diameter_mm", "youngs_modulus_gpa", "poissons_ratio"]),
+    ("film", &["viscosity_pa_s", "pressure_viscosity_1_pa"]),
     ("defect", &["angle_deg"]),
     ("shaft", &["motion", "speed_hz"]),
     ("housing", &["motion"]),
@@ -39,6 +41,7 @@ fn tables() -> [(&'static str, Keys); 13] {
         ("", fields::<SceneFile>()),
         ("bearing", fields::<BearingTable>()),
         ("contact", fields::<ContactTable>()),
+        ("film", fields::<FilmTable>()),
         ("cage", fields::<CageTable>()),
         ("defect", fields::<DefectTable>()),
         ("shaft", fields::<ShaftTable>()),
@@ -288,6 +291,7 @@ mod tests {
         match table {
             "bearing" => of::<BearingTable>(text),
             "contact" => of::<ContactTable>(text),
+            "film" => of::<FilmTable>(text),
             "cage" => of::<CageTable>(text),
             "defect" => of::<DefectTable>(text),
             "shaft" => of::<ShaftTable>(text),

@@ -18,7 +18,8 @@ const BALLS: &str = "rolling elements are balls, so far; rollers with their line
 const BY_NAME: &str = "a bearing is given by its dimensions or by bearing.catalogue, and its rolling elements are balls, so \
                        far; rollers with their line contacts are not";
 const PLANE: &str = "the rings move in one plane, so far: no axial load, no contact angle, no tilt";
-const DRY: &str = "contacts without lubricant and friction, so far";
+const DRY: &str = "an oil film is said by a table [film] with viscosity_pa_s and pressure_viscosity_1_pa; friction is not \
+                   modelled";
 
 const ASKED: [Asked; 6] = [
     Asked { tables: &[""], names: &["race"], parts: &["defect", "spall", "raceway", "_race"], only: DEFECTS },
