@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use brinell::scene::{Damping, Defect, DefectOn, DefectShape, Film, Motion, Ring, Scene, Sensor};
+use brinell::scene::{ContactEdge, Damping, Defect, DefectOn, DefectShape, Film, Motion, Ring, Scene, Sensor};
 use brinell::simulation::arrays::of_all_elements;
 use brinell::simulation::variables::{Causality, Kind, Variable};
 use brinell::simulation::{Method, Simulation};
@@ -17,7 +17,8 @@ use crate::units;
 pub const LIMITS: [&str; 8] = [
     "Rolling elements are balls: rollers with their line contacts need another law.",
     "One defect, on a raceway or on a rolling element; a defective ball turns about an axis parallel to the bearing's.",
-    "Love's half-space at a vertical edge ignores the corner's own compliance: at the edge of a spall 100 µm deep the \
+    "Love's half-space at a vertical edge ignores the corner's own compliance unless the scene has \
+     <code>contact.edge = \"step\"</code>: at the edge of a spall 100 µm deep the \
      force is 12 to 16 % too large, of one 15 to 30 µm deep 2 to 5 %, and the pressure at the edge diverges.",
     "The earlier law <code>hertz</code> overstates the force at an edge: Love gives 0.84 to 0.86 of it there, and 0.53 \
      to 0.6 near unloading.",
@@ -105,6 +106,10 @@ pub fn write(model: &Model, version: Version) -> String {
 fn facts(page: &mut String, scene: &Scene) {
     let bearing = &scene.bearing;
     let (_, law) = scene.contact.law.described();
+    let law = match scene.contact.edge {
+        ContactEdge::HalfSpace => law.to_owned(),
+        ContactEdge::Step => format!("{law}; sharp edges as soft as steps of their depth"),
+    };
     let damping = match scene.contact.damping {
         Damping::HuntCrossley(chi) => format!("Hunt and Crossley, χ = {chi} s/m"),
         Damping::Proportional(tau) => format!("proportional to stiffness, τ = {tau} s"),
@@ -122,7 +127,7 @@ fn facts(page: &mut String, scene: &Scene) {
             format!("{}, {}", digits(bearing.conformity_inner), digits(bearing.conformity_outer)),
         ),
         ("Radial clearance", format!("{} µm", digits(bearing.radial_clearance * 1e6))),
-        ("Contact law near the defect", law.to_owned()),
+        ("Contact law near the defect", law),
         ("Contact damping", damping),
     ];
     rows.extend(scene.film.as_ref().map(|film| ("Oil", oil(film))));

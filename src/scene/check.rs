@@ -15,8 +15,8 @@ use super::error::{LONGEST_NAME, SceneError};
 use super::faults::Faults;
 use super::quantity::*;
 use super::{
-    Bearing, Contact, Damping, Defect, DefectOn, DefectShape, Film, Motion, Recorder, RecorderFilter, Ring, Scene, Sensor,
-    SensorMode,
+    Bearing, Contact, ContactEdge, ContactLaw, Damping, Defect, DefectOn, DefectShape, Film, Motion, Recorder,
+    RecorderFilter, Ring, Scene, Sensor, SensorMode,
 };
 use std::f64::consts::{PI, TAU};
 
@@ -222,6 +222,9 @@ impl Contact {
             Damping::HuntCrossley(chi) => DAMPING_CHI.check(chi),
             Damping::Proportional(tau) => DAMPING_TAU.check(tau),
         });
+        if self.edge == ContactEdge::Step && self.law == ContactLaw::Hertz {
+            faults.passes(Err(SceneError::EdgeOfHertz));
+        }
         faults.passes(LARGEST_FORCE.check_all(self.largest_force.as_slice()));
         let cells = self.cells.map(|cells| CONTACT_CELLS.check_all(&cells.map(f64::from)));
         faults.passes(cells.unwrap_or(Ok(())));

@@ -271,6 +271,12 @@ pub enum SceneError {
         /// Length [mm].
         length_mm: f64,
     },
+    /// A softness of edges that the law knows nothing of.
+    #[error(
+        "contact.edge is \"step\" and contact.law is \"hertz\" (the default without a defect), which knows no edges: it \
+         needs \"map\" or \"love\""
+    )]
+    EdgeOfHertz,
     /// A load on a ring that does not move by itself.
     #[error("load on the {ring} ({ring}.load_n) is [{}, {}]: it must be [0, 0] unless {ring}.motion is \"internal\"", load[0], load[1])]
     LoadNotInternal {

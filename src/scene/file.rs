@@ -34,6 +34,7 @@
 //! | `sensor.response` | none; a file instead of the modes |
 //! | `probe` | none; a table without keys |
 //! | `solver.tolerance`, `.max_steps` | 1e-5, 10 000 000 |
+//! | `contact.edge` | `"half-space"`: a sharp edge is as stiff as the middle of a raceway; or `"step"` |
 //! | `film` | none: dry contacts; its `layer_um` fills every gap |
 //! | `recorder` | none; its `filter` `"linear-phase"`, or `"none"` |
 //! | `experiment.stop_s`, `.step_s` | 0.5, 1e-4 |
@@ -51,7 +52,7 @@ mod values;
 
 use super::error::SceneError;
 use super::faults::Faults;
-use super::{Contact, ContactLaw, Damping, Experiment, Recorder, RecorderFilter, Scene};
+use super::{Contact, ContactEdge, ContactLaw, Damping, Experiment, Recorder, RecorderFilter, Scene};
 use bearing::BearingTable;
 use cage::CageTable;
 use defects::DefectTable;
@@ -198,6 +199,9 @@ struct ContactTable {
     map_accuracy: Option<f64>,
     /// Time constant of proportional damping.
     damping_tau_s: Option<f64>,
+    /// What laws "map" and "love" take a sharp edge to be.
+    #[serde(default)]
+    edge: ContactEdge,
 }
 
 /// Model of contact damping.
@@ -235,6 +239,7 @@ impl ContactTable {
             largest_force: self.largest_force_n,
             cells: self.cells,
             map_accuracy: self.map_accuracy,
+            edge: self.edge,
         })
     }
 }

@@ -190,6 +190,20 @@ pub struct Contact {
     pub cells: Option<[u32; 2]>,
     /// Largest error of the contact map, relative to the largest force; `None` for the usual one.
     pub map_accuracy: Option<f64>,
+    /// What laws `map` and `love` take a sharp edge to be.
+    pub edge: ContactEdge,
+}
+
+/// What a sharp edge of a defect is taken to be.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ContactEdge {
+    /// As stiff as the middle of a raceway.
+    #[default]
+    HalfSpace,
+    /// As soft as a step of its depth.
+    Step,
 }
 
 /// Law of the contacts near defects. On smooth raceways all three are Hertz's.

@@ -16,7 +16,7 @@ use toml::de::{DeTable, DeValue};
 type Keys = &'static [&'static str];
 
 /// Keys that a table cannot be without. The file itself is the table without a name.
-const NEEDED: [(&str, Keys); 7] = [
+const NEEDED: [(&str, Keys); 8] = [
     ("", &["name", "bearing", "shaft", "housing"]),
     ("bearing", &["element_count", "element_diameter_mm", "pitch_diameter_mm", "youngs_modulus_gpa", "poissons_ratio"]),
     ("film", &["viscosity_pa_s", "pressure_viscosity_1_pa"]),
@@ -36,7 +36,7 @@ const ALTERNATIVES: [(&str, [&str; 2], Keys); 4] = [
 ];
 
 /// All tables and the keys that each takes, as the tables themselves say.
-fn tables() -> [(&'static str, Keys); 13] {
+fn tables() -> [(&'static str, Keys); 14] {
     [
         ("", fields::<SceneFile>()),
         ("bearing", fields::<BearingTable>()),
