@@ -217,7 +217,7 @@ pub(super) const STEP: Quantity =
     quantity("communication step", "experiment.step_s", 1.0, Exclusive(0.0), Inclusive(1e9));
 
 /// All that the file says by one key in one unit.
-pub(super) const WRITTEN: [&Quantity; 52] = [
+pub(super) const WRITTEN: [&Quantity; 55] = [
     &GRAVITY,
     &ELEMENT_COUNT,
     &ELEMENT_DIAMETER,
@@ -235,6 +235,9 @@ pub(super) const WRITTEN: [&Quantity; 52] = [
     &LARGEST_FORCE,
     &CONTACT_CELLS,
     &MAP_ACCURACY,
+    &VISCOSITY,
+    &PRESSURE_VISCOSITY,
+    &FILM_LAYER,
     &CAGE_SLIP,
     &CAGE_SPACING,
     &CAGE_SPACING_RMS,
