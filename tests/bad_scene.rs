@@ -6,6 +6,8 @@
 mod bodies;
 #[path = "bad_scene/defect.rs"]
 mod defect;
+#[path = "bad_scene/film.rs"]
+mod film;
 #[path = "bad_scene/keys.rs"]
 mod keys;
 #[path = "bad_scene/rollers.rs"]

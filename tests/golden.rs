@@ -234,6 +234,8 @@ scenes! {
     element_gives_the_numbers_it_gave "er16k-element"
     inner_gives_the_numbers_it_gave "er16k-inner"
     tb1_gives_the_numbers_it_gave "er16k-tb1"
+    tb1_damped_gives_the_numbers_it_gave "er16k-tb1-damped"
+    tb1_oil_gives_the_numbers_it_gave "er16k-tb1-oil"
     tb1_hosted_shaft_gives_the_numbers_it_gave "er16k-tb1-hosted-shaft"
     tb2_gives_the_numbers_it_gave "er16k-tb2"
     tb2_30um_gives_the_numbers_it_gave "er16k-tb2-30um"

@@ -2,14 +2,16 @@
 
 use std::fmt::Write;
 
-use brinell::scene::{Bearing, Damping, Defect, DefectOn, DefectShape, Motion, Ring, RollerProfile, Scene, Sensor};
+use brinell::scene::{
+    Bearing, ContactEdge, Damping, Defect, DefectOn, DefectShape, Film, Motion, Ring, RollerProfile, Scene, Sensor,
+};
 use brinell::simulation::arrays::of_all_elements;
 use brinell::simulation::variables::{Causality, Kind, Variable};
 use brinell::simulation::{Method, Simulation};
 use quick_xml::escape::escape;
 
 use crate::fmu::Version;
-use crate::model::Model;
+use crate::model::{Model, remarks};
 use crate::model_description::causality;
 use crate::units;
 
@@ -18,13 +20,15 @@ pub const LIMITS: [&str; 8] = [
     "Rolling elements are balls or cylindrical rollers. Rollers do not tilt and carry no axial load; their law was measured \
      on steel.",
     "One defect, on a raceway or on a rolling element; a defective ball turns about an axis parallel to the bearing's.",
-    "Love's half-space at a vertical edge ignores the corner's own compliance: at the edge of a spall 100 µm deep the \
+    "Love's half-space at a vertical edge ignores the corner's own compliance unless the scene has \
+     <code>contact.edge = \"step\"</code>: at the edge of a spall 100 µm deep the \
      force is 12 to 16 % too large, of one 15 to 30 µm deep 2 to 5 %, and the pressure at the edge diverges.",
     "The earlier law <code>hertz</code> overstates the force at an edge: Love gives 0.84 to 0.86 of it there, and 0.53 \
      to 0.6 near unloading.",
     "Rings are rigid; they move in the plane, without tilting.",
     "Material stays elastic: no plasticity.",
-    "No lubricant film.",
+    "Contacts are dry, unless the scene has an oil film: one of an even temperature, pressed out of gaps before contacts \
+     begin, and taken off the clearance.",
     "The cage is kinematic: it keeps the elements apart and has no dynamics; elements do not slip tangentially.",
 ];
 
@@ -66,7 +70,7 @@ pub fn write(model: &Model, version: Version) -> String {
     );
     page.push_str("<h2>The bearing</h2>\n");
     facts(&mut page, scene);
-    for remark in scene.remarks() {
+    for remark in remarks(scene) {
         line(&mut page, format_args!("<p>Note: {remark}.</p>"));
     }
     page.push_str("<h2>Coupling</h2>\n");
@@ -106,6 +110,10 @@ pub fn write(model: &Model, version: Version) -> String {
 fn facts(page: &mut String, scene: &Scene) {
     let bearing = &scene.bearing;
     let (_, law) = scene.contact.law.described();
+    let law = match scene.contact.edge {
+        ContactEdge::HalfSpace => law.to_owned(),
+        ContactEdge::Step => format!("{law}; sharp edges as soft as steps of their depth"),
+    };
     let damping = match scene.contact.damping {
         Damping::HuntCrossley(chi) => format!("Hunt and Crossley, χ = {chi} s/m"),
         Damping::Proportional(tau) => format!("proportional to stiffness, τ = {tau} s"),
@@ -116,9 +124,10 @@ fn facts(page: &mut String, scene: &Scene) {
     let mut rows = elements(bearing);
     rows.extend([
         ("Radial clearance", format!("{} µm", digits(bearing.radial_clearance * 1e6))),
-        ("Contact law near the defect", law.to_owned()),
+        ("Contact law near the defect", law),
         ("Contact damping", damping),
     ]);
+    rows.extend(scene.film.as_ref().map(|film| ("Oil", oil(film))));
     rows.extend(defects.iter().cloned());
     rows.extend([
         ("Shaft (inner ring)", ring(&scene.shaft)),
@@ -159,6 +168,13 @@ fn elements(bearing: &Bearing) -> Vec<(&'static str, String)> {
         ("Roller profile", format!("{profile}, {} laminae", roller.laminae)),
         pitch,
     ]
+}
+
+/// What oil there is.
+fn oil(film: &Film) -> String {
+    let Film { viscosity, pressure_viscosity, layer } = film;
+    let layer = layer.map_or("every gap".to_owned(), |layer| format!("gaps up to {} µm", digits(layer * 1e6)));
+    format!("viscosity {viscosity} Pa s, its pressure coefficient {pressure_viscosity:e} 1/Pa; it fills {layer}")
 }
 
 /// Directions of the accelerometers.

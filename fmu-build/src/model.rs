@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use brinell::scene::Scene;
+use brinell::dynamics::film;
+use brinell::scene::{Remark, Scene};
 use brinell::simulation::Simulation;
 use brinell::simulation::guid::guid;
 
@@ -49,12 +50,17 @@ pub fn read_scene(path: &Path) -> Result<(String, Scene)> {
     Ok((text, scene))
 }
 
+/// What is possible and unusual in a scene.
+pub fn remarks(scene: &Scene) -> impl Iterator<Item = Remark> {
+    scene.remarks().into_iter().chain(film::remark(scene))
+}
+
 impl Model {
     /// Reads a scene file, or a shipped scene by its name, and the profile beside it. An error names the file.
     pub fn read(path: &Path) -> Result<Self> {
         let about = || path.display().to_string();
         let (scene_text, scene) = read_scene(path)?;
-        for remark in scene.remarks() {
+        for remark in remarks(&scene) {
             eprintln!("note: {}: {remark}", about());
         }
         let profile =

@@ -17,7 +17,8 @@ use super::{
     cholesky::Cholesky,
     error::ContactError,
     half_space::KernelTable,
-    row_pairs::{BLOCK, RowPairs},
+    row_pairs::{BLOCK, Image, RowPairs},
+    soft_edges::SoftEdge,
 };
 
 pub use super::row_pairs::{Mirror, Run};
@@ -60,8 +61,12 @@ pub struct ActiveSet {
     /// Shared by copies of a solver.
     pairs: Arc<RowPairs>,
     mirror: Mirror,
+    /// Edges that make the raceway softer, and whether the window under way feels each.
+    edges: Vec<(SoftEdge, bool)>,
     factor: Cholesky,
     factored: Vec<Run>,
+    /// The factor holds for this place only.
+    factored_there: bool,
     runs: Vec<Run>,
     state: Vec<State>,
     pressure: Vec<f64>,
@@ -85,13 +90,20 @@ impl ActiveSet {
         Ok(Self {
             pairs: Arc::new(RowPairs::new(kernel, rows, mirror)),
             mirror,
+            edges: Vec::new(),
             factor: Cholesky::default(),
             factored: Vec::with_capacity(4 * rows),
+            factored_there: false,
             runs: Vec::with_capacity(4 * rows),
             state: Vec::with_capacity(rows * columns),
             pressure: Vec::new(),
             deflection: Vec::with_capacity(columns.next_multiple_of(BLOCK)),
         })
+    }
+
+    /// With edges that make the raceway softer.
+    pub(super) fn with_edges(self, edges: Vec<SoftEdge>) -> Self {
+        Self { edges: edges.into_iter().map(|edge| (edge, false)).collect(), ..self }
     }
 
     /// Forgets the last contact.
@@ -157,6 +169,9 @@ impl ActiveSet {
             });
         }
         let largest = interference.iter().fold(0.0_f64, |m, &g| m.max(g));
+        for (edge, felt) in &mut self.edges {
+            *felt = edge.is_felt(first, columns);
+        }
         self.start(first, columns, interference, largest);
         let mut effort = Effort::default();
         let mut only_drop = false;
@@ -187,7 +202,8 @@ impl ActiveSet {
     }
 
     fn deflect(&self, row: usize, first: i32, out: &mut [f64]) {
-        self.pairs.deflect(self.mirror.x, &self.runs, &self.pressure, (row, first), out);
+        let how = (self.mirror.x, felt(&self.edges));
+        self.pairs.deflect(how, (&self.runs, &self.pressure), (row, first), out);
     }
 
     fn start(&mut self, first: i32, columns: usize, interference: &[f64], largest: f64) {
@@ -239,13 +255,14 @@ impl ActiveSet {
     }
 
     /// The factor of another place serves as well: only differences of columns matter, unless there is a left and a
-    /// right.
+    /// right, or an edge is felt.
     fn same_set(&self) -> bool {
         let shift = match (self.runs.first(), self.factored.first()) {
             (Some(a), Some(b)) => a.first - b.first,
             _ => return false,
         };
-        (shift == 0 || !self.mirror.x)
+        let there = self.factored_there || felt(&self.edges).next().is_some();
+        (shift == 0 || !(self.mirror.x || there))
             && self.runs.len() == self.factored.len()
             && self
                 .runs
@@ -281,6 +298,12 @@ impl ActiveSet {
                             *out += image;
                         }
                     }
+                    for edge in felt(&self.edges).filter(|edge| edge.bears(from)) {
+                        let (skip, images) = edge.on((target.row, to, length), (source.row, from));
+                        for (out, image) in out[skip..].iter_mut().zip(images) {
+                            *out += image;
+                        }
+                    }
                 }
             }
         }
@@ -290,6 +313,7 @@ impl ActiveSet {
             limit: TOUCHING,
         })?;
         self.factored.clone_from(&self.runs);
+        self.factored_there = felt(&self.edges).next().is_some();
         Ok(true)
     }
 
@@ -331,7 +355,8 @@ impl ActiveSet {
             };
             let out = &mut self.deflection[..(to + 1 - from).next_multiple_of(BLOCK)];
             let at = (row, window.first + from as i32);
-            self.pairs.deflect(self.mirror.x, &self.runs, &self.pressure, at, out);
+            let how = (self.mirror.x, felt(&self.edges));
+            self.pairs.deflect(how, (&self.runs, &self.pressure), at, out);
             for c in from..=to {
                 if state[c] == State::Open && g[c] - self.deflection[c - from] > touching {
                     state[c] = State::Active;
@@ -341,4 +366,9 @@ impl ActiveSet {
         }
         changed
     }
+}
+
+/// The edges that the window under way feels.
+fn felt(edges: &[(SoftEdge, bool)]) -> impl Iterator<Item = &SoftEdge> + Clone {
+    edges.iter().filter(|(_, felt)| *felt).map(|(edge, _)| edge)
 }

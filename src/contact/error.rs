@@ -32,6 +32,12 @@ pub enum ContactError {
         /// Length or width of a cell [µm].
         cell_um: f64,
     },
+    /// Softness of edges is asked for, and there is none.
+    #[error(
+        "contact.edge = \"step\": the defect has no edge steeper than 60 degrees, and no other is softer than a half-space; \
+         leave contact.edge out"
+    )]
+    NoEdge,
     /// A defect whose two ends are so close together, the long way round the raceway, that one contact feels both.
     #[error(
         "defect: it is {length_mm:.4} mm long, it must be below {limit_mm:.4} mm: elements feel it to {reach_mm:.4} mm \

@@ -81,12 +81,23 @@ pub struct KernelTable {
 impl KernelTable {
     /// Table for cells of the full sides `cell` = [along x, along y] (m).
     pub fn new(columns: usize, rows: usize, cell: [f64; 2]) -> Self {
+        let half = cell.map(|side| 0.5 * side);
+        Self::from_function(columns, rows, cell, |x, y| rectangle_kernel(x, y, half[0], half[1]))
+    }
+
+    /// Table of another influence, even along x, at the offsets (x, y) [m] for x and y not below 0.
+    pub(super) fn from_function(
+        columns: usize,
+        rows: usize,
+        cell: [f64; 2],
+        influence: impl Fn(f64, f64) -> f64,
+    ) -> Self {
         let width = 2 * columns - 1;
         let mut values = vec![0.0; width * rows];
         for dj in 0..rows {
             for di in 0..columns {
                 let (x, y) = (di as f64 * cell[0], dj as f64 * cell[1]);
-                let value = rectangle_kernel(x, y, 0.5 * cell[0], 0.5 * cell[1]);
+                let value = influence(x, y);
                 values[dj * width + columns - 1 + di] = value;
                 values[dj * width + columns - 1 - di] = value;
             }

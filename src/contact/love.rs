@@ -17,22 +17,23 @@
 //! cancel. Any function of (u, s) is a potential, hence the rescaling costs no energy either. On the smooth raceway
 //! there remains the ripple of the grid as the element passes over its cells; `docs/contact.md` gives figures.
 //!
-//! Pressure at a sharp corner grows without bound as the grid is refined (the force does not); a half-space knows
-//! nothing of the corner's own compliance.
+//! Pressure at a sharp corner grows without bound as the grid is refined (the force does not). A half-space knows
+//! nothing of the corner's own compliance; [`LoveContact::with_edges`] adds it.
 
 // `!(a > b)` is true for NaN as well, and is meant to be.
 #![allow(clippy::neg_cmp_op_on_partial_ord)]
-
-use libm::pow;
 
 use crate::surface::Surface;
 
 use super::{
     active_set::{ActiveSet, Window},
+    edge_softness::{EdgeSoftness, StepImage},
     equivalent::EquivalentApproach,
     error::ContactError,
     half_space::KernelTable,
     raceway_grid::{ElementOnRaceway, RacewayGrid, Resolution},
+    smooth_scale::{Energy, SmoothScale, two_fifths},
+    soft_edges::{GridEdge, SoftEdge},
 };
 
 /// Nodes of the smooth raceway's energy; quadratically dense towards zero.
@@ -44,16 +45,6 @@ const ONSET_TOUCHES: f64 = 3.0;
 /// linearly. The force there is 0.2 % of the largest, and by some per cent of that wrong.
 const ONSET: f64 = 0.015;
 
-/// Energy of the grid and its derivatives, without the factor π E* × cell area.
-#[derive(Debug, Clone, Copy, Default)]
-struct Energy {
-    w: f64,
-    u: f64,
-    s: f64,
-    uu: f64,
-    us: f64,
-}
-
 /// The contact of an element with one raceway, solved when asked.
 #[derive(Debug, Clone)]
 pub struct LoveContact {
@@ -61,6 +52,8 @@ pub struct LoveContact {
     largest_approach: f64,
     /// n of a force that grows as δ^n.
     order: f64,
+    /// Distance from edges within which they make the raceway softer [m].
+    soft_reach: f64,
     smooth: SmoothScale,
     solves: u64,
 }
@@ -69,10 +62,26 @@ pub struct LoveContact {
 #[derive(Debug, Clone)]
 struct Layer {
     grid: RacewayGrid,
+    softness: Option<Softness>,
     solver: ActiveSet,
     interference: Vec<f64>,
     slopes: Vec<f64>,
     unit: Vec<f64>,
+}
+
+/// Softness of the edges of one raceway.
+#[derive(Debug, Clone, Copy)]
+struct Softness {
+    of: EdgeSoftness,
+    /// Half-axis of the largest contact along the raceway [m].
+    half_axis: f64,
+}
+
+impl Softness {
+    /// The edges of a grid.
+    fn edges(self, grid: &RacewayGrid) -> impl Iterator<Item = GridEdge> {
+        grid.edges(self.half_axis, self.of.deepest * self.half_axis).filter(|edge| edge.depth > 0.0)
+    }
 }
 
 impl LoveContact {
@@ -86,10 +95,34 @@ impl LoveContact {
         largest_approach: f64,
         resolution: Resolution,
     ) -> Result<Self, ContactError> {
+        Self::with_edges(element, surface, largest_approach, resolution, None)
+    }
+
+    /// As [`LoveContact::new`], with sharp edges of this softness.
+    ///
+    /// # Errors
+    /// As there; [`ContactError::NoEdge`] for a surface without a sharp edge.
+    pub fn with_edges(
+        element: ElementOnRaceway,
+        surface: &Surface,
+        largest_approach: f64,
+        resolution: Resolution,
+        softness: Option<EdgeSoftness>,
+    ) -> Result<Self, ContactError> {
         let grid = RacewayGrid::new(element, Some(surface), largest_approach, resolution)?;
-        let layers = vec![Layer::new(grid.interlaced(), largest_approach)?, Layer::new(grid, largest_approach)?];
+        let half_axis = element.contact_half_axes(largest_approach)[0];
+        let softness = softness.map(|of| Softness { of, half_axis });
+        let mut soft_reach = 0.0;
+        if let Some(softness) = softness {
+            soft_reach = softness.edges(&grid).map(|edge| StepImage::reach(edge.depth)).fold(0.0, f64::max);
+            if soft_reach == 0.0 {
+                return Err(ContactError::NoEdge);
+            }
+        }
+        let layer = |grid| Layer::new(grid, largest_approach, softness);
+        let layers = vec![layer(grid.interlaced())?, layer(grid)?];
         let (order, smooth) = (element.order(), SmoothScale::default());
-        let mut contact = Self { layers, largest_approach, order, smooth, solves: 0 };
+        let mut contact = Self { layers, largest_approach, order, soft_reach, smooth, solves: 0 };
         contact.smooth = contact.smooth_scale()?;
         // The largest contact once, beside the defect: solvers then have the room for all others.
         contact.energy(largest_approach, surface.extent().0 - 4.0 * element.contact_half_axes(largest_approach)[0])?;
@@ -106,6 +139,11 @@ impl LoveContact {
     /// Contacts solved so far.
     pub fn solves(&self) -> u64 {
         self.solves
+    }
+
+    /// Distance from edges within which they make the raceway softer [m]; 0 where they do not.
+    pub(super) fn soft_reach(&self) -> f64 {
+        self.soft_reach
     }
 
     /// Largest Δ [m] that is answered.
@@ -229,7 +267,7 @@ impl LoveContact {
         let smooth: Vec<Layer> = self
             .layers
             .iter()
-            .map(|layer| Layer::new(layer.grid.without_defect(), self.largest_approach))
+            .map(|layer| Layer::new(layer.grid.without_defect(), self.largest_approach, None))
             .collect::<Result<_, _>>()?;
         let with_defect = std::mem::replace(&mut self.layers, smooth);
         let s = self.grid().centre(0);
@@ -247,16 +285,17 @@ impl LoveContact {
             nodes.push([v, u, 1.0 / slope]);
         }
         self.layers = with_defect;
-        Ok(SmoothScale { nodes, power })
+        Ok(SmoothScale::new(nodes, power))
     }
 }
 
 impl Layer {
-    fn new(grid: RacewayGrid, largest_approach: f64) -> Result<Self, ContactError> {
-        let solver = solver_for(&grid, largest_approach)?;
+    fn new(grid: RacewayGrid, largest_approach: f64, softness: Option<Softness>) -> Result<Self, ContactError> {
+        let solver = solver_for(&grid, largest_approach, softness)?;
         let (rows, columns) = (grid.rows(), grid.widest(grid.deepest() + 3.0 * largest_approach));
         Ok(Self {
             grid,
+            softness,
             solver,
             interference: Vec::with_capacity(rows * columns),
             slopes: Vec::with_capacity(columns),
@@ -284,7 +323,7 @@ impl Layer {
             // The contact is wider than the grid across the raceway: more rows, and once more.
             let half = self.grid.half_rows();
             self.grid.set_rows(half + half / 4 + 2);
-            self.solver = solver_for(&self.grid, largest_approach)?;
+            self.solver = solver_for(&self.grid, largest_approach, self.softness)?;
         }
     }
 
@@ -311,85 +350,18 @@ impl Layer {
     }
 }
 
-impl Energy {
-    fn add(&mut self, other: &Self, part: f64) {
-        self.w += part * other.w;
-        self.u += part * other.u;
-        self.s += part * other.s;
-        self.uu += part * other.uu;
-        self.us += part * other.us;
-    }
-}
-
-fn solver_for(grid: &RacewayGrid, largest_approach: f64) -> Result<ActiveSet, ContactError> {
+fn solver_for(
+    grid: &RacewayGrid,
+    largest_approach: f64,
+    softness: Option<Softness>,
+) -> Result<ActiveSet, ContactError> {
     let columns = grid.widest(grid.deepest() + 3.0 * largest_approach);
     let rows = if grid.mirrored() { 2 * grid.rows() } else { grid.rows() };
     let kernel = KernelTable::new(columns, rows, grid.cell());
-    ActiveSet::new(&kernel, grid.rows(), grid.mirror())
-}
-
-/// Δ as a function of V = W^p, p = 2/5 of balls and 9/19 of rollers, cubic Hermite between nodes [V, Δ, dΔ/dV].
-#[derive(Debug, Clone, Default)]
-struct SmoothScale {
-    nodes: Vec<[f64; 3]>,
-    /// p
-    power: f64,
-}
-
-impl SmoothScale {
-    /// Smallest Δ [m] that the grid resolves.
-    fn onset(&self) -> f64 {
-        self.nodes.first().map_or(0.0, |node| node[1])
-    }
-
-    fn equivalent(&self, e: Energy) -> EquivalentApproach {
-        if e.w <= 0.0 {
-            return EquivalentApproach::default();
-        }
-        let v = pow(e.w, self.power);
-        // V as a function of u and s.
-        let per_w = self.power * v / e.w;
-        let bend = (self.power - 1.0) * per_w / e.w;
-        let (v_u, v_s) = (per_w * e.u, per_w * e.s);
-        let v_uu = per_w * e.uu + bend * e.u * e.u;
-        let v_us = per_w * e.us + bend * e.u * e.s;
-        let [value, slope, curvature] = self.at(v);
-        EquivalentApproach {
-            value,
-            du: slope * v_u,
-            ds: slope * v_s,
-            duu: slope * v_uu + curvature * v_u * v_u,
-            dus: slope * v_us + curvature * v_u * v_s,
-        }
-    }
-
-    /// Δ, dΔ/dV, d²Δ/dV².
-    fn at(&self, v: f64) -> [f64; 3] {
-        let last = self.nodes.len().saturating_sub(1);
-        let (Some(start), Some(end)) = (self.nodes.first(), self.nodes.last()) else {
-            return [f64::NAN; 3];
-        };
-        if v <= start[0] {
-            return [start[1] * v / start[0], start[1] / start[0], 0.0];
-        }
-        let (low, high) = (start[0].sqrt(), end[0].sqrt());
-        let guess = (last as f64 * (v.sqrt() - low) / (high - low)) as usize;
-        let mut k = guess.min(last - 1);
-        while k > 0 && v < self.nodes[k][0] {
-            k -= 1;
-        }
-        while k < last - 1 && v >= self.nodes[k + 1][0] {
-            k += 1;
-        }
-        let ([v0, d0, m0], [v1, d1, m1]) = (self.nodes[k], self.nodes[k + 1]);
-        let width = v1 - v0;
-        let t = (v - v0) / width;
-        let secant = (d1 - d0) / width;
-        let (c2, c3) = (3.0 * secant - 2.0 * m0 - m1, m0 + m1 - 2.0 * secant);
-        [
-            d0 + width * t * (m0 + t * (c2 + t * c3)),
-            m0 + t * (2.0 * c2 + 3.0 * t * c3),
-            (2.0 * c2 + 6.0 * t * c3) / width,
-        ]
-    }
+    let size = (columns, grid.rows(), rows);
+    let edges = softness.into_iter().flat_map(|softness| {
+        let soft = move |edge| SoftEdge::new(edge, softness.of.factor, grid.cell(), size, grid.mirror());
+        softness.edges(grid).map(soft)
+    });
+    Ok(ActiveSet::new(&kernel, grid.rows(), grid.mirror())?.with_edges(edges.collect()))
 }

@@ -66,6 +66,11 @@ impl ContactMap {
         number(specification.accuracy);
         number(specification.resolution.columns as f64);
         number(specification.resolution.rows as f64);
+        // Maps of half-spaces are older, and their fingerprints stay.
+        if let Some(edges) = specification.edges {
+            number(edges.factor);
+            number(edges.deepest);
+        }
         match surface {
             Surface::Profile(profile) => {
                 for &(arc, depth) in profile.points() {

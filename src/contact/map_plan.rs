@@ -102,8 +102,9 @@ impl MapPlan {
                 limit: "between 0 and 1".to_owned(),
             });
         }
-        let contact =
-            LoveContact::new(element, surface, PREPARED * specification.largest_approach, specification.resolution)?;
+        let MapSpecification { resolution, edges, .. } = specification;
+        let prepared = PREPARED * specification.largest_approach;
+        let contact = LoveContact::with_edges(element, surface, prepared, resolution, edges)?;
         let fingerprint = ContactMap::fingerprint_of(surface, element, specification);
         let line = element.length().is_some();
         let mut plan = Self { specification, fingerprint, contact, line, patches: Vec::new() };
@@ -127,7 +128,7 @@ impl MapPlan {
         for (s0, s1, depth) in flats(surface) {
             // Higher raceway on either side must stay below the element that presses on the flat.
             let margin = clear.max(reach(element, depth + raised + largest) + 2.0 * cell);
-            let margin = if depth <= -raised { clear } else { margin };
+            let margin = if depth <= -raised { clear.max(self.contact.soft_reach()) } else { margin };
             if s1 - s0 > 2.0 * margin + 2.0 * strip_width {
                 free.push((s0 + margin, s1 - margin, depth));
             }

@@ -3,6 +3,7 @@
 //! Nodes do not depend on each other: the caller says how they are computed, one after the other or on all cores, and
 //! the result is the same to the last bit.
 
+use super::edge_softness::EdgeSoftness;
 use super::error::ContactError;
 use super::raceway_grid::Resolution;
 
@@ -17,12 +18,15 @@ pub struct MapSpecification {
     pub tolerated: Option<f64>,
     /// Cells of the grid across Hertz's ellipse at the largest approach.
     pub resolution: Resolution,
+    /// Softness of sharp edges; `None` for half-spaces.
+    pub edges: Option<EdgeSoftness>,
 }
 
 impl MapSpecification {
     /// 0.1 % of full scale on 48 × 32 cells, twice.
     pub fn new(largest_approach: f64) -> Self {
-        Self { largest_approach, accuracy: 1e-3, tolerated: None, resolution: Resolution { columns: 48, rows: 32 } }
+        let resolution = Resolution { columns: 48, rows: 32 };
+        Self { largest_approach, accuracy: 1e-3, tolerated: None, resolution, edges: None }
     }
 
     /// The same for a roller on 48 × 16 cells, of which the rows share its whole length: twice as many change forces at

@@ -23,7 +23,7 @@
 use crate::surface::Surface;
 
 pub use super::element_on_raceway::{Across, ElementOnRaceway};
-use super::{active_set::Mirror, error::ContactError};
+use super::{active_set::Mirror, error::ContactError, soft_edges::GridEdge};
 
 /// Number of cells across Hertz's ellipse at the largest approach.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,9 +55,19 @@ fn check_sampling(surface: &Surface, cell: [f64; 2]) -> Result<(), ContactError>
 /// An edge is what is steeper than 60°: there the pressure has a peak narrower than any cell.
 const STEEP: f64 = 1.732;
 
+/// Where columns lie.
+struct Columns {
+    /// First border of column 0 [m].
+    origin: f64,
+    /// Length of a column [m].
+    length: f64,
+    /// Borders that are edges, and whether the raceway that ends there has the lower columns.
+    edges: Vec<(i32, bool)>,
+}
+
 /// Continues the raceway a little beyond its edges, and finds the grid's origin and its cells' length, some
 /// `length` [m], for which the first and the last continued edge lie on cell borders.
-fn columns_at_edges(surface: &mut Surface, length: f64) -> (f64, f64) {
+fn columns_at_edges(surface: &mut Surface, length: f64) -> Columns {
     let drop = BEYOND_EDGE * length;
     let corners = match surface {
         Surface::Profile(profile) => profile.upper_corners(STEEP, drop),
@@ -68,15 +78,16 @@ fn columns_at_edges(surface: &mut Surface, length: f64) -> (f64, f64) {
     else {
         let (first, last) = surface.extent();
         let whole = ((last - first) / length).ceil().max(1.0);
-        return (first, (last - first) / whole);
+        return Columns { origin: first, length: (last - first) / whole, edges: Vec::new() };
     };
-    let mut cell = length;
+    let (mut cell, mut edges) = (length, vec![(0, first_fall > 0.0)]);
     if last > first {
         let whole = ((last - first) / length).ceil().max(1.0);
         cell = (last - first) / (whole - (last_fall - first_fall) * BEYOND_EDGE);
+        edges.push((whole as i32, last_fall > 0.0));
     }
     *profile = profile.with_corners_continued(STEEP, drop, BEYOND_EDGE * cell);
-    (first + first_fall * BEYOND_EDGE * cell, cell)
+    Columns { origin: first + first_fall * BEYOND_EDGE * cell, length: cell, edges }
 }
 
 /// Cells fixed to the raceway.
@@ -91,6 +102,8 @@ pub struct RacewayGrid {
     middle_row: bool,
     across: Vec<f64>,
     first_column: i32,
+    /// Borders that are sharp edges, and whether the raceway that ends there has the lower columns.
+    edges: Vec<(i32, bool)>,
     /// Depth of each cell from `first_column`; one row for a profile.
     depth: Vec<f64>,
     depth_columns: usize,
@@ -120,10 +133,11 @@ impl RacewayGrid {
         let mut cell = [2.0 * a / resolution.columns.max(2) as f64, 2.0 * b / resolution.rows.max(2) as f64];
         let mirrored = !matches!(surface, Some(Surface::Topography(_)));
         let mut surface = surface.cloned();
-        let mut origin = 0.0;
+        let (mut origin, mut edges) = (0.0, Vec::new());
         if let Some(surface) = &mut surface {
             check_sampling(surface, cell)?;
-            (origin, cell[0]) = columns_at_edges(surface, cell[0]);
+            let columns = columns_at_edges(surface, cell[0]);
+            (origin, cell[0], edges) = (columns.origin, columns.length, columns.edges);
         }
         let mut grid = Self {
             element,
@@ -134,6 +148,7 @@ impl RacewayGrid {
             middle_row: false,
             across: Vec::new(),
             first_column: 0,
+            edges,
             depth: Vec::new(),
             depth_columns: 0,
             raised: 0.0,
@@ -181,10 +196,29 @@ impl RacewayGrid {
 
     /// The same cells on the raceway without its defect.
     pub fn without_defect(&self) -> Self {
-        let mut grid =
-            Self { depth: Vec::new(), depth_columns: 0, raised: 0.0, deepest: 0.0, surface: None, ..self.clone() };
+        let mut grid = Self {
+            depth: Vec::new(),
+            depth_columns: 0,
+            raised: 0.0,
+            deepest: 0.0,
+            surface: None,
+            edges: Vec::new(),
+            ..self.clone()
+        };
         grid.set_rows(self.half_rows());
         grid
+    }
+
+    /// Sharp edges, each with the depth that the surface reaches within a distance [m] beyond it, or `deepest` [m] if
+    /// that is less.
+    pub(super) fn edges(&self, distance: f64, deepest: f64) -> impl Iterator<Item = GridEdge> {
+        let columns = (distance / self.cell[0]).ceil() as i32;
+        self.edges.iter().map(move |&(border, below)| {
+            let beyond = if below { border..border + columns } else { border - columns..border };
+            let depth = beyond.filter_map(|column| self.depth.get(usize::try_from(column - self.first_column).ok()?));
+            let depth = depth.fold(0.0, |most: f64, &depth| most.max(depth));
+            GridEdge { border, below, depth: depth.min(deepest) }
+        })
     }
 
     /// The same grid with its rows moved by half a row.

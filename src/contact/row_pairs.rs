@@ -30,6 +30,16 @@ impl Mirror {
     }
 }
 
+/// What an edge adds to the influence of cells on each other.
+pub(super) trait Image {
+    /// Whether a column is of the raceway that ends there.
+    fn bears(&self, column: i32) -> bool;
+
+    /// Influence of a cell in row `source` and column `from`, which is of that raceway, on those of row `target` from
+    /// column `to` on: which of `length` of them is the first that feels it, and how much it and those after it do.
+    fn on(&self, target: (usize, i32, usize), source: (usize, i32)) -> (usize, &[f64]);
+}
+
 /// Influence of rows of cells on each other, the mirrored half added.
 #[derive(Debug, Clone)]
 pub(super) struct RowPairs {
@@ -78,10 +88,17 @@ impl RowPairs {
         self.rows
     }
 
-    /// K p on consecutive cells of one row: `at` is the row and the first of the columns, which fill `out`.
-    pub(super) fn deflect(&self, mirror_x: bool, runs: &[Run], pressure: &[f64], at: (usize, i32), out: &mut [f64]) {
+    /// K p on consecutive cells of one row: `at` is the row and the first of the columns, which fill `out`. `edges` are
+    /// those that the window feels.
+    pub(super) fn deflect<'a, I: Image + 'a>(
+        &self,
+        (mirror_x, edges): (bool, impl Iterator<Item = &'a I> + Clone),
+        (runs, pressure): (&[Run], &[f64]),
+        at: (usize, i32),
+        out: &mut [f64],
+    ) {
         let (row, first) = at;
-        Arch::new().dispatch(Deflect { pairs: self, mirror_x, runs, pressure, row, first, out });
+        Arch::new().dispatch(Deflect { pairs: self, mirror_x, edges, runs, pressure, row, first, out });
     }
 
     /// Line of the kernel between two rows; difference 0 is at place `reach` − 1.
@@ -106,9 +123,10 @@ pub struct Run {
 }
 
 /// K p on consecutive cells of one row.
-struct Deflect<'a> {
+struct Deflect<'a, E> {
     pairs: &'a RowPairs,
     mirror_x: bool,
+    edges: E,
     runs: &'a [Run],
     pressure: &'a [f64],
     row: usize,
@@ -116,7 +134,7 @@ struct Deflect<'a> {
     out: &'a mut [f64],
 }
 
-impl NullaryFnOnce for Deflect<'_> {
+impl<'e, I: Image + 'e, E: Iterator<Item = &'e I> + Clone> NullaryFnOnce for Deflect<'_, E> {
     type Output = ();
 
     #[inline(always)]
@@ -133,6 +151,12 @@ impl NullaryFnOnce for Deflect<'_> {
                     accumulate(&mut sum, pair, middle + first - from, p);
                     if self.mirror_x {
                         accumulate(&mut sum, pair, middle + first + from + 1, p);
+                    }
+                    for edge in self.edges.clone().filter(|edge| edge.bears(from)) {
+                        let (skip, image) = edge.on((self.row, first, BLOCK), (run.row, from));
+                        for (sum, image) in sum[skip..].iter_mut().zip(image) {
+                            *sum = image.mul_add(p, *sum);
+                        }
                     }
                 }
             }

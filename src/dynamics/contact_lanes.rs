@@ -10,6 +10,7 @@ use super::kinematics::{Kinematics, Stage};
 use super::model::Model;
 use crate::contact::elasticity::{Elastic, Line, Point};
 use crate::contact::force_law::DampedLaw;
+use crate::contact::squeeze_film::SqueezeFilm;
 use crate::numerics::lanes::{Kernel, Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, sum_of};
 use crate::numerics::plane::{Vector, turned};
 use crate::numerics::row::Row;
@@ -27,6 +28,9 @@ struct Smooth<'a, E> {
     series: bool,
     /// Time [s] by which paths are still to be moved on along their rates.
     ahead: Option<f64>,
+    /// The oil films of the inner and of the outer raceway.
+    films: Option<[SqueezeFilm; 2]>,
+    clearance: f64,
 }
 
 /// What follows for some elements.
@@ -111,9 +115,9 @@ impl Record {
 
 impl Model {
     /// Smooth contacts of all elements: their part of the derivative, and, if `RECORD`, each of them. Gives their force
-    /// on the inner ring and on the outer. If `UNEVEN`, each element has a speed of its own.
+    /// on the inner ring and on the outer. If `SPECIAL`, each element has a speed of its own and contacts may have films.
     #[inline(always)]
-    pub(super) fn smooth_contacts<S: Wide, const RECORD: bool, const UNEVEN: bool>(
+    pub(super) fn smooth_contacts<S: Wide, const RECORD: bool, const SPECIAL: bool>(
         &self,
         simd: S,
         now: &Kinematics,
@@ -152,10 +156,13 @@ impl Model {
         let limit = SERIES * self.outer_centre_radius;
         let series = offset.dot(&offset) <= limit * limit;
         // Of elements with speeds of their own the second part is theirs.
-        let omega = if UNEVEN { 0.0 } else { omega };
+        let omega = if SPECIAL { 0.0 } else { omega };
         let body = Vector::new(self.gravity.x + omega * v.y, self.gravity.y - omega * v.x);
         let drift = now.drift();
-        let smooth = Smooth { model: self, elastic, now, offset, drift, body, series, ahead: stage.ahead };
+        let films = if SPECIAL { self.films.as_ref().map(|films| films.squeeze()) } else { None };
+        let clearance = if SPECIAL { self.clearance() } else { self.radial_clearance };
+        let ahead = stage.ahead;
+        let smooth = Smooth { model: self, elastic, now, offset, drift, body, series, ahead, films, clearance };
         let mut sums = Sums::default();
         if RECORD {
             contacts.outer_tangential.fill(0.0);
@@ -168,7 +175,7 @@ impl Model {
                     break;
                 }
                 let of = |numbers: &[f64; WIDEST]| Lanes::part(simd, numbers, part);
-                let found = smooth.contacts::<S, UNEVEN>((simd, of(&state[k]), of(&state[w])), block, of, &mut sums);
+                let found = smooth.contacts::<S, SPECIAL>((simd, of(&state[k]), of(&state[w])), block, of, &mut sums);
                 found.path_rate.put(&mut derivative[k], part);
                 found.acceleration.put(&mut derivative[w], part);
                 if RECORD {
@@ -204,7 +211,7 @@ impl<S: Wide> Found<S> {
 
 impl<E: Elastic> Smooth<'_, E> {
     #[inline(always)]
-    fn contacts<S: Wide, const UNEVEN: bool>(
+    fn contacts<S: Wide, const SPECIAL: bool>(
         &self,
         (simd, u, w): (S, Lanes<S>, Lanes<S>),
         block: &ElementBlock,
@@ -234,17 +241,23 @@ impl<E: Elastic> Smooth<'_, E> {
             let per_distance = number(1.0) / distance;
             (square / (distance + q_r), q_r * per_distance, t * per_distance)
         };
-        let delta = number(-model.radial_clearance) - u - p - longer;
+        let delta = number(-self.clearance) - u - p - longer;
         let pace = number(now.cage.speed);
-        let speed = if UNEVEN { of(&block.pace) * pace } else { pace };
+        let speed = if SPECIAL { of(&block.pace) * pace } else { pace };
         let along = dot(simd, -turned(self.drift), e_r) + rho * speed;
         let opening = n_r * (dot(simd, self.drift, e_r) + path_rate) + n_t * along;
 
         let law = DampedLaw::new(model.inner.contact.law.damping, self.elastic, number);
-        let inner = law.force(of(&block.inner), delta, -opening);
-        let outer = law.force(of(&block.outer), u, path_rate);
+        let mut inner = law.force(of(&block.inner), delta, -opening);
+        let mut outer = law.force(of(&block.outer), u, path_rate);
+        if SPECIAL && let Some([inside, outside]) = &self.films {
+            // Constants of contacts are far above 1, or 0 for what is no smooth contact.
+            let [on_inner, on_outer] = [&block.inner, &block.outer].map(|constant| of(constant).at_most(number(1.0)));
+            inner = inner + on_inner * inside.force(number, delta, -opening);
+            outer = outer + on_outer * outside.force(number, u, path_rate);
+        }
         let mut turning = rho * (speed * speed);
-        if UNEVEN {
+        if SPECIAL {
             turning = turning + speed * dot(simd, -turned(now.housing.velocity), e_r);
         }
         let acceleration = (inner * n_r - outer) * of(&block.per_mass)

@@ -114,7 +114,7 @@ impl Model {
         if cell == SMOOTH {
             return 0.0;
         }
-        let distance = self.outer_centre_radius - self.radial_clearance;
+        let distance = self.outer_centre_radius - self.clearance();
         let mut at = Meeting { element: j, cells: [cell, SMOOTH], u: 0.0, direction, distance };
         for _ in 0..20 {
             let near = self.approach(RacewaySide::Inner, &at, &now.frames).approach;
@@ -248,7 +248,7 @@ impl Model {
         let Given { drive, cells, .. } = given;
         let now = given.placed(rings);
         let (mut force, mut largest, mut contact_sum, mut rounding) = (Rings::zeros(), 0.0f64, 0.0, 0.0);
-        let play = now.offset().norm() + self.radial_clearance.abs();
+        let play = now.offset().norm() + self.clearance().abs();
         for j in 0..self.element_count {
             let (path, element) = self.balanced_element(j, self.cells_of(cells, j), u[j], &now);
             u[j] = path;

@@ -33,6 +33,7 @@ impl Model {
             offset: by.offset(),
             drift: by.drift(),
             cage_speed: by.cage_speed,
+            clearance: by.clearance,
             frames: by.frames,
             ..ElementVariation::default()
         };

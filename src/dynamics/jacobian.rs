@@ -270,6 +270,7 @@ impl Model {
             path_rate,
             cage_angle: omega,
             cage_speed: alpha,
+            clearance: 0.0,
             frames: shared.frames,
         });
         by_time[j] = path_rate;

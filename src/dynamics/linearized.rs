@@ -27,7 +27,8 @@
 //! itself, its second derivatives and derivatives of the direction by the angle are central differences over
 //! [`DIFFERENCE`], wrong by less than 1e-6 of themselves.
 //!
-//! Derivatives are those of the branch that each contact is in; at the onset of a contact there are two. At rest all of
+//! Oil films add what resists to Q. Derivatives are those of the branch that each contact is in; at the onset of a
+//! contact there are two, and where a film's gap ceases to close. At rest all of
 //! it is elastic: G is symmetric, and no damping enters.
 
 use super::drive::Frame;
@@ -96,6 +97,8 @@ pub(super) struct ElementVariation {
     pub(super) path_rate: f64,
     pub(super) cage_angle: f64,
     pub(super) cage_speed: f64,
+    /// Of the clearance.
+    pub(super) clearance: f64,
     /// Of angle and speed of the frames of defects, in the order of [`Frame`].
     pub(super) frames: [[f64; 2]; 3],
 }
@@ -161,7 +164,8 @@ impl Linearized {
         let (amount, turn) = self.outer_change(by);
         let [angle, speed] = by.frames[self.frames[0] as usize];
         ElementChange {
-            inner: self.by_q * q
+            // A wider gap is a way along n.
+            inner: self.by_q * (q + self.n * by.clearance)
                 + self.by_q_rate * q_rate
                 + (self.by_inner_frame[0] * angle + self.by_inner_frame[1] * speed),
             outer: self.direction * amount + turn * self.amount,
@@ -239,7 +243,9 @@ impl Model {
         let bend = if bent { self.bend(RacewaySide::Outer, &at, now) } else { Bend::default() };
         let Near { approach: near, frame_speed, frame } = self.approach(RacewaySide::Outer, &at, &now.frames);
         let turning = omega - frame_speed;
-        let law = self.outer.contact.with_derivatives(near.value, near.by_path * path_rate + near.by_angle * turning);
+        let rate = near.by_path * path_rate + near.by_angle * turning;
+        let film = self.film_force_with_derivatives(RacewaySide::Outer, near.value, rate);
+        let law = self.outer.contact.with_derivatives(near.value, rate).plus(film);
         let direction = Vector::new(near.radial, near.tangential);
         Linearized {
             e_r,
@@ -271,7 +277,8 @@ impl Model {
     /// The inner contact of an element on the smooth raceway, q changing at `q_rate`.
     fn smooth_inner(&self, gap: &InnerGap, n: Vector, q_rate: Vector) -> InnerContact {
         let rate = -n.dot(&q_rate);
-        let force = self.inner.contact.law.with_derivatives(gap.approach, rate);
+        let film = self.film_force_with_derivatives(RacewaySide::Inner, gap.approach, rate);
+        let force = self.inner.contact.law.with_derivatives(gap.approach, rate).plus(film);
         // P q̇/|q| and Q/|q|
         let turn = (q_rate + n * rate) / gap.distance;
         let across = force.value / gap.distance;
@@ -299,7 +306,9 @@ impl Model {
         let bend = if bends == Bends::Wanted { self.bend(RacewaySide::Inner, at, now) } else { Bend::default() };
         let Near { approach: near, frame_speed, frame } = self.approach(RacewaySide::Inner, at, &now.frames);
         let turning = v_t / distance - frame_speed;
-        let law = self.inner.contact.law.with_derivatives(near.value, -near.by_path * v_n + near.by_angle * turning);
+        let rate = -near.by_path * v_n + near.by_angle * turning;
+        let film = self.film_force_with_derivatives(RacewaySide::Inner, near.value, rate);
+        let law = self.inner.contact.law.with_derivatives(near.value, rate).plus(film);
         // Δ̇ by the approach and by the angle at constant rates of both.
         let rate_by_approach = -bend.path_path * v_n + bend.path_angle * turning;
         let rate_by_angle = -bend.path_angle * v_n + bend.angle_angle * turning;

@@ -11,6 +11,7 @@ mod element_contacts;
 pub mod equilibrium;
 mod equilibrium_error;
 pub mod equilibrium_variation;
+pub mod film;
 pub mod forces;
 pub mod irregularity;
 pub mod jacobian;

@@ -8,6 +8,7 @@
 
 use super::drive::{Drive, Frame};
 use super::element_block::{ElementBlock, blocks};
+use super::film::Films;
 use super::irregularity::{Irregularity, Lead};
 use super::kinematics::CageState;
 use super::raceway::{Cells, DefectiveElement, Defects, Raceway};
@@ -36,7 +37,7 @@ pub struct Model {
     pub element_radius: f64,
     /// R_o − r [m], the distance ρ of an element that touches the smooth outer raceway.
     pub outer_centre_radius: f64,
-    /// Radial clearance G_r [m].
+    /// Radial clearance G_r [m] without oil films, which take some of it ([`Self::clearance`]).
     pub radial_clearance: f64,
     /// The inner raceway.
     pub inner: Raceway,
@@ -65,6 +66,8 @@ pub struct Model {
     /// How elements and cage run ahead and lag behind; `None` where each keeps its angle ahead of a cage that turns
     /// evenly.
     pub(super) irregularity: Option<Box<Irregularity>>,
+    /// Oil films; `None` for dry contacts.
+    pub films: Option<Box<Films>>,
     /// Whether any contact asks for the frames of defects: all but those of an outer ring that does not turn.
     pub has_frames: bool,
     /// What differs from element to element, eight at a time.
@@ -206,6 +209,7 @@ impl Model {
             elements: blocks(&offsets, 1.0 / bearing.mass_of_element(), stiffness).into(),
             offsets,
             irregularity,
+            films: Films::of(scene).map(Box::new),
         }
     }
 
@@ -288,11 +292,21 @@ impl Model {
         self.irregularity.is_some()
     }
 
-    /// Tells an uneven cage after how many turns the communication step of this drive begins.
+    /// Whether each element needs what the plain bearing of dry contacts in an even cage does not.
+    #[inline(always)]
+    pub(super) fn is_special(&self) -> bool {
+        self.irregularity.is_some() || self.films.is_some()
+    }
+
+    /// Tells an uneven cage after how many turns the communication step of this drive begins, and oil films at what
+    /// speed.
     #[inline(always)]
     pub fn begin(&self, drive: &Drive) {
         if let Some(uneven) = &self.irregularity {
             uneven.begin(drive.cage_turns);
+        }
+        if let Some(films) = &self.films {
+            films.begin(drive.film_speed);
         }
     }
 
@@ -351,7 +365,8 @@ impl Model {
         turned_by(cage.direction, sin, cos)
     }
 
-    /// Puts where all elements of an uneven cage are at an instant, and how fast they go, into `elements`.
+    /// Puts where all elements of an uneven cage are at an instant, and how fast they go, into `elements`; nothing in an
+    /// even one.
     #[inline(always)]
     pub(super) fn place_uneven(&self, drive: &Drive, cage: &CageState, elements: &mut [ElementBlock]) {
         let Some(uneven) = &self.irregularity else { return };

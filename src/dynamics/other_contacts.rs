@@ -146,7 +146,7 @@ impl Model {
     fn yielding_contact(&self, u: f64, path_rate: f64) -> OtherContact {
         let law = &self.outer.contact;
         let (part, part_rate) = law.of_contact(u, path_rate);
-        let force = law.law.force(part, part_rate);
+        let force = law.law.force(part, part_rate) + self.film_force(RacewaySide::Outer, u, path_rate);
         let (force, pushing) = ([force, force, 0.0], law.law.pushing(part, part_rate));
         OtherContact { element: 0, approach: u, pushing, force, torque: 0.0, frame: Frame::Housing }
     }
@@ -176,7 +176,8 @@ impl Model {
         let rate = near.by_path * path_rate + near.by_angle * turning;
         let (part, part_rate) =
             if compliant { self.outer.contact.of_contact(near.value, rate) } else { (near.value, rate) };
-        let outer = self.outer.contact.law.force(part, part_rate);
+        let film = self.film_force(RacewaySide::Outer, near.value, rate);
+        let outer = self.outer.contact.law.force(part, part_rate) + film;
         let (f_r, f_t) = (outer * near.radial, outer * near.tangential);
         let magnitude = outer * (near.radial * near.radial + near.tangential * near.tangential).sqrt();
         let pushing = self.outer.contact.law.pushing(part, part_rate);
@@ -192,7 +193,7 @@ impl Model {
         let turning = (n.x * tangential - n.y * radial) / gap.distance;
         let rate = -near.by_path * opening + near.by_angle * (turning - frame_speed);
         let law = &self.inner.contact.law;
-        let amount = law.force(near.value, rate);
+        let amount = law.force(near.value, rate) + self.film_force(RacewaySide::Inner, near.value, rate);
         let (along, across) = (amount * near.radial, amount * near.tangential);
         let (f_r, f_t) = (along * n.x - across * n.y, along * n.y + across * n.x);
         let magnitude = amount * (near.radial * near.radial + near.tangential * near.tangential).sqrt();

@@ -50,9 +50,9 @@ impl Model {
         derivative: &mut [f64],
         forces: &mut Forces,
     ) {
-        // Before anything else, so that nothing of it is in the way of even cages.
-        if self.is_uneven() {
-            return simd.outlined(UnevenDerivative::<RECORD>(Derivative {
+        // Before anything else, so that nothing of it is in the way of dry contacts in even cages.
+        if self.is_special() {
+            return simd.outlined(SpecialDerivative::<RECORD>(Derivative {
                 model: self,
                 stage: *stage,
                 derivative,
@@ -62,9 +62,9 @@ impl Model {
         self.derivative_in::<S, RECORD, false>(simd, stage, derivative, forces);
     }
 
-    /// As [`Self::derivative_on`]; if `UNEVEN`, in an uneven cage.
+    /// As [`Self::derivative_on`]; if `SPECIAL`, in an uneven cage or with oil films.
     #[inline(always)]
-    fn derivative_in<S: Wide, const RECORD: bool, const UNEVEN: bool>(
+    fn derivative_in<S: Wide, const RECORD: bool, const SPECIAL: bool>(
         &self,
         simd: S,
         stage: &Stage,
@@ -72,7 +72,8 @@ impl Model {
         forces: &mut Forces,
     ) {
         let Stage { drive, cage, state, ahead } = *stage;
-        if UNEVEN {
+        if SPECIAL {
+            self.begin(drive);
             self.place_uneven(drive, cage, &mut forces.elements);
         }
         let (now, tau) = (self.kinematics_of(stage), cage.tau);
@@ -96,7 +97,7 @@ impl Model {
                 on_shaft = self.other_inner_contacts::<RECORD>(&{ now }, state, forces);
             }
         }
-        let [shaft_x, shaft_y, housing_x, housing_y] = self.smooth_contacts::<S, RECORD, UNEVEN>(
+        let [shaft_x, shaft_y, housing_x, housing_y] = self.smooth_contacts::<S, RECORD, SPECIAL>(
             simd,
             &now,
             stage,
@@ -169,10 +170,10 @@ impl Kernel for Derivative<'_> {
     }
 }
 
-/// As [`Derivative`], in an uneven cage.
-struct UnevenDerivative<'a, const RECORD: bool>(Derivative<'a>);
+/// As [`Derivative`], in an uneven cage or with oil films.
+struct SpecialDerivative<'a, const RECORD: bool>(Derivative<'a>);
 
-impl<const RECORD: bool> Kernel for UnevenDerivative<'_, RECORD> {
+impl<const RECORD: bool> Kernel for SpecialDerivative<'_, RECORD> {
     type Output = ();
 
     #[inline(always)]

@@ -24,6 +24,8 @@ pub struct Variation {
     pub cage_angle: f64,
     /// Of the nominal cage speed [rad/s].
     pub cage_speed: f64,
+    /// Of the clearance, by oil films [m].
+    pub clearance: f64,
     /// Of angle [rad] and speed [rad/s] of the frames of defects, in the order of [`super::drive::Frame`].
     pub frames: [[f64; 2]; 3],
     /// Of the inner ring.
@@ -64,6 +66,7 @@ impl Variation {
     /// Makes it no change again; allocates nothing.
     pub fn clear(&mut self) {
         (self.cage_angle, self.cage_speed, self.frames) = (0.0, 0.0, [[0.0; 2]; 3]);
+        self.clearance = 0.0;
         (self.shaft, self.housing) = (RingState::default(), RingState::default());
         self.path.fill(0.0);
         self.radial_velocity.fill(0.0);
@@ -145,6 +148,7 @@ impl Model {
                 path_rate,
                 cage_angle: turn,
                 cage_speed: speed_change,
+                clearance: by.clearance,
                 frames: by.frames,
             };
             let d = element.change(&seen);
@@ -205,8 +209,8 @@ impl Model {
             let Linearized { e_r, e_t, by_q: g, .. } = element;
             let q = by.offset() + e_r * by.path[j] + e_t * (rho * turn);
             let dg = match in_cells[0] {
-                [SMOOTH, SMOOTH] => self.vary_inner_stiffness(u, offset, e_r, q),
-                _ => self.vary_near_inner_stiffness(j, in_cells, (u, &still), by),
+                [SMOOTH, SMOOTH] => self.vary_inner_stiffness(u, offset, e_r, q + element.n * by.clearance),
+                _ => self.vary_near_inner_stiffness(j, in_cells, (u, &still), by, element.n),
             };
             let across = g * e_r;
             let d_across = dg * e_r + g * e_t * turn;
@@ -226,10 +230,12 @@ impl Model {
         cells: [[u32; 2]; 2],
         (u, still): (f64, &FramedKinematics),
         by: &Variation,
+        n: Vector,
     ) -> Matrix {
         // As long as a change of any part of it stays within a difference.
         let turns = by.frames.iter().map(|turn| turn[0].abs()).fold(by.cage_angle.abs(), f64::max);
-        let length = by.offset().norm() + by.path[j].abs() + self.outer_centre_radius * turns;
+        let offset = by.offset() + n * by.clearance;
+        let length = offset.norm() + by.path[j].abs() + self.outer_centre_radius * turns;
         if length == 0.0 {
             return Matrix::zeros();
         }
@@ -238,7 +244,7 @@ impl Model {
             let mut moved = *still;
             let angle = still.cage.angle + share * by.cage_angle;
             moved.cage = CageState::at_rest(angle);
-            moved.housing.position += by.offset() * share;
+            moved.housing.position += offset * share;
             for (turn, by) in moved.frames.0.iter_mut().zip(by.frames) {
                 turn.angle += share * by[0];
             }

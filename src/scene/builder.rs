@@ -1,8 +1,8 @@
 //! Scenes made by a Rust program. What is not said has the value that a scene file gives it.
 
 use super::{
-    Bearing, Cage, CageIrregularity, Contact, ContactLaw, Damping, Defect, DefectShape, Experiment, Motion, Recorder,
-    Ring, Roller, RollerProfile, RollingElement, Scene, SceneError, Sensor,
+    Bearing, Cage, CageIrregularity, Contact, ContactEdge, ContactLaw, Damping, Defect, DefectShape, Experiment,
+    Motion, Recorder, Ring, Roller, RollerProfile, RollingElement, Scene, SceneError, Sensor,
 };
 use std::f64::consts::FRAC_PI_2;
 
@@ -41,7 +41,9 @@ impl Scene {
                 largest_force: None,
                 cells: None,
                 map_accuracy: None,
+                edge: ContactEdge::HalfSpace,
             },
+            film: None,
             cage: Cage { slip: 0.0, spin_slip: 0.0, initial_angle: -FRAC_PI_2, irregularity: None },
             defects: Vec::new(),
             shaft: Ring::default_shaft(),

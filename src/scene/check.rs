@@ -16,8 +16,8 @@ use super::error::{LONGEST_NAME, SceneError};
 use super::faults::Faults;
 use super::quantity::*;
 use super::{
-    Bearing, Contact, ContactLaw, Damping, Defect, DefectOn, DefectShape, Motion, Recorder, RecorderFilter, Ring,
-    Roller, RollerProfile, Scene, Sensor, SensorMode,
+    Bearing, Contact, ContactEdge, ContactLaw, Damping, Defect, DefectOn, DefectShape, Film, Motion, Recorder,
+    RecorderFilter, Ring, Roller, RollerProfile, Scene, Sensor, SensorMode,
 };
 use std::f64::consts::{PI, TAU};
 
@@ -43,6 +43,7 @@ impl Scene {
         faults.passes(GRAVITY.check_all(&self.gravity));
         let sound = faults.passes(self.bearing.check());
         faults.passes(self.contact.check());
+        faults.passes(self.film.map_or(Ok(()), |film| film.check()));
         faults.passes(CAGE_SLIP.check(self.cage.slip));
         faults.passes(INITIAL_ANGLE.check(self.cage.initial_angle));
         faults.passes(SPIN_SLIP.check(self.cage.spin_slip));
@@ -51,6 +52,7 @@ impl Scene {
         faults.passes(HOUSING_INITIAL_ANGLE.check(self.housing_initial_angle));
         if sound {
             faults.passes(self.check_crown_law());
+            faults.passes(self.check_balls_only());
         }
         let bearing = Some(&self.bearing).filter(|_| sound);
         for (index, defect) in self.defects.iter().enumerate() {
@@ -63,6 +65,16 @@ impl Scene {
         faults.passes(self.check_recorder());
         faults.passes(self.check_experiment());
         faults.told()
+    }
+
+    /// Films and soft edges are those of balls.
+    fn check_balls_only(&self) -> Result<(), SceneError> {
+        let asked =
+            [("[film]", self.film.is_some()), ("contact.edge = \"step\"", self.contact.edge == ContactEdge::Step)];
+        match asked.into_iter().find(|(_, asked)| *asked && self.bearing.roller().is_some()) {
+            Some((key, _)) => Err(SceneError::NotOfRollers { key }),
+            None => Ok(()),
+        }
     }
 
     /// Grids and maps near defects are of rollers with a crown by formula.
@@ -277,10 +289,23 @@ impl Contact {
             Damping::HuntCrossley(chi) => DAMPING_CHI.check(chi),
             Damping::Proportional(tau) => DAMPING_TAU.check(tau),
         });
+        if self.edge == ContactEdge::Step && self.law == ContactLaw::Hertz {
+            faults.passes(Err(SceneError::EdgeOfHertz));
+        }
         faults.passes(LARGEST_FORCE.check_all(self.largest_force.as_slice()));
         let cells = self.cells.map(|cells| CONTACT_CELLS.check_all(&cells.map(f64::from)));
         faults.passes(cells.unwrap_or(Ok(())));
         faults.passes(MAP_ACCURACY.check_all(self.map_accuracy.as_slice()));
+        faults.told()
+    }
+}
+
+impl Film {
+    fn check(&self) -> Result<(), SceneError> {
+        let mut faults = Faults::default();
+        faults.passes(VISCOSITY.check(self.viscosity));
+        faults.passes(PRESSURE_VISCOSITY.check(self.pressure_viscosity));
+        faults.passes(FILM_LAYER.check_all(self.layer.as_slice()));
         faults.told()
     }
 }

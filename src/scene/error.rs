@@ -142,6 +142,12 @@ pub enum SceneError {
         /// The key.
         key: &'static str,
     },
+    /// Something that is worked out for balls only, asked of rollers.
+    #[error("{key}: it is worked out for balls only, and bearing.element is \"cylindrical-roller\"")]
+    NotOfRollers {
+        /// The key, with its value where that is a word.
+        key: &'static str,
+    },
     /// A relief of a roller's ends that is not known.
     #[error("bearing.roller_profile is \"{given}\": it must be \"log\", \"straight\", or the name of a .csv file")]
     RollerProfile {
@@ -338,6 +344,12 @@ pub enum SceneError {
         /// Length [mm].
         length_mm: f64,
     },
+    /// A softness of edges that the law knows nothing of.
+    #[error(
+        "contact.edge is \"step\" and contact.law is \"hertz\" (the default without a defect), which knows no edges: it \
+         needs \"map\" or \"love\""
+    )]
+    EdgeOfHertz,
     /// A load on a ring that does not move by itself.
     #[error("load on the {ring} ({ring}.load_n) is [{}, {}]: it must be [0, 0] unless {ring}.motion is \"internal\"", load[0], load[1])]
     LoadNotInternal {

@@ -36,12 +36,15 @@
 //! | `sensor.response` | none; a file instead of the modes |
 //! | `probe` | none; a table without keys |
 //! | `solver.tolerance`, `.max_steps` | 1e-5, 10 000 000 |
+//! | `contact.edge` | `"half-space"`: a sharp edge is as stiff as the middle of a raceway; or `"step"` |
+//! | `film` | none: dry contacts; its `layer_um` fills every gap |
 //! | `recorder` | none; its `filter` `"linear-phase"`, or `"none"` |
 //! | `experiment.stop_s`, `.step_s` | 0.5, 1e-4 |
 
 mod bearing;
 mod cage;
 mod defects;
+mod film;
 mod keys;
 mod not_modelled;
 mod one_or_more;
@@ -51,10 +54,11 @@ mod values;
 
 use super::error::SceneError;
 use super::faults::Faults;
-use super::{Contact, ContactLaw, Damping, Experiment, Recorder, RecorderFilter, Scene};
+use super::{Contact, ContactEdge, ContactLaw, Damping, Experiment, Recorder, RecorderFilter, Scene};
 use bearing::BearingTable;
 use cage::CageTable;
 use defects::DefectTable;
+use film::FilmTable;
 use one_or_more::OneOrMore;
 use rings::{HousingTable, ProbeTable, SensorTable, ShaftTable};
 use serde::Deserialize;
@@ -100,6 +104,8 @@ struct SceneFile {
     /// Law and damping of the contacts.
     #[serde(default)]
     contact: ContactTable,
+    /// An oil film; without it contacts are dry.
+    film: Option<FilmTable>,
     /// Slip, start and irregularity of the cage.
     #[serde(default)]
     cage: CageTable,
@@ -151,6 +157,7 @@ impl SceneFile {
             gravity: self.gravity_m_s2,
             bearing,
             contact,
+            film: self.film.map(FilmTable::into_film),
             cage,
             defects,
             shaft,
@@ -194,6 +201,9 @@ struct ContactTable {
     map_accuracy: Option<f64>,
     /// Time constant of proportional damping.
     damping_tau_s: Option<f64>,
+    /// What laws "map" and "love" take a sharp edge to be.
+    #[serde(default)]
+    edge: ContactEdge,
 }
 
 /// Model of contact damping.
@@ -231,6 +241,7 @@ impl ContactTable {
             largest_force: self.largest_force_n,
             cells: self.cells,
             map_accuracy: self.map_accuracy,
+            edge: self.edge,
         })
     }
 }

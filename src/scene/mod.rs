@@ -39,6 +39,8 @@ pub struct Scene {
     pub bearing: Bearing,
     /// Contact law and damping.
     pub contact: Contact,
+    /// The oil film; `None` for dry contacts.
+    pub film: Option<Film>,
     /// The cage's kinematics.
     pub cage: Cage,
     /// The defects; none for a healthy bearing.
@@ -205,6 +207,20 @@ pub struct Contact {
     pub cells: Option<[u32; 2]>,
     /// Largest error of the contact map, relative to the largest force; `None` for the usual one.
     pub map_accuracy: Option<f64>,
+    /// What laws `map` and `love` take a sharp edge to be.
+    pub edge: ContactEdge,
+}
+
+/// What a sharp edge of a defect is taken to be.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ContactEdge {
+    /// As stiff as the middle of a raceway.
+    #[default]
+    HalfSpace,
+    /// As soft as a step of its depth.
+    Step,
 }
 
 /// Law of the contacts near defects. On smooth raceways all three are Hertz's.
@@ -251,6 +267,17 @@ pub enum Damping {
     HuntCrossley(f64),
     /// Q = max(0, Q_e + τ Q_e′ δ̇), with τ [s].
     Proportional(f64),
+}
+
+/// Oil in the contacts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Film {
+    /// Viscosity at the pressure of the surroundings [Pa s].
+    pub viscosity: f64,
+    /// How the viscosity's logarithm grows with pressure [1/Pa].
+    pub pressure_viscosity: f64,
+    /// Height up to which oil fills gaps [m]; `None` for all of them.
+    pub layer: Option<f64>,
 }
 
 /// Kinematics of the cage.

@@ -123,6 +123,18 @@ pub(super) const DAMPING_CHI: Quantity =
     quantity("contact damping", "contact.damping_chi_s_m", 1.0, Inclusive(0.0), Inclusive(1e3));
 pub(super) const DAMPING_TAU: Quantity =
     quantity("contact damping", "contact.damping_tau_s", 1.0, Inclusive(0.0), Inclusive(1.0));
+/// From fuel to grease's base oil in the cold.
+pub(super) const VISCOSITY: Quantity =
+    quantity("viscosity of the film", "film.viscosity_pa_s", 1.0, Inclusive(1e-4), Inclusive(10.0));
+pub(super) const PRESSURE_VISCOSITY: Quantity = quantity(
+    "pressure coefficient of the film's viscosity",
+    "film.pressure_viscosity_1_pa",
+    1.0,
+    Inclusive(0.5e-8),
+    Inclusive(4e-8),
+);
+pub(super) const FILM_LAYER: Quantity =
+    quantity("height of the film's oil", "film.layer_um", 1e6, Inclusive(0.01), Inclusive(1e4));
 pub(super) const LARGEST_FORCE: Quantity =
     quantity("largest contact force", "contact.largest_force_n", 1.0, Inclusive(1e-3), Inclusive(1e9));
 /// Fewer are no grid, more take minutes.
@@ -214,7 +226,7 @@ pub(super) const STEP: Quantity =
     quantity("communication step", "experiment.step_s", 1.0, Exclusive(0.0), Inclusive(1e9));
 
 /// All that the file says by one key in one unit.
-pub(super) const WRITTEN: [&Quantity; 52] = [
+pub(super) const WRITTEN: [&Quantity; 55] = [
     &GRAVITY,
     &ELEMENT_COUNT,
     &ELEMENT_DIAMETER,
@@ -232,6 +244,9 @@ pub(super) const WRITTEN: [&Quantity; 52] = [
     &LARGEST_FORCE,
     &CONTACT_CELLS,
     &MAP_ACCURACY,
+    &VISCOSITY,
+    &PRESSURE_VISCOSITY,
+    &FILM_LAYER,
     &CAGE_SLIP,
     &CAGE_SPACING,
     &CAGE_SPACING_RMS,

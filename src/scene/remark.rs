@@ -18,6 +18,13 @@ pub enum Remark {
         /// Groove radius over element diameter.
         conformity: f64,
     },
+    /// Oil films that take half of the clearance and more.
+    ThickFilms {
+        /// Both films together at the speed of the start [µm].
+        together_um: f64,
+        /// Radial clearance [µm].
+        clearance_um: f64,
+    },
     /// A value far from what is built, and usual if it was meant in another unit.
     OtherUnit {
         /// The key of the scene file, with its unit.
@@ -39,6 +46,11 @@ impl fmt::Display for Remark {
                 "the groove conformity of the {ring} ring is {conformity:.4}: ball bearings have 0.51 to \
                  {USUAL_CONFORMITY}. A roller bearing with a groove invented for it gets a ball's point contacts: cylindrical \
                  rollers are bearing.element = \"cylindrical-roller\""
+            ),
+            Self::ThickFilms { together_um, clearance_um } => write!(
+                f,
+                "the oil films of both raceways are {together_um:.2} um thick together, of a radial clearance of \
+                 {clearance_um} um (bearing.radial_clearance_um): they press the bearing as if it were that much tighter"
             ),
             Self::OtherUnit { key, value, usual: [least, most], meant } => {
                 write!(f, "{key} = {value}: {meant}? Usual are {least} to {most} in the unit of the key")

@@ -6,10 +6,11 @@
 //! both together become one profile, whose envelope and whose contact map are one; those farther apart keep a surface
 //! each. Overlaps are refused: which of two depths would hold is not said.
 
+use crate::contact::edge_softness::EdgeSoftness;
 use crate::contact::element_on_raceway::ElementOnRaceway;
 use crate::contact::rolling::RacewaySide;
 use crate::contact::smooth_laws::elastic_law;
-use crate::scene::{Bearing, DefectOn, Scene};
+use crate::scene::{Bearing, ContactEdge, DefectOn, Scene};
 use crate::surface::{Surface, SurfaceError};
 use std::borrow::Cow;
 use std::f64::consts::TAU;
@@ -170,9 +171,19 @@ fn needed(scene: &Scene, pair: [&Surface; 2], on: DefectOn) -> f64 {
         let approach = largest_approach(&scene.bearing, *side, largest_force(scene));
         let [along, _] = element.contact_half_axes(approach);
         let reach = |depth: f64| (2.0 * depth / element.curvatures()[0]).sqrt();
-        2.0 * (reach(depth) + reach(approach) + FELT * along)
+        // Maps are prepared for contacts that are up to half longer.
+        let soft = softness_of_edges(scene).map_or(0.0, |edges| edges.reach(depth, 1.5 * along));
+        2.0 * (reach(depth).max(soft) + reach(approach) + FELT * along)
     };
     sides(on).iter().map(of).fold(0.0, f64::max)
+}
+
+/// How soft sharp edges are; `None` for half-spaces.
+pub(super) fn softness_of_edges(scene: &Scene) -> Option<EdgeSoftness> {
+    match scene.contact.edge {
+        ContactEdge::HalfSpace => None,
+        ContactEdge::Step => Some(EdgeSoftness::of_steps(scene.bearing.poissons_ratio)),
+    }
 }
 
 /// Force [N] up to which the contact map of a scene reaches.

@@ -147,6 +147,9 @@ impl Simulation {
     fn along_inputs(&mut self, knowns: &[u32], seed: &[f64]) {
         let change = &mut self.change;
         change.clear();
+        // Of a step under way or behind the films stay as they are.
+        let films = self.model.films.as_ref().filter(|_| !self.state.started);
+        let films_by_speed = films.map_or(0.0, |films| films.together_by_speed());
         for (&reference, &value) in knowns.iter().zip(seed) {
             match self.quantities[reference as usize] {
                 Quantity::Speed(ring) => {
@@ -154,6 +157,8 @@ impl Simulation {
                     change.variation.cage_speed += ratios.cage[i] * value;
                     change.variation.frames[ring.frame() as usize][1] += value;
                     change.variation.frames[Frame::Spin as usize][1] += ratios.spin[i] * value;
+                    let against = if ring == RingName::Shaft { value } else { -value };
+                    change.variation.clearance -= films_by_speed * against;
                 }
                 Quantity::Load(RingName::Shaft, axis) => change.loads[axis] += value,
                 Quantity::Load(RingName::Housing, axis) => change.loads[2 + axis] += value,

@@ -40,6 +40,21 @@ pub enum SimulationError {
     /// A state that names places on the raceway which this model does not have.
     #[error("the state is none of this model's: it has an element in a part of the defect that is not there")]
     ForeignState,
+    /// Oil films so thick that they press the contacts beyond the elastic range.
+    #[error(
+        "oil films of {films_um:.3} um at {speed_hz} Hz leave a radial clearance of {clearance_um:.3} um: it must be at \
+         least {limit_um:.3} um"
+    )]
+    ThickFilms {
+        /// Both films together [µm].
+        films_um: f64,
+        /// Speed of the inner ring against the outer [Hz].
+        speed_hz: f64,
+        /// What is left of the clearance [µm].
+        clearance_um: f64,
+        /// Limit [µm].
+        limit_um: f64,
+    },
     /// A step was asked for before initialization.
     #[error("a step was asked for before initialization was finished")]
     NotInitialized,

@@ -24,6 +24,7 @@ use crate::dynamics::raceway::Cells;
 use crate::numerics::plane::Vector;
 use crate::scene::{ContactLaw, Scene};
 use crate::surface::{Surface, with_roller_profile};
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// A bearing that is stepped through time.
@@ -156,6 +157,7 @@ impl Simulation {
                 cage: WholeAngle::new(scene.cage.initial_angle),
                 frames: [scene.shaft_initial_angle, scene.housing_initial_angle, 0.0].map(WholeAngle::new),
                 ended: Ended::default(),
+                film_speed: 0.0,
                 progress,
                 reals,
                 integers,
@@ -301,6 +303,24 @@ impl Simulation {
         driving::drive(&self.state, &self.inputs, &self.model.ratios, stepping)
     }
 
+    /// Oil films take the speed that the rings have now.
+    pub(super) fn begin_films(&mut self) -> Result<(), SimulationError> {
+        let Some(films) = &self.model.films else { return Ok(()) };
+        let speed = driving::relative_speed(&self.state, &self.inputs);
+        films.begin(speed);
+        let (clearance, limit) = (self.model.clearance(), self.scene.bearing.smallest_radial_clearance());
+        if !(clearance >= limit) {
+            return Err(SimulationError::ThickFilms {
+                films_um: films.together() * 1e6,
+                speed_hz: speed / TAU,
+                clearance_um: clearance * 1e6,
+                limit_um: limit * 1e6,
+            });
+        }
+        self.state.film_speed = speed;
+        Ok(())
+    }
+
     /// Rebuilds the model if parameters were set, and finds the equilibrium.
     pub(super) fn find_equilibrium(&mut self) -> Result<(), SimulationError> {
         self.rebuild()?;
@@ -313,6 +333,7 @@ impl Simulation {
         ];
         self.state.cage = WholeAngle::new(cage);
         self.state.frames = [shaft, housing, 0.0].map(WholeAngle::new);
+        self.begin_films()?;
         let drive = self.drive(false);
         let progress = &mut self.state.progress;
         *progress = new_progress(&self.model, &self.recorder);

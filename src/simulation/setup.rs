@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::SimulationError;
 pub use super::arrangement::largest_force;
-use super::arrangement::{Spot, arranged, largest_approach, sides};
+use super::arrangement::{Spot, arranged, largest_approach, sides, softness_of_edges};
 use super::quantity::{Parameter, Quantity, RingName};
 use super::variables::{Kind, Variable};
 use crate::contact::contact_maps::ContactMaps;
@@ -112,6 +112,7 @@ pub fn map_specification(scene: &Scene, side: RacewaySide) -> MapSpecification {
             .contact
             .cells
             .map_or(usual.resolution, |[columns, rows]| Resolution { columns: columns as usize, rows: rows as usize }),
+        edges: softness_of_edges(scene),
         ..usual
     }
 }

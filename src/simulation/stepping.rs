@@ -150,6 +150,7 @@ impl Simulation {
             return Err(SimulationError::NotInitialized);
         }
         self.fresh = Fresh::State;
+        self.begin_films()?;
         self.model.forget_contacts();
         match self.recorder.as_mut().filter(|recorder| recorder.is_on()) {
             Some(recorder) => recorder.begin(self.state.time, self.state.angles()),

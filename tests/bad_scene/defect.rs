@@ -65,3 +65,13 @@ fn a_profile_is_a_plain_file_name() {
     }
     accepted(shape, "profile = \"Messung 3 (Außenring).csv\"");
 }
+
+#[test]
+fn edges_softer_than_the_law_knows_are_refused() {
+    let parts = ["contact.edge is \"step\" and contact.law is \"hertz\"", "needs \"map\" or \"love\""];
+    refused("law = \"hertz\"", "law = \"hertz\"\nedge = \"step\"", &parts);
+    accepted("law = \"hertz\"", "law = \"hertz\"\nedge = \"half-space\"");
+    accepted("law = \"hertz\"", "law = \"love\"\nedge = \"step\"");
+    // The softness of an end reaches along all of a raceway: it is not built.
+    refused("law = \"hertz\"", "law = \"love\"\nedge = \"end\"", &["unknown variant `end`", "`half-space` or `step`"]);
+}

@@ -82,7 +82,7 @@ fn other_elements_are_answered_with_those_that_there_are_and_other_wishes_with_w
         refused("[bearing]", &format!("{key}\n[bearing]"), &[&format!("{name} is {by_name}")]);
     }
     refused("element_count = 9", &with("contact_angle_deg = 15.0"), &["no axial load, no contact angle"]);
-    refused("element_count = 9", &with("lubricant = \"oil\""), &["contacts without lubricant"]);
+    refused("element_count = 9", &with("lubricant = \"oil\""), &["an oil film is said by a table [film]"]);
     // A slip of the pen is none of these.
     refused("element_count = 9", "element_cout = 9", &["bearing.element_cout is unknown: did you mean element_count?"]);
 }

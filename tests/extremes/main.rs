@@ -101,8 +101,9 @@ extremes! {
 fn write_the_table_of_stability() {
     let rows: String = rows().iter().map(Row::line).collect();
     let text = include_str!("page.md").replace("<!-- rows -->\n", &rows);
-    let [growth, tolerances] = predictability::tables();
+    let [growth, oiled, tolerances] = predictability::tables();
     let text = text.replace("<!-- growth -->\n", &growth).replace("<!-- tolerances -->\n", &tolerances);
+    let text = text.replace("<!-- growth with oil -->\n", &oiled);
     let text = text.replace("<!-- random scenes -->\n", include_str!("../adversary/scenes.md"));
     let text = text.replace("<!-- misuse -->\n", include_str!("../adversary/misuse.md"));
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/stability.md");

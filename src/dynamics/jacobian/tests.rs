@@ -8,7 +8,7 @@ use crate::dynamics::drive::{Cubic, Quadratic};
 use crate::dynamics::drive::{Frame, Turning};
 use crate::dynamics::forces::Forces;
 use crate::dynamics::raceway::{Cells, DefectiveElement, Defects, SMOOTH};
-use crate::scene::{CageIrregularity, Damping, DefectOn, Roller, RollerProfile, RollingElement, Scene, Sensor};
+use crate::scene::{CageIrregularity, Damping, DefectOn, Film, Roller, RollerProfile, RollingElement, Scene, Sensor};
 
 /// Who bears a defect, and for an element the raceway that it faces.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,6 +49,9 @@ fn lively_with(
     if let Damping::Proportional(_) = damping {
         let of = |(direction, mass)| Sensor { direction, mass, ..Sensor::default() };
         scene.sensors = [(0.3, 0.7), (std::f64::consts::FRAC_PI_2, 1.0), (3.6, 0.2)].map(of).to_vec();
+    }
+    if damping == Damping::HuntCrossley(2.0) {
+        scene.film = Some(Film { viscosity: 0.1, pressure_viscosity: 2e-8, layer: Some(20e-6) });
     }
     for (ring, motion) in [&mut scene.shaft, &mut scene.housing].into_iter().zip(motions) {
         ring.motion = motion;
@@ -92,6 +95,7 @@ fn lively_with(
         housing: place(12e-6),
         shaft_load: load(100.0),
         housing_load: load(-30.0),
+        film_speed: 700.0,
     };
     (model, drive)
 }
@@ -136,8 +140,9 @@ pub(crate) const MOTIONS: [[Motion; 2]; 4] = [
     [Motion::Host, Motion::Host],
 ];
 
-pub(crate) const DAMPINGS: [Damping; 3] =
-    [Damping::HuntCrossley(0.0), Damping::HuntCrossley(5.0), Damping::Proportional(1e-5)];
+/// With each of them comes something else: a cage that is not even, several sensors, oil films.
+pub(crate) const DAMPINGS: [Damping; 4] =
+    [Damping::HuntCrossley(0.0), Damping::HuntCrossley(5.0), Damping::Proportional(1e-5), Damping::HuntCrossley(2.0)];
 
 /// Which contacts push, which are derivatives' branches.
 fn branch(forces: &Forces) -> Vec<bool> {

@@ -3,6 +3,7 @@
 use super::super::key_fault::{Hint, KeyFault};
 use super::bearing::BearingTable;
 use super::cage::CageTable;
+use super::film::FilmTable;
 use super::not_modelled::instead_of;
 use super::rings::{HousingTable, ProbeTable, SensorModeTable, SensorTable, ShaftTable};
 use super::values;
@@ -15,9 +16,10 @@ use toml::de::{DeTable, DeValue};
 type Keys = &'static [&'static str];
 
 /// Keys that a table cannot be without. The file itself is the table without a name.
-const NEEDED: [(&str, Keys); 7] = [
+const NEEDED: [(&str, Keys); 8] = [
     ("", &["name", "bearing", "shaft", "housing"]),
     ("bearing", &["element_count", "element_diameter_mm", "pitch_diameter_mm", "youngs_modulus_gpa", "poissons_ratio"]),
+    ("film", &["viscosity_pa_s", "pressure_viscosity_1_pa"]),
     ("defect", &["angle_deg"]),
     ("shaft", &["motion", "speed_hz"]),
     ("housing", &["motion"]),
@@ -40,11 +42,12 @@ const ROLLER: &str = "cylindrical-roller";
 const ROLLER_LENGTH: &str = "roller_length_mm";
 
 /// All tables and the keys that each takes, as the tables themselves say.
-fn tables() -> [(&'static str, Keys); 13] {
+fn tables() -> [(&'static str, Keys); 14] {
     [
         ("", fields::<SceneFile>()),
         ("bearing", fields::<BearingTable>()),
         ("contact", fields::<ContactTable>()),
+        ("film", fields::<FilmTable>()),
         ("cage", fields::<CageTable>()),
         ("defect", fields::<DefectTable>()),
         ("shaft", fields::<ShaftTable>()),
@@ -303,6 +306,7 @@ mod tests {
         match table {
             "bearing" => of::<BearingTable>(text),
             "contact" => of::<ContactTable>(text),
+            "film" => of::<FilmTable>(text),
             "cage" => of::<CageTable>(text),
             "defect" => of::<DefectTable>(text),
             "shaft" => of::<ShaftTable>(text),

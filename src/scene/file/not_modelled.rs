@@ -19,7 +19,8 @@ const ELEMENTS: &str = "rolling elements are said by bearing.element, \"ball\" o
 const BY_NAME: &str =
     "a bearing is given by its dimensions or by bearing.catalogue, its rolling elements by bearing.element";
 const PLANE: &str = "the rings move in one plane, so far: no axial load, no contact angle, no tilt";
-const DRY: &str = "contacts without lubricant and friction, so far";
+const DRY: &str = "an oil film is said by a table [film] with viscosity_pa_s and pressure_viscosity_1_pa; friction is not \
+                   modelled";
 
 const ASKED: [Asked; 6] = [
     Asked { tables: &[""], names: &["race"], parts: &["defect", "spall", "raceway", "_race"], only: DEFECTS },

@@ -1,0 +1,84 @@
+//! What the edges of a raceway add to the influence of cells on each other, on a grid whose cell borders lie on them.
+//!
+//! Two cells on the same side of an edge, on the raceway that it ends, feel each other's image: by s, the sum of their
+//! distances from it, which is a whole number of cells. One edge knows nothing of the other.
+
+use std::sync::Arc;
+
+use super::edge_softness::StepImage;
+use super::half_space::KernelTable;
+use super::row_pairs::{Image, Mirror, RowPairs};
+
+/// An edge of the raceway on a grid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct GridEdge {
+    /// It lies before this column.
+    pub(super) border: i32,
+    /// Whether the raceway that ends there has the lower columns.
+    pub(super) below: bool,
+    /// Depth of the step [m].
+    pub(super) depth: f64,
+}
+
+/// An edge that makes the raceway softer.
+#[derive(Debug, Clone)]
+pub(super) struct SoftEdge {
+    edge: GridEdge,
+    /// Columns from the edge beyond which it is not felt.
+    felt: i32,
+    pairs: Arc<RowPairs>,
+}
+
+impl SoftEdge {
+    /// The edge for windows of up to `columns` and `rows` of unknowns, of which the kernel has `kernel_rows`.
+    pub(super) fn new(
+        edge: GridEdge,
+        factor: f64,
+        cell: [f64; 2],
+        (columns, rows, kernel_rows): (usize, usize, usize),
+        mirror: Mirror,
+    ) -> Self {
+        let felt = (StepImage::reach(edge.depth) / cell[0]).ceil() as usize;
+        // A window whose nearest cell is felt may end a window's length farther on.
+        let reach = 2 * (felt + columns) + 1;
+        let image = StepImage { depth: edge.depth, factor, cell };
+        let table =
+            KernelTable::from_function(
+                reach,
+                kernel_rows,
+                cell,
+                |x, y| {
+                    if x > 0.0 { image.influence(x, y) } else { 0.0 }
+                },
+            );
+        Self { edge, felt: felt as i32, pairs: Arc::new(RowPairs::new(&table, rows, mirror)) }
+    }
+
+    /// Whether cells of a window feel it.
+    pub(super) fn is_felt(&self, first: i32, columns: usize) -> bool {
+        let (last, border) = (first + columns as i32 - 1, self.edge.border);
+        if self.edge.below {
+            first < border && border - last <= self.felt
+        } else {
+            last >= border && first - border <= self.felt
+        }
+    }
+}
+
+impl Image for SoftEdge {
+    #[inline(always)]
+    fn bears(&self, column: i32) -> bool {
+        (column < self.edge.border) == self.edge.below
+    }
+
+    #[inline(always)]
+    fn on(&self, (target, to, length): (usize, i32, usize), (source, from): (usize, i32)) -> (usize, &[f64]) {
+        let border = self.edge.border;
+        let inside = (border - to).clamp(0, length as i32) as usize;
+        let (skip, end) = if self.edge.below { (0, inside) } else { (inside, length) };
+        let middle = self.pairs.reach() as i32 - 1;
+        let start = (middle + to + skip as i32 + from + 1 - 2 * border) as usize;
+        let pair = self.pairs.pair(target, source);
+        (skip, pair.get(start..start + (end - skip)).unwrap_or(&[]))
+    }
+}
