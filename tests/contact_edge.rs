@@ -7,7 +7,7 @@ use brinell::contact::error::ContactError;
 use brinell::contact::love::LoveContact;
 use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::{MapSpecification, Sequential};
-use brinell::contact::raceway_grid::{ElementOnRaceway, Resolution};
+use brinell::contact::raceway_grid::{Across, ElementOnRaceway, Resolution};
 use brinell::contact::rolling::RacewaySide;
 use brinell::surface::{Profile, Surface};
 use std::f64::consts::FRAC_PI_2;
@@ -16,7 +16,7 @@ use std::f64::consts::FRAC_PI_2;
 const ER16K: ElementOnRaceway = ElementOnRaceway {
     element_radius: 3.97e-3,
     raceway_radius: 23.6325e-3,
-    groove_radius: 4.095e-3,
+    across: Across::Groove(4.095e-3),
     raceway: RacewaySide::Outer,
 };
 

@@ -24,6 +24,7 @@
 #![allow(clippy::neg_cmp_op_on_partial_ord)]
 
 use crate::surface::Surface;
+use libm::pow;
 
 use super::{
     active_set::{ActiveSet, Window},
@@ -32,7 +33,7 @@ use super::{
     error::ContactError,
     half_space::KernelTable,
     raceway_grid::{ElementOnRaceway, RacewayGrid, Resolution},
-    smooth_scale::{Energy, SmoothScale, two_fifths},
+    smooth_scale::{Energy, SmoothScale},
     soft_edges::{GridEdge, SoftEdge},
 };
 

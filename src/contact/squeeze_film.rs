@@ -19,7 +19,8 @@
 //! h is never taken to be less than [`ROUGHNESS`]: where nothing rolls there is no film, and surfaces touch with their
 //! asperities. Near a defect the gap is that of the contact law's equivalent approach, and c that of the whole raceway.
 
-use super::force_law::{Force, Number};
+use super::force_law::Force;
+use crate::numerics::number::Number;
 use std::ops::Div;
 
 /// Height of asperities [m]: gaps are no smaller.

@@ -128,7 +128,7 @@ impl Model {
         // A function of its own, so that nothing of it is in the way of balls.
         if let Some(line) = self.inner.contact.law.elasticity.line() {
             let found = (elements, contacts);
-            return simd.outlined(Rollers::<RECORD, UNEVEN> {
+            return simd.outlined(Rollers::<RECORD, SPECIAL> {
                 model: self,
                 line,
                 now: &{ *now },
@@ -137,12 +137,12 @@ impl Model {
                 found,
             });
         }
-        self.contacts_of::<S, Point, RECORD, UNEVEN>(simd, Point, now, stage, derivative, (elements, contacts))
+        self.contacts_of::<S, Point, RECORD, SPECIAL>(simd, Point, now, stage, derivative, (elements, contacts))
     }
 
     /// As [`smooth_contacts`](Self::smooth_contacts), for contacts of one elasticity.
     #[inline(always)]
-    fn contacts_of<S: Wide, E: Elastic, const RECORD: bool, const UNEVEN: bool>(
+    fn contacts_of<S: Wide, E: Elastic, const RECORD: bool, const SPECIAL: bool>(
         &self,
         simd: S,
         elastic: E,
@@ -284,7 +284,7 @@ impl<E: Elastic> Smooth<'_, E> {
 }
 
 /// The smooth contacts of rollers.
-struct Rollers<'a, const RECORD: bool, const UNEVEN: bool> {
+struct Rollers<'a, const RECORD: bool, const SPECIAL: bool> {
     model: &'a Model,
     line: Line<'a>,
     now: &'a Kinematics,
@@ -293,13 +293,13 @@ struct Rollers<'a, const RECORD: bool, const UNEVEN: bool> {
     found: (&'a [ElementBlock], &'a mut Record),
 }
 
-impl<const RECORD: bool, const UNEVEN: bool> Kernel for Rollers<'_, RECORD, UNEVEN> {
+impl<const RECORD: bool, const SPECIAL: bool> Kernel for Rollers<'_, RECORD, SPECIAL> {
     type Output = [f64; 4];
 
     #[inline(always)]
     fn run<S: Wide>(self, simd: S) -> [f64; 4] {
         let Self { model, line, now, stage, derivative, found } = self;
-        model.contacts_of::<S, Line, RECORD, UNEVEN>(simd, line, now, stage, derivative, found)
+        model.contacts_of::<S, Line, RECORD, SPECIAL>(simd, line, now, stage, derivative, found)
     }
 }
 

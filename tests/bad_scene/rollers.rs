@@ -145,3 +145,10 @@ fn a_roller_bearing_of_the_catalogue_needs_nothing_beside_its_name() {
     let groove = named("catalogue = \"NU205\"\nconformity_inner = 0.52").unwrap_err().to_string();
     assert!(groove.contains("conformity_inner") && groove.contains("only balls"), "{groove}");
 }
+
+#[test]
+fn what_is_worked_out_for_balls_only_is_refused_of_rollers() {
+    let film = "[film]\nviscosity_pa_s = 0.04\npressure_viscosity_1_pa = 2e-8\n[cage]";
+    refused("[cage]", film, &["[film]: it is worked out for balls only", "cylindrical-roller"]);
+    refused("[contact]", "[contact]\nedge = \"step\"", &["contact.edge = \"step\": it is worked out for balls only"]);
+}
