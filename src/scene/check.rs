@@ -9,8 +9,8 @@
 //! puts the limit of elastic behaviour of a ball bearing at 4200 MPa. For bearing steel and conformities near 0.52 this
 //! pressure belongs to an approach of 0.0037 D_w in each contact (30 µm for D_w = 7.94 mm; Hertzian approach at a given
 //! pressure grows in proportion to size), hence G_r ≥ −0.0075 D_w. Ceramic or very open grooves would allow somewhat
-//! less; the limit is not scaled for them. For cylindrical rollers ISO 76 has 4000 MPa, which a straight one of 7.5 × 9 mm
-//! reaches at 0.0043 D_w in each contact: the limit is the same.
+//! less; the limit is not scaled for them. For cylindrical rollers ISO 76 has 4000 MPa, which a straight one of 7.5 ×
+//! 9 mm reaches at 0.0043 D_w in each contact: the limit is the same.
 
 use super::error::{LONGEST_NAME, SceneError};
 use super::faults::Faults;
