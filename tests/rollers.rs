@@ -139,7 +139,7 @@ fn published_laws_of_straight_rollers_agree() {
 #[test]
 fn the_most_loaded_element_carries_what_the_integrals_of_load_distribution_say() {
     // J_r(½) = (1/2π)∫ cosⁿψ cos ψ dψ over the loaded half, Γ(n/2 + 1)/(2√π Γ(n/2 + 3/2)): 0.2288 for points, and
-    // 0.2448 for lines. Harris's 0.2453 for lines is that of n = 1.1, as NSK's 4.08 F/Z is (CAT. E728g, equations 4, 5).
+    // 0.2448 for lines. Harris's 0.2453 for lines is that of n = 1.1, as NSK's 4.08 F/Z is (CAT. E728g, eqs. 4, 5).
     let balls = Bearing { radial_clearance: 0.0, ..Bearing::steel_balls(100, 2e-3, 100e-3) };
     let lines = rollers((100, 2e-3, 2e-3, 100e-3), Straight, 0.0);
     for (bearing, order, printed) in [(balls, 1.5, 0.2288), (lines, 10.0 / 9.0, 0.2448)] {

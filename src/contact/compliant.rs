@@ -5,8 +5,8 @@
 //! Δ = δ + c Q(δ),   Q = K δ^1.5 for a ball
 //! ```
 //! For a roller that is solved by Newton's method from δ = Δ on, which goes down to the root, Q being convex. For a
-//! ball, with δ = Δ/z² and β = c K √Δ this is the cubic z³ − z = β, which has one root z ≥ 1. Its left side is convex there,
-//! so Newton's method converges from any z ≥ 1; from the starts below four steps reach rounding for every β.
+//! ball, with δ = Δ/z² and β = c K √Δ this is the cubic z³ − z = β, which has one root z ≥ 1. Its left side is convex
+//! there, so Newton's method converges from any z ≥ 1; from the starts below four steps reach rounding for every β.
 //!
 //! The share of a small change of Δ that the contact takes is s = dδ/dΔ = 1/(1 + c k) with its tangent stiffness
 //! k = 1.5 K √δ: c k = 1.5 β/z.

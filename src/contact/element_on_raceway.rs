@@ -64,7 +64,8 @@ impl ElementOnRaceway {
     /// Checks the radii.
     ///
     /// # Errors
-    /// When a groove or an outer raceway is not wider than the element, a roller has no length or a number is not finite.
+    /// When a groove or an outer raceway is not wider than the element, a roller has no length, or a number is not
+    /// finite.
     pub fn checked(self) -> Result<Self, ContactError> {
         let r = self.element_radius;
         let (least, limit) = match self.raceway {

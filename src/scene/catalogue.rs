@@ -7,8 +7,8 @@
 //! 6205 the number and size of balls that are published of them; in a bearing on a shelf there may be one more or less,
 //! and every frequency changes with it.
 //!
-//! Of roller bearings all that is inside is estimated: rollers of 0.28 (D − d) to the nearest half millimetre, an effective
-//! length of 0.6 B, as many as take four fifths of the pitch circle (d + D)/2. Makers crown their rollers each in their
+//! Of roller bearings all that is inside is estimated: rollers of 0.28 (D − d) to the nearest half millimetre, an
+//! effective length of 0.6 B, as many as take four fifths of the pitch circle (d + D)/2. Makers crown their rollers each in their
 //! own way. NU, NJ, NUP and N differ in their flanges alone.
 
 /// Millimetres of 1/64 inch, in which balls are made.

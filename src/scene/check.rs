@@ -9,24 +9,20 @@
 //! puts the limit of elastic behaviour of a ball bearing at 4200 MPa. For bearing steel and conformities near 0.52 this
 //! pressure belongs to an approach of 0.0037 D_w in each contact (30 µm for D_w = 7.94 mm; Hertzian approach at a given
 //! pressure grows in proportion to size), hence G_r ≥ −0.0075 D_w. Ceramic or very open grooves would allow somewhat
-//! less; the limit is not scaled for them. For cylindrical rollers ISO 76 has 4000 MPa, which a straight one of 7.5 × 9 mm
-//! reaches at 0.0043 D_w in each contact: the limit is the same.
+//! less; the limit is not scaled for them. For cylindrical rollers ISO 76 has 4000 MPa, which a straight one of 7.5 ×
+//! 9 mm reaches at 0.0043 D_w in each contact: the limit is the same.
 
 use super::error::{LONGEST_NAME, SceneError};
 use super::faults::Faults;
 use super::quantity::*;
 use super::{
     Bearing, Contact, ContactEdge, ContactLaw, Damping, Defect, DefectOn, DefectShape, Film, Motion, Recorder,
-    RecorderFilter, Ring, Roller, RollerProfile, Scene, Sensor, SensorMode,
+    RecorderFilter, Ring, Scene, Sensor, SensorMode,
 };
 use std::f64::consts::{PI, TAU};
 
 /// Smallest clearance over element diameter; see the head of this file.
 const SMALLEST_RELATIVE_CLEARANCE: f64 = -0.0075;
-
-/// Effective length of a roller over its diameter: what is shorter is a disc, what is longer a needle.
-const SHORTEST: f64 = 0.3;
-const LONGEST: f64 = 3.0;
 
 /// Offset and jitter of an element from its place in an even cage, as a share of the spacing, at most: what is farther
 /// off is no place in a pocket.
@@ -74,19 +70,6 @@ impl Scene {
         match asked.into_iter().find(|(_, asked)| *asked && self.bearing.roller().is_some()) {
             Some((key, _)) => Err(SceneError::NotOfRollers { key }),
             None => Ok(()),
-        }
-    }
-
-    /// Grids and maps near defects are of rollers with a crown by formula.
-    fn check_crown_law(&self) -> Result<(), SceneError> {
-        match self.bearing.roller() {
-            Some(Roller { profile: RollerProfile::Measured(crown), .. })
-                if !self.defects.is_empty() && self.contact.law != ContactLaw::Hertz =>
-            {
-                let (law, _) = self.contact.law.described();
-                Err(SceneError::CrownLaw { law, name: crown.name.clone() })
-            }
-            _ => Ok(()),
         }
     }
 
@@ -210,34 +193,6 @@ impl Bearing {
         faults.passes(HERTZ_INNER.check_all(self.hertz_inner.as_slice()));
         faults.passes(HERTZ_OUTER.check_all(self.hertz_outer.as_slice()));
         faults.passes(OUTER_COMPLIANCE.check(self.outer_compliance));
-        faults.told()
-    }
-
-    /// What the lamina law holds for.
-    fn check_roller(&self, roller: &Roller) -> Result<(), SceneError> {
-        let mut faults = Faults::default();
-        let [length_mm, low_mm, high_mm] =
-            [roller.length, SHORTEST * self.element_diameter, LONGEST * self.element_diameter].map(|x| shown(x * 1e3));
-        if faults.passes(ROLLER_LENGTH.check(roller.length)) && !(low_mm..=high_mm).contains(&length_mm) {
-            faults.passes(Err(SceneError::RollerLength { length_mm, low_mm, high_mm }));
-        }
-        faults.passes(ROLLER_LAMINAE.check(f64::from(roller.laminae)));
-        if let RollerProfile::Measured(crown) = &roller.profile {
-            faults.passes(check_profile_name(&crown.name));
-        }
-        let not_steel = |of: SceneError| match of {
-            SceneError::OutOfRange { quantity, key, value, limits } => {
-                SceneError::NotSteel { quantity, key, value, limits }
-            }
-            other => other,
-        };
-        faults.passes(STEELS_MODULUS.check(self.youngs_modulus).map_err(not_steel));
-        faults.passes(STEELS_RATIO.check(self.poissons_ratio).map_err(not_steel));
-        for (key, given) in
-            [("bearing.hertz_inner_n_m1_5", self.hertz_inner), ("bearing.hertz_outer_n_m1_5", self.hertz_outer)]
-        {
-            faults.passes(given.map_or(Ok(()), |_| Err(SceneError::OnlyBalls { key })));
-        }
         faults.told()
     }
 
@@ -400,7 +355,7 @@ fn check_name(name: &str) -> Result<(), SceneError> {
 }
 
 /// The packed model holds the profile beside the scene, so a name that leads elsewhere would not be found there.
-fn check_profile_name(name: &str) -> Result<(), SceneError> {
+pub(super) fn check_profile_name(name: &str) -> Result<(), SceneError> {
     let illegal = |c: char| matches!(c, '/' | '\\' | ':') || c.is_control();
     if name.is_empty() || name == "." || name == ".." || name.chars().any(illegal) {
         return Err(SceneError::ProfileName(name.to_owned()));

@@ -5,6 +5,7 @@
 mod builder;
 mod catalogue;
 mod check;
+mod check_roller;
 mod defect;
 mod error;
 mod faults;

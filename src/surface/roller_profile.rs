@@ -1,8 +1,8 @@
 //! A measured crown of a roller: `axial_mm`, `depth_um`, one point a line with growing axial coordinate; 0 is the
 //! roller's middle.
 //!
-//! Depths are counted from where the roller is thickest, which is 0: `bearing.element_diameter_mm` is the diameter there.
-//! Between points the crown is straight.
+//! Depths are counted from where the roller is thickest, which is 0: `bearing.element_diameter_mm` is the diameter
+//! there. Between points the crown is straight.
 
 use super::{SurfaceError, csv};
 use crate::scene::{Crown, RollerProfile, RollingElement, Scene};
@@ -57,7 +57,8 @@ fn check(crown: &Crown, half: f64, diameter: f64) -> Result<(), String> {
     if from > -WITHIN * half || to < WITHIN * half {
         let [from, to, wanted] = [from, to, WITHIN * half].map(|x| x * 1e3);
         return Err(format!(
-            "it spans axial_mm from {from} to {to}: it must reach from -{wanted:.4} to {wanted:.4}, 0.95 of bearing.roller_length_mm"
+            "it spans axial_mm from {from} to {to}: it must reach from -{wanted:.4} to {wanted:.4}, 0.95 of \
+             bearing.roller_length_mm"
         ));
     }
     let least = crown.points.iter().fold(f64::INFINITY, |least, [_, depth]| least.min(*depth));

@@ -17,7 +17,12 @@ use brinell::surface::{Profile, Surface};
 use criterion::{Criterion, criterion_group, criterion_main};
 
 const ER16K: ElementOnRaceway =
-    ElementOnRaceway { element_radius: 3.97e-3, raceway_radius: 23.6325e-3, across: Across::Groove(4.095e-3), raceway: RacewaySide::Outer };
+    ElementOnRaceway {
+        element_radius: 3.97e-3,
+        raceway_radius: 23.6325e-3,
+        across: Across::Groove(4.095e-3),
+        raceway: RacewaySide::Outer,
+    };
 const LENGTH: f64 = 6.517e-3;
 const LARGEST: f64 = 10e-6;
 

@@ -43,8 +43,8 @@ pub(super) struct BearingTable {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct BearingKeys {
-    /// Name of a deep groove ball bearing or cylindrical roller bearing, as 6205 or NU205; its dimensions hold where no key
-    /// beside it says otherwise.
+    /// Name of a deep groove ball bearing or cylindrical roller bearing, as 6205 or NU205; its dimensions hold where
+    /// no key beside it says otherwise.
     catalogue: Option<String>,
     /// What rolls; without it balls, or what the bearing of the catalogue has.
     element: Option<ElementKind>,
