@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Plain facts of a recording of a spalled outer raceway: how it grows with speed, scatters, rings, and how its entry rises.
 
-    python examples/signal_facts.py FILE@HZ … [--rate 51200] [--order 3.5848]
+    python examples/signal_facts.py FILE@HZ … [--rate 51200] [--order 3.5848] [--figure target/signals/passages]
 
 FILE is a .npy, of numbers or with named fields as the recorder of an FMU writes them; HZ its shaft speed, order the
 passages per turn of the shaft (BPFO over shaft speed; 3.5848 is a 6205). Prints one column a file, as Markdown.
@@ -145,11 +145,40 @@ def growth(speeds, all_facts, band=None):
     return np.polyfit(np.log(speeds), np.log(levels), 1)[0]
 
 
+def draw(names, speeds, all_facts, stem):
+    """Mean passages over the RMS, one plot a speed, and strong, middle and weak single ones of its first file. The entry
+    points upwards, as the polarity of an accelerometer is seldom known."""
+    import figures
+
+    several = sorted(set(speeds))
+    figure, axes = figures.plots(2 * len(several), 3.6 * len(several), sharex=True)
+    for i, speed in enumerate(several):
+        here = [(name, one) for name, at, one in zip(names, speeds, all_facts) if at == speed]
+        for (name, one), colour in zip(here, (figures.BLACK, figures.ORANGE, figures.BLUE, figures.GREEN)):
+            low, n = one["_mean"], len(one["_mean"])
+            reach = np.flatnonzero(np.abs(low - low[: n // 10].mean()) > 0.15 * np.abs(low).max())[0]
+            sign = np.sign(low[reach] - low[: n // 10].mean())
+            angle = 360 / ELEMENTS * np.arange(n) / n - 360 / ELEMENTS * reach / n
+            axes[2 * i].plot(angle, sign * one["_passages"].mean(0) / one["rms"], colour, lw=0.8, label=name)
+            strength = np.argsort(one["_passages"].std(1))
+            picked = [strength[round(share * (len(strength) - 1))] for share in (0.9, 0.5, 0.1)]
+            for k, passage in enumerate(one["_passages"][picked]):
+                shift = -16 * (k + 3 * [one for one, _ in here].index(name))
+                axes[2 * i + 1].plot(angle, sign * passage / one["rms"] + shift, colour, lw=0.5)
+        axes[2 * i].set(xlim=(-3, 22), ylabel="mean / RMS", title=f"{speed:g} Hz")
+        axes[2 * i].legend(frameon=False, loc="upper right", ncols=3)
+        axes[2 * i + 1].set(ylabel="single / RMS", yticks=[])
+    axes[-1].set_xlabel("way of the elements after the entry's onset (°)")
+    Path(stem).parent.mkdir(parents=True, exist_ok=True)
+    figures.save(figure, stem)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("files", nargs="+", metavar="FILE@HZ")
     parser.add_argument("--rate", type=float, default=51200.0, help="sampling rate [Hz]")
     parser.add_argument("--order", type=float, default=3.5848, help="passages per turn of the shaft")
+    parser.add_argument("--figure", help="draws mean and single passages into this file, .png and .svg")
     options = parser.parse_args()
     given = [file.rsplit("@", 1) for file in options.files]
     speeds = [float(speed) for _, speed in given]
@@ -167,6 +196,9 @@ def main():
     if len(set(speeds)) > 1:
         print(f"\ngrowth of RMS: power {growth(speeds, found):.2f}", end="")
         print("".join(f"; {name} {growth(speeds, found, name):.2f}" for name in BANDS))
+
+    if options.figure:
+        draw([Path(path).stem for path, _ in given], speeds, found, options.figure)
 
 
 if __name__ == "__main__":
