@@ -66,7 +66,9 @@ def changed_scene(base, name, changes, folder):
     several = {key: value for key, value in scene.items() if isinstance(value, list) and value and isinstance(value[0], dict)}
     for defect in several.get("defect", [tables.get("defect", {})]):
         if "profile" in defect:
-            defect["profile"] = str((base.parent / defect["profile"]).resolve())
+            # A scene names a file beside it.
+            Path(folder).mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(base.parent / defect["profile"], Path(folder) / defect["profile"])
     lines = [f"{key} = {toml(value)}" for key, value in scene.items() if key not in tables and key not in several]
     heads = [(f"[{key}]", table) for key, table in tables.items()]
     heads += [(f"[[{key}]]", table) for key, all_of_them in several.items() for table in all_of_them]

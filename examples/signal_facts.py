@@ -151,7 +151,7 @@ def draw(names, speeds, all_facts, stem):
     import figures
 
     several = sorted(set(speeds))
-    figure, axes = figures.plots(2 * len(several), 3.6 * len(several), sharex=True)
+    figure, axes = figures.plots(2 * len(several), 3.2 * len(several), sharex=True)
     for i, speed in enumerate(several):
         here = [(name, one) for name, at, one in zip(names, speeds, all_facts) if at == speed]
         for (name, one), colour in zip(here, (figures.BLACK, figures.ORANGE, figures.BLUE, figures.GREEN)):

@@ -1,9 +1,9 @@
 """Writes the two profiles of 6205-spall-5deg-machine: the spall of its outer raceway, and the lobes of its inner one.
 
 Neither was measured. Their figures were fitted to what recordings of one machine with a spall of nominally 5 degrees show at
-10 and 20 Hz, see docs/signals.md. The spall's leading edge is rounded: its depth grows with the power 2.6 of the way, so that an
-element sinks without a jerk. Then comes a flat floor and a straight trailing flank. At half its depth the spall is 5.1 degrees
-long. The inner raceway has three lobes, as rings held in a chuck of three jaws get them: depth A (1 - cos 3 phi) over 89 % of its
+10 and 20 Hz, see docs/signals.md. Both edges of the spall are rounded: depth grows with the power 2.6 of the way, so that an
+element sinks without a jerk and strikes where it meets the flat floor. The spall is 6.4 degrees long at the surface, 4.5 at half
+its depth. The inner raceway has three lobes, as rings held in a chuck of three jaws get them: depth A (1 - cos 3 phi) over 89 % of its
 circumference (a profile must leave a tenth free), which is where phi goes once round.
 
     python3 scenes/6205-machine-profiles.py spall > scenes/6205-machine-spall.csv
@@ -15,14 +15,14 @@ import sys
 
 OUTER_RADIUS_MM = 23.4925  # 6205 with 5 um of clearance: (39.04 + 7.94 + 0.005)/2
 INNER_RADIUS_MM = 15.5475
-DEPTH_UM = 7.0  # fitted
+DEPTH_UM = 7.5  # fitted
 LEADING_DEG = 1.42  # fitted
-LEADING_POWER = 2.6  # fitted
+POWER = 2.6  # fitted; of both edges
 FLOOR_DEG = 3.9  # from first to last impact in recordings
-TRAILING_DEG = 1.74  # fitted
+TRAILING_DEG = 1.1  # fitted
 SPALL_STEP_MM = 0.008  # a tenth of a contact's length
 LOBES = 3  # of the scatter that repeats with the shaft, recordings show most three times a turn
-LOBE_AMPLITUDE_UM = 1.4  # fitted: scatter of passages
+LOBE_AMPLITUDE_UM = 1.2  # fitted: scatter of passages
 LOBE_SHARE = 0.89  # of the circumference
 LOBE_POINTS = 30  # a chord is off the cosine by 6 % of the amplitude
 
@@ -31,9 +31,10 @@ def spall():
     """Points (arc in mm, depth in um) in the sense in which elements pass, 0 in the middle of the floor."""
     degree = math.pi / 180 * OUTER_RADIUS_MM
     leading, floor, trailing = (length * degree for length in (LEADING_DEG, FLOOR_DEG, TRAILING_DEG))
-    ways = [SPALL_STEP_MM * k for k in range(math.ceil(leading / SPALL_STEP_MM))]
-    edge = [(-floor / 2 - leading + way, DEPTH_UM * (way / leading) ** LEADING_POWER) for way in ways]
-    return [*edge, (-floor / 2, DEPTH_UM), (floor / 2, DEPTH_UM), (floor / 2 + trailing, 0.0)]
+    ways = lambda length: [SPALL_STEP_MM * k for k in range(math.ceil(length / SPALL_STEP_MM))]  # noqa: E731
+    sinking = [(-floor / 2 - leading + way, DEPTH_UM * (way / leading) ** POWER) for way in ways(leading)]
+    rising = [(floor / 2 + trailing - way, DEPTH_UM * (way / trailing) ** POWER) for way in reversed(ways(trailing))]
+    return [*sinking, (-floor / 2, DEPTH_UM), (floor / 2, DEPTH_UM), *rising]
 
 
 def lobes():

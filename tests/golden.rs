@@ -230,6 +230,7 @@ scenes! {
     inner_5deg_gives_the_numbers_it_gave "6205-inner-5deg"
     irregular_cage_gives_the_numbers_it_gave "6205-irregular-cage"
     spall_5deg_gives_the_numbers_it_gave "6205-spall-5deg"
+    spall_5deg_machine_gives_the_numbers_it_gave "6205-spall-5deg-machine"
     two_defects_gives_the_numbers_it_gave "6205-two-defects"
     element_gives_the_numbers_it_gave "er16k-element"
     inner_gives_the_numbers_it_gave "er16k-inner"

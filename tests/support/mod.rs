@@ -39,11 +39,15 @@ pub fn fingerprint(bits: impl Iterator<Item = u64>) -> u64 {
     sum.finish()
 }
 
-/// Text of the profile file that a shipped scene names, if it names one.
+/// Texts of the profile files that a shipped scene names.
+pub fn profiles_of(scene: &Scene) -> Vec<String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    scene.profile_names().iter().map(|file| fs::read_to_string(folder.join(file)).unwrap()).collect()
+}
+
+/// Text of the first profile file that a shipped scene names, if it names one.
 pub fn profile_of(scene: &Scene) -> Option<String> {
-    let file = *scene.profile_names().first()?;
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(file);
-    Some(std::fs::read_to_string(path).unwrap())
+    profiles_of(scene).into_iter().next()
 }
 
 /// Maps of this process, by the fingerprint of what they depend on.
@@ -53,11 +57,11 @@ static MAPS: Mutex<BTreeMap<u64, Arc<OnceLock<Vec<u8>>>>> = Mutex::new(BTreeMap:
 /// well.
 ///
 /// Beside it a fingerprint of the sources that compute maps is kept, so that none outlives a change of them.
-pub fn map_of(scene: &Scene, profile: Option<&str>) -> Option<Vec<u8>> {
+pub fn map_of<'p>(scene: &Scene, profiles: impl IntoIterator<Item = &'p str>) -> Option<Vec<u8>> {
     if scene.defects.is_empty() || scene.contact.law != ContactLaw::Map {
         return None;
     }
-    let surfaces = Surface::load_all(scene, profile).unwrap();
+    let surfaces = Surface::load_all(scene, profiles).unwrap();
     let maps = setup::needed_maps(scene, &surfaces).unwrap();
     let maps = maps.iter().map(|needed| ContactMap::from_bytes(&one_map(needed), needed.fingerprint).unwrap());
     Some(ContactMaps::new(maps).to_bytes())
@@ -107,9 +111,9 @@ pub struct Named(pub Simulation);
 
 impl Named {
     pub fn new(scene: Scene) -> Self {
-        let profile = profile_of(&scene);
-        let map = map_of(&scene, profile.as_deref());
-        Self(Simulation::with_map(scene, profile.as_deref(), map.as_deref()).unwrap())
+        let profiles = profiles_of(&scene);
+        let map = map_of(&scene, profiles.iter().map(String::as_str));
+        Self(Simulation::with_map(scene, profiles.iter().map(String::as_str), map.as_deref()).unwrap())
     }
 
     /// Set up and initialized at time 0.

@@ -30,7 +30,7 @@ const CHAPTERS: [(&str, &[&str]); 4] = [
             "fmi3.md",
         ],
     ),
-    ("How right it is", &["error-vs-run-time.md", "validation.md", "contact.md", "stability.md"]),
+    ("How right it is", &["error-vs-run-time.md", "validation.md", "signals.md", "contact.md", "stability.md"]),
     ("Behind it", &[]),
 ];
 /// Pages above `docs/`, with their names in the book.
