@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Plain facts of a recording of a spalled outer raceway: how it grows with speed, scatters, rings, and how its entry rises.
+"""Plain facts of a recording of a spalled outer raceway: how it grows with speed, scatters, rings, how its entry rises.
 
     python examples/signal_facts.py FILE@HZ … [--rate 51200] [--order 3.5848] [--figure target/signals/passages]
 
@@ -10,11 +10,11 @@ Definitions, the mean taken off beforehand:
   growth    slope of ln RMS over ln speed through all files, and the same in bands; all bands are shares of the spectrum
   passages  windows of one BPFO period, each shifted by up to 3 % of it to where its envelope (1 to 20 kHz) agrees best
             with the mean of all; they begin 30 % of a period before the loudest place of the mean envelope
-  scatter   standard deviation over mean of the passages' RMS; what of its variance repeats with the cage's turn (mean of
-            each element) and with the shaft's (three harmonics), and what of both together
+  scatter   standard deviation over mean of the passages' RMS; what of its variance repeats with the cage's turn (four
+            harmonics), with the shaft's (three), and with both
   crest     largest magnitude over RMS of the whole file; kurtosis is the excess
-  entry     first extreme of the mean passage below 2.5 kHz (Butterworth of second order, forwards and backwards) that is at
-            least 15 % of its largest; rise from 10 to 90 % of it
+  entry     first extreme of the mean passage below 2.5 kHz (Butterworth of second order, forwards and backwards) that is
+            at least 15 % of its largest; rise from 10 to 90 % of it
 """
 
 import argparse
@@ -23,7 +23,12 @@ from pathlib import Path
 
 import numpy as np
 
-BANDS = {"20 to 500 Hz": (20, 500), "0.5 to 2.5 kHz": (500, 2500), "2.5 to 5 kHz": (2500, 5000), "5 to 10 kHz": (5000, 10000)}
+BANDS = {
+    "20 to 500 Hz": (20, 500),
+    "0.5 to 2.5 kHz": (500, 2500),
+    "2.5 to 5 kHz": (2500, 5000),
+    "5 to 10 kHz": (5000, 10000),
+}
 ELEMENTS = 9
 
 
@@ -81,7 +86,8 @@ def passage_starts(x, rate, frequency):
         mean = cut(e, starts, n).mean(0)
         mean = mean - mean.mean()
         shifts = range(-most, most + 1)
-        starts = np.array([start + shifts[int(np.argmax([e[start + s : start + s + n] @ mean for s in shifts]))] for start in even])
+        agreement = [[e[start + s : start + s + n] @ mean for s in shifts] for start in even]
+        starts = even + np.argmax(agreement, axis=1) - most
     return starts, n
 
 
@@ -146,7 +152,7 @@ def growth(speeds, all_facts, band=None):
 
 
 def draw(names, speeds, all_facts, stem):
-    """Mean passages over the RMS, one plot a speed, and strong, middle and weak single ones of its first file. The entry
+    """Mean passages over the RMS, one plot a speed, and strong, middle and weak single ones. The entry
     points upwards, as the polarity of an accelerometer is seldom known."""
     import figures
 

@@ -120,7 +120,8 @@ def main():
     parser.add_argument("--workers", type=int, default=os.cpu_count())
     parser.add_argument("-o", "--output", default="target/signals")
     options = parser.parse_args()
-    head = "| RMS grows with the power | rise of the entry (ms) | scatter | of it cage + shaft | 5 to 10 kHz (%) | crest | kurtosis |"
+    head = "| RMS grows with the power | rise of the entry (ms) | scatter | of it cage + shaft "
+    head += "| 5 to 10 kHz (%) | crest | kurtosis |"
     with concurrent.futures.ThreadPoolExecutor(options.workers) as pool:
         for group in options.groups or GROUPS:
             base, cases = GROUPS[group]

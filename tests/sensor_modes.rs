@@ -239,3 +239,17 @@ fn tables_of_modes_belong_to_the_sensor_before_them() {
     let message = refused("[sensor]\n[[sensor.mode]]\nfrequency_hz = 2300\n");
     assert!(message.contains("sensor.mode.damping_ratio") && message.contains("sensor.mode.gain"), "{message}");
 }
+
+#[test]
+fn a_sample_at_the_very_start_of_a_step_is_a_number() {
+    let mut scene = impacts();
+    // Communication points and samples then fall together.
+    scene.recorder = Some(Recorder { rate: 2_000.0, filter: RecorderFilter::None });
+    let mut bearing = Named::new(scene);
+    bearing.0.record_into("somewhere");
+    bearing.0.initialize(0.0).unwrap();
+    bearing.run(5e-4, 20);
+    let values = bearing.0.recorder().unwrap().samples().values.to_vec();
+    assert!(values.len() > 20);
+    assert!(values.iter().all(|value| value.is_finite()), "{values:?}");
+}

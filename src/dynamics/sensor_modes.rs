@@ -133,6 +133,10 @@ impl Mode {
 
     /// Moves z and z' on to a `share` of a step of `length` [s], in pieces of a radian at most.
     fn advance(&self, acceleration: &Cubic, length: f64, share: f64, z: &mut [f64; 2]) {
+        // A sample at the very start of a step: the series gives z' as a quotient of what is 0 then.
+        if share == 0.0 {
+            return;
+        }
         let pieces = (self.frequency * length * share).ceil().max(1.0);
         let by = share / pieces;
         for piece in 0..pieces as usize {
