@@ -102,7 +102,7 @@ def explained(values, phases):
 
 
 def scatter(x, starts, n, turn):
-    """Scatter of the passages' RMS and the shares of its variance by cage, shaft, both. `turn` is shaft turns a passage."""
+    """Scatter of the passages' RMS, its variance's shares by cage, shaft, both. `turn` is shaft turns a passage."""
     rms = cut(x, starts, n).std(1)
     k = np.arange(len(rms))
     cage = 2 * np.pi * k / ELEMENTS, ELEMENTS // 2
