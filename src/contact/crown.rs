@@ -6,7 +6,7 @@
 //! ```
 //! the part of the roller that carries. Over s = √(δ/(δ + P̄)), P̄ the mean depth, all approaches from nothing to
 //! without end are 0 to 1, and c is near a straight line at both ends: c ~ s where the crown is a parabola in its
-//! middle, 1 − c ~ (20/9)(1 − s) where it is flat pressed. So c is tabulated once at [`NODES`] equal steps of s with
+//! middle, 1 − c ~ (20/9)(1 − s) where it is flat pressed. So c is tabulated once at `NODES` equal steps of s with
 //! its exact slopes, as cubic Hermite pieces; where those would not be monotonic, slopes are lessened until they are
 //! (Fritsch and Carlson 1980). A lamina that begins to carry does so with an infinite second derivative, which the
 //! pieces round off over one step of some 0.1 % of the approach. With 40 laminae the force is wrong by at most 2e-5 of
