@@ -179,6 +179,10 @@ fn elements_that_overlap_on_the_pitch_circle_are_refused() {
     let parts = ["element diameter (bearing.element_diameter_mm) is 7.94", "16 elements", "39.32 mm", "above 7.67095"];
     refused("element_count = 9", "element_count = 16", &parts);
     accepted("element_count = 9", "element_count = 15");
+    for (pitch, unit) in [("0.03932", "metres"), ("1.548", "inches")] {
+        let parts = ["on a pitch circle of", "was bearing.pitch_diameter_mm meant in", unit];
+        refused("pitch_diameter_mm = 39.32", &format!("pitch_diameter_mm = {pitch}"), &parts);
+    }
 }
 
 #[test]

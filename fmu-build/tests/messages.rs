@@ -90,7 +90,7 @@ fn a_new_scene_runs_as_it_is_and_is_not_written_over() {
     assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
     let again = String::from_utf8(program(&new).stderr).unwrap();
     once(&again, "is there already and stays as it is");
-    let unknown = String::from_utf8(program(&["new", "other", "--bearing", "NU205"]).stderr).unwrap();
+    let unknown = String::from_utf8(program(&["new", "other", "--bearing", "30205"]).stderr).unwrap();
     once(&unknown, "6204, 6205, 6206");
     let listed = String::from_utf8(program(&["catalogue", "62"]).stdout).unwrap();
     once(&listed, "Case Western Reserve University's bearing data, drive end");

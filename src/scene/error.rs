@@ -202,7 +202,8 @@ pub enum SceneError {
     /// More or larger elements than the pitch circle holds.
     #[error(
         "element diameter (bearing.element_diameter_mm) is {diameter_mm}: {count} elements on a pitch circle of \
-         {pitch_diameter_mm} mm overlap above {limit_mm} mm"
+         {pitch_diameter_mm} mm overlap above {limit_mm} mm{}",
+        pitch_in_other_unit(*count, *diameter_mm, *pitch_diameter_mm)
     )]
     ElementsOverlap {
         /// Number of elements.
@@ -453,6 +454,15 @@ impl fmt::Display for Limits {
             Bound::Exclusive(bound) => write!(f, "and below {bound:?}"),
         }
     }
+}
+
+/// Asks about the pitch circle's unit where elements would fit on it in another.
+fn pitch_in_other_unit(count: usize, diameter_mm: f64, pitch_mm: f64) -> String {
+    const KEY: &str = "bearing.pitch_diameter_mm";
+    // Room for each element, and for less than twenty of them between two.
+    let smallest = diameter_mm / libm::sin(std::f64::consts::PI / count as f64);
+    let fits = |pitch: f64| pitch >= smallest && pitch <= 20.0 * smallest;
+    meant(KEY, pitch_mm, fits).map_or_else(String::new, |unit| format!("; was {KEY} meant in {unit}?"))
 }
 
 fn in_other_unit(key: &str, value: f64, limits: &Limits) -> String {
