@@ -1,11 +1,16 @@
 //! The command `catalogue`: which bearings a scene may name, and where their dimensions come from.
 
 use anyhow::{Result, bail};
-use brinell::scene::{Inside, catalogue};
+use brinell::scene::{Inside, catalogue, catalogued};
 
-/// The command: one line for each bearing whose name begins with `filter`.
+/// The command: one line for each bearing whose name begins with `filter`; or for the one that a scene finds by it, as
+/// NU205 by NJ205 and 6205 by 6205-2RS.
 pub(crate) fn command(filter: &str) -> Result<()> {
-    let found: Vec<_> = catalogue().filter(|bearing| bearing.designation.starts_with(filter)).collect();
+    let filter = filter.trim().to_uppercase();
+    let mut found: Vec<_> = catalogue().filter(|bearing| bearing.designation.starts_with(&filter)).collect();
+    if found.is_empty() {
+        found.extend(catalogued(&filter));
+    }
     if found.is_empty() {
         bail!("no bearing of the catalogue begins with {filter:?}; `brinell catalogue` lists all");
     }

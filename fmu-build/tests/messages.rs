@@ -92,6 +92,9 @@ fn a_new_scene_runs_as_it_is_and_is_not_written_over() {
     once(&again, "is there already and stays as it is");
     let unknown = String::from_utf8(program(&["new", "other", "--bearing", "30205"]).stderr).unwrap();
     once(&unknown, "6204, 6205, 6206");
+    for (name, found) in [("NJ205", "\nNU205 "), ("6205-2RS", "\n6205 "), ("nu20", "\nNU203 ")] {
+        once(&String::from_utf8(program(&["catalogue", name]).stdout).unwrap(), found);
+    }
     let listed = String::from_utf8(program(&["catalogue", "62"]).stdout).unwrap();
     once(&listed, "Case Western Reserve University's bearing data, drive end");
     assert!(listed.lines().filter(|line| line.contains("assumed")).count() > 8 && !listed.contains("\n60"), "{listed}");

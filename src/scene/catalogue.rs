@@ -147,7 +147,7 @@ fn ball_bearings() -> impl Iterator<Item = CatalogueBearing> {
 
 /// The bearing of this name, what makers put behind it (`-2RS`, `ZZ`, ` ECP`, ` C3`) left out; `None` if there is none.
 pub fn catalogued(designation: &str) -> Option<CatalogueBearing> {
-    let name = designation.trim();
+    let name = designation.trim().to_uppercase();
     let letters = name.len() - name.trim_start_matches(|c: char| c.is_ascii_alphabetic()).len();
     let (letters, rest) = name.split_at(letters);
     let number: String = rest.trim_start().chars().take_while(char::is_ascii_digit).collect();
