@@ -2,6 +2,8 @@
 //! trace, a rough topography.
 #![allow(clippy::unwrap_used)]
 
+#[path = "support/er16k.rs"]
+mod er16k;
 mod support;
 
 use std::fmt::Write;
@@ -9,17 +11,11 @@ use std::fmt::Write;
 use brinell::contact::love::LoveContact;
 use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::{MapSpecification, Sequential};
-use brinell::contact::raceway_grid::{Across, ElementOnRaceway, Resolution};
+use brinell::contact::raceway_grid::{ElementOnRaceway, Resolution};
 use brinell::contact::rolling::RacewaySide;
 use brinell::simulation::setup;
 use brinell::surface::{Surface, Topography};
-
-const ER16K: ElementOnRaceway = ElementOnRaceway {
-    element_radius: 3.97e-3,
-    raceway_radius: 23.6325e-3,
-    across: Across::Groove(4.095e-3),
-    raceway: RacewaySide::Outer,
-};
+use er16k::OUTER as ER16K;
 
 /// A shallow spall with sloped flanks, whose floor is rough by 1 µm and different at front and back; the element
 /// touches the floor.

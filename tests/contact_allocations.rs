@@ -5,25 +5,21 @@
 
 #[path = "support/counting.rs"]
 mod counting;
+#[path = "support/er16k.rs"]
+mod er16k;
 
 use std::f64::consts::FRAC_PI_2;
 
 use brinell::contact::love::LoveContact;
 use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::{MapSpecification, Sequential};
-use brinell::contact::raceway_grid::{Across, ElementOnRaceway, Resolution};
-use brinell::contact::rolling::RacewaySide;
+use brinell::contact::raceway_grid::Resolution;
 use brinell::surface::{Profile, Surface};
 use counting::counted;
 
 #[test]
 fn contacts_of_an_element_that_passes_an_edge_allocate_nothing() {
-    let element = ElementOnRaceway {
-        element_radius: 3.97e-3,
-        raceway_radius: 23.6325e-3,
-        across: Across::Groove(4.095e-3),
-        raceway: RacewaySide::Outer,
-    };
+    let element = er16k::OUTER;
     let surface = Surface::Profile(Profile::spall(6.517e-3, 100e-6, FRAC_PI_2));
     let resolution = Resolution { columns: 32, rows: 16 };
     let specification = MapSpecification { accuracy: 3e-2, resolution, ..MapSpecification::new(10e-6) };

@@ -2,23 +2,18 @@
 //! below a step.
 #![allow(clippy::unwrap_used)]
 
+#[path = "support/er16k.rs"]
+mod er16k;
+
 use brinell::contact::edge_softness::{EdgeSoftness, image_factor};
 use brinell::contact::error::ContactError;
 use brinell::contact::love::LoveContact;
 use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::{MapSpecification, Sequential};
-use brinell::contact::raceway_grid::{Across, ElementOnRaceway, Resolution};
-use brinell::contact::rolling::RacewaySide;
+use brinell::contact::raceway_grid::Resolution;
 use brinell::surface::{Profile, Surface};
+use er16k::OUTER as ER16K;
 use std::f64::consts::FRAC_PI_2;
-
-/// Test bearing 1's ball on its outer raceway.
-const ER16K: ElementOnRaceway = ElementOnRaceway {
-    element_radius: 3.97e-3,
-    raceway_radius: 23.6325e-3,
-    across: Across::Groove(4.095e-3),
-    raceway: RacewaySide::Outer,
-};
 
 /// A spall 6.5 mm long with flanks of this slope [rad].
 fn sloping(depth: f64, slope: f64) -> Surface {

@@ -2,22 +2,18 @@
 //! defect of an element is the same problem on either side; only the arc is counted along the element then.
 #![allow(clippy::unwrap_used)]
 
+#[path = "support/er16k.rs"]
+mod er16k;
+
 use brinell::contact::love::LoveContact;
 use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::{MapSpecification, Sequential};
-use brinell::contact::raceway_grid::{Across, ElementOnRaceway, Resolution};
+use brinell::contact::raceway_grid::{ElementOnRaceway, Resolution};
 use brinell::contact::rolling::RacewaySide;
 use brinell::surface::{Profile, Surface};
+use er16k::{INNER, OUTER};
 use std::f64::consts::FRAC_PI_2;
 
-/// ER16K.
-const INNER: ElementOnRaceway = ElementOnRaceway {
-    element_radius: 3.97e-3,
-    raceway_radius: 15.6875e-3,
-    across: Across::Groove(4.095e-3),
-    raceway: RacewaySide::Inner,
-};
-const OUTER: ElementOnRaceway = ElementOnRaceway { raceway_radius: 23.6325e-3, raceway: RacewaySide::Outer, ..INNER };
 /// 640 N on the inner raceway.
 const LARGEST: f64 = 9e-6;
 

@@ -1,6 +1,9 @@
 //! The contact of an element with a damaged raceway: grid, map, and their joint with the closed form.
 #![allow(clippy::unwrap_used)]
 
+#[path = "support/er16k.rs"]
+mod er16k;
+
 use std::f64::consts::FRAC_PI_2;
 use std::sync::OnceLock;
 
@@ -9,15 +12,9 @@ use brinell::contact::love::LoveContact;
 use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::{MapSpecification, Sequential};
 use brinell::contact::raceway_grid::{Across, ElementOnRaceway, Resolution};
-use brinell::contact::rolling::RacewaySide;
 use brinell::surface::{Profile, Surface, Topography};
+use er16k::OUTER as ER16K;
 
-const ER16K: ElementOnRaceway = ElementOnRaceway {
-    element_radius: 3.97e-3,
-    raceway_radius: 23.6325e-3,
-    across: Across::Groove(4.095e-3),
-    raceway: RacewaySide::Outer,
-};
 const LENGTH: f64 = 6.517e-3;
 const LARGEST: f64 = 10e-6;
 

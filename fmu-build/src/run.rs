@@ -213,7 +213,7 @@ fn draw(project: &Project, model: &Model, options: &Options, done: &Done, folder
     };
     let samples = place.first().map_or(Ok(Vec::new()), |&place| source.column(place))?;
     let acceleration = Acceleration { samples, rate };
-    let spectra = Spectra { scene, profile: options.profile.as_ref(), acceleration };
+    let spectra = Spectra::new(scene, options.profile.as_ref(), acceleration);
     let envelope = spectra.write_envelope(folder)?;
     let too_short = spectra.too_short();
     if let Some(why) = &too_short {

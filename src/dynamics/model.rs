@@ -177,7 +177,7 @@ impl Model {
         let stiffness = [inner_law.stiffness, outer_law.stiffness];
         let raceway = |law, compliance, defects| Raceway { contact: CompliantContact { law, compliance }, defects };
         let element_radius = bearing.element_radius();
-        let turns = scene.turns();
+        let (turns, layout) = (scene.turns(), Layout::new(scene));
         let count = bearing.element_count;
         let mut offsets: Vec<f64> = (0..count).map(|j| j as f64 * TAU / count as f64).collect();
         if let Some(cage) = &scene.cage.irregularity {
@@ -201,9 +201,9 @@ impl Model {
             shaft: scene.shaft,
             housing: scene.housing,
             supports: Supports::new(scene),
-            sensor_modes: SensorModes::new(scene),
+            sensor_modes: SensorModes::new(scene, layout.sensors),
             ratios: Ratios::new(bearing, scene.cage.slip, scene.cage.spin_slip),
-            layout: Layout::new(scene),
+            layout,
             may_have_inner_defects: scene.has_defect_inside(),
             has_frames,
             elements: blocks(&offsets, 1.0 / bearing.mass_of_element(), stiffness).into(),

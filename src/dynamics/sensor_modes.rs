@@ -28,6 +28,8 @@ pub struct SensorModes {
     modes: Vec<Mode>,
     /// Share of each sensor's own acceleration that it measures, 1 − Σ Γ.
     direct: [f64; MOST_SENSORS],
+    /// Place of the first sensor's displacement in a state, before its velocity; the next sensor is [`QUAD`] places on.
+    place: usize,
 }
 
 /// One mode.
@@ -45,19 +47,17 @@ struct Mode {
     quadrature_gain: f64,
 }
 
-/// State and derivative of the equations of motion at both ends of a step of `length` [s], and where the first sensor's
-/// displacement and velocity stand in them, the next being [`QUAD`] places on.
+/// State and derivative of the equations of motion at both ends of a step of `length` [s].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StepEnds<'a> {
-    pub(crate) sensors: usize,
     pub(crate) states: [&'a [f64]; 2],
     pub(crate) derivatives: [&'a [f64]; 2],
     pub(crate) length: f64,
 }
 
 impl SensorModes {
-    /// Those of a scene.
-    pub(super) fn new(scene: &Scene) -> Self {
+    /// Those of a scene, the first sensor being at this place of a state.
+    pub(super) fn new(scene: &Scene, place: usize) -> Self {
         let of_sensor = |(sensor, of): (usize, &crate::scene::Sensor)| {
             let modes = of.modes.iter();
             modes
@@ -75,7 +75,7 @@ impl SensorModes {
         for mode in &modes {
             direct[mode.sensor] -= mode.gain;
         }
-        Self { modes, direct }
+        Self { modes, direct, place }
     }
 
     /// Length of their state: z [m] and z' [m/s] of each mode.
@@ -87,7 +87,7 @@ impl SensorModes {
     pub(crate) fn advance(&self, ends: StepEnds, share: f64, state: &mut [f64]) {
         let mut states = state.as_chunks_mut::<2>().0.iter_mut();
         for of_sensor in self.modes.chunk_by(|one, next| one.sensor == next.sensor) {
-            let acceleration = acceleration(ends, of_sensor[0].sensor);
+            let acceleration = acceleration(ends, self.place + of_sensor[0].sensor * QUAD);
             for (mode, z) in of_sensor.iter().zip(&mut states) {
                 mode.advance(&acceleration, ends.length, share, z);
             }
@@ -165,10 +165,9 @@ impl Mode {
     }
 }
 
-/// Acceleration of the body of sensor `k` over a step.
-fn acceleration(ends: StepEnds, k: usize) -> Cubic {
-    let StepEnds { sensors, states, derivatives, length } = ends;
-    let place = sensors + k * QUAD;
+/// Acceleration over a step of the body whose displacement is at this place.
+fn acceleration(ends: StepEnds, place: usize) -> Cubic {
+    let StepEnds { states, derivatives, length } = ends;
     let bends = derivatives.map(|rate| rate[place + 1]);
     Quintic::new(length, 0.0).second_derivative(
         states.map(|state| state[place]),

@@ -280,7 +280,8 @@ impl Stepper<'_> {
             probe(workspace, *problem, span, share, progress);
             workspace.sensor_modes.copy_from_slice(&progress.sensor_modes);
             let Workspace { explicit, implicit, sensor_modes, .. } = &mut **workspace;
-            let ends = step_ends(explicit, implicit, progress, (problem.model.layout.sensors, span.length));
+            let implicit = progress.choice.implicit.then_some(&*implicit);
+            let ends = step_ends(explicit, implicit, &progress.state, span.length);
             problem.model.sensor_modes.advance(ends, share, sensor_modes);
             let Workspace { dense, scratch, sensor_modes, forces, .. } = &**workspace;
             let at = (&dense[..], &scratch[..], &sensor_modes[..]);
@@ -297,11 +298,9 @@ impl Stepper<'_> {
         }
         let Self { problem, workspace, progress, .. } = self;
         if !progress.sensor_modes.is_empty() {
-            let place = problem.model.layout.sensors;
-            let ends = step_ends(&workspace.explicit, &workspace.implicit, progress, (place, span.length));
-            workspace.sensor_modes.copy_from_slice(&progress.sensor_modes);
-            problem.model.sensor_modes.advance(ends, 1.0, &mut workspace.sensor_modes);
-            progress.sensor_modes.copy_from_slice(&workspace.sensor_modes);
+            let implicit = progress.choice.implicit.then_some(&workspace.implicit);
+            let ends = step_ends(&workspace.explicit, implicit, &progress.state, span.length);
+            problem.model.sensor_modes.advance(ends, 1.0, &mut progress.sensor_modes);
         }
         if progress.choice.implicit {
             progress.implicit_steps += 1;

@@ -129,16 +129,16 @@ impl Workspace {
     }
 }
 
-/// Both ends of the step tried last, whichever method took it, of `length` [s], the sensors standing at place `sensors`.
+/// Both ends of the step of `length` [s] tried last from the state `start`, by the implicit method if that is given.
 pub(super) fn step_ends<'a>(
     explicit: &'a Explicit,
-    implicit: &'a Rodas,
-    progress: &'a Progress,
-    (sensors, length): (usize, f64),
+    implicit: Option<&'a Rodas>,
+    start: &'a [f64],
+    length: f64,
 ) -> StepEnds<'a> {
-    let end = if progress.choice.implicit { &implicit.end } else { &explicit.end };
+    let end = implicit.map_or(&explicit.end, |implicit| &implicit.end);
     let [first, .., last] = &explicit.stages;
-    StepEnds { sensors, states: [&progress.state, end], derivatives: [first, last], length }
+    StepEnds { states: [start, end], derivatives: [first, last], length }
 }
 
 /// Weight that turns the error of state `i` into a length.

@@ -13,7 +13,7 @@ use brinell::contact::contact_maps::ContactMaps;
 use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::Sequential;
 use brinell::numerics::checksum::Checksum;
-use brinell::scene::{ContactLaw, Scene};
+use brinell::scene::{Bearing, ContactLaw, Scene};
 use brinell::simulation::Simulation;
 use brinell::simulation::setup::{self, NeededMap};
 use brinell::surface::Surface;
@@ -146,6 +146,16 @@ impl Named {
         for _ in 0..count {
             self.0.step(step).unwrap();
         }
+    }
+
+    /// What element 3 presses on the outer raceway with [N], and what it must by m (ρ ω² + g·e_r), after 20 ms in which
+    /// nothing but its own weight and turn presses it there; `omega` [rad/s] is the cage's speed.
+    pub fn pressed_outwards(&mut self, bearing: &Bearing, omega: f64) -> [f64; 2] {
+        self.run(1e-4, 200);
+        let radius = bearing.outer_raceway_radius() - bearing.element_radius();
+        let gravity = -9.81 * self.get("element[3].angle").sin();
+        let turning = (radius + self.get("element[3].path")) * omega * omega;
+        [self.get("element[3].force.outer"), bearing.mass_of_element() * (turning + gravity)]
     }
 
     /// Force between each element and the inner raceway [N].

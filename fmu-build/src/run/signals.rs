@@ -6,6 +6,7 @@ use std::io::{self, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
+use brinell::numerics::bytes::Reader;
 use brinell::recording::npy_header;
 
 /// Rows that are read or changed at once.
@@ -136,10 +137,9 @@ impl Signals {
 
 /// The numbers that bytes stand for.
 fn numbers(bytes: &[u8], row: &mut [f64]) {
-    for (number, bytes) in row.iter_mut().zip(bytes.chunks_exact(8)) {
-        let mut of_one = [0; 8];
-        of_one.copy_from_slice(bytes);
-        *number = f64::from_le_bytes(of_one);
+    let mut reader = Reader(bytes);
+    for (number, read) in row.iter_mut().zip(std::iter::from_fn(|| reader.f64())) {
+        *number = read;
     }
 }
 

@@ -1,5 +1,6 @@
 //! Spectra of a run: that of the acceleration's envelope, and its orders, each as CSV with what there is to mark.
 
+use std::cell::OnceCell;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
@@ -29,14 +30,23 @@ pub(super) struct Acceleration {
 /// Spectra of one run.
 pub(super) struct Spectra<'a> {
     /// The scene.
-    pub(super) scene: &'a Scene,
+    scene: &'a Scene,
     /// Speed of its shaft where that changes.
-    pub(super) profile: Option<&'a SpeedProfile>,
+    profile: Option<&'a SpeedProfile>,
     /// What is looked at.
-    pub(super) acceleration: Acceleration,
+    acceleration: Acceleration,
+    /// Where the shaft has turned by equal angles, once somebody has asked.
+    angles: OnceCell<Option<EvenAngles>>,
+    /// Characteristic frequencies and the shaft's speed [Hz], likewise.
+    frequencies: OnceCell<Option<(Frequencies, f64)>>,
 }
 
-impl Spectra<'_> {
+impl<'a> Spectra<'a> {
+    /// Those of an acceleration in a run of a scene.
+    pub(super) fn new(scene: &'a Scene, profile: Option<&'a SpeedProfile>, acceleration: Acceleration) -> Self {
+        Self { scene, profile, acceleration, angles: OnceCell::new(), frequencies: OnceCell::new() }
+    }
+
     /// Spectrum of the envelope as `<scene>-envelope.csv`, and beside it, as `.json`, band, width of a line and the
     /// frequencies to mark; nothing where the run is too short or too coarse, or nothing shakes. With a speed that changes
     /// frequencies are those at the mean speed.
@@ -44,7 +54,7 @@ impl Spectra<'_> {
         let Acceleration { samples, rate } = &self.acceleration;
         let Some((characteristic, speed)) = self.frequencies() else { return Ok(None) };
         let found = match self.angles().filter(|_| self.changes()) {
-            Some(angles) => EnvelopeSpectrum::of_changing_speed(samples, *rate, characteristic, &angles),
+            Some(angles) => EnvelopeSpectrum::of_changing_speed(samples, *rate, characteristic, angles),
             None if self.changes() => None,
             None => EnvelopeSpectrum::of(samples, *rate, characteristic, speed),
         };
@@ -82,7 +92,7 @@ impl Spectra<'_> {
         if self.acceleration.samples.is_empty() {
             return Ok(None);
         }
-        let found = OrderSpectrum::of(&self.acceleration.samples, &angles, HIGHEST_ORDER);
+        let found = OrderSpectrum::of(&self.acceleration.samples, angles, HIGHEST_ORDER);
         let path = folder.join(format!("{}-orders.csv", self.scene.name));
         write(&path, [("order", "1"), ("amplitude", "m/s2")], [&found.order, &found.amplitude])?;
         let used = angles.used();
@@ -102,6 +112,10 @@ impl Spectra<'_> {
     /// Characteristic frequencies and the shaft's speed [Hz], at the mean speed where it changes; `None` where nothing
     /// turns, or where two rings turn in a ratio that changes.
     fn frequencies(&self) -> Option<(Frequencies, f64)> {
+        *self.frequencies.get_or_init(|| self.found_frequencies())
+    }
+
+    fn found_frequencies(&self) -> Option<(Frequencies, f64)> {
         let mut scene = self.scene.clone();
         if let Some(profile) = self.profile {
             let speed = if self.changes() { self.angles()?.mean_speed() } else { profile.hertz(0.0) };
@@ -115,7 +129,11 @@ impl Spectra<'_> {
     }
 
     /// Where the shaft has turned by equal angles.
-    fn angles(&self) -> Option<EvenAngles> {
+    fn angles(&self) -> Option<&EvenAngles> {
+        self.angles.get_or_init(|| self.found_angles()).as_ref()
+    }
+
+    fn found_angles(&self) -> Option<EvenAngles> {
         let rate = self.acceleration.rate;
         let count = self.acceleration.samples.len();
         let speed = |i: usize| match self.profile {
