@@ -117,6 +117,11 @@ impl ElementOnRaceway {
         if along < across { [major, minor] } else { [minor, major] }
     }
 
+    /// Gap [m] for zero approach on the smooth raceway, x along and y across [m] from where the two bodies touch.
+    pub fn gap(&self, x: f64, y: f64) -> f64 {
+        self.along(x)[0] + self.across(y)
+    }
+
     /// Part of the gap along the raceway with its slope, at distance t [m] from the element.
     #[inline]
     pub(super) fn along(&self, t: f64) -> [f64; 2] {

@@ -5,6 +5,8 @@
 #![allow(rustdoc::broken_intra_doc_links)]
 
 pub mod assembly;
+pub mod contact_pressure;
+pub mod contact_report;
 mod continuity;
 pub mod critical_load;
 pub mod entry;
@@ -37,6 +39,7 @@ pub mod spall_size;
 pub mod static_bearing;
 pub mod statistics;
 pub mod stiffness;
+pub mod subsurface;
 pub mod synthesis;
 mod trial_search;
 pub mod waveform_length;
