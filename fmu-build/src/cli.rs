@@ -16,7 +16,9 @@ use crate::run::noise::Noise;
 use crate::run::speed_profile::SpeedProfile;
 use crate::run::table::Format;
 use crate::run::wav::Wav;
-use crate::{catalogue, check, demo, fmu, model::Model, modes, project::Project, run, scenes, size, stiffness};
+use crate::{
+    catalogue, check, contact, demo, fmu, model::Model, modes, project::Project, run, scenes, size, stiffness,
+};
 
 /// Rolling bearings with a real surface defect as FMI co-simulation units.
 #[derive(Debug, Parser)]
@@ -39,6 +41,8 @@ pub enum Command {
     Stiffness(Stiffness),
     /// Natural frequencies, damping ratios and mode shapes over the cage angle: JSON, figure and summary
     Modes(Modes),
+    /// Pressure of one ball on a raceway as measured, and the stresses below: JSON on standard output, CSV, figure
+    Contact(Contact),
     /// Length of a spall from recordings of one bearing, or why there is none: JSON on standard output, figures
     Size(Size),
     /// Builds the FMU of a spalled 6205 bearing, drives it with fmpy and draws what happens
@@ -191,6 +195,32 @@ pub struct Modes {
     no_figure: bool,
 }
 
+/// Options of `contact`.
+#[derive(Debug, Args)]
+pub struct Contact {
+    /// Scene file (TOML) of a ball bearing, or the name of a shipped scene; nothing moves
+    scene: PathBuf,
+    /// The raceway
+    #[arg(long, value_enum)]
+    on: contact::On,
+    /// Angle of the ball in degrees from the middle of the raceway's first defect, counter-clockwise about the
+    /// bearing's axis in the ring's own frame: 0 is over the middle, half the defect's length over its end
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    angle: f64,
+    /// Contact force in newtons
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    force: f64,
+    /// Cells along and across the raceway, over the contact and a little more
+    #[arg(long, value_name = "CELLS", default_value_t = 512)]
+    resolution: usize,
+    /// Folder for CSV, JSON and figure [default: the current one]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Leave the figure out; no Python is needed then
+    #[arg(long)]
+    no_figure: bool,
+}
+
 /// Options of `size`.
 #[derive(Debug, Args)]
 #[command(group = clap::ArgGroup::new("shaft").required(true))]
@@ -333,6 +363,17 @@ impl Command {
                 let folder = options.output.unwrap_or_else(|| project.results("modes"));
                 let wanted = swept(options.load, options.points, options.no_figure);
                 modes::command(project, &model, wanted, &folder)
+            }
+            Command::Contact(options) => {
+                let wanted = contact::Options {
+                    on: options.on,
+                    angle_deg: options.angle,
+                    force: options.force,
+                    resolution: options.resolution,
+                    figure: !options.no_figure,
+                };
+                let folder = options.output.unwrap_or_else(|| project.results("contact"));
+                contact::command(project, &options.scene, &wanted, &folder)
             }
             Command::Size(options) => {
                 let wanted = size::Options {

@@ -12,6 +12,7 @@ mod catalogue;
 pub mod check;
 pub mod cli;
 pub mod compile;
+pub mod contact;
 pub mod contact_map;
 pub mod csv;
 pub mod demo;

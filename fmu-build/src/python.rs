@@ -19,6 +19,7 @@ use crate::whole_file;
 
 const REQUIREMENTS: &str = include_str!("../python/requirements.txt");
 const SCRIPTS: &[(&str, &str)] = &[
+    ("contact.py", include_str!("../python/contact.py")),
     ("demo.py", include_str!("../python/demo.py")),
     ("elements.py", include_str!("../python/elements.py")),
     ("host.py", include_str!("../python/host.py")),

@@ -113,6 +113,22 @@ fn a_table_of_stiffness_that_does_not_fit_leaves_the_earlier_one() {
 }
 
 #[test]
+fn a_pressure_that_does_not_fit_leaves_the_earlier_one() {
+    let out = common::folder("whole-contact");
+    let (scene, name) = (scene("6205-healthy"), out.display().to_string());
+    let at = ["--on", "outer", "--angle", "0", "--force", "100", "--resolution", "32"];
+    let arguments = [&["contact", &scene], &at[..], &["--no-figure", "-o", &name]].concat();
+    fails_and_leaves(&out, &["6205-healthy-contact.json"], 512, &arguments);
+    fs::remove_file(out.join("6205-healthy-contact.json")).unwrap();
+    let output = limited(1 << 16, &arguments);
+    // The summary fits, the pressures do; the planes' stresses do not.
+    assert!(!output.status.success());
+    let names: Vec<_> = contents(&out).into_keys().collect();
+    let ends = ["-depth.csv", "-pressure.csv", "-surface.csv", ".json"];
+    assert_eq!(names, ends.map(|end| format!("6205-healthy-contact{end}")));
+}
+
+#[test]
 fn a_figure_that_does_not_fit_leaves_the_earlier_one() {
     common::python();
     let out = common::folder("whole-figure");

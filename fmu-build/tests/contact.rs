@@ -1,0 +1,121 @@
+//! The command `contact`: its files are there and agree with its summary, a figure can be drawn of them, and what is no
+//! contact is refused before anything is written.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+fn contact(scene: &str, on: &str, angle: &str, force: &str, folder: &Path, more: &[&str]) -> Output {
+    let scene = common::root().join("scenes").join(scene).with_extension("toml").display().to_string();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    command.args(["contact", &scene, "--on", on, "--angle", angle, "--force", force, "-o"]).arg(folder).args(more);
+    command.output().unwrap()
+}
+
+/// Columns of a file by their names with units.
+fn columns(path: &Path) -> BTreeMap<String, Vec<f64>> {
+    let text = fs::read_to_string(path).unwrap();
+    let mut lines = text.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let rows: Vec<Vec<f64>> = lines.map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
+    let column = |k: usize| rows.iter().map(|row| row[k]).collect();
+    names.iter().enumerate().map(|(k, name)| ((*name).to_owned(), column(k))).collect()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap()
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most: f64, &value| most.max(value))
+}
+
+#[test]
+fn a_ball_at_the_edge_of_a_spall_gives_a_summary_tables_and_a_figure() {
+    common::python();
+    let folder = common::folder("contact-edge");
+    let output = contact("er16k-tb1", "outer", "7.85", "300", &folder, &["--resolution", "64"]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let stem = |end: &str| folder.join(format!("er16k-tb1-contact{end}"));
+    assert_eq!(report, serde_json::from_str::<Value>(&fs::read_to_string(stem(".json")).unwrap()).unwrap());
+
+    // What is written adds up to the force that was asked for.
+    let pressure = columns(&stem("-pressure.csv"));
+    let cell: f64 = (0..2).map(|k| 1e-6 * number(&report["cell_um"][k])).product();
+    let force = cell * pressure["pressure [Pa]"].iter().sum::<f64>();
+    assert!((force / 300.0 - 1.0).abs() < 1e-5, "{force}");
+    let found = &report["found"];
+    let most = largest(&pressure["pressure [Pa]"]);
+    assert!((1e-6 * most / number(&found["max_pressure_mpa"]) - 1.0).abs() < 1e-9);
+    assert!((pressure["x [m]"].len() as f64 * cell * 1e6 / number(&found["area_mm2"]) - 1.0).abs() < 1e-9);
+
+    // The edge lies 15.8/2 − 7.85 degrees from the ball; beyond it, where the spall is, nothing presses.
+    let edge = number(&report["edges_mm"][1]);
+    let depth = columns(&stem("-surface.csv"));
+    let width = 1e-3 * number(&report["cell_um"][0]);
+    assert!(pressure["x [m]"].iter().all(|x| 1e3 * x > edge - width), "{edge}");
+    for (x, depth) in depth["x [m]"].iter().zip(&depth["depth [m]"]) {
+        let wanted = if 1e3 * x < edge { 100e-6 } else { 0.0 };
+        assert!((1e3 * x - edge).abs() < width || (depth - wanted).abs() < 1e-12, "{x}: {depth}");
+    }
+
+    let line = columns(&stem("-depth.csv"));
+    let stress = |key: &str| 1e6 * number(&report["stress"][key]["von_mises_mpa"]);
+    // A parabola through the highest three points is above each of them, and neither is at an end.
+    for (column, key) in [("stress.von_mises [Pa]", "below_middle"), ("hertz.von_mises [Pa]", "hertz")] {
+        let highest = largest(&line[column]);
+        assert!((1e-15..1e-3).contains(&(stress(key) / highest - 1.0)), "{key}: {highest}");
+    }
+    let plane = columns(&stem("-plane.csv"));
+    assert!((largest(&plane["stress.von_mises [Pa]"]) / stress("in_planes") - 1.0).abs() < 1e-9);
+    let notes = report["notes"].to_string();
+    assert!(notes.contains("ISO 76") && notes.contains("an edge is at the contact"), "{notes}");
+    for end in [".svg", ".png"] {
+        assert!(stem(end).metadata().unwrap().len() > 10_000, "{said}");
+    }
+}
+
+#[test]
+fn on_a_smooth_raceway_the_summary_is_hertzs() {
+    let folder = common::folder("contact-smooth");
+    let output = contact("er16k-tb1", "inner", "0", "20", &folder, &["--no-figure", "--resolution", "128"]);
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(report["notes"].to_string().contains("has no defect"), "{report}");
+    // Circles for paraboloids are some thousandths of pressure and approach under 20 N, the grid a few 1e-4.
+    for key in ["approach_um", "max_pressure_mpa"] {
+        let ratio = number(&report["found"][key]) / number(&report["hertz"][key]);
+        assert!((ratio - 1.0).abs() < 5e-3, "{key}: {ratio}");
+    }
+    let [found, hertz] = ["below_middle", "hertz"].map(|key| &report["stress"][key]);
+    assert!((number(&found["von_mises_mpa"]) / number(&hertz["von_mises_mpa"]) - 1.0).abs() < 5e-3, "{found} {hertz}");
+    assert!((number(&found["at_mm"][2]) / number(&hertz["at_mm"][2]) - 1.0).abs() < 1e-2, "{found} {hertz}");
+    assert!(!folder.join("er16k-tb1-contact.svg").exists());
+}
+
+#[test]
+fn what_is_no_contact_of_a_ball_is_refused_and_nothing_is_written() {
+    let folder = common::folder("contact-refused");
+    for (scene, angle, force, resolution, words) in [
+        ("er16k-tb1", "0", "0", "64", "contact force 0 N: it must be finite and above 0"),
+        ("er16k-tb1", "0", "-5", "64", "contact force -5 N"),
+        ("er16k-tb1", "0", "nan", "64", "contact force NaN N"),
+        ("er16k-tb1", "0", "1e9", "64", "contact force 1000000000 N: the contact reaches 80 % of the radius"),
+        ("er16k-tb1", "inf", "100", "64", "angle from the defect's middle inf degrees: it must be from -180 to 180"),
+        ("er16k-tb1", "181", "100", "64", "angle from the defect's middle 181 degrees"),
+        ("er16k-tb1", "0", "100", "16", "resolution 16 cells: it must be from 32 to 1024"),
+        ("nu205-inner", "0", "100", "64", "for balls only"),
+    ] {
+        let output = contact(scene, "inner", angle, force, &folder, &["--resolution", resolution]);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(!output.status.success() && said.contains(words), "{said}");
+        assert!(output.stdout.is_empty() && fs::read_dir(&folder).unwrap().next().is_none(), "{said}");
+    }
+}
