@@ -10,11 +10,6 @@ use crate::whole_file;
 
 /// Share of the static load rating that a new scene's bearing carries.
 const LOAD_SHARE: f64 = 0.05;
-/// Static load rating of deep groove ball bearings by Z·D² [N/mm²], about ISO 76's f₀ for them.
-const RATING_FACTOR: f64 = 12.3;
-/// The same of cylindrical roller bearings by (1 − D/D_pw) Z L D [N/mm²], ISO 76.
-const ROLLERS_FACTOR: f64 = 44.0;
-
 /// What `--defect` says: on which body, and how long.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Spall {
@@ -59,15 +54,8 @@ pub(crate) fn command(name: &str, bearing: &str, spall: Option<&Spall>, folder: 
 fn text(name: &str, bearing: &CatalogueBearing, spall: Option<&Spall>) -> String {
     let (designation, inside) = (bearing.designation, bearing.inside);
     let source = inside.source.unwrap_or("assumed: estimated from bore and outside diameter; put in what you know");
-    let (count, diameter) = (inside.element_count as f64, inside.element_diameter);
-    let (rating, formula) = match inside.roller_length {
-        None => (RATING_FACTOR * count * diameter * diameter, "12.3 Z D²"),
-        Some(length) => {
-            let rating = ROLLERS_FACTOR * (1.0 - diameter / inside.pitch_diameter) * count * length * diameter;
-            (rating, "44 (1 - D/Dpw) Z L D")
-        }
-    };
-    let load = (LOAD_SHARE * rating / 10.0).round().max(1.0) * 10.0;
+    let formula = if inside.roller_length.is_none() { "12.3 Z D²" } else { "44 (1 - D/Dpw) Z L D" };
+    let load = (LOAD_SHARE * inside.static_rating() / 10.0).round().max(1.0) * 10.0;
     let roller = inside.roller_length.map_or(String::new(), |length| {
         format!(
             "# roller_length_mm = {length:<16} # the same; effective, without chamfers\n\

@@ -69,6 +69,22 @@ pub struct Inside {
     pub source: Option<&'static str>,
 }
 
+/// Static load rating of deep groove ball bearings over Z·D² [N/mm²], about ISO 76's f₀ for them.
+const RATING_OF_BALLS: f64 = 12.3;
+/// The same of cylindrical roller bearings over (1 − D/D_pw) Z L D [N/mm²], ISO 76.
+const RATING_OF_ROLLERS: f64 = 44.0;
+
+impl Inside {
+    /// Static load rating by ISO 76, roughly [N].
+    pub fn static_rating(&self) -> f64 {
+        let (count, diameter) = (self.element_count as f64, self.element_diameter);
+        match self.roller_length {
+            None => RATING_OF_BALLS * count * diameter * diameter,
+            Some(length) => RATING_OF_ROLLERS * (1.0 - diameter / self.pitch_diameter) * count * length * diameter,
+        }
+    }
+}
+
 /// Name, bore, outside diameter and width [mm] by ISO 15.
 const BOUNDARIES: [(&str, [f64; 3]); 37] = [
     ("608", [8.0, 22.0, 7.0]),

@@ -1,8 +1,10 @@
 //! What can be wrong with a scene. Each message gives the quantity with its key in the scene file, its value and the
 //! limit.
 
+use super::catalogue::catalogue;
 use super::key_fault::KeyFault;
-use super::unit_hint::meant;
+use super::limits::Limits;
+use super::spelling::nearest;
 use std::fmt;
 
 /// Longest name of a scene.
@@ -103,7 +105,7 @@ pub enum SceneError {
     #[error("sensor name (sensor.name) {0:?}: at most {max} bytes without control characters", max = LONGEST_NAME)]
     SensorName(String),
     /// A quantity outside its limits, or not finite.
-    #[error("{quantity} ({key}) is {value}: it must be {limits}{}", in_other_unit(key, *value, limits))]
+    #[error("{quantity} ({key}) is {value}: it must be {limits}")]
     OutOfRange {
         /// The field's term for it.
         quantity: &'static str,
@@ -127,6 +129,20 @@ pub enum SceneError {
         /// Smallest conformity.
         limit: f64,
     },
+    /// A name that is not in the catalogue.
+    #[error("bearing.catalogue = {name:?} is not in the catalogue{}, which has {}", meant(name), known_bearings())]
+    NotInCatalogue {
+        /// The name given.
+        name: String,
+    },
+    /// A bearing of the catalogue with other elements than asked for.
+    #[error("bearing.catalogue = \"{name}\" has {elements}: bearing.element says otherwise")]
+    OtherElements {
+        /// The bearing's name.
+        name: &'static str,
+        /// What it has.
+        elements: &'static str,
+    },
     /// A key of rollers in a ball bearing.
     #[error("{key} is given: only rollers have it, and bearing.element is \"ball\"; it may be \"cylindrical-roller\"")]
     OnlyRollers {
@@ -149,7 +165,10 @@ pub enum SceneError {
         key: &'static str,
     },
     /// A relief of a roller's ends that is not known.
-    #[error("bearing.roller_profile is \"{given}\": it must be \"log\", \"straight\", or the name of a .csv file")]
+    #[error(
+        "bearing.roller_profile is \"{given}\": it must be \"log\", \"straight\", or the name of a .csv file{}",
+        nearest(["log", "straight"], given).map_or(String::new(), |word| format!("; did you mean \"{word}\"?"))
+    )]
     RollerProfile {
         /// What was given.
         given: String,
@@ -202,8 +221,7 @@ pub enum SceneError {
     /// More or larger elements than the pitch circle holds.
     #[error(
         "element diameter (bearing.element_diameter_mm) is {diameter_mm}: {count} elements on a pitch circle of \
-         {pitch_diameter_mm} mm overlap above {limit_mm} mm{}",
-        pitch_in_other_unit(*count, *diameter_mm, *pitch_diameter_mm)
+         {pitch_diameter_mm} mm (bearing.pitch_diameter_mm) overlap above {limit_mm} mm"
     )]
     ElementsOverlap {
         /// Number of elements.
@@ -260,6 +278,17 @@ pub enum SceneError {
         limit_mm: f64,
         /// What that is.
         limit: &'static str,
+    },
+    /// A spall into which no element sinks.
+    #[error(
+        "spall length (defect.length_deg or defect.length_mm) is {length_mm} mm: it must be at least {limit_mm} mm, a \
+         thousandth of the element's diameter, or no element sinks into it by more than 2e-7 of that"
+    )]
+    SpallTooShort {
+        /// Length [mm].
+        length_mm: f64,
+        /// Limit [mm].
+        limit_mm: f64,
     },
     /// A spall as deep as the element's radius or deeper.
     #[error("spall depth (defect.depth_um) is {depth_um}: it must be below {limit_um}, {limit}")]
@@ -398,6 +427,31 @@ impl SceneError {
         }
     }
 
+    /// Whether it follows from the bearing's dimensions, so that it means nothing where those are not known.
+    pub(super) fn is_of_dimensions(&self) -> bool {
+        match self {
+            Self::InTable { of, .. } => of.is_of_dimensions(),
+            Self::OutOfRange { key, .. } => key.contains(" or ") || *key == "bearing.density_kg_m3",
+            _ => matches!(
+                self,
+                Self::GrooveTooNarrow { .. }
+                    | Self::RollerLength { .. }
+                    | Self::ElementsOverlap { .. }
+                    | Self::NoInnerRaceway { .. }
+                    | Self::NoRoom { .. }
+                    | Self::TooLoose { .. }
+                    | Self::SpallTooLong { .. }
+                    | Self::SpallTooShort { .. }
+                    | Self::SpallTooDeep { .. }
+                    | Self::NoSuchElement { .. }
+                    | Self::PitNotMet { .. }
+                    | Self::SpacingCount { .. }
+                    | Self::OffPocket { .. }
+                    | Self::FlanksMeet { .. }
+            ),
+        }
+    }
+
     /// The message without the words that a list of faults of the file begins with.
     pub(super) fn in_list(&self) -> String {
         let said = self.to_string();
@@ -410,63 +464,13 @@ fn lines(faults: &[SceneError]) -> String {
     faults.iter().map(|fault| format!("\n  {}", fault.in_list())).collect()
 }
 
-/// Limits of a quantity.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limits {
-    /// Smallest value.
-    pub low: Bound,
-    /// Largest value.
-    pub high: Bound,
+fn known_bearings() -> String {
+    catalogue().map(|bearing| bearing.designation).collect::<Vec<_>>().join(", ")
 }
 
-/// One end of a range.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Bound {
-    /// The bound itself is allowed.
-    Inclusive(f64),
-    /// The bound itself is not allowed.
-    Exclusive(f64),
-}
-
-impl Limits {
-    /// Whether the value lies within; NaN never does.
-    pub fn hold(&self, value: f64) -> bool {
-        let above = match self.low {
-            Bound::Inclusive(bound) => value >= bound,
-            Bound::Exclusive(bound) => value > bound,
-        };
-        let below = match self.high {
-            Bound::Inclusive(bound) => value <= bound,
-            Bound::Exclusive(bound) => value < bound,
-        };
-        above && below
-    }
-}
-
-impl fmt::Display for Limits {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.low {
-            Bound::Inclusive(bound) => write!(f, "at least {bound:?} ")?,
-            Bound::Exclusive(bound) => write!(f, "above {bound:?} ")?,
-        }
-        match self.high {
-            Bound::Inclusive(bound) => write!(f, "and at most {bound:?}"),
-            Bound::Exclusive(bound) => write!(f, "and below {bound:?}"),
-        }
-    }
-}
-
-/// Asks about the pitch circle's unit where elements would fit on it in another.
-fn pitch_in_other_unit(count: usize, diameter_mm: f64, pitch_mm: f64) -> String {
-    const KEY: &str = "bearing.pitch_diameter_mm";
-    // Room for each element, and for less than twenty of them between two.
-    let smallest = diameter_mm / libm::sin(std::f64::consts::PI / count as f64);
-    let fits = |pitch: f64| pitch >= smallest && pitch <= 20.0 * smallest;
-    meant(KEY, pitch_mm, fits).map_or_else(String::new, |unit| format!("; was {KEY} meant in {unit}?"))
-}
-
-fn in_other_unit(key: &str, value: f64, limits: &Limits) -> String {
-    meant(key, value, |value| limits.hold(value)).map_or_else(String::new, |unit| format!("; was it meant in {unit}?"))
+fn meant(name: &str) -> String {
+    let near = nearest(catalogue().map(|bearing| bearing.designation), name);
+    near.map_or_else(String::new, |near| format!(" (did you mean {near}?)"))
 }
 
 impl fmt::Display for super::Motion {

@@ -46,16 +46,22 @@ mod cage;
 mod defects;
 mod film;
 mod keys;
+mod kinds;
+mod mended;
 mod not_modelled;
 mod one_or_more;
 mod pair;
+mod places;
+mod reading;
 mod rings;
+#[cfg(feature = "schema")]
+mod schema;
 mod values;
 
 use super::error::SceneError;
 use super::faults::Faults;
-use super::{Contact, ContactEdge, ContactLaw, Damping, Experiment, Recorder, RecorderFilter, Scene};
-use bearing::BearingTable;
+use super::{Contact, ContactEdge, ContactLaw, Damping, Experiment, Recorder, RecorderFilter, Remark, Scene};
+use bearing::BearingKeys;
 use cage::CageTable;
 use defects::DefectTable;
 use film::FilmTable;
@@ -73,15 +79,21 @@ impl Scene {
     pub fn from_toml(text: &str) -> Result<Self, SceneError> {
         let read = toml::from_str(text).map_err(SceneError::Toml).and_then(SceneFile::into_scene);
         let checked = read.and_then(|scene| scene.check().map(|()| scene));
-        checked.map_err(|error| keys::all_faults(text, error))
+        checked.map_err(|error| reading::all_faults(text, error))
     }
 }
 
 impl Scene {
-    /// The JSON schema of a scene file, by which editors complete and explain its keys.
+    /// Values of a scene file that are far from what is usual, and would be usual in another unit. What is no scene file has
+    /// none.
+    pub fn questions(text: &str) -> Vec<Remark> {
+        reading::questions(text)
+    }
+
+    /// The JSON schema of a scene file, by which editors complete and explain its keys, with the limits of their values.
     #[cfg(feature = "schema")]
     pub fn schema() -> schemars::Schema {
-        schemars::schema_for!(SceneFile)
+        schema::with_limits(schemars::schema_for!(SceneFile))
     }
 }
 
@@ -99,8 +111,7 @@ struct SceneFile {
     #[serde(default = "default_gravity", deserialize_with = "pair::pair")]
     gravity_m_s2: [f64; 2],
     /// Dimensions and material.
-    #[cfg_attr(feature = "schema", schemars(with = "bearing::BearingKeys"))]
-    bearing: BearingTable,
+    bearing: BearingKeys,
     /// Law and damping of the contacts.
     #[serde(default)]
     contact: ContactTable,

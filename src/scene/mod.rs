@@ -11,20 +11,26 @@ mod error;
 mod faults;
 mod file;
 mod key_fault;
+mod limits;
 mod quantity;
 mod remark;
 mod rolling_element;
 mod sensor;
+mod spelling;
 mod unit_hint;
+mod usual;
 
 pub use builder::SceneBuilder;
 pub use catalogue::{CatalogueBearing, Inside, catalogue, catalogued};
 pub use defect::{Defect, DefectOn, DefectShape};
-pub use error::{Bound, Limits, SceneError};
+pub use error::SceneError;
 pub use key_fault::{Hint, KeyFault};
+pub use limits::{Bound, Limits};
 pub use remark::Remark;
 pub use rolling_element::{Crown, Roller, RollerProfile, RollingElement};
 pub use sensor::{MOST_SENSOR_MODES, MOST_SENSORS, Sensor, SensorMode};
+pub use spelling::nearest;
+pub use unit_hint::UnitQuestion;
 
 use crate::numerics::counter_noise::gaussian;
 use serde::Deserialize;

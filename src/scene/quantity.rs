@@ -1,6 +1,7 @@
 //! The quantities of the scene file: what each is called, its key, its unit and the limits that depend on nothing else.
 
-use super::error::{Bound, Limits, SceneError};
+use super::error::SceneError;
+use super::limits::{Bound, Limits};
 use super::{MOST_SENSOR_MODES, MOST_SENSORS};
 use Bound::{Exclusive, Inclusive};
 use std::f64::consts::{PI, TAU};
@@ -25,7 +26,7 @@ pub(super) struct RingQuantities {
 
 impl Quantity {
     pub(super) fn check(&self, si: f64) -> Result<(), SceneError> {
-        let limits = Limits { low: self.low, high: self.high };
+        let limits = self.limits();
         let value = si * self.per_si;
         // Rounding to twelve digits matters close to a limit only, and takes its time.
         if limits.hold(value) && limits.hold(value * (1.0 + 1e-11)) && limits.hold(value * (1.0 - 1e-11)) {
@@ -38,18 +39,18 @@ impl Quantity {
         Err(SceneError::OutOfRange { quantity: self.quantity, key: self.key, value, limits })
     }
 
-    /// Its key in the scene file.
-    pub(super) fn key(&self) -> &'static str {
-        self.key
+    /// What it may be, in the key's unit.
+    pub(super) fn limits(&self) -> Limits {
+        Limits { low: self.low, high: self.high }
     }
 
-    /// Checks a value in the key's unit, as it stands in the file.
-    pub(super) fn check_written(&self, value: f64) -> Result<(), SceneError> {
-        let limits = Limits { low: self.low, high: self.high };
+    /// Checks a value of a key in the key's unit, as it stands in the file.
+    pub(super) fn check_written(&self, key: &'static str, value: f64) -> Result<(), SceneError> {
+        let limits = self.limits();
         if limits.hold(value) {
             return Ok(());
         }
-        Err(SceneError::OutOfRange { quantity: self.quantity, key: self.key, value, limits })
+        Err(SceneError::OutOfRange { quantity: self.quantity, key, value, limits })
     }
 
     pub(super) fn check_all(&self, si: &[f64]) -> Result<(), SceneError> {
@@ -104,6 +105,12 @@ pub(super) const CONFORMITY_OUTER: Quantity = quantity(
 );
 pub(super) const CLEARANCE: Quantity =
     quantity("radial clearance", "bearing.radial_clearance_um", 1e6, Inclusive(-1e9), Inclusive(1e9));
+/// Twice as much as the radial clearance, which is what is checked.
+const INTERNAL_CLEARANCE: Quantity =
+    quantity("internal clearance", "bearing.internal_clearance_um", 1e6, Inclusive(-2e9), Inclusive(2e9));
+/// What conformities leave with elements of any diameter that is possible.
+const GROOVE_DIAMETER: Quantity =
+    quantity("groove diameter", "bearing.groove_diameter_mm", 1e3, Inclusive(0.01), Inclusive(4e6));
 pub(super) const YOUNGS_MODULUS: Quantity =
     quantity("Young's modulus", "bearing.youngs_modulus_gpa", 1e-9, Inclusive(1e-3), Inclusive(1e4));
 pub(super) const POISSONS_RATIO: Quantity =
@@ -167,6 +174,10 @@ pub(super) const DEFECT_ANGLE: Quantity =
     quantity("defect angle", "defect.angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3));
 pub(super) const SPALL_LENGTH: Quantity =
     quantity("spall length, in mm", "defect.length_deg or defect.length_mm", 1e3, Exclusive(0.0), Inclusive(1e6));
+/// As it is written in degrees, of any body.
+const SPALL_LENGTH_DEG: Quantity = quantity("spall length", "defect.length_deg", 1.0, Exclusive(0.0), Exclusive(360.0));
+const DEFECT_ELEMENT: Quantity =
+    quantity("number of the element with the defect", "defect.element", 1.0, Inclusive(1.0), Inclusive(1000.0));
 pub(super) const SPALL_DEPTH: Quantity =
     quantity("spall depth", "defect.depth_um", 1e6, Exclusive(0.0), Inclusive(1e9));
 pub(super) const EDGE_SLOPE: Quantity =
@@ -225,13 +236,32 @@ pub(super) const STOP: Quantity = quantity("stop time", "experiment.stop_s", 1.0
 pub(super) const STEP: Quantity =
     quantity("communication step", "experiment.step_s", 1.0, Exclusive(0.0), Inclusive(1e9));
 
-/// All that the file says by one key in one unit.
-pub(super) const WRITTEN: [&Quantity; 55] = [
+/// The quantity of a key of the file, given with its table, with that key as it is known here.
+pub(super) fn of_key(key: &str) -> Option<(&'static str, &'static Quantity)> {
+    written().find(|(known, _)| *known == key)
+}
+
+/// All numbers that the file says, by their keys.
+pub(super) fn written() -> impl Iterator<Item = (&'static str, &'static Quantity)> {
+    let of_two = [
+        ("bearing.conformity_inner", &CONFORMITY_INNER),
+        ("bearing.conformity_outer", &CONFORMITY_OUTER),
+        ("defect.length_mm", &SPALL_LENGTH),
+    ];
+    WRITTEN.iter().map(|quantity| (quantity.key, *quantity)).chain(of_two)
+}
+
+/// Those of one key in one unit.
+static WRITTEN: [&Quantity; 61] = [
     &GRAVITY,
     &ELEMENT_COUNT,
     &ELEMENT_DIAMETER,
     &PITCH_DIAMETER,
     &CLEARANCE,
+    &INTERNAL_CLEARANCE,
+    &GROOVE_DIAMETER,
+    &ROLLER_LENGTH,
+    &ROLLER_LAMINAE,
     &YOUNGS_MODULUS,
     &POISSONS_RATIO,
     &DENSITY,
@@ -257,6 +287,8 @@ pub(super) const WRITTEN: [&Quantity; 55] = [
     &HOUSING_INITIAL_ANGLE,
     &TILT,
     &DEFECT_ANGLE,
+    &SPALL_LENGTH_DEG,
+    &DEFECT_ELEMENT,
     &SPALL_DEPTH,
     &EDGE_SLOPE,
     &HOUSING_SPEED,

@@ -1,7 +1,7 @@
 //! The table `[bearing]`: dimensions and material, or a catalogue's name instead of them.
 
 use super::super::Bearing;
-use super::super::catalogue::{CatalogueBearing, catalogue, catalogued};
+use super::super::catalogue::{CatalogueBearing, catalogued};
 use super::super::error::SceneError;
 use super::super::{Crown, Roller, RollerProfile, RollingElement};
 use serde::Deserialize;
@@ -14,9 +14,8 @@ const YOUNGS_MODULUS_GPA: f64 = 207.0;
 const POISSONS_RATIO: f64 = 0.3;
 const DENSITY_KG_M3: f64 = 7800.0;
 
-#[derive(Deserialize)]
-#[serde(try_from = "BearingKeys")]
-pub(super) struct BearingTable {
+/// The same with what the catalogue adds.
+struct BearingTable {
     element: ElementKind,
     roller_length_mm: Option<f64>,
     roller_profile: Option<String>,
@@ -100,11 +99,17 @@ enum ElementKind {
     CylindricalRoller,
 }
 
-impl TryFrom<BearingKeys> for BearingTable {
-    type Error = String;
+impl BearingKeys {
+    pub(super) fn into_bearing(self) -> Result<Bearing, SceneError> {
+        BearingTable::try_from(self)?.into_bearing()
+    }
+}
 
-    /// What the keys leave open, from the catalogue. A key that is missing is told as serde tells it.
-    fn try_from(keys: BearingKeys) -> Result<Self, String> {
+impl TryFrom<BearingKeys> for BearingTable {
+    type Error = SceneError;
+
+    /// What the keys leave open, from the catalogue.
+    fn try_from(keys: BearingKeys) -> Result<Self, SceneError> {
         let named = keys.catalogue.as_deref().map(bearing_named).transpose()?;
         let kind = named.map(|bearing| match bearing.inside.roller_length {
             None => (ElementKind::Ball, "balls"),
@@ -113,8 +118,7 @@ impl TryFrom<BearingKeys> for BearingTable {
         if let (Some(bearing), Some((kind, elements)), Some(asked)) = (named, kind, keys.element)
             && kind != asked
         {
-            let name = bearing.designation;
-            return Err(format!("bearing.catalogue = \"{name}\" has {elements}: bearing.element says otherwise"));
+            return Err(SceneError::OtherElements { name: bearing.designation, elements });
         }
         let element = keys.element.or(kind.map(|(kind, _)| kind)).unwrap_or_default();
         let inside = named.map(|bearing| bearing.inside);
@@ -122,7 +126,7 @@ impl TryFrom<BearingKeys> for BearingTable {
         let no_groove = keys.groove_diameter_mm.is_none() && keys.conformity_inner.or(keys.conformity_outer).is_none();
         let conformity = from_catalogue(CONFORMITY).filter(|_| no_groove && element == ElementKind::Ball);
         let density = from_catalogue(DENSITY_KG_M3).filter(|_| keys.element_mass_g.is_none());
-        let needed = |value: Option<f64>, name: &str| value.ok_or_else(|| missing(name));
+        let needed = |value: Option<f64>, key| value.ok_or(missing(key));
         let count = keys.element_count.or(inside.map(|inside| inside.element_count));
         let diameter = keys.element_diameter_mm.or(inside.map(|inside| inside.element_diameter));
         let pitch = keys.pitch_diameter_mm.or(inside.map(|inside| inside.pitch_diameter));
@@ -132,16 +136,16 @@ impl TryFrom<BearingKeys> for BearingTable {
             roller_length_mm: keys.roller_length_mm.or(inside.and_then(|inside| inside.roller_length)),
             roller_profile: keys.roller_profile,
             roller_laminae: keys.roller_laminae,
-            element_count: count.ok_or_else(|| missing("element_count"))?,
-            element_diameter_mm: needed(diameter, "element_diameter_mm")?,
-            pitch_diameter_mm: needed(pitch, "pitch_diameter_mm")?,
+            element_count: count.ok_or(missing("bearing.element_count"))?,
+            element_diameter_mm: needed(diameter, "bearing.element_diameter_mm")?,
+            pitch_diameter_mm: needed(pitch, "bearing.pitch_diameter_mm")?,
             groove_diameter_mm: keys.groove_diameter_mm,
             conformity_inner: keys.conformity_inner.or(conformity),
             conformity_outer: keys.conformity_outer.or(conformity),
             radial_clearance_um: keys.radial_clearance_um,
             internal_clearance_um: keys.internal_clearance_um,
-            youngs_modulus_gpa: needed(youngs_modulus, "youngs_modulus_gpa")?,
-            poissons_ratio: needed(keys.poissons_ratio.or(from_catalogue(POISSONS_RATIO)), "poissons_ratio")?,
+            youngs_modulus_gpa: needed(youngs_modulus, "bearing.youngs_modulus_gpa")?,
+            poissons_ratio: needed(keys.poissons_ratio.or(from_catalogue(POISSONS_RATIO)), "bearing.poissons_ratio")?,
             density_kg_m3: keys.density_kg_m3.or(density),
             element_mass_g: keys.element_mass_g,
             hertz_inner_n_m1_5: keys.hertz_inner_n_m1_5,
@@ -151,15 +155,12 @@ impl TryFrom<BearingKeys> for BearingTable {
     }
 }
 
-fn missing(key: &str) -> String {
-    format!("missing field `{key}`")
+const fn missing(key: &'static str) -> SceneError {
+    SceneError::Missing { key, why: "bearing.catalogue is not given either" }
 }
 
-fn bearing_named(name: &str) -> Result<CatalogueBearing, String> {
-    catalogued(name).ok_or_else(|| {
-        let known = catalogue().map(|bearing| bearing.designation).collect::<Vec<_>>().join(", ");
-        format!("bearing.catalogue = \"{name}\" is not in the catalogue, which has {known}")
-    })
+fn bearing_named(name: &str) -> Result<CatalogueBearing, SceneError> {
+    catalogued(name).ok_or_else(|| SceneError::NotInCatalogue { name: name.to_owned() })
 }
 
 /// Clearance where the file says none [µm].
@@ -167,7 +168,7 @@ const DEFAULT_CLEARANCE_UM: f64 = 5.0;
 
 impl BearingTable {
     // 1e3 is exact and 1e-3 is not, so a division rounds once and a product twice.
-    pub(super) fn into_bearing(self) -> Result<Bearing, SceneError> {
+    fn into_bearing(self) -> Result<Bearing, SceneError> {
         let clearance = self.clearance()?;
         let element = self.rolling_element()?;
         let (conformity_inner, conformity_outer) = match element {
@@ -241,10 +242,10 @@ impl BearingTable {
             (Some(_), None, Some(_)) => Err(SceneError::Both { first: GROOVE, second: OUTER }),
             (None, None, None) => Err(SceneError::Neither { first: GROOVE, second: INNER }),
             (None, None, Some(_)) => {
-                Err(SceneError::Missing { key: INNER, why: "conformity_outer is given without it" })
+                Err(SceneError::Missing { key: INNER, why: "bearing.conformity_outer is given without it" })
             }
             (None, Some(_), None) => {
-                Err(SceneError::Missing { key: OUTER, why: "conformity_inner is given without it" })
+                Err(SceneError::Missing { key: OUTER, why: "bearing.conformity_inner is given without it" })
             }
         }
     }

@@ -1,16 +1,80 @@
-//! What is wrong with single values of a scene file, whatever the rest of it says. Asked only of a file that was
-//! refused: a value that is wrong by itself is then told beside what it was refused for.
+//! What is wrong with single values of a scene file, whatever the rest of it says: of another kind than their key takes, a
+//! word that is not known, outside its limits. Asked only of a file that was refused.
 
-use super::super::error::SceneError;
-use super::super::quantity::WRITTEN;
+use super::keys::path;
+use super::kinds::{Kind, TableOf};
+use crate::scene::quantity::of_key;
+use crate::scene::spelling::nearest;
 use toml::de::DeValue;
 
-/// Why the value of a key, given with its table, is outside its limits; each component of a list is.
-pub(super) fn fault(key: &str, value: &DeValue<'_>) -> Option<SceneError> {
-    let quantity = WRITTEN.iter().find(|quantity| quantity.key() == key)?;
+/// Why the value of a key of a table cannot be.
+pub(super) fn fault(table: &TableOf, key: &str, value: &DeValue<'_>) -> Option<String> {
+    let whole = path(table.name, key, false);
+    let limits = of_key(&whole);
+    let beyond =
+        limits.and_then(|(key, of)| numbers(value).into_iter().find_map(|value| of.check_written(key, value).err()));
+    if let Some(beyond) = beyond {
+        return Some(beyond.to_string());
+    }
+    let kind = table.kind(key).filter(|kind| !is_of(kind, value))?;
+    let given = shown(value);
+    Some(match &kind {
+        Kind::Table => format!("[{whole}] is {given}: it must be one table [{whole}]"),
+        Kind::OneOrMore => format!("[{whole}] is {given}: it must be a table [{whole}], or several [[{whole}]]"),
+        Kind::List(of) if **of == Kind::Table => {
+            format!("[{whole}] is {given}: it must be [[{whole}]], once or several times")
+        }
+        Kind::Word(words) => {
+            let near = value.as_str().and_then(|word| nearest(words.iter().copied(), word));
+            let near = near.map_or_else(String::new, |near| format!("; did you mean \"{near}\"?"));
+            format!("{whole} is {given}: it must be {kind}{near}")
+        }
+        Kind::Number | Kind::Whole(_) if value.as_str().is_some_and(|text| text.trim().parse::<f64>().is_ok()) => {
+            format!("{whole} is {given}: it must be {kind}, without quotes")
+        }
+        _ => format!("{whole} is {given}: it must be {kind}"),
+    })
+}
+
+fn is_of(kind: &Kind, value: &DeValue<'_>) -> bool {
+    let all =
+        |kind: &Kind| value.as_array().is_some_and(|values| values.iter().all(|value| is_of(kind, value.get_ref())));
+    match kind {
+        Kind::Number => value.is_integer() || value.is_float(),
+        Kind::Whole(positive) => value.is_integer() && (!positive || number(value).is_some_and(|number| number >= 0.0)),
+        Kind::Text => value.is_str(),
+        Kind::Word(words) => value.as_str().is_some_and(|word| words.contains(&word)),
+        Kind::Pair(kind) => all(kind) && value.as_array().is_some_and(|values| values.len() == 2),
+        Kind::List(kind) => all(kind),
+        Kind::Table => value.is_table(),
+        Kind::OneOrMore => value.is_table() || all(&Kind::Table),
+    }
+}
+
+/// A value in few words, as it stands in the file.
+fn shown(value: &DeValue<'_>) -> String {
     match value {
-        DeValue::Array(values) => values.iter().find_map(|value| fault(key, value.get_ref())),
-        other => quantity.check_written(number(other)?).err(),
+        DeValue::String(text) => format!("{text:?}"),
+        DeValue::Integer(written) => written.as_str().to_owned(),
+        DeValue::Float(written) => written.as_str().to_owned(),
+        DeValue::Boolean(value) => value.to_string(),
+        DeValue::Datetime(value) => value.to_string(),
+        DeValue::Array(values) if values.iter().any(|value| value.get_ref().is_table()) => {
+            format!("{} tables", values.len())
+        }
+        DeValue::Array(values) => match values.len() {
+            1 => "a list of one value".to_owned(),
+            count => format!("a list of {count} values"),
+        },
+        DeValue::Table(_) => "a table".to_owned(),
+    }
+}
+
+/// All numbers of a value: itself, or those of a list.
+pub(super) fn numbers(value: &DeValue<'_>) -> Vec<f64> {
+    match value {
+        DeValue::Array(values) => values.iter().flat_map(|value| numbers(value.get_ref())).collect(),
+        other => number(other).into_iter().collect(),
     }
 }
 

@@ -1,0 +1,151 @@
+//! All that is wrong with a scene file at once, each fault with its line; and what in it is to be asked about.
+//!
+//! First the keys and each value by itself. Then what is wrong is left out, something possible put where it is needed, and
+//! the rest is read and checked as any file is; what that finds is left out in turn, until nothing is found. A fault that
+//! speaks of what was left out follows from it and is not told.
+
+use super::keys::{Finding, of_table, tables};
+use super::mended::Mended;
+use super::places::{Place, all_of, named};
+use super::values::numbers;
+use crate::scene::key_fault::KeyFault;
+use crate::scene::usual::Dimensions;
+use crate::scene::{Remark, SceneError, UnitQuestion};
+use toml::de::{DeTable, DeValue};
+
+/// How often the rest is read: each time at least one key more is left out, and few files are as bad.
+const ROUNDS: usize = 20;
+
+/// The error for a file that was refused with `error`: all its faults. What is no TOML has one.
+pub(super) fn all_faults(text: &str, error: SceneError) -> SceneError {
+    let (Ok(file), Some(mut mended)) = (DeTable::parse(text), Mended::of(text)) else { return error };
+    let reading = Reading::new(text, file.get_ref());
+    let mut faults = Vec::new();
+    for Finding { fault, spoils } in reading.findings() {
+        spoils.iter().for_each(|(place, key)| {
+            mended.spoil(*place, key);
+        });
+        faults.push(fault);
+    }
+    for _ in 0..ROUNDS {
+        let errors: Vec<_> = mended.errors().into_iter().map(|error| (concerned(&error), error)).collect();
+        for (keys, error) in &errors {
+            let left_out = keys.iter().any(|(place, key)| mended.is_spoilt(*place, key));
+            if !left_out && !(error.is_of_dimensions() && mended.lacks_dimensions()) {
+                faults.push(reading.told(keys, error));
+            }
+        }
+        let keys = errors.iter().flat_map(|(keys, _)| keys);
+        if keys.filter(|(place, key)| mended.spoil(*place, key)).count() == 0 {
+            break;
+        }
+    }
+    faults.sort_by_key(KeyFault::line);
+    if faults.is_empty() { error } else { SceneError::Keys(faults) }
+}
+
+/// Questions about values of a file that was accepted.
+pub(super) fn questions(text: &str) -> Vec<Remark> {
+    DeTable::parse(text).map_or(Vec::new(), |file| Reading::new(text, file.get_ref()).questions())
+}
+
+/// The keys that an error speaks of.
+fn concerned(error: &SceneError) -> Vec<(Place, &'static str)> {
+    let mut number = [0; 2];
+    let mut of = error;
+    while let SceneError::InTable { table, number: k, of: inner } = of {
+        number[usize::from(table.contains('.'))] = k.saturating_sub(1);
+        of = inner;
+    }
+    match of {
+        SceneError::Name(_) => vec![(Place { table: "", number }, "name")],
+        _ => named(&of.to_string(), number),
+    }
+}
+
+/// A file, its line breaks, and its bearing's dimensions.
+struct Reading<'a, 'f> {
+    file: &'a DeTable<'f>,
+    breaks: Vec<usize>,
+    dimensions: Dimensions,
+}
+
+impl<'a, 'f> Reading<'a, 'f> {
+    fn new(text: &str, file: &'a DeTable<'f>) -> Self {
+        let bearing = file.get("bearing").and_then(|value| value.get_ref().as_table());
+        let value = |key: &str| bearing.and_then(|bearing| bearing.get(key)).map(|value| value.get_ref());
+        let name = value("catalogue").and_then(DeValue::as_str);
+        let dimensions = Dimensions::of(name, |key| value(key).and_then(|value| numbers(value).first().copied()));
+        Self { file, breaks: text.match_indices('\n').map(|(at, _)| at).collect(), dimensions }
+    }
+
+    /// Line of a place in the text, from 1.
+    fn line(&self, at: usize) -> usize {
+        1 + self.breaks.partition_point(|&end| end < at)
+    }
+
+    /// Faults of keys and of values by themselves.
+    fn findings(&self) -> Vec<Finding> {
+        let mut findings = Vec::new();
+        for of in tables() {
+            for found in all_of(of.name, self.file) {
+                findings.extend(of_table(&of, &found, &|at| self.line(at)));
+            }
+        }
+        for Finding { fault, spoils } in &mut findings {
+            if let KeyFault::Value { said, .. } = fault {
+                said.push_str(&self.asked(spoils.iter().map(|(place, key)| (*place, key.as_str()))));
+            }
+        }
+        findings
+    }
+
+    /// An error with its line.
+    fn told(&self, keys: &[(Place, &'static str)], error: &SceneError) -> KeyFault {
+        let of_key = keys.iter().find_map(|(place, key)| self.find(*place, key).map(|(line, _)| line));
+        let of_table = || {
+            let (place, _) = keys.first()?;
+            let found = all_of(place.table, self.file).into_iter().find(|found| found.place == *place)?;
+            found.at.map(|at| self.line(at))
+        };
+        let asked = self.asked(keys.iter().map(|(place, key)| (*place, *key)));
+        KeyFault::Value { line: of_key.or_else(of_table).unwrap_or(0), said: error.in_list() + &asked }
+    }
+
+    /// Line and value of a key.
+    fn find(&self, place: Place, key: &str) -> Option<(usize, &'a DeValue<'f>)> {
+        let found = all_of(place.table, self.file).into_iter().find(|found| found.place == place)?;
+        let (key, value) = found.table.get_key_value(key)?;
+        Some((self.line(key.span().start), value.get_ref()))
+    }
+
+    /// The first question about the value of one of these keys, as the end of a message.
+    fn asked<'k>(&self, keys: impl Iterator<Item = (Place, &'k str)>) -> String {
+        let question = |(place, key): (Place, &str)| {
+            let (_, value) = self.find(place, key)?;
+            self.question(place.table, key, value)
+        };
+        keys.filter_map(question).next().map_or_else(String::new, |question| format!("; {question}"))
+    }
+
+    fn question(&self, table: &str, key: &str, value: &DeValue<'_>) -> Option<UnitQuestion> {
+        let key = super::keys::path(table, key, false);
+        // Of a vector its largest component.
+        let largest = numbers(value).into_iter().max_by(|a, b| a.abs().total_cmp(&b.abs()))?;
+        self.dimensions.question(&key, largest)
+    }
+
+    fn questions(&self) -> Vec<Remark> {
+        let mut asked = Vec::new();
+        for of in tables() {
+            for found in all_of(of.name, self.file) {
+                asked.extend(found.table.iter().filter_map(|(key, value)| {
+                    let question = self.question(of.name, key.get_ref(), value.get_ref())?;
+                    Some((self.line(key.span().start), question))
+                }));
+            }
+        }
+        asked.sort_by_key(|(line, _)| *line);
+        asked.into_iter().map(|(line, question)| Remark::OtherUnit { line, question }).collect()
+    }
+}
