@@ -1,7 +1,7 @@
 //! The command `catalogue`: which bearings a scene may name, and where their dimensions come from.
 
 use anyhow::{Result, bail};
-use brinell::scene::{Inside, catalogue, catalogued};
+use brinell::scene::{Inside, catalogue, catalogued, nearest};
 
 /// The command: one line for each bearing whose name begins with `filter`; or for the one that a scene finds by it, as
 /// NU205 by NJ205 and 6205 by 6205-2RS.
@@ -12,7 +12,9 @@ pub(crate) fn command(filter: &str) -> Result<()> {
         found.extend(catalogued(&filter));
     }
     if found.is_empty() {
-        bail!("no bearing of the catalogue begins with {filter:?}; `brinell catalogue` lists all");
+        let near = nearest(catalogue().map(|bearing| bearing.designation), &filter);
+        let near = near.map_or_else(String::new, |near| format!("did you mean {near}? "));
+        bail!("no bearing of the catalogue begins with {filter:?}; {near}`brinell catalogue` lists all");
     }
     println!(
         "Deep groove ball bearings (6...) and cylindrical roller bearings (NU...; NJ, NUP and N are the same inside)."

@@ -4,7 +4,7 @@ use std::env;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
-use brinell::scene::{Experiment, Scene};
+use brinell::scene::Experiment;
 use brinell_analysis::recording::Speed;
 use clap::{Args, Parser, Subcommand};
 
@@ -17,7 +17,7 @@ use crate::run::speed_profile::SpeedProfile;
 use crate::run::table::Format;
 use crate::run::wav::Wav;
 use crate::{
-    catalogue, check, contact, demo, fmu, model::Model, modes, project::Project, run, scenes, size, stiffness,
+    catalogue, check, contact, demo, fmu, model::Model, modes, project::Project, run, scenes, schema, size, stiffness,
 };
 
 /// Rolling bearings with a real surface defect as FMI co-simulation units.
@@ -83,10 +83,10 @@ pub struct Run {
     /// Scene file (TOML), or the name of a shipped scene
     scene: PathBuf,
     /// Stop time in seconds [default: the scene's]
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
     stop: Option<f64>,
     /// Communication step in seconds [default: the scene's]
-    #[arg(long, value_name = "H")]
+    #[arg(long, value_name = "H", allow_negative_numbers = true, value_parser = number)]
     step: Option<f64>,
     /// Columns beside the time, separated by commas; * stands for any characters [default: all]
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
@@ -98,19 +98,19 @@ pub struct Run {
     #[arg(long, value_name = "FILE")]
     speed_profile: Option<PathBuf>,
     /// Noise of the sensors: their signal's root mean square over its own, in decibels
-    #[arg(long, value_name = "DB", allow_negative_numbers = true)]
+    #[arg(long, value_name = "DB", allow_negative_numbers = true, value_parser = number)]
     noise_db: Option<f64>,
     /// Which noise: equal seeds give equal bits
-    #[arg(long, value_name = "SEED", default_value_t = 1, requires = "noise_db")]
+    #[arg(long, value_name = "SEED", default_value_t = 1, requires = "noise_db", allow_negative_numbers = true, value_parser = seed)]
     noise_seed: u64,
     /// Write what the sensors show as sound, through the recorder's filter against aliases
     #[arg(long)]
     wav: bool,
     /// Its samples per second [default: the scene's recorder's, or 51200]
-    #[arg(long, value_name = "HZ", requires = "wav")]
+    #[arg(long, value_name = "HZ", requires = "wav", allow_negative_numbers = true, value_parser = number)]
     wav_rate: Option<f64>,
     /// Acceleration in m/s² that becomes 1 in it
-    #[arg(long, value_name = "M_S2", default_value_t = 1.0, requires = "wav")]
+    #[arg(long, value_name = "M_S2", default_value_t = 1.0, requires = "wav", allow_negative_numbers = true, value_parser = number)]
     wav_scale: f64,
     /// Write a page to look at in a browser: signals, path over the defect, spectra
     #[arg(long)]
@@ -160,11 +160,11 @@ pub struct Stiffness {
     /// Scene file (TOML), or the name of a shipped scene
     scene: PathBuf,
     /// Load in newtons along the scene's load [default: the scene's]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
     load: Option<f64>,
     /// Cage angles within one element spacing [default: 200, more for a short defect]; those at which elements begin to
     /// carry are added
-    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, value_name = "COUNT", allow_negative_numbers = true, value_parser = whole::<1, 100_000>)]
     points: Option<u32>,
     /// Folder for CSV and figure [default: the current one]
     #[arg(short, long, value_name = "DIR")]
@@ -181,11 +181,11 @@ pub struct Modes {
     scene: PathBuf,
     /// Load in newtons along the scene's load; of a scene without load, on the shaft and downwards, wherever that is
     /// held [default: the scene's]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
     load: Option<f64>,
     /// Cage angles within one element spacing [default: 200, more for a short defect]; those at which elements begin
     /// to be pressed are added
-    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, value_name = "COUNT", allow_negative_numbers = true, value_parser = whole::<1, 100_000>)]
     points: Option<u32>,
     /// Folder for JSON and figure [default: the current one]
     #[arg(short, long, value_name = "DIR")]
@@ -232,16 +232,16 @@ pub struct Size {
     #[arg(long)]
     scene: PathBuf,
     /// Sampling rate in hertz [default: the file's own]
-    #[arg(long, value_name = "HZ")]
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = number)]
     rate: Option<f64>,
     /// Shaft speed in hertz: one for all recordings, or one for each, separated by commas
-    #[arg(long, value_name = "HZ", value_delimiter = ',', group = "shaft")]
+    #[arg(long, value_name = "HZ", value_delimiter = ',', group = "shaft", allow_negative_numbers = true, value_parser = number)]
     speed: Vec<f64>,
     /// Column of a tachometer, by name or by number from 1
     #[arg(long, value_name = "COLUMN", group = "shaft")]
     tacho: Option<String>,
     /// Pulses of the tachometer per shaft turn
-    #[arg(long, value_name = "COUNT", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    #[arg(long, value_name = "COUNT", default_value_t = 1, allow_negative_numbers = true, value_parser = whole::<1, 10_000>)]
     pulses: u32,
     /// Column of the shaft's speed at every sample, in hertz unless its heading says rpm or rad/s
     #[arg(long, value_name = "COLUMN", group = "shaft")]
@@ -396,7 +396,7 @@ impl Command {
             }
             Command::Catalogue(options) => catalogue::command(&options.filter),
             Command::Schema => {
-                println!("{}", serde_json::to_string_pretty(&Scene::schema())?);
+                print!("{}", schema::text()?);
                 Ok(())
             }
         }
@@ -428,6 +428,19 @@ fn build(project: &Project, options: Build) -> Result<()> {
         println!("{}", path.display());
     }
     Ok(())
+}
+
+fn number(text: &str) -> Result<f64, String> {
+    text.trim().parse().map_err(|_| "it must be a number".to_owned())
+}
+
+fn whole<const LEAST: u32, const MOST: u32>(text: &str) -> Result<u32, String> {
+    let number = text.trim().parse().ok().filter(|number| (LEAST..=MOST).contains(number));
+    number.ok_or_else(|| format!("it must be a whole number from {LEAST} to {MOST}"))
+}
+
+fn seed(text: &str) -> Result<u64, String> {
+    text.trim().parse().map_err(|_| "it must be a whole number, 0 or more".to_owned())
 }
 
 /// What the commands that sweep the cage angle are told.

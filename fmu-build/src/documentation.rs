@@ -70,7 +70,7 @@ pub fn write(model: &Model, version: Version) -> String {
     );
     page.push_str("<h2>The bearing</h2>\n");
     facts(&mut page, scene);
-    for remark in remarks(scene) {
+    for remark in remarks(&model.scene_text, scene) {
         line(&mut page, format_args!("<p>Note: {remark}.</p>"));
     }
     page.push_str("<h2>Coupling</h2>\n");

@@ -31,6 +31,7 @@ pub mod python;
 pub mod reference;
 pub mod run;
 pub mod scenes;
+mod schema;
 mod sensor_response;
 pub mod shipped;
 pub mod size;

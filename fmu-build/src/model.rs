@@ -44,15 +44,16 @@ pub struct Profile {
 /// An error names the file.
 pub fn read_scene(path: &Path) -> Result<(String, Scene)> {
     let about = || path.display().to_string();
-    let text = sensor_response::resolved(&shipped::scene_text(path)?, |name| shipped::text_beside(path, name));
-    let text = text.with_context(about)?;
+    let text = shipped::scene_text(path)?;
+    let resolved = sensor_response::resolved(&text, |name| shipped::text_beside(path, name));
+    let text = resolved.map_err(|error| sensor_response::beside_other_faults(error, &text)).with_context(about)?;
     let scene = Scene::from_toml(&text).with_context(about)?;
     Ok((text, scene))
 }
 
-/// What is possible and unusual in a scene.
-pub fn remarks(scene: &Scene) -> impl Iterator<Item = Remark> {
-    scene.remarks().into_iter().chain(film::remark(scene))
+/// What is possible and unusual in a scene of this text.
+pub fn remarks(text: &str, scene: &Scene) -> impl Iterator<Item = Remark> {
+    Scene::questions(text).into_iter().chain(scene.remarks()).chain(film::remark(scene))
 }
 
 impl Model {
@@ -60,7 +61,7 @@ impl Model {
     pub fn read(path: &Path) -> Result<Self> {
         let about = || path.display().to_string();
         let (scene_text, scene) = read_scene(path)?;
-        for remark in remarks(&scene) {
+        for remark in remarks(&scene_text, &scene) {
             eprintln!("note: {}: {remark}", about());
         }
         let profile =

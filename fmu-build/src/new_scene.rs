@@ -4,8 +4,9 @@ use std::path::Path;
 use std::str::FromStr;
 
 use anyhow::{Context, Result, bail};
-use brinell::scene::{CatalogueBearing, Scene, catalogue, catalogued};
+use brinell::scene::{CatalogueBearing, Scene, SceneError, catalogued};
 
+use crate::schema;
 use crate::whole_file;
 
 /// Share of the static load rating that a new scene's bearing carries.
@@ -37,8 +38,7 @@ impl FromStr for Spall {
 /// The command: writes `<folder>/<name>.toml`.
 pub(crate) fn command(name: &str, bearing: &str, spall: Option<&Spall>, folder: &Path) -> Result<()> {
     let Some(bearing) = catalogued(bearing) else {
-        let known = catalogue().map(|bearing| bearing.designation).collect::<Vec<_>>().join(", ");
-        bail!("{bearing:?} is not in the catalogue, which has {known}");
+        bail!(SceneError::NotInCatalogue { name: bearing.to_owned() });
     };
     let text = text(name, &bearing, spall);
     Scene::from_toml(&text).with_context(|| format!("a scene {name} of this bearing and defect is not possible"))?;
@@ -48,7 +48,7 @@ pub(crate) fn command(name: &str, bearing: &str, spall: Option<&Spall>, folder: 
     }
     whole_file::write(&path, text)?;
     println!("{}", path.display());
-    Ok(())
+    schema::write_beside(folder)
 }
 
 fn text(name: &str, bearing: &CatalogueBearing, spall: Option<&Spall>) -> String {

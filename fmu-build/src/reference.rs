@@ -255,7 +255,7 @@ fn rows(simulation: &mut Simulation, stimuli: &Stimuli, outputs: &[u32], grid: G
         if index > 0 {
             let from = (index - 1) as f64 * grid.step;
             simulation.set_reals(&stimuli.references, &stimuli.at(from))?;
-            simulation.step(grid.step).with_context(|| format!("at {from} s"))?;
+            simulation.step(grid.step)?;
         }
         simulation.reals(outputs, &mut values)?;
         csv::row(&mut rows, std::iter::once(time).chain(values.iter().copied()))?;

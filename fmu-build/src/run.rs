@@ -196,7 +196,8 @@ fn step(simulation: &mut Simulation, shaft_speed: u32, options: &Options) -> Res
         simulation.set_reals(&[shaft_speed], &[from])?;
         simulation.set_input_derivatives(&[shaft_speed], &[1], &[(to - from) / step])?;
     }
-    simulation.step(step).with_context(|| format!("at {at} s"))
+    // What goes wrong in a step is told with its time.
+    Ok(simulation.step(step)?)
 }
 
 /// Spectra, figure and page.

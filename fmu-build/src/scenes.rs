@@ -5,6 +5,7 @@ use std::path::Path;
 use anyhow::{Context, Result, bail};
 use brinell::scene::Scene;
 
+use crate::schema;
 use crate::shipped;
 use crate::whole_file;
 
@@ -19,8 +20,7 @@ pub fn command(names: &[String], folder: &Path) -> Result<()> {
     }
     for name in names {
         let Some(files) = shipped::files_of(name) else {
-            let known = shipped::scenes().collect::<Vec<_>>().join(", ");
-            bail!("{name}: no such scene; shipped are {known}");
+            bail!("{name}: no such scene; {}", shipped::meant(name));
         };
         for (file, text) in files {
             let path = folder.join(file);
@@ -31,5 +31,5 @@ pub fn command(names: &[String], folder: &Path) -> Result<()> {
             println!("{}", path.display());
         }
     }
-    Ok(())
+    if names.is_empty() { Ok(()) } else { schema::write_beside(folder) }
 }

@@ -1,41 +1,51 @@
 //! `sensor.response` of a scene file: modes are fitted to the file it names and take its place in the scene's text, so
-//! that FMU and simulations know modes only, and everyone sees them.
+//! that FMU and simulations know modes only, and everyone sees them. They stand in its line: what is wrong further down is
+//! told with the line that it has in the file.
 
-use std::fmt::Write;
-
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Error, Result, anyhow, bail};
+use brinell::scene::{Scene, SceneError, SensorMode};
 use brinell_analysis::frequency_response::{Fit, FrequencyResponse};
 
 /// A scene's text with modes in place of every response; `read` gives the text of the file that a response names.
 pub(crate) fn resolved(text: &str, read: impl Fn(&str) -> Result<String>) -> Result<String> {
     let mut resolved = String::with_capacity(text.len());
-    let (mut of_sensor, mut modes) = (false, String::new());
-    for line in text.split_inclusive('\n') {
+    let (mut of_sensor, mut has_one) = (false, false);
+    for (number, line) in text.split_inclusive('\n').enumerate() {
         let bare = line.trim();
         if bare.starts_with('[') {
-            resolved.push_str(&std::mem::take(&mut modes));
             let head = bare.split('#').next().unwrap_or_default().trim();
-            of_sensor = ["[sensor]", "[[sensor]]"].contains(&head);
+            (of_sensor, has_one) = (["[sensor]", "[[sensor]]"].contains(&head), false);
         }
-        match named(bare).filter(|_| of_sensor) {
-            None => resolved.push_str(line),
-            Some(_) if !modes.is_empty() => bail!("sensor.response: a sensor has one, not two"),
-            Some(file) => {
-                let said = || format!("sensor.response \"{file}\"");
-                if file.contains(['/', '\\', ':']) {
-                    bail!("{}: it must be the name of a file beside the scene", said());
-                }
-                let fit = FrequencyResponse::from_csv(&read(&file)?).and_then(|of| of.fit()).with_context(said)?;
-                eprintln!("{}: {} modes, which miss {:.2} % of it", said(), fit.modes.len(), 100.0 * fit.misfit);
-                modes = tables(&file, &fit);
-            }
+        let Some(file) = named(bare).filter(|_| of_sensor) else {
+            resolved.push_str(line);
+            continue;
+        };
+        let said = || format!("line {}: sensor.response \"{file}\"", number + 1);
+        if has_one {
+            bail!("{}: a sensor has one, not two", said());
         }
-    }
-    if !modes.is_empty() && !resolved.ends_with('\n') {
+        if file.contains(['/', '\\', ':']) {
+            bail!("{}: it must be the name of a file beside the scene", said());
+        }
+        let fit = read(&file).and_then(|text| Ok(FrequencyResponse::from_csv(&text)?.fit()?)).with_context(said)?;
+        eprintln!("{}: {} modes, which miss {:.2} % of it", said(), fit.modes.len(), 100.0 * fit.misfit);
+        resolved.push_str(&modes(&file, &fit));
         resolved.push('\n');
+        has_one = true;
     }
-    resolved.push_str(&modes);
     Ok(resolved)
+}
+
+/// What is wrong with a response, and beside it all else that is wrong with the scene.
+pub(crate) fn beside_other_faults(error: Error, text: &str) -> Error {
+    let Err(SceneError::Keys(mut faults)) = Scene::from_toml(text) else { return error };
+    // That it was not fitted is what `error` says.
+    faults.retain(|fault| !fault.to_string().contains("sensor.response"));
+    if faults.is_empty() {
+        return error;
+    }
+    let others: String = faults.iter().map(|fault| format!("\n  {fault}")).collect();
+    anyhow!("scene file: {} faults\n  {error:#}{others}", faults.len() + 1)
 }
 
 /// The file that a line `response = "…"` names.
@@ -44,20 +54,18 @@ fn named(line: &str) -> Option<String> {
     table.get("response")?.as_str().map(str::to_owned)
 }
 
-/// The modes as tables of a scene file. Numbers are shown in full: they are what is simulated.
-fn tables(file: &str, fit: &Fit) -> String {
-    let mut tables =
-        format!("# {} modes fitted to {file:?}, which miss {:.2} % of it.\n", fit.modes.len(), 100.0 * fit.misfit);
-    for mode in &fit.modes {
-        let brinell::scene::SensorMode { frequency, damping_ratio, gain, quadrature_gain } = mode;
-        // Writing to a string cannot fail.
-        let _ = write!(
-            tables,
-            "[[sensor.mode]]\nfrequency_hz = {frequency:?}\ndamping_ratio = {damping_ratio:?}\ngain = {gain:?}\n\
-             quadrature_gain = {quadrature_gain:?}\n"
-        );
-    }
-    tables + "\n"
+/// The modes as a line of a scene file. Numbers are shown in full: they are what is simulated.
+fn modes(file: &str, fit: &Fit) -> String {
+    let mode = |mode: &SensorMode| {
+        let SensorMode { frequency, damping_ratio, gain, quadrature_gain } = mode;
+        format!(
+            "{{ frequency_hz = {frequency:?}, damping_ratio = {damping_ratio:?}, gain = {gain:?}, quadrature_gain = \
+             {quadrature_gain:?} }}"
+        )
+    };
+    let modes: Vec<String> = fit.modes.iter().map(mode).collect();
+    let misfit = 100.0 * fit.misfit;
+    format!("mode = [{}] # {} modes fitted to {file:?}, which miss {misfit:.2} % of it.", modes.join(", "), modes.len())
 }
 
 #[cfg(test)]
@@ -65,7 +73,6 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
-    use brinell::scene::{Scene, SensorMode};
     use brinell_analysis::frequency_response::response;
 
     const SCENE: &str = include_str!("../../scenes/6205-spall-5deg.toml");
@@ -88,6 +95,11 @@ mod tests {
         let mode = scene.sensors[0].modes[0];
         assert!(scene.sensors[0].modes.len() == 1 && (mode.frequency - MODE.frequency).abs() < 1e-6, "{mode:?}");
         assert!(text.contains("1 modes fitted to \"frf.csv\"") && text.contains("\n[solver]"), "{text}");
+        // What follows is told with its line in the file.
+        let spoilt = named("response = \"frf.csv\"").replace("stop_s = ", "stop_s = -");
+        let line = 1 + spoilt.lines().position(|line| line.starts_with("stop_s")).unwrap();
+        let said = Scene::from_toml(&resolved(&spoilt, read).unwrap()).unwrap_err().to_string();
+        assert!(said.contains(&format!("line {line}: stop time")), "{said}");
         // Whatever has no response stays as it is.
         assert_eq!(resolved(SCENE, read).unwrap(), SCENE);
         assert!(resolved(&named("response = \"other.csv\""), read).unwrap_err().to_string().contains("other.csv"));

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
+use brinell::scene::nearest;
 
 include!(concat!(env!("OUT_DIR"), "/shipped.rs"));
 
@@ -21,6 +22,14 @@ pub fn scenes() -> impl Iterator<Item = &'static str> {
 /// The text of a shipped file, by its whole name.
 pub fn text(name: &str) -> Option<&'static str> {
     SCENES.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
+}
+
+/// Which shipped scene was probably meant by a name, or which there are.
+pub fn meant(name: &str) -> String {
+    nearest(scenes(), name).map_or_else(
+        || format!("shipped are {}", scenes().collect::<Vec<_>>().join(", ")),
+        |near| format!("did you mean {near}? `brinell scenes` lists those that are shipped"),
+    )
 }
 
 /// The files of a shipped scene, names and texts: its own, and those that it names.
@@ -42,8 +51,7 @@ pub fn scene_text(path: &Path) -> Result<String> {
             return Ok(text.to_owned());
         }
         if path.extension().is_none() {
-            let known = scenes().collect::<Vec<_>>().join(", ");
-            bail!("{name}: neither a file nor a shipped scene; shipped are {known}");
+            bail!("{name}: neither a file nor a shipped scene; {}", meant(name));
         }
     }
     fs::read_to_string(path).with_context(|| path.display().to_string())
@@ -97,6 +105,8 @@ mod tests {
     #[test]
     fn a_name_that_is_neither_file_nor_scene_tells_which_scenes_there_are() {
         let said = scene_text(Path::new("6205-epp")).unwrap_err().to_string();
+        assert!(said.contains("did you mean 6205-epps?"), "{said}");
+        let said = scene_text(Path::new("gearbox")).unwrap_err().to_string();
         assert!(said.contains("6205-epps, ") && said.contains("6205-healthy"), "{said}");
         // What looks like a file is spoken of as one.
         let said = scene_text(Path::new("6205-epp.toml")).unwrap_err().to_string();

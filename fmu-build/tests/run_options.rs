@@ -252,3 +252,22 @@ fn sound_that_cannot_be_is_refused() {
     refused(&deaf, &out, &["--wav"], &["no [sensor]"]);
     refused(&deaf, &out, &["--noise-db", "20"], &["no [sensor]"]);
 }
+
+#[test]
+fn columns_may_name_the_time_and_are_told_apart_once() {
+    let folder = common::folder("run-rough-columns");
+    let out = folder.join("out");
+    run(&shipped(QUICK), &out, &["--stop", "0.001", "--columns", "time,shaft.x,shaft.*", "--columns", "shaft.x,tim*"]);
+    let (names, _) = csv(&out.join("6205-healthy.csv"));
+    assert_eq!(names[0], "time");
+    let mut once = names.clone();
+    once.sort();
+    once.dedup();
+    assert_eq!(once.len(), names.len(), "{names:?}");
+    let none = folder.join("none");
+    refused(&shipped(QUICK), &none, &["--columns", ""], &["--columns has an empty name"]);
+    refused(&shipped(QUICK), &none, &["--columns", "shaft.x,,shaft.y"], &["--columns has an empty name"]);
+    let output = try_run(&shipped(QUICK), &none, &["--columns", "gearbox"]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(said.matches("shaft*").count(), 1, "{said}");
+}

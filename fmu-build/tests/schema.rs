@@ -12,7 +12,7 @@ use std::process::Command;
 use brinell::scene::Scene;
 
 /// Scenes that the schema refuses as [`Scene::from_toml`] does: what is replaced in a scene, and by what.
-const BAD: [(&str, &str); 8] = [
+const BAD: [(&str, &str); 13] = [
     ("element_count = 9", "element_cout = 9"),
     ("element_count = 9", "element_count = \"nine\""),
     ("motion = \"internal\"\nspeed_hz", "speed_hz"),
@@ -21,6 +21,11 @@ const BAD: [(&str, &str); 8] = [
     ("angle_deg = -103.3", "angle = -103.3"),
     ("load_n = [0.0, -49.0]", "load_n = [0.0, -49.0, 0.0]"),
     ("[solver]", "[solwer]"),
+    ("element_count = 9", "element_count = 0"),
+    ("load_n = [0.0, -49.0]", "load_n = [0.0, -2e9]"),
+    ("poissons_ratio = 0.3", "poissons_ratio = 0.5"),
+    ("tolerance = 1e-5", "tolerance = 0.2"),
+    ("name = \"6205-inner-5deg\"", "name = \"6205 inner\""),
 ];
 
 fn program(arguments: &[&str]) -> String {
@@ -89,4 +94,124 @@ fn the_schema_explains_every_key() {
         count += 1;
     }
     assert!(count > 70, "{count} keys");
+}
+
+/// A scene with every table.
+const WHOLE: &str = r#"
+name = "whole"
+gravity_m_s2 = [0.0, -9.81]
+[bearing]
+catalogue = "6205"
+[contact]
+[film]
+viscosity_pa_s = 0.04
+pressure_viscosity_1_pa = 2e-8
+[cage]
+seed = 1
+[[defect]]
+on = "element"
+element = 1
+angle_deg = 0.0
+length_mm = 1.0
+depth_um = 50.0
+[shaft]
+motion = "internal"
+speed_hz = 10.0
+load_n = [0.0, -500.0]
+[housing]
+motion = "internal"
+[[sensor]]
+[[sensor.mode]]
+frequency_hz = 1000.0
+damping_ratio = 0.1
+gain = 1.0
+[solver]
+[recorder]
+rate_hz = 51200.0
+[experiment]
+"#;
+
+/// Bounds of a schema's numbers, those of lists included: key with its table, name of the bound, its value, and whether
+/// numbers are whole and how many there are.
+fn bounds(schema: &serde_json::Value) -> Vec<(String, String, f64, bool, bool)> {
+    let tables = [
+        ("", ""),
+        ("bearing", "BearingKeys"),
+        ("contact", "ContactTable"),
+        ("film", "FilmTable"),
+        ("cage", "CageTable"),
+        ("defect", "DefectTable"),
+        ("shaft", "ShaftTable"),
+        ("housing", "HousingTable"),
+        ("sensor", "SensorTable"),
+        ("sensor.mode", "SensorModeTable"),
+        ("solver", "SolverTable"),
+        ("recorder", "RecorderTable"),
+        ("experiment", "ExperimentTable"),
+    ];
+    let mut bounds = Vec::new();
+    for (table, name) in tables {
+        let properties = if name.is_empty() { &schema["properties"] } else { &schema["$defs"][name]["properties"] };
+        for (key, property) in properties.as_object().unwrap() {
+            let is_list = property.get("items").is_some();
+            let number = property.get("items").unwrap_or(property);
+            let whole = number["type"] == "integer" || number["type"].get(0).is_some_and(|of| of == "integer");
+            for bound in ["minimum", "maximum", "exclusiveMinimum", "exclusiveMaximum"] {
+                if let Some(value) = number[bound].as_f64() {
+                    bounds.push((format!("{table}.{key}"), bound.to_owned(), value, whole, is_list));
+                }
+            }
+        }
+    }
+    bounds
+}
+
+#[test]
+fn every_bound_of_the_schema_is_refused_just_outside_by_the_program() {
+    Scene::from_toml(WHOLE).unwrap();
+    let schema: serde_json::Value = serde_json::from_str(&program(&["schema"])).unwrap();
+    let bounds = bounds(&schema);
+    for (path, bound, value, whole, is_list) in &bounds {
+        let (table, key) = path.rsplit_once('.').unwrap();
+        let outwards = if bound.ends_with("inimum") { -1.0 } else { 1.0 };
+        let outside = if bound.starts_with("exclusive") {
+            *value
+        } else if *whole {
+            value + outwards
+        } else {
+            value + outwards * (1e-9 * value.abs()).max(f64::MIN_POSITIVE)
+        };
+        let shown = if *whole { format!("{outside:.0}") } else { format!("{outside:?}") };
+        let shown = if *is_list { format!("[{shown}, {shown}]") } else { shown };
+        let mut text: String = WHOLE
+            .lines()
+            .filter(|line| !line.starts_with(&format!("{key} =")))
+            .fold(String::new(), |text, line| text + line + "\n");
+        let head = [format!("[{table}]"), format!("[[{table}]]")].into_iter().find(|head| text.contains(head.as_str()));
+        match head {
+            None => text = format!("{key} = {shown}\n{text}"),
+            Some(head) => text = text.replacen(&head, &format!("{head}\n{key} = {shown}"), 1),
+        }
+        let said =
+            Scene::from_toml(&text).map_or_else(|error| error.to_string(), |_| panic!("{path} = {shown} was accepted"));
+        assert!(said.contains(key), "{path} = {shown}: {said}");
+    }
+    assert!(bounds.len() > 110, "{} bounds", bounds.len());
+}
+
+#[test]
+fn every_number_of_a_scene_has_bounds_in_the_schema() {
+    let schema: serde_json::Value = serde_json::from_str(&program(&["schema"])).unwrap();
+    let bounded = bounds(&schema);
+    for (name, table) in schema["$defs"].as_object().unwrap() {
+        for (key, property) in table["properties"].as_object().into_iter().flatten() {
+            let number = property.get("items").unwrap_or(property);
+            let kinds = number["type"].to_string();
+            // Which of all random courses it is has no limit but that of its type.
+            if (kinds.contains("number") || kinds.contains("integer")) && key != "seed" {
+                let count = bounded.iter().filter(|(path, ..)| path.ends_with(&format!(".{key}"))).count();
+                assert!(count >= 2, "{name}.{key} has {count} bounds");
+            }
+        }
+    }
 }

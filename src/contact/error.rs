@@ -1,5 +1,10 @@
 //! What can go wrong in a contact.
 
+/// A range [m] that may have no lower end.
+fn prepared(lower: f64, upper: f64) -> String {
+    if lower.is_finite() { format!("{lower:.6e} to {upper:.6e} m") } else { format!("up to {upper:.6e} m") }
+}
+
 /// Why a contact could not be solved or a map not be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -105,7 +110,9 @@ pub enum ContactError {
     },
     /// Outside the range the law was prepared for.
     #[error(
-        "{quantity} {value:e} m is outside the range prepared, {lower:e} to {upper:e} m; contact.largest_force_n says how large forces near the defect may be"
+        "{quantity} is {value:.6e} m, the range prepared is {}; contact.largest_force_n says how large forces near the defect \
+         may be",
+        prepared(*lower, *upper)
     )]
     OutOfRange {
         /// What.

@@ -189,7 +189,8 @@ impl Bearing {
                     faults.passes(self.check_roller(roller));
                 }
             }
-            faults.passes(DENSITY.check(self.density));
+            let density = if self.element_mass.is_some() { &DENSITY_BY_MASS } else { &DENSITY };
+            faults.passes(density.check(self.density));
         }
         faults.passes(YOUNGS_MODULUS.check(self.youngs_modulus));
         faults.passes(POISSONS_RATIO.check(self.poissons_ratio));

@@ -431,7 +431,7 @@ impl SceneError {
     pub(super) fn is_of_dimensions(&self) -> bool {
         match self {
             Self::InTable { of, .. } => of.is_of_dimensions(),
-            Self::OutOfRange { key, .. } => key.contains(" or ") || *key == "bearing.density_kg_m3",
+            Self::OutOfRange { key, .. } => key.contains(" or ") || *key == "bearing.element_mass_g",
             _ => matches!(
                 self,
                 Self::GrooveTooNarrow { .. }

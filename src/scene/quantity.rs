@@ -117,6 +117,13 @@ pub(super) const POISSONS_RATIO: Quantity =
     quantity("Poisson's ratio", "bearing.poissons_ratio", 1.0, Exclusive(-1.0), Exclusive(0.5));
 pub(super) const DENSITY: Quantity =
     quantity("density of the elements", "bearing.density_kg_m3", 1.0, Exclusive(0.0), Inclusive(1e5));
+pub(super) const DENSITY_BY_MASS: Quantity = quantity(
+    "density of the elements in kg/m3, by their mass",
+    "bearing.element_mass_g",
+    1.0,
+    Exclusive(0.0),
+    Inclusive(1e5),
+);
 pub(super) const ELEMENT_MASS: Quantity =
     quantity("mass of one element", "bearing.element_mass_g", 1e3, Inclusive(1e-9), Inclusive(1e9));
 pub(super) const HERTZ_INNER: Quantity =

@@ -6,26 +6,33 @@ pub fn nearest<'k>(known: impl IntoIterator<Item = &'k str>, word: &str) -> Opti
     let wanted = plain(word);
     let away = |other: &str| {
         let other = plain(other);
-        if !wanted.is_empty() && other.starts_with(&wanted) { 1 } else { distance(&other, &wanted) }
+        if !wanted.is_empty() && other.starts_with(&wanted) { LETTER } else { distance(&other, &wanted) }
     };
     let (far, nearest) = known.into_iter().map(|other| (away(other), other)).min_by_key(|(far, _)| *far)?;
-    (far <= (wanted.chars().count() / 3).max(1)).then_some(nearest)
+    (far <= LETTER * (wanted.chars().count() / 3).max(1)).then_some(nearest)
 }
 
-/// Letters to be put in, left out or exchanged to make one word of the other (Levenshtein).
+/// What a letter counts that is put in, left out or exchanged for another; two that have changed places count less.
+const LETTER: usize = 2;
+const SWAP: usize = 1;
+
+/// What makes one word of the other (Damerau and Levenshtein).
 fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, from) in a.chars().enumerate() {
-        let mut aslant = row[0];
-        row[0] = i + 1;
-        for (j, to) in b.iter().enumerate() {
-            let exchanged = aslant + usize::from(from != *to);
-            aslant = row[j + 1];
-            row[j + 1] = exchanged.min(row[j] + 1).min(aslant + 1);
+    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
+    let mut rows: Vec<Vec<usize>> = vec![(0..=b.len()).map(|j| j * LETTER).collect()];
+    for i in 1..=a.len() {
+        let mut row = vec![i * LETTER];
+        for j in 1..=b.len() {
+            let exchanged = rows[i - 1][j - 1] + if a[i - 1] == b[j - 1] { 0 } else { LETTER };
+            let mut least = exchanged.min(rows[i - 1][j] + LETTER).min(row[j - 1] + LETTER);
+            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                least = least.min(rows[i - 2][j - 2] + SWAP);
+            }
+            row.push(least);
         }
+        rows.push(row);
     }
-    row[b.len()]
+    rows[a.len()][b.len()]
 }
 
 #[cfg(test)]
@@ -33,8 +40,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn words_are_as_far_apart_as_letters_change() {
-        for (a, b, expected) in [("slip", "slip", 0), ("slip", "slipp", 1), ("solver", "solwer", 1), ("", "abc", 3)] {
+    fn words_are_as_far_apart_as_letters_change_and_swapped_ones_are_nearest() {
+        for (a, b, expected) in
+            [("slip", "slip", 0), ("slip", "slipp", 2), ("solver", "solwer", 2), ("", "abc", 6), ("6250", "6205", 1)]
+        {
             assert_eq!((distance(a, b), distance(b, a)), (expected, expected), "{a} {b}");
         }
         assert_eq!(nearest(["depth_um", "length_deg"], "depth"), Some("depth_um"));

@@ -54,7 +54,9 @@ pub struct UnitQuestion {
 impl fmt::Display for UnitQuestion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let space = if self.unit.is_empty() { "" } else { " " };
-        write!(f, "{}{space}{} given in {}?", Plain(self.meant), self.unit, self.given)
+        // Six digits: units are converted by factors that have more.
+        let meant = Plain(format!("{:.5e}", self.meant).parse().unwrap_or(self.meant));
+        write!(f, "{meant}{space}{} given in {}?", self.unit, self.given)
     }
 }
 

@@ -10,7 +10,8 @@ fn a_spall_longer_than_the_raceway_is_refused() {
         "below 148.487",
         "mm, the circumference of",
     ];
-    refused("length_deg = 15.8", "length_deg = 360.0", &parts);
+    refused("length_deg = 15.8", "length_mm = 148.4875", &parts);
+    refused("length_deg = 15.8", "length_deg = 360.0", &["(defect.length_deg) is 360:", "below 360.0"]);
     refused("length_deg = 15.8", "length_mm = 149.0", &["is 149 mm"]);
     accepted("length_deg = 15.8", "length_deg = 359.0");
 }
@@ -73,5 +74,9 @@ fn edges_softer_than_the_law_knows_are_refused() {
     accepted("law = \"hertz\"", "law = \"hertz\"\nedge = \"half-space\"");
     accepted("law = \"hertz\"", "law = \"love\"\nedge = \"step\"");
     // The softness of an end reaches along all of a raceway: it is not built.
-    refused("law = \"hertz\"", "law = \"love\"\nedge = \"end\"", &["unknown variant `end`", "`half-space` or `step`"]);
+    refused(
+        "law = \"hertz\"",
+        "law = \"love\"\nedge = \"end\"",
+        &["contact.edge is \"end\"", "\"half-space\", or \"step\""],
+    );
 }

@@ -97,7 +97,7 @@ fn rollers_need_their_length_and_no_groove() {
 
 #[test]
 fn another_kind_of_roller_is_refused_with_those_that_there_are() {
-    refused("\"cylindrical-roller\"", "\"tapered-roller\"", &["tapered-roller", "`cylindrical-roller`", "`ball`"]);
+    refused("\"cylindrical-roller\"", "\"tapered-roller\"", &["tapered-roller", "\"cylindrical-roller\"", "\"ball\""]);
 }
 
 #[test]

@@ -1,10 +1,14 @@
 //! The columns of a run's table: which variables, in which order.
 
 use anyhow::{Result, bail};
+use brinell::scene::nearest;
 use brinell::simulation::variables::{Causality, Kind, Variable};
 use brinell::simulation::{Simulation, SimulationError};
 
 use crate::units;
+
+/// The first column.
+const TIME: &str = "time";
 
 /// Columns beside the time.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,7 +34,12 @@ impl Columns {
     pub fn matching(table: &[Variable], patterns: &[String]) -> Result<Self> {
         let all = Self::all(table);
         for pattern in patterns {
-            if !all.names.iter().any(|(name, _)| matches(pattern, name)) {
+            if pattern.trim().is_empty() {
+                bail!("--columns has an empty name: names are separated by single commas");
+            }
+            // Which is there whatever is asked for.
+            let is_time = matches(pattern, TIME);
+            if !is_time && !all.names.iter().any(|(name, _)| matches(pattern, name)) {
                 bail!("column {pattern:?}: no input or output of this scene has that name; {}", all.near(pattern));
             }
         }
@@ -76,13 +85,19 @@ impl Columns {
     /// Names that begin like a pattern, or else how names begin.
     fn near(&self, pattern: &str) -> String {
         let head = |name: &str| name.split(['.', '[', '*']).next().unwrap_or_default().to_owned();
+        let near = nearest(self.names().map(|(name, _)| name), pattern);
+        let near = near.map_or_else(String::new, |near| format!("did you mean {near}? "));
         let like: Vec<&str> = self.names().map(|(name, _)| name).filter(|name| head(name) == head(pattern)).collect();
         if !like.is_empty() {
-            return format!("beginning so there are {}", like.join(", "));
+            return format!("{near}beginning so there are {}", like.join(", "));
         }
-        let mut heads: Vec<String> = self.names().map(|(name, _)| format!("{}*", head(name))).collect();
-        heads.dedup();
-        format!("there are {}", heads.join(", "))
+        let mut heads: Vec<String> = Vec::new();
+        for head in self.names().map(|(name, _)| format!("{}*", head(name))) {
+            if !heads.contains(&head) {
+                heads.push(head);
+            }
+        }
+        format!("{near}there are {}", heads.join(", "))
     }
 }
 

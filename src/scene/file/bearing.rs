@@ -3,6 +3,7 @@
 use super::super::Bearing;
 use super::super::catalogue::{CatalogueBearing, catalogued};
 use super::super::error::SceneError;
+use super::super::quantity::ELEMENT_COUNT;
 use super::super::{Crown, Roller, RollerProfile, RollingElement};
 use serde::Deserialize;
 use std::sync::Arc;
@@ -169,6 +170,8 @@ const DEFAULT_CLEARANCE_UM: f64 = 5.0;
 impl BearingTable {
     // 1e3 is exact and 1e-3 is not, so a division rounds once and a product twice.
     fn into_bearing(self) -> Result<Bearing, SceneError> {
+        // Lists have as many places: what no bearing has is not made room for.
+        ELEMENT_COUNT.check(self.element_count as f64)?;
         let clearance = self.clearance()?;
         let element = self.rolling_element()?;
         let (conformity_inner, conformity_outer) = match element {
