@@ -187,10 +187,10 @@ fn every_bound_of_the_schema_is_refused_just_outside_by_the_program() {
             .lines()
             .filter(|line| !line.starts_with(&format!("{key} =")))
             .fold(String::new(), |text, line| text + line + "\n");
-        let head = [format!("[{table}]"), format!("[[{table}]]")].into_iter().find(|head| text.contains(head.as_str()));
-        match head {
+        let heads = [format!("\n[{table}]\n"), format!("\n[[{table}]]\n")];
+        match heads.iter().find(|head| text.contains(head.as_str())) {
             None => text = format!("{key} = {shown}\n{text}"),
-            Some(head) => text = text.replacen(&head, &format!("{head}\n{key} = {shown}"), 1),
+            Some(head) => text = text.replacen(head, &format!("{head}{key} = {shown}\n"), 1),
         }
         let said =
             Scene::from_toml(&text).map_or_else(|error| error.to_string(), |_| panic!("{path} = {shown} was accepted"));
