@@ -177,7 +177,8 @@ fn every_bound_of_the_schema_is_refused_just_outside_by_the_program() {
         let outside = if bound.starts_with("exclusive") {
             *value
         } else if *whole {
-            value + outwards
+            // Values are rounded to twelve digits before they are compared.
+            value + outwards * (1e-9 * value.abs()).max(1.0)
         } else {
             value + outwards * (1e-9 * value.abs()).max(f64::MIN_POSITIVE)
         };
@@ -197,6 +198,18 @@ fn every_bound_of_the_schema_is_refused_just_outside_by_the_program() {
         assert!(said.contains(key), "{path} = {shown}: {said}");
     }
     assert!(bounds.len() > 110, "{} bounds", bounds.len());
+    // Lists of tables have a longest.
+    let mode = "[[sensor.mode]]\nfrequency_hz = 1000.0\ndamping_ratio = 0.1\ngain = 1.0\n";
+    let lists = [("OneOrMoreSensorTable/anyOf/1", "[[sensor]]\n"), ("SensorTable/properties/mode", mode)];
+    for (place, table) in lists {
+        let most = schema.pointer(&format!("/$defs/{place}/maxItems")).and_then(|most| most.as_u64()).unwrap() as usize;
+        let whole = WHOLE.replace(mode, "").replace("[[sensor]]\n", "");
+        let text = |count: usize| match place.starts_with("OneOr") {
+            true => whole.clone() + &table.repeat(count),
+            false => format!("{whole}[[sensor]]\n{}", table.repeat(count)),
+        };
+        assert!(Scene::from_toml(&text(most)).is_ok() && Scene::from_toml(&text(most + 1)).is_err(), "{place}");
+    }
 }
 
 #[test]

@@ -17,9 +17,10 @@ pub(super) fn with_limits(mut schema: Schema) -> Schema {
         name.insert("pattern".to_owned(), format!("^[A-Za-z0-9_-]{{1,{LONGEST_NAME}}}$").into());
     }
     for (key, most) in [("sensor", MOST_SENSORS), ("sensor.mode", MOST_SENSOR_MODES)] {
-        let list = pointer(&schema, key).map(|property| referred(&schema, &property).unwrap_or(property));
-        let several = list.into_iter().flat_map(|list| [format!("{list}/anyOf/1"), list]);
-        for place in several {
+        let Some(property) = pointer(&schema, key) else { continue };
+        // The list itself, or the second of what one table or several of them may be.
+        let second = referred(&schema, &property).map(|either| format!("{either}/anyOf/1"));
+        for place in [Some(property), second].into_iter().flatten() {
             let list = schema.pointer_mut(&place).and_then(|value| value.as_object_mut());
             if let Some(list) = list.filter(|list| list.contains_key("items")) {
                 list.insert("maxItems".to_owned(), most.into());
