@@ -126,6 +126,7 @@ edge_slope_deg = 90.0                 # assumed: sharp edges
 #[cfg(test)]
 mod tests {
     use super::*;
+    use brinell::scene::catalogue;
 
     #[test]
     fn every_bearing_with_every_kind_of_defect_gives_a_scene() {

@@ -136,7 +136,7 @@ rate_hz = 51200.0
 fn bounds(schema: &serde_json::Value) -> Vec<(String, String, f64, bool, bool)> {
     let tables = [
         ("", ""),
-        ("bearing", "BearingKeys"),
+        ("bearing", "BearingTable"),
         ("contact", "ContactTable"),
         ("film", "FilmTable"),
         ("cage", "CageTable"),

@@ -143,3 +143,16 @@ pub enum ContactError {
         nodes: usize,
     },
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_range_without_a_lower_end_is_told_by_its_upper_one() {
+        let beyond = |lower: f64| ContactError::OutOfRange { quantity: "approach", value: 2e-5, lower, upper: 1e-5 };
+        let said = beyond(f64::NEG_INFINITY).to_string();
+        assert!(said.starts_with("approach is 2.000000e-5 m, the range prepared is up to 1.000000e-5 m;"), "{said}");
+        assert!(beyond(-1e-6).to_string().contains("is -1.000000e-6 to 1.000000e-5 m;"));
+    }
+}

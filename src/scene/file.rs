@@ -61,7 +61,7 @@ mod values;
 use super::error::SceneError;
 use super::faults::Faults;
 use super::{Contact, ContactEdge, ContactLaw, Damping, Experiment, Recorder, RecorderFilter, Remark, Scene};
-use bearing::BearingKeys;
+use bearing::BearingTable;
 use cage::CageTable;
 use defects::DefectTable;
 use film::FilmTable;
@@ -111,7 +111,7 @@ struct SceneFile {
     #[serde(default = "default_gravity", deserialize_with = "pair::pair")]
     gravity_m_s2: [f64; 2],
     /// Dimensions and material.
-    bearing: BearingKeys,
+    bearing: BearingTable,
     /// Law and damping of the contacts.
     #[serde(default)]
     contact: ContactTable,

@@ -215,3 +215,26 @@ impl Dimensions {
 fn within(value: f64, [low, high]: Range) -> bool {
     (low..=high).contains(&value)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::quantity::written;
+    use super::*;
+
+    #[test]
+    fn what_is_usual_is_possible_and_each_key_has_a_unit_that_may_be_mistaken() {
+        let known = Dimensions { count: Some(9.0), diameter: Some(7.94), pitch: Some(39.04), length: Some(9.0) };
+        for Usual { keys, range, source } in &USUAL {
+            let [low, high] = range(&known).unwrap();
+            assert!(low < high && !source.is_empty(), "{keys:?}: {low} to {high}");
+            for key in *keys {
+                let (_, quantity) = written().find(|(known, _)| known == key).unwrap();
+                let limits = quantity.limits();
+                assert!(limits.hold(0.5 * (low + high)), "{key}: {low} to {high} and {limits}");
+                let usual = if low > 0.0 { (low * high).sqrt() } else { 0.5 * high };
+                let asked = [1e-3, 60.0, 1e3, 1e6, 1e9].map(|factor| known.question(key, factor * usual));
+                assert!(asked.iter().any(Option::is_some), "{key}: {low} to {high}");
+            }
+        }
+    }
+}

@@ -15,8 +15,8 @@ const YOUNGS_MODULUS_GPA: f64 = 207.0;
 const POISSONS_RATIO: f64 = 0.3;
 const DENSITY_KG_M3: f64 = 7800.0;
 
-/// The same with what the catalogue adds.
-struct BearingTable {
+/// The keys with what the catalogue adds.
+struct WholeBearing {
     element: ElementKind,
     roller_length_mm: Option<f64>,
     roller_profile: Option<String>,
@@ -42,7 +42,7 @@ struct BearingTable {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct BearingKeys {
+pub(super) struct BearingTable {
     /// Name of a deep groove ball bearing or cylindrical roller bearing, as 6205 or NU205; its dimensions hold where
     /// no key beside it says otherwise.
     catalogue: Option<String>,
@@ -100,17 +100,17 @@ enum ElementKind {
     CylindricalRoller,
 }
 
-impl BearingKeys {
+impl BearingTable {
     pub(super) fn into_bearing(self) -> Result<Bearing, SceneError> {
-        BearingTable::try_from(self)?.into_bearing()
+        WholeBearing::try_from(self)?.into_bearing()
     }
 }
 
-impl TryFrom<BearingKeys> for BearingTable {
+impl TryFrom<BearingTable> for WholeBearing {
     type Error = SceneError;
 
     /// What the keys leave open, from the catalogue.
-    fn try_from(keys: BearingKeys) -> Result<Self, SceneError> {
+    fn try_from(keys: BearingTable) -> Result<Self, SceneError> {
         let named = keys.catalogue.as_deref().map(bearing_named).transpose()?;
         let kind = named.map(|bearing| match bearing.inside.roller_length {
             None => (ElementKind::Ball, "balls"),
@@ -167,7 +167,7 @@ fn bearing_named(name: &str) -> Result<CatalogueBearing, SceneError> {
 /// Clearance where the file says none [µm].
 const DEFAULT_CLEARANCE_UM: f64 = 5.0;
 
-impl BearingTable {
+impl WholeBearing {
     // 1e3 is exact and 1e-3 is not, so a division rounds once and a product twice.
     fn into_bearing(self) -> Result<Bearing, SceneError> {
         // Lists have as many places: what no bearing has is not made room for.

@@ -1,6 +1,6 @@
 //! What is wrong with the keys of a scene file. Asked only of a file that was refused.
 
-use super::bearing::BearingKeys;
+use super::bearing::BearingTable;
 use super::cage::CageTable;
 use super::film::FilmTable;
 use super::kinds::{Keys, TableOf};
@@ -43,7 +43,7 @@ const ROLLER_LENGTH: &str = "roller_length_mm";
 pub(super) fn tables() -> [TableOf; 14] {
     [
         TableOf::of::<SceneFile>(""),
-        TableOf::of::<BearingKeys>("bearing"),
+        TableOf::of::<BearingTable>("bearing"),
         TableOf::of::<ContactTable>("contact"),
         TableOf::of::<FilmTable>("film"),
         TableOf::of::<CageTable>("cage"),
@@ -185,7 +185,7 @@ mod tests {
             // What it lacks the catalogue may give, so that its own reader says so.
             "bearing" => {
                 let more = "conformity_inner = 0.52\nconformity_outer = 0.52\ndensity_kg_m3 = 7800\n";
-                let keys: BearingKeys = toml::from_str(&(text.to_owned() + more)).unwrap();
+                let keys: BearingTable = toml::from_str(&(text.to_owned() + more)).unwrap();
                 keys.into_bearing().err().map(|error| error.to_string())
             }
             "contact" => of::<ContactTable>(text),
