@@ -232,7 +232,7 @@ mod tests {
                 let limits = quantity.limits();
                 assert!(limits.hold(0.5 * (low + high)), "{key}: {low} to {high} and {limits}");
                 let usual = if low > 0.0 { (low * high).sqrt() } else { 0.5 * high };
-                let asked = [1e-3, 60.0, 1e3, 1e6, 1e9].map(|factor| known.question(key, factor * usual));
+                let asked = [1e-3, PI / 180.0, 60.0, 1e3, 1e6, 1e9].map(|factor| known.question(key, factor * usual));
                 assert!(asked.iter().any(Option::is_some), "{key}: {low} to {high}");
             }
         }

@@ -165,7 +165,8 @@ mod tests {
                 assert!(page.contains(&format!("| `{}` |", key.trim())), "{}: {key}", path.display());
             }
         }
-        assert!(page.contains("## `[bearing]`") && page.contains("| `element_count` | whole number | yes |"), "{page}");
+        assert!(page.contains("## `[bearing]`") && page.contains("| `element_count` | whole number |  |"), "{page}");
+        assert!(page.contains("| `catalogue` | text |  |") && page.contains("| `speed_hz` | number | yes |"), "{page}");
         assert!(page.contains("| `slip` | number |  |") && page.contains("`solver.tolerance`"), "{page}");
     }
 
