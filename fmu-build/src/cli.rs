@@ -10,6 +10,7 @@ use clap::{Args, Parser, Subcommand};
 
 use crate::library::{self, Library};
 use crate::new_scene::{self, Spall};
+use crate::numbers::{number, seed, whole};
 use crate::reference::Reference;
 use crate::run::grid::Grid;
 use crate::run::noise::Noise;
@@ -101,7 +102,14 @@ pub struct Run {
     #[arg(long, value_name = "DB", allow_negative_numbers = true, value_parser = number)]
     noise_db: Option<f64>,
     /// Which noise: equal seeds give equal bits
-    #[arg(long, value_name = "SEED", default_value_t = 1, requires = "noise_db", allow_negative_numbers = true, value_parser = seed)]
+    #[arg(
+        long,
+        value_name = "SEED",
+        default_value_t = 1,
+        requires = "noise_db",
+        allow_negative_numbers = true,
+        value_parser = seed,
+    )]
     noise_seed: u64,
     /// Write what the sensors show as sound, through the recorder's filter against aliases
     #[arg(long)]
@@ -110,7 +118,14 @@ pub struct Run {
     #[arg(long, value_name = "HZ", requires = "wav", allow_negative_numbers = true, value_parser = number)]
     wav_rate: Option<f64>,
     /// Acceleration in m/s² that becomes 1 in it
-    #[arg(long, value_name = "M_S2", default_value_t = 1.0, requires = "wav", allow_negative_numbers = true, value_parser = number)]
+    #[arg(
+        long,
+        value_name = "M_S2",
+        default_value_t = 1.0,
+        requires = "wav",
+        allow_negative_numbers = true,
+        value_parser = number,
+    )]
     wav_scale: f64,
     /// Write a page to look at in a browser: signals, path over the defect, spectra
     #[arg(long)]
@@ -235,13 +250,25 @@ pub struct Size {
     #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = number)]
     rate: Option<f64>,
     /// Shaft speed in hertz: one for all recordings, or one for each, separated by commas
-    #[arg(long, value_name = "HZ", value_delimiter = ',', group = "shaft", allow_negative_numbers = true, value_parser = number)]
+    #[arg(
+        long,
+        value_name = "HZ",
+        value_delimiter = ',', group = "shaft",
+        allow_negative_numbers = true,
+        value_parser = number,
+    )]
     speed: Vec<f64>,
     /// Column of a tachometer, by name or by number from 1
     #[arg(long, value_name = "COLUMN", group = "shaft")]
     tacho: Option<String>,
     /// Pulses of the tachometer per shaft turn
-    #[arg(long, value_name = "COUNT", default_value_t = 1, allow_negative_numbers = true, value_parser = whole::<1, 10_000>)]
+    #[arg(
+        long,
+        value_name = "COUNT",
+        default_value_t = 1,
+        allow_negative_numbers = true,
+        value_parser = whole::<1, 10_000>,
+    )]
     pulses: u32,
     /// Column of the shaft's speed at every sample, in hertz unless its heading says rpm or rad/s
     #[arg(long, value_name = "COLUMN", group = "shaft")]
@@ -428,19 +455,6 @@ fn build(project: &Project, options: Build) -> Result<()> {
         println!("{}", path.display());
     }
     Ok(())
-}
-
-fn number(text: &str) -> Result<f64, String> {
-    text.trim().parse().map_err(|_| "it must be a number".to_owned())
-}
-
-fn whole<const LEAST: u32, const MOST: u32>(text: &str) -> Result<u32, String> {
-    let number = text.trim().parse().ok().filter(|number| (LEAST..=MOST).contains(number));
-    number.ok_or_else(|| format!("it must be a whole number from {LEAST} to {MOST}"))
-}
-
-fn seed(text: &str) -> Result<u64, String> {
-    text.trim().parse().map_err(|_| "it must be a whole number, 0 or more".to_owned())
 }
 
 /// What the commands that sweep the cage angle are told.

@@ -25,6 +25,7 @@ pub mod model_description;
 pub mod model_description3;
 pub mod modes;
 mod new_scene;
+mod numbers;
 pub mod platform;
 pub mod project;
 pub mod python;

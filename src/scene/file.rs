@@ -10,7 +10,7 @@
 //! | `gravity_m_s2` | `[0, -9.81]` |
 //! | `bearing.element` | `"ball"`; or `"cylindrical-roller"`, which needs `roller_length_mm` and has no groove |
 //! | `bearing.roller_profile`, `.roller_laminae` | `"log"`, the crown of ISO/TS 16281, or `"straight"`, or a file; 40 |
-//! | `bearing.catalogue` | none: then number and diameter of the elements, pitch diameter, grooves, modulus, Poisson's ratio and density are needed; `"6205"`, `"NU205"`: elements, pitch diameter, conformity 0.52, steel; keys beside it win |
+//! | `bearing.catalogue` | none: dimensions and material are needed; `"6205"`, `"NU205"`: elements, pitch diameter, conformity 0.52, steel; keys beside it win |
 //! | `bearing.radial_clearance_um` | 5: what separates a raceway from an element pressed to the other, R_o − R_i − 2r |
 //! | `bearing.internal_clearance_um` | instead: a catalogue's radial internal clearance (ISO 5753), twice as much |
 //! | `bearing.outer_compliance_m_n` | 0: rings and seats are rigid |

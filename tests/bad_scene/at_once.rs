@@ -10,7 +10,10 @@ fn said(changes: &[(&str, &str)]) -> Vec<String> {
         assert_eq!(text.matches(old).count(), 1, "`{old}` must stand once");
         text.replace(old, new)
     });
-    let message = Scene::from_toml(&text).unwrap_err().to_string();
+    let message = match Scene::from_toml(&text) {
+        Ok(_) => panic!("{changes:?} were accepted"),
+        Err(error) => error.to_string(),
+    };
     message.lines().skip(1).map(|line| line.trim().to_owned()).collect()
 }
 
@@ -128,4 +131,17 @@ fn tables_of_the_wrong_kind_and_missing_ones_hide_nothing() {
     for (line, told) in said.iter().zip(wanted) {
         assert!(line.starts_with(told), "`{told}` is not: {line}");
     }
+}
+
+#[test]
+fn all_places_at_which_a_file_is_no_toml_are_told() {
+    let text = GOOD
+        .replace("name = \"er16k-tb1\"", "name = \"er16k-tb1")
+        .replace("poissons_ratio = 0.3", "poissons_ratio = 0,3")
+        .replace("speed_hz = 10.0", "speed_hz 10.0");
+    let message = Scene::from_toml(&text).unwrap_err().to_string();
+    for line in ["line 2: no TOML: ", "line 11: no TOML: ", "line 27: no TOML: "] {
+        assert_eq!(message.matches(line).count(), 1, "`{line}` in: {message}");
+    }
+    assert_eq!(message.lines().count(), 4, "{message}");
 }

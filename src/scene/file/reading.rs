@@ -16,9 +16,9 @@ use toml::de::{DeTable, DeValue};
 /// How often the rest is read: each time at least one key more is left out, and few files are as bad.
 const ROUNDS: usize = 20;
 
-/// The error for a file that was refused with `error`: all its faults. What is no TOML has one.
+/// The error for a file that was refused with `error`: all its faults; of what is no TOML the places where it is none.
 pub(super) fn all_faults(text: &str, error: SceneError) -> SceneError {
-    let (Ok(file), Some(mut mended)) = (DeTable::parse(text), Mended::of(text)) else { return error };
+    let (Ok(file), Some(mut mended)) = (DeTable::parse(text), Mended::of(text)) else { return not_toml(text, error) };
     let reading = Reading::new(text, file.get_ref());
     let mut faults = Vec::new();
     for Finding { fault, spoils } in reading.findings() {
@@ -30,8 +30,9 @@ pub(super) fn all_faults(text: &str, error: SceneError) -> SceneError {
     for _ in 0..ROUNDS {
         let errors: Vec<_> = mended.errors().into_iter().map(|error| (concerned(&error), error)).collect();
         for (keys, error) in &errors {
-            let left_out = keys.iter().any(|(place, key)| mended.is_spoilt(*place, key));
-            if !left_out && !(error.is_of_dimensions() && mended.lacks_dimensions()) {
+            let of_dimensions = error.is_of_dimensions() && mended.lacks_dimensions();
+            let follows = of_dimensions || keys.iter().any(|(place, key)| mended.is_spoilt(*place, key));
+            if !follows {
                 faults.push(reading.told(keys, error));
             }
         }
@@ -42,6 +43,32 @@ pub(super) fn all_faults(text: &str, error: SceneError) -> SceneError {
     }
     faults.sort_by_key(KeyFault::line);
     if faults.is_empty() { error } else { SceneError::Keys(faults) }
+}
+
+/// All places at which a text is no TOML, the first of each line; `error` where there is one.
+fn not_toml(text: &str, error: SceneError) -> SceneError {
+    let breaks = breaks(text);
+    let (_, errors) = DeTable::parse_recoverable(text);
+    let mut faults: Vec<KeyFault> = errors
+        .iter()
+        .map(|wrong| KeyFault::Value {
+            line: wrong.span().map_or(0, |at| line_of(&breaks, at.start)),
+            said: format!("no TOML: {}", wrong.message()),
+        })
+        .collect();
+    faults.sort_by_key(KeyFault::line);
+    faults.dedup_by_key(|fault| fault.line());
+    if faults.len() < 2 { error } else { SceneError::Keys(faults) }
+}
+
+/// Where lines end.
+fn breaks(text: &str) -> Vec<usize> {
+    text.match_indices('\n').map(|(at, _)| at).collect()
+}
+
+/// Line of a place in a text with these line breaks, from 1.
+fn line_of(breaks: &[usize], at: usize) -> usize {
+    1 + breaks.partition_point(|&end| end < at)
 }
 
 /// Questions about values of a file that was accepted.
@@ -76,12 +103,12 @@ impl<'a, 'f> Reading<'a, 'f> {
         let value = |key: &str| bearing.and_then(|bearing| bearing.get(key)).map(|value| value.get_ref());
         let name = value("catalogue").and_then(DeValue::as_str);
         let dimensions = Dimensions::of(name, |key| value(key).and_then(|value| numbers(value).first().copied()));
-        Self { file, breaks: text.match_indices('\n').map(|(at, _)| at).collect(), dimensions }
+        Self { file, breaks: breaks(text), dimensions }
     }
 
     /// Line of a place in the text, from 1.
     fn line(&self, at: usize) -> usize {
-        1 + self.breaks.partition_point(|&end| end < at)
+        line_of(&self.breaks, at)
     }
 
     /// Faults of keys and of values by themselves.
