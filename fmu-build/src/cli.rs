@@ -220,10 +220,10 @@ pub struct Contact {
     on: contact::On,
     /// Angle of the ball in degrees from the middle of the raceway's first defect, counter-clockwise about the
     /// bearing's axis in the ring's own frame: 0 is over the middle, half the defect's length over its end
-    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = number)]
     angle: f64,
     /// Contact force in newtons
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
     force: f64,
     /// Cells along and across the raceway, over the contact and a little more
     #[arg(long, value_name = "CELLS", default_value_t = 512)]
@@ -253,7 +253,8 @@ pub struct Size {
     #[arg(
         long,
         value_name = "HZ",
-        value_delimiter = ',', group = "shaft",
+        value_delimiter = ',',
+        group = "shaft",
         allow_negative_numbers = true,
         value_parser = number,
     )]

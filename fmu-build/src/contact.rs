@@ -50,9 +50,9 @@ const SURFACE_LINES: usize = 64;
 /// The command: prints the summary, and writes `<folder>/<scene>-contact.json`, `-pressure.csv`, `-surface.csv`,
 /// `-depth.csv`, `-plane.csv` and, if wanted, a figure.
 pub fn command(project: &Project, scene: &Path, options: &Options, folder: &Path) -> Result<()> {
-    let (_, read) = read_scene(scene)?;
+    let (text, read) = read_scene(scene)?;
     let about = || scene.display().to_string();
-    for remark in remarks(&read) {
+    for remark in remarks(&text, &read) {
         eprintln!("note: {}: {remark}", about());
     }
     let texts: Vec<String> =
