@@ -282,7 +282,7 @@ pub enum SceneError {
     /// A spall into which no element sinks.
     #[error(
         "spall length (defect.length_deg or defect.length_mm) is {length_mm} mm: it must be at least {limit_mm} mm, a \
-         thousandth of the element's diameter, or no element sinks into it by more than 2e-7 of that"
+         thousandth of the element's diameter, or no element sinks into it"
     )]
     SpallTooShort {
         /// Length [mm].
