@@ -7,6 +7,9 @@ const FONT = { family: "system-ui, sans-serif", size: 13 };
 // Points across a window: more than there are pixels.
 const ACROSS = 2000;
 const GRID = { gridcolor: "#e4e4e4", zeroline: false };
+// Above a plot stands its toolbar alone, however narrow the window: what curves are is said below.
+const MARGIN = { l: 80, r: 20, t: 40, b: 45 };
+const LEGEND = { orientation: "h", yref: "container", y: 0, yanchor: "bottom" };
 
 function numbers(text) {
   const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
@@ -36,21 +39,46 @@ function shown(signal, from, to) {
   return { x, y };
 }
 
+// The times between which the address wants to look, as far as the run has them; what was wrong with it is said.
+function asked(all) {
+  const text = location.hash.slice(1);
+  const [from, to, ...more] = text.split(",").map(Number);
+  const run = `the run goes from ${digits(all[0])} to ${digits(all[1])} s`;
+  let said = "", range = all;
+  if (!text) {
+    // Nothing is asked.
+  } else if (!(from < to) || more.length) {
+    said = `The address ends with #${text}: two times in seconds are understood, the earlier first, as #0.1,0.2. All is shown.`;
+  } else if (from >= all[1] || to <= all[0]) {
+    said = `The address asks for ${from} to ${to} s, but ${run}. All of it is shown.`;
+  } else {
+    range = [Math.max(from, all[0]), Math.min(to, all[1])];
+    // A rounded end is no other end.
+    const beyond = Math.max(all[0] - from, to - all[1]) > 1e-6 * (all[1] - all[0]);
+    if (beyond) said = `The address asks for ${from} to ${to} s, but ${run}. Shown is what there is of it.`;
+  }
+  document.getElementById("asked").textContent = said;
+  return range;
+}
+
+function digits(value) {
+  return Number(value.toPrecision(6));
+}
+
 function drawSignals(place) {
   const signals = DATA.panels.flatMap((panel, row) => panel.signals.map((signal) => ({ ...signal, row })));
   signals.forEach((signal) => (signal.values = numbers(signal.values)));
   const all = [Math.min(...signals.map((s) => s.start)), Math.max(...signals.map((s) => s.start + s.step * (s.values.length - 1)))];
-  const asked = location.hash.slice(1).split(",").map(Number);
-  const range = asked.length === 2 && asked[0] < asked[1] ? asked : all;
+  const range = asked(all);
   const traces = signals.map((signal) => ({
     ...shown(signal, ...range),
-    name: signal.name, type: "scatter", mode: "lines", line: { width: 1, color: signal.colour },
+    name: signal.name, type: "scatter", mode: "lines", line: { width: 1, color: signal.colour, dash: signal.dash },
     yaxis: signal.row ? `y${signal.row + 1}` : "y", showlegend: false,
     hovertemplate: `%{y:.5g} ${signal.unit}<extra>${signal.name}</extra>`,
   }));
   const count = DATA.panels.length;
   const layout = {
-    font: FONT, height: 60 + 150 * count, margin: { l: 80, r: 20, t: 10, b: 45 }, hovermode: "x", dragmode: "zoom",
+    font: FONT, height: 90 + 150 * count, margin: MARGIN, hovermode: "x", dragmode: "zoom",
     xaxis: { ...GRID, range, title: { text: "time (s)" }, anchor: count > 1 ? `y${count}` : "y", showspikes: true, spikemode: "across", spikethickness: 1 },
     annotations: [],
   };
@@ -71,6 +99,7 @@ function drawSignals(place) {
       const drawn = signals.map((signal) => shown(signal, Number(window[0]), Number(window[1])));
       Plotly.restyle(place, { x: drawn.map((d) => d.x), y: drawn.map((d) => d.y) });
     });
+    addEventListener("hashchange", () => Plotly.relayout(place, { "xaxis.range": asked(all) }));
     document.body.dataset.points = traces.reduce((sum, trace) => sum + trace.x.length, 0);
   });
 }
@@ -83,7 +112,7 @@ function drawPath(place, defect) {
     { x: defect.surface.map((p) => p[0]), y: defect.surface.map((p) => p[1]), name: defect.body, mode: "lines", line: { color: "#666666", width: 1.5 }, fill: "tozeroy", fillcolor: "rgba(0,0,0,0.06)", hovertemplate: "%{x:.3f} " + defect.along + ", %{y:.2f} µm<extra>surface</extra>" },
     { x: gaps(x), y: gaps(y), name: "an element's centre, passage after passage", mode: "lines", opacity: 0.5, line: { color: "#0072B2", width: 1 }, customdata: Array.from(time, (t, i) => [t, element[i]]), hovertemplate: "element %{customdata[1]} at %{customdata[0]:.5f} s<br>%{x:.3f} " + defect.along + ", %{y:.2f} µm<extra></extra>" },
   ];
-  const layout = { font: FONT, height: 360, margin: { l: 80, r: 20, t: 10, b: 45 }, hovermode: "closest", legend: { orientation: "h", y: 1.12 }, xaxis: { ...GRID, title: { text: defect.axis } }, yaxis: { ...GRID, title: { text: "µm" } } };
+  const layout = { font: FONT, height: 400, margin: MARGIN, hovermode: "closest", legend: LEGEND, xaxis: { ...GRID, title: { text: defect.axis } }, yaxis: { ...GRID, title: { text: "µm" } } };
   return Plotly.newPlot(place, traces, layout, CONFIG);
 }
 
@@ -105,7 +134,7 @@ function drawSpectrum(place, spectrum) {
   });
   traces.push({ x, y, name: spectrum.name, mode: "lines", line: { color: "black", width: 1 }, hovertemplate: `%{x:.5g} ${spectrum.unit}: %{y:.4g}<extra></extra>` });
   const scale = spectrum.log ? { type: "log", range: [Math.log10(floor), Math.log10(top)] } : { range: [0, top] };
-  const layout = { font: FONT, height: 380, margin: { l: 80, r: 20, t: 10, b: 45 }, hovermode: "closest", legend: { orientation: "h", y: 1.12 }, xaxis: { ...GRID, range: [0, spectrum.shown], title: { text: spectrum.axis } }, yaxis: { ...GRID, exponentformat: "power", title: { text: spectrum.label }, ...scale } };
+  const layout = { font: FONT, height: 420, margin: MARGIN, hovermode: "closest", legend: LEGEND, xaxis: { ...GRID, range: [0, spectrum.shown], title: { text: spectrum.axis } }, yaxis: { ...GRID, exponentformat: "power", title: { text: spectrum.label }, ...scale } };
   return Plotly.newPlot(place, traces, layout, CONFIG);
 }
 

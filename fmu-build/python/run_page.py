@@ -6,6 +6,7 @@ the page, which asks no network for anything.
 
 import base64
 import html
+import itertools
 import json
 import sys
 from pathlib import Path
@@ -17,9 +18,11 @@ from plotting import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
 
 # Numbers of all signals together, 5.3 bytes each in the page.
 MOST_NUMBERS = 400_000
-# Points of the paths over one defect, and of one spectrum.
-MOST_OF_PATH, MOST_OF_SPECTRUM = 20_000, 40_000
-COLOURS = [BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY]
+# Points of the paths over one defect, and of one spectrum; passages of which more are a solid block.
+MOST_OF_PATH, MOST_OF_SPECTRUM, MOST_PASSAGES = 20_000, 40_000, 60
+# Wine, indigo, olive and grey beside the palette of all figures: ten that are told apart, then the same with dashes.
+COLOURS = [BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY, "#882255", "#332288", "#8C8C1A", "#666666"]
+STYLES = [(colour, dash) for dash in ("solid", "dash") for colour in COLOURS]
 MARKS = {"BPFO": (BLUE, "solid"), "BPFI": (VERMILION, "dash"), "2 BSF": (GREEN, "dashdot"), "FTF": (PURPLE, "dot")}
 HARMONICS = 5
 
@@ -84,15 +87,16 @@ def signals(run, count):
     for unit, of in chosen:
         row = []
         # What moves most is drawn first, so that it hides nothing.
-        of = sorted(zip(of, COLOURS * 20), key=lambda one: -np.ptp(run.source(one[0][0])[one[0][0]]))
-        for (name, factor), colour in of:
+        of = sorted(zip(of, itertools.cycle(STYLES)), key=lambda one: -np.ptp(run.source(one[0][0])[one[0][0]]))
+        for (name, factor), (colour, dash) in of:
             source = run.source(name)
             values, time = np.ascontiguousarray(source[name]) * factor, source["time"]
             step = float(time[-1] - time[0]) / (len(time) - 1)
             kept = extremes(values, every) if every > 1 else values
             # A pair of extremes stands for so many samples.
             width = step if every == 1 else 0.5 * every * step
-            row.append({"name": name, "label": short(name, len(of)), "unit": unit, "colour": colour, "start": float(time[0]), "step": width, "values": packed(kept)})
+            label = short(name, len(of)) + (" (dashed)" if dash == "dash" else "")
+            row.append({"name": name, "label": label, "unit": unit, "colour": colour, "dash": dash, "start": float(time[0]), "step": width, "values": packed(kept)})
             words["recorder" if source is run.recording else "communication points"] = step
         shown.append({"unit": unit, "signals": row, "title": "force of the outer raceway on element" if of[0][0][0].endswith("].force.outer") else ""})
     said = "; ".join(f"{name}: a sample every {1e6 * step:.4g} µs" for name, step in words.items())
@@ -141,7 +145,7 @@ def path(run, about, defect, number):
     pieces = [piece for _, piece in sorted(pieces, key=lambda piece: -piece[0])]
     kept, points = [], 0
     for piece in pieces:
-        if kept and points + len(piece) > MOST_OF_PATH:
+        if kept and (points + len(piece) > MOST_OF_PATH or len(kept) >= 2 * MOST_PASSAGES):
             break
         kept += [piece, np.full((1, 4), np.nan)]
         points += len(piece)
@@ -235,6 +239,7 @@ addEventListener("unhandledrejection", (event) => {{ document.getElementById("er
 <div id="errors"></div>
 <h2>Signals</h2>
 <p>Drag to zoom, double-click to see all. Zoomed out, a line goes through the least and the greatest value of each pixel.</p>
+<p id="asked"></p>
 <div id="signals"></div>
 """
 

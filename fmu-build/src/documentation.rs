@@ -10,6 +10,7 @@ use brinell::simulation::variables::{Causality, Kind, Variable};
 use brinell::simulation::{Method, Simulation};
 use quick_xml::escape::escape;
 
+use crate::digits::digits;
 use crate::fmu::Version;
 use crate::model::{Model, remarks};
 use crate::model_description::causality;
@@ -354,15 +355,6 @@ fn line(page: &mut String, text: std::fmt::Arguments<'_>) {
 
 fn degrees(angle: f64) -> String {
     format!("{}°", digits(angle.to_degrees()))
-}
-
-/// Six significant digits, without the trailing noughts that a change of units leaves.
-fn digits(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return value.to_string();
-    }
-    let shown = format!("{value:.5e}").parse::<f64>().unwrap_or(value);
-    shown.to_string()
 }
 
 #[cfg(test)]

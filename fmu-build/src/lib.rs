@@ -16,6 +16,7 @@ pub mod contact;
 pub mod contact_map;
 pub mod csv;
 pub mod demo;
+mod digits;
 pub mod documentation;
 pub mod ending;
 pub mod fmu;

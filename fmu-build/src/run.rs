@@ -18,6 +18,7 @@ use brinell::recording::Recording;
 use brinell::scene::{Recorder, RecorderFilter, Scene};
 use brinell::simulation::Simulation;
 
+use crate::digits::digits;
 use crate::model::Model;
 use crate::project::Project;
 use crate::python::Python;
@@ -64,7 +65,7 @@ struct Done {
 }
 
 /// The command: `<folder>/<scene>.csv` or what else the table is to be, `.npy` where the scene has a recorder, and, if
-/// wanted, `.wav`, `.html`, `.svg` and `.png`.
+/// wanted, `.wav`, `.html`, `.svg` and `.png` with the spectra that they show. Each file is named when it is there.
 pub fn command(project: &Project, model: Model, options: &Options, folder: &Path) -> Result<()> {
     let records = model.scene.recorder.is_some();
     let mut model = with_recorder(model, options)?;
@@ -250,8 +251,8 @@ fn notes(options: &Options) -> Vec<String> {
     let profile = options.profile.as_ref().map(|profile| {
         format!(
             "the shaft's speed has a profile: {} Hz at the start, {} Hz at the end",
-            profile.hertz(0.0),
-            profile.hertz(options.grid.end())
+            digits(profile.hertz(0.0)),
+            digits(profile.hertz(options.grid.end()))
         )
     });
     noise.into_iter().chain(profile).collect()

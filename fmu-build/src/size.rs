@@ -15,6 +15,7 @@ use brinell_analysis::spall_size;
 
 use crate::contact_map;
 use crate::csv;
+use crate::digits::digits;
 use crate::model::read_scene;
 use crate::project::Project;
 use crate::python::Python;
@@ -44,7 +45,9 @@ pub fn command(
     let (_, scene) = read_scene(scene)?;
     let recordings = read(recordings, options)?;
     for r in &recordings {
-        eprintln!("{}: {:.3} s at {} Hz, shaft {:.4} Hz", r.name(), r.duration(), r.rate(), r.speed());
+        // Times that are read as numbers leave some 1e-13 of the rate over.
+        let rate = digits(1e-3 * r.rate());
+        eprintln!("{}: {:.3} s at {rate} kHz, shaft {:.4} Hz", r.name(), r.duration(), r.speed());
     }
     let maps = |scene: &Scene| contact_map::of(scene, None, project).ok().flatten();
     let report = spall_size::size_with(&recordings, &scene, &maps, &mut |done| eprintln!("{}", line(done)))?;
@@ -85,7 +88,7 @@ fn line(done: &RecordingReport) -> String {
     }
 }
 
-/// Averaged passages as CSV and what was found in them as JSON; gives the files' stems.
+/// Averaged passages as CSV and what was found in them as JSON, each named when it is there; gives the files' stems.
 fn write(report: &Report, folder: &Path) -> Result<Vec<PathBuf>> {
     let mut stems: Vec<PathBuf> = Vec::new();
     for (figure, recording) in report.figures.iter().zip(&report.recordings) {
@@ -99,11 +102,15 @@ fn write(report: &Report, folder: &Path) -> Result<Vec<PathBuf>> {
             }
             stem = folder.join(format!("{name}-size-{count}"));
         }
-        whole_file::write_with(&with_ending(&stem, ".csv"), |mut out| write_passage(&mut out, figure))?;
+        let passage = with_ending(&stem, ".csv");
+        whole_file::write_with(&passage, |mut out| write_passage(&mut out, figure))?;
+        eprintln!("{}", passage.display());
         let mut found = serde_json::to_value(recording)?;
         found["critical_load_n"] = serde_json::json!(report.critical_load_n);
         found["kind"] = serde_json::json!(report.kind);
-        whole_file::write(&with_ending(&stem, ".json"), serde_json::to_string_pretty(&found)? + "\n")?;
+        let about = with_ending(&stem, ".json");
+        whole_file::write(&about, serde_json::to_string_pretty(&found)? + "\n")?;
+        eprintln!("{}", about.display());
         stems.push(stem);
     }
     Ok(stems)

@@ -3,6 +3,7 @@
 
 mod common;
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::process::Command;
 
@@ -41,6 +42,27 @@ fn a_run_of_eight_passages_shows_the_envelopes_spectrum_with_the_bearings_freque
     let text = file("6205-healthy-envelope.csv");
     assert!(text.starts_with("frequency [Hz],amplitude [1]\n") && text.lines().count() > 50, "{text}");
     assert!(fs::metadata(out.join("6205-healthy.png")).unwrap().len() > 10_000);
+}
+
+#[test]
+fn every_file_that_a_run_writes_is_said_and_no_other() {
+    common::python();
+    let folder = common::folder("run-files");
+    let scene = folder.join("recorded.toml");
+    let text = fs::read_to_string(common::root().join("scenes/6205-healthy.toml")).unwrap();
+    fs::write(&scene, format!("{text}\n[recorder]\nrate_hz = 25600.0\n")).unwrap();
+    let every = ["--stop", "0.1", "--html", "--wav"];
+    for (name, more) in [("all", &every[..]), ("figure", &every[..2]), ("table", &["--stop", "0.1", "--no-figure"])] {
+        let out = folder.join(name);
+        let mut program = Command::new(env!("CARGO_BIN_EXE_brinell"));
+        let output = program.arg("run").arg(&scene).arg("-o").arg(&out).args(more).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let said: Vec<String> = String::from_utf8(output.stdout).unwrap().lines().map(str::to_owned).collect();
+        let there: BTreeSet<String> =
+            fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().path().display().to_string()).collect();
+        assert_eq!(said.len(), there.len(), "{name}: {said:?}, {there:?}");
+        assert_eq!(said.into_iter().collect::<BTreeSet<_>>(), there, "{name}");
+    }
 }
 
 #[test]

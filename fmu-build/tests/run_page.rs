@@ -107,6 +107,98 @@ fn a_browser_draws_the_page_without_an_error_and_zooming_shows_every_sample() {
     assert!(said.contains("drawn"), "{said}");
 }
 
+#[test]
+fn a_time_range_of_the_address_is_cut_to_the_run_and_what_is_wrong_with_it_is_said() {
+    let Some(browser) = browser() else {
+        eprintln!("skipped: no Chromium is installed; BRINELL_BROWSER can name one");
+        return;
+    };
+    let path = page("page-asked", "6205-healthy", &["--stop", "0.1"]);
+    let (folder, name) = (path.parent().unwrap(), path.display().to_string());
+    let look = |asked: &str| {
+        let dom = opened(&browser, folder, &format!("{name}{asked}"), &["--dump-dom"]);
+        let said = dom.split("<p id=\"asked\">").nth(1).unwrap().split("</p>").next().unwrap().to_owned();
+        (points(&dom), said)
+    };
+    let (all, said) = look("");
+    assert!(all > 1000 && said.is_empty(), "{all} points, {said}");
+    let (inside, said) = look("#0.02,0.04");
+    assert!(inside < all / 2 && said.is_empty(), "{inside} points, {said}");
+    let (late, said) = look("#0.09,0.7");
+    assert!(late > 100 && late < inside, "{late} points");
+    assert_eq!(said, "The address asks for 0.09 to 0.7 s, but the run goes from 0 to 0.1 s. Shown is what there is of it.");
+    let (beyond, said) = look("#0.5,0.7");
+    assert_eq!(beyond, all, "a range without samples shows all");
+    assert_eq!(said, "The address asks for 0.5 to 0.7 s, but the run goes from 0 to 0.1 s. All of it is shown.");
+    let (wrong, said) = look("#0.04,0.02");
+    assert!(wrong == all && said.contains("two times in seconds"), "{said}");
+}
+
+#[test]
+fn nothing_lies_under_a_toolbar_in_a_narrow_window() {
+    let Some(browser) = browser() else {
+        eprintln!("skipped: no Chromium is installed; BRINELL_BROWSER can name one");
+        return;
+    };
+    let path = page("page-narrow", "6205-spall-5deg", &["--stop", "0.3"]);
+    let measured = path.with_file_name("measured.html");
+    fs::write(&measured, fs::read_to_string(&path).unwrap() + OVERLAP).unwrap();
+    for width in [500, 700, 1400] {
+        let window = format!("--window-size={width},2700");
+        let dom = opened(&browser, path.parent().unwrap(), &measured.display().to_string(), &[&window, "--dump-dom"]);
+        assert!(points(&dom) > 20_000);
+        let said = dom.split("<pre id=\"overlap\">").nth(1).unwrap().split("</pre>").next().unwrap();
+        assert_eq!(said, "4 toolbars, 3 legends, under toolbars: ", "at {width} px");
+    }
+}
+
+/// What of the plots the toolbars cover: legends, names of curves, curves. And legends that cover a plot's names of axes.
+const OVERLAP: &str = r#"<pre id="overlap"></pre><script>
+Promise.all(drawn).then(() => {
+  const all = (what) => [...document.querySelectorAll(what)];
+  const meet = (a, b) => {
+    const [p, q] = [a.getBoundingClientRect(), b.getBoundingClientRect()];
+    return p.left < q.right && q.left < p.right && p.top < q.bottom && q.top < p.bottom;
+  };
+  const [bars, legends] = [all(".modebar-group"), all("g.legend")];
+  const under = ["g.legend", ".annotation", ".bglayer .bg"].flatMap((what) => all(what).filter((one) => bars.some((bar) => meet(bar, one))));
+  const covered = all(".xtitle, .xtick, .annotation").filter((one) => legends.some((legend) => meet(legend, one)));
+  const count = new Set(bars.map((bar) => bar.parentNode)).size;
+  const said = [...under, ...covered].map((one) => `${one.getAttribute("class")} ${one.textContent}`);
+  document.getElementById("overlap").textContent = `${count} toolbars, ${legends.length} legends, under toolbars: ${said.join("; ")}`;
+});
+</script>
+"#;
+
+#[test]
+fn no_two_curves_of_a_panel_look_alike() {
+    let path = page("page-colours", "nu205-healthy", &["--stop", "0.06"]);
+    let script = path.with_file_name("colours.py");
+    fs::write(&script, COLOURS).unwrap();
+    let said = common::python().run_file(&script, [&path]).unwrap_or_else(|error| panic!("{error:#}"));
+    // The bearing has 13 rollers.
+    assert_eq!(said.trim(), "most curves 13");
+}
+
+/// Colours of one style are told apart where they are 60 of 255 or more from each other, and from the white behind.
+const COLOURS: &str = r##"
+import json
+import sys
+import numpy as np
+
+text = open(sys.argv[1], encoding="utf-8").read()
+data, _ = json.JSONDecoder().raw_decode(text[text.index("const DATA = ") + len("const DATA = "):])
+most = 0
+for panel in data["panels"]:
+    looks = [(s["dash"], *bytes.fromhex(s["colour"][1:])) for s in panel["signals"]]
+    most = max(most, len(looks))
+    for i, (dash, *colour) in enumerate(looks):
+        assert np.linalg.norm(np.array(colour) - 255) > 150, colour
+        for other_dash, *other in looks[:i]:
+            assert dash != other_dash or np.linalg.norm(np.array(colour, float) - other) >= 60, (colour, other)
+print("most curves", most)
+"##;
+
 /// Curves in the colours of the signals, axes and letters: a blank page, or one of letters alone, has none.
 const LOOK: &str = r##"
 import sys

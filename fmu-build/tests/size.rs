@@ -68,6 +68,20 @@ fn the_answer_is_json_alone_and_holds_every_key_of_the_contract() {
 }
 
 #[test]
+fn a_recordings_rate_is_said_in_six_digits_and_each_file_by_its_name() {
+    let folder = tempfile::tempdir().unwrap();
+    // Times as a recorder writes them: k / rate, whose mean step is no whole fraction of a second.
+    let time = (0..60_000).map(|k| f64::from(k) / RATE).collect();
+    let path = csv(folder.path(), "timed.csv", &[("time [s]", time), ("acceleration", healthy(60_000))]);
+    let output = size(folder.path(), &path, &["--speed", "10"]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(said.contains("timed.csv: 1.172 s at 51.2 kHz, shaft 10.0000 Hz\n"), "{said}");
+    for name in ["timed-size.csv", "timed-size.json"] {
+        assert!(said.contains(&format!("{}\n", folder.path().join("out").join(name).display())), "{said}");
+    }
+}
+
+#[test]
 fn columns_tachometer_and_speeds_are_chosen_by_name_or_number() {
     let folder = tempfile::tempdir().unwrap();
     let count = 60_000;

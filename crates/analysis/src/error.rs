@@ -115,7 +115,7 @@ pub enum SizingError {
     },
     /// The ball pass frequency is too high for the sampling rate: rate or speed are wrong.
     #[error(
-        "{name}: {samples:.1} samples per passage ({rate} Hz at a ball pass frequency of {bpfo:.3} Hz): at least {limit} are needed; is the rate or the speed of {speed} Hz wrong?"
+        "{name}: {samples:.1} samples per passage ({rate:.1} Hz at a ball pass frequency of {bpfo:.3} Hz): at least {limit} are needed; is the rate or the speed of {speed} Hz wrong?"
     )]
     TooCoarse {
         /// The recording.

@@ -70,7 +70,9 @@ impl<'a> Spectra<'a> {
         if self.changes() {
             said["mean_speed_hz"] = json!(speed);
         }
-        whole_file::write(&path.with_extension("json"), serde_json::to_string_pretty(&said)? + "\n")?;
+        let about = path.with_extension("json");
+        whole_file::write(&about, serde_json::to_string_pretty(&said)? + "\n")?;
+        println!("{}", about.display());
         Ok(Some(path))
     }
 
@@ -156,5 +158,7 @@ fn write(path: &Path, names: [(&str, &str); 2], columns: [&[f64]; 2]) -> Result<
             csv::row(&mut out, [x, y].into_iter())?;
         }
         Ok(())
-    })
+    })?;
+    println!("{}", path.display());
+    Ok(())
 }
