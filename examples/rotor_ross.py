@@ -2,6 +2,10 @@
 """A ROSS rotor with one bearing computed by an FMU, healthy and spalled: motion and order spectra.
 
     python examples/rotor_ross.py [--host exact|ross] [--passes 2] [--step 5e-5] [--stop 4] [-o target/examples]
+        [--columns 'node[12].*,shaft.force.y' --format parquet]
+
+Of a run nothing is kept but what figure and spectra need, and the `--columns` that are asked for: x and y of the
+shaft's nodes from rest [m], and the FMU's outputs.
 
 The rotor: a steel shaft of 25 mm, 0.6 m long, a disk of 4.4 kg in the middle with unbalance, a light damper beside
 it, a linear bearing on the left, and the ER16K under study on the right, pressed down with 300 N. The FMU moves the
@@ -14,7 +18,9 @@ import json
 import time
 from pathlib import Path
 
+import fmpy
 import numpy as np
+import signal_table
 from bearing import SCENES, build, changed_scene
 from ross_bearings import Machine, ross, simulate, unbalance
 
@@ -65,13 +71,14 @@ def summary(bearing, runs, passage, h, turns, settle):
 
 
 def draw(bearing, disk, runs, passage, h, turns, settle, stem):
-    from figures import BLACK, BLUE, ORANGE, legend, plots, save
+    from figures import BLACK, BLUE, ORANGE, curve, legend, plots, save
 
-    figure, axes = plots(4, 11)
+    figure, (whole, *axes) = plots(5, 13.5)
     for name, colour in (("spalled", ORANGE), ("healthy", BLUE)):
         t, shaft, middle = runs[name].time, runs[name].at(bearing)[:, 1] * 1e6, runs[name].at(disk)[:, 1] * 1e6
+        curve(whole, t, shaft, colour, name)
         part = t >= max(t[-1] - 4 / turns, settle)
-        axes[0].plot((t[part] - t[-1]) * turns, shaft[part], color=colour, label=name)
+        axes[0].plot((t[part] - t[-1]) * turns, shaft[part], color=colour)
         axes[1].plot((t[part] - t[-1]) * turns, middle[part], color=colour)
         late = t >= settle
         for axis, signal in ((axes[2], shaft[late]), (axes[3], runs[name].outputs[0]["housing.ay"][late])):
@@ -93,9 +100,29 @@ def draw(bearing, disk, runs, passage, h, turns, settle, stem):
     marks = "order of shaft speed; grey marks: sidebands, BPFO ± shaft speed"
     axes[2].set(ylabel="shaft in the bearing,\ny (µm)", xlabel=marks)
     axes[3].set(ylabel="housing, y (m/s²)", xlabel="order of shaft speed")
-    axes[0].set_title(f"ROSS rotor at {turns:g} Hz, ER16K with a spall of 15.8°", loc="left")
-    legend(axes[0])
+    whole.set(ylabel="shaft in the bearing,\ny from rest (µm)", xlabel="time (s)", xlim=(0, t[-1]))
+    whole.set_title(f"ROSS rotor at {turns:g} Hz, ER16K with a spall of 15.8°", loc="left")
+    legend(whole)
     save(figure, stem)
+
+
+def signals_of(machine, fmu):
+    """Names of all that a run can be asked for."""
+    nodes = [f"node[{node}].{axis}" for node in range(len(machine.rotor.nodes)) for axis in "xy"]
+    variables = fmpy.read_model_description(str(fmu)).modelVariables
+    return nodes + [variable.name for variable in variables if variable.causality == "output"]
+
+
+def columns_of(run, names):
+    """Time and the signals of these names."""
+    found = {"time": run.time}
+    for name in names:
+        if name.startswith("node["):
+            node, axis = int(name[5 : name.index("]")]), "xy".index(name[-1])
+            found[name] = run.at(node)[:, axis]
+        else:
+            found[name] = run.outputs[0][name]
+    return found
 
 
 def main():
@@ -105,26 +132,36 @@ def main():
     parser.add_argument("--speed", type=float, default=50.0, help="shaft speed [Hz]")
     parser.add_argument("--step", type=float, help="communication step [s]; default 5e-5, or 1e-5 with --host ross")
     parser.add_argument("--stop", type=float, default=4.0, help="end [s]")
+    parser.add_argument("--columns", default="", help="signals to write, as 'node[12].y,shaft.force.*'; default: none")
+    parser.add_argument("--format", choices=signal_table.FORMATS, default=signal_table.FORMATS[0], help="of their table")
     parser.add_argument("-o", "--output", type=Path, default=Path("target/examples"))
     options = parser.parse_args()
     machine = shown()
     (bearing,), (disk,) = machine.nodes, machine.forces
     speed, settle = 2 * np.pi * options.speed, min(0.3, 0.4 * options.stop)
     h = options.step or {"exact": 5e-5, "ross": 1e-5}[options.host]
-    runs, took = {}, {}
-    for name, fmu in zip(("healthy", "spalled"), fmus_in(options.output)):
+    fmus = fmus_in(options.output)
+    try:
+        asked = signal_table.chosen(filter(None, options.columns.split(",")), signals_of(machine, fmus[0]))
+    except ValueError as error:
+        parser.error(f"--columns: {error}")
+    stem = options.output / f"rotor_{options.host}"
+    seen = dict.fromkeys(["housing.ay", "cage.speed", *(name for name in asked if not name.startswith("node["))])
+    runs, took, written = {}, {}, []
+    for name, fmu in zip(("healthy", "spalled"), fmus):
         begin = time.perf_counter()
         runs[name] = simulate(
             machine.rotor, machine.nodes, [fmu], speed, options.stop, h, loads=machine.loads, forces=machine.forces,
-            seen=("housing.ay", "cage.speed"), passes=options.passes, host=options.host,
+            seen=tuple(seen), passes=options.passes, host=options.host,
         )  # fmt: skip
         took[name] = round(time.perf_counter() - begin, 2)
+        if asked:
+            written.append(signal_table.write(f"{stem}-{name}", options.format, columns_of(runs[name], asked)))
     # Of an element over a place on the outer ring, per shaft turn.
     passage = 9 * runs["spalled"].outputs[0]["cage.speed"][0] / speed
-    stem = options.output / f"rotor_{options.host}"
     draw(bearing, disk, runs, passage, h, options.speed, settle, stem)
     found = summary(bearing, runs, passage, h, options.speed, settle)
-    print(json.dumps({**found, "seconds": took, "files": f"{stem}.svg .png"}))
+    print(json.dumps({**found, "seconds": took, "files": [f"{stem}.svg", f"{stem}.png", *written]}))
 
 
 if __name__ == "__main__":

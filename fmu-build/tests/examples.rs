@@ -71,6 +71,14 @@ fn run(command: &str, folder: &Path) -> String {
     python().run_file(&script, arguments).unwrap_or_else(|error| panic!("{error:#}"))
 }
 
+/// What an example says that refuses its arguments.
+fn run_wrongly(command: &str, folder: &Path) -> String {
+    let mut words = command.strip_prefix("python ").unwrap().split(' ');
+    let script = common::root().join(words.next().unwrap());
+    let arguments = words.map(OsString::from).chain(["-o".into(), folder.into()]);
+    python().run_file(&script, arguments).unwrap_err().to_string()
+}
+
 /// The last line that a program said, as JSON.
 fn last(said: &str) -> Value {
     serde_json::from_str(said.lines().last().unwrap()).unwrap()
@@ -237,6 +245,46 @@ fn ross_integrates_the_rotor_itself_and_asks_as_assumed() {
     has_figure(folder.join("rotor_ross"));
     assert!(said["place_um_spalled"]["3.591"].as_f64().unwrap() > 0.5, "{said}");
 }
+
+#[test]
+fn a_rotors_run_writes_the_columns_that_are_asked_for_and_no_others() {
+    if !has_ross() {
+        return;
+    }
+    let folder = common::folder("example-rotor-columns");
+    let asked = "--stop 0.05 --columns node[12].y,shaft.force.* --format npy";
+    let said = last(&run(&format!("python examples/rotor_ross.py {asked}"), &folder));
+    assert_eq!(said["files"].as_array().unwrap().len(), 4, "figure twice, a table of each run: {said}");
+    let script = folder.join("columns.py");
+    fs::write(&script, COLUMNS).unwrap();
+    let said = python().run_file(&script, [&folder, &common::root().join("examples")]).unwrap_or_else(|error| panic!("{error:#}"));
+    assert_eq!(said.trim(), "time, node[12].y, shaft.force.x, shaft.force.y of 1001 rows");
+    let refused = run_wrongly("python examples/rotor_ross.py --stop 0.05 --columns shaft.force.z", &folder);
+    assert!(refused.contains("'shaft.force.z'") && refused.contains("shaft.force.y"), "{refused}");
+}
+
+/// The same bits in every format.
+const COLUMNS: &str = r#"
+import sys
+from pathlib import Path
+
+import numpy as np
+import pyarrow.parquet as parquet
+
+sys.path.insert(0, sys.argv[2])
+import signal_table
+
+folder = Path(sys.argv[1])
+healthy, spalled = (np.load(folder / f"rotor_exact-{name}.npy") for name in ("healthy", "spalled"))
+assert healthy.dtype == spalled.dtype and np.ptp(spalled["node[12].y"]) > np.ptp(healthy["node[12].y"]) > 0
+columns = {name: spalled[name] for name in spalled.dtype.names}
+csv = np.genfromtxt(signal_table.write(folder / "same", "csv", columns), delimiter=",", skip_header=1)
+packed = parquet.read_table(signal_table.write(folder / "same", "parquet", columns))
+assert packed.column_names == list(columns)
+for k, (name, values) in enumerate(columns.items()):
+    assert np.array_equal(csv[:, k], values) and np.array_equal(packed[name].to_numpy(), values), name
+print(", ".join(columns), "of", len(spalled), "rows")
+"#;
 
 #[test]
 #[ignore = "runs for a minute; the table of coupling errors has the same host"]
