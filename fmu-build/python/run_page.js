@@ -7,8 +7,9 @@ const FONT = { family: "system-ui, sans-serif", size: 13 };
 // Points across a window: more than there are pixels.
 const ACROSS = 2000;
 const GRID = { gridcolor: "#e4e4e4", zeroline: false };
-// Above a plot stands its toolbar alone, however narrow the window: what curves are is said below.
+// Above a plot stands its toolbar alone, however narrow the window: what curves are is said below, in three lines at most.
 const MARGIN = { l: 80, r: 20, t: 40, b: 45 };
+const MARGIN_OF_LEGEND = { ...MARGIN, b: 120 };
 const LEGEND = { orientation: "h", yref: "container", y: 0, yanchor: "bottom" };
 
 function numbers(text) {
@@ -68,7 +69,7 @@ function digits(value) {
 function drawSignals(place) {
   const signals = DATA.panels.flatMap((panel, row) => panel.signals.map((signal) => ({ ...signal, row })));
   signals.forEach((signal) => (signal.values = numbers(signal.values)));
-  const all = [Math.min(...signals.map((s) => s.start)), Math.max(...signals.map((s) => s.start + s.step * (s.values.length - 1)))];
+  const all = [Math.min(...signals.map((s) => s.start)), Math.max(...signals.map((s) => s.end))];
   const range = asked(all);
   const traces = signals.map((signal) => ({
     ...shown(signal, ...range),
@@ -112,7 +113,7 @@ function drawPath(place, defect) {
     { x: defect.surface.map((p) => p[0]), y: defect.surface.map((p) => p[1]), name: defect.body, mode: "lines", line: { color: "#666666", width: 1.5 }, fill: "tozeroy", fillcolor: "rgba(0,0,0,0.06)", hovertemplate: "%{x:.3f} " + defect.along + ", %{y:.2f} µm<extra>surface</extra>" },
     { x: gaps(x), y: gaps(y), name: "an element's centre, passage after passage", mode: "lines", opacity: 0.5, line: { color: "#0072B2", width: 1 }, customdata: Array.from(time, (t, i) => [t, element[i]]), hovertemplate: "element %{customdata[1]} at %{customdata[0]:.5f} s<br>%{x:.3f} " + defect.along + ", %{y:.2f} µm<extra></extra>" },
   ];
-  const layout = { font: FONT, height: 400, margin: MARGIN, hovermode: "closest", legend: LEGEND, xaxis: { ...GRID, title: { text: defect.axis } }, yaxis: { ...GRID, title: { text: "µm" } } };
+  const layout = { font: FONT, height: 460, margin: MARGIN_OF_LEGEND, hovermode: "closest", legend: LEGEND, xaxis: { ...GRID, title: { text: defect.axis, standoff: 8 } }, yaxis: { ...GRID, title: { text: "µm" } } };
   return Plotly.newPlot(place, traces, layout, CONFIG);
 }
 
@@ -130,11 +131,11 @@ function drawSpectrum(place, spectrum) {
       }
       at.push(null); high.push(null); said.push("");
     });
-    return { x: at, y: high, text: said, name: `${mark.name} ${mark.at[0].toPrecision(4)} ${spectrum.unit}`, mode: "lines", opacity: 0.6, line: { color: mark.colour, width: 1, dash: mark.dash }, hovertemplate: "%{text}<extra></extra>" };
+    return { x: at, y: high, text: said, name: `${mark.name} ${mark.at[0].toPrecision(4)} ${spectrum.unit}`, mode: "lines", opacity: 0.8, line: { color: mark.colour, width: 1.5, dash: mark.dash }, hovertemplate: "%{text}<extra></extra>" };
   });
   traces.push({ x, y, name: spectrum.name, mode: "lines", line: { color: "black", width: 1 }, hovertemplate: `%{x:.5g} ${spectrum.unit}: %{y:.4g}<extra></extra>` });
   const scale = spectrum.log ? { type: "log", range: [Math.log10(floor), Math.log10(top)] } : { range: [0, top] };
-  const layout = { font: FONT, height: 420, margin: MARGIN, hovermode: "closest", legend: LEGEND, xaxis: { ...GRID, range: [0, spectrum.shown], title: { text: spectrum.axis } }, yaxis: { ...GRID, exponentformat: "power", title: { text: spectrum.label }, ...scale } };
+  const layout = { font: FONT, height: 480, margin: MARGIN_OF_LEGEND, hovermode: "closest", legend: LEGEND, xaxis: { ...GRID, range: [0, spectrum.shown], title: { text: spectrum.axis, standoff: 8 } }, yaxis: { ...GRID, exponentformat: "power", title: { text: spectrum.label }, ...scale } };
   return Plotly.newPlot(place, traces, layout, CONFIG);
 }
 

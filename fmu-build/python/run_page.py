@@ -96,7 +96,7 @@ def signals(run, count):
             # A pair of extremes stands for so many samples.
             width = step if every == 1 else 0.5 * every * step
             label = short(name, len(of)) + (" (dashed)" if dash == "dash" else "")
-            row.append({"name": name, "label": label, "unit": unit, "colour": colour, "dash": dash, "start": float(time[0]), "step": width, "values": packed(kept)})
+            row.append({"name": name, "label": label, "unit": unit, "colour": colour, "dash": dash, "start": float(time[0]), "end": float(time[-1]), "step": width, "values": packed(kept)})
             words["recorder" if source is run.recording else "communication points"] = step
         shown.append({"unit": unit, "signals": row, "title": "force of the outer raceway on element" if of[0][0][0].endswith("].force.outer") else ""})
     said = "; ".join(f"{name}: a sample every {1e6 * step:.4g} µs" for name, step in words.items())
@@ -157,7 +157,7 @@ def path(run, about, defect, number):
     outline = np.vstack([[-room, 0], surface, [room, 0]]) * [scale, -1e6] if not element else np.array([[-180.0, 0.0], [180.0, 0.0]])
     told = f"{len(kept) // 2} passages" if len(kept) // 2 == len(pieces) else f"the last {len(kept) // 2} of {len(pieces)} passages"
     body = {"outer": "outer raceway", "inner": "inner raceway", "element": "smooth outer raceway"}[defect["on"]]
-    where = "spin of the element, 0: the defect faces the outer raceway (degrees)" if element else f"arc of the {body} from the defect's middle (mm)"
+    where = "spin of the element (degrees),<br>0: the defect faces the outer raceway" if element else "arc from the defect's middle (mm)"
     return {
         "title": f"Defect {number}: {body if not element else 'element ' + str(defect['element'])}, {told}",
         "body": body, "axis": where, "along": "°" if element else "mm", "surface": outline.tolist(),

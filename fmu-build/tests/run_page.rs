@@ -152,7 +152,7 @@ fn nothing_lies_under_a_toolbar_in_a_narrow_window() {
     }
 }
 
-/// What of the plots the toolbars cover: legends, names of curves, curves. And legends that cover a plot's names of axes.
+/// What of the plots the toolbars cover: legends, names of curves, curves. And what legends and names of axes cover.
 const OVERLAP: &str = r#"<pre id="overlap"></pre><script>
 Promise.all(drawn).then(() => {
   const all = (what) => [...document.querySelectorAll(what)];
@@ -164,7 +164,8 @@ Promise.all(drawn).then(() => {
   const under = ["g.legend", ".annotation", ".bglayer .bg"].flatMap((what) => all(what).filter((one) => bars.some((bar) => meet(bar, one))));
   const covered = all(".xtitle, .xtick, .annotation").filter((one) => legends.some((legend) => meet(legend, one)));
   const count = new Set(bars.map((bar) => bar.parentNode)).size;
-  const said = [...under, ...covered].map((one) => `${one.getAttribute("class")} ${one.textContent}`);
+  const ticks = all(".xtitle").filter((one) => all(".xtick text").some((tick) => meet(tick, one)));
+  const said = [...under, ...covered, ...ticks].map((one) => `${one.getAttribute("class")} ${one.textContent}`);
   document.getElementById("overlap").textContent = `${count} toolbars, ${legends.length} legends, under toolbars: ${said.join("; ")}`;
 });
 </script>
