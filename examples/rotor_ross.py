@@ -73,10 +73,11 @@ def summary(bearing, runs, passage, h, turns, settle):
 def draw(bearing, disk, runs, passage, h, turns, settle, stem):
     from figures import BLACK, BLUE, ORANGE, curve, legend, plots, save
 
-    figure, (whole, *axes) = plots(5, 13.5)
+    figure, axes = plots(6, 15)
+    whole, axes = dict(zip(("spalled", "healthy"), axes)), axes[2:]
     for name, colour in (("spalled", ORANGE), ("healthy", BLUE)):
         t, shaft, middle = runs[name].time, runs[name].at(bearing)[:, 1] * 1e6, runs[name].at(disk)[:, 1] * 1e6
-        curve(whole, t, shaft, colour, name)
+        curve(whole[name], t, shaft, colour, name, turns)
         part = t >= max(t[-1] - 4 / turns, settle)
         axes[0].plot((t[part] - t[-1]) * turns, shaft[part], color=colour)
         axes[1].plot((t[part] - t[-1]) * turns, middle[part], color=colour)
@@ -100,9 +101,11 @@ def draw(bearing, disk, runs, passage, h, turns, settle, stem):
     marks = "order of shaft speed; grey marks: sidebands, BPFO ± shaft speed"
     axes[2].set(ylabel="shaft in the bearing,\ny (µm)", xlabel=marks)
     axes[3].set(ylabel="housing, y (m/s²)", xlabel="order of shaft speed")
-    whole.set(ylabel="shaft in the bearing,\ny from rest (µm)", xlabel="time (s)", xlim=(0, t[-1]))
-    whole.set_title(f"ROSS rotor at {turns:g} Hz, ER16K with a spall of 15.8°", loc="left")
-    legend(whole)
+    whole["healthy"].sharey(whole["spalled"])
+    for axis in whole.values():
+        axis.set(ylabel="shaft in the bearing,\ny from rest (µm)", xlabel="time (s)", xlim=(0, t[-1]))
+        legend(axis)
+    whole["spalled"].set_title(f"ROSS rotor at {turns:g} Hz, ER16K with a spall of 15.8°", loc="left")
     save(figure, stem)
 
 
