@@ -257,7 +257,9 @@ fn a_rotors_run_writes_the_columns_that_are_asked_for_and_no_others() {
     assert_eq!(said["files"].as_array().unwrap().len(), 4, "figure twice, a table of each run: {said}");
     let script = folder.join("columns.py");
     fs::write(&script, COLUMNS).unwrap();
-    let said = python().run_file(&script, [&folder, &common::root().join("examples")]).unwrap_or_else(|error| panic!("{error:#}"));
+    let said = python()
+        .run_file(&script, [&folder, &common::root().join("examples")])
+        .unwrap_or_else(|error| panic!("{error:#}"));
     assert_eq!(said.trim(), "time, node[12].y, shaft.force.x, shaft.force.y of 1001 rows");
     let refused = run_wrongly("python examples/rotor_ross.py --stop 0.05 --columns shaft.force.z", &folder);
     assert!(refused.contains("'shaft.force.z'") && refused.contains("shaft.force.y"), "{refused}");

@@ -126,7 +126,10 @@ fn a_time_range_of_the_address_is_cut_to_the_run_and_what_is_wrong_with_it_is_sa
     assert!(inside < all / 2 && said.is_empty(), "{inside} points, {said}");
     let (late, said) = look("#0.09,0.7");
     assert!(late > 100 && late < inside, "{late} points");
-    assert_eq!(said, "The address asks for 0.09 to 0.7 s, but the run goes from 0 to 0.1 s. Shown is what there is of it.");
+    assert_eq!(
+        said,
+        "The address asks for 0.09 to 0.7 s, but the run goes from 0 to 0.1 s. Shown is what there is of it."
+    );
     let (beyond, said) = look("#0.5,0.7");
     assert_eq!(beyond, all, "a range without samples shows all");
     assert_eq!(said, "The address asks for 0.5 to 0.7 s, but the run goes from 0 to 0.1 s. All of it is shown.");
