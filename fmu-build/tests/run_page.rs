@@ -164,12 +164,14 @@ Promise.all(drawn).then(() => {
     return p.left < q.right && q.left < p.right && p.top < q.bottom && q.top < p.bottom;
   };
   const [bars, legends] = [all(".modebar-group"), all("g.legend")];
-  const under = ["g.legend", ".annotation", ".bglayer .bg"].flatMap((what) => all(what).filter((one) => bars.some((bar) => meet(bar, one))));
+  const plots = ["g.legend", ".annotation", ".bglayer .bg"].flatMap(all);
+  const under = plots.filter((one) => bars.some((bar) => meet(bar, one)));
   const covered = all(".xtitle, .xtick, .annotation").filter((one) => legends.some((legend) => meet(legend, one)));
   const count = new Set(bars.map((bar) => bar.parentNode)).size;
   const ticks = all(".xtitle").filter((one) => all(".xtick text").some((tick) => meet(tick, one)));
   const said = [...under, ...covered, ...ticks].map((one) => `${one.getAttribute("class")} ${one.textContent}`);
-  document.getElementById("overlap").textContent = `${count} toolbars, ${legends.length} legends, under toolbars: ${said.join("; ")}`;
+  const text = `${count} toolbars, ${legends.length} legends, under toolbars: ${said.join("; ")}`;
+  document.getElementById("overlap").textContent = text;
 });
 </script>
 "#;

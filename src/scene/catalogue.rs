@@ -2,16 +2,16 @@
 //!
 //! Catalogues give the boundary dimensions of ISO 15 and keep what is inside to themselves. Where the number of balls,
 //! their diameter and the pitch diameter are published, they stand here with their source. Of Timken's bearings the
-//! frequencies of faults are published, in turns of the shaft: BPFO + BPFI is the number of balls, and
-//! γ = √(BSF² + 1) − BSF their diameter over the pitch diameter. With the pitch circle halfway between bore and outside,
-//! that is a whole number of 1/64 inch to 0.02, in which balls are made: so both are known. Two sizes of the table are
-//! left out, 202K and 305K: their balls come out between two sizes.
+//! frequencies of faults are published, in turns of the shaft: BPFO + BPFI is the number of balls, and γ = √(BSF² + 1)
+//! − BSF their diameter over the pitch diameter. With the pitch circle halfway between bore and outside, that is a
+//! whole number of 1/64 inch to 0.02, in which balls are made: so both are known. Two sizes of the table are left out,
+//! 202K and 305K: their balls come out between two sizes.
 //!
 //! For all others they are estimated from the boundary: pitch diameter (d + D)/2, balls of 0.3 (D − d) to the nearest
-//! 1/64 inch, as many as fill 195° of the pitch circle, about what can be put in between two rings that are moved to one
-//! side. Of the bearings that are published that is the number of balls of all but two, where it is one off, and their
-//! diameter to 7 %. Makers differ as well: in a bearing on a shelf there may be one more or less, and every frequency
-//! changes with it.
+//! 1/64 inch, as many as fill 195° of the pitch circle, about what can be put in between two rings that are moved to
+//! one side. Of the bearings that are published that is the number of balls of all but two, where it is one off, and
+//! their diameter to 7 %. Makers differ as well: in a bearing on a shelf there may be one more or less, and every
+//! frequency changes with it.
 //!
 //! Of roller bearings all that is inside is estimated: rollers of 0.28 (D − d) to the nearest half millimetre, an
 //! effective length of 0.6 B, as many as take four fifths of the pitch circle (d + D)/2. Makers crown their rollers each in their
