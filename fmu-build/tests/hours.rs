@@ -171,7 +171,7 @@ fn an_hour_with_a_catalogue_is_what_happens() {
 }
 
 #[test]
-#[ignore = "sizes three recordings, a minute of a core; `size` has tests of its own"]
+#[ignore = "sizes six recordings, two minutes of a core; `size` has tests of its own"]
 fn an_hour_with_a_recording_is_what_happens() {
     is_what_happens("hour-monitoring.md");
 }
