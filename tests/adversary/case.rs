@@ -2,12 +2,15 @@
 //!
 //! The simulation gets it as the text of a scene file and by setting inputs; the oracle reads the numbers themselves.
 
+mod inputs;
+mod parts;
 mod random;
 mod shape;
 mod transform;
 mod whole;
 
-pub use random::{Kind, PHASE, fastest, on_the_outer_raceway, random};
+pub use parts::{Film, Mode, Roller};
+pub use random::{Kind, PHASE, fastest, of_dry_balls, on_the_outer_raceway, random};
 pub use shape::bowl;
 pub use transform::Factors;
 
@@ -48,6 +51,12 @@ pub struct Case {
     pub housing_hz: Option<f64>,
     /// Mass, stiffness, damping.
     pub sensor: Option<[f64; 3]>,
+    /// Elements are balls without.
+    pub roller: Option<Roller>,
+    /// Contacts are dry without.
+    pub film: Option<Film>,
+    /// Of the structure below the sensor; none count without one.
+    pub modes: Vec<Mode>,
     pub tolerance: f64,
     pub steps: Vec<Step>,
 }
@@ -162,6 +171,7 @@ impl Case {
         put("element_diameter_mm", self.diameter_mm);
         put("pitch_diameter_mm", self.pitch_mm);
         match self.grooves {
+            _ if self.roller.is_some() => {}
             Grooves::Equal(diameter) => put("groove_diameter_mm", diameter),
             Grooves::Each(inner, outer) => {
                 put("conformity_inner", inner);
@@ -181,6 +191,9 @@ impl Case {
                 put(key, value);
             }
         }
+        if let Some(roller) = &self.roller {
+            text.push_str(&roller.toml());
+        }
         writeln!(text, "element_count = {}\n[contact]\nlaw = \"{}\"", self.count, self.law).unwrap();
         if let Some((force, cells, accuracy)) = self.grid {
             writeln!(text, "largest_force_n = {force:?}\ncells = {cells:?}\nmap_accuracy = {accuracy:?}").unwrap();
@@ -190,6 +203,9 @@ impl Case {
             Damping::Proportional(tau) => writeln!(text, "damping = \"proportional\"\ndamping_tau_s = {tau:?}"),
         }
         .unwrap();
+        if let Some(film) = &self.film {
+            text.push_str(&film.toml());
+        }
         writeln!(text, "[cage]\nslip = {:?}\ninitial_angle_deg = {:?}", self.slip, self.cage_deg).unwrap();
         self.write_defects(&mut text);
         self.write_rings(&mut text);
@@ -240,6 +256,7 @@ impl Case {
         if let Some([mass, stiffness, damping]) = self.sensor {
             writeln!(text, "[sensor]\nmass_kg = {mass:?}\nstiffness_n_m = {stiffness:?}").unwrap();
             writeln!(text, "damping_n_s_m = {damping:?}").unwrap();
+            self.modes.iter().for_each(|mode| text.push_str(&mode.toml()));
         }
     }
 

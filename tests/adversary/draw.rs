@@ -12,6 +12,11 @@ impl Draw {
         draw
     }
 
+    /// Other numbers from the same seed, whatever is drawn here before or after.
+    pub fn apart(&self) -> Self {
+        Self::new(self.0 ^ 0x5851_F42D_4C95_7F2D)
+    }
+
     fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.0;

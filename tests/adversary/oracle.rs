@@ -10,13 +10,17 @@
 
 pub mod balance;
 pub mod envelope;
+pub mod growth;
 pub mod half_space;
 mod hertz;
+pub mod oil;
 pub mod run;
 pub mod signals;
 pub mod surfaces;
 
-use crate::case::{Case, Damping, Grooves, Motion, On, Ring};
+use crate::case::{Case, Damping, Grooves, Mode, Motion, On, Ring};
+use growth::Growth;
+use oil::{Oil, Resistance};
 use std::f64::consts::{PI, TAU};
 use surfaces::{Stretches, Surfaces, Turns};
 
@@ -25,7 +29,8 @@ pub struct Bearing {
     pub r: f64,
     pub rho_0: f64,
     pub clearance: f64,
-    pub stiffness: [f64; 2],
+    pub growth: [Growth; 2],
+    pub oil: Option<Oil>,
     pub compliance: f64,
     pub mass: f64,
     pub gravity: [f64; 2],
@@ -45,6 +50,7 @@ pub struct Bearing {
     pub turns: bool,
     pub rings: [Ring; 2],
     pub sensor: Option<[f64; 3]>,
+    pub modes: Vec<Mode>,
 }
 
 /// Time within a communication step, and what the host says for it.
@@ -54,9 +60,12 @@ pub struct Outside {
     pub turns: [[f64; 3]; 4],
     /// As in [`crate::case::Host::rings`].
     pub rings: [[[f64; 3]; 2]; 2],
+    /// Thickness of the oil films inside and outside [m].
+    pub films: [f64; 2],
 }
 
-/// Positions and velocities: rings x y vx vy each, sensor y vy, then u and u' of each element, then impulses of the mean forces.
+/// Positions and velocities: rings x y vx vy each, sensor y vy, then u and u' of each element, then impulses of the
+/// mean forces, then displacements and velocities of the sensor's modes.
 pub const SENSOR: usize = 8;
 pub const ELEMENTS: usize = 10;
 
@@ -68,6 +77,10 @@ pub struct Contact {
     /// ∂(force)/∂(rate of approach) [N s/m].
     pub by_rate: f64,
     pub pushes: bool,
+    /// Whether oil is pressed out of it.
+    pub squeezes: bool,
+    /// Bound of ∂(force)/∂(approach) [N/m], but for the elastic part.
+    pub steep: f64,
     /// Whose defect it is over: the ring's (0) or the element's.
     pub over: Option<usize>,
 }
@@ -90,6 +103,8 @@ pub struct Acting {
     /// Their accelerations [m/s²].
     pub accelerations: [[f64; 2]; 2],
     pub sensor: f64,
+    /// What the sensor shows of it through its modes.
+    pub measured: f64,
     /// On the cage, and on the shaft by its defect [N m].
     pub torque: f64,
     pub shaft_torque: f64,
@@ -134,13 +149,20 @@ impl Bearing {
         ];
         let gamma = d / pitch;
         let (cage, spin) = (0.5 * (1.0 - case.slip), (1.0 - case.spin_slip) / (2.0 * gamma));
-        let mass = case.mass_g.map_or_else(|| 4.0 / 3.0 * PI * r * r * r * case.density.unwrap(), |mass| mass * 1e-3);
+        let volume = match case.roller {
+            Some(roller) => PI * r * r * roller.length_mm * 1e-3,
+            None => 4.0 / 3.0 * PI * r * r * r,
+        };
+        let mass = case.mass_g.map_or_else(|| volume * case.density.unwrap(), |mass| mass * 1e-3);
+        let points = [0, 1].map(|side| Growth::Point(case.hertz[side].unwrap_or(computed[side])));
+        let growth = Growth::of_roller(case).map_or(points, |line| [line.clone(), line]);
         Self {
             count: case.count,
             r,
             rho_0: r_o - r,
             clearance,
-            stiffness: [0, 1].map(|side| case.hertz[side].unwrap_or(computed[side])),
+            growth,
+            oil: Oil::new(case, [r, r_i, r_o], [f_i, f_o], modulus),
             compliance: case.compliance,
             mass,
             gravity: case.gravity,
@@ -159,11 +181,22 @@ impl Bearing {
             turns: case.housing_hz.is_some(),
             rings: case.rings,
             sensor: case.sensor,
+            modes: if case.sensor.is_some() { case.modes.clone() } else { Vec::new() },
         }
     }
 
     pub fn len(&self) -> usize {
+        self.first_mode() + 2 * self.modes.len()
+    }
+
+    /// Place of the first mode's displacement.
+    fn first_mode(&self) -> usize {
         ELEMENTS + 2 * self.count + 4
+    }
+
+    /// The oil films at the speeds of these turns [m]; none is 0.
+    pub fn films(&self, turns: &[[f64; 3]; 4]) -> [f64; 2] {
+        self.oil.as_ref().map_or([0.0; 2], |oil| oil.films(turns[1][1] - turns[2][1]))
     }
 
     /// Of cage, shaft, housing and spin for speeds of the rings with their derivatives.
@@ -174,38 +207,46 @@ impl Bearing {
         [0, 1, 2, 3].map(|which| [angles[which], sum(which, 0), sum(which, 1)])
     }
 
-    /// The force of a contact: with side 1, that of the outer raceway in series with its compliance.
-    fn contact(&self, side: usize, approach: f64, rate: f64) -> Contact {
+    /// The force of a contact, beside a film of this thickness [m]: with side 1, that of the outer raceway in series with its
+    /// compliance.
+    fn contact(&self, side: usize, film: f64, approach: f64, rate: f64) -> Contact {
+        let oil = self.oil.as_ref().map_or(Resistance::default(), |oil| oil.resistance(side, film, approach, rate));
+        let film = Contact {
+            force: oil.force,
+            approach,
+            by_rate: oil.by_rate,
+            squeezes: oil.force > 0.0,
+            steep: oil.steep,
+            ..Contact::default()
+        };
         if approach <= 0.0 {
-            return Contact { approach, ..Contact::default() };
+            return film;
         }
-        let k = self.stiffness[side];
+        let growth = &self.growth[side];
         let (mut own, mut yields) = (approach, 1.0);
         if side == 1 && self.compliance > 0.0 {
-            // Newton from above on a convex function: δ + c K δ^1.5 = Δ.
+            // Newton from above on a convex function: δ + c Q(δ) = Δ.
             for _ in 0..200 {
-                let next = own - (own + self.compliance * k * own * own.sqrt() - approach) / self.softness(k, own);
+                let [force, slope] = growth.force(own);
+                let next = own - (own + self.compliance * force - approach) / (1.0 + self.compliance * slope);
                 let done = (next - own).abs() <= 1e-16 * own;
                 own = next;
                 if done {
                     break;
                 }
             }
-            yields = self.softness(k, own).powi(2);
+            yields = (1.0 + self.compliance * growth.force(own)[1]).powi(2);
         }
-        let root = k * own.sqrt();
+        let [elastic, slope] = growth.force(own);
         let damper = match self.damping {
-            Damping::HuntCrossley(chi) => root * own * chi,
-            Damping::Proportional(tau) => root * 1.5 * tau,
-        };
-        let force = root * own + damper * (rate / yields);
-        let pushes = force > 0.0;
-        Contact { force: force.max(0.0), approach, by_rate: damper / yields, pushes, over: None }
-    }
-
-    /// dΔ/dδ of a contact in series with the compliance.
-    fn softness(&self, k: f64, own: f64) -> f64 {
-        1.0 + 1.5 * self.compliance * k * own.sqrt()
+            Damping::HuntCrossley(chi) => elastic * chi,
+            Damping::Proportional(tau) => slope * tau,
+        } / yields;
+        let pushed = elastic + damper * rate;
+        let (pushes, force) = (pushed > 0.0, pushed.max(0.0));
+        // A damper that pushes with √δ is steep where δ is small: a force grows with less than δ^1.7.
+        let steep = oil.steep + if pushes { 1.7 * force / approach } else { 0.0 };
+        Contact { force: force + oil.force, by_rate: damper + oil.by_rate, pushes, steep, ..film }
     }
 
     /// Place, velocity and acceleration of a ring; the acceleration only if it is prescribed.
@@ -237,16 +278,17 @@ impl Bearing {
     }
 
     /// Both contacts of an element.
-    fn pushes(&self, j: usize, seat: &Seat, turns: &Turns, stretches: &Stretches) -> [Push; 2] {
+    fn pushes(&self, j: usize, seat: &Seat, (turns, films): (&Turns, [f64; 2]), stretches: &Stretches) -> [Push; 2] {
         let length = seat.q[0].hypot(seat.q[1]);
         let n = [seat.q[0] / length, seat.q[1] / length];
         let opening = n[0] * seat.q_rate[0] + n[1] * seat.q_rate[1];
-        let smooth = [self.rho_0 - self.clearance - length, seat.u];
+        // Paths count from the film outside; both films take from the clearance.
+        let smooth = [self.rho_0 - self.clearance + films[0] + films[1] - length, seat.u];
         let (apart, rates, outwards) = ([length, seat.rho], [-opening, seat.u_rate], [n, seat.e_r]);
         [0, 1].map(|side| {
             let over = self.over(side, j, seat, turns, stretches);
             let (path, slope, past) = over.as_ref().map_or((0.0, 0.0, 0.0), |over| (over.path, over.slope, over.rate));
-            let mut contact = self.contact(side, smooth[side] - path, rates[side] - slope * past);
+            let mut contact = self.contact(side, films[side], smooth[side] - path, rates[side] - slope * past);
             contact.over = over.as_ref().map(|over| over.which);
             let kappa = if slope == 0.0 { 0.0 } else { (slope / apart[side]).atan() };
             let away = if side == 0 { contact.force } else { -contact.force } * kappa.cos();
@@ -278,7 +320,7 @@ impl Bearing {
         for j in 0..self.count {
             let seat = self.seat(j, turns[0], &places, y);
             let ([cos, sin], rho) = (seat.e_r, seat.rho);
-            let pushes = self.pushes(j, &seat, &turns, &stretches[j]);
+            let pushes = self.pushes(j, &seat, (&turns, outside.films), &stretches[j]);
             let mut net = [self.mass * self.gravity[0], self.mass * self.gravity[1]];
             for (side, push) in pushes.iter().enumerate() {
                 for a in 0..2 {
@@ -310,6 +352,18 @@ impl Bearing {
         }
     }
 
+    /// Modes of a structure that the sensor's own acceleration shakes, and what it measures on top of them.
+    fn mode_rates(&self, y: &[f64], rates: &mut [f64], acting: &mut Acting) {
+        acting.measured = acting.sensor;
+        for (mode, at) in self.modes.iter().zip((self.first_mode()..).step_by(2)) {
+            let omega = TAU * mode.frequency_hz;
+            let [z, rate] = [y[at], y[at + 1]];
+            let bend = -acting.sensor - 2.0 * mode.damping_ratio * omega * rate - omega * omega * z;
+            (rates[at], rates[at + 1]) = (rate, bend);
+            acting.measured += mode.gain * bend + mode.quadrature_gain * omega * rate;
+        }
+    }
+
     fn ring_rates(
         &self,
         outside: &Outside,
@@ -326,6 +380,7 @@ impl Bearing {
             acting.sensor = -reaction / mass;
             (rates[SENSOR], rates[SENSOR + 1]) = (y[SENSOR + 1], acting.sensor);
         }
+        self.mode_rates(y, rates, acting);
         for which in 0..2 {
             let ring = &self.rings[which];
             for a in 0..2 {

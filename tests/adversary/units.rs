@@ -3,7 +3,7 @@
 //! The unit is what one step of the simulation may be wrong by: its tolerance times the largest approach, for velocities a
 //! thousand of that per second, and what follows from both for forces and accelerations.
 
-use crate::case::{Case, Damping, Defect, Motion};
+use crate::case::{Case, Damping, Defect, Mode, Motion};
 use crate::oracle::Bearing;
 use crate::oracle::envelope::Feature;
 use crate::oracle::signals::Kind;
@@ -73,12 +73,15 @@ pub fn units(bearing: &Bearing, case: &Case, largest: [f64; 2]) -> BTreeMap<Kind
     let velocity = 1e3 * case.tolerance * (approach + 1e-7);
     let (mut k, mut c) = (0.0f64, 0.0f64);
     for side in 0..2 {
-        let root = bearing.stiffness[side] * approach.sqrt();
-        k = k.max(1.5 * root);
-        c = c.max(match case.damping {
-            Damping::HuntCrossley(chi) => chi * root * approach,
-            Damping::Proportional(tau) => 1.5 * tau * root,
-        });
+        let [elastic, slope] = bearing.growth[side].force(approach);
+        let damper = match case.damping {
+            Damping::HuntCrossley(chi) => chi * elastic,
+            Damping::Proportional(tau) => tau * slope,
+        };
+        // Oil resists most where it is thinnest, to an element as fast as contacts throw it.
+        let fast = approach * (slope / bearing.mass).sqrt();
+        let oil = bearing.oil.as_ref().map(|oil| oil.resistance(side, 0.0, 0.0, fast)).unwrap_or_default();
+        (k, c) = (k.max(slope + oil.steep), c.max(damper + oil.by_rate));
     }
     let force = length * k + velocity * c;
     let shared = 1.0 + case.count as f64 / 3.0;
@@ -98,7 +101,8 @@ pub fn units(bearing: &Bearing, case: &Case, largest: [f64; 2]) -> BTreeMap<Kind
         let mass = if ring.motion == Motion::Internal { ring.mass } else { f64::INFINITY };
         units.insert(Kind::Acceleration(which), own / mass);
     }
-    units.insert(Kind::Acceleration(2), sensor / case.sensor.map_or(1.0, |[mass, ..]| mass));
+    let shown = 1.0 + case.modes.iter().map(Mode::amplification).sum::<f64>();
+    units.insert(Kind::Acceleration(2), shown * sensor / case.sensor.map_or(1.0, |[mass, ..]| mass));
     units
 }
 

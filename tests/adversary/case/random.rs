@@ -3,9 +3,11 @@
 //! Quantities are drawn against each other: a load by the approach that it causes, a support by the contacts' stiffness, a speed
 //! by how far it turns the cage in the time that can be computed. Otherwise most scenes would be either rigid or broken.
 
+use super::inputs::Inputs;
+use super::parts::{self, Elements};
 use super::shape::{self, Around};
 use super::whole::{self, Space};
-use super::{Case, Damping, Defect, Grooves, Host, Motion, On, Ring, Step};
+use super::{Case, Damping, Defect, Grooves, Motion, On, Ring, Step};
 use crate::draw::Draw;
 use crate::oracle::Bearing;
 use std::f64::consts::{PI, TAU};
@@ -18,6 +20,7 @@ pub struct Kind {
     pub motion: &'static str,
     pub speed: &'static str,
     pub outer_ring: &'static str,
+    pub elements: &'static str,
 }
 
 /// Element contacts' time steps that an oracle's run may take.
@@ -28,6 +31,7 @@ pub const PHASE: f64 = 0.03;
 /// A bearing while it is drawn.
 pub(super) struct Scale {
     pub(super) r: f64,
+    rollers: bool,
     raceway: f64,
     inner: f64,
     pub(super) approach: f64,
@@ -35,24 +39,41 @@ pub(super) struct Scale {
     stiffness: f64,
     mass: f64,
     /// Angular frequency of an element between its raceways [rad/s].
-    omega: f64,
+    pub(super) omega: f64,
 }
 
 /// A random scene of the whole space.
 pub fn random(draw: &mut Draw) -> (Kind, Case) {
-    scene(draw, Space::Whole)
+    let apart = draw.apart();
+    scene(draw, Space::Whole, Some(apart))
+}
+
+/// One of dry balls and plain sensors, as all were once; what failed then has its seed there.
+pub fn of_dry_balls(draw: &mut Draw) -> (Kind, Case) {
+    scene(draw, Space::Whole, None)
 }
 
 /// One whose defect is on an outer raceway at rest, as all were once; what failed then has its seed there.
 pub fn on_the_outer_raceway(draw: &mut Draw) -> (Kind, Case) {
-    scene(draw, Space::OuterRaceway)
+    scene(draw, Space::OuterRaceway, None)
 }
 
-fn scene(draw: &mut Draw, space: Space) -> (Kind, Case) {
+/// What rolls and what lies between is drawn `apart`; dry balls without.
+fn scene(draw: &mut Draw, space: Space, mut apart: Option<Draw>) -> (Kind, Case) {
     let mut case = bearing(draw);
+    let elements = apart.as_mut().map_or(Elements::Balls, Elements::random);
+    if let Some(apart) = &mut apart
+        && elements == Elements::Rollers
+    {
+        parts::rollers(apart, &mut case);
+    }
     let scale = loads_and_damping(draw, &mut case);
     rings(draw, &mut case, &scale);
-    let mut kind = Kind { on: "none", defect: "no defect", motion: motion_name(&case), ..Kind::default() };
+    if let Some(apart) = &mut apart {
+        parts::add(apart, &mut case, elements, &scale);
+    }
+    let (motion_of, rolls) = (motion_name(&case), parts::name(&case));
+    let mut kind = Kind { on: "none", defect: "no defect", motion: motion_of, elements: rolls, ..Kind::default() };
     if draw.chance(0.8) {
         let on = space.body(draw, case.count);
         let (name, defect) = defect(draw, space, &scale, (on, f64::INFINITY));
@@ -79,7 +100,9 @@ fn defect(draw: &mut Draw, space: Space, scale: &Scale, (on, most): (On, f64)) -
         false => shape::random(draw, &around),
     };
     let mut defect = Defect { on, angle_deg: draw.between(-180.0, 180.0), shape };
-    space.tilt(draw, &mut defect, scale.r);
+    if !scale.rollers {
+        space.tilt(draw, &mut defect, scale.r);
+    }
     (name, defect)
 }
 
@@ -171,6 +194,9 @@ fn bearing(draw: &mut Draw) -> Case {
         speed_hz: 0.0,
         housing_hz: None,
         sensor: None,
+        roller: None,
+        film: None,
+        modes: Vec::new(),
         tolerance: draw.pick(&[1e-5, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9]),
         steps: Vec::new(),
     }
@@ -180,7 +206,7 @@ fn loads_and_damping(draw: &mut Draw, case: &mut Case) -> Scale {
     let r = case.diameter_mm * 0.5e-3;
     let approach = r * draw.log(1e-5, 4e-3);
     let bearing = Bearing::smooth(case);
-    let [k_i, k_o] = bearing.stiffness.map(|k| 1.5 * k * (0.5 * approach).sqrt());
+    let [k_i, k_o] = [0, 1].map(|side| bearing.growth[side].force(0.5 * approach)[1]);
     let stiffness = k_i * k_o / (k_i + k_o);
     let omega = ((k_i + k_o) / bearing.mass).sqrt();
     case.compliance = if draw.chance(0.7) { 0.0 } else { draw.log(1e-3, 10.0) / k_o };
@@ -192,7 +218,8 @@ fn loads_and_damping(draw: &mut Draw, case: &mut Case) -> Scale {
         Damping::Proportional(if draw.chance(0.15) { 0.0 } else { (draw.log(1e-3, 3.0) / omega).min(1.0) })
     };
     let inner = bearing.rho_0 - bearing.clearance - r;
-    Scale { r, raceway: bearing.rho_0 + r, inner, approach, stiffness, mass: bearing.mass, omega }
+    let rollers = case.roller.is_some();
+    Scale { r, rollers, raceway: bearing.rho_0 + r, inner, approach, stiffness, mass: bearing.mass, omega }
 }
 
 /// What moves the rings, and with what.
@@ -244,13 +271,13 @@ pub fn fastest(case: &Case, approach: [f64; 2]) -> f64 {
     let bearing = Bearing::smooth(case);
     let (mut stiff, mut damped) = (0.0, 0.0);
     for side in 0..2 {
-        let root = bearing.stiffness[side] * approach[side].max(0.0).sqrt();
-        let k = 1.5 * root;
+        let [force, k] = bearing.growth[side].force(approach[side].max(0.0));
         stiff += k;
         damped += match case.damping {
-            Damping::HuntCrossley(chi) => chi * root * approach[side].max(0.0),
+            Damping::HuntCrossley(chi) => chi * force,
             Damping::Proportional(tau) => tau * k,
         };
+        damped += bearing.oil.as_ref().map_or(0.0, |oil| oil.strongest(side));
     }
     let loaded = (case.count as f64 / 3.0).max(1.0);
     let mut rate = (stiff / bearing.mass).sqrt() + damped / bearing.mass;
@@ -262,7 +289,7 @@ pub fn fastest(case: &Case, approach: [f64; 2]) -> f64 {
         let mass = if case.rings[1].motion == Motion::Internal { mass.min(case.rings[1].mass) } else { mass };
         rate = rate.max((stiffness / mass).sqrt() + damping / mass);
     }
-    rate
+    case.modes.iter().fold(rate, |rate, mode| rate.max(TAU * mode.frequency_hz * (1.0 + 2.0 * mode.damping_ratio)))
 }
 
 /// Time [s] that an oracle of the usual step can go through.
@@ -314,95 +341,4 @@ fn motion(draw: &mut Draw, case: &mut Case, scale: &Scale, (time, way): (f64, [f
         case.steps.push(Step { length, host: (!silent).then_some(host) });
     }
     way
-}
-
-/// What the host feeds.
-struct Inputs {
-    internal: [bool; 2],
-    /// Around which a ring's input moves, how far, and how fast [1/s].
-    middle: [[f64; 2]; 2],
-    swing: [[f64; 2]; 2],
-    rate: f64,
-    phase: f64,
-    time: f64,
-    /// Speeds at the start and now; the outer ring's if it turns.
-    start: [f64; 2],
-    speeds: [f64; 2],
-    turns: bool,
-}
-
-impl Inputs {
-    fn new(draw: &mut Draw, case: &Case, scale: &Scale, time: f64) -> Self {
-        let internal = case.rings.map(|ring| ring.motion == Motion::Internal);
-        let half = 0.5 * case.clearance_um * 1e-6;
-        let push = half + 1.5 * scale.approach * draw.between(0.1, 1.0);
-        let mut middle = [[0.0; 2]; 2];
-        let mut swing = [[0.0; 2]; 2];
-        let moves = draw.chance(0.7);
-        for which in 0..2 {
-            middle[which] = if internal[which] {
-                case.rings[which].load
-            } else if case.rings[which].motion == Motion::Host {
-                let size = push.min(9e-3) * if internal[1 - which] { draw.unit() } else { 0.5 };
-                draw.vector(size)
-            } else {
-                [0.0; 2]
-            };
-            let size = middle[which][0].hypot(middle[which][1]);
-            let part = if internal[which] { size } else { scale.approach.min(5e-4) };
-            let size = if moves { part * draw.log(0.01, 1.0) } else { 0.0 };
-            swing[which] = draw.vector(size);
-        }
-        if case.rings.iter().all(|ring| ring.motion != Motion::Internal) {
-            // Both rings are moved or held: let them press somewhere.
-            let size = push.min(9e-3);
-            middle[0] = draw.vector(size);
-            middle[1] = [0.0; 2];
-        }
-        let rate = draw.log(0.3, 30.0) / time;
-        let (start, turns) =
-            ([case.speed_hz, case.housing_hz.unwrap_or(0.0)].map(|hz| hz * TAU), case.housing_hz.is_some());
-        let phase = draw.between(0.0, TAU);
-        Self { internal, middle, swing, rate, phase, time: 0.0, start, speeds: start, turns }
-    }
-
-    /// Speed of a ring before a step of this length and its slope.
-    fn speed(&mut self, draw: &mut Draw, way: &str, (which, length): (usize, f64)) -> [f64; 2] {
-        let (start, speed) = (self.start[which], &mut self.speeds[which]);
-        let slope = match way {
-            "ramp" => start * draw.between(-0.5, 0.5) / length,
-            // Stands still somewhere within the step, or has not quite by its end.
-            "reversal" => -*speed / length * draw.between(0.5, 3.0),
-            _ => 0.0,
-        };
-        if way == "jumps" && draw.chance(0.5) {
-            *speed = start * draw.between(-1.0, 1.0);
-        }
-        let before = *speed;
-        *speed = (before + slope * length).clamp(-1e5, 1e5);
-        [before, slope]
-    }
-
-    /// What is set before a step of this length.
-    fn next(&mut self, draw: &mut Draw, way: &str, length: f64) -> Host {
-        let mut speeds = [self.speed(draw, way, (0, length)), [0.0; 2]];
-        if self.turns {
-            speeds[1] = self.speed(draw, way, (1, length));
-        }
-        let angle = self.rate * self.time + self.phase;
-        let (sin, cos) = angle.sin_cos();
-        let jump = draw.chance(0.2);
-        let rings = [0, 1].map(|which| {
-            [0, 1].map(|a| {
-                let swing = self.swing[which][a];
-                let [value, first, second] =
-                    [swing * sin, self.rate * swing * cos, -self.rate * self.rate * swing * sin];
-                let held = jump && self.internal[which];
-                let value = self.middle[which][a] + value;
-                if held { [value, 0.0, 0.0] } else { [value, first, second] }
-            })
-        });
-        self.time += length;
-        Host { speeds, rings }
-    }
 }

@@ -75,7 +75,8 @@ impl Case {
         case
     }
 
-    /// With all lengths, forces and times multiplied.
+    /// With all lengths, forces and times multiplied. Rollers stay similar by forces that grow as areas, and oil does not, as asperities
+    /// have their height.
     pub fn scaled(&self, by: Factors) -> Self {
         let Factors { length, force, time } = by;
         let mass = force * time * time / length;
@@ -105,6 +106,10 @@ impl Case {
         case.speed_hz /= time;
         case.housing_hz = case.housing_hz.map(|speed| speed / time);
         case.sensor = case.sensor.map(|[m, k, c]| [m * mass, k * force / length, c * force * time / length]);
+        if let Some(roller) = &mut case.roller {
+            roller.length_mm *= length;
+        }
+        case.modes.iter_mut().for_each(|mode| mode.frequency_hz /= time);
         for step in &mut case.steps {
             step.length *= time;
         }

@@ -147,7 +147,7 @@ impl Meeting {
         };
         let [normal, tangential] = solver.forces(place.u, high, mean);
         // As the laws do: what the grid makes of the smooth raceway at this force is Hertz's.
-        let stiffness = self.bearing.stiffness[usize::from(outside(self.pair))];
+        let stiffness = self.bearing.growth[usize::from(outside(self.pair))].constant();
         let own = (normal.max(1e-12) / stiffness).cbrt().powi(2);
         let smooth = solver.forces(own, high + place.u - own, |_, _| 0.0)[0];
         let hertz = stiffness * own.powf(1.5) / smooth;
@@ -253,7 +253,7 @@ fn on_the_outer_raceway(draw: &mut Draw) -> Result<(), String> {
     let meeting = Meeting::new(&case, Pair::OuterRing, &shape);
     let at = draw.between(-0.6, 0.6) * shape.length(meeting.own());
     let mut case = over(&pressed(&case, approach), &meeting, at);
-    let smooth = meeting.bearing.stiffness[1] * approach.powf(1.5);
+    let smooth = meeting.bearing.growth[1].constant() * approach.powf(1.5);
     (case.law, case.grid) = ("love", grid(smooth, [24, 16]));
     agrees(&case, &meeting, smooth)
 }
@@ -274,7 +274,8 @@ fn the_oracle_refines_its_grid_at_an_edge_until_it_has_converged() {
 fn anywhere(draw: &mut Draw, law: &'static str) -> Result<(), String> {
     let (mut case, approach) = standing(draw);
     let pair = draw.pick(&[Pair::InnerRing, Pair::ElementOutside, Pair::ElementInside, Pair::OuterRing]);
-    let (half, smooth) = (half_contact(&case, approach), Bearing::smooth(&case).stiffness[1] * approach.powf(1.5));
+    let (half, smooth) =
+        (half_contact(&case, approach), Bearing::smooth(&case).growth[1].constant() * approach.powf(1.5));
     let shape = shape(draw, half, approach);
     let meeting = Meeting::new(&case, pair, &shape);
     let length = shape.length(meeting.own());
@@ -289,7 +290,7 @@ fn anywhere(draw: &mut Draw, law: &'static str) -> Result<(), String> {
     }
     (case.law, case.grid) = (law, grid(smooth, if law == "map" { [16, 12] } else { [24, 16] }));
     // On its way over the defect, some vibrations of the element long.
-    let omega = (3.0 * meeting.bearing.stiffness[0] * approach.sqrt() / meeting.bearing.mass).sqrt();
+    let omega = (3.0 * meeting.bearing.growth[0].constant() * approach.sqrt() / meeting.bearing.mass).sqrt();
     let past = meeting.bearing.past(Some(case.defects[0].on), [1.0, 0.0]).abs();
     let time = draw.between(3.0, 30.0) / omega;
     let speed = (0.3 * length / meeting.own() / (past * time)).min(5e4) * draw.sign();

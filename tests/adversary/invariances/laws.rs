@@ -38,6 +38,9 @@ pub(super) fn standing(draw: &mut Draw) -> (Case, f64) {
         speed_hz: 0.0,
         housing_hz: None,
         sensor: None,
+        roller: None,
+        film: None,
+        modes: Vec::new(),
         tolerance: 1e-6,
         steps: Vec::new(),
     };
@@ -49,7 +52,7 @@ pub(super) fn standing(draw: &mut Draw) -> (Case, f64) {
 pub(super) fn pressed(case: &Case, approach: f64) -> Case {
     let bearing = Bearing::smooth(case);
     // Both contacts carry the same.
-    let inner = approach * (bearing.stiffness[1] / bearing.stiffness[0]).cbrt().powi(2);
+    let inner = approach * (bearing.growth[1].constant() / bearing.growth[0].constant()).cbrt().powi(2);
     let (sin, cos) = case.cage_deg.to_radians().sin_cos();
     let way = bearing.clearance + inner + approach;
     let place = [[way * cos, 0.0, 0.0], [way * sin, 0.0, 0.0]];
@@ -59,7 +62,7 @@ pub(super) fn pressed(case: &Case, approach: f64) -> Case {
 
 /// The grid for a force that is a few times the standing one.
 fn grid(case: &Case, approach: f64, cells: [u32; 2]) -> (f64, [u32; 2], f64) {
-    (4.0 * Bearing::smooth(case).stiffness[1] * approach.powf(1.5), cells, 0.02)
+    (4.0 * Bearing::smooth(case).growth[1].constant() * approach.powf(1.5), cells, 0.02)
 }
 
 /// Path of the element, and the raceway's force on it, radial inwards and along the raceway counter-clockwise.

@@ -62,7 +62,7 @@ impl Run<'_> {
     /// The signals now, after a communication step of this length, in the order of [`signals`].
     pub fn values(&self, length: f64) -> Vec<f64> {
         let mut found = Vec::new();
-        let impulses = &self.y[ELEMENTS + 2 * self.bearing.count..];
+        let impulses = &self.y[ELEMENTS + 2 * self.bearing.count..][..4];
         for which in 0..2 {
             found.extend(self.acting.rings[which]);
             match self.bearing.rings[which].motion {
@@ -88,7 +88,7 @@ impl Run<'_> {
             }
         }
         if self.bearing.sensor.is_some() {
-            found.push(self.acting.sensor);
+            found.push(self.acting.measured);
         }
         found.extend([cage, self.acting.torque]);
         for j in 0..self.bearing.count {

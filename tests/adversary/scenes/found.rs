@@ -1,7 +1,7 @@
 //! Scenes that have failed once, each with what was wrong.
 
 use super::judge::{Verdict, judge, start};
-use crate::case::{Case, Damping, Grooves, Motion, Ring, Step, on_the_outer_raceway, random};
+use crate::case::{Case, Damping, Grooves, Motion, Ring, Step, of_dry_balls, on_the_outer_raceway};
 use crate::draw::Draw;
 use crate::oracle::Bearing;
 use crate::oracle::signals::signals;
@@ -40,6 +40,9 @@ fn few_elements(count: usize, cage_deg: f64, clearance_um: f64) -> Case {
         speed_hz: 10.0,
         housing_hz: None,
         sensor: None,
+        roller: None,
+        film: None,
+        modes: Vec::new(),
         tolerance: 1e-5,
         steps: vec![Step { length: 1e-6, host: None }],
     }
@@ -188,20 +191,20 @@ fn a_shaft_that_dampers_let_go_finds_the_balance_of_its_support() {
 /// never met: a spike of 0.15 µm, and 2e-3 of the force.
 #[test]
 fn a_spike_half_way_around_from_the_next_defect_is_felt() {
-    agreed(98, judge(&random(&mut Draw::new(98)).1));
+    agreed(98, judge(&of_dry_balls(&mut Draw::new(98)).1));
 }
 
 /// A topography has no envelope, but it has a length: the oracle had not looked for an overlap with it.
 #[test]
 fn a_trace_over_a_topography_is_refused_as_an_overlap() {
-    let verdict = judge(&random(&mut Draw::new(26)).1);
+    let verdict = judge(&of_dry_balls(&mut Draw::new(26)).1);
     assert!(matches!(verdict, Verdict::Refused(SimulationError::Surface(SurfaceError::Overlap { .. }))));
 }
 
 /// One element of 58 µm that nothing loads: what is left on it at the start is below what the search counts as none.
 #[test]
 fn a_start_without_a_load_leaves_what_counts_as_none() {
-    agreed(8, judge(&random(&mut Draw::new(8)).1));
+    agreed(8, judge(&of_dry_balls(&mut Draw::new(8)).1));
 }
 
 /// The start alone, which is a balance and has the oracle's forces.

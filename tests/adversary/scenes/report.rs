@@ -9,8 +9,8 @@ use std::fmt::{self, Display, Formatter, Write};
 /// What came of one scene. As text it is a line of fields between tabs, so that a long run can be broken off and taken up.
 pub struct Entry {
     pub seed: u64,
-    /// Body with the defect, its shape, motion of the rings, whether the outer one turns, speed.
-    names: [String; 5],
+    /// Body with the defect, its shape, motion of the rings, whether the outer one turns, speed, what rolls.
+    names: [String; 6],
     tolerance: f64,
     pub came: Came,
 }
@@ -36,7 +36,7 @@ impl Entry {
         };
         Self {
             seed,
-            names: [kind.on, kind.defect, kind.motion, kind.outer_ring, kind.speed].map(str::to_owned),
+            names: [kind.on, kind.defect, kind.motion, kind.outer_ring, kind.speed, kind.elements].map(str::to_owned),
             tolerance,
             came,
         }
@@ -47,7 +47,7 @@ impl Entry {
         let mut fields = line.split('\t');
         let seed = fields.next()?.parse().ok()?;
         let mut name = || fields.next().map(str::to_owned);
-        let names = [name()?, name()?, name()?, name()?, name()?];
+        let names = [name()?, name()?, name()?, name()?, name()?, name()?];
         let tolerance = fields.next()?.parse().ok()?;
         let (verdict, rest) = (fields.next()?, fields.collect::<Vec<_>>());
         let came = match (verdict, &rest[..]) {
@@ -142,7 +142,7 @@ impl<'a> Tally<'a> {
         for tolerance in [1e-5, 1e-6, 1e-7, 1e-8, 1e-9] {
             self.row(text, &format!("{tolerance:.0e}"), |entry| entry.tolerance == tolerance);
         }
-        for (title, columns) in [("defect on", 0..1), ("defect", 1..2), ("rings; speed", 2..5)] {
+        for (title, columns) in [("defect on", 0..1), ("defect", 1..2), ("rings; speed", 2..5), ("elements", 5..6)] {
             *text +=
                 &format!("\n| {title} | scenes | median | 90 % | 99 % | worst |\n|---|---:|---:|---:|---:|---:|\n");
             for which in columns {
