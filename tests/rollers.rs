@@ -2,10 +2,11 @@
 #![allow(clippy::unwrap_used)]
 
 use RollerProfile::{Logarithmic, Straight};
+use brinell::contact::elasticity::Elasticity;
 use brinell::contact::rolling::RacewaySide;
 use brinell::contact::smooth_laws::elastic_law;
 use brinell::geometry::line_contact::logarithmic_depth;
-use brinell::scene::{Bearing, Crown, Roller, RollerProfile, RollingElement, Scene};
+use brinell::scene::{Bearing, ContactLaw, Crown, Roller, RollerProfile, RollingElement, Scene};
 use brinell::simulation::Simulation;
 use brinell_analysis::static_bearing::StaticBearing;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, PI, TAU};
@@ -40,6 +41,22 @@ fn found(bearing: Bearing, load: f64) -> [f64; 2] {
     let bearing = under(bearing, load);
     let balance = bearing.balance(-FRAC_PI_2, bearing.load()).unwrap();
     [-balance.displacement[1] * 1e6, balance.held_stiffness() * 1e-6]
+}
+
+/// Setting a scene up asks for the table of its crown several times, and so does every run of a sweep.
+#[test]
+fn one_table_serves_all_who_ask_for_a_crown_and_no_other() {
+    let table = |profile: RollerProfile, length: f64| {
+        let bearing = rollers((13, 7.5e-3, length, 39e-3), profile, 0.0);
+        match elastic_law(&bearing, RacewaySide::Inner).elasticity {
+            Elasticity::Crowned(table) => table,
+            other => panic!("{other:?}"),
+        }
+    };
+    let first = table(Logarithmic, 9e-3);
+    let other = table(Logarithmic, 10e-3);
+    assert!(Arc::ptr_eq(&first, &table(Logarithmic, 9e-3)) && !Arc::ptr_eq(&first, &other));
+    assert_ne!(first, other);
 }
 
 /// Displacement, stiffness, and stiffness over the cage angle as the standard gives them.
@@ -195,4 +212,28 @@ fn a_measured_crown_of_the_standards_shape_gives_the_standards_bearing() {
     // Without its file there is no roller, and no straight one instead.
     let missing = Simulation::new(scene(measured), None).unwrap_err().to_string();
     assert!(missing.contains("crown.csv"), "{missing}");
+}
+
+/// The sweep of `brinell stiffness` over a spall of 1.2 mm comes to such a place: it ended with a load of nothing.
+#[test]
+fn a_crowned_roller_just_past_an_edge_has_its_critical_load() {
+    let mut scene = Scene::from_toml(include_str!("../scenes/nu205-inner.toml")).unwrap();
+    (scene.contact.law, scene.shaft_initial_angle) = (ContactLaw::Hertz, 0.2);
+    let bearing = StaticBearing::new(&scene, None).unwrap();
+    let bottom = bearing.bottom().unwrap();
+    let edge = bottom.middle + 0.5 * bearing.defect_length().unwrap();
+    let load = |past: f64| bearing.critical_load_at(edge - past).unwrap().map(|found| found.load);
+    // From 4e-17 m below the edge on: far less than the crown's first lamina carries with. On its way in an element is
+    // squeezed by any load at all.
+    let loads = [3e-8, 1e-6, 1e-5, 1e-3].map(|past| load(past).unwrap());
+    assert!(loads.iter().all(|load| (0.0..1e-9).contains(load)), "{loads:?}");
+    assert!(load(1e-2).unwrap() > 100.0 && load(-1e-6).is_none());
+    // All over a spacing, at the depths that the command's variations have.
+    for factor in [1e-3, 0.1, 1.0] {
+        let bearing = bearing.with_depth_times(factor).unwrap();
+        for i in 0..=200 {
+            let found = bearing.critical_load_at(edge - 0.5 + f64::from(i) * 2.5e-3);
+            assert!(found.is_ok(), "{factor} {i}: {}", found.unwrap_err());
+        }
+    }
 }

@@ -14,6 +14,7 @@
 //! and by 6 %; 40 laminae and 640 differ by 2e-4. The force is one of one variable, so its energy is its integral.
 
 use crate::numerics::ninth_root;
+use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 /// Steps of the table.
 const NODES: usize = 2048;
@@ -21,10 +22,21 @@ const NODES: usize = 2048;
 /// The part of a crowned roller that carries, as a table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Crown {
+    /// Of the laminae [m].
+    depths: Vec<f64>,
     /// P̄ [m].
     mean_depth: f64,
     /// Coefficients of c over the distance from the step's beginning, in steps.
     cubics: Vec<[f64; 4]>,
+}
+
+/// Tables that are in use, and the last one that was asked for: setting a scene up asks for its roller's several times,
+/// and so does every run of a sweep.
+static KNOWN: Mutex<Known> = Mutex::new(Known { last: None, in_use: Vec::new() });
+
+struct Known {
+    last: Option<Arc<Crown>>,
+    in_use: Vec<Weak<Crown>>,
 }
 
 /// Force and derivatives over K δ^(10/9).
@@ -39,6 +51,21 @@ pub struct Carrying {
 }
 
 impl Crown {
+    /// As [`new`](Self::new), once for all who ask while it is in use.
+    pub fn shared(depths: &[f64]) -> Arc<Self> {
+        let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = known().in_use.iter().filter_map(Weak::upgrade).find(|crown| crown.depths == depths);
+        // Outside of the lock: others need not wait while a table is made.
+        let crown = found.unwrap_or_else(|| Arc::new(Self::new(depths)));
+        let mut known = known();
+        if !known.in_use.iter().any(|other| other.as_ptr() == Arc::as_ptr(&crown)) {
+            known.in_use.retain(|other| other.strong_count() > 0);
+            known.in_use.push(Arc::downgrade(&crown));
+        }
+        known.last = Some(Arc::clone(&crown));
+        crown
+    }
+
     /// The crown of these depths [m] of a roller's laminae, not all of them 0.
     pub fn new(depths: &[f64]) -> Self {
         let mean_depth = depths.iter().sum::<f64>() / depths.len() as f64;
@@ -50,7 +77,7 @@ impl Crown {
         };
         let nodes: Vec<[f64; 2]> = (0..=NODES).map(node).collect();
         let cubics = nodes.windows(2).map(|pair| monotonic([pair[0], pair[1]])).collect();
-        Self { mean_depth, cubics }
+        Self { depths: depths.to_vec(), mean_depth, cubics }
     }
 
     /// P̄ [m].

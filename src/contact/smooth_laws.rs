@@ -7,10 +7,8 @@ use super::rolling::RacewaySide;
 use crate::geometry::hertz_constant::HertzConstants;
 use crate::geometry::line_contact::{lamina_depths, line_constant};
 use crate::scene::{Bearing, Damping};
-use std::sync::Arc;
 
-/// Laws of the contacts with the smooth raceways, the inner one first, with this damping; the table of a crown is made
-/// anew.
+/// Laws of the contacts with the smooth raceways, the inner one first, with this damping.
 pub fn smooth_laws(bearing: &Bearing, damping: Damping) -> [ForceLaw; 2] {
     let Some(roller) = bearing.roller() else {
         let hertz = HertzConstants::of(bearing);
@@ -22,7 +20,7 @@ pub fn smooth_laws(bearing: &Bearing, damping: Damping) -> [ForceLaw; 2] {
     };
     let depths = lamina_depths(roller, bearing.element_diameter);
     let straight = depths.iter().all(|&depth| depth == 0.0);
-    let elasticity = if straight { Elasticity::Line } else { Elasticity::Crowned(Arc::new(Crown::new(&depths))) };
+    let elasticity = if straight { Elasticity::Line } else { Elasticity::Crowned(Crown::shared(&depths)) };
     let law = ForceLaw { stiffness: line_constant(roller.length), elasticity, damping };
     [law.clone(), law]
 }

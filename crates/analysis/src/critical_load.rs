@@ -17,6 +17,8 @@
 //! with the contacts is the crudest allowance for that.
 
 use super::static_bearing::{StaticBearing, StaticError};
+use brinell::contact::elasticity::Elasticity;
+use brinell::contact::force_law::ForceLaw;
 use brinell::scene::DefectOn;
 
 /// A critical load and where it belongs.
@@ -121,8 +123,13 @@ impl StaticBearing {
             let balance = self.balance(cage_angle, [x / length * load, y / length * load])?;
             Ok(inside.iter().map(|&j| balance.elements[j].inner_approach).fold(f64::NEG_INFINITY, f64::max))
         };
-        // That of one contact squeezed by the depth: the scale of loads here.
-        let scale = self.model.outer.contact.law.elastic(deepest);
+        // That of one contact squeezed by the depth: the scale of loads here. The crown of a roller that is barely inside
+        // carries nothing yet.
+        let law = self.model.outer.contact.law.clone();
+        let scale = match law.elasticity {
+            Elasticity::Crowned(_) => ForceLaw { elasticity: Elasticity::Line, ..law }.elastic(deepest),
+            Elasticity::Point | Elasticity::Line => law.elastic(deepest),
+        };
         let load = crossing(squeeze, scale)?;
         Ok(load.map(|load| CriticalLoad { load, cage_angle, elements: inside.len() }))
     }
