@@ -40,8 +40,9 @@ pub struct EdgeSoftness {
 }
 
 impl EdgeSoftness {
-    /// That of steps in a body of this Poisson's ratio. Beyond four half-axes a step differs from an end by 3 % of force
-    /// and less, and would be felt far along the raceway.
+    /// That of steps in a body of this Poisson's ratio. Deeper ones than four half-axes would be felt far along the
+    /// raceway: as deep as that, a step leaves a ball on its edge 9 to 14 % more force than an end, and 16 to 23 % more
+    /// two half-axes inside.
     pub fn of_steps(poissons_ratio: f64) -> Self {
         Self { factor: 0.5 * image_factor(poissons_ratio), deepest: 4.0 }
     }
