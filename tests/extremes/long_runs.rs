@@ -1,14 +1,14 @@
 //! Communication steps of every length, and a long run.
 
 use crate::row::Row;
-use crate::scenes::{hosted, spalled};
+use crate::scenes::Kind;
 use crate::support::Named;
 use brinell::geometry::kinematics::cage_ratio;
 use std::f64::consts::TAU;
 
-pub fn communication_steps() -> Row {
+pub fn communication_steps(kind: Kind) -> Row {
     let end = |steps: &[f64], stop: f64, load_factor: f64| {
-        let mut scene = spalled();
+        let mut scene = kind.spalled();
         scene.tolerance = 1e-10;
         scene.shaft.load[1] *= load_factor;
         let mut bearing = Named::started(scene);
@@ -53,8 +53,8 @@ pub fn communication_steps() -> Row {
     )
 }
 
-pub fn one_minute() -> Row {
-    let mut scene = hosted();
+pub fn one_minute(kind: Kind) -> Row {
+    let mut scene = kind.hosted();
     scene.bearing.element_count = 3;
     scene.shaft_speed = 25.0 * TAU;
     let omega = scene.shaft_speed * cage_ratio(&scene.bearing, 0.0);

@@ -1,7 +1,7 @@
 //! The two methods beside each other.
 
 use crate::row::Row;
-use crate::scenes::{hosted, lighter, spalled};
+use crate::scenes::{BALLS, lighter};
 use crate::support::Named;
 use brinell::scene::Scene;
 use brinell::simulation::Method;
@@ -35,8 +35,8 @@ pub fn agree(what: &'static str, scene: Scene, step: f64, count: usize, limit: f
 
 #[test]
 fn a_saved_state_continues_with_the_same_bits_while_the_methods_take_turns() {
-    let mut bearing = Named::started(lighter(spalled(), 0.01));
-    let mut other = Named::started(lighter(spalled(), 0.01));
+    let mut bearing = Named::started(lighter(BALLS.spalled(), 0.01));
+    let mut other = Named::started(lighter(BALLS.spalled(), 0.01));
     let names = ["shaft.y", "housing.ay", "element[1].path", "element[1].force.outer"];
     let (mut turns, mut last) = (0, bearing.0.step_counts());
     for _ in 0..100 {
@@ -62,7 +62,7 @@ fn a_saved_state_continues_with_the_same_bits_while_the_methods_take_turns() {
 #[test]
 fn mean_forces_of_both_methods_agree() {
     let mean = |method: Method| {
-        let mut bearing = Named::started(hosted());
+        let mut bearing = Named::started(BALLS.hosted());
         bearing.0.set_method(method);
         bearing.set("shaft.y", -1e-5);
         bearing.run(1e-3, 1);

@@ -20,6 +20,8 @@ struct Run {
     paths: Vec<Vec<f64>>,
     outer: Vec<Vec<f64>>,
     inner: Vec<Vec<f64>>,
+    /// Integration steps taken, and those refused.
+    steps: [i32; 2],
 }
 
 impl Run {
@@ -39,6 +41,7 @@ impl Run {
         bearing.0.initialize(0.0).unwrap();
         move_element(&mut bearing, 5, moved);
         bearing.run(1e-4, (STOP / 1e-4).round() as usize);
+        let steps = ["solver.steps", "solver.rejected_steps"].map(|name| bearing.count(name));
         let recorder = bearing.0.recorder().unwrap();
         let table = bearing.0.table();
         let names: Vec<&str> = recorder.references().map(|r| table[r as usize].name.as_str()).collect();
@@ -53,6 +56,7 @@ impl Run {
             paths: of_elements("path"),
             outer: of_elements("force.outer"),
             inner: of_elements("force.inner"),
+            steps,
         }
     }
 
@@ -151,8 +155,27 @@ fn outline(runs: [(&str, &Run); 2]) -> String {
     text
 }
 
-/// How a difference grows in the dry bearing, how with oil, and what growth makes of tolerances: three tables.
-pub fn tables() -> [String; 3] {
+/// What oil changes for contacts and for steps.
+fn oil([dry, oiled]: [&Run; 2]) -> String {
+    let [before, after] = [dry, oiled].map(|run| run.events()[1]);
+    let [dry, oiled] = [("er16k-tb1", TOLERANCES[2]), ("er16k-tb1-oil", TOLERANCES[2])]
+        .map(|(scene, tolerance)| Run::of(scene, tolerance, 0.0).steps);
+    format!(
+        "A contact counts as begun here where its force begins, which with oil is where the gap begins to close: the outer\n\
+         raceway is felt {:.1} ms before it is touched. What the loaded elements do hardly changes. Steps are fewer, as\n\
+         nothing bounces: {} over 0.1 s at the default tolerance, {} of them refused, where the dry bearing takes {} and\n\
+         refuses {}.\n",
+        1e3 * (before - after),
+        oiled[0],
+        oiled[1],
+        dry[0],
+        dry[1]
+    )
+}
+
+/// How a difference grows in the dry bearing, how with oil and what that changes besides, and what growth makes of
+/// tolerances: each with the place that it has on the page.
+pub fn tables() -> [(&'static str, String); 4] {
     let exact = Run::new(TIGHTEST, 0.0);
     let moved = Run::new(TIGHTEST, 1e-12);
     let (from, to) = (5e-3, 50e-3);
@@ -166,6 +189,7 @@ pub fn tables() -> [String; 3] {
     )
     .unwrap();
     let oiled = [0.0, 1e-12].map(|moved| Run::of("er16k-tb1-oil", TIGHTEST, moved));
+    let changed = oil([&exact, &oiled[0]]);
     let oiled = growth([&oiled[0], &oiled[1]]) + "\n" + &outline([("dry", &exact), ("with oil", &oiled[0])]);
 
     let mut text = "| tolerance | error of `housing.ay`, 0–10 ms | 10–20 ms | 20–30 ms | 50–100 ms | its rms, 0–50 ms | 50–100 ms | \
@@ -182,7 +206,12 @@ pub fn tables() -> [String; 3] {
     }
     text += &line("1e-12, moved by 1e-12 m".to_owned(), &moved);
     text += &line("1e-12".to_owned(), &exact);
-    [dry, oiled, text]
+    [
+        ("<!-- growth -->\n", dry),
+        ("<!-- growth with oil -->\n", oiled),
+        ("<!-- what oil changes -->\n", changed),
+        ("<!-- tolerances -->\n", text),
+    ]
 }
 
 #[test]
@@ -219,4 +248,11 @@ fn oil_lets_a_small_difference_die_away() {
         assert!(moved.distance(&exact, time) < 1e-12, "{time}: {:e}", moved.distance(&exact, time));
     }
     assert!(exact.bounces(STOP) > 100, "nothing bounced: the comparison shows nothing");
+}
+
+#[test]
+fn with_oil_nothing_bounces_and_steps_are_fewer() {
+    let [dry, oiled] = ["er16k-tb1", "er16k-tb1-oil"].map(|scene| Run::of(scene, TOLERANCES[2], 0.0).steps);
+    println!("steps taken and refused, dry {dry:?}, with oil {oiled:?}");
+    assert!(oiled[0] < dry[0] && oiled[1] < dry[1], "{dry:?} {oiled:?}");
 }

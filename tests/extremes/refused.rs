@@ -1,7 +1,7 @@
 //! Extremes that no simulation can answer: a clear error, and no number.
 
 use crate::row::Row;
-use crate::scenes::{healthy, hosted, loaded, spalled};
+use crate::scenes::{BALLS, Kind, loaded};
 use crate::support::Named;
 use brinell::geometry::hertz_constant::HertzConstants;
 use brinell::scene::{ContactLaw, Damping, Defect, DefectShape, Motion, Scene};
@@ -15,8 +15,8 @@ pub fn refused(what: &'static str, wanted: &str, found: Result<(), SimulationErr
     Row::new(what, "a clear error", message, bearing)
 }
 
-pub fn step_budget() -> Row {
-    let mut scene = loaded(healthy(), 5e4, Damping::HuntCrossley(5.0));
+pub fn step_budget(kind: Kind) -> Row {
+    let mut scene = loaded(kind.healthy(), 5e4, Damping::HuntCrossley(5.0));
     scene.max_steps = 1000;
     let mut bearing = Named::started(scene);
     bearing.0.set_method(Method::DormandPrince);
@@ -24,45 +24,54 @@ pub fn step_budget() -> Row {
     refused("50 kN, χ = 5 s/m, explicit only, solver.max_steps = 1000", "solver.max_steps", found, &bearing)
 }
 
-pub fn thrown_out() -> Row {
-    let mut scene = hosted();
-    // A hard inner ring, whose energy drives the element out through a soft outer one.
-    let hertz = HertzConstants::of(&scene.bearing);
-    (scene.bearing.hertz_inner, scene.contact.damping) = (Some(10.0 * hertz.inner), Damping::HuntCrossley(0.0));
+pub fn thrown_out(kind: Kind) -> Row {
+    let mut scene = kind.hosted();
+    scene.contact.damping = Damping::HuntCrossley(0.0);
+    // A hard inner ring, whose energy drives the element out through a soft outer one; rollers have one law inside and
+    // outside, and a soft seat of the outer ring.
+    if kind.is_rollers() {
+        scene.bearing.outer_compliance = 1e-8;
+    } else {
+        scene.bearing.hertz_inner = Some(10.0 * HertzConstants::of(&scene.bearing).inner);
+    }
     let mut bearing = Named::started(scene);
-    bearing.set("shaft.x", 3.9e-3);
+    bearing.set("shaft.x", kind.pick(3.9e-3, 3.6e-3));
     let found = bearing.0.step(0.1);
-    refused("host moves the inner ring by 3.9 mm, no damping", "has left the bearing", found, &bearing)
+    let what = kind.pick(
+        "host moves the inner ring by 3.9 mm, no damping",
+        "host moves the inner ring by 3.6 mm, soft seat outside, no damping",
+    );
+    refused(what, "has left the bearing", found, &bearing)
 }
 
-pub fn rings_apart() -> Row {
-    let mut bearing = Named::started(hosted());
+pub fn rings_apart(kind: Kind) -> Row {
+    let mut bearing = Named::started(kind.hosted());
     // As far as the variable allows: through the outer ring.
     bearing.set("shaft.x", 0.01);
     let found = bearing.0.step(0.1);
     refused("host moves the inner ring by 10 mm", "offset of the rings", found, &bearing)
 }
 
-pub fn not_finite() -> Row {
-    let mut bearing = Named::started(hosted());
+pub fn not_finite(kind: Kind) -> Row {
+    let mut bearing = Named::started(kind.hosted());
     let reference = bearing.reference("shaft.x");
     bearing.0.set_input_derivatives(&[reference], &[2], &[1e300]).unwrap();
     let found = bearing.0.step(1e-3);
     refused("host accelerates the inner ring by 1e300 m/s²", "offset of the rings", found, &bearing)
 }
 
-pub fn too_deep() -> Row {
-    let bearing = Named::new(healthy());
+pub fn too_deep(kind: Kind) -> Row {
+    let bearing = Named::new(kind.healthy());
     let shape = DefectShape::Spall { length: 3e-3, depth: 5e-3, edge_slope: FRAC_PI_2 };
-    let scene = Scene { defects: vec![Defect::outer(-FRAC_PI_2, shape)], ..spalled() };
+    let scene = Scene { defects: vec![Defect::outer(-FRAC_PI_2, shape)], ..kind.spalled() };
     let found = Simulation::new(scene, None).map(|_| ());
     refused("spall 5 mm deep, deeper than an element's radius", "depth", found, &bearing)
 }
 
 /// A contact near the defect that has no answer gives an approach that is no number; the step must fail, and not take
 /// it for no contact.
-pub fn contact_without_answer() -> Row {
-    let mut scene = spalled();
+pub fn contact_without_answer(kind: Kind) -> Row {
+    let mut scene = kind.spalled();
     (scene.contact.law, scene.contact.largest_force) = (ContactLaw::Map, Some(1000.0));
     let shape = DefectShape::Spall { length: 2e-4, depth: 2e-6, edge_slope: FRAC_PI_2 };
     scene.defects = vec![Defect::outer(-FRAC_PI_2, shape)];
@@ -80,7 +89,7 @@ pub fn contact_without_answer() -> Row {
 /// The same, of elements that are there before the first step.
 #[test]
 fn an_equilibrium_beyond_the_contact_map_is_refused() {
-    let mut scene = spalled();
+    let mut scene = BALLS.spalled();
     (scene.contact.law, scene.contact.largest_force) = (ContactLaw::Map, Some(1000.0));
     let shape = DefectShape::Spall { length: 2e-4, depth: 2e-6, edge_slope: FRAC_PI_2 };
     scene.defects = vec![Defect::outer(-FRAC_PI_2, shape)];
@@ -101,7 +110,7 @@ fn an_equilibrium_beyond_the_contact_map_is_refused() {
 #[test]
 fn a_ring_driven_beyond_all_numbers_is_named_with_its_last_place() {
     // Near a defect under law `map`, where the contacts are no numbers then.
-    let mut scene = spalled();
+    let mut scene = BALLS.spalled();
     (scene.contact.law, scene.contact.largest_force) = (ContactLaw::Map, Some(1000.0));
     let shape = DefectShape::Spall { length: 2e-4, depth: 2e-6, edge_slope: FRAC_PI_2 };
     scene.defects = vec![Defect::outer(-FRAC_PI_2, shape)];

@@ -1,24 +1,59 @@
-//! The scenes that the extremes are made of.
+//! The scenes that the extremes are made of, of balls and of rollers.
 
 use crate::support::shipped;
 use brinell::scene::{Damping, Defect, DefectShape, Ring, Scene};
 use std::f64::consts::FRAC_PI_2;
 
-pub fn healthy() -> Scene {
-    shipped("6205-healthy")
+/// One kind of bearing under extremes.
+#[derive(Clone, Copy)]
+pub struct Kind {
+    /// What the names of its cases begin with where both kinds stand beside each other.
+    pub prefix: &'static str,
+    healthy: &'static str,
+    spalled: &'static str,
+    /// Number of elements of the healthy bearing.
+    pub count: usize,
 }
 
-pub fn spalled() -> Scene {
-    shipped("er16k-tb1")
-}
+pub const BALLS: Kind = Kind { prefix: "", healthy: "6205-healthy", spalled: "er16k-tb1", count: 9 };
+pub const ROLLERS: Kind = Kind { prefix: "rollers: ", healthy: "nu205-healthy", spalled: "nu205-inner", count: 13 };
 
-pub fn hosted() -> Scene {
-    let mut scene = shipped("6205-healthy");
-    for ring in [&mut scene.shaft, &mut scene.housing] {
-        *ring = Ring::hosted();
+impl Kind {
+    pub fn is_rollers(self) -> bool {
+        !self.prefix.is_empty()
     }
-    scene.sensors.clear();
-    scene
+
+    /// What is said of balls, or of rollers.
+    pub fn pick<T>(self, balls: T, rollers: T) -> T {
+        if self.is_rollers() { rollers } else { balls }
+    }
+
+    pub fn healthy(self) -> Scene {
+        shipped(self.healthy)
+    }
+
+    pub fn spalled(self) -> Scene {
+        shipped(self.spalled)
+    }
+
+    pub fn hosted(self) -> Scene {
+        let mut scene = self.healthy();
+        for ring in [&mut scene.shaft, &mut scene.housing] {
+            *ring = Ring::hosted();
+        }
+        scene.sensors.clear();
+        scene
+    }
+
+    pub fn fifty_kilonewton(self, damping: Damping) -> Scene {
+        loaded(self.healthy(), 5e4, damping)
+    }
+
+    /// A spall whose edges fall by one degree.
+    pub fn gentle(self) -> Scene {
+        let shape = DefectShape::Spall { length: 20e-3, depth: 1e-4, edge_slope: 1f64.to_radians() };
+        Scene { defects: vec![Defect::outer(-FRAC_PI_2, shape)], ..self.spalled() }
+    }
 }
 
 pub fn lighter(mut scene: Scene, factor: f64) -> Scene {
@@ -29,14 +64,4 @@ pub fn lighter(mut scene: Scene, factor: f64) -> Scene {
 pub fn loaded(mut scene: Scene, load: f64, damping: Damping) -> Scene {
     (scene.shaft.load, scene.contact.damping) = ([0.0, -load], damping);
     scene
-}
-
-pub fn fifty_kilonewton(damping: Damping) -> Scene {
-    loaded(healthy(), 5e4, damping)
-}
-
-/// A spall whose edges fall by one degree.
-pub fn gentle() -> Scene {
-    let shape = DefectShape::Spall { length: 20e-3, depth: 1e-4, edge_slope: 1f64.to_radians() };
-    Scene { defects: vec![Defect::outer(-FRAC_PI_2, shape)], ..spalled() }
 }

@@ -79,7 +79,7 @@ class Equilibrium:
         total = b.shaft.load + b.housing.load
         x_o = total / b.housing.stiffness if self.free[1] and b.housing.stiffness else self.rings(at_rest)[1]
         way = b.shaft.load / max(np.linalg.norm(b.shaft.load), 1e-300)
-        approach = 2 * (np.linalg.norm(b.shaft.load) / b.k_i) ** (2 / 3) + b.clearance + 1e-6
+        approach = 2 * b.growth_i.approach(np.linalg.norm(b.shaft.load)) + b.clearance + 1e-6
         guess += [x_o + way * approach] if self.free[0] else []
         guess += [x_o] if self.free[1] else []
         return np.concatenate(guess or [at_rest])
