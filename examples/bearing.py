@@ -65,8 +65,8 @@ def changed_scene(base, name, changes, folder):
     tables = {key: value for key, value in scene.items() if isinstance(value, dict)}
     several = {key: value for key, value in scene.items() if isinstance(value, list) and value and isinstance(value[0], dict)}
     for defect in several.get("defect", [tables.get("defect", {})]):
-        if "profile" in defect:
-            # A scene names a file beside it.
+        # A scene names a file beside it: that of the base scene, or one that is in the folder already.
+        if "profile" in defect and (base.parent / defect["profile"]).is_file():
             Path(folder).mkdir(parents=True, exist_ok=True)
             shutil.copyfile(base.parent / defect["profile"], Path(folder) / defect["profile"])
     lines = [f"{key} = {toml(value)}" for key, value in scene.items() if key not in tables and key not in several]

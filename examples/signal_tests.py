@@ -3,9 +3,10 @@
 
     python examples/signal_tests.py [--seconds 2.5] [--workers 2] [-o target/signals] [GROUP …]
 
-Groups: `added`, single changes of 6205-spall-5deg; `taken`, 6205-spall-5deg-machine with one of its parts put back;
-`irregular`, that scene without lobes and with an even cage, and one irregularity at a time. Facts are those of
-signal_facts.py; the first 0.3 s of a run are left out. Markdown.
+Groups: `added`, single changes of 6205-spall-5deg; `surface`, oil and soft edges in that scene, and edges and floor that
+vary across the track (rough_spall.py); `taken`, 6205-spall-5deg-machine with one of its parts put back; `irregular`, that
+scene without lobes and with an even cage, and one irregularity at a time. Facts are those of signal_facts.py; the first
+0.3 s of a run are left out. Markdown.
 """
 
 import argparse
@@ -13,6 +14,8 @@ import concurrent.futures
 import os
 import subprocess
 
+import numpy as np
+import rough_spall
 import signal_facts
 from bearing import ROOT, SCENES, changed_scene, program
 
@@ -35,7 +38,12 @@ MODES = [
 ]
 EVEN = {"cage.irregularity": None, "defect": [SPALL]}
 
-# Group: base scene, and what is changed in it, one line of the table each.
+# Oil and elements that bounce without it: 40 mPa s and 2e-8 1/Pa are assumed, a mineral oil of about 46 mm2/s at 40 degrees.
+OIL = {"film.viscosity_pa_s": 0.04, "film.pressure_viscosity_1_pa": 2e-8}
+DRY = {"contact.damping_chi_s_m": 0.5}
+
+# Group: base scene, and what is changed in it, one line of the table each. A surface is what rough_spall.profile takes: edges
+# [mm], floor [um], seed; a swing is a share of the speed and how often a turn it swings.
 GROUPS = {
     "added": (
         OLD,
@@ -60,6 +68,22 @@ GROUPS = {
             "cage as recorded": {**HERTZ, "cage.irregularity": "recorded", "cage.seed": 1},
             "rounded spall, load 150 N": {**HERTZ, **LOAD, "defect": SPALL},
             "the same, light rings": {**HERTZ, **LOAD, **LIGHT, "defect": SPALL},
+        },
+    ),
+    "surface": (
+        OLD,
+        {
+            "oil": OIL,
+            "oil, χ 0.5 s/m": {**OIL, **DRY},
+            "edges of a step": {"contact.edge": "step"},
+            "straight edges, even floor, as a topography": {"surface": (0.0, 0.0, 1)},
+            "edges ± 0.1 mm across the track": {"surface": (0.1, 0.0, 1)},
+            "edges ± 0.3 mm, seed 1": {"surface": (0.3, 0.0, 1)},
+            "edges ± 0.3 mm, seed 2": {"surface": (0.3, 0.0, 2)},
+            "edges ± 0.3 mm, seed 3": {"surface": (0.3, 0.0, 3)},
+            "floor ± 1 µm": {"surface": (0.0, 1.0, 1)},
+            "floor ± 5 µm": {"surface": (0.0, 5.0, 1)},
+            "edges ± 0.1 mm, floor ± 1 µm, another seed": {"surface": (0.1, 1.0, 2)},
         },
     ),
     "taken": (
@@ -89,16 +113,40 @@ GROUPS = {
             "wander 0.3 %": {**EVEN, "cage.wander": 0.003, "cage.seed": 1},
             "bouncing elements, χ 0.5 s/m": {**EVEN, "contact.damping_chi_s_m": 0.5},
             "lobes alone": {"cage.irregularity": None},
+            "speed ± 1 % once a turn": {**EVEN, "swing": (0.01, 1)},
+            "speed ± 1 % three times a turn": {**EVEN, "swing": (0.01, 3)},
         },
     ),
 }
 
 
-def run(scene, seconds):
+def run(scene, seconds, more=()):
     """The sensor's signal of a scene."""
-    command = [*program(), "run", str(scene.resolve()), "--stop", str(seconds), "--step", "0.01", "--no-figure"]
+    command = [*program(), "run", str(scene.resolve()), "--stop", str(seconds), "--step", "0.01", "--no-figure", *more]
     subprocess.run([*command, "-o", str(scene.resolve().parent)], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
     return signal_facts.load(scene.with_suffix(".npy"))[round(SETTLING * RATE) :]
+
+
+def swinging(path, speed, share, times, seconds):
+    """Writes a speed that swings by a share of it, so many times a turn; gives the file as `run` takes it."""
+    time = np.arange(0.0, seconds, 1.0 / (24 * times * speed))
+    speeds = speed * (1.0 + share * np.sin(2 * np.pi * times * speed * time))
+    np.savetxt(path, np.column_stack([time, speeds]), "%.9g", ",", header="time_s,speed_hz", comments="")
+    return ["--speed-profile", str(path.resolve())]
+
+
+def jobs_of(case, name, base, options, pool):
+    """One run of a case at each speed."""
+    changes = {key: value for key, value in case.items() if key not in ("surface", "swing")}
+    if "surface" in case:
+        changes.update(rough_spall.profile(options.output, *case["surface"], name))
+    jobs = []
+    for speed in SPEEDS:
+        told = {"recorder.rate_hz": RATE, "shaft.speed_hz": speed, **changes}
+        scene = changed_scene(base, f"{name}-{speed:.0f}", told, options.output)
+        swing = swinging(scene.with_suffix(".speed.csv"), speed, *case["swing"], options.seconds) if "swing" in case else []
+        jobs.append(pool.submit(run, scene, options.seconds, swing))
+    return jobs
 
 
 def line(label, signals):
@@ -115,7 +163,7 @@ def line(label, signals):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("groups", nargs="*", metavar="GROUP", help="added, taken, irregular; all without it")
+    parser.add_argument("groups", nargs="*", metavar="GROUP", help="added, surface, taken, irregular; all without it")
     parser.add_argument("--seconds", type=float, default=2.5)
     parser.add_argument("--workers", type=int, default=os.cpu_count())
     parser.add_argument("-o", "--output", default="target/signals")
@@ -125,12 +173,7 @@ def main():
     with concurrent.futures.ThreadPoolExecutor(options.workers) as pool:
         for group in options.groups or GROUPS:
             base, cases = GROUPS[group]
-            jobs = []
-            for i, changes in enumerate(cases.values()):
-                told = [{"recorder.rate_hz": RATE, "shaft.speed_hz": speed, **changes} for speed in SPEEDS]
-                names = [f"{group}-{i}-{speed:.0f}" for speed in SPEEDS]
-                scenes = [changed_scene(base, name, one, options.output) for name, one in zip(names, told)]
-                jobs.append([pool.submit(run, scene, options.seconds) for scene in scenes])
+            jobs = [jobs_of(case, f"{group}-{i}", base, options, pool) for i, case in enumerate(cases.values())]
             print(f"\n| {base.stem} {head}\n|---|---:|---|---|---|---|---|---|")
             for label, signals in zip(cases, jobs):
                 print(line(label, [job.result() for job in signals]), flush=True)
