@@ -26,6 +26,7 @@ use super::passages;
 use super::raceway::{self, Raceway};
 use super::report::Fault;
 use super::statistics::{self, Random};
+use super::unresolved::Unresolved;
 use brinell::scene::Scene;
 
 /// Share of a period before the first impact.
@@ -73,92 +74,6 @@ pub struct EventLength {
     pub onset: f64,
     /// Impacts, relative to the first.
     pub impacts: Vec<f64>,
-}
-
-/// Why there is no length. Angles in degrees.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum Unresolved {
-    /// Nothing repeats with the ball pass frequency.
-    #[error(
-        "nothing repeats with the ball pass frequency: its comb stands {0:.1} standard deviations above chance, limit {1:.1}"
-    )]
-    NoPattern(f64, f64),
-    /// Something else repeats.
-    #[error(
-        "nothing repeats with the ball pass frequency: its comb stands {0:.1} standard deviations above chance, limit {1:.1}; but one at \
-         {2:.2} Hz stands {3:.1} above it: are speed, rate and bearing right, or is it not the outer raceway?"
-    )]
-    OtherPattern(f64, f64, f64, f64),
-    /// A rolling element's fault.
-    #[error(
-        "it looks like a fault of a rolling element, whose length is not read from recordings: combs stand above chance by, in standard \
-         deviations: {0}"
-    )]
-    OfElement(String),
-    /// No kind of fault stands out.
-    #[error("two kinds of fault look alike: combs stand above chance by, in standard deviations: {0}")]
-    TwoKinds(String),
-    /// An inner raceway's comb without its load zone.
-    #[error(
-        "it looks like a fault of the inner raceway, but passages do not grow and fade as it turns through the load zone: strong ones are {0:.2} \
-         times as strong as weak ones, limit {1:.1}"
-    )]
-    NoLoadZone(f64, f64),
-    /// Impacts and echoes cannot be told apart in what the rate leaves.
-    #[error(
-        "a sampling rate of {0:.0} Hz: below {1:.0} Hz the band above the rings' modes is too narrow to tell impacts from their echoes"
-    )]
-    LowRate(f64, f64),
-    /// A piece is missing.
-    #[error(
-        "the passages after about {0:.2} s are shifted by {1:.1} degrees against those before: is a piece of the \
-         recording missing, or did the cage skid? Cut the recording there"
-    )]
-    Broken(f64, f64),
-    /// More than one passage in a period.
-    #[error(
-        "the same passes {0} times in each ball pass period: are rate and speed right, or are there several spalls?"
-    )]
-    SeveralTimes(usize),
-    /// No impact stands out.
-    #[error("no impact stands out of the averaged passages: largest jump of the envelope below {0:.1} dB")]
-    NoImpact(f64),
-    /// More impacts than a spall makes.
-    #[error(
-        "impacts at {0:.2?} degrees in each passage: a spall makes two at most, and which of these is the last is not told"
-    )]
-    ManyImpacts(Vec<f64>),
-    /// The picking does not hold.
-    #[error("{0} of {1} resamples of the passages show no entry and impacts: what was picked in all of them is chance")]
-    Unstable(usize, usize),
-    /// Onset and impacts cannot be told apart.
-    #[error(
-        "one impact per passage and no clear entry before it (clearness {0:.1}, limit {1:.1}): entry and exit are not apart"
-    )]
-    OneImpact(f64, f64),
-    /// One impact inside.
-    #[error(
-        "one impact per passage in the load zone (strong passages are {0:.1} times as strong as weak ones): entry and exit on the inner raceway \
-         are not apart"
-    )]
-    OneInside(f64),
-    /// No entry.
-    #[error(
-        "{0:.2} degrees between first and last impact, but no clear entry before them (clearness {1:.1}, limit {2:.1})"
-    )]
-    NoEntry(f64, f64, f64),
-    /// Impacts fill the spacing.
-    #[error("impacts over {0:.1} of {1:.1} degrees of spacing: first and last cannot be told")]
-    NoSilence(f64, f64),
-    /// The halves of the recording disagree.
-    #[error("odd and even passages disagree: {0:.2} and {1:.2} degrees")]
-    Halves(f64, f64),
-    /// Too short.
-    #[error("{0:.2} degrees, uncertain by {1:.2}: not surely above {2:.2}, below which an element never gets free")]
-    TooShort(f64, f64, f64),
-    /// Too uncertain.
-    #[error("{0:.2} degrees, uncertain by {1:.2} (95 %): more than a third of it")]
-    TooUncertain(f64, f64),
 }
 
 /// Sizes the recording by its events.

@@ -42,6 +42,7 @@ pub mod stiffness;
 pub mod subsurface;
 pub mod synthesis;
 mod trial_search;
+pub mod unresolved;
 pub mod waveform_length;
 
 pub use brinell_spectrum as spectrum;

@@ -10,7 +10,7 @@
 //! averaged away.
 
 use super::error::SizingError;
-use super::event_length::{self, EventLength, Unresolved};
+use super::event_length::{self, EventLength};
 use super::kind::Judged;
 use super::measured::Measured;
 use super::raceway::{self, Raceway};
@@ -20,6 +20,7 @@ use super::ringing::Ringing;
 use super::spectrum::{Band, Spectrum};
 use super::statistics;
 use super::synthesis::{CUT, Maps, Rig};
+use super::unresolved::Unresolved;
 use super::waveform_length::{self, WaveformLength};
 use brinell::scene::{Bearing, Scene};
 

@@ -1,0 +1,321 @@
+//! What each command can be told.
+
+use std::env;
+use std::path::PathBuf;
+
+use anyhow::{Context, Result};
+use brinell::scene::Experiment;
+use brinell_analysis::recording::Speed;
+use clap::Args;
+
+use crate::new_scene::Spall;
+use crate::numbers::{number, seed, whole};
+use crate::run::grid::Grid;
+use crate::run::noise::Noise;
+use crate::run::speed_profile::SpeedProfile;
+use crate::run::table::Format;
+use crate::run::wav::Wav;
+use crate::{contact, fmu, library, run};
+
+/// Options of `build`.
+#[derive(Debug, Args)]
+pub struct Build {
+    /// Scene files (TOML), or names of shipped scenes
+    #[arg(required = true, value_name = "SCENE")]
+    pub(super) scenes: Vec<PathBuf>,
+    /// Folder for the FMUs [default: the current one]
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) output: Option<PathBuf>,
+    /// Version of the FMI standard
+    #[arg(long, value_enum, default_value_t, value_name = "VERSION")]
+    pub(super) fmi: fmu::Version,
+    /// Beside each FMU the inputs, outputs and options of a reference run, as the FMI cross-check wants them; an FMU of
+    /// FMI 3.0 holds them as well
+    #[arg(long)]
+    pub(super) reference: bool,
+    #[command(flatten)]
+    pub(super) library: LibraryChoice,
+}
+
+/// Options of `run`.
+#[derive(Debug, Args)]
+pub struct Run {
+    /// Scene file (TOML), or the name of a shipped scene
+    pub(super) scene: PathBuf,
+    /// Stop time in seconds [default: the scene's]
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
+    pub(super) stop: Option<f64>,
+    /// Communication step in seconds [default: the scene's]
+    #[arg(long, value_name = "H", allow_negative_numbers = true, value_parser = number)]
+    pub(super) step: Option<f64>,
+    /// Columns beside the time, separated by commas; * stands for any characters [default: all]
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    pub(super) columns: Vec<String>,
+    /// What the table is written as
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    pub(super) format: Format,
+    /// The shaft's speed over time: CSV with the columns time_s and speed_hz; the run then ends with it
+    #[arg(long, value_name = "FILE")]
+    pub(super) speed_profile: Option<PathBuf>,
+    /// Noise of the sensors: their signal's root mean square over its own, in decibels
+    #[arg(long, value_name = "DB", allow_negative_numbers = true, value_parser = number)]
+    pub(super) noise_db: Option<f64>,
+    /// Which noise: equal seeds give equal bits
+    #[arg(
+        long,
+        value_name = "SEED",
+        default_value_t = 1,
+        requires = "noise_db",
+        allow_negative_numbers = true,
+        value_parser = seed,
+    )]
+    pub(super) noise_seed: u64,
+    /// Write what the sensors show as sound, through the recorder's filter against aliases
+    #[arg(long)]
+    pub(super) wav: bool,
+    /// Its samples per second [default: the scene's recorder's, or 51200]
+    #[arg(long, value_name = "HZ", requires = "wav", allow_negative_numbers = true, value_parser = number)]
+    pub(super) wav_rate: Option<f64>,
+    /// Acceleration in m/s² that becomes 1 in it
+    #[arg(
+        long,
+        value_name = "M_S2",
+        default_value_t = 1.0,
+        requires = "wav",
+        allow_negative_numbers = true,
+        value_parser = number,
+    )]
+    pub(super) wav_scale: f64,
+    /// Write a page to look at in a browser: signals, path over the defect, spectra
+    #[arg(long)]
+    pub(super) html: bool,
+    /// Folder for what is written [default: the current one]
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) output: Option<PathBuf>,
+    /// Leave the figure out; without --html no Python is needed then
+    #[arg(long)]
+    pub(super) no_figure: bool,
+}
+
+impl Run {
+    pub(super) fn options(&self, experiment: &Experiment) -> Result<run::Options> {
+        let profile = self.speed_profile.as_deref().map(SpeedProfile::read).transpose()?;
+        let stop = self.stop.or(profile.as_ref().map(SpeedProfile::end));
+        let grid = Grid::new(experiment, stop, self.step)?;
+        if let (Some(profile), Some(file)) = (&profile, &self.speed_profile) {
+            profile.check_covers(grid.end()).with_context(|| file.display().to_string())?;
+        }
+        let wav = self.wav.then_some(Wav { rate: self.wav_rate, scale: self.wav_scale });
+        wav.map_or(Ok(()), |wav| wav.check())?;
+        Ok(run::Options {
+            grid,
+            columns: self.columns.clone(),
+            format: self.format,
+            profile,
+            noise: self.noise_db.map(|ratio| Noise::new(ratio, self.noise_seed)).transpose()?,
+            wav,
+            figure: !self.no_figure,
+            page: self.html,
+        })
+    }
+}
+
+/// Options of `check`.
+#[derive(Debug, Args)]
+pub struct Check {
+    /// The FMU
+    #[arg(value_name = "FILE.fmu")]
+    pub(super) fmu: PathBuf,
+}
+
+/// Options of `stiffness`.
+#[derive(Debug, Args)]
+pub struct Stiffness {
+    /// Scene file (TOML), or the name of a shipped scene
+    pub(super) scene: PathBuf,
+    /// Load in newtons along the scene's load [default: the scene's]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
+    pub(super) load: Option<f64>,
+    /// Cage angles within one element spacing [default: 200, more for a short defect]; those at which elements begin to
+    /// carry are added
+    #[arg(long, value_name = "COUNT", allow_negative_numbers = true, value_parser = whole::<1, 100_000>)]
+    pub(super) points: Option<u32>,
+    /// Folder for CSV and figure [default: the current one]
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) output: Option<PathBuf>,
+    /// Leave the figure out; no Python is needed then
+    #[arg(long)]
+    pub(super) no_figure: bool,
+}
+
+/// Options of `modes`.
+#[derive(Debug, Args)]
+pub struct Modes {
+    /// Scene file (TOML); its cage stands still
+    pub(super) scene: PathBuf,
+    /// Load in newtons along the scene's load; of a scene without load, on the shaft and downwards, wherever that is
+    /// held [default: the scene's]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
+    pub(super) load: Option<f64>,
+    /// Cage angles within one element spacing [default: 200, more for a short defect]; those at which elements begin
+    /// to be pressed are added
+    #[arg(long, value_name = "COUNT", allow_negative_numbers = true, value_parser = whole::<1, 100_000>)]
+    pub(super) points: Option<u32>,
+    /// Folder for JSON and figure [default: the current one]
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) output: Option<PathBuf>,
+    /// Leave the figure out; no Python is needed then
+    #[arg(long)]
+    pub(super) no_figure: bool,
+}
+
+/// Options of `contact`.
+#[derive(Debug, Args)]
+pub struct Contact {
+    /// Scene file (TOML) of a ball bearing, or the name of a shipped scene; nothing moves
+    pub(super) scene: PathBuf,
+    /// The raceway
+    #[arg(long, value_enum)]
+    pub(super) on: contact::On,
+    /// Angle of the ball in degrees from the middle of the raceway's first defect, counter-clockwise about the
+    /// bearing's axis in the ring's own frame: 0 is over the middle, half the defect's length over its end
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = number)]
+    pub(super) angle: f64,
+    /// Contact force in newtons
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
+    pub(super) force: f64,
+    /// Cells along and across the raceway, over the contact and a little more
+    #[arg(long, value_name = "CELLS", default_value_t = 512)]
+    pub(super) resolution: usize,
+    /// Folder for CSV, JSON and figure [default: the current one]
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) output: Option<PathBuf>,
+    /// Leave the figure out; no Python is needed then
+    #[arg(long)]
+    pub(super) no_figure: bool,
+}
+
+/// Options of `size`.
+#[derive(Debug, Args)]
+#[command(group = clap::ArgGroup::new("shaft").required(true))]
+pub struct Size {
+    /// Recordings of one bearing: .csv, .txt, .npy or .wav
+    #[arg(required = true, value_name = "RECORDING")]
+    pub(super) recordings: Vec<PathBuf>,
+    /// Scene file (TOML) of the bearing, its load and, if known, its rig; its defect is not looked at
+    #[arg(long)]
+    pub(super) scene: PathBuf,
+    /// Sampling rate in hertz [default: the file's own]
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = number)]
+    pub(super) rate: Option<f64>,
+    /// Shaft speed in hertz: one for all recordings, or one for each, separated by commas
+    #[arg(
+        long,
+        value_name = "HZ",
+        value_delimiter = ',',
+        group = "shaft",
+        allow_negative_numbers = true,
+        value_parser = number,
+    )]
+    pub(super) speed: Vec<f64>,
+    /// Column of a tachometer, by name or by number from 1
+    #[arg(long, value_name = "COLUMN", group = "shaft")]
+    pub(super) tacho: Option<String>,
+    /// Pulses of the tachometer per shaft turn
+    #[arg(
+        long,
+        value_name = "COUNT",
+        default_value_t = 1,
+        allow_negative_numbers = true,
+        value_parser = whole::<1, 10_000>,
+    )]
+    pub(super) pulses: u32,
+    /// Column of the shaft's speed at every sample, in hertz unless its heading says rpm or rad/s
+    #[arg(long, value_name = "COLUMN", group = "shaft")]
+    pub(super) speed_column: Option<String>,
+    /// Column of the signal, by name or by number from 1 [default: the acceleration]
+    #[arg(long, value_name = "COLUMN")]
+    pub(super) column: Option<String>,
+    /// Folder for averaged passages and figures [default: the current one]
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) output: Option<PathBuf>,
+    /// Leave the figures out; no Python is needed then
+    #[arg(long)]
+    pub(super) no_figure: bool,
+}
+
+impl Size {
+    pub(super) fn speeds(&self) -> Vec<Speed> {
+        if let Some(column) = &self.tacho {
+            vec![Speed::Tachometer(column.clone(), self.pulses)]
+        } else if let Some(column) = &self.speed_column {
+            vec![Speed::Column(column.clone())]
+        } else {
+            self.speed.iter().map(|&speed| Speed::Constant(speed)).collect()
+        }
+    }
+}
+
+/// Options of `demo`.
+#[derive(Debug, Args)]
+pub struct Demo {
+    /// Folder for CSV and figure [default: brinell-demo]
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) output: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) library: LibraryChoice,
+}
+
+/// Options of `scenes`.
+#[derive(Debug, Args)]
+pub struct Scenes {
+    /// Names of shipped scenes whose files are written
+    #[arg(value_name = "NAME")]
+    pub(super) names: Vec<String>,
+    /// Folder for the files [default: the current one]
+    #[arg(short, long, value_name = "DIR", requires = "names")]
+    pub(super) output: Option<PathBuf>,
+}
+
+/// Options of `new`.
+#[derive(Debug, Args)]
+pub struct New {
+    /// Name of the scene: letters, digits, - and _
+    #[arg(value_name = "NAME")]
+    pub(super) name: String,
+    /// The bearing, as `brinell catalogue` lists it
+    #[arg(long, value_name = "NAME", default_value = "6205")]
+    pub(super) bearing: String,
+    /// A spall: outer, inner or element, a colon and its length in mm or deg [default: none]
+    #[arg(long, value_name = "inner:1.2mm")]
+    pub(super) defect: Option<Spall>,
+    /// Folder for the file [default: the current one]
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) output: Option<PathBuf>,
+}
+
+/// Options of `catalogue`.
+#[derive(Debug, Args)]
+pub struct Catalogue {
+    /// How the names begin, as 62
+    #[arg(value_name = "FILTER", default_value = "", hide_default_value = true)]
+    pub(super) filter: String,
+}
+
+#[derive(Debug, Args)]
+pub struct LibraryChoice {
+    /// Compiled model library to pack, instead of building it from source; so does the environment's BRINELL_LIBRARY
+    #[arg(long, value_name = "PATH", conflicts_with = "platforms")]
+    pub(super) library: Option<PathBuf>,
+    /// Platforms to pack the library for: all, or a list of linux64, win64, darwin64, aarch64-linux
+    /// [default: all that this program holds; where it compiles them, this machine's]
+    #[arg(long, value_name = "PLATFORM,…", value_delimiter = ',')]
+    pub(super) platforms: Vec<String>,
+}
+
+impl From<LibraryChoice> for library::Choice {
+    fn from(choice: LibraryChoice) -> Self {
+        let named = || env::var_os("BRINELL_LIBRARY").map(PathBuf::from).filter(|_| choice.platforms.is_empty());
+        Self { file: choice.library.or_else(named), platforms: choice.platforms }
+    }
+}
