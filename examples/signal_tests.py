@@ -129,7 +129,7 @@ def run(scene, seconds, more=()):
 
 def swinging(path, speed, share, times, seconds):
     """Writes a speed that swings by a share of it, so many times a turn; gives the file as `run` takes it."""
-    time = np.arange(0.0, seconds, 1.0 / (24 * times * speed))
+    time = np.arange(0.0, seconds + 0.05, 1.0 / (24 * times * speed))
     speeds = speed * (1.0 + share * np.sin(2 * np.pi * times * speed * time))
     np.savetxt(path, np.column_stack([time, speeds]), "%.9g", ",", header="time_s,speed_hz", comments="")
     return ["--speed-profile", str(path.resolve())]
