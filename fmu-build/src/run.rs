@@ -11,6 +11,7 @@ pub mod speed_profile;
 pub mod table;
 pub mod wav;
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
@@ -19,7 +20,7 @@ use brinell::scene::{Recorder, RecorderFilter, Scene};
 use brinell::simulation::Simulation;
 
 use crate::digits::digits;
-use crate::model::Model;
+use crate::model::{Model, Profile};
 use crate::project::Project;
 use crate::python::Python;
 use crate::whole_file::{self, NotWritten};
@@ -72,6 +73,7 @@ pub fn command(project: &Project, model: Model, options: &Options, folder: &Path
     // It goes on in a folder of its own, so that what is in it is whole before it takes the place of an earlier run's.
     let growing = whole_file::folder_in(folder)?;
     let path = options.format.path(folder, &model.scene.name);
+    spare_profiles(&model, &path)?;
     let chosen = chosen(&model.simulation, &options.columns)?;
     let done = simulate(&mut model, options, growing.path(), &path)?;
     let sensors = |signals: &Signals| signals.places(|name| shows_a_sensor(&model.scene, name));
@@ -101,6 +103,21 @@ pub fn command(project: &Project, model: Model, options: &Options, folder: &Path
         println!("{}", whole_file::take_out(recording.path(), folder)?.display());
     }
     Ok(())
+}
+
+/// Refuses to put the table in the place of a profile that the scene is made of.
+fn spare_profiles(model: &Model, table: &Path) -> Result<()> {
+    let is_it = |profile: &Profile| {
+        Path::new(&profile.name).file_name() == table.file_name()
+            && fs::read(table).is_ok_and(|bytes| bytes == profile.text.as_bytes())
+    };
+    match model.profiles.iter().find(|profile| is_it(profile)) {
+        None => Ok(()),
+        Some(Profile { name, .. }) => bail!(
+            "{} is the profile of a defect, {name}, and the table would take its place: choose another folder with -o",
+            table.display()
+        ),
+    }
 }
 
 fn chosen(simulation: &Simulation, patterns: &[String]) -> Result<Columns> {

@@ -271,3 +271,21 @@ fn columns_may_name_the_time_and_are_told_apart_once() {
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(said.matches("shaft*").count(), 1, "{said}");
 }
+
+#[test]
+fn a_table_does_not_take_the_place_of_a_profile() {
+    let folder = common::folder("run-spares-profiles");
+    let depth = |k: i32| (f64::from(100 - k.abs()) / 4.0).min(5.0);
+    let points = (-100..=100).map(|k| format!("{:.3},{:.2}\n", 0.005 * f64::from(k), depth(k)));
+    let trace: String = std::iter::once("arc_mm,depth_um\n".to_owned()).chain(points).collect();
+    fs::write(folder.join("dent.csv"), &trace).unwrap();
+    let defect = "\n[[defect]]\nangle_deg = -90.0\nprofile = \"dent.csv\"\n";
+    let scene = changed(&folder, |text| text.replace("\"6205-healthy\"", "\"dent\"") + defect);
+    let output = try_run(&scene, &folder, &["--stop", "1e-3"]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(!output.status.success() && said.contains("is the profile of a defect, dent.csv"), "{said}");
+    assert_eq!(fs::read_to_string(folder.join("dent.csv")).unwrap(), trace);
+    // Another folder, or another kind of table, is fine.
+    run(&scene, &folder, &["--stop", "1e-3", "--format", "npy"]);
+    run(&scene, &folder.join("out"), &["--stop", "1e-3"]);
+}
