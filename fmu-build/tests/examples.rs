@@ -31,8 +31,8 @@ const SIZED: &str = "python examples/sweep.py --runs 1 --stop 0.6 --grid defect.
 const SCHEDULER: &str = "dask scheduler --host 127.0.0.1 --port 8786 --no-dashboard";
 const WORKER: &str = "dask worker tcp://127.0.0.1:8786 --nworkers 2 --nthreads 1 --no-dashboard";
 const CLUSTER: &str = "python examples/sweep.py --scheduler tcp://127.0.0.1:8786 --runs 8 --stop 0.1 --grid defect.length_deg=15.8 --random shaft.speed_hz=10:40";
-/// What this file's environment does itself.
-const SET_UP: [&str; 7] = [
+/// What this file's environment or another test does.
+const SET_UP: [&str; 8] = [
     "python3 -m venv target/examples-env",
     ". target/examples-env/bin/activate",
     "pip install -r examples/requirements.txt",
@@ -42,6 +42,8 @@ const SET_UP: [&str; 7] = [
     // tests/reference.rs runs it, with all scenes.
     "brinell build er16k-tb1 --reference",
     "brinell build er16k-tb1 --reference --fmi 3",
+    // tests/contact.rs runs it, on fewer cells.
+    "brinell contact er16k-tb1 --on outer --angle 7.85 --force 300",
 ];
 
 fn python() -> &'static Python {
