@@ -12,7 +12,7 @@
 //! ```text
 //! L = S + (s_u − s_r)/2,   u² = (s_u² + s_r²)/12 + (v τ)² + (ε L)² + u_statistical²
 //! ```
-//! v τ is the way that an element goes while the housing answers ([`ANSWER`]), ε what machines differ by ([`MACHINES`]).
+//! v τ is the way that an element goes while the housing answers (`ANSWER`), ε what machines differ by (`MACHINES`).
 //! **Limit.** An element never gets free, and there are no two separate events, unless it can sink by its approach and
 //! the clearance by which the inner ring can follow: P(L/2) > δ + G_r. Shorter is unresolved. Where Q is unknown, s_u
 //! is the way from the entry's onset to its extreme, an upper bound that holds in any case.
