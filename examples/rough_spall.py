@@ -32,7 +32,8 @@ def wandering(random, points, step):
         weights = np.exp(-0.5 * (at / (0.5 * WAVE_MM)) ** 2)
         weights /= np.sqrt(np.sum(weights**2))
         # Repeated at its ends, so that the root mean square is the same everywhere.
-        padded = np.concatenate([values.take(range(-len(at), 0), axis, mode="wrap"), values, values.take(range(len(at)), axis, mode="wrap")], axis)
+        around = [(len(at), len(at)) if other == axis else (0, 0) for other in range(values.ndim)]
+        padded = np.pad(values, around, mode="wrap")
         smooth = np.apply_along_axis(lambda line: np.convolve(line, weights, "same"), axis, padded)
         values = smooth.take(range(len(at), len(at) + points[axis]), axis)
     return values

@@ -13,10 +13,9 @@ use brinell_analysis::subsurface::Stress;
 use clap::ValueEnum;
 
 use crate::csv;
-use crate::model::{read_scene, remarks};
+use crate::model::read_all;
 use crate::project::Project;
 use crate::python::Python;
-use crate::shipped;
 use crate::stiffness::beside;
 use crate::whole_file;
 
@@ -50,16 +49,12 @@ const SURFACE_LINES: usize = 64;
 /// The command: prints the summary, and writes `<folder>/<scene>-contact.json`, `-pressure.csv`, `-surface.csv`,
 /// `-depth.csv`, `-plane.csv` and, if wanted, a figure.
 pub fn command(project: &Project, scene: &Path, options: &Options, folder: &Path) -> Result<()> {
-    let (text, read) = read_scene(scene)?;
+    let (_, read, profiles) = read_all(scene)?;
     let about = || scene.display().to_string();
-    for remark in remarks(&text, &read) {
-        eprintln!("note: {}: {remark}", about());
-    }
-    let texts: Vec<String> =
-        read.profile_names().into_iter().map(|name| shipped::text_beside(scene, name)).collect::<Result<_>>()?;
     let side = if options.on == On::Outer { RacewaySide::Outer } else { RacewaySide::Inner };
     let angle = options.angle_deg.to_radians();
-    let ball = BallOnRaceway::of(&read, texts.iter().map(String::as_str), side, angle).with_context(about)?;
+    let ball = BallOnRaceway::of(&read, profiles.iter().map(|profile| profile.text.as_str()), side, angle)
+        .with_context(about)?;
     let pressed = ball.pressed(options.force, options.resolution).with_context(about)?;
     let section = Section::of(&ball, &pressed);
     let mut report = ContactReport::new(&read.name, side, options.angle_deg, options.force, &ball, &pressed, &section);
@@ -77,11 +72,7 @@ pub fn command(project: &Project, scene: &Path, options: &Options, folder: &Path
     whole_file::write_with(&beside(&stem, "-depth.csv"), depth)?;
     whole_file::write_with(&beside(&stem, "-plane.csv"), |mut out| write_stresses(&mut out, &section.plane, &[]))?;
     if options.figure {
-        // The answer is out: without Python there is no figure, but no failure either.
-        match Python::prepare(project).and_then(|python| python.run("contact.py", [stem])) {
-            Ok(drawn) => eprint!("{drawn}"),
-            Err(why) => eprintln!("no figure: {why:#}"),
-        }
+        Python::draw(project, "contact.py", [stem]);
     }
     Ok(())
 }

@@ -106,6 +106,15 @@ impl Python {
         self
     }
 
+    /// Draws behind an answer that is out already, by one of this program's scripts: without Python there is no figure,
+    /// but no failure either.
+    pub fn draw<A: AsRef<OsStr>>(project: &Project, script: &str, arguments: impl IntoIterator<Item = A>) {
+        match Self::prepare(project).and_then(|python| python.run(script, arguments)) {
+            Ok(drawn) => eprint!("{drawn}"),
+            Err(why) => eprintln!("no figure: {why:#}"),
+        }
+    }
+
     /// Runs one of this program's scripts and gives its standard output.
     pub fn run<A: AsRef<OsStr>>(&self, script: &str, arguments: impl IntoIterator<Item = A>) -> Result<String> {
         self.run_file(&self.scripts.join(script), arguments)

@@ -55,11 +55,7 @@ pub fn command(
     std::io::stdout().flush()?;
     let stems = write(&report, folder)?;
     if options.figure {
-        // The answer is out: without Python there is no figure, but no failure either.
-        match Python::prepare(project).and_then(|python| python.run("size.py", &stems)) {
-            Ok(drawn) => eprint!("{drawn}"),
-            Err(why) => eprintln!("no figure: {why:#}"),
-        }
+        Python::draw(project, "size.py", &stems);
     }
     Ok(())
 }

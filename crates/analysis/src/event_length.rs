@@ -43,8 +43,8 @@ const ENOUGH_RATE: f64 = 24_000.0;
 /// Impacts that a spall makes at most: on its floor or where the element is caught, and at its end. With more, nobody
 /// can tell which is the last.
 const MOST_IMPACTS: usize = 2;
-/// Standard uncertainty of the time between a force and what a sensor shows of it [s]: 64 µs are a radian of 2.5 kHz, up
-/// to which housings follow an entry, 35 µs an impact's window of 0.12 ms as a rectangle.
+/// Standard uncertainty of the time between a force and what a sensor shows of it [s]: 64 µs are a radian of 2.5 kHz,
+/// up to which housings follow an entry, 35 µs an impact's window of 0.12 ms as a rectangle.
 const ANSWER: f64 = 7.3e-5;
 /// Standard uncertainty of a length, as a share, between one machine and another.
 const MACHINES: f64 = 0.05;
