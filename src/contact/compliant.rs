@@ -41,7 +41,7 @@ pub struct CompliantContact {
 
 impl CompliantContact {
     /// The contact's own approach [m] and the rate [m/s] at which its damper acts, of those of the whole.
-    #[inline]
+    #[inline(always)]
     pub fn of_contact(&self, delta: f64, rate: f64) -> (f64, f64) {
         if self.compliance == 0.0 || delta <= 0.0 {
             return (delta, rate);
@@ -96,11 +96,18 @@ impl CompliantContact {
 
 impl CompliantContact {
     /// The part of the approach `total` > 0 [m] that the contact takes.
-    #[inline]
+    #[inline(always)]
     fn part(&self, total: f64) -> Part {
-        if matches!(self.law.elasticity, Elasticity::Point) {
-            return part(total, self.law.stiffness, self.compliance);
+        match self.law.elasticity {
+            Elasticity::Point => part(total, self.law.stiffness, self.compliance),
+            _ => self.part_of_line(total),
         }
+    }
+
+    /// As [`Self::part`], of a line contact. Not inlined: with it balls' steps would be too large to be inlined, and
+    /// lose the instructions of the machine they run on.
+    #[inline(never)]
+    fn part_of_line(&self, total: f64) -> Part {
         let mut approach = total;
         for _ in 0..ITERATIONS {
             let excess = approach + self.compliance * self.law.elastic(approach) - total;
@@ -127,7 +134,7 @@ struct Part {
 
 /// The part of the approach `total` ≥ 0 [m] that a contact of Hertz constant `stiffness` [N/m^1.5] takes in series with
 /// `compliance` [m/N].
-#[inline]
+#[inline(always)]
 fn part(total: f64, stiffness: f64, compliance: f64) -> Part {
     let beta = compliance * stiffness * total.sqrt();
     let z = root(beta);
@@ -135,7 +142,7 @@ fn part(total: f64, stiffness: f64, compliance: f64) -> Part {
 }
 
 /// The root z ≥ 1 of z³ − z = β for β ≥ 0.
-#[inline]
+#[inline(always)]
 fn root(beta: f64) -> f64 {
     // The first is exact to second order at 0, the second to second order at infinity; neither is off by more than
     // 0.04.

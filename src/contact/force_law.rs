@@ -10,10 +10,10 @@
 //! Both vanish continuously at δ = 0. Hunt–Crossley is very stiff at high load: χ = 5 s/m at 50 kN gives an eigenvalue
 //! of 1e8 /s for a 2 g element.
 //!
-//! [`DampedLaw`] is the common form, for one contact or for several side by side in a register; [`ForceLaw`] is one contact with
-//! its stiffness, and knows derivatives too.
+//! [`DampedLaw`] is the common form, for one contact or for several side by side in a register; [`ForceLaw`] is one
+//! contact with its stiffness, and knows derivatives too.
 
-use super::elasticity::{Elastic, Elasticity, Point};
+use super::elasticity::{Elastic, Elasticity, Line, Point};
 use crate::numerics::number::Number;
 use crate::scene::Damping;
 
@@ -142,12 +142,19 @@ impl ForceLaw {
     }
 
     /// Force [N] at approach `delta` [m] and its rate [m/s].
-    #[inline]
+    #[inline(always)]
     pub fn force(&self, delta: f64, rate: f64) -> f64 {
         match self.elasticity.line() {
             None => DampedLaw::new(self.damping, Point, |number| number).force(self.stiffness, delta, rate),
-            Some(line) => DampedLaw::new(self.damping, line, |number| number).force(self.stiffness, delta, rate),
+            Some(line) => self.line_force(line, delta, rate),
         }
+    }
+
+    /// Not inlined: with it balls' steps would be too large to be inlined, and lose the instructions of the machine
+    /// they run on.
+    #[inline(never)]
+    fn line_force(&self, line: Line<'_>, delta: f64, rate: f64) -> f64 {
+        DampedLaw::new(self.damping, line, |number| number).force(self.stiffness, delta, rate)
     }
 
     #[inline(always)]
@@ -197,12 +204,17 @@ impl ForceLaw {
     }
 
     /// As [`DampedLaw::pushing`].
-    #[inline]
+    #[inline(always)]
     pub fn pushing(&self, delta: f64, rate: f64) -> f64 {
         match self.elasticity.line() {
             None => DampedLaw::new(self.damping, Point, |number| number).pushing(delta, rate),
-            Some(line) => DampedLaw::new(self.damping, line, |number| number).pushing(delta, rate),
+            Some(line) => self.line_pushing(line, delta, rate),
         }
+    }
+
+    #[inline(never)]
+    fn line_pushing(&self, line: Line<'_>, delta: f64, rate: f64) -> f64 {
+        DampedLaw::new(self.damping, line, |number| number).pushing(delta, rate)
     }
 }
 
