@@ -3,13 +3,12 @@
 use super::kernels::probe;
 use super::progress::Progress;
 use super::workspace::{Problem, Span, Workspace};
+use crate::numerics::rough_power;
 
-/// Width, as a share of the step and per tolerance, to which the instant of a change is narrowed down. What is left of
-/// the approach is this share of what a step covers, itself near the error of the dense output; and forces begin with
-/// the power 1.5 of it.
-const WIDTH_PER_TOLERANCE: f64 = 1e-2;
-/// Narrowest and widest such widths.
-const WIDTHS: [f64; 2] = [1e-9, 1e-5];
+/// Error of a step that ends past a change by its whole length, times this, is the tolerance where it ends past it by
+/// the width to which the instant is narrowed down. Forces begin with the power 1.5 of time, so what is left past the
+/// change errs as the power 2.5 of its share: the width is 1e-3 of a step at a tolerance of 1e-5.
+const PER_TOLERANCE: f64 = 3.2e-3;
 
 /// Share of the step at which the first contact changes; leaves the forces there.
 ///
@@ -23,7 +22,7 @@ pub(super) fn first_change(
     tolerance: f64,
     progress: &Progress,
 ) -> f64 {
-    let narrow = (WIDTH_PER_TOLERANCE * tolerance).clamp(WIDTHS[0], WIDTHS[1]);
+    let narrow = rough_power(PER_TOLERANCE * tolerance, 0.4);
     let (mut before, mut after) = (0.0, 1.0);
     let (mut at_before, mut at_after): (Option<f64>, f64) = (None, workspace.forces.beyond_change(&progress.pushing));
     let mut last_before = true;

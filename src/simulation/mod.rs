@@ -37,6 +37,7 @@ pub mod setup;
 mod state;
 pub mod state_bytes;
 pub mod step_error;
+mod step_size;
 pub mod stepper;
 mod stepping;
 pub mod switching;

@@ -17,14 +17,13 @@ use super::failing::{check_rings, check_step, worst};
 use super::kernels::{probe, try_step};
 use super::knots::{Knot, Legs, next_knot};
 use super::outputs::Outputs;
-use super::pair::Pair;
 use super::progress::Progress;
 use super::recorder::Recorder;
 use super::step_error::StepError;
+use super::step_size::{factor_after_failure, share_of, step_factor};
 use super::switching::Method;
 use super::workspace::{Problem, Span, Workspace, step_ends};
 use crate::dynamics::raceway::Defects;
-use crate::numerics::rough_power;
 use crate::scene::Motion;
 
 /// How exactly, how long and by which method to step.
@@ -40,13 +39,10 @@ pub struct Control {
 
 /// Shares of a step: a contact change this close to its start is not landed on, which bounds chatter.
 const CLOSEST_CHANGE: f64 = 1e-4;
-/// How far beyond the stable step one may go to land: what grows there is taken back by the next steps, or by error
-/// control.
-const STABLE_SLACK: f64 = 1.15;
-/// How much longer than wanted steps may be to be one fewer.
-const EQUAL_SLACK: f64 = 1.03;
 /// Share of the wanted step below which a step has been cut short.
 const SHORT: f64 = 0.8;
+/// Error per tolerance from which on the dense output of a step is too far off to land by.
+const BLURRED: f64 = 1e3;
 /// Inner nodes of Lobatto's quadrature with four nodes, as shares of a step; exact for polynomials of degree 5.
 const LOBATTO: [f64; 2] = [0.276_393_202_250_021_03, 0.723_606_797_749_979];
 
@@ -204,12 +200,8 @@ impl Stepper<'_> {
             try_step(workspace, *problem, span, progress);
             let error = workspace.error(tolerance);
             if !(error <= 1.0) {
-                progress.rejected_steps += 1;
-                let factor =
-                    if error.is_finite() { step_factor(workspace, error, 1.0, progress).clamp(0.1, 0.9) } else { 0.1 };
-                progress.next_step = h * factor;
-                (landing, crossing) = (None, None);
-                check_step(workspace, *problem, span, error, progress)?;
+                crossing = None;
+                landing = self.after_failure(span, error, landing.is_some())?;
                 continue;
             }
             if landing.is_none() && problem.model.watches_contacts() {
@@ -228,17 +220,14 @@ impl Stepper<'_> {
                 }
             }
             if workspace.changed && landing.is_none() {
-                let share = first_change(workspace, *problem, span, tolerance, progress);
-                let before = crossing.is_none_or(|crossing| share < crossing.share);
-                if share > CLOSEST_CHANGE && share < 1.0 && before {
+                landing = self.landing_on_change(span, crossing.map_or(1.0, |crossing| crossing.share));
+                if landing.is_some() {
                     crossing = None;
-                    progress.rejected_steps += 1;
-                    landing = Some(share * h);
-                    // The contacts that change there, by the dense output: the shorter step may end a hair before.
-                    workspace.forces.note_pushing(&mut progress.pushing);
+                    self.progress.rejected_steps += 1;
                     continue;
                 }
             }
+            let Self { workspace, progress, .. } = self;
             if let Some(found) = crossing.filter(|_| landing.is_none()) {
                 progress.rejected_steps += 1;
                 landing = Some(found.share * h);
@@ -255,6 +244,38 @@ impl Stepper<'_> {
             self.conclude(span, Taken { tried, short }, crossing)?;
             return Ok(h);
         }
+    }
+
+    /// Rejects the step tried last. What makes steps fail is mostly a contact change, so the next trial ends there; its
+    /// length is given. A step that was to end there itself, and one without a change, leave a shorter step wanted.
+    fn after_failure(&mut self, span: Span, error: f64, landed: bool) -> Result<Option<f64>, StepError> {
+        let Self { problem, workspace, progress, .. } = self;
+        progress.rejected_steps += 1;
+        if workspace.changed && !landed && error < BLURRED {
+            let watches = problem.model.watches_contacts();
+            let crossing = if watches { first_crossing(workspace, *problem, span, progress) } else { None };
+            let landing = self.landing_on_change(span, crossing.map_or(1.0, |crossing| crossing.share));
+            if landing.is_some() {
+                return Ok(landing);
+            }
+        }
+        let Self { problem, workspace, progress, .. } = self;
+        progress.next_step = span.length * if error.is_finite() { factor_after_failure(error) } else { 0.1 };
+        check_step(workspace, *problem, span, error, progress)?;
+        Ok(None)
+    }
+
+    /// Length of the step that ends at the first contact change of the step tried last, unless that is hardly after its
+    /// start or not before the share `limit` of it.
+    fn landing_on_change(&mut self, span: Span, limit: f64) -> Option<f64> {
+        let Self { problem, control, workspace, progress, .. } = self;
+        let share = first_change(workspace, *problem, span, control.tolerance, progress);
+        if !(share > CLOSEST_CHANGE && share < limit) {
+            return None;
+        }
+        // The contacts that change there, by the dense output: the shorter step may end a hair before.
+        workspace.forces.note_pushing(&mut progress.pushing);
+        Some(share * span.length)
     }
 
     /// Records and accepts the step tried last; a contact that crosses a knot at its end then enters the cell beyond.
@@ -356,27 +377,5 @@ impl Stepper<'_> {
                 *sum += 5.0 / 12.0 * force;
             }
         }
-    }
-}
-
-/// Factor from this step to the next for an error per tolerance: a proportional–integral controller (Hairer and
-/// Wanner, *Solving Ordinary Differential Equations II*, IV.2) with the exponents usual for an estimate of this order.
-fn step_factor(workspace: &Workspace, error: f64, last_error: f64, progress: &Progress) -> f64 {
-    let [now, before] = match workspace.pair {
-        Pair::PhaseFitted if !progress.choice.implicit => [-0.21, 0.05],
-        _ => [-0.17, 0.04],
-    };
-    0.9 * rough_power(error.max(1e-10), now) * rough_power(last_error, before)
-}
-
-/// Length of the next step within what remains, `wanted` being stable and `next` what error control wants.
-#[inline(always)]
-fn share_of(remaining: f64, wanted: f64, next: f64) -> f64 {
-    // One step a little beyond what is stable rather than two, where error control has no objection.
-    if next.min(STABLE_SLACK * wanted) >= remaining * (1.0 - 1e-9) {
-        remaining
-    } else {
-        // Equal steps rather than a remnant, and one fewer where that makes them hardly longer.
-        remaining / (remaining / (EQUAL_SLACK * wanted)).ceil()
     }
 }
