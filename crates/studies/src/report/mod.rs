@@ -8,6 +8,7 @@
 //! | `leaving_out` | what does each part of a scene cost |
 //! | `choice` | does the automatic choice of the method cost more than the better one |
 //! | `elements` | what does a step cost over the number of elements |
+//! | `steady` | what does a whole second cost after the start |
 //!
 //! Times are CPU times of the one thread that steps, best of several runs; other programs on the machine still take
 //! caches and memory from it, so ratios within a table mean more than the times.
@@ -23,6 +24,7 @@ mod leaving_out;
 mod machine;
 mod markdown;
 mod run;
+mod steady;
 mod steps_page;
 
 use std::fs;
@@ -72,8 +74,10 @@ fn steps(python: &Python, extent: Extent, folder: &Path) -> Result<()> {
     let choices = choice::measure(extent, &data)?;
     let (elements, hosted) = elements::measure(extent, &data)?;
     print!("{}", python.run("elements.py", [data.as_os_str(), figures.join("elements").as_os_str()])?);
+    let seconds = steady::measure(extent, &data)?;
     let path = folder.join("cost-of-steps.md");
-    whole_file::write(&path, steps_page::page(&machine::description(), &choices, &elements, &hosted))?;
+    let text = steps_page::page(&machine::description(), &choices, &elements, &hosted) + &steps_page::seconds(&seconds);
+    whole_file::write(&path, text)?;
     println!("{}", path.display());
     Ok(())
 }
