@@ -189,6 +189,7 @@ fn an_hour_with_a_data_set_is_what_happens() {
 }
 
 #[test]
+#[ignore = "needs the environment of the examples, half a gigabyte"]
 fn an_hour_with_a_rotor_is_what_happens() {
     if has_ross() {
         is_what_happens("hour-rotor.md");

@@ -63,6 +63,7 @@ fn the_notebook_of_an_fmu_steps_it_in_fmpy() {
 }
 
 #[test]
+#[ignore = "needs the environment of the examples, half a gigabyte"]
 fn the_notebook_of_a_rotor_carries_any_rotor_in_two_bearings() {
     let requirements = fs::read_to_string(common::root().join("examples/requirements.txt")).unwrap();
     let python = Python::prepare_from(&Project::find(), "examples-python", &requirements).unwrap();

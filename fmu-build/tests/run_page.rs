@@ -108,6 +108,7 @@ fn a_browser_draws_the_page_without_an_error_and_zooming_shows_every_sample() {
 }
 
 #[test]
+#[ignore = "opens a browser five times"]
 fn a_time_range_of_the_address_is_cut_to_the_run_and_what_is_wrong_with_it_is_said() {
     let Some(browser) = browser() else {
         eprintln!("skipped: no Chromium is installed; BRINELL_BROWSER can name one");
@@ -138,6 +139,7 @@ fn a_time_range_of_the_address_is_cut_to_the_run_and_what_is_wrong_with_it_is_sa
 }
 
 #[test]
+#[ignore = "opens a browser for each width"]
 fn nothing_lies_under_a_toolbar_in_a_narrow_window() {
     let Some(browser) = browser() else {
         eprintln!("skipped: no Chromium is installed; BRINELL_BROWSER can name one");
