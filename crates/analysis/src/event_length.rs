@@ -19,7 +19,7 @@
 
 use super::continuity::Break;
 use super::entry::{self, Entry};
-use super::events::{self, Impact};
+use super::events::{self, Impact, Told};
 use super::load_zone::MODULATED;
 use super::measured::Measured;
 use super::passages;
@@ -94,7 +94,7 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Result<EventLength, Unres
     }
     let grid = Grid::new(measured);
     let envelopes = measured.envelope_rows(0.0, grid.points);
-    let impacts = grid.impacts(&envelopes, &(0..envelopes.len()).collect::<Vec<_>>());
+    let Told { impacts, doubtful } = grid.told(&envelopes, &(0..envelopes.len()).collect::<Vec<_>>());
     let Some(first) = impacts.first().copied() else { return Err(Unresolved::NoImpact(grid.smallest)) };
     let span = grid.span(&impacts);
     if span > 0.6 * measured.spacing {
@@ -103,6 +103,10 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Result<EventLength, Unres
     let all = grid.after_first(&impacts);
     if all.len() > MOST_IMPACTS {
         return Err(Unresolved::ManyImpacts(all));
+    }
+    let later = |rise: &Impact| (rise.at - first.at).rem_euclid(grid.points as f64) / grid.degree;
+    if let Some(rise) = doubtful.iter().map(later).find(|&rise| rise > span) {
+        return Err(Unresolved::PerhapsLast(span, rise));
     }
     let share = first.at / grid.points as f64 - LEAD;
     let rows =
@@ -173,8 +177,8 @@ fn unclear(picked: &Picked, span: f64, clearness: f64) -> Unresolved {
 pub fn impacts(measured: &Measured) -> Vec<f64> {
     let grid = Grid::new(measured);
     let envelopes = measured.envelope_rows(0.0, grid.points);
-    let found = grid.impacts(&envelopes, &(0..envelopes.len()).collect::<Vec<_>>());
-    grid.after_first(&found)
+    let found = grid.told(&envelopes, &(0..envelopes.len()).collect::<Vec<_>>());
+    grid.after_first(&found.impacts)
 }
 
 /// The averaged passage that a figure shows: degrees from `from`, signal, envelope level [dB]. `from` is in degrees
@@ -214,11 +218,11 @@ impl Grid {
         Self { points, degree, width, smallest, rate, turns }
     }
 
-    /// Impacts in the mean of the chosen rows, without echoes.
-    fn impacts(&self, envelopes: &[Vec<f64>], chosen: &[usize]) -> Vec<Impact> {
+    /// Impacts in the mean of the chosen rows, told from echoes.
+    fn told(&self, envelopes: &[Vec<f64>], chosen: &[usize]) -> Told {
         let level = decibels(statistics::average_of(envelopes, chosen));
         let impacts = events::impacts(&level, self.width, self.smallest, self.turns);
-        events::without_echoes(impacts, envelopes, chosen, self.width, self.rate, self.turns)
+        events::tell_echoes(impacts, envelopes, chosen, self.width, self.rate, self.turns)
     }
 
     /// Where impacts are [degrees after the first].
@@ -274,7 +278,7 @@ impl Rows {
 
     /// The same with impacts picked anew in these rows.
     fn picked_way(&self, chosen: &[usize], grid: &Grid) -> Option<f64> {
-        let impacts = grid.impacts(&self.envelope, chosen);
+        let impacts = grid.told(&self.envelope, chosen).impacts;
         let impact = impacts.first()?.at;
         let last = impact + grid.span(&impacts) * grid.degree;
         let picked = Picked { impact, last, far: impacts.len() == 1 };

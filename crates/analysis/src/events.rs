@@ -62,21 +62,30 @@ pub fn impacts(level: &[f64], width: usize, smallest: f64, turns: bool) -> Vec<I
     after_the_longest_silence(found, n)
 }
 
-/// The impacts without echoes: rises that are loud whenever an earlier impact is loud, passage by passage, and that are
+/// Impacts told from echoes.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Told {
+    /// Those that are no echoes, that after the longest silence first.
+    pub impacts: Vec<Impact>,
+    /// Those that look like echoes, but come when all echoes have died down: they may be impacts too.
+    pub doubtful: Vec<Impact>,
+}
+
+/// Tells impacts from echoes: rises that are loud whenever an earlier impact is loud, passage by passage, and that are
 /// not both late and steep. Where the raceway turns with the shaft, all is loud under load, and steep is enough.
 ///
 /// `envelopes` is one row per passage on the grid of the impacts, of which those `chosen` count; `rate` its points per
 /// second.
-pub fn without_echoes(
-    mut impacts: Vec<Impact>,
+pub fn tell_echoes(
+    impacts: Vec<Impact>,
     envelopes: &[Vec<f64>],
     chosen: &[usize],
     width: usize,
     rate: f64,
     turns: bool,
-) -> Vec<Impact> {
+) -> Told {
     let Some(n) = envelopes.first().map(Vec::len).filter(|_| chosen.len() >= FEWEST_TO_COMPARE) else {
-        return impacts;
+        return Told { impacts, doubtful: Vec::new() };
     };
     let loudness = |impact: &Impact| -> Vec<f64> {
         let from = n + impact.at.max(0.0) as usize - width / 2;
@@ -90,12 +99,13 @@ pub fn without_echoes(
     };
     let all: Vec<Vec<f64>> = impacts.iter().map(loudness).collect();
     let loud_together = |i: usize, j: usize| statistics::correlation(&all[i], &all[j]) > SAME_CAUSE;
-    let late = |i: usize, j: usize| turns || (impacts[i].at - impacts[j].at).rem_euclid(n as f64) > DIED_DOWN * rate;
-    let echo = |i: usize| (0..i).any(|j| loud_together(i, j) && !(late(i, j) && impacts[i].jump >= STEEP));
-    let kept: Vec<bool> = (0..impacts.len()).map(|i| !echo(i)).collect();
-    let mut kept = kept.into_iter();
-    impacts.retain(|_| kept.next().unwrap_or(true));
-    after_the_longest_silence(impacts, n)
+    let late = |i: usize, j: usize| (impacts[i].at - impacts[j].at).rem_euclid(n as f64) > DIED_DOWN * rate;
+    let steep = |i: usize, j: usize| (turns || late(i, j)) && impacts[i].jump >= STEEP;
+    let echo = |i: &usize| (0..*i).any(|j| loud_together(*i, j) && !steep(*i, j));
+    let (echoes, told): (Vec<usize>, Vec<usize>) = (0..impacts.len()).partition(echo);
+    let doubtful = echoes.into_iter().filter(|&i| (0..i).all(|j| late(i, j))).map(|i| impacts[i]).collect();
+    let impacts = told.into_iter().map(|i| impacts[i]).collect();
+    Told { impacts: after_the_longest_silence(impacts, n), doubtful }
 }
 
 /// Impacts around a circle of `n` points, that after the longest silence first.
@@ -142,4 +152,48 @@ fn vertex(values: &[f64], i: usize) -> f64 {
     let (a, b, c) = (values[(i + n - 1) % n], values[i], values[(i + 1) % n]);
     let bend = a - 2.0 * b + c;
     if bend < 0.0 { (0.5 * (a - c) / bend).clamp(-0.5, 0.5) } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::statistics::{self, Random};
+    use super::*;
+
+    /// Points of a passage, and per second.
+    const POINTS: usize = 800;
+    const RATE: f64 = 20_000.0;
+    const WIDTH: usize = 6;
+
+    /// Impacts told in 60 passages: one at point 200, and one `later`, to which the level rises by 6 dB, that is as
+    /// loud as the first passage by passage if they are `alike`.
+    fn told(later: usize, alike: bool) -> Told {
+        let mut random = Random::new(3);
+        let mut row = || -> Vec<f64> {
+            let loud = libm::exp(0.3 * random.normal());
+            let second = if alike { loud } else { libm::exp(0.3 * random.normal()) };
+            let mut row = vec![0.01; POINTS];
+            row[200..200 + later].fill(loud);
+            row[200 + later..500].fill(2.0 * second);
+            row
+        };
+        let rows: Vec<Vec<f64>> = (0..60).map(|_| row()).collect();
+        let chosen: Vec<usize> = (0..60).collect();
+        let mean = statistics::average_of(&rows, &chosen);
+        let level: Vec<f64> = mean.iter().map(|x| 20.0 * libm::log10(*x)).collect();
+        // The first impact rises by 40 dB, and what follows must by a third of the steepest: 6 dB is not enough.
+        let impacts = impacts(&level, WIDTH, 3.0, false);
+        assert_eq!(impacts.len(), 1);
+        let second = Impact { at: (200 + later) as f64, jump: 6.0, energy: 0.7 };
+        tell_echoes([impacts, vec![second]].concat(), &rows, &chosen, WIDTH, RATE, false)
+    }
+
+    #[test]
+    fn a_rise_as_loud_as_the_impact_before_is_its_echo_up_to_a_millisecond_and_in_doubt_later() {
+        let count = |told: Told| (told.impacts.len(), told.doubtful.len());
+        // 0.6 ms, then 5 ms.
+        assert_eq!(count(told(12, true)), (1, 0));
+        assert_eq!(count(told(100, true)), (1, 1));
+        assert_eq!(count(told(12, false)), (2, 0));
+        assert_eq!(count(told(100, false)), (2, 0));
+    }
 }

@@ -53,6 +53,12 @@ pub enum Unresolved {
         "impacts at {0:.2?} degrees in each passage: a spall makes two at most, and which of these is the last is not told"
     )]
     ManyImpacts(Vec<f64>),
+    /// What may be an echo or the last impact.
+    #[error(
+        "the last impact is {0:.2} degrees after the first, or it is what follows at {1:.2} degrees: that is as loud as an impact before, \
+         passage by passage, but comes when echoes have died down"
+    )]
+    PerhapsLast(f64, f64),
     /// The picking does not hold.
     #[error("{0} of {1} resamples of the passages show no entry and impacts: what was picked in all of them is chance")]
     Unstable(usize, usize),

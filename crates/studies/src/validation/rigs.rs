@@ -1,8 +1,8 @@
 //! Sizing on machines that do not exist: how often a length comes out right, wrong, or not at all.
 //!
-//! Machines are numbered and each is drawn anew from its number and the length. **The first half was looked at while
-//! the method was made, the second only to write down the result.** The scene that sizes them knows the bearing, and
-//! the load within a third; it has no rig.
+//! Machines are numbered and each is drawn anew from its number and the length. **The first group was looked at while
+//! the method was made, the second once, when what it missed was mended, the third only to write down the result.** The
+//! scene that sizes them knows the bearing, and the load within a third; it has no rig.
 
 use std::fmt::Write;
 use std::sync::Mutex;
@@ -20,10 +20,8 @@ use brinell_analysis::statistics::Random;
 use super::Values;
 use super::synthetic_rig::SyntheticRig;
 
-/// Machines of each half, for each length.
-const MACHINES: u64 = 20;
-/// Numbers from which each half begins.
-const FIRST: [u64; 2] = [0, 100];
+/// Number from which each group of machines begins, and how many are in it, for each length.
+const GROUPS: [(u64, u64); 3] = [(0, 20), (100, 20), (500, 60)];
 /// Lengths of spalls [degrees]; 0 is healthy.
 const LENGTHS: [f64; 7] = [0.0, 0.5, 0.9, 1.3, 2.0, 5.0, 8.0];
 /// Lengths on the inner raceway.
@@ -43,8 +41,8 @@ fn table(raceway: Raceway, lengths: &[f64]) -> Result<String> {
     let mut table = String::new();
     for &length in lengths {
         write!(table, "| {} |", if length == 0.0 { "healthy".to_owned() } else { format!("{length:.1}°") })?;
-        for half in 0..2 {
-            let found = sized(raceway, length, half)?;
+        for group in GROUPS {
+            let found = sized(raceway, length, group)?;
             let resolved: Vec<&Found> = found.iter().filter(|found| found.length.is_some()).collect();
             let right = resolved.iter().filter(|found| found.error(length) <= RIGHT * length).count();
             let (wrong, unresolved) = (resolved.len() - right, found.len() - resolved.len());
@@ -74,17 +72,17 @@ impl Found {
     }
 }
 
-/// What sizing gives of all machines of a half.
-fn sized(raceway: Raceway, length: f64, half: usize) -> Result<Vec<Found>> {
+/// What sizing gives of all machines of a group.
+fn sized(raceway: Raceway, length: f64, (first, machines): (u64, u64)) -> Result<Vec<Found>> {
     let next = AtomicU64::new(0);
     let found = Mutex::new(Vec::new());
     let work = || {
         loop {
             let k = next.fetch_add(1, Ordering::Relaxed);
-            if k >= MACHINES {
+            if k >= machines {
                 break;
             }
-            let one = one(FIRST[half] + k, raceway, length);
+            let one = one(first + k, raceway, length);
             found.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push(one);
         }
     };
