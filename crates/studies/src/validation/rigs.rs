@@ -21,7 +21,7 @@ use super::Values;
 use super::synthetic_rig::SyntheticRig;
 
 /// Number from which each group of machines begins, and how many are in it, for each length.
-const GROUPS: [(u64, u64); 3] = [(0, 20), (100, 20), (500, 60)];
+const GROUPS: [(u64, u64); 3] = [(0, 20), (100, 20), (500, 40)];
 /// Lengths of spalls [degrees]; 0 is healthy.
 const LENGTHS: [f64; 7] = [0.0, 0.5, 0.9, 1.3, 2.0, 5.0, 8.0];
 /// Lengths on the inner raceway.
