@@ -11,9 +11,9 @@ use crate::library::Library;
 use crate::reference::Reference;
 use crate::{
     catalogue, check, contact, demo, fmu, model::Model, modes, new_scene, project::Project, run, scenes, schema, size,
-    stiffness,
+    stiffness, sweep,
 };
-use options::{Build, Catalogue, Check, Contact, Demo, Modes, New, Run, Scenes, Size, Stiffness};
+use options::{Build, Catalogue, Check, Contact, Demo, Modes, New, Run, Scenes, Size, Stiffness, Sweep};
 
 /// Rolling bearings with a real surface defect as FMI co-simulation units.
 #[derive(Debug, Parser)]
@@ -30,6 +30,8 @@ pub enum Command {
     Build(Build),
     /// Simulates a scene without a host and writes its signals, a figure, sound, a page to look at
     Run(Run),
+    /// Runs a scene thousands of times over grids and random values, on all cores: one Parquet table
+    Sweep(Sweep),
     /// Unzips, validates, loads and steps an FMU
     Check(Check),
     /// Static stiffness, load distribution and critical load over the cage angle: CSV, figure and summary
@@ -69,6 +71,16 @@ impl Command {
                 let wanted = options.options(&model.scene.experiment)?;
                 let folder = options.output.unwrap_or_else(|| project.results("run"));
                 run::command(project, model, &wanted, &folder)
+            }
+            Command::Sweep(options) => {
+                if let Some(run) = options.scene_of {
+                    return sweep::print_scene(&options.file, run);
+                }
+                let wanted = options.options();
+                let folder = options.output.unwrap_or_else(|| {
+                    project.results("sweep").join(options.file.file_stem().unwrap_or_else(|| "sweep".as_ref()))
+                });
+                sweep::command(project, &options.file, &wanted, &folder)
             }
             Command::Check(options) => check::command(project, &options.fmu),
             Command::Stiffness(options) => {

@@ -1,4 +1,4 @@
-//! Contact maps: computed on all cores with a progress bar, kept in the cache by the fingerprint of their
+//! Contact maps: computed on several threads with a progress bar, kept in the cache by the fingerprint of their
 //! inputs.
 
 use std::fs;
@@ -32,19 +32,23 @@ pub fn of<'p>(
     }
     let surfaces = Surface::load_all(scene, profiles)?;
     let needed = setup::needed_maps(scene, &surfaces)?;
-    let maps = needed.iter().map(|needed| one(scene, needed, project)).collect::<Result<Vec<_>>>()?;
+    let threads = thread::available_parallelism().map_or(1, usize::from);
+    let maps = needed.iter().map(|needed| one(scene, needed, project, threads)).collect::<Result<Vec<_>>>()?;
     Ok(Some(ContactMaps::new(maps).to_bytes()))
 }
 
-/// One map, kept by its own fingerprint: scenes with the same surface share it.
-fn one(scene: &Scene, needed: &NeededMap, project: &Project) -> Result<ContactMap> {
+/// The map with this fingerprint, if the cache has it.
+pub(crate) fn kept(fingerprint: u64, project: &Project) -> Option<ContactMap> {
+    ContactMap::from_bytes(&fs::read(cache_file(project, fingerprint)).ok()?, fingerprint).ok()
+}
+
+/// One map, computed on so many threads and kept by its own fingerprint: scenes with the same surface share it.
+pub(crate) fn one(scene: &Scene, needed: &NeededMap, project: &Project, threads: usize) -> Result<ContactMap> {
     let file = cache_file(project, needed.fingerprint);
-    if let Ok(bytes) = fs::read(&file)
-        && let Ok(map) = ContactMap::from_bytes(&bytes, needed.fingerprint)
-    {
+    if let Some(map) = kept(needed.fingerprint, project) {
         return Ok(map);
     }
-    let mut cores = AllCores { bar: bar(&scene.name) };
+    let mut cores = Cores { threads, bar: bar(&scene.name) };
     let map = needed.build(&mut cores)?;
     cores.bar.finish_and_clear();
     let (reached, wanted) = (map.accuracy().max(), setup::map_specification(scene, RacewaySide::Outer).accuracy);
@@ -69,12 +73,13 @@ fn bar(name: &str) -> ProgressBar {
     if let Ok(style) = style { bar.with_style(style) } else { bar }
 }
 
-/// Runs jobs on all cores; results keep their order, so the map has the same bits however many there are.
-struct AllCores {
+/// Runs jobs on several threads; results keep their order, so the map has the same bits however many there are.
+struct Cores {
+    threads: usize,
     bar: ProgressBar,
 }
 
-impl Runner for AllCores {
+impl Runner for Cores {
     fn run<T: Send>(
         &mut self,
         count: usize,
@@ -83,9 +88,8 @@ impl Runner for AllCores {
         self.bar.inc_length(count as u64);
         let next = AtomicUsize::new(0);
         let results: Mutex<Vec<Option<Result<T, ContactError>>>> = Mutex::new((0..count).map(|_| None).collect());
-        let workers = thread::available_parallelism().map_or(1, usize::from);
         thread::scope(|scope| {
-            for _ in 0..workers {
+            for _ in 0..self.threads.min(count) {
                 scope.spawn(|| {
                     loop {
                         let index = next.fetch_add(1, Ordering::Relaxed);

@@ -40,6 +40,7 @@ pub mod size;
 pub mod slave;
 pub mod slave3;
 pub mod stiffness;
+mod sweep;
 pub mod terminals;
 pub mod toolchain;
 pub mod units;

@@ -2,6 +2,7 @@
 //! where that has a profile.
 
 pub mod columns;
+pub(crate) mod course;
 pub mod grid;
 pub mod noise;
 mod page;
@@ -15,7 +16,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
-use brinell::recording::Recording;
 use brinell::scene::{Recorder, RecorderFilter, Scene};
 use brinell::simulation::Simulation;
 
@@ -23,11 +23,12 @@ use crate::digits::digits;
 use crate::model::{Model, Profile};
 use crate::project::Project;
 use crate::python::Python;
-use crate::whole_file::{self, NotWritten};
+use crate::whole_file;
 use columns::Columns;
+use course::{Course, Done};
 use grid::Grid;
 use noise::Noise;
-use signals::{Growing, Signals};
+use signals::Signals;
 use spectra::{Acceleration, Spectra};
 use speed_profile::SpeedProfile;
 use table::Format;
@@ -57,14 +58,6 @@ pub struct Options {
     pub page: bool,
 }
 
-/// What a run leaves in its own folder.
-struct Done {
-    signals: Signals,
-    /// Name and unit of its columns, the time's first.
-    units: Vec<(String, &'static str)>,
-    recording: Option<Signals>,
-}
-
 /// The command: `<folder>/<scene>.csv` or what else the table is to be, `.npy` where the scene has a recorder, and, if
 /// wanted, `.wav`, `.html`, `.svg` and `.png` with the spectra that they show. Each file is named when it is there.
 pub fn command(project: &Project, model: Model, options: &Options, folder: &Path) -> Result<()> {
@@ -75,7 +68,9 @@ pub fn command(project: &Project, model: Model, options: &Options, folder: &Path
     let path = options.format.path(folder, &model.scene.name);
     spare_profiles(&model, &path)?;
     let chosen = chosen(&model.simulation, &options.columns)?;
-    let done = simulate(&mut model, options, growing.path(), &path)?;
+    let columns = if options.figure || options.page { Columns::all(model.simulation.table()) } else { chosen.clone() };
+    let course = Course { grid: options.grid, profile: options.profile.as_ref() };
+    let done = course.simulate(&model.scene, &mut model.simulation, columns, growing.path(), &path)?;
     let sensors = |signals: &Signals| signals.places(|name| shows_a_sensor(&model.scene, name));
     if let Some(noise) = &options.noise {
         noise.add(&done.signals, &sensors(&done.signals), 0)?;
@@ -157,65 +152,6 @@ fn with_recorder(model: Model, options: &Options) -> Result<Model> {
     let texts = model.profiles.iter().map(|profile| profile.text.as_str());
     let simulation = Simulation::with_map(scene.clone(), texts, model.map.as_deref())?;
     Ok(Model { scene, simulation, ..model })
-}
-
-/// Runs the simulation; its signals go into `growing`. A disk that is full is told of the table at `about`.
-fn simulate(model: &mut Model, options: &Options, growing: &Path, about: &Path) -> Result<Done> {
-    let simulation = &mut model.simulation;
-    let mut columns = if options.figure || options.page {
-        Columns::all(simulation.table())
-    } else {
-        chosen(simulation, &options.columns)?
-    };
-    simulation.record_into(&growing.to_string_lossy());
-    let shaft_speed = simulation.reference("shaft.speed")?;
-    if let Some(profile) = &options.profile {
-        simulation.set_reals(&[shaft_speed], &[profile.at(0.0)])?;
-    }
-    simulation.initialize(0.0).context("initial equilibrium")?;
-    let mut recording = Recording::begin(simulation, &model.scene.name)?;
-    let units: Vec<(String, &str)> =
-        std::iter::once(("time", "s")).chain(columns.names()).map(|(name, unit)| (name.to_owned(), unit)).collect();
-    let full = |error| NotWritten::new(about, error);
-    let names = units.iter().map(|(name, _)| name.clone()).collect();
-    // No recording has that name: those of scenes end in .npy alone.
-    let file = growing.join("signals.table");
-    let mut rows = Growing::create(&file, names, options.grid.count + 1).map_err(full)?;
-    let mut row = vec![0.0; units.len()];
-    for index in 0..=options.grid.count {
-        if index > 0 {
-            step(simulation, shaft_speed, options)?;
-            if let Some(recording) = &mut recording {
-                recording.keep_up(simulation)?;
-            }
-        }
-        row[0] = simulation.time();
-        columns.read(simulation, &mut row[1..])?;
-        rows.push(&row).map_err(full)?;
-    }
-    let signals = rows.end().map_err(full)?;
-    let recording = match recording {
-        None => None,
-        Some(mut recording) => {
-            recording.store(simulation)?;
-            let recorder = simulation.recorder().into_iter().flat_map(|recorder| recorder.references());
-            let names = recorder.map(|reference| simulation.table()[reference as usize].name.clone());
-            Some(Signals::of_recording(recording.path(), std::iter::once("time".to_owned()).chain(names).collect())?)
-        }
-    };
-    Ok(Done { signals, units, recording })
-}
-
-/// One communication step, with the speed going straight from the profile's value at its start to that at its end.
-fn step(simulation: &mut Simulation, shaft_speed: u32, options: &Options) -> Result<()> {
-    let (at, step) = (simulation.time(), options.grid.step);
-    if let Some(profile) = &options.profile {
-        let (from, to) = (profile.at(at), profile.at(at + step));
-        simulation.set_reals(&[shaft_speed], &[from])?;
-        simulation.set_input_derivatives(&[shaft_speed], &[1], &[(to - from) / step])?;
-    }
-    // What goes wrong in a step is told with its time.
-    Ok(simulation.step(step)?)
 }
 
 /// Spectra, figure and page.

@@ -24,6 +24,11 @@ impl ContactMaps {
         Self(maps.into_iter().map(Arc::new).collect())
     }
 
+    /// Maps that others may use as well.
+    pub fn shared(maps: Vec<Arc<ContactMap>>) -> Self {
+        Self(maps)
+    }
+
     /// The map made from the inputs with this fingerprint.
     pub fn find(&self, fingerprint: u64) -> Option<&Arc<ContactMap>> {
         self.0.iter().find(|map| map.fingerprint() == fingerprint)

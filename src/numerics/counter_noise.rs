@@ -6,11 +6,21 @@ use std::f64::consts::TAU;
 /// A number of the standard normal distribution that depends on nothing but `seed`, `course` and `index` (Box and
 /// Muller 1958).
 pub fn gaussian(seed: u64, course: u64, index: i64) -> f64 {
-    let key = mixed(mixed(mixed(seed) ^ course) ^ index as u64);
+    let key = bits(seed, course, index);
     // In (0, 1), never 0.
     let uniform = |bits: u64| ((bits >> 11) as f64 + 0.5) * (1.0 / (1u64 << 53) as f64);
     let (radius, angle) = (uniform(mixed(key)), uniform(mixed(key ^ OTHER)));
     (-2.0 * libm::log(radius)).sqrt() * sin_cos(TAU * angle).1
+}
+
+/// A number that is uniform in [0, 1) and depends on nothing but `seed`, `course` and `index`.
+pub fn uniform(seed: u64, course: u64, index: i64) -> f64 {
+    (mixed(bits(seed, course, index)) >> 11) as f64 / (1u64 << 53) as f64
+}
+
+/// 64 random bits that depend on nothing but `seed`, `course` and `index`: a seed for what is drawn within.
+pub fn bits(seed: u64, course: u64, index: i64) -> u64 {
+    mixed(mixed(mixed(seed) ^ course) ^ index as u64)
 }
 
 /// Any number that is not 0: it makes a second number of the same place.
@@ -41,6 +51,12 @@ mod tests {
         for other in [draw(2, 1, 5), draw(1, 0, 5), draw(1, 2, 5)] {
             assert!(few.iter().zip(&other).all(|(a, b)| a != b));
         }
+        let even: Vec<f64> = (0..100_000).map(|k| uniform(1, 1, k)).collect();
+        // Four standard errors: 0.0037 of the mean, 0.0012 of the variance.
+        let mean = even.iter().sum::<f64>() / even.len() as f64;
+        let variance = even.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / even.len() as f64;
+        assert!((mean - 0.5).abs() < 0.0037 && (variance - 1.0 / 12.0).abs() < 0.0012, "{mean} {variance}");
+        assert!(even.iter().all(|x| (0.0..1.0).contains(x)));
         // The first number of SplitMix64 from 0, as published with it.
         assert_eq!(mixed(0), 0xe220_a839_7b1d_cdaf);
     }

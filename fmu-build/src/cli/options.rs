@@ -15,7 +15,7 @@ use crate::run::noise::Noise;
 use crate::run::speed_profile::SpeedProfile;
 use crate::run::table::Format;
 use crate::run::wav::Wav;
-use crate::{contact, fmu, library, run};
+use crate::{contact, fmu, library, run, sweep};
 
 /// Options of `build`.
 #[derive(Debug, Args)]
@@ -117,6 +117,32 @@ impl Run {
             figure: !self.no_figure,
             page: self.html,
         })
+    }
+}
+
+/// Options of `sweep`.
+#[derive(Debug, Args)]
+pub struct Sweep {
+    /// File of the sweep (TOML): which scene is run, and what changes from run to run
+    pub(super) file: PathBuf,
+    /// Folder for the table; a sweep that was interrupted goes on in it [default: named after the file]
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) output: Option<PathBuf>,
+    /// Runs at once [default: as many as there are cores]
+    #[arg(long, value_name = "COUNT", allow_negative_numbers = true, value_parser = whole::<1, 4096>)]
+    pub(super) jobs: Option<u32>,
+    /// Write the signals of each run as well [default format: npy]
+    #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, default_missing_value = "npy")]
+    pub(super) signals: Option<sweep::Written>,
+    /// Print the scene of one run, which `brinell run` takes, and run nothing
+    #[arg(long, value_name = "RUN", allow_negative_numbers = true, value_parser = seed)]
+    pub(super) scene_of: Option<u64>,
+}
+
+impl Sweep {
+    pub(super) fn options(&self) -> sweep::Options {
+        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+        sweep::Options { jobs: self.jobs.map_or_else(cores, |jobs| jobs as usize), signals: self.signals }
     }
 }
 

@@ -11,7 +11,7 @@ use brinell::numerics::counter_noise::gaussian;
 use super::signals::Signals;
 
 /// Ratios beyond these are no measurement [dB].
-const RATIOS: std::ops::RangeInclusive<f64> = -60.0..=200.0;
+pub(crate) const RATIOS: std::ops::RangeInclusive<f64> = -60.0..=200.0;
 
 /// How much noise, and which.
 #[derive(Debug, Clone, Copy, PartialEq)]

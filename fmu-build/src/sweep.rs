@@ -1,0 +1,260 @@
+//! The command `sweep`: thousands of runs of one scene over grids and random values, on all cores, into one table.
+//!
+//! Each run is a scene of its own, a function of the file and the run's number alone, and is stepped as `run` steps any
+//! scene. So rows have the same bits on any number of threads, in any order, and after a sweep was interrupted.
+
+mod bench;
+mod check;
+mod design;
+mod faults;
+mod file;
+mod maps;
+mod record;
+mod rows;
+mod scenes;
+mod statistics;
+mod table;
+mod workers;
+
+use std::collections::{BTreeSet, HashMap};
+use std::fs::{self, File, TryLockError};
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+use anyhow::{Context, Result, bail};
+use brinell::scene::Experiment;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::project::Project;
+use crate::run::grid::Grid;
+use crate::run::speed_profile::SpeedProfile;
+use crate::whole_file::NotWritten;
+use bench::Bench;
+pub(crate) use bench::Written;
+use faults::{Fault, Faults};
+use file::Sweep;
+use maps::Maps;
+use record::Record;
+use rows::{Journal, Row};
+use scenes::Base;
+
+/// The table of a sweep.
+const TABLE: &str = "runs.parquet";
+
+/// What the user says beside the file.
+#[derive(Debug, Clone)]
+pub(crate) struct Options {
+    /// Runs at once.
+    pub(crate) jobs: usize,
+    /// What each run's signals are written as; `None` for not at all.
+    pub(crate) signals: Option<Written>,
+}
+
+/// A sweep that was read and can be run.
+struct Planned {
+    sweep: Sweep,
+    base: Base,
+    text: String,
+    /// Keys that take whole numbers only.
+    whole: BTreeSet<String>,
+    speeds: Vec<SpeedProfile>,
+    grid: Grid,
+}
+
+/// The command: `<folder>/runs.parquet` and, if wanted, a file with the signals of each run in `<folder>/signals`.
+pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder: &Path) -> Result<()> {
+    let planned = Planned::read(file)?;
+    let Planned { sweep, base, .. } = &planned;
+    let record = Record::of(sweep, base, file, &planned.text, options.signals)?;
+    fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
+    let _lock = lock(folder)?;
+    record.claim(folder)?;
+    let columns = bench::columns(sweep, &|key| planned.is_whole(key));
+    let (mut journal, mut rows) = Journal::open(folder, &columns)?;
+    if let Some(beyond) = rows.iter().filter_map(Row::run).find(|run| *run >= sweep.runs) {
+        bail!("{} holds run {beyond}: runs must be at least {}", folder.display(), beyond + 1);
+    }
+    let (running, signals) = (folder.join("running"), folder.join("signals"));
+    // What an interrupted sweep has left.
+    let _ = fs::remove_dir_all(&running);
+    for made in [Some(&running), options.signals.map(|_| &signals)].into_iter().flatten() {
+        fs::create_dir_all(made).with_context(|| made.display().to_string())?;
+    }
+    let bench = Bench {
+        sweep,
+        base,
+        columns: &columns,
+        speeds: &planned.speeds,
+        grid: planned.grid,
+        written: options.signals,
+        signals: &signals,
+        running: &running,
+        texts: Mutex::default(),
+    };
+    let done: BTreeSet<u64> = rows.iter().filter_map(Row::run).collect();
+    let missing: Vec<u64> = (0..sweep.runs).filter(|run| !done.contains(run)).collect();
+    let (maps, fingerprints) = prepare(project, &planned, &bench, &missing, options.jobs)?;
+    let table = folder.join(TABLE);
+    let write = |rows: &mut Vec<Row>| {
+        rows.sort_by_key(Row::run);
+        table::write(&table, &columns, rows)
+    };
+    let bar = bar(sweep.runs, done.len() as u64);
+    // The table is written now and then, whenever there is a quarter more of it.
+    let mut next = rows.len() + rows.len() / 4 + 100;
+    let mut failed = 0;
+    let job = |k: usize| bench.row(&planned.run(missing[k]), &maps, &fingerprints[k]);
+    workers::each(options.jobs, missing.len(), job, |_, row| {
+        let row = row?;
+        journal.add(&row)?;
+        failed += usize::from(error_of(&row).is_some());
+        rows.push(row);
+        bar.set_message(if failed > 0 { format!(", {failed} failed") } else { String::new() });
+        bar.inc(1);
+        if rows.len() >= next {
+            next = rows.len() + rows.len() / 4 + 100;
+            write(&mut rows)?;
+        }
+        Ok(())
+    })?;
+    bar.finish_and_clear();
+    write(&mut rows)?;
+    let _ = fs::remove_dir_all(&running);
+    println!("{}", table.display());
+    if options.signals.is_some() {
+        println!("{}", signals.display());
+    }
+    tell(&rows, missing.len());
+    Ok(())
+}
+
+/// Prints the scene of a run as a file that `brinell run` takes.
+pub(crate) fn print_scene(file: &Path, run: u64) -> Result<()> {
+    let planned = Planned::read(file)?;
+    if run >= planned.sweep.runs {
+        bail!("run {run}: the sweep has runs 0 to {}", planned.sweep.runs - 1);
+    }
+    let (_, table) = planned.base.scene(&planned.sweep, &planned.run(run))?;
+    print!("{}", toml::to_string(&table)?);
+    Ok(())
+}
+
+impl Planned {
+    /// Reads a sweep and all that it names.
+    ///
+    /// # Errors
+    /// All that is wrong with the file, also with its values in the scene.
+    fn read(file: &Path) -> Result<Self> {
+        let about = || file.display().to_string();
+        let text = fs::read_to_string(file).with_context(about)?;
+        let (sweep, mut faults) = Sweep::read(&text).with_context(about)?;
+        let base = if sweep.scene.is_empty() { None } else { Some(Base::read(&sweep.scene, file)) };
+        let mut whole = BTreeSet::new();
+        let base = match base {
+            None => None,
+            Some(Err(error)) => {
+                let line = 1 + text.lines().take_while(|line| !line.trim_start().starts_with("scene")).count();
+                faults.push(Fault { line, said: format!("scene: {error:#}") });
+                None
+            }
+            Some(Ok(base)) => {
+                let keys = sweep.lines().map(|(key, _)| key);
+                whole.extend(keys.filter(|key| check::takes_whole_numbers(&base, &sweep, key)).map(str::to_owned));
+                faults.extend(check::faults(&base, &sweep, &|key| whole.contains(key)));
+                Some(base)
+            }
+        };
+        faults.sort_by_key(|fault| fault.line);
+        let Some(base) = base.filter(|_| faults.is_empty()) else {
+            return Err(Faults(faults)).with_context(about);
+        };
+        let grid =
+            Grid::new(&Experiment { stop: sweep.stop, step: 1.0 / sweep.rate }, None, None).with_context(about)?;
+        let speed = |name: &String| {
+            let path = file.parent().unwrap_or(Path::new("")).join(name);
+            let profile = SpeedProfile::read(&path)?;
+            profile.check_covers(grid.end()).with_context(|| path.display().to_string())?;
+            anyhow::Ok(profile)
+        };
+        let speeds = sweep.speed_profiles.iter().map(speed).collect::<Result<_>>()?;
+        Ok(Self { sweep, base, text, whole, speeds, grid })
+    }
+
+    fn is_whole(&self, key: &str) -> bool {
+        self.whole.contains(key)
+    }
+
+    fn run(&self, index: u64) -> design::Run {
+        self.sweep.run(index, &|key| self.is_whole(key))
+    }
+}
+
+/// Computes the contact maps that the runs need, and says which run needs which. A scene that cannot be needs none: its
+/// run will say so.
+fn prepare<'p>(
+    project: &'p Project,
+    planned: &Planned,
+    bench: &Bench<'_>,
+    missing: &[u64],
+    jobs: usize,
+) -> Result<(Maps<'p>, Vec<Vec<u64>>)> {
+    let mut fingerprints = vec![Vec::new(); missing.len()];
+    let needed = |k: usize| {
+        let ready = bench.ready(&planned.run(missing[k])).ok()?;
+        maps::needed(&ready.scene, &ready.texts).ok()
+    };
+    workers::each(jobs, missing.len(), needed, |k, found| {
+        fingerprints[k] = found.unwrap_or_default();
+        Ok(())
+    })?;
+    let mut uses: HashMap<u64, usize> = HashMap::new();
+    let mut first = Vec::new();
+    for (k, all) in fingerprints.iter().enumerate() {
+        if all.iter().any(|one| !uses.contains_key(one)) {
+            first.push(k);
+        }
+        all.iter().for_each(|&one| *uses.entry(one).or_default() += 1);
+    }
+    let mut maps = Maps::new(project, uses);
+    for k in first {
+        let ready = bench.ready(&planned.run(missing[k]))?;
+        maps.prepare(&ready.scene, &ready.texts, jobs)?;
+    }
+    Ok((maps, fingerprints))
+}
+
+/// Keeps other programs from sweeping in the same folder.
+fn lock(folder: &Path) -> Result<File> {
+    let path: PathBuf = folder.join("lock");
+    let file = File::create(&path).map_err(|error| NotWritten::new(&path, error))?;
+    match file.try_lock() {
+        Ok(()) => Ok(file),
+        Err(TryLockError::WouldBlock) => bail!("{}: another program sweeps in this folder", folder.display()),
+        Err(TryLockError::Error(error)) => Err(error).with_context(|| path.display().to_string()),
+    }
+}
+
+fn bar(runs: u64, done: u64) -> ProgressBar {
+    let style = ProgressStyle::with_template("sweep [{bar:30}] {pos}/{len} runs{msg}, {per_sec}, {eta} left");
+    let bar = ProgressBar::new(runs).with_position(done);
+    bar.reset_eta();
+    if let Ok(style) = style { bar.with_style(style) } else { bar }
+}
+
+fn error_of(row: &Row) -> Option<&str> {
+    match row.0.last() {
+        Some(rows::Cell::Text(error)) => Some(error),
+        _ => None,
+    }
+}
+
+/// Says what a reader of the table must know.
+fn tell(rows: &[Row], made: usize) {
+    let mut errors = rows.iter().filter_map(|row| Some((row.run()?, error_of(row)?)));
+    let first = errors.next();
+    let failed = usize::from(first.is_some()) + errors.count();
+    eprintln!("note: {} runs, {made} of them made now, {failed} failed", rows.len());
+    if let Some((run, error)) = first {
+        eprintln!("note: run {run}: {error}");
+    }
+}

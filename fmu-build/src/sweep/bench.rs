@@ -1,0 +1,369 @@
+//! One run of a sweep: its scene is stepped, and its row and signals are made of what the sensors show.
+
+use std::collections::HashMap;
+use std::f64::consts::TAU;
+use std::panic::{self, AssertUnwindSafe};
+use std::path::Path;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use anyhow::{Context, Result, bail};
+use brinell::scene::{DefectOn, DefectShape, Scene};
+use brinell::simulation::Simulation;
+use clap::ValueEnum;
+use toml::Value;
+
+use super::design::Run;
+use super::file::{Kind as Fault, Sweep};
+use super::maps::Maps;
+use super::rows::{Cell, Column, Kind, Row};
+use super::scenes::{Base, run_name};
+use super::statistics::{HARMONICS, OneElement, Passage, Statistics};
+use crate::run::columns::Columns;
+use crate::run::course::{Course, Done};
+use crate::run::grid::Grid;
+use crate::run::noise::Noise;
+use crate::run::signals::{Growing, Signals};
+use crate::run::speed_profile::SpeedProfile;
+use crate::run::table::Format;
+use crate::run::wav::Wav;
+use crate::shipped;
+use crate::whole_file::{self, NotWritten};
+
+/// What each run's signals are written as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Written {
+    /// NumPy's file, a field for the time and for each sensor
+    Npy,
+    /// Apache Parquet, packed
+    Parquet,
+    /// Sound, a channel for each sensor; 1 is 1 m/s²
+    Wav,
+}
+
+/// All that runs share.
+pub(super) struct Bench<'a> {
+    pub(super) sweep: &'a Sweep,
+    pub(super) base: &'a Base,
+    pub(super) columns: &'a [Column],
+    pub(super) speeds: &'a [SpeedProfile],
+    pub(super) grid: Grid,
+    pub(super) written: Option<Written>,
+    /// Where signals go, and where they grow.
+    pub(super) signals: &'a Path,
+    pub(super) running: &'a Path,
+    /// Texts of profiles that scenes name, once they were read.
+    pub(super) texts: Mutex<HashMap<String, Arc<str>>>,
+}
+
+/// A run that is ready: its scene, and the texts of the profiles that it names.
+pub(super) struct Ready {
+    pub(super) scene: Scene,
+    pub(super) table: toml::Table,
+    pub(super) texts: Vec<Arc<str>>,
+}
+
+impl Bench<'_> {
+    /// The scene of a run.
+    pub(super) fn ready(&self, run: &Run) -> Result<Ready> {
+        let (scene, table) = self.base.scene(self.sweep, run)?;
+        if scene.sensors.is_empty() {
+            bail!("the scene has no [sensor]: a sweep is about what sensors show");
+        }
+        let texts = scene.profile_names().into_iter().map(|name| self.text(name)).collect::<Result<_>>()?;
+        Ok(Ready { scene, table, texts })
+    }
+
+    fn text(&self, name: &str) -> Result<Arc<str>> {
+        let mut texts = self.texts.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(text) = texts.get(name) {
+            return Ok(Arc::clone(text));
+        }
+        let text: Arc<str> = shipped::text_beside(&self.base.path, name)?.into();
+        texts.insert(name.to_owned(), Arc::clone(&text));
+        Ok(text)
+    }
+
+    /// The row of a run, whatever becomes of it.
+    ///
+    /// # Errors
+    /// Only what is no run's fault: a disk that is full.
+    pub(super) fn row(&self, run: &Run, maps: &Maps, fingerprints: &[u64]) -> Result<Row> {
+        let mut row = Row::of(self.columns, run.index);
+        self.put_values(&mut row, run);
+        let made = panic::catch_unwind(AssertUnwindSafe(|| self.fill(&mut row, run, maps, fingerprints)));
+        let error = match made {
+            Ok(Ok(())) => return Ok(row),
+            Ok(Err(error)) if error.is::<NotWritten>() => return Err(error),
+            Ok(Err(error)) => format!("{error:#}"),
+            Err(_) => "the run ended in a fault of the program; standard error says where".to_owned(),
+        };
+        row.put(self.columns, "error", Cell::Text(error));
+        Ok(row)
+    }
+
+    /// What a run was given.
+    fn put_values(&self, row: &mut Row, run: &Run) {
+        let mut put = |name: &str, cell: Cell| row.put(self.columns, name, cell);
+        for (key, value) in &run.values {
+            let cell = match (value, self.columns.iter().find(|column| column.name == *key).map(|column| column.kind)) {
+                (Value::Integer(whole), Some(Kind::Whole)) => Cell::Whole(*whole),
+                (value, Some(Kind::Number)) => super::file::number(value).map_or(Cell::Missing, Cell::Number),
+                (Value::String(text), _) => Cell::Text(text.clone()),
+                (value, _) => Cell::Text(value.to_string()),
+            };
+            put(key, cell);
+        }
+        if let Some(kind) = run.kind {
+            put("kind", Cell::Text(kind.word().to_owned()));
+        }
+        if let Some(profile) = run.profile {
+            put("speed_profile", Cell::Text(self.sweep.speed_profiles[profile].clone()));
+        }
+        if let Some((ratio, _)) = run.noise {
+            put("noise_db", Cell::Number(ratio));
+        }
+    }
+
+    fn fill(&self, row: &mut Row, run: &Run, maps: &Maps, fingerprints: &[u64]) -> Result<()> {
+        let Ready { scene, table, texts } = self.ready(run)?;
+        self.label(row, &scene, &table, run);
+        let map = maps.take(fingerprints)?;
+        let mut simulation = Simulation::with_shared_map(scene.clone(), texts.iter().map(|text| &**text), map)?;
+        let profile = run.profile.map(|profile| &self.speeds[profile]);
+        let name = run_name(run.index);
+        let own = self.running.join(&name);
+        std::fs::create_dir_all(&own).map_err(|error| NotWritten::new(&own, error))?;
+        let columns = self.wanted(&scene, &simulation)?;
+        let course = Course { grid: self.grid, profile };
+        let done = course.simulate(&scene, &mut simulation, columns, &own, &own)?;
+        let kept = self.kept(&scene, &done, &own.join(format!("{name}.kept")))?;
+        if let Some((ratio, seed)) = run.noise {
+            let sensors: Vec<usize> = (1..kept.names().len()).collect();
+            Noise::new(ratio, seed)?.add(&kept, &sensors, 0)?;
+        }
+        self.measure(row, &scene, &done, &kept)?;
+        if let Some(written) = self.written {
+            self.write(written, &kept, &name)?;
+        }
+        Ok(std::fs::remove_dir_all(&own).map_err(|error| NotWritten::new(&own, error))?)
+    }
+
+    /// What is looked at in each step.
+    fn wanted(&self, scene: &Scene, simulation: &Simulation) -> Result<Columns> {
+        let mut names = vec!["cage.speed".to_owned(), "solver.steps".to_owned(), "solver.rejected_steps".to_owned()];
+        names.extend((0..scene.sensors.len()).map(|number| scene.sensor_variable(number)));
+        if passes_outer_defect(scene).is_some() {
+            names.extend(["element[*].angle".to_owned(), "element[*].force.outer".to_owned()]);
+        }
+        Columns::matching(simulation.table(), &names)
+    }
+
+    /// What the sensors show after the settling time, in a file of its own.
+    fn kept(&self, scene: &Scene, done: &Done, file: &Path) -> Result<Signals> {
+        let source = done.recording.as_ref().unwrap_or(&done.signals);
+        let is_sensor = |name: &str| (0..scene.sensors.len()).any(|number| scene.sensor_variable(number) == name);
+        let positions = source.places(|name| name == "time" || is_sensor(name));
+        let names: Vec<String> = positions.iter().map(|&position| source.names()[position].clone()).collect();
+        // Without the instant at which settling ends, however it was rounded.
+        let late = self.sweep.settle + 1e-9 / self.sweep.rate;
+        let mut count = 0;
+        source.each_row(|row| {
+            count += u64::from(row[0] > late);
+            Ok(())
+        })?;
+        if count < 2 {
+            bail!("{count} samples after {} s: there must be 2 at least", self.sweep.settle);
+        }
+        let full = |error| NotWritten::new(file, error);
+        let mut kept = Growing::create(file, names, count).map_err(full)?;
+        let mut values = vec![0.0; positions.len()];
+        source.each_row(|row| {
+            if row[0] > late {
+                values.iter_mut().zip(&positions).for_each(|(value, &position)| *value = row[position]);
+                kept.push(&values).map_err(full)?;
+            }
+            Ok(())
+        })?;
+        Ok(kept.end().map_err(full)?)
+    }
+
+    /// What the run is a run of.
+    fn label(&self, row: &mut Row, scene: &Scene, table: &toml::Table, run: &Run) {
+        let mut put = |name: &str, cell: Cell| row.put(self.columns, name, cell);
+        let (kind, shape) = match &scene.defects[..] {
+            [] => (Fault::Healthy.word(), None),
+            [defect] => (kind_of(defect.on).word(), Some(defect)),
+            _ => ("several", None),
+        };
+        put("label_kind", Cell::Text(kind.to_owned()));
+        if let Some(defect) = shape {
+            if let DefectShape::Spall { length, depth, .. } = defect.shape {
+                put("label_length_mm", Cell::Number(rounded(length * 1e3)));
+                put("label_depth_um", Cell::Number(rounded(depth * 1e6)));
+            }
+            // As the file has it, in degrees.
+            let angle = Base::value(table, "defect.angle_deg").and_then(super::file::number);
+            put("label_angle_deg", Cell::Number(angle.unwrap_or(rounded(defect.angle.to_degrees()))));
+        }
+        let load = [scene.shaft.load, scene.housing.load].map(|load| load[0].hypot(load[1]));
+        put("label_load_n", Cell::Number(rounded(load[0].max(load[1]))));
+        let speed = match run.profile.map(|profile| &self.speeds[profile]) {
+            None => rounded(scene.shaft_speed / TAU),
+            Some(profile) => {
+                let late = (0..=self.grid.count).map(|k| k as f64 * self.grid.step).filter(|t| *t > self.sweep.settle);
+                let (sum, count) = late.fold((0.0, 0.0), |(sum, count), t| (sum + profile.hertz(t), count + 1.0));
+                sum / count
+            }
+        };
+        put("label_speed_hz", Cell::Number(speed));
+    }
+
+    /// Statistics of the first sensor, passage of the defect, and steps.
+    fn measure(&self, row: &mut Row, scene: &Scene, done: &Done, kept: &Signals) -> Result<()> {
+        let column = |name: &str| -> Result<Vec<f64>> {
+            let position = done.signals.names().iter().position(|known| known == name);
+            done.signals.column(position.with_context(|| format!("no column {name}"))?)
+        };
+        let (time, cage) = (column("time")?, column("cage.speed")?);
+        let count = scene.bearing.element_count as f64;
+        // How many elements have passed a point of the outer raceway.
+        let mut passed = 0.0;
+        let passages: Vec<f64> = cage
+            .iter()
+            .map(|speed| {
+                let here = passed;
+                passed += count * self.grid.step * speed / TAU;
+                here
+            })
+            .collect();
+        let at = kept.column(0)?;
+        let late: Vec<f64> = cage.iter().zip(&time).filter(|(_, t)| **t > self.sweep.settle).map(|(c, _)| *c).collect();
+        let between = |t: f64| {
+            let along = (t / self.grid.step).clamp(0.0, (passages.len() - 1) as f64);
+            let first = (along as usize).min(passages.len() - 2);
+            passages[first] + (along - first as f64) * (passages[first + 1] - passages[first])
+        };
+        let passages_at: Vec<f64> = at.iter().map(|&t| between(t)).collect();
+        let found = Statistics::of(&kept.column(1)?, &passages_at);
+        let mut put = |name: &str, cell: Cell| row.put(self.columns, name, cell);
+        let mut number = |name: &str, value: f64| put(name, Cell::Number(value));
+        number("bpfo_hz", count * brinell_analysis::statistics::mean(&late) / TAU);
+        number("rms_m_s2", found.rms);
+        number("peak_m_s2", found.peak);
+        number("kurtosis", found.kurtosis);
+        for (k, line) in found.envelope.into_iter().enumerate() {
+            number(&envelope_name(k + 1), line);
+        }
+        if let Some(defect) = passes_outer_defect(scene) {
+            let of = |what: &str| -> Result<Vec<Vec<f64>>> {
+                (1..=scene.bearing.element_count).map(|j| column(&format!("element[{j}].{what}"))).collect()
+            };
+            let (angles, forces) = (of("angle")?, of("force.outer")?);
+            let elements: Vec<OneElement<'_>> =
+                angles.iter().zip(&forces).map(|(angle, force)| OneElement { angle, force }).collect();
+            if let Some(passage) = Passage::first(&time, &elements, defect, self.sweep.settle) {
+                number("unloaded_s", passage.unloaded);
+                number("loaded_again_s", passage.loaded_again);
+                number("unloaded_deg", passage.turned.to_degrees());
+            }
+        }
+        for (name, variable) in [("steps", "solver.steps"), ("rejected_steps", "solver.rejected_steps")] {
+            put(name, Cell::Whole(column(variable)?.last().copied().unwrap_or(0.0) as i64));
+        }
+        Ok(())
+    }
+
+    fn write(&self, written: Written, kept: &Signals, name: &str) -> Result<()> {
+        let columns: Vec<(usize, &str)> =
+            (0..kept.names().len()).map(|k| (k, if k == 0 { "s" } else { "m/s2" })).collect();
+        match written {
+            Written::Npy => {
+                let whole = kept.path().with_file_name(format!("{name}.npy"));
+                std::fs::rename(kept.path(), &whole).map_err(|error| NotWritten::new(&whole, error))?;
+                whole_file::take_out(&whole, self.signals)?;
+            }
+            Written::Parquet => {
+                Format::Parquet.write(kept, &columns, &self.signals.join(format!("{name}.parquet")))?;
+            }
+            Written::Wav => {
+                let sensors: Vec<usize> = (1..kept.names().len()).collect();
+                let wav = Wav { rate: Some(self.sweep.rate), scale: 1.0 };
+                wav.write(kept, &sensors, self.sweep.rate, &self.signals.join(format!("{name}.wav")))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Columns of the table of a sweep.
+pub(super) fn columns(sweep: &Sweep, is_whole: &dyn Fn(&str) -> bool) -> Vec<Column> {
+    let mut columns = vec![Column { name: "run".to_owned(), kind: Kind::Whole }];
+    let mut add = |name: &str, kind: Kind| columns.push(Column { name: name.to_owned(), kind });
+    if !sweep.kinds.is_empty() {
+        add("kind", Kind::Text);
+    }
+    if !sweep.speed_profiles.is_empty() {
+        add("speed_profile", Kind::Text);
+    }
+    for entry in &sweep.grid {
+        let whole = entry.of.iter().all(Value::is_integer) && is_whole(&entry.key);
+        let numbers = entry.of.iter().all(|value| super::file::number(value).is_some());
+        add(
+            &entry.key,
+            if whole {
+                Kind::Whole
+            } else if numbers {
+                Kind::Number
+            } else {
+                Kind::Text
+            },
+        );
+    }
+    for entry in &sweep.random {
+        add(&entry.key, if is_whole(&entry.key) { Kind::Whole } else { Kind::Number });
+    }
+    if sweep.noise.is_some() {
+        add("noise_db", Kind::Number);
+    }
+    add("label_kind", Kind::Text);
+    for label in ["length_mm", "depth_um", "angle_deg", "load_n", "speed_hz"] {
+        add(&format!("label_{label}"), Kind::Number);
+    }
+    for name in ["bpfo_hz", "rms_m_s2", "peak_m_s2", "kurtosis"] {
+        add(name, Kind::Number);
+    }
+    (1..=HARMONICS).for_each(|k| add(&envelope_name(k), Kind::Number));
+    for name in ["unloaded_s", "loaded_again_s", "unloaded_deg"] {
+        add(name, Kind::Number);
+    }
+    for name in ["steps", "rejected_steps"] {
+        add(name, Kind::Whole);
+    }
+    add("error", Kind::Text);
+    columns
+}
+
+fn envelope_name(k: usize) -> String {
+    format!("envelope_{k}_bpfo_m_s2")
+}
+
+fn kind_of(on: DefectOn) -> Fault {
+    match on {
+        DefectOn::Outer => Fault::Outer,
+        DefectOn::Inner => Fault::Inner,
+        DefectOn::Element { .. } => Fault::Element,
+    }
+}
+
+/// Angle of the one defect on an outer ring that stands [rad]: elements pass it where their angles say.
+fn passes_outer_defect(scene: &Scene) -> Option<f64> {
+    match &scene.defects[..] {
+        [defect] if defect.on == DefectOn::Outer && scene.housing_speed.is_none() => Some(defect.angle),
+        _ => None,
+    }
+}
+
+/// Without the last digits, which a change of units leaves.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.12e}").parse().unwrap_or(value)
+}

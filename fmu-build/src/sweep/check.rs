@@ -1,0 +1,118 @@
+//! What is wrong with a sweep beside its scene: every value is tried in the scene before anything runs.
+//!
+//! First one run whose values are each the first on the grid and the lower end of its range, then, key by key, the others.
+//! What only some runs with random values meet is found when they are run, and told in their rows.
+
+use brinell::scene::{Scene, SceneError};
+use toml::Value;
+
+use super::design::Run;
+use super::faults::Fault;
+use super::file::{Sweep, number};
+use super::scenes::Base;
+
+/// Values of one key that are tried at most.
+const TRIED: usize = 1000;
+
+/// What is wrong with the scenes of a sweep, each fault with the line of its key.
+pub(super) fn faults(base: &Base, sweep: &Sweep, is_whole: &dyn Fn(&str) -> bool) -> Vec<Fault> {
+    let mut faults: Vec<Fault> = Vec::new();
+    let mut tell = |fault: Fault| {
+        if !faults.iter().any(|known| known.said == fault.said) {
+            faults.push(fault);
+        }
+    };
+    for point in 0..sweep.kinds.len().max(1) as u64 {
+        let first = first(sweep, point, is_whole);
+        let wrong = said(base, sweep, &first);
+        wrong.iter().for_each(|said| tell(about(sweep, said, 0)));
+        for (position, (key, line, values)) in others(sweep, is_whole).into_iter().enumerate() {
+            for value in values {
+                let mut run = first.clone();
+                run.values[position] = (key.to_owned(), value);
+                let found = said(base, sweep, &run);
+                found.iter().filter(|said| !wrong.contains(said)).for_each(|said| tell(about(sweep, said, line)));
+            }
+        }
+    }
+    faults
+}
+
+/// Whether a key takes whole numbers only: what the scene says of one that is none.
+pub(super) fn takes_whole_numbers(base: &Base, sweep: &Sweep, key: &str) -> bool {
+    let kinds = 0..sweep.kinds.len().max(1) as u64;
+    kinds.map(|point| first(sweep, point, &|_| false)).any(|mut run| {
+        let Some((_, value)) = run.values.iter_mut().find(|(known, _)| known == key) else { return false };
+        let Some(low) = number(value) else { return false };
+        *value = Value::Float(low.floor() + 0.5);
+        said(base, sweep, &run)
+            .iter()
+            .any(|said| said.starts_with(&format!("{key} is")) && said.contains("a whole number"))
+    })
+}
+
+/// The run of a kind with the first value of every key.
+fn first(sweep: &Sweep, point: u64, is_whole: &dyn Fn(&str) -> bool) -> Run {
+    let (kind, profile, mut values) = sweep.point(point);
+    let low = |entry: &super::file::Entry<[f64; 2]>| {
+        (entry.key.clone(), super::design::drawn(entry.of, 0.0, is_whole(&entry.key)))
+    };
+    values.extend(sweep.random.iter().map(low));
+    Run { index: 0, kind, profile, values, noise: None }
+}
+
+/// The other values that runs have, by key, in the order of a run's values.
+fn others<'s>(sweep: &'s Sweep, is_whole: &dyn Fn(&str) -> bool) -> Vec<(&'s str, usize, Vec<Value>)> {
+    let grid = sweep.grid.iter().map(|entry| {
+        (entry.key.as_str(), entry.line, entry.of.iter().skip(1).take(TRIED).cloned().collect::<Vec<_>>())
+    });
+    let random = sweep.random.iter().map(|entry| {
+        let [_, high] = entry.of;
+        let highest = super::design::drawn([high, high], 0.0, is_whole(&entry.key));
+        (entry.key.as_str(), entry.line, vec![highest])
+    });
+    grid.chain(random).collect()
+}
+
+/// What is wrong with the scene of a run, without lines of a file that nobody sees.
+fn said(base: &Base, sweep: &Sweep, run: &Run) -> Vec<String> {
+    let table = match base.changed(sweep, run) {
+        Ok(table) => table,
+        Err(said) => return vec![said],
+    };
+    let text = match toml::to_string(&table) {
+        Ok(text) => text,
+        Err(error) => return vec![error.to_string()],
+    };
+    match Scene::from_toml(&text) {
+        Ok(_) => Vec::new(),
+        Err(SceneError::Keys(faults)) => faults
+            .iter()
+            .map(|fault| {
+                let said = fault.to_string();
+                said.strip_prefix(&format!("line {}: ", fault.line())).unwrap_or(&said).to_owned()
+            })
+            .collect(),
+        Err(error) => vec![error.to_string()],
+    }
+}
+
+/// A fault with the line of the key that it names, or else of the key that was changed.
+fn about(sweep: &Sweep, said: &str, line: usize) -> Fault {
+    let words = |key: &str| {
+        let mut words = said.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_' || c == '.'));
+        words.any(|word| word.trim_end_matches('.') == key)
+    };
+    let named = sweep.lines().find(|(key, _)| words(key));
+    let in_table = || {
+        sweep
+            .lines()
+            .find(|(key, _)| key.split('.').next().is_some_and(|table| said.starts_with(&format!("[{table}]"))))
+    };
+    let line = match named {
+        Some((_, line)) => line,
+        None if line > 0 => line,
+        None => in_table().map_or(0, |(_, line)| line),
+    };
+    Fault { line, said: said.to_owned() }
+}

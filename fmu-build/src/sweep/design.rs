@@ -1,0 +1,131 @@
+//! The design of a sweep: which values each run has. Run i takes point i of the grid, modulo its size, and random values
+//! that depend on the seed, the key and i alone: a longer sweep begins with the shorter one, and a further key changes
+//! nothing of the others.
+
+use brinell::numerics::checksum::checksum;
+use brinell::numerics::counter_noise::{bits, uniform};
+use toml::Value;
+
+use super::file::{Kind, Sweep};
+
+/// Random numbers of a sweep that are no key's.
+const NOISE_RATIO: &str = "noise_db";
+const NOISE: &str = "noise";
+
+/// What one run is.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Run {
+    pub(super) index: u64,
+    pub(super) kind: Option<Kind>,
+    /// Number of the speed profile among those of the sweep.
+    pub(super) profile: Option<usize>,
+    /// Keys of the scene from the grid, then those drawn at random.
+    pub(super) values: Vec<(String, Value)>,
+    /// Signal-to-noise ratio [dB], and which noise.
+    pub(super) noise: Option<(f64, u64)>,
+}
+
+impl Sweep {
+    /// Run number `index`; `is_whole` says which keys take whole numbers only.
+    pub(super) fn run(&self, index: u64, is_whole: &dyn Fn(&str) -> bool) -> Run {
+        let (kind, profile, mut values) = self.point(index % self.points());
+        for entry in &self.random {
+            let draw = uniform(self.seed, checksum(entry.key.as_bytes()), index as i64);
+            values.push((entry.key.clone(), drawn(entry.of, draw, is_whole(&entry.key))));
+        }
+        let noise = self.noise.map(|[low, high]| {
+            let draw = uniform(self.seed, checksum(NOISE_RATIO.as_bytes()), index as i64);
+            (low + (high - low) * draw, bits(self.seed, checksum(NOISE.as_bytes()), index as i64))
+        });
+        Run { index, kind, profile, values, noise }
+    }
+
+    /// A point of the grid: kinds take turns first, then the last key of the grid, speed profiles at last.
+    pub(super) fn point(&self, number: u64) -> (Option<Kind>, Option<usize>, Vec<(String, Value)>) {
+        let mut rest = number;
+        let mut next = |count: usize| {
+            let count = count.max(1) as u64;
+            let digit = (rest % count) as usize;
+            rest /= count;
+            digit
+        };
+        let kind = self.kinds.get(next(self.kinds.len())).copied();
+        let mut values: Vec<(String, Value)> = Vec::with_capacity(self.grid.len() + self.random.len());
+        for entry in self.grid.iter().rev() {
+            values.push((entry.key.clone(), entry.of[next(entry.of.len())].clone()));
+        }
+        values.reverse();
+        let profile = next(self.speed_profiles.len());
+        (kind, (!self.speed_profiles.is_empty()).then_some(profile), values)
+    }
+}
+
+/// A value between two limits for a draw from [0, 1).
+pub(super) fn drawn([low, high]: [f64; 2], draw: f64, whole: bool) -> Value {
+    if whole {
+        let (low, high) = (low.ceil(), high.floor());
+        return Value::Integer(((low + (high - low + 1.0) * draw).floor() as i64).min(high as i64));
+    }
+    Value::Float(low + (high - low) * draw)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    const FILE: &str = "scene = \"er16k-tb1\"\nruns = 40\nseed = 7\nkinds = [\"healthy\", \"inner\"]\n\
+        speed_profiles = [\"a.csv\", \"b.csv\"]\nnoise_db = [0, 30]\n\
+        [grid]\ndefect.length_mm = [1, 2, 3]\ndefect.depth_um = [20, 50]\n[random]\nshaft.load_n = [300, 1500]\n";
+
+    fn runs(text: &str) -> Vec<Run> {
+        let sweep = Sweep::read(text).unwrap().0;
+        (0..sweep.runs).map(|index| sweep.run(index, &|_| false)).collect()
+    }
+
+    #[test]
+    fn a_longer_sweep_begins_with_the_shorter_one_and_another_seed_or_key_changes_only_what_it_is_about() {
+        let short = runs(FILE);
+        assert_eq!(runs(&FILE.replace("runs = 40", "runs = 80"))[..40], short);
+        let other = runs(&FILE.replace("seed = 7", "seed = 8"));
+        let further = runs(&format!("{FILE}cage.slip = [0.0, 0.01]\n"));
+        for ((run, other), further) in short.iter().zip(&other).zip(&further) {
+            assert_eq!(run.values[..2], other.values[..2]);
+            assert_ne!(run.values[2], other.values[2]);
+            assert_ne!(run.noise, other.noise);
+            assert_eq!((&run.values[..], run.noise), (&further.values[..3], further.noise));
+        }
+        let mut seeds: Vec<u64> = short.iter().map(|run| run.noise.unwrap().1).collect();
+        seeds.sort_unstable();
+        seeds.dedup();
+        assert_eq!(seeds.len(), 40, "two runs with one noise");
+    }
+
+    #[test]
+    fn every_point_of_the_grid_kind_and_speed_comes_once_before_any_comes_twice() {
+        let sweep = Sweep::read(FILE).unwrap().0;
+        assert_eq!(sweep.points(), 24);
+        let points: Vec<String> = (0..24).map(|number| format!("{:?}", sweep.point(number))).collect();
+        let mut different = points.clone();
+        different.sort();
+        different.dedup();
+        assert_eq!(different.len(), 24);
+        // Kinds take turns first.
+        let kinds: Vec<_> = (0..4).map(|number| sweep.point(number).0.unwrap().word()).collect();
+        assert_eq!(kinds, ["healthy", "inner", "healthy", "inner"]);
+    }
+
+    #[test]
+    fn draws_are_spread_over_their_range_and_whole_ones_reach_both_ends() {
+        let draws: Vec<i64> =
+            (0..3000).map(|k| drawn([8.0, 10.0], uniform(1, 1, k), true).as_integer().unwrap()).collect();
+        for value in 8..=10 {
+            let count = draws.iter().filter(|&&draw| draw == value).count();
+            // A third each; four standard deviations are 103.
+            assert!((897..=1103).contains(&count), "{value}: {count}");
+        }
+        assert_eq!(draws.iter().min(), Some(&8));
+        assert_eq!(draws.iter().max(), Some(&10));
+    }
+}

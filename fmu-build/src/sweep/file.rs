@@ -1,0 +1,363 @@
+//! The file of a sweep: TOML that says which scene is run, and what changes from run to run.
+
+use std::ops::RangeInclusive;
+
+use brinell::scene::nearest;
+use toml::de::{DeTable, DeValue};
+use toml::{Table, Value};
+
+use super::faults::{Fault, Faults};
+use crate::run::noise::RATIOS;
+
+/// Keys of the file itself, and its three tables of keys of a scene.
+const KEYS: [&str; 10] =
+    ["scene", "runs", "seed", "stop_s", "settle_s", "rate_hz", "filter", "kinds", "speed_profiles", "noise_db"];
+const TABLES: [&str; 3] = ["set", "grid", "random"];
+/// Samples per second that a sweep may ask for [Hz].
+const RATES: RangeInclusive<f64> = 100.0..=1e6;
+/// Runs of a sweep at most: numbers of runs have seven digits.
+const MOST: u64 = 10_000_000;
+
+/// A kind of fault.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Healthy,
+    Outer,
+    Inner,
+    Element,
+}
+
+impl Kind {
+    const ALL: [(&'static str, Self); 4] =
+        [("healthy", Self::Healthy), ("outer", Self::Outer), ("inner", Self::Inner), ("element", Self::Element)];
+
+    /// As a file says it.
+    pub(super) fn word(self) -> &'static str {
+        Self::ALL.iter().find(|(_, kind)| *kind == self).map_or("", |(word, _)| word)
+    }
+}
+
+/// A key of a scene, what stands behind it, and its line.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Entry<T> {
+    pub(super) key: String,
+    pub(super) of: T,
+    pub(super) line: usize,
+}
+
+/// What a file asks for.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Sweep {
+    /// Scene file, relative to this one, or the name of a shipped scene.
+    pub(super) scene: String,
+    /// How many runs; each point of the grid once where nothing is said.
+    pub(super) runs: u64,
+    pub(super) seed: u64,
+    /// End of each run, and what is left out of signals and statistics at its beginning [s].
+    pub(super) stop: f64,
+    pub(super) settle: f64,
+    /// Samples per second [Hz].
+    pub(super) rate: f64,
+    /// Whether samples go through the recorder's filter against aliases.
+    pub(super) filter: bool,
+    pub(super) kinds: Vec<Kind>,
+    /// Files with the shaft's speed over time, relative to this one.
+    pub(super) speed_profiles: Vec<String>,
+    /// Limits of the signal-to-noise ratio [dB].
+    pub(super) noise: Option<[f64; 2]>,
+    pub(super) set: Vec<Entry<Value>>,
+    pub(super) grid: Vec<Entry<Vec<Value>>>,
+    pub(super) random: Vec<Entry<[f64; 2]>>,
+}
+
+impl Sweep {
+    /// Reads the text of a file; gives what of it is right, and all that is wrong with it by itself.
+    ///
+    /// # Errors
+    /// What is no TOML.
+    pub(super) fn read(text: &str) -> Result<(Self, Vec<Fault>), Faults> {
+        let breaks: Vec<usize> = text.match_indices('\n').map(|(at, _)| at).collect();
+        let line = |at: usize| 1 + breaks.partition_point(|&end| end < at);
+        let file = DeTable::parse(text).map_err(|error| {
+            let at = error.span().map_or(0, |span| line(span.start));
+            Faults(vec![Fault { line: at, said: format!("no TOML: {}", error.message()) }])
+        })?;
+        let values: Table = text.parse().map_err(|error: toml::de::Error| {
+            Faults(vec![Fault { line: 0, said: format!("no TOML: {}", error.message()) }])
+        })?;
+        let mut reading = Reading { file: file.get_ref(), values: &values, line: &line, faults: Vec::new() };
+        let sweep = reading.sweep();
+        Ok((sweep, reading.faults))
+    }
+
+    /// How many runs show every point of the grid, kind and speed once.
+    pub(super) fn points(&self) -> u64 {
+        let grid = self.grid.iter().map(|entry| entry.of.len()).chain([self.kinds.len(), self.speed_profiles.len()]);
+        grid.fold(1, |product, count| product.saturating_mul(count.max(1) as u64))
+    }
+
+    /// Keys that change from run to run, and the lines on which they stand.
+    pub(super) fn lines(&self) -> impl Iterator<Item = (&str, usize)> {
+        let set = self.set.iter().map(|entry| (entry.key.as_str(), entry.line));
+        let grid = self.grid.iter().map(|entry| (entry.key.as_str(), entry.line));
+        set.chain(grid).chain(self.random.iter().map(|entry| (entry.key.as_str(), entry.line)))
+    }
+}
+
+/// A file under the reader's eye, and what is wrong with it so far.
+struct Reading<'a, 'f> {
+    file: &'a DeTable<'f>,
+    values: &'a Table,
+    line: &'a dyn Fn(usize) -> usize,
+    faults: Vec<Fault>,
+}
+
+impl Reading<'_, '_> {
+    fn sweep(&mut self) -> Sweep {
+        self.unknown();
+        let scene = self.text("scene").unwrap_or_else(|| {
+            if !self.file.keys().any(|key| is_meant("scene", key.get_ref())) {
+                self.faults.push(Fault { line: 0, said: "scene is missing: a scene file, or a shipped scene".into() });
+            }
+            String::new()
+        });
+        let stop = self.number("stop_s", 0.3, "above 0 and finite", |value| value > 0.0 && value.is_finite());
+        let settle = self.number("settle_s", (0.05f64).min(0.5 * stop), "from 0 to below stop_s", |value| {
+            (0.0..stop).contains(&value)
+        });
+        let rate = self.number("rate_hz", 51_200.0, "from 100 to 1000000", |value| RATES.contains(&value));
+        let filter = self.switch("filter");
+        let (kinds, speed_profiles, noise) = (self.kinds(), self.texts("speed_profiles"), self.noise());
+        let (set, grid, random) = (self.set(), self.grid(), self.random());
+        let mut sweep = Sweep {
+            scene,
+            runs: 0,
+            seed: 0,
+            stop,
+            settle,
+            rate,
+            filter,
+            kinds,
+            speed_profiles,
+            noise,
+            set,
+            grid,
+            random,
+        };
+        self.given_twice(&mut sweep);
+        sweep.seed = self.whole("seed", 0, i64::MAX as u64).unwrap_or(1);
+        let points = sweep.points();
+        sweep.runs = self.whole("runs", 1, MOST).unwrap_or(points);
+        if !self.file.keys().any(|key| is_meant("runs", key.get_ref())) && (!sweep.random.is_empty() || points > MOST) {
+            let said = format!("runs is missing: values are drawn at random, or the grid has more than {MOST} points");
+            self.faults.push(Fault { line: 0, said });
+        }
+        sweep
+    }
+
+    /// Keys that mean nothing here.
+    fn unknown(&mut self) {
+        let known = || KEYS.into_iter().chain(TABLES);
+        for (key, _) in self.file.iter().filter(|(key, _)| !known().any(|known| known == key.get_ref().as_ref())) {
+            let hint = match nearest(known(), key.get_ref()) {
+                Some(near) => format!("did you mean {near}?"),
+                None => format!(
+                    "known here are {}, and the tables [set], [grid] and [random], which take keys of the scene",
+                    KEYS.join(", ")
+                ),
+            };
+            let fault =
+                Fault { line: (self.line)(key.span().start), said: format!("{} is unknown: {hint}", key.get_ref()) };
+            self.faults.push(fault);
+        }
+    }
+
+    /// Line of a key of the file itself.
+    fn line_of(&self, key: &str) -> usize {
+        self.file.get_key_value(key).map_or(0, |(key, _)| (self.line)(key.span().start))
+    }
+
+    fn wrong(&mut self, key: &str, value: &Value, limit: &str) {
+        let line = self.line_of(key);
+        self.faults.push(Fault { line, said: format!("{key} is {value}: it must be {limit}") });
+    }
+
+    fn number(&mut self, key: &str, usual: f64, limit: &str, fits: impl Fn(f64) -> bool) -> f64 {
+        let Some(value) = self.values.get(key) else { return usual };
+        match number(value).filter(|&number| fits(number)) {
+            Some(number) => number,
+            None => {
+                self.wrong(key, value, &format!("a number, {limit}"));
+                usual
+            }
+        }
+    }
+
+    fn whole(&mut self, key: &str, least: u64, most: u64) -> Option<u64> {
+        let value = self.values.get(key)?;
+        let whole = value.as_integer().and_then(|whole| u64::try_from(whole).ok());
+        let fitting = whole.filter(|whole| (least..=most).contains(whole));
+        if fitting.is_none() {
+            self.wrong(key, value, &format!("a whole number from {least} to {most}"));
+        }
+        fitting
+    }
+
+    fn switch(&mut self, key: &str) -> bool {
+        let Some(value) = self.values.get(key) else { return false };
+        value.as_bool().unwrap_or_else(|| {
+            self.wrong(key, value, "true or false");
+            false
+        })
+    }
+
+    fn text(&mut self, key: &str) -> Option<String> {
+        let value = self.values.get(key)?;
+        let text = value.as_str().filter(|text| !text.trim().is_empty());
+        if text.is_none() {
+            self.wrong(key, value, "a text in quotes");
+        }
+        text.map(str::to_owned)
+    }
+
+    fn texts(&mut self, key: &str) -> Vec<String> {
+        let Some(value) = self.values.get(key) else { return Vec::new() };
+        let texts =
+            value.as_array().map(|all| all.iter().filter_map(Value::as_str).map(str::to_owned).collect::<Vec<_>>());
+        match texts.filter(|texts| !texts.is_empty() && value.as_array().is_some_and(|all| all.len() == texts.len())) {
+            Some(texts) => texts,
+            None => {
+                self.wrong(key, value, "a list of texts in quotes");
+                Vec::new()
+            }
+        }
+    }
+
+    fn kinds(&mut self) -> Vec<Kind> {
+        let mut kinds = Vec::new();
+        for word in self.texts("kinds") {
+            match Kind::ALL.iter().find(|(known, _)| *known == word) {
+                Some((_, kind)) => kinds.push(*kind),
+                None => {
+                    let words = Kind::ALL.map(|(word, _)| word);
+                    let near = nearest(words, &word).map_or_else(String::new, |near| format!("; did you mean {near}?"));
+                    let said = format!("kinds: {word:?} is none of {}{near}", words.join(", "));
+                    self.faults.push(Fault { line: self.line_of("kinds"), said });
+                }
+            }
+        }
+        kinds
+    }
+
+    fn noise(&mut self) -> Option<[f64; 2]> {
+        let value = self.values.get("noise_db")?;
+        let limits = number(value).map(|ratio| [ratio; 2]).or_else(|| pair(value));
+        let fitting = limits.filter(|[low, high]| low <= high && RATIOS.contains(low) && RATIOS.contains(high));
+        if fitting.is_none() {
+            let limit = "a ratio, or a list of two, the lower one first, from -60 to 200";
+            self.wrong("noise_db", value, limit);
+        }
+        fitting
+    }
+
+    fn set(&mut self) -> Vec<Entry<Value>> {
+        self.entries("set")
+    }
+
+    fn grid(&mut self) -> Vec<Entry<Vec<Value>>> {
+        let mut grid = Vec::new();
+        for Entry { key, of, line } in self.entries("grid") {
+            match of {
+                Value::Array(values) if !values.is_empty() => grid.push(Entry { key, of: values, line }),
+                other => {
+                    let said = format!("grid.{key} is {other}: it must be a list of values, one at least");
+                    self.faults.push(Fault { line, said });
+                }
+            }
+        }
+        grid
+    }
+
+    fn random(&mut self) -> Vec<Entry<[f64; 2]>> {
+        let mut random = Vec::new();
+        for Entry { key, of, line } in self.entries("random") {
+            match pair(&of).filter(|[low, high]| low <= high) {
+                Some(limits) => random.push(Entry { key, of: limits, line }),
+                None => {
+                    let said = format!("random.{key} is {of}: it must be a list of two numbers, the lower one first");
+                    self.faults.push(Fault { line, said });
+                }
+            }
+        }
+        random
+    }
+
+    /// The keys of a scene in one of the three tables, in their order in the file.
+    fn entries(&mut self, table: &'static str) -> Vec<Entry<Value>> {
+        let (Some(place), Some(value)) = (self.file.get(table), self.values.get(table)) else { return Vec::new() };
+        let (DeValue::Table(place), Value::Table(values)) = (place.get_ref(), value) else {
+            self.wrong(table, value, &format!("a table [{table}] of keys of the scene"));
+            return Vec::new();
+        };
+        let mut found = Vec::new();
+        leaves(place, values, "", &mut found);
+        found.sort_by_key(|(at, ..)| *at);
+        found.into_iter().map(|(at, key, of)| Entry { key, of, line: (self.line)(at) }).collect()
+    }
+
+    /// Keys that stand twice, of which the first stays, and two ways to say one thing.
+    fn given_twice(&mut self, sweep: &mut Sweep) {
+        let all: Vec<(String, usize)> = sweep.lines().map(|(key, line)| (key.to_owned(), line)).collect();
+        let is_first =
+            |key: &str, line: usize| all.iter().find(|(other, _)| other == key).is_none_or(|one| one.1 == line);
+        sweep.grid.retain(|entry| is_first(&entry.key, entry.line));
+        sweep.random.retain(|entry| is_first(&entry.key, entry.line));
+        for (index, (key, line)) in all.iter().enumerate() {
+            let line = *line;
+            if let Some((_, first)) = all[..index].iter().find(|(other, _)| other == key) {
+                let said = format!("{key} stands in line {first} already: give it in one of [set], [grid], [random]");
+                self.faults.push(Fault { line, said });
+            }
+            if key == "shaft.speed_hz" && !sweep.speed_profiles.is_empty() {
+                let said = "shaft.speed_hz and speed_profiles exclude each other: give only one".to_owned();
+                self.faults.push(Fault { line, said });
+            }
+            if key == "name" || key == "recorder" || key.starts_with("recorder.") {
+                let said =
+                    format!("{key} is the sweep's own: names are those of runs, and samples are taken at rate_hz");
+                self.faults.push(Fault { line, said });
+            }
+        }
+    }
+}
+
+/// Whether a key is this one, or a slip of the pen for it.
+fn is_meant(wanted: &str, key: &str) -> bool {
+    key == wanted || nearest(KEYS.into_iter().chain(TABLES), key) == Some(wanted)
+}
+
+/// Keys and values of a table, those of tables in it included, with their positions in the text.
+fn leaves(at: &DeTable<'_>, values: &Table, path: &str, found: &mut Vec<(usize, String, Value)>) {
+    for (key, value) in at.iter() {
+        let name = key.get_ref().as_ref();
+        let Some(of) = values.get(name) else { continue };
+        let path = if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
+        match (value.get_ref(), of) {
+            (DeValue::Table(inner), Value::Table(values)) => leaves(inner, values, &path, found),
+            _ => found.push((key.span().start, path, of.clone())),
+        }
+    }
+}
+
+/// A finite number.
+pub(super) fn number(value: &Value) -> Option<f64> {
+    let number = value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64));
+    number.filter(|number| number.is_finite())
+}
+
+fn pair(value: &Value) -> Option<[f64; 2]> {
+    match value.as_array().map(Vec::as_slice) {
+        Some([low, high]) => Some([number(low)?, number(high)?]),
+        _ => None,
+    }
+}

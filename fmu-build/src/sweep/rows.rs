@@ -1,0 +1,185 @@
+//! Rows of a sweep's table: one for each run, kept in a journal as they come.
+//!
+//! A line of the journal is a row with a checksum before it. A program that is ended while it writes leaves at most a line
+//! that its checksum does not fit; that run is made again.
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use brinell::numerics::checksum::checksum;
+
+use crate::whole_file::{self, NotWritten};
+
+/// What a column holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Number,
+    Whole,
+    Text,
+}
+
+/// A column.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Column {
+    pub(super) name: String,
+    pub(super) kind: Kind,
+}
+
+/// What stands in a column of a row.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Cell {
+    Missing,
+    Number(f64),
+    Whole(i64),
+    Text(String),
+}
+
+/// A row: a cell for each column, the first of which is the run's number.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Row(pub(super) Vec<Cell>);
+
+impl Row {
+    /// The row of a run, all else missing.
+    pub(super) fn of(columns: &[Column], run: u64) -> Self {
+        let mut row = Self(vec![Cell::Missing; columns.len()]);
+        row.0[0] = Cell::Whole(run as i64);
+        row
+    }
+
+    /// Number of its run.
+    pub(super) fn run(&self) -> Option<u64> {
+        match self.0.first() {
+            Some(Cell::Whole(run)) => u64::try_from(*run).ok(),
+            _ => None,
+        }
+    }
+
+    /// Puts a value into the column of this name, if there is one. What is not finite is missing.
+    pub(super) fn put(&mut self, columns: &[Column], name: &str, cell: Cell) {
+        let Some(position) = columns.iter().position(|column| column.name == name) else { return };
+        self.0[position] = match cell {
+            Cell::Number(number) if !number.is_finite() => Cell::Missing,
+            cell => cell,
+        };
+    }
+
+    /// As a line of the journal.
+    fn line(&self) -> String {
+        let cells: Vec<String> = self.0.iter().map(Cell::written).collect();
+        let text = cells.join("\t");
+        format!("{:016x}\t{text}\n", checksum(text.as_bytes()))
+    }
+
+    /// From a line without its end; `None` of what was not written whole, or has other columns.
+    fn read(line: &str, columns: &[Column]) -> Option<Self> {
+        let (sum, text) = line.split_once('\t')?;
+        if u64::from_str_radix(sum, 16).ok()? != checksum(text.as_bytes()) {
+            return None;
+        }
+        let row = Self(text.split('\t').map(Cell::read).collect::<Option<_>>()?);
+        (row.0.len() == columns.len() && row.run().is_some()).then_some(row)
+    }
+}
+
+impl Cell {
+    /// Numbers by their bits, so that they come back as they were.
+    fn written(&self) -> String {
+        match self {
+            Self::Missing => String::new(),
+            Self::Number(number) => format!("n{:016x}", number.to_bits()),
+            Self::Whole(whole) => format!("w{whole}"),
+            // As JSON: no tab and no end of a line.
+            Self::Text(text) => format!("t{}", serde_json::Value::from(text.as_str())),
+        }
+    }
+
+    fn read(text: &str) -> Option<Self> {
+        let Some((kind, rest)) = text.split_at_checked(1) else { return Some(Self::Missing) };
+        match kind {
+            "n" => u64::from_str_radix(rest, 16).ok().map(|bits| Self::Number(f64::from_bits(bits))),
+            "w" => rest.parse().ok().map(Self::Whole),
+            "t" => serde_json::from_str(rest).ok().map(Self::Text),
+            _ => None,
+        }
+    }
+}
+
+/// The journal of a sweep, open for further rows.
+pub(super) struct Journal {
+    path: PathBuf,
+    file: File,
+}
+
+impl Journal {
+    /// Opens the journal in a folder; gives the rows that are there, each run once. What was torn is cut off.
+    pub(super) fn open(folder: &Path, columns: &[Column]) -> Result<(Self, Vec<Row>)> {
+        let path = folder.join("rows.log");
+        let about = || path.display().to_string();
+        let text = match fs::read(&path) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
+            Err(error) => return Err(error).with_context(about),
+        };
+        let mut rows: Vec<Row> = Vec::new();
+        let whole = String::from_utf8_lossy(&text);
+        for line in whole.split_inclusive('\n').filter_map(|line| line.strip_suffix('\n')) {
+            rows.extend(Row::read(line, columns));
+        }
+        rows.sort_by_key(Row::run);
+        rows.dedup_by_key(|row| row.run());
+        whole_file::write_with(&path, |out| {
+            Ok(rows.iter().try_for_each(|row| out.write_all(row.line().as_bytes()))?)
+        })?;
+        let file = File::options().append(true).open(&path).with_context(about)?;
+        Ok((Self { path, file }, rows))
+    }
+
+    /// Adds a row.
+    pub(super) fn add(&mut self, row: &Row) -> Result<()> {
+        let written = self.file.write_all(row.line().as_bytes());
+        Ok(written.map_err(|error| NotWritten::new(&self.path, error))?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    fn columns() -> Vec<Column> {
+        let column = |(name, kind): (&str, Kind)| Column { name: name.to_owned(), kind };
+        [("run", Kind::Whole), ("rms", Kind::Number), ("error", Kind::Text)].map(column).to_vec()
+    }
+
+    fn row(run: u64) -> Row {
+        let mut row = Row::of(&columns(), run);
+        row.put(&columns(), "rms", Cell::Number(0.1 * run as f64));
+        row.put(&columns(), "error", Cell::Text(format!("a \"quoted\"\ttext\nof {run} µm \\ \u{1b}'")));
+        row
+    }
+
+    #[test]
+    fn rows_come_back_with_their_bits_and_what_was_torn_anywhere_is_left_out() {
+        let folder = tempfile::tempdir().unwrap();
+        let (mut journal, none) = Journal::open(folder.path(), &columns()).unwrap();
+        assert!(none.is_empty());
+        [3, 0, 2].iter().for_each(|&run| journal.add(&row(run)).unwrap());
+        let whole = fs::read(folder.path().join("rows.log")).unwrap();
+        let ends: Vec<usize> = (0..whole.len()).filter(|&at| whole[at] == b'\n').collect();
+        for length in 0..=whole.len() {
+            fs::write(folder.path().join("rows.log"), &whole[..length]).unwrap();
+            let (_, rows) = Journal::open(folder.path(), &columns()).unwrap();
+            let kept = ends.iter().filter(|&&end| end < length).count();
+            let mut expected: Vec<Row> = [3, 0, 2][..kept].iter().map(|&run| row(run)).collect();
+            expected.sort_by_key(Row::run);
+            assert_eq!(rows, expected, "cut after {length} bytes");
+        }
+        let mut damaged = whole.clone();
+        damaged[ends[0] + 25] ^= 1;
+        fs::write(folder.path().join("rows.log"), damaged).unwrap();
+        assert_eq!(Journal::open(folder.path(), &columns()).unwrap().1, [row(2), row(3)]);
+    }
+}

@@ -1,0 +1,399 @@
+//! `brinell sweep` as a program: equal bits however it is run, rows for runs that fail, faults with their lines.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::thread;
+use std::time::Duration;
+
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::Field;
+
+/// Quick: law `hertz`, 30 ms.
+const QUICK: &str = r#"
+scene = "er16k-tb1"
+runs = 24
+seed = 3
+stop_s = 0.03
+settle_s = 0.01
+rate_hz = 25600
+kinds = ["healthy", "outer", "inner"]
+noise_db = [0, 30]
+[set]
+contact.law = "hertz"
+[grid]
+defect.length_mm = [1, 2]
+[random]
+shaft.load_n = [300, 900]
+shaft.speed_hz = [10, 40]
+"#;
+
+fn program(file: &Path, out: &Path, more: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    command.arg("sweep").arg(file).arg("-o").arg(out).args(more);
+    command
+}
+
+fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+#[track_caller]
+fn sweep(file: &Path, out: &Path, more: &[&str]) -> String {
+    let output = program(file, out, more).output().unwrap();
+    assert!(output.status.success(), "{}", said(&output));
+    said(&output)
+}
+
+#[track_caller]
+fn refused(file: &Path, out: &Path, more: &[&str]) -> String {
+    let output = program(file, out, more).output().unwrap();
+    assert!(!output.status.success(), "it was taken: {}", said(&output));
+    said(&output)
+}
+
+fn file(folder: &Path, text: &str) -> PathBuf {
+    let path = folder.join("sweep.toml");
+    fs::write(&path, text).unwrap();
+    path
+}
+
+/// Names of the columns, and rows.
+fn table(out: &Path) -> (Vec<String>, Vec<Vec<Field>>) {
+    let reader = SerializedFileReader::new(File::open(out.join("runs.parquet")).unwrap()).unwrap();
+    let rows: Vec<Vec<(String, Field)>> =
+        reader.get_row_iter(None).unwrap().map(|row| row.unwrap().into_columns()).collect();
+    let names = rows[0].iter().map(|(name, _)| name.clone()).collect();
+    (names, rows.into_iter().map(|row| row.into_iter().map(|(_, field)| field).collect()).collect())
+}
+
+fn column(out: &Path, name: &str) -> Vec<Field> {
+    let (names, rows) = table(out);
+    let position = names.iter().position(|known| known == name).unwrap_or_else(|| panic!("no {name} in {names:?}"));
+    rows.into_iter().map(|row| row[position].clone()).collect()
+}
+
+/// Every file of a sweep that is to have the same bits, by its name.
+fn bits(out: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut files = vec![("runs.parquet".to_owned(), fs::read(out.join("runs.parquet")).unwrap())];
+    if let Ok(entries) = fs::read_dir(out.join("signals")) {
+        let of = |path: PathBuf| (path.file_name().unwrap().to_string_lossy().into_owned(), fs::read(path).unwrap());
+        files.extend(entries.map(|entry| of(entry.unwrap().path())));
+    }
+    files.sort();
+    files
+}
+
+#[track_caller]
+fn same_bits(one: &Path, other: &Path) {
+    let (one, other) = (bits(one), bits(other));
+    let names = |files: &[(String, Vec<u8>)]| files.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
+    assert_eq!(names(&one), names(&other));
+    let unlike: Vec<&str> = one.iter().zip(&other).filter(|(a, b)| a.1 != b.1).map(|(a, _)| a.0.as_str()).collect();
+    assert!(unlike.is_empty(), "other bits in {unlike:?}");
+}
+
+#[test]
+fn a_sweep_has_the_same_bits_on_any_number_of_threads_and_a_longer_one_begins_with_it() {
+    let folder = common::folder("sweep-threads");
+    let path = file(&folder, QUICK);
+    let (one, four, grown) = (folder.join("one"), folder.join("four"), folder.join("grown"));
+    let told = sweep(&path, &one, &["--jobs", "1", "--signals"]);
+    assert!(told.contains("24 runs, 24 of them made now, 0 failed"), "{told}");
+    sweep(&path, &four, &["--jobs", "4", "--signals"]);
+    same_bits(&one, &four);
+    assert_eq!(bits(&one).len(), 25, "a table and a file for each run");
+    // From a third of the runs to all of them.
+    file(&folder, &QUICK.replace("runs = 24", "runs = 8"));
+    sweep(&path, &grown, &["--signals"]);
+    assert_eq!(table(&grown).1, table(&one).1[..8]);
+    file(&folder, QUICK);
+    let told = sweep(&path, &grown, &["--signals"]);
+    assert!(told.contains("24 runs, 16 of them made now"), "{told}");
+    same_bits(&one, &grown);
+    // Fewer than there are would leave rows that nobody asked for.
+    file(&folder, &QUICK.replace("runs = 24", "runs = 8"));
+    assert!(refused(&path, &grown, &["--signals"]).contains("holds run 8: runs must be at least 9"));
+}
+
+#[test]
+fn a_sweep_that_is_killed_goes_on_where_it_was_and_has_the_bits_of_one_that_was_not() {
+    let folder = common::folder("sweep-killed");
+    let path = file(&folder, QUICK);
+    let (killed, whole) = (folder.join("killed"), folder.join("whole"));
+    let rows = || fs::read_to_string(killed.join("rows.log")).unwrap_or_default().lines().count();
+    let mut kills = 0;
+    for at_least in [3, 10, 17] {
+        let mut child = program(&path, &killed, &["--jobs", "2", "--signals", "parquet"])
+            .stderr(Stdio::null())
+            .stdout(Stdio::null())
+            .spawn()
+            .unwrap();
+        while rows() < at_least && child.try_wait().unwrap().is_none() {
+            thread::sleep(Duration::from_millis(2));
+        }
+        child.kill().unwrap();
+        kills += usize::from(!child.wait().unwrap().success());
+        let kept = rows();
+        assert!(kept >= at_least, "{kept} rows");
+        // A table that is there is whole.
+        if killed.join("runs.parquet").exists() {
+            table(&killed);
+        }
+        // What a machine that loses its power may leave: half a row.
+        let log = fs::read_to_string(killed.join("rows.log")).unwrap();
+        fs::write(killed.join("rows.log"), format!("{log}{}", &log[..log.len() / 40])).unwrap();
+    }
+    assert!(kills >= 2, "the sweep was over before it could be ended");
+    let told = sweep(&path, &killed, &["--signals", "parquet"]);
+    assert!(told.contains("24 runs,") && !told.contains(" 24 of them"), "{told}");
+    sweep(&path, &whole, &["--signals", "parquet"]);
+    same_bits(&killed, &whole);
+    assert!(!killed.join("running").exists(), "files that grew are left");
+}
+
+#[test]
+fn each_run_has_the_bits_of_brinell_run_of_its_scene() {
+    let folder = common::folder("sweep-as-run");
+    let text = QUICK.replace("noise_db = [0, 30]\n", "").replace("runs = 24", "runs = 6");
+    let (path, out) = (file(&folder, &text), folder.join("out"));
+    sweep(&path, &out, &["--signals"]);
+    for run in [0, 4] {
+        let output = program(&path, &out, &["--scene-of", &run.to_string()]).output().unwrap();
+        assert!(output.status.success(), "{}", said(&output));
+        let (scene, alone) = (folder.join("scene.toml"), folder.join("alone"));
+        fs::write(&scene, output.stdout).unwrap();
+        let output = Command::new(env!("CARGO_BIN_EXE_brinell"))
+            .arg("run")
+            .arg(&scene)
+            .args(["--stop", "0.03", "--step", "3.90625e-5", "--columns", "sensor.acceleration", "--format", "npy"])
+            .args(["--no-figure", "-o"])
+            .arg(&alone)
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{}", said(&output));
+        let numbers = |path: PathBuf| -> Vec<[f64; 2]> {
+            let bytes = fs::read(path).unwrap();
+            let head = 12 + u32::from_le_bytes(bytes[8..12].try_into().unwrap()) as usize;
+            let number = |at: usize| f64::from_le_bytes(bytes[at..at + 8].try_into().unwrap());
+            (head..bytes.len()).step_by(16).map(|at| [number(at), number(at + 8)]).collect()
+        };
+        let kept = numbers(out.join(format!("signals/run-{run:07}.npy")));
+        let alone = numbers(alone.join(format!("run-{run:07}-signals.npy")));
+        assert_eq!(kept[..], alone[alone.len() - kept.len()..], "run {run}");
+        // 30 ms hold 768 samples, 10 ms 256.
+        assert_eq!((kept.len(), alone.len()), (512, 769));
+    }
+}
+
+#[test]
+fn a_run_that_fails_is_a_row_with_its_error_and_the_others_go_on() {
+    let folder = common::folder("sweep-failing");
+    let text = QUICK.replace("[random]", "solver.max_steps = [1000000, 3]\n[random]");
+    let (path, out) = (file(&folder, &text), folder.join("out"));
+    let told = sweep(&path, &out, &["--signals", "wav"]);
+    assert!(told.contains("24 runs, 24 of them made now, 12 failed"), "{told}");
+    let (steps, errors, rms) = (column(&out, "solver.max_steps"), column(&out, "error"), column(&out, "rms_m_s2"));
+    for ((most, error), rms) in steps.iter().zip(&errors).zip(&rms) {
+        match (most, error, rms) {
+            (Field::Long(1_000_000), Field::Null, Field::Double(rms)) => assert!(*rms > 0.0),
+            (Field::Long(3), Field::Str(said), Field::Null) => {
+                assert!(said.contains("3 steps") || said.contains("max_steps"), "{said}")
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+    let sounds = fs::read_dir(out.join("signals")).unwrap().count();
+    assert_eq!(sounds, 12, "signals of runs that did not fail");
+    // A run that failed is made: it would fail again.
+    assert!(sweep(&path, &out, &["--signals", "wav"]).contains("24 runs, 0 of them made now, 12 failed"));
+}
+
+#[test]
+fn rows_say_what_they_are_runs_of() {
+    let folder = common::folder("sweep-labels");
+    let text = QUICK.replace("[random]", "bearing.element_count = [8, 9]\n[random]\ndefect.angle_deg = [-120, -60]");
+    let (path, out) = (file(&folder, &text), folder.join("out"));
+    sweep(&path, &out, &[]);
+    assert!(!out.join("signals").exists());
+    let text = |name: &str| -> Vec<String> {
+        column(&out, name).iter().map(|field| field.to_string().trim_matches('"').to_owned()).collect()
+    };
+    assert_eq!(text("kind")[..4], ["healthy", "outer", "inner", "healthy"]);
+    assert_eq!(text("label_kind"), text("kind"));
+    let number = |name: &str| -> Vec<Option<f64>> {
+        let of = |field: Field| match field {
+            Field::Double(number) => Some(number),
+            Field::Long(number) => Some(number as f64),
+            Field::Null => None,
+            other => panic!("{other:?}"),
+        };
+        column(&out, name).into_iter().map(of).collect()
+    };
+    let healthy: Vec<bool> = text("kind").iter().map(|kind| kind == "healthy").collect();
+    for (label, key) in [
+        ("label_length_mm", "defect.length_mm"),
+        ("label_angle_deg", "defect.angle_deg"),
+        ("label_load_n", "shaft.load_n"),
+    ] {
+        for ((label_of, value), healthy) in number(label).into_iter().zip(number(key)).zip(&healthy) {
+            if *healthy && label != "label_load_n" {
+                assert_eq!(label_of, None);
+            } else {
+                // Metres and back again, and a vector's length.
+                assert!((label_of.unwrap() / value.unwrap() - 1.0).abs() < 1e-11, "{label}: {label_of:?} {value:?}");
+            }
+        }
+    }
+    // The passage frequency of the outer raceway, Z/2 (1 − D/d) n, but for the cage's slip, of which there is none.
+    for ((bpfo, count), speed) in
+        number("bpfo_hz").iter().zip(number("bearing.element_count")).zip(number("shaft.speed_hz"))
+    {
+        let expected = 0.5 * count.unwrap() * (1.0 - 7.94 / 39.325) * speed.unwrap();
+        // The pitch diameter under clearance.
+        assert!((bpfo.unwrap() / expected - 1.0).abs() < 1e-3, "{bpfo:?} {expected}");
+    }
+    // Only a defect of the outer raceway is passed where the elements' angles say; 2 mm are 4.8 degrees.
+    let (unloaded, kinds) = (number("unloaded_deg"), text("kind"));
+    assert!(unloaded.iter().zip(&kinds).all(|(found, kind)| found.is_none() || kind == "outer"));
+    assert!(unloaded.iter().flatten().count() > 0);
+    assert!(number("steps").iter().all(|steps| steps.unwrap() > 768.0));
+}
+
+#[test]
+fn a_sweep_measures_with_noise_a_filter_and_a_speed_that_changes() {
+    let folder = common::folder("sweep-measured");
+    fs::write(folder.join("up.csv"), "time_s,speed_hz\n0,10\n0.03,40\n").unwrap();
+    fs::write(folder.join("even.csv"), "time_s,speed_hz\n0,20\n1,20\n").unwrap();
+    let measured = QUICK
+        .replace("shaft.speed_hz = [10, 40]\n", "")
+        .replace("runs = 24", "filter = true\nspeed_profiles = [\"up.csv\", \"even.csv\"]\nruns = 24");
+    let path = file(&folder, &measured);
+    let (noisy, clean) = (folder.join("noisy"), folder.join("clean"));
+    sweep(&path, &noisy, &[]);
+    file(&folder, &measured.replace("noise_db = [0, 30]\n", ""));
+    sweep(&path, &clean, &[]);
+    let number = |out: &Path, name: &str| -> Vec<f64> {
+        column(out, name)
+            .iter()
+            .map(|field| if let Field::Double(x) = field { *x } else { panic!("{field:?}") })
+            .collect()
+    };
+    let profiles = column(&noisy, "speed_profile");
+    for (speed, profile) in number(&noisy, "label_speed_hz").into_iter().zip(&profiles) {
+        // The mean of 20 to 40 Hz over the last 20 ms, to a sample of 512.
+        let expected = if profile.to_string().contains("up") { 30.0 } else { 20.0 };
+        assert!((speed - expected).abs() < 0.03, "{profile}: {speed}");
+    }
+    let levels = number(&noisy, "rms_m_s2").into_iter().zip(number(&clean, "rms_m_s2"));
+    for ((noisy, clean), ratio) in levels.zip(number(&noisy, "noise_db")) {
+        let expected = clean * (1.0 + 10f64.powf(-ratio / 10.0)).sqrt();
+        // Noise of some 500 samples: four standard deviations of its own level and of what it shares with the signal.
+        assert!((noisy / expected - 1.0).abs() < 0.25, "{noisy} {clean} at {ratio} dB");
+    }
+}
+
+#[test]
+fn a_folder_of_another_sweep_is_refused_with_what_is_different() {
+    let folder = common::folder("sweep-other");
+    let short = QUICK.replace("runs = 24", "runs = 3");
+    let (path, out) = (file(&folder, &short), folder.join("out"));
+    sweep(&path, &out, &[]);
+    let kept = bits(&out);
+    for (text, more, parts) in [
+        (short.replace("seed = 3", "seed = 4"), &[][..], ["`seed = 3`", "`seed = 4`"]),
+        (short.replace("[1, 2]", "[1, 2.5]"), &[], ["`grid.defect.length_mm = [1, 2]`", "[1, 2.5]"]),
+        (short.replace("er16k-tb1", "er16k-tb2"), &[], ["er16k-tb1", "er16k-tb2"]),
+        (short.clone(), &["--signals"], ["`signals = \"none\"`", "`signals = \"npy\"`"]),
+    ] {
+        file(&folder, &text);
+        let said = refused(&path, &out, more);
+        assert!(parts.iter().all(|part| said.contains(part)) && said.contains("holds another sweep"), "{said}");
+    }
+    // Words that change nothing are no other sweep.
+    file(&folder, &format!("# the same\n{}", short.replace("seed = 3", "seed   = 3  # again")));
+    sweep(&path, &out, &[]);
+    assert_eq!(bits(&out), kept);
+    // Nor may two programs write into one folder.
+    let lock = File::create(out.join("lock")).unwrap();
+    lock.lock().unwrap();
+    assert!(refused(&path, &out, &[]).contains("another program sweeps in this folder"));
+}
+
+#[test]
+fn all_faults_of_a_sweep_are_told_with_their_lines() {
+    let folder = common::folder("sweep-faults");
+    let path = file(
+        &folder,
+        r#"scene = "er16k-tb1"
+run = 5
+seed = -1
+kinds = ["outer", "iner"]
+noise_db = [30, 10]
+settle_s = 0.5
+[set]
+contact.law = "herz"
+[grid]
+defect.depth_um = [50, -50]
+cage.slipp = [0.1]
+shaft.load_n = 5
+[random]
+defect.length_mm = [2, 1]
+housing.mass_kg = [1, 2]
+defect.depth_um = [1, 2]
+bearing.element_count = [8.5, 10]
+"#,
+    );
+    let said = refused(&path, &folder.join("out"), &[]);
+    for part in [
+        "line 2: run is unknown: did you mean runs?",
+        "line 3: seed is -1: it must be a whole number from 0",
+        "line 4: kinds: \"iner\" is none of healthy, outer, inner, element; did you mean inner?",
+        "line 5: noise_db is [30, 10]: it must be a ratio, or a list of two, the lower one first, from -60 to 200",
+        "line 6: settle_s is 0.5: it must be a number, from 0 to below stop_s",
+        "line 8: contact.law is \"herz\"",
+        "did you mean \"hertz\"?",
+        "line 10: ",
+        "is -50",
+        "line 11: cage.slipp is unknown: did you mean slip?",
+        "line 12: grid.shaft.load_n is 5: it must be a list of values, one at least",
+        "line 14: random.defect.length_mm is [2, 1]: it must be a list of two numbers, the lower one first",
+        "line 16: defect.depth_um stands in line 10 already",
+    ] {
+        assert!(said.contains(part), "`{part}` is missing in: {said}");
+    }
+    assert!(!said.contains("line 15"), "{said}");
+    assert!(!folder.join("out").exists(), "a folder of a sweep that cannot be");
+    for (text, part) in [
+        ("scene = \"er16k-tb1", "line 1: no TOML"),
+        ("runs = 1\n", "scene is missing"),
+        ("scene = \"er16k-tb3\"\n", "line 1: scene: er16k-tb3: neither a file nor a shipped scene; did you mean"),
+        ("scene = \"er16k-tb1\"\n[random]\nshaft.load_n = [1, 2]\n", "runs is missing"),
+        (
+            "scene = \"6205-two-defects\"\n[grid]\ndefect.depth_um = [50]\n",
+            "line 3: defect.depth_um: the scene has several",
+        ),
+        (
+            "scene = \"6205-healthy\"\nspeed_profiles = [\"up.csv\"]\n[grid]\nshaft.speed_hz = [5]\n",
+            "exclude each other",
+        ),
+    ] {
+        let said = refused(&file(&folder, text), &folder.join("out"), &[]);
+        assert!(said.contains(part), "`{part}` is missing in: {said}");
+    }
+}
+
+#[test]
+fn the_example_is_a_sweep_and_names_every_key() {
+    let folder = common::folder("sweep-example");
+    let example = common::root().join("examples/sweep.toml");
+    let text = fs::read_to_string(&example).unwrap();
+    let told = sweep(&example, &folder.join("out"), &["--signals"]);
+    assert!(told.contains("48 runs, 48 of them made now, 0 failed"), "{told}");
+    for key in ["runs", "seed", "stop_s", "settle_s", "rate_hz", "filter", "kinds", "speed_profiles", "noise_db"] {
+        assert!(text.contains(&format!("\n{key} = ")) || text.contains(&format!("\n# {key} = ")), "{key}");
+    }
+}
