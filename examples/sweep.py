@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 """Thousands of runs over length, depth, load and speed of a defect, on all cores or a cluster, into Parquet.
 
+On one machine `brinell sweep` does it quicker and without Python (docs/sweeps.md). This is for clusters, for FMUs as their
+hosts run them, and for spalls that are to be sized from each signal.
+
     python examples/sweep.py --runs 500 --seed 1 [--workers 2] [-o target/sweep]
         --grid defect.length_deg=2,5,10,15.8 --grid defect.depth_um=20,50,100
         --random shaft.load_n=300:1500 --random shaft.speed_hz=8:40

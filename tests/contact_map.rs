@@ -194,3 +194,26 @@ fn impossible_elements_and_approaches_are_refused() {
         assert!(LoveContact::new(ER16K, &line_spall(), approach, resolution).is_err());
     }
 }
+
+#[test]
+fn a_contact_map_holds_for_clearances_half_a_step_of_theirs_away() {
+    // A clearance 2.5 µm larger makes the raceway's radius 1.25 µm larger.
+    let other = ElementOnRaceway { raceway_radius: ER16K.raceway_radius + 1.25e-6, ..ER16K };
+    let resolution = Resolution { columns: 64, rows: 16 };
+    let mut own = love();
+    let mut wider = LoveContact::new(other, &line_spall(), 1.5 * LARGEST, resolution).unwrap();
+    let (mut largest, mut most) = (0.0_f64, 0.0_f64);
+    for i in 0..40 {
+        let s = -0.5 * LENGTH - 3e-4 + 1.7e-5 * f64::from(i);
+        for height in [1e-6, 4e-6, 7e-6] {
+            let u = own.first_touch(s) + height;
+            let (Ok(a), Ok(b)) = (own.solve(u, s), wider.solve(u, s)) else { continue };
+            let [a, b] = [a, b].map(|approach| approach.forces(1.0).map(|force| force / LARGEST.powf(1.5)));
+            largest = largest.max((a[0] - b[0]).abs()).max((a[1] - b[1]).abs());
+            most = most.max(a[0]);
+        }
+    }
+    println!("largest difference {largest:.1e} of full scale");
+    // A tenth of a map's usual error, 1e-3; a shift of the edge by a hundredth of a cell would be as much.
+    assert!(most > 0.5 && largest < 1e-4, "{most} {largest:e}");
+}

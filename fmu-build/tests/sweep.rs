@@ -397,3 +397,28 @@ fn the_example_is_a_sweep_and_names_every_key() {
         assert!(text.contains(&format!("\n{key} = ")) || text.contains(&format!("\n# {key} = ")), "{key}");
     }
 }
+
+#[test]
+fn runs_of_other_loads_and_clearances_share_one_contact_map_whatever_the_number_of_threads() {
+    let folder = common::folder("sweep-maps");
+    let text = "scene = \"er16k-tb1\"\nruns = 12\nstop_s = 0.01\nsettle_s = 0.002\nrate_hz = 25600\n\
+        [set]\ncontact.cells = [24, 12]\ncontact.map_accuracy = 0.02\ndefect.length_mm = 2\n\
+        [grid]\nbearing.radial_clearance_um = [3, 5, 6.5, 7]\n[random]\nshaft.load_n = [100, 450]\n";
+    let path = file(&folder, text);
+    let maps_of = |jobs: &str| -> Vec<(String, Vec<u8>)> {
+        let (out, cache) = (folder.join(format!("out-{jobs}")), folder.join(format!("cache-{jobs}")));
+        let output = program(&path, &out, &["--jobs", jobs]).env("BRINELL_CACHE", &cache).output().unwrap();
+        assert!(said(&output).contains("12 runs, 12 of them made now, 0 failed"), "{}", said(&output));
+        let entries = fs::read_dir(cache.join("maps")).unwrap().map(|entry| entry.unwrap().path());
+        entries
+            .map(|path| (path.file_name().unwrap().to_string_lossy().into_owned(), fs::read(path).unwrap()))
+            .collect()
+    };
+    let (one, two) = (maps_of("1"), maps_of("2"));
+    assert_eq!(one.len(), 1, "maps {:?}", one.iter().map(|(name, _)| name).collect::<Vec<_>>());
+    assert!(one == two, "a map has other bits on two threads");
+    same_bits(&folder.join("out-1"), &folder.join("out-2"));
+    // Other clearances are other runs all the same.
+    let rms = column(&folder.join("out-1"), "rms_m_s2");
+    assert!(rms.iter().enumerate().all(|(k, one)| !rms[..k].contains(one)), "{rms:?}");
+}

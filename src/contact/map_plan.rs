@@ -8,6 +8,7 @@
 use crate::numerics::{hermite, ninth_root};
 use crate::surface::Surface;
 use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
 
 use super::{
     error::ContactError,
@@ -15,6 +16,7 @@ use super::{
     love::LoveContact,
     map::{Accuracy, ContactMap, Patch, Stretch, Strip},
     map_cells::{Cells, FINEST, Key, LEVELS, Node, Place},
+    map_checks::{Check, Error, summary},
     map_specification::{MapSpecification, Runner},
     raceway_grid::ElementOnRaceway,
 };
@@ -75,13 +77,12 @@ pub struct MapPlan {
     specification: MapSpecification,
     fingerprint: u64,
     contact: LoveContact,
+    /// Copies of it that jobs have done with: the factor in one has some megabytes.
+    idle: Mutex<Vec<LoveContact>>,
     /// Whether the element is a roller.
     line: bool,
     patches: Vec<PatchPlan>,
 }
-
-/// Errors of both forces relative to full scale at one point of a cell.
-type Error = [f64; 2];
 
 impl MapPlan {
     /// Plans the coarsest nodes.
@@ -107,7 +108,8 @@ impl MapPlan {
         let contact = LoveContact::with_edges(element, surface, prepared, resolution, edges)?;
         let fingerprint = ContactMap::fingerprint_of(surface, element, specification);
         let line = element.length().is_some();
-        let mut plan = Self { specification, fingerprint, contact, line, patches: Vec::new() };
+        let idle = Mutex::default();
+        let mut plan = Self { specification, fingerprint, contact, idle, line, patches: Vec::new() };
         plan.patches = plan.patches_for(surface, element);
         if let (Some(first), Some(last)) = (plan.patches.first(), plan.patches.last()) {
             let felt = (first.start, last.end());
@@ -172,6 +174,8 @@ impl MapPlan {
     pub fn build(mut self, runner: &mut impl Runner) -> Result<ContactMap, ContactError> {
         self.lay_out(runner)?;
         let mut errors: BTreeMap<(usize, Key), Vec<Error>> = BTreeMap::new();
+        // Where a neighbour is cut, a cell gets another cubic, and its checks stay.
+        let mut checks: BTreeMap<(usize, Key), Vec<Check>> = BTreeMap::new();
         loop {
             self.solve_missing(runner)?;
             let mut stale = Vec::new();
@@ -179,10 +183,20 @@ impl MapPlan {
                 stale.extend(patch.cells.assemble().into_iter().map(|key| (p, key)));
             }
             let map = self.map();
-            let jobs: Vec<&[(usize, Key)]> = stale.chunks(JOB).collect();
-            let found = runner.run(jobs.len(), &|job| self.errors(&map, jobs[job]))?;
-            errors.extend(stale.iter().copied().zip(found.into_iter().flatten()));
-            errors.retain(|(p, key), _| self.patches[*p].cells.leaves.contains(key));
+            let fresh: Vec<(usize, Key)> = stale.iter().copied().filter(|place| !checks.contains_key(place)).collect();
+            let jobs: Vec<&[(usize, Key)]> = fresh.chunks(JOB).collect();
+            let found = runner.run(jobs.len(), &|job| self.checks(jobs[job]))?;
+            checks.extend(fresh.iter().copied().zip(found.into_iter().flatten()));
+            for place in stale {
+                let found = checks.get(&place).map_or(&[][..], Vec::as_slice);
+                let largest = self.specification.largest_approach;
+                let found = found.iter().map(|check| check.error(&map, largest, &|approach| self.grown(approach)));
+                let found = found.collect::<Result<Vec<_>, _>>()?;
+                errors.insert(place, found.into_iter().flatten().collect());
+            }
+            let is_leaf = |(p, key): &(usize, Key)| self.patches[*p].cells.leaves.contains(key);
+            errors.retain(|place, _| is_leaf(place));
+            checks.retain(|place, _| is_leaf(place));
             // Better than asked for: the checks do not hit the worst place, least of all in large cells.
             let limit = |key: &Key| if key.0 < 2 { 0.5 } else { 0.8 } * self.specification.accuracy;
             let far = |found: &[Error], limit: f64| found.iter().flatten().any(|e| e.abs() > limit);
@@ -241,16 +255,27 @@ impl MapPlan {
 
     /// Coarse nodes above one place, up to the largest approach.
     fn column(&self, patch: &PatchPlan, k: usize) -> Result<Vec<Node>, ContactError> {
-        let mut contact = self.contact.clone();
-        contact.forget();
-        let mut nodes = Vec::new();
-        loop {
-            let node = self.node(patch, &mut contact, (k * FINEST, nodes.len() * FINEST))?;
-            nodes.push(node);
-            if node[0] >= self.specification.largest_approach {
-                return Ok(nodes);
+        self.with_contact(|contact| {
+            let mut nodes = Vec::new();
+            loop {
+                let node = self.node(patch, contact, (k * FINEST, nodes.len() * FINEST))?;
+                nodes.push(node);
+                if node[0] >= self.specification.largest_approach {
+                    return Ok(nodes);
+                }
             }
-        }
+        })
+    }
+
+    /// Does something with a contact that has forgotten its last one.
+    fn with_contact<T>(&self, act: impl FnOnce(&mut LoveContact) -> T) -> T {
+        let idle = || self.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = idle().pop();
+        let mut contact = known.unwrap_or_else(|| self.contact.clone());
+        contact.forget();
+        let done = act(&mut contact);
+        idle().push(contact);
+        done
     }
 
     fn node(&self, patch: &PatchPlan, contact: &mut LoveContact, (i, j): Place) -> Result<Node, ContactError> {
@@ -269,9 +294,9 @@ impl MapPlan {
             .collect();
         let jobs: Vec<&[(usize, Place)]> = missing.chunks(JOB).collect();
         let solved = runner.run(jobs.len(), &|job| {
-            let mut contact = self.contact.clone();
-            contact.forget();
-            jobs[job].iter().map(|&(p, place)| self.node(&self.patches[p], &mut contact, place)).collect()
+            let node =
+                |contact: &mut LoveContact, (p, place): (usize, Place)| self.node(&self.patches[p], contact, place);
+            self.with_contact(|contact| jobs[job].iter().map(|&one| node(contact, one)).collect())
         })?;
         let solved: Vec<Node> = solved.into_iter().flat_map(|nodes: Vec<Node>| nodes).collect();
         for ((p, place), node) in missing.into_iter().zip(solved) {
@@ -309,12 +334,10 @@ impl MapPlan {
         }
     }
 
-    /// Errors of some cells, at four places in each large one and two in each small one.
-    fn errors(&self, map: &ContactMap, cells: &[(usize, Key)]) -> Result<Vec<Vec<Error>>, ContactError> {
-        let mut contact = self.contact.clone();
-        contact.forget();
-        let mut out = Vec::new();
-        for &(p, (level, i, j)) in cells {
+    /// Checks of some cells: at four points of each large one and two of each small one, but for those without contact and
+    /// beyond the largest approach.
+    fn checks(&self, cells: &[(usize, Key)]) -> Result<Vec<Vec<Check>>, ContactError> {
+        let of_cell = |contact: &mut LoveContact, (p, (level, i, j)): (usize, Key)| {
             let patch = &self.patches[p];
             let side = (FINEST >> level) as f64;
             let mut found = Vec::new();
@@ -327,42 +350,17 @@ impl MapPlan {
                 let (along, up) = ((i as f64 + q) * side, (j as f64 + t) * side);
                 let s = patch.start + along / FINEST as f64 * patch.cells.size[0];
                 let u = patch.reference_at(s) + patch.height(up);
-                found.extend(self.error(map, &mut contact, u, s)?);
+                match contact.solve(u, s) {
+                    Ok(exact) if exact.value <= self.specification.largest_approach => {
+                        found.push(Check { u, s, exact })
+                    }
+                    Ok(_) | Err(ContactError::OutOfRange { .. }) => {}
+                    Err(error) => return Err(error),
+                }
             }
-            out.push(found);
-        }
-        Ok(out)
-    }
-
-    /// Error of both forces relative to full scale; `None` without contact and beyond the largest approach.
-    fn error(
-        &self,
-        map: &ContactMap,
-        contact: &mut LoveContact,
-        u: f64,
-        s: f64,
-    ) -> Result<Option<Error>, ContactError> {
-        let largest = self.specification.largest_approach;
-        let full_scale = self.grown(largest);
-        let exact = match contact.solve(u, s) {
-            Ok(exact) if exact.value <= largest => exact,
-            Ok(_) | Err(ContactError::OutOfRange { .. }) => return Ok(None),
-            Err(error) => return Err(error),
+            Ok(found)
         };
-        let found = match map.lookup(u, s) {
-            Ok(found) => found,
-            // Cells still too large may hold anything between their corners: as wrong as can be, so they are cut.
-            Err(ContactError::OutOfRange { .. }) => return Ok(Some([1.0; 2])),
-            Err(error) => return Err(error),
-        };
-        if exact.value <= 0.0 && found.value <= 0.0 {
-            return Ok(None);
-        }
-        let [found, exact] = [found, exact].map(|at| {
-            let smooth = self.grown(at.value.max(0.0));
-            [smooth * at.du, -smooth * at.ds]
-        });
-        Ok(Some([(found[0] - exact[0]) / full_scale, (found[1] - exact[1]) / full_scale]))
+        self.with_contact(|contact| cells.iter().map(|&cell| of_cell(contact, cell)).collect())
     }
 }
 
@@ -389,27 +387,4 @@ impl PatchPlan {
         let [c0, c1, c2, c3] = self.references[strip];
         c0 + q * (c1 + q * (c2 + q * c3))
     }
-}
-
-/// Figures over all points with contact; a point weighs as much as its cell is large.
-fn summary(errors: &BTreeMap<(usize, Key), Vec<Error>>) -> Accuracy {
-    let mut accuracy = Accuracy::default();
-    let (mut squares, mut weights) = ([0.0; 2], 0.0);
-    for ((_, key), found) in errors {
-        let weight = 0.25_f64.powi(key.0 as i32);
-        let weight = weight / found.len().max(1) as f64;
-        for [normal, tangential] in found {
-            accuracy.max_normal = accuracy.max_normal.max(normal.abs());
-            accuracy.max_tangential = accuracy.max_tangential.max(tangential.abs());
-            squares[0] += weight * normal * normal;
-            squares[1] += weight * tangential * tangential;
-            weights += weight;
-            accuracy.points += 1;
-        }
-    }
-    if weights > 0.0 {
-        accuracy.rms_normal = (squares[0] / weights).sqrt();
-        accuracy.rms_tangential = (squares[1] / weights).sqrt();
-    }
-    accuracy
 }

@@ -21,6 +21,7 @@ pub mod love;
 pub mod map;
 pub mod map_build;
 mod map_cells;
+mod map_checks;
 pub mod map_format;
 pub mod map_plan;
 pub mod map_specification;

@@ -21,7 +21,7 @@ use crate::dynamics::drive::Frame;
 use crate::dynamics::kinematics::CageState;
 use crate::dynamics::model::Model;
 use crate::dynamics::raceway::{DefectiveElement, Defects};
-use crate::scene::{ContactLaw, Damping, DefectOn, Ring, Scene};
+use crate::scene::{Bearing, ContactLaw, Damping, DefectOn, Ring, Scene};
 use crate::surface::roller_profile::unread;
 use crate::surface::{Surface, SurfaceError};
 use std::f64::consts::PI;
@@ -94,12 +94,27 @@ fn ring_of(scene: &mut Scene, ring: RingName) -> &mut Ring {
 /// shape leaves open.
 const TOLERATED: f64 = 0.02;
 
+/// Contact maps are made for clearances that are multiples of this [µm]. What lies between changes a raceway's radius by
+/// a ten thousandth, and forces by less than a hundredth of a map's own error; a bearing whose clearance is swept has few
+/// maps then.
+const CLEARANCE_UM: f64 = 5.0;
+
+/// The bearing for which the contacts near a scene's defects are prepared.
+fn prepared(scene: &Scene) -> Bearing {
+    let mut bearing = scene.bearing.clone();
+    if scene.contact.law == ContactLaw::Map {
+        // In micrometres, as files give it: a multiple keeps its bits.
+        bearing.radial_clearance = CLEARANCE_UM * (bearing.radial_clearance * 1e6 / CLEARANCE_UM).round() / 1e6;
+    }
+    bearing
+}
+
 /// What the contact map of a scene covers on one raceway: forces up to `contact.largest_force_n`, or else four times
 /// the static force on the most loaded element, 5 F/Z (Stribeck), and at least 1000 N. Outside Δ counts the rings' and
 /// seats' compliance as well. An accuracy that the scene asks for is held; the usual one may be missed, in defects
 /// deeper than they are long, by what `TOLERATED` says.
 pub fn map_specification(scene: &Scene, side: RacewaySide) -> MapSpecification {
-    let largest = largest_approach(&scene.bearing, side, largest_force(scene));
+    let largest = largest_approach(&prepared(scene), side, largest_force(scene));
     let usual = if scene.bearing.roller().is_some() {
         MapSpecification::of_roller(largest)
     } else {
@@ -144,9 +159,10 @@ impl NeededMap<'_> {
 /// Defects that overlap.
 pub fn needed_maps<'s>(scene: &Scene, surfaces: &'s [Surface]) -> Result<Vec<NeededMap<'s>>, SimulationError> {
     let mut maps: Vec<NeededMap> = Vec::new();
+    let bearing = prepared(scene);
     for spot in arranged(scene, surfaces)? {
         for &side in sides(spot.on) {
-            let (element, specification) = (ElementOnRaceway::of(&scene.bearing, side), map_specification(scene, side));
+            let (element, specification) = (ElementOnRaceway::of(&bearing, side), map_specification(scene, side));
             let fingerprint = ContactMap::fingerprint_of(&spot.surface, element, specification);
             if !maps.iter().any(|map| map.fingerprint == fingerprint) {
                 maps.push(NeededMap { surface: spot.surface.clone(), element, specification, fingerprint });
@@ -197,7 +213,7 @@ fn near(
 ) -> Result<NearDefect, SimulationError> {
     let surface = &*spot.surface;
     let rolling = Rolling::of(&scene.bearing, side, matches!(spot.on, DefectOn::Element { .. }));
-    let (element, specification) = (ElementOnRaceway::of(&scene.bearing, side), map_specification(scene, side));
+    let (element, specification) = (ElementOnRaceway::of(&prepared(scene), side), map_specification(scene, side));
     let near = match (scene.contact.law, surface) {
         (ContactLaw::Hertz, Surface::Profile(profile)) => NearDefect::Hertz(RigidPath::new(profile.points(), rolling)?),
         (ContactLaw::Hertz, Surface::Topography(_)) => {

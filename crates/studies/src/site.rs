@@ -21,6 +21,7 @@ const CHAPTERS: [(&str, &[&str]); 4] = [
         &[
             "guide.md",
             "runs.md",
+            "sweeps.md",
             "systems.md",
             "platforms.md",
             "scene.md",
