@@ -17,7 +17,7 @@ use super::{
     cholesky::Cholesky,
     error::ContactError,
     half_space::KernelTable,
-    row_pairs::{BLOCK, Image, RowPairs},
+    row_pairs::{Image, RowPairs, SEGMENT},
     soft_edges::SoftEdge,
 };
 
@@ -70,6 +70,8 @@ pub struct ActiveSet {
     runs: Vec<Run>,
     state: Vec<State>,
     pressure: Vec<f64>,
+    /// First columns of the segments of a row in which cells may penetrate, and what K p is there.
+    segments: Vec<i32>,
     deflection: Vec<f64>,
 }
 
@@ -97,7 +99,8 @@ impl ActiveSet {
             runs: Vec::with_capacity(4 * rows),
             state: Vec::with_capacity(rows * columns),
             pressure: Vec::new(),
-            deflection: Vec::with_capacity(columns.next_multiple_of(BLOCK)),
+            segments: Vec::with_capacity(columns.div_ceil(SEGMENT)),
+            deflection: Vec::with_capacity(columns.next_multiple_of(SEGMENT)),
         })
     }
 
@@ -130,9 +133,11 @@ impl ActiveSet {
     /// Largest |gap| where pressed and penetration where not, over the window just solved [m].
     pub fn residual(&mut self, window: Window<'_>) -> f64 {
         let mut worst = 0.0_f64;
-        let mut deflection = vec![0.0; window.columns.next_multiple_of(BLOCK)];
+        let mut deflection = vec![0.0; window.columns.next_multiple_of(SEGMENT)];
+        let segments: Vec<i32> = (0..window.columns).step_by(SEGMENT).map(|c| window.first + c as i32).collect();
         for row in 0..self.pairs.rows() {
-            self.deflect(row, window.first, &mut deflection);
+            let how = (self.mirror.x, felt(&self.edges));
+            self.pairs.deflect(how, (&self.runs, &self.pressure), (row, &segments), &mut deflection);
             let cells = row * window.columns..(row + 1) * window.columns;
             for ((&g, &state), &u) in window.interference[cells.clone()].iter().zip(&self.state[cells]).zip(&deflection)
             {
@@ -199,11 +204,6 @@ impl ActiveSet {
                 return Err(ContactError::NotConverged { iterations: 100, residual: f64::NAN, limit: TOUCHING });
             }
         }
-    }
-
-    fn deflect(&self, row: usize, first: i32, out: &mut [f64]) {
-        let how = (self.mirror.x, felt(&self.edges));
-        self.pairs.deflect(how, (&self.runs, &self.pressure), (row, first), out);
     }
 
     fn start(&mut self, first: i32, columns: usize, interference: &[f64], largest: f64) {
@@ -343,24 +343,36 @@ impl ActiveSet {
     }
 
     fn add_penetrating(&mut self, window: Window<'_>, touching: f64) -> bool {
+        let columns = window.columns;
         self.deflection.clear();
-        self.deflection.resize(window.columns.next_multiple_of(BLOCK), 0.0);
+        self.deflection.resize(columns.next_multiple_of(SEGMENT), 0.0);
         let mut changed = false;
         for row in 0..self.pairs.rows() {
-            let g = &window.interference[row * window.columns..(row + 1) * window.columns];
-            let state = &mut self.state[row * window.columns..(row + 1) * window.columns];
-            let open = |c: &usize| g[*c] > touching && state[*c] == State::Open;
-            let (Some(from), Some(to)) = ((0..g.len()).find(open), (0..g.len()).rev().find(open)) else {
+            let g = &window.interference[row * columns..(row + 1) * columns];
+            let state = &mut self.state[row * columns..(row + 1) * columns];
+            // Beside the contact, and not in its middle: there all cells are active.
+            self.segments.clear();
+            let mut column = 0;
+            while column < columns {
+                let open = g[column] > touching && state[column] == State::Open;
+                if open {
+                    self.segments.push(window.first + column as i32);
+                }
+                column += if open { SEGMENT } else { 1 };
+            }
+            if self.segments.is_empty() {
                 continue;
-            };
-            let out = &mut self.deflection[..(to + 1 - from).next_multiple_of(BLOCK)];
-            let at = (row, window.first + from as i32);
+            }
+            let out = &mut self.deflection[..SEGMENT * self.segments.len()];
             let how = (self.mirror.x, felt(&self.edges));
-            self.pairs.deflect(how, (&self.runs, &self.pressure), at, out);
-            for c in from..=to {
-                if state[c] == State::Open && g[c] - self.deflection[c - from] > touching {
-                    state[c] = State::Active;
-                    changed = true;
+            self.pairs.deflect(how, (&self.runs, &self.pressure), (row, &self.segments), out);
+            for (&segment, deflection) in self.segments.iter().zip(out.chunks_exact(SEGMENT)) {
+                let from = (segment - window.first) as usize;
+                for (c, &u) in (from..columns).zip(deflection) {
+                    if state[c] == State::Open && g[c] - u > touching {
+                        state[c] = State::Active;
+                        changed = true;
+                    }
                 }
             }
         }

@@ -1,15 +1,19 @@
 //! Influence of rows of cells on each other, and its product with the pressures on the cells that are in contact.
 //!
 //! Entries depend on the difference of columns only: one line of Love's kernel for each pair of rows, with the image of
-//! the second row added where front and back mirror each other. Sums run over cells in a fixed order, for [`BLOCK`]
-//! columns side by side.
+//! the second row added where front and back mirror each other. Products are asked for on segments of [`SEGMENT`] columns;
+//! the sum for each cell runs over the pressures in a fixed order, whichever segment it is in.
 
 use pulp::{Arch, NullaryFnOnce};
 
 use super::half_space::KernelTable;
 
-/// Columns treated together in a product.
-pub(super) const BLOCK: usize = 32;
+/// Columns of a segment.
+pub(super) const SEGMENT: usize = 8;
+/// Segments treated side by side: a sum that waits for itself leaves room for three others.
+const TOGETHER: usize = 4;
+/// Noughts behind a line of the kernel, for segments that end beyond it.
+const BEYOND: usize = 32;
 
 /// Which halves of the contact mirror each other, so that only one of them is unknown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -55,7 +59,7 @@ impl RowPairs {
     pub(super) fn new(kernel: &KernelTable, rows: usize, mirror: Mirror) -> Self {
         let mirrored = mirror.y || mirror.middle_row;
         let reach = kernel.columns();
-        let width = 2 * reach - 1 + BLOCK;
+        let width = 2 * reach - 1 + BEYOND;
         let pairs = if mirrored { rows * rows } else { rows };
         let mut values = vec![0.0; pairs * width];
         for (index, out) in values.chunks_exact_mut(width).enumerate() {
@@ -88,17 +92,16 @@ impl RowPairs {
         self.rows
     }
 
-    /// K p on consecutive cells of one row: `at` is the row and the first of the columns, which fill `out`. `edges` are
-    /// those that the window feels.
+    /// K p on segments of one row: `at` is the row and the first column of each segment, whose cells go into `out` one
+    /// segment after the other. `edges` are those that the window feels.
     pub(super) fn deflect<'a, I: Image + 'a>(
         &self,
         (mirror_x, edges): (bool, impl Iterator<Item = &'a I> + Clone),
         (runs, pressure): (&[Run], &[f64]),
-        at: (usize, i32),
+        (row, firsts): (usize, &[i32]),
         out: &mut [f64],
     ) {
-        let (row, first) = at;
-        Arch::new().dispatch(Deflect { pairs: self, mirror_x, edges, runs, pressure, row, first, out });
+        Arch::new().dispatch(Deflect { pairs: self, mirror_x, edges, runs, pressure, row, firsts, out });
     }
 
     /// Line of the kernel between two rows; difference 0 is at place `reach` − 1.
@@ -122,7 +125,7 @@ pub struct Run {
     pub at: usize,
 }
 
-/// K p on consecutive cells of one row.
+/// K p on segments of one row.
 struct Deflect<'a, E> {
     pairs: &'a RowPairs,
     mirror_x: bool,
@@ -130,7 +133,7 @@ struct Deflect<'a, E> {
     runs: &'a [Run],
     pressure: &'a [f64],
     row: usize,
-    first: i32,
+    firsts: &'a [i32],
     out: &'a mut [f64],
 }
 
@@ -138,38 +141,57 @@ impl<'e, I: Image + 'e, E: Iterator<Item = &'e I> + Clone> NullaryFnOnce for Def
     type Output = ();
 
     #[inline(always)]
-    fn call(self) {
+    fn call(mut self) {
+        let out = std::mem::take(&mut self.out);
+        for (firsts, out) in self.firsts.chunks(TOGETHER).zip(out.chunks_mut(TOGETHER * SEGMENT)) {
+            match *firsts {
+                [a] => self.on([a], out),
+                [a, b] => self.on([a, b], out),
+                [a, b, c] => self.on([a, b, c], out),
+                [a, b, c, d] => self.on([a, b, c, d], out),
+                _ => {}
+            }
+        }
+    }
+}
+
+impl<'e, I: Image + 'e, E: Iterator<Item = &'e I> + Clone> Deflect<'_, E> {
+    #[inline(always)]
+    fn on<const N: usize>(&self, firsts: [i32; N], out: &mut [f64]) {
         let middle = self.pairs.reach as i32 - 1;
-        for (b, out) in self.out.chunks_exact_mut(BLOCK).enumerate() {
-            let mut sum = [0.0_f64; BLOCK];
-            let first = self.first + (b * BLOCK) as i32;
-            for run in self.runs {
-                let pair = self.pairs.pair(self.row, run.row);
-                let pressure = &self.pressure[run.at..run.at + run.length];
-                for (k, &p) in pressure.iter().enumerate() {
-                    let from = run.first + k as i32;
-                    accumulate(&mut sum, pair, middle + first - from, p);
+        let mut sums = [[0.0_f64; SEGMENT]; N];
+        for run in self.runs {
+            let pair = self.pairs.pair(self.row, run.row);
+            let pressure = &self.pressure[run.at..run.at + run.length];
+            for (k, &p) in pressure.iter().enumerate() {
+                let from = run.first + k as i32;
+                for (sum, first) in sums.iter_mut().zip(firsts) {
+                    accumulate(sum, pair, middle + first - from, p);
                     if self.mirror_x {
-                        accumulate(&mut sum, pair, middle + first + from + 1, p);
+                        accumulate(sum, pair, middle + first + from + 1, p);
                     }
-                    for edge in self.edges.clone().filter(|edge| edge.bears(from)) {
-                        let (skip, image) = edge.on((self.row, first, BLOCK), (run.row, from));
+                }
+                for edge in self.edges.clone().filter(|edge| edge.bears(from)) {
+                    for (sum, first) in sums.iter_mut().zip(firsts) {
+                        let (skip, image) = edge.on((self.row, first, SEGMENT), (run.row, from));
                         for (sum, image) in sum[skip..].iter_mut().zip(image) {
                             *sum = image.mul_add(p, *sum);
                         }
                     }
                 }
             }
-            out.copy_from_slice(&sum);
+        }
+        for (out, sum) in out.chunks_exact_mut(SEGMENT).zip(&sums) {
+            out.copy_from_slice(sum);
         }
     }
 }
 
 #[inline(always)]
-fn accumulate(sum: &mut [f64; BLOCK], pair: &[f64], start: i32, p: f64) {
-    // Cells of the last block beyond the table are nobody's: they stay as they are.
-    if let Some(k) = pair.get(start as usize..start as usize + BLOCK) {
-        for l in 0..BLOCK {
+fn accumulate(sum: &mut [f64; SEGMENT], pair: &[f64], start: i32, p: f64) {
+    // Cells of a segment beyond the table are nobody's: they stay as they are.
+    if let Some(k) = pair.get(start as usize..start as usize + SEGMENT) {
+        for l in 0..SEGMENT {
             sum[l] = k[l].mul_add(p, sum[l]);
         }
     }
