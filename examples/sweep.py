@@ -13,7 +13,7 @@ hosts run them, and for spalls that are to be sized from each signal.
 
 Run i takes the grid's point i modulo its size and random values that depend on seed and i alone: the same design to the
 bit on any machine, and a longer one begins with the shorter. What an FMU can be told costs a run 0.1 ms (load, speed,
-slip, first angle), the clearance 2.6 s of a core where the law is `map`: the FMU computes its contact map anew. Other
+slip, first angle), a clearance more than 2.5 µm off the scene's seconds where the law is `map`: a new contact map. Other
 keys of the scene make one FMU per grid point, so let them be on the grid.
 
 With `--kinds` runs take the kinds of fault in turn, each at every point of the grid. Each row says in its label_…

@@ -23,8 +23,8 @@ pub(super) struct Check {
 }
 
 impl Check {
-    /// Error of a map for approaches up to `largest` [m]; `None` without contact. `grown` is the smooth contact's force at
-    /// an approach, but for a factor.
+    /// Error of a map for approaches up to `largest` [m]; `None` without contact. `grown` is the smooth contact's force
+    /// at an approach, but for a factor.
     pub(super) fn error(
         &self,
         map: &ContactMap,

@@ -334,8 +334,8 @@ impl MapPlan {
         }
     }
 
-    /// Checks of some cells: at four points of each large one and two of each small one, but for those without contact and
-    /// beyond the largest approach.
+    /// Checks of some cells: at four points of each large one and two of each small one, but for those without contact
+    /// and beyond the largest approach.
     fn checks(&self, cells: &[(usize, Key)]) -> Result<Vec<Vec<Check>>, ContactError> {
         let of_cell = |contact: &mut LoveContact, (p, (level, i, j)): (usize, Key)| {
             let patch = &self.patches[p];

@@ -1,8 +1,8 @@
 //! Influence of rows of cells on each other, and its product with the pressures on the cells that are in contact.
 //!
 //! Entries depend on the difference of columns only: one line of Love's kernel for each pair of rows, with the image of
-//! the second row added where front and back mirror each other. Products are asked for on segments of [`SEGMENT`] columns;
-//! the sum for each cell runs over the pressures in a fixed order, whichever segment it is in.
+//! the second row added where front and back mirror each other. Products are asked for on segments of [`SEGMENT`]
+//! columns; the sum for each cell runs over the pressures in a fixed order, whichever segment it is in.
 
 use pulp::{Arch, NullaryFnOnce};
 

@@ -94,15 +94,21 @@ impl Signals {
 
     /// One signal.
     pub fn column(&self, place: usize) -> Result<Vec<f64>> {
-        if self.rows > 1 << 27 {
-            bail!("{} samples of {}: at most {} go into memory", self.rows, self.names[place], 1 << 27);
+        Ok(self.columns(&[place])?.pop().unwrap_or_default())
+    }
+
+    /// Several signals, read at once.
+    pub fn columns(&self, places: &[usize]) -> Result<Vec<Vec<f64>>> {
+        if self.rows.saturating_mul(places.len() as u64) > 1 << 27 {
+            let names: Vec<&str> = places.iter().map(|&place| self.names[place].as_str()).collect();
+            bail!("{} samples of {}: at most {} go into memory", self.rows, names.join(", "), 1 << 27);
         }
-        let mut column = Vec::with_capacity(self.rows as usize);
+        let mut columns = vec![Vec::with_capacity(self.rows as usize); places.len()];
         self.each_row(|row| {
-            column.push(row[place]);
+            columns.iter_mut().zip(places).for_each(|(column, &place)| column.push(row[place]));
             Ok(())
         })?;
-        Ok(column)
+        Ok(columns)
     }
 
     /// Lets `by` change each row, whose number it is told.

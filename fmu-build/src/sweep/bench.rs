@@ -9,6 +9,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use anyhow::{Context, Result, bail};
 use brinell::scene::{DefectOn, DefectShape, Scene};
 use brinell::simulation::Simulation;
+use brinell_analysis::statistics::mean;
 use clap::ValueEnum;
 use toml::Value;
 
@@ -220,34 +221,19 @@ impl Bench<'_> {
 
     /// Statistics of the first sensor, passage of the defect, and steps.
     fn measure(&self, row: &mut Row, scene: &Scene, done: &Done, kept: &Signals) -> Result<()> {
-        let column = |name: &str| -> Result<Vec<f64>> {
-            let position = done.signals.names().iter().position(|known| known == name);
-            done.signals.column(position.with_context(|| format!("no column {name}"))?)
+        let names = done.signals.names();
+        let columns = done.signals.columns(&(0..names.len()).collect::<Vec<_>>())?;
+        let column = |name: &str| {
+            let position = names.iter().position(|known| known == name).with_context(|| format!("no column {name}"))?;
+            anyhow::Ok(columns[position].as_slice())
         };
         let (time, cage) = (column("time")?, column("cage.speed")?);
-        let count = scene.bearing.element_count as f64;
-        // How many elements have passed a point of the outer raceway.
-        let mut passed = 0.0;
-        let passages: Vec<f64> = cage
-            .iter()
-            .map(|speed| {
-                let here = passed;
-                passed += count * self.grid.step * speed / TAU;
-                here
-            })
-            .collect();
-        let at = kept.column(0)?;
-        let late: Vec<f64> = cage.iter().zip(&time).filter(|(_, t)| **t > self.sweep.settle).map(|(c, _)| *c).collect();
-        let between = |t: f64| {
-            let along = (t / self.grid.step).clamp(0.0, (passages.len() - 1) as f64);
-            let first = (along as usize).min(passages.len() - 2);
-            passages[first] + (along - first as f64) * (passages[first + 1] - passages[first])
-        };
-        let passages_at: Vec<f64> = at.iter().map(|&t| between(t)).collect();
-        let found = Statistics::of(&kept.column(1)?, &passages_at);
+        let count = scene.bearing.element_count;
+        let found = Statistics::of(&kept.column(1)?, &self.passages(cage, count as f64, &kept.column(0)?));
+        let late = cage.iter().zip(time).filter(|(_, t)| **t > self.sweep.settle).map(|(speed, _)| *speed);
         let mut put = |name: &str, cell: Cell| row.put(self.columns, name, cell);
         let mut number = |name: &str, value: f64| put(name, Cell::Number(value));
-        number("bpfo_hz", count * brinell_analysis::statistics::mean(&late) / TAU);
+        number("bpfo_hz", count as f64 * mean(&late.collect::<Vec<_>>()) / TAU);
         number("rms_m_s2", found.rms);
         number("peak_m_s2", found.peak);
         number("kurtosis", found.kurtosis);
@@ -255,13 +241,12 @@ impl Bench<'_> {
             number(&envelope_name(k + 1), line);
         }
         if let Some(defect) = passes_outer_defect(scene) {
-            let of = |what: &str| -> Result<Vec<Vec<f64>>> {
-                (1..=scene.bearing.element_count).map(|j| column(&format!("element[{j}].{what}"))).collect()
+            let element = |j: usize| {
+                let angle = column(&format!("element[{j}].angle"))?;
+                anyhow::Ok(OneElement { angle, force: column(&format!("element[{j}].force.outer"))? })
             };
-            let (angles, forces) = (of("angle")?, of("force.outer")?);
-            let elements: Vec<OneElement<'_>> =
-                angles.iter().zip(&forces).map(|(angle, force)| OneElement { angle, force }).collect();
-            if let Some(passage) = Passage::first(&time, &elements, defect, self.sweep.settle) {
+            let elements = (1..=count).map(element).collect::<Result<Vec<_>>>()?;
+            if let Some(passage) = Passage::first(time, &elements, defect, self.sweep.settle) {
                 number("unloaded_s", passage.unloaded);
                 number("loaded_again_s", passage.loaded_again);
                 number("unloaded_deg", passage.turned.to_degrees());
@@ -271,6 +256,20 @@ impl Bench<'_> {
             put(name, Cell::Whole(column(variable)?.last().copied().unwrap_or(0.0) as i64));
         }
         Ok(())
+    }
+
+    /// How many elements have passed a point of the outer raceway at these times, by the cage's speed at each step.
+    fn passages(&self, cage: &[f64], count: f64, times: &[f64]) -> Vec<f64> {
+        let mut passed = vec![0.0];
+        for speed in cage {
+            passed.push(passed[passed.len() - 1] + count * self.grid.step * speed / TAU);
+        }
+        let between = |t: &f64| {
+            let along = (t / self.grid.step).clamp(0.0, (passed.len() - 1) as f64);
+            let first = (along as usize).min(passed.len() - 2);
+            passed[first] + (along - first as f64) * (passed[first + 1] - passed[first])
+        };
+        times.iter().map(between).collect()
     }
 
     fn write(&self, written: Written, kept: &Signals, name: &str) -> Result<()> {

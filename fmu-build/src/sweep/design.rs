@@ -1,6 +1,6 @@
-//! The design of a sweep: which values each run has. Run i takes point i of the grid, modulo its size, and random values
-//! that depend on the seed, the key and i alone: a longer sweep begins with the shorter one, and a further key changes
-//! nothing of the others.
+//! The design of a sweep: which values each run has. Run i takes point i of the grid, modulo its size, and random
+//! values that depend on the seed, the key and i alone: a longer sweep begins with the shorter one, and a further key
+//! changes nothing of the others.
 
 use brinell::numerics::checksum::checksum;
 use brinell::numerics::counter_noise::{bits, uniform};

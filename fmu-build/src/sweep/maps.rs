@@ -1,5 +1,5 @@
-//! The contact maps of a sweep's runs: each is computed once, before the first run, on all threads, and kept in the cache;
-//! runs share them, and each is in memory from the first run that needs it to the last.
+//! The contact maps of a sweep's runs: each is computed once, before the first run, on all threads, and kept in the
+//! cache; runs share them, and each is in memory from the first run that needs it to the last.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -45,8 +45,8 @@ impl<'p> Maps<'p> {
         Self { project, kept: Mutex::new(kept), failed: HashMap::new() }
     }
 
-    /// Puts the maps of a scene into the cache that are not there, on so many threads. What cannot be computed is told to
-    /// the runs that need it.
+    /// Puts the maps of a scene into the cache that are not there, on so many threads. What cannot be computed is told
+    /// to the runs that need it.
     pub(super) fn prepare(&mut self, scene: &Scene, profiles: &[Arc<str>], threads: usize) -> Result<()> {
         let surfaces = Surface::load_all(scene, profiles.iter().map(|text| &**text))?;
         for needed in setup::needed_maps(scene, &surfaces)? {

@@ -65,8 +65,8 @@ impl Record {
             (None, Some(missing)) => format!("without `{missing}`"),
         };
         bail!(
-            "{} holds another sweep, {said}: choose another folder with -o, or take this one away; {FILE} in it says all \
-             of it",
+            "{} holds another sweep, {said}: choose another folder with -o, or take this one away; {FILE} in it \
+             says all of it",
             folder.display()
         )
     }

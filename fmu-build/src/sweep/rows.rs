@@ -1,7 +1,7 @@
 //! Rows of a sweep's table: one for each run, kept in a journal as they come.
 //!
-//! A line of the journal is a row with a checksum before it. A program that is ended while it writes leaves at most a line
-//! that its checksum does not fit; that run is made again.
+//! A line of the journal is a row with a checksum before it. A program that is ended while it writes leaves at most a
+//! line that its checksum does not fit; that run is made again.
 
 use std::fs::{self, File};
 use std::io::{self, Write};

@@ -23,8 +23,8 @@ pub(super) struct Statistics {
 }
 
 impl Statistics {
-    /// Those of a signal at even times; `passages` is how many elements have passed a point of the outer raceway at each
-    /// sample, so that with a speed that changes the lines stay where they are.
+    /// Those of a signal at even times; `passages` is how many elements have passed a point of the outer raceway at
+    /// each sample, so that with a speed that changes the lines stay where they are.
     pub(super) fn of(signal: &[f64], passages: &[f64]) -> Self {
         let middle = mean(signal);
         let signal: Vec<f64> = signal.iter().map(|value| value - middle).collect();
@@ -108,7 +108,8 @@ mod tests {
         // The Hann window's side lobes, 1/100³ of a line.
         assert!((found.envelope[0] - 1.5).abs() < 1e-4, "{found:?}");
         assert!(found.envelope[1..].iter().all(|&line| line < 1e-4), "{found:?}");
-        // √(9 (1 + 1/8)/2), and for a sine of amplitude a: <a⁴> 3/8 over (<a²>/2)²; <a²> = 9·9/8, <a⁴> = 81·(1 + 3/4 + 3/128).
+        // √(9 (1 + 1/8)/2), and for a sine of amplitude a: <a⁴> 3/8 over (<a²>/2)²; <a²> = 9·9/8, <a⁴> = 81·(1 + 3/4 +
+        // 3/128).
         assert!((found.rms - (9.0_f64 * 1.125 / 2.0).sqrt()).abs() < 1e-4, "{found:?}");
         let fourth = 81.0 * (1.0 + 0.75 + 3.0 / 128.0) * 3.0 / 8.0;
         assert!((found.kurtosis - fourth / (81.0 * 1.125 * 1.125 / 4.0)).abs() < 1e-3, "{found:?}");

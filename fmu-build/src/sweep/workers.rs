@@ -6,8 +6,8 @@ use std::thread;
 
 use anyhow::Result;
 
-/// Does `job(0)` … `job(count − 1)` on so many threads; `take` has the results, in no order. Where it fails no further job
-/// begins, and its error is the answer.
+/// Does `job(0)` … `job(count − 1)` on so many threads; `take` has the results, in no order. Where it fails no further
+/// job begins, and its error is the answer.
 pub(super) fn each<T: Send>(
     threads: usize,
     count: usize,
