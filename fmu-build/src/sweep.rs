@@ -28,7 +28,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::project::Project;
 use crate::run::grid::Grid;
 use crate::run::speed_profile::SpeedProfile;
-use crate::whole_file::NotWritten;
+use crate::whole_file::{self, NotWritten};
 use bench::Bench;
 pub(crate) use bench::Written;
 use faults::{Fault, Faults};
@@ -70,15 +70,10 @@ pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder:
     let _lock = lock(folder)?;
     record.claim(folder)?;
     let columns = bench::columns(sweep, &|key| planned.is_whole(key));
-    let (mut journal, mut rows) = Journal::open(folder, &columns)?;
+    let [running, signals] = folders(folder, options)?;
+    let (mut journal, mut rows) = Journal::open(folder, &running, &columns)?;
     if let Some(beyond) = rows.iter().filter_map(Row::run).find(|run| *run >= sweep.runs) {
         bail!("{} holds run {beyond}: runs must be at least {}", folder.display(), beyond + 1);
-    }
-    let (running, signals) = (folder.join("running"), folder.join("signals"));
-    // What an interrupted sweep has left.
-    let _ = fs::remove_dir_all(&running);
-    for made in [Some(&running), options.signals.map(|_| &signals)].into_iter().flatten() {
-        fs::create_dir_all(made).with_context(|| made.display().to_string())?;
     }
     let bench = Bench {
         sweep,
@@ -94,10 +89,12 @@ pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder:
     let done: BTreeSet<u64> = rows.iter().filter_map(Row::run).collect();
     let missing: Vec<u64> = (0..sweep.runs).filter(|run| !done.contains(run)).collect();
     let (maps, fingerprints) = prepare(project, &planned, &bench, &missing, options.jobs)?;
-    let table = folder.join(TABLE);
     let write = |rows: &mut Vec<Row>| {
         rows.sort_by_key(Row::run);
-        table::write(&table, &columns, rows)
+        // Beside the runs under way, whence it is moved when it is whole.
+        let whole = running.join(TABLE);
+        table::write(&whole, &columns, rows)?;
+        whole_file::take_out(&whole, folder)
     };
     let bar = bar(sweep.runs, done.len() as u64);
     // The table is written now and then, whenever there is a quarter more of it.
@@ -118,7 +115,7 @@ pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder:
         Ok(())
     })?;
     bar.finish_and_clear();
-    write(&mut rows)?;
+    let table = write(&mut rows)?;
     let _ = fs::remove_dir_all(&running);
     println!("{}", table.display());
     if options.signals.is_some() {
@@ -221,6 +218,17 @@ fn prepare<'p>(
         maps.prepare(&ready.scene, &ready.texts, jobs)?;
     }
     Ok((maps, fingerprints))
+}
+
+/// Where signals grow, empty, and where they go.
+fn folders(folder: &Path, options: &Options) -> Result<[PathBuf; 2]> {
+    let (running, signals) = (folder.join("running"), folder.join("signals"));
+    // What an interrupted sweep has left.
+    let _ = fs::remove_dir_all(&running);
+    for made in [Some(&running), options.signals.map(|_| &signals)].into_iter().flatten() {
+        fs::create_dir_all(made).with_context(|| made.display().to_string())?;
+    }
+    Ok([running, signals])
 }
 
 /// Keeps other programs from sweeping in the same folder.

@@ -272,25 +272,27 @@ impl Bench<'_> {
         times.iter().map(between).collect()
     }
 
+    /// Writes the signals beside where they grew, whence they are moved when they are whole: a program that is ended leaves
+    /// nothing in their folder.
     fn write(&self, written: Written, kept: &Signals, name: &str) -> Result<()> {
-        let columns: Vec<(usize, &str)> =
-            (0..kept.names().len()).map(|k| (k, if k == 0 { "s" } else { "m/s2" })).collect();
+        let unit = |k: usize| if k == 0 { "s" } else { "m/s2" };
+        let columns: Vec<(usize, &str)> = (0..kept.names().len()).map(|k| (k, unit(k))).collect();
+        let ending = match written {
+            Written::Npy => "npy",
+            Written::Parquet => "parquet",
+            Written::Wav => "wav",
+        };
+        let whole = kept.path().with_file_name(format!("{name}.{ending}"));
         match written {
-            Written::Npy => {
-                let whole = kept.path().with_file_name(format!("{name}.npy"));
-                std::fs::rename(kept.path(), &whole).map_err(|error| NotWritten::new(&whole, error))?;
-                whole_file::take_out(&whole, self.signals)?;
-            }
-            Written::Parquet => {
-                Format::Parquet.write(kept, &columns, &self.signals.join(format!("{name}.parquet")))?;
-            }
+            Written::Npy => std::fs::rename(kept.path(), &whole).map_err(|error| NotWritten::new(&whole, error))?,
+            Written::Parquet => Format::Parquet.write(kept, &columns, &whole)?,
             Written::Wav => {
                 let sensors: Vec<usize> = (1..kept.names().len()).collect();
                 let wav = Wav { rate: Some(self.sweep.rate), scale: 1.0 };
-                wav.write(kept, &sensors, self.sweep.rate, &self.signals.join(format!("{name}.wav")))?;
+                wav.write(kept, &sensors, self.sweep.rate, &whole)?;
             }
         }
-        Ok(())
+        whole_file::take_out(&whole, self.signals).map(drop)
     }
 }
 

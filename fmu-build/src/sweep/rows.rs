@@ -12,6 +12,9 @@ use brinell::numerics::checksum::checksum;
 
 use crate::whole_file::{self, NotWritten};
 
+/// Name of the journal.
+const FILE: &str = "rows.log";
+
 /// What a column holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
@@ -113,9 +116,10 @@ pub(super) struct Journal {
 }
 
 impl Journal {
-    /// Opens the journal in a folder; gives the rows that are there, each run once. What was torn is cut off.
-    pub(super) fn open(folder: &Path, columns: &[Column]) -> Result<(Self, Vec<Row>)> {
-        let path = folder.join("rows.log");
+    /// Opens the journal in a folder; gives the rows that are there, each run once. What was torn is cut off, in a fresh
+    /// file that is written in `running`.
+    pub(super) fn open(folder: &Path, running: &Path, columns: &[Column]) -> Result<(Self, Vec<Row>)> {
+        let path = folder.join(FILE);
         let about = || path.display().to_string();
         let text = match fs::read(&path) {
             Ok(bytes) => bytes,
@@ -129,9 +133,11 @@ impl Journal {
         }
         rows.sort_by_key(Row::run);
         rows.dedup_by_key(|row| row.run());
-        whole_file::write_with(&path, |out| {
+        let fresh = running.join(FILE);
+        whole_file::write_with(&fresh, |out| {
             Ok(rows.iter().try_for_each(|row| out.write_all(row.line().as_bytes()))?)
         })?;
+        whole_file::take_out(&fresh, folder)?;
         let file = File::options().append(true).open(&path).with_context(about)?;
         Ok((Self { path, file }, rows))
     }
@@ -163,15 +169,15 @@ mod tests {
 
     #[test]
     fn rows_come_back_with_their_bits_and_what_was_torn_anywhere_is_left_out() {
-        let folder = tempfile::tempdir().unwrap();
-        let (mut journal, none) = Journal::open(folder.path(), &columns()).unwrap();
+        let (folder, running) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+        let (mut journal, none) = Journal::open(folder.path(), running.path(), &columns()).unwrap();
         assert!(none.is_empty());
         [3, 0, 2].iter().for_each(|&run| journal.add(&row(run)).unwrap());
         let whole = fs::read(folder.path().join("rows.log")).unwrap();
         let ends: Vec<usize> = (0..whole.len()).filter(|&at| whole[at] == b'\n').collect();
         for length in 0..=whole.len() {
             fs::write(folder.path().join("rows.log"), &whole[..length]).unwrap();
-            let (_, rows) = Journal::open(folder.path(), &columns()).unwrap();
+            let (_, rows) = Journal::open(folder.path(), running.path(), &columns()).unwrap();
             let kept = ends.iter().filter(|&&end| end < length).count();
             let mut expected: Vec<Row> = [3, 0, 2][..kept].iter().map(|&run| row(run)).collect();
             expected.sort_by_key(Row::run);
@@ -180,6 +186,6 @@ mod tests {
         let mut damaged = whole.clone();
         damaged[ends[0] + 25] ^= 1;
         fs::write(folder.path().join("rows.log"), damaged).unwrap();
-        assert_eq!(Journal::open(folder.path(), &columns()).unwrap().1, [row(2), row(3)]);
+        assert_eq!(Journal::open(folder.path(), running.path(), &columns()).unwrap().1, [row(2), row(3)]);
     }
 }
