@@ -48,7 +48,9 @@ fn user(page: &str) -> std::path::PathBuf {
 /// What a command says. Python's packages warn about what the machine lacks: their warnings are left out, ours are not.
 fn said(command: &str, folder: &Path) -> String {
     let program = Path::new(env!("CARGO_BIN_EXE_brinell"));
-    let places = [program.parent().unwrap(), python().interpreter().parent().unwrap()].map(Path::to_path_buf);
+    // A page that runs no example needs not their half gigabyte.
+    let python = if command.contains("python") { python() } else { common::python() };
+    let places = [program.parent().unwrap(), python.interpreter().parent().unwrap()].map(Path::to_path_buf);
     let path = env::join_paths(places.into_iter().chain(env::split_paths(&env::var_os("PATH").unwrap()))).unwrap();
     let modules = [common::root().join("examples"), Path::new(env!("CARGO_MANIFEST_DIR")).join("module")];
     // Around a redirection of its own.

@@ -1,0 +1,275 @@
+//! The examples and the guide: every command of `docs/guide.md` runs, on a short case, and its result is looked at.
+//! Those that need more than fmpy and matplotlib have a Python environment of their own, made from
+//! `examples/requirements.txt`; it has half a gigabyte, and so they run in the nightly part.
+#![allow(clippy::unwrap_used)]
+
+#[path = "../common/mod.rs"]
+mod common;
+mod rotors;
+mod sweeps;
+
+use std::ffi::OsString;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+use fmu_build::project::Project;
+use fmu_build::python::Python;
+use serde_json::Value;
+
+const RIGID: &str = "python examples/step_by_step.py --stop 0.06";
+const ROSS: &str = "python examples/rotor_ross.py --stop 1";
+const ROSS_ITSELF: &str = "python examples/rotor_ross.py --host ross --stop 0.2";
+const LINEAR: &str = "python examples/rotor_linear.py --short";
+const ERROR: &str = "python examples/coupling_error.py --short";
+const MASTERS: &str = "python examples/masters.py --short";
+const SYSTEMS: &str = "python examples/system_of_fmus.py --build";
+const SYSTEM: &str = "python examples/system_of_fmus.py --short";
+const COST: &str = "python examples/step_cost.py --steps 200";
+const SWEEP: &str =
+    "python examples/sweep.py --runs 8 --stop 0.1 --grid defect.length_deg=15.8 --random shaft.speed_hz=10:40";
+const LABELLED: &str = "python examples/sweep.py --kinds healthy,outer,inner,element --law hertz --runs 8 --stop 0.1 --settle 0.02 --signals -o target/labelled";
+const MEASURED: &str = "python examples/sweep.py --kinds healthy,outer,inner --law hertz --runs 12 --stop 0.2 --settle 0.02 --speed-profile up.csv --noise-db 10:30 --rate 12800 --filter --write wav,npy --signals --grid bearing.element_count=8,9 --grid defect.length_mm=1.2 -o target/measured";
+const SIZED: &str = "python examples/sweep.py --runs 1 --stop 0.6 --grid defect.length_deg=15.8 --random shaft.speed_hz=10:40 --size -o target/sized";
+const SCHEDULER: &str = "dask scheduler --host 127.0.0.1 --port 8786 --no-dashboard";
+const WORKER: &str = "dask worker tcp://127.0.0.1:8786 --nworkers 2 --nthreads 1 --no-dashboard";
+const CLUSTER: &str = "python examples/sweep.py --scheduler tcp://127.0.0.1:8786 --runs 8 --stop 0.1 --grid defect.length_deg=15.8 --random shaft.speed_hz=10:40";
+/// What this file's environment or another test does.
+const SET_UP: [&str; 8] = [
+    "python3 -m venv target/examples-env",
+    ". target/examples-env/bin/activate",
+    "pip install -r examples/requirements.txt",
+    // Packages that only this page of measurements needs.
+    "pip install libcosimpy==0.0.6 ecospy==0.7.2 tbb",
+    "LD_LIBRARY_PATH=target/examples-env/lib python examples/system_of_fmus.py --masters ours,fmpy,libcosim,ecos",
+    // tests/reference.rs runs it, with all scenes.
+    "brinell build er16k-tb1 --reference",
+    "brinell build er16k-tb1 --reference --fmi 3",
+    // tests/contact.rs runs it, on fewer cells.
+    "brinell contact er16k-tb1 --on outer --angle 7.85 --force 300",
+];
+
+/// The environment of all packages that examples need.
+fn with_all_packages() -> &'static Python {
+    static PYTHON: OnceLock<Python> = OnceLock::new();
+    PYTHON.get_or_init(|| {
+        let requirements = fs::read_to_string(common::root().join("examples/requirements.txt")).unwrap();
+        that_builds(Python::prepare_from(&Project::find(), "examples-python", &requirements).unwrap())
+    })
+}
+
+/// The environment of fmpy and matplotlib.
+fn python() -> &'static Python {
+    static PYTHON: OnceLock<Python> = OnceLock::new();
+    PYTHON.get_or_init(|| that_builds(Python::prepare(&Project::find()).unwrap()))
+}
+
+/// With this build's program and library.
+fn that_builds(python: Python) -> Python {
+    // Contact maps are computed once and then kept; without this two tests would compute the same one.
+    let folder = common::folder("maps");
+    for scene in ["er16k-tb1", "er16k-tb1-hosted-shaft"] {
+        common::fmu_of(scene, &folder);
+    }
+    let python = python.with_variable("BRINELL_FMU", env!("CARGO_BIN_EXE_brinell"));
+    match common::built_with_the_tests() {
+        Some(library) => python.with_variable("BRINELL_LIBRARY", library),
+        None => python,
+    }
+}
+
+/// Runs a command of the guide with a folder of its own, and gives what it said.
+fn run(command: &str, folder: &Path) -> String {
+    run_in(python(), command, folder)
+}
+
+fn run_in(python: &Python, command: &str, folder: &Path) -> String {
+    let (script, words) = parts(command);
+    let words = words.take_while(|&word| word != "-o").map(OsString::from);
+    python.run_file(&script, words.chain(["-o".into(), folder.into()])).unwrap_or_else(|error| panic!("{error:#}"))
+}
+
+/// What an example says that refuses its arguments.
+fn refused_in(python: &Python, command: &str, folder: &Path) -> String {
+    let (script, words) = parts(command);
+    python.run_file(&script, words.map(OsString::from).chain(["-o".into(), folder.into()])).unwrap_err().to_string()
+}
+
+/// The script of a command, and its arguments.
+fn parts(command: &str) -> (PathBuf, impl Iterator<Item = &str>) {
+    let mut words = command.strip_prefix("python ").unwrap().split(' ');
+    (common::root().join(words.next().unwrap()), words)
+}
+
+/// The last line that a program said, as JSON.
+fn last(said: &str) -> Value {
+    serde_json::from_str(said.lines().last().unwrap()).unwrap()
+}
+
+/// Rows of numbers in a Markdown table: the first columns' words, and the cells after them.
+fn table(text: &str, words: usize) -> Vec<(String, Vec<String>)> {
+    let rows = text.lines().filter(|line| line.starts_with("| ")).skip(1);
+    let cells =
+        rows.map(|line| line.trim_matches('|').split('|').map(|cell| cell.trim().to_owned()).collect::<Vec<_>>());
+    cells.map(|cells| (cells[..words].join(" "), cells[words..].to_vec())).collect()
+}
+
+fn percent(cell: &str) -> f64 {
+    cell.strip_suffix(" %").map_or(f64::INFINITY, |number| number.parse().unwrap_or(f64::INFINITY))
+}
+
+fn has_figure(stem: PathBuf) {
+    for suffix in ["svg", "png"] {
+        let path = stem.with_extension(suffix);
+        assert!(path.metadata().is_ok_and(|file| file.len() > 10_000), "{}", path.display());
+    }
+}
+
+fn page(name: &str) -> String {
+    fs::read_to_string(common::root().join("docs").join(name)).unwrap()
+}
+
+/// Blocks of the guide and its page of systems in this language.
+fn blocks(language: &str) -> Vec<String> {
+    let guide = page("guide.md") + &page("systems.md");
+    let fence = format!("```{language}\n");
+    let parts = guide.split(&fence).skip(1);
+    parts.map(|part| part.split("```").next().unwrap().to_owned()).collect()
+}
+
+#[test]
+fn every_command_of_the_guide_is_run_here() {
+    let known = [
+        RIGID,
+        ROSS,
+        ROSS_ITSELF,
+        LINEAR,
+        ERROR,
+        MASTERS,
+        COST,
+        SWEEP,
+        LABELLED,
+        MEASURED,
+        SYSTEMS,
+        SYSTEM,
+        SIZED,
+        SCHEDULER,
+        WORKER,
+        CLUSTER,
+    ];
+    let commands: Vec<_> =
+        blocks("sh").iter().flat_map(|block| block.lines().map(str::to_owned).collect::<Vec<_>>()).collect();
+    for command in &commands {
+        let command = command.split(" #").next().unwrap().trim();
+        assert!(known.contains(&command) || SET_UP.contains(&command), "not run: {command}");
+    }
+    for command in known {
+        assert!(commands.iter().any(|found| found.starts_with(command)), "not in the guide: {command}");
+    }
+}
+
+#[test]
+fn the_code_in_the_guide_runs() {
+    let code = blocks("python");
+    assert_eq!(code.len(), 1);
+    let root = common::root().display().to_string();
+    let folder = common::folder("guide");
+    let script = folder.join("guide.py");
+    let text = code[0]
+        .replace("\"examples\"", &format!("{:?}", format!("{root}/examples")))
+        .replace("\"target/examples\"", &format!("{:?}", folder.display().to_string()));
+    fs::write(&script, text).unwrap();
+    python().run_file(&script, [""; 0]).unwrap_or_else(|error| panic!("{error:#}"));
+}
+
+#[test]
+fn an_fmu_bears_its_scenes_name_whatever_its_files_is() {
+    let folder = common::folder("example-names");
+    fs::copy(common::root().join("scenes/6205-healthy.toml"), folder.join("another.toml")).unwrap();
+    let script = folder.join("names.py");
+    let text = "import sys\nsys.path.insert(0, sys.argv[1])\nfrom bearing import build\n\
+                [fmu] = build([sys.argv[2] + '/another.toml'], sys.argv[2])\nprint(fmu.name, fmu.is_file())";
+    fs::write(&script, text).unwrap();
+    let said =
+        python().run_file(&script, [common::root().join("examples"), folder]).unwrap_or_else(|e| panic!("{e:#}"));
+    assert_eq!(said.trim(), "6205-healthy.fmu True");
+}
+
+#[test]
+fn two_bearings_carry_a_rigid_rotor() {
+    let folder = common::folder("example-rigid");
+    let said = last(&run(RIGID, &folder));
+    has_figure(folder.join("step_by_step"));
+    // 1000 N and 6 kg, 0.18 m and 0.22 m from the bearings 0.40 m apart. Over two passages the mean of the ringing
+    // and of the momentum that the rotor gains is within 5 % of it.
+    for (name, share) in [("mean_force_left_n", 0.45), ("mean_force_right_n", 0.55)] {
+        let (found, expected) = (said[name].as_f64().unwrap(), share * (1000.0 + 6.0 * 9.81));
+        assert!((found / expected - 1.0).abs() < 0.05, "{name}: {found}, expected {expected}");
+    }
+    assert!(said["largest_sensor_m_s2"].as_f64().unwrap() > 1.0, "the spall is felt: {said}");
+}
+
+#[test]
+fn each_master_is_as_exact_with_each_force_as_the_guide_says() {
+    let rows = table(&run(MASTERS, &common::folder("example-masters")), 3);
+    assert_eq!(rows.len(), 14);
+    let guide = page("guide.md");
+    for (words, _) in &rows {
+        let row = words.replacen(' ', " | ", 2);
+        assert!(guide.contains(&format!("| {row} |")), "not in the guide: {row}");
+    }
+    let at = |row: &str, column: usize| {
+        let (_, cells) = rows.iter().find(|(words, _)| words == row).unwrap();
+        percent(&cells[column])
+    };
+    for bearing in ["healthy", "spalled"] {
+        // Steps of 10 µs over the first 5 ms: a quarter of the guide's time, and less error. Limits: two to three times
+        // what was found.
+        let found = |told: &str| at(&format!("{bearing} {told}"), 0);
+        let (held, derivative) = (found("parallel `force`, held"), found("parallel `force` and its derivative"));
+        let (late, sequential) = (found("parallel `mean_force`, held"), found("sequential `mean_force`, held"));
+        assert!(derivative < 0.06 && sequential < 0.03, "{bearing}: {derivative} %, {sequential} %");
+        // A force that comes a whole step late instead of half a one: twice the error, and more as it grows.
+        assert!(late > 1.8 * held && held > 20.0 * derivative, "{bearing}: {late} %, {held} %, {derivative} %");
+        let same = found("parallel `mean_force` and its derivative, which is 0");
+        assert_eq!(same, late, "{bearing}: the mean's derivative is not 0");
+    }
+}
+
+#[test]
+fn a_system_of_bearing_and_rotor_is_as_exact_in_each_master_as_its_page_says() {
+    let folder = common::folder("example-system");
+    let said = run(SYSTEMS, &folder);
+    assert_eq!(said.lines().count(), 4, "{said}");
+    for system in said.lines() {
+        let archive = zip::ZipArchive::new(fs::File::open(system).unwrap()).unwrap();
+        assert_eq!(archive.file_names().filter(|name| name.as_ref().unwrap().ends_with(".fmu")).count(), 2);
+    }
+    // The rotor is an FMU that any importer can take.
+    common::python().run("validate.py", [folder.join("rotor.fmu")]).unwrap_or_else(|error| panic!("{error:#}"));
+
+    let rows = table(&run(SYSTEM, &folder), 4);
+    assert_eq!(rows.len(), 14);
+    let here = page("systems.md");
+    for bearing in ["healthy", "spalled"] {
+        // Steps of 10 µs over the first 5 ms. Limits: twice what was found.
+        let found = |told: &str| {
+            let words = format!("{bearing} {told}");
+            let (_, cells) = rows.iter().find(|(row, _)| *row == words).unwrap_or_else(|| panic!("no row {words}"));
+            percent(&cells[0])
+        };
+        let (held, derivative) =
+            (found("ours parallel `force`, held"), found("ours parallel `force` and its derivative"));
+        let (late, mean) = (found("ours parallel `mean_force`, held"), found("ours sequential `mean_force`, held"));
+        assert!(held < 4.0 && derivative < 0.07 && mean < 0.03, "{bearing}: {held} %, {derivative} %, {mean} %");
+        // A force that comes a whole step late instead of half a one.
+        assert!(late > 1.8 * held && held > 20.0 * derivative, "{bearing}: {late} %, {held} %, {derivative} %");
+        // An input of 0 in the first step.
+        assert!(found("fmpy parallel, begins with 0 `force`, held") > 10.0 * held);
+    }
+    for (words, _) in &rows {
+        let told = words.split_once('`').unwrap().1;
+        let stands = |line: &&str| line.starts_with(&format!("| {} | ", words.split(' ').next().unwrap()));
+        assert!(here.lines().filter(stands).any(|line| line.contains(told)), "not in the page: {words}");
+    }
+}
