@@ -202,7 +202,13 @@ impl Simulation {
         let progress = &self.state.progress;
         let (cells, state) = (&progress.cells, &progress.state);
         let change = &mut self.change;
-        self.model.vary(&drive, cells, state, self.present_acceleration, &change.variation, &mut change.forces);
+        let acceleration = self.present_acceleration;
+        if self.model.elements_in_balance() {
+            let Change { variation, forces, .. } = change;
+            self.model.vary_in_balance(&drive, cells, state, acceleration, variation, forces);
+        } else {
+            self.model.vary(&drive, cells, state, acceleration, &change.variation, &mut change.forces);
+        }
 
         // At the start nothing accelerates, whatever the inputs are.
         if self.state.started {
@@ -230,6 +236,15 @@ impl Simulation {
         change.cage_torque = change.forces.cage_torque + by_acceleration.dot(&change.accelerations[1]);
         let wanted = |&reference: &u32| matches!(self.quantities[reference as usize], Quantity::Stiffness(..));
         if unknowns.iter().any(wanted) {
+            // Balances follow inputs at once, states do not.
+            let mut settled = Vec::new();
+            let state = if self.model.elements_in_balance() {
+                settled.extend_from_slice(state);
+                self.forces.settle(&self.model, &mut settled);
+                &settled[..]
+            } else {
+                state
+            };
             change.stiffness = self.model.vary_stiffness(&drive, cells, state, &change.variation);
         }
     }

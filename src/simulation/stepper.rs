@@ -152,7 +152,7 @@ impl Stepper<'_> {
         (workspace.forces.defect_lookups, workspace.forces.unsolved) = (0, None);
         match control.method {
             Method::Automatic => {}
-            Method::DormandPrince | Method::PhaseFitted => progress.choice.implicit = false,
+            Method::DormandPrince | Method::PhaseFitted | Method::Explicit => progress.choice.implicit = false,
             Method::Rodas => progress.choice.implicit = true,
         }
         check_rings(*problem, 0.0, progress)?;
@@ -193,7 +193,7 @@ impl Stepper<'_> {
         let (mut tried, mut at_once) = (0, 0);
         loop {
             let Self { problem, workspace, progress, .. } = self;
-            let wanted = progress.choice.limited(progress.next_step);
+            let wanted = progress.choice.limited(progress.next_step).min(problem.longest_step());
             let h = landing.unwrap_or_else(|| share_of(remaining, wanted, progress.next_step));
             let span = Span { from, length: h };
             tried += 1;
