@@ -80,8 +80,17 @@ fn a_load_that_jumps_settles_in_the_static_balance() {
         // Rings' vibrations decay with 2m/c = 5 and 6 ms: e^-25 after 150 ms.
         bearing.run(1e-3, 150);
         let largest = |b: &mut Named| b.inner_forces(count).into_iter().fold(0.0, f64::max);
-        let (expected, got) = (largest(&mut at_rest), largest(&mut bearing));
-        assert!((got / expected - 1.0).abs() < 1e-4, "{what}: {got} N, in static equilibrium {expected} N");
+        let expected = largest(&mut at_rest);
+        // Rollers that gravity alone holds go on bouncing, by which the force swings by up to 1.4e-3: its mean over 20 ms.
+        let samples: Vec<f64> = (0..400)
+            .map(|_| {
+                bearing.run(5e-5, 1);
+                largest(&mut bearing)
+            })
+            .collect();
+        let got = samples.iter().sum::<f64>() / 400.0;
+        println!("{what}: mean off by {:.1e}", got / expected - 1.0);
+        assert!((got / expected - 1.0).abs() < 2e-5, "{what}: {got} N, in static equilibrium {expected} N");
         // Gravity on the rollers aside, the contacts carry the load.
         let force = at_rest.get("shaft.force.y");
         assert!((force + load).abs() < 1e-9 * load.abs(), "{what}: {force}");

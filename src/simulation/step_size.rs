@@ -21,9 +21,9 @@ pub(super) fn step_factor(workspace: &Workspace, error: f64, last_error: f64, pr
     0.9 * rough_power(error.max(1e-10), now) * rough_power(last_error, before)
 }
 
-/// Factor from a step that failed to the next trial. What makes steps fail is mostly a force that begins or ends in them
-/// with the power 1.5 of time, and so an error of order 2.5, whatever the order of the method.
-pub(super) fn factor_after_failure(error: f64) -> f64 {
+/// Factor from a step that failed over a contact change to the next trial. Forces begin and end with the power 1.5 of
+/// time, so the error is of order 2.5 whatever the order of the method.
+pub(super) fn factor_over_change(error: f64) -> f64 {
     (0.9 * rough_power(error.max(1e-10), -0.33)).clamp(0.1, 0.9)
 }
 

@@ -20,7 +20,7 @@ use super::outputs::Outputs;
 use super::progress::Progress;
 use super::recorder::Recorder;
 use super::step_error::StepError;
-use super::step_size::{factor_after_failure, share_of, step_factor};
+use super::step_size::{factor_over_change, share_of, step_factor};
 use super::switching::Method;
 use super::workspace::{Problem, Span, Workspace, step_ends};
 use crate::dynamics::raceway::Defects;
@@ -260,7 +260,12 @@ impl Stepper<'_> {
             }
         }
         let Self { problem, workspace, progress, .. } = self;
-        progress.next_step = span.length * if error.is_finite() { factor_after_failure(error) } else { 0.1 };
+        let factor = match (error.is_finite(), workspace.changed) {
+            (false, _) => 0.1,
+            (true, true) => factor_over_change(error),
+            (true, false) => step_factor(workspace, error, 1.0, progress).clamp(0.1, 0.9),
+        };
+        progress.next_step = span.length * factor;
         check_step(workspace, *problem, span, error, progress)?;
         Ok(None)
     }
