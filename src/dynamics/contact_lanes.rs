@@ -98,8 +98,8 @@ pub struct Record {
     pub outer_pushing: Row,
     /// u' of each element [m/s].
     pub path_rate: Row,
-    /// Path u [m] and absolute radial velocity w [m/s] of each element that is in balance at every instant; of no use
-    /// for others, whose state has them.
+    /// Path u [m] and absolute radial velocity w [m/s] of each element that is in balance at every instant; empty for
+    /// others, whose state has them.
     pub balanced: [Row; 2],
 }
 
@@ -119,7 +119,7 @@ impl Record {
             inner_pushing: zeros(),
             outer_pushing: zeros(),
             path_rate: zeros(),
-            balanced: [zeros(), zeros()],
+            balanced: [Row::zeros(0), Row::zeros(0)],
         }
     }
 }

@@ -8,6 +8,7 @@ use super::raceway::{Cells, Defects, SMOOTH};
 use crate::contact::error::ContactError;
 use crate::numerics::lanes::{Each, Lanes, Lists, QUAD, WIDEST, Wide, largest_of, padded};
 use crate::numerics::plane::Vector;
+use crate::numerics::row::Row;
 
 /// What the right-hand side found on its way. Its lists are made once.
 #[derive(Debug, Default)]
@@ -83,6 +84,7 @@ impl Forces {
         }
         if model.elements_in_balance() {
             forces.searched = Vec::with_capacity(model.element_count);
+            forces.contacts.balanced = [(); 2].map(|()| Row::zeros(padded(model.element_count)));
         }
         forces
     }

@@ -9,7 +9,7 @@ use anyhow::{Context, Result};
 /// Files of the source with tables and words of the scene; the doc comment of the first says what holds without a key.
 const READER: &str = "src/scene/file.rs";
 const TABLES: &str = "src/scene/file";
-const WORDS: &str = "src/scene/mod.rs";
+const WORDS: [&str; 2] = ["src/scene/mod.rs", "src/scene/rolling_element.rs"];
 
 /// Every key of a scene file: by table, whether it is needed, and what holds without it.
 pub fn scene_page(source: &Path) -> Result<String> {
@@ -19,7 +19,9 @@ pub fn scene_page(source: &Path) -> Result<String> {
         files.push(fs::read_to_string(entry?.path())?);
     }
     let mut tables: Vec<(String, Vec<Key>)> = files.iter().flat_map(|text| tables_in(text)).collect();
-    files.push(fs::read_to_string(source.join(WORDS)).context(WORDS)?);
+    for file in WORDS {
+        files.push(fs::read_to_string(source.join(file)).context(file)?);
+    }
     let outermost = |name: &str| name.split('.').next().unwrap_or_default().to_owned();
     tables.sort_by_key(|(name, _)| (reader.find(&format!(" {}: ", outermost(name))).unwrap_or(0), name.clone()));
     let mut page = String::from(

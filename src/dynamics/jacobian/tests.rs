@@ -194,7 +194,7 @@ fn compare(element: &RollingElement, bearer: Bearer, angles: impl IntoIterator<I
             let (mut jacobian, mut by_time) = (Jacobian::new(&model), vec![0.0; len]);
             model.linearize(&drive, tau, &cells, &state, &mut jacobian, &mut by_time);
             let matrix = jacobian.matrix(len);
-            let mut forces = Forces::new(model.element_count);
+            let mut forces = Forces::of(&model);
             let mut at = |tau: f64, state: &[f64]| {
                 let mut out = vec![0.0; len];
                 model.derivative(&drive, tau, &cells, state, &mut out, &mut forces);
