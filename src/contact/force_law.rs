@@ -53,6 +53,12 @@ impl<T: Number, E: Elastic> DampedLaw<T, E> {
         secant * (delta + (self.chi * delta + order * self.tau) * rate).or_zero()
     }
 
+    /// What damping adds [N] to an elastic force [N] of this tangent stiffness [N/m] at a rate of approach [m/s].
+    #[inline(always)]
+    pub fn damping_of(&self, force: T, stiffness: T, rate: T) -> T {
+        (self.chi * force + self.tau * stiffness) * rate
+    }
+
     /// A length [m] that is positive while the contact pushes and negative while it does not.
     ///
     /// It is continuous in both arguments, so that the moment of change can be located as its root.

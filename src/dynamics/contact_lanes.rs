@@ -46,11 +46,11 @@ struct Found<S: Wide> {
 
 /// Offset of the rings' centres per distance of the elements' below which the series hold to rounding: their next terms
 /// are 0.4 of its sixth power.
-const SERIES: f64 = 2e-3;
+pub(super) const SERIES: f64 = 2e-3;
 
 /// Forces on the inner ring along x and y, then on the outer, by lanes.
 #[derive(Default)]
-struct Sums {
+pub(super) struct Sums {
     lanes: [[f64; WIDEST]; 4],
     /// Where the next group of four belongs.
     upper: bool,
@@ -58,11 +58,18 @@ struct Sums {
 
 impl Sums {
     #[inline(always)]
-    fn add<S: Wide>(&mut self, forces: [Lanes<S>; 4]) {
+    pub(super) fn add<S: Wide>(&mut self, forces: [Lanes<S>; 4]) {
         for (lanes, force) in self.lanes.iter_mut().zip(forces) {
             force.add_to(lanes, self.upper);
         }
         self.upper = S::F64_LANES == QUAD && !self.upper;
+    }
+
+    /// Force on the inner ring, then on the outer, of the forces on elements that were added.
+    #[inline(always)]
+    pub(super) fn on_rings(&self) -> [f64; 4] {
+        let [shaft_x, shaft_y, housing_x, housing_y] = self.lanes;
+        [-sum_of(shaft_x), -sum_of(shaft_y), sum_of(housing_x), sum_of(housing_y)]
     }
 }
 
@@ -91,6 +98,9 @@ pub struct Record {
     pub outer_pushing: Row,
     /// u' of each element [m/s].
     pub path_rate: Row,
+    /// Path u [m] and absolute radial velocity w [m/s] of each element that is in balance at every instant; of no use
+    /// for others, whose state has them.
+    pub balanced: [Row; 2],
 }
 
 impl Record {
@@ -109,6 +119,7 @@ impl Record {
             inner_pushing: zeros(),
             outer_pushing: zeros(),
             path_rate: zeros(),
+            balanced: [zeros(), zeros()],
         }
     }
 }
@@ -183,8 +194,7 @@ impl Model {
                 }
             }
         }
-        let [shaft_x, shaft_y, housing_x, housing_y] = sums.lanes;
-        [-sum_of(shaft_x), -sum_of(shaft_y), sum_of(housing_x), sum_of(housing_y)]
+        sums.on_rings()
     }
 }
 
@@ -305,6 +315,6 @@ impl<const RECORD: bool, const SPECIAL: bool> Kernel for Rollers<'_, RECORD, SPE
 
 /// a·e with the same vector for all lanes.
 #[inline(always)]
-fn dot<S: Wide>(simd: S, a: Vector, e: [Lanes<S>; 2]) -> Lanes<S> {
+pub(super) fn dot<S: Wide>(simd: S, a: Vector, e: [Lanes<S>; 2]) -> Lanes<S> {
     Lanes::splat(simd, a.x) * e[0] + Lanes::splat(simd, a.y) * e[1]
 }

@@ -128,7 +128,7 @@ impl Model {
     }
 
     /// Over a defect the path of an element without force is where the approach vanishes.
-    fn touching_path(&self, j: usize, cells: [u32; 2], now: &FramedKinematics) -> f64 {
+    pub(super) fn touching_path(&self, j: usize, cells: [u32; 2], now: &FramedKinematics) -> f64 {
         let mut u = 0.0;
         for _ in 0..20 {
             let near =
@@ -250,11 +250,20 @@ impl Model {
         let (mut force, mut largest, mut contact_sum, mut rounding) = (Rings::zeros(), 0.0f64, 0.0, 0.0);
         let play = now.offset().norm() + self.clearance().abs();
         for j in 0..self.element_count {
-            let (path, element) = self.balanced_element(j, self.cells_of(cells, j), u[j], &now);
+            let in_cells = self.cells_of(cells, j);
+            let (path, element) = if self.elements_in_balance() {
+                let found = self.in_balance(j, in_cells, u[j], &now);
+                let [shaft, housing] = found.exerted().rings;
+                force += stacked(shaft, housing);
+                (found.path, found.elastic)
+            } else {
+                let (path, element) = self.balanced_element(j, in_cells, u[j], &now);
+                force += stacked(-element.inner, element.on_housing());
+                (path, element)
+            };
             u[j] = path;
             rounding += self.radial_balance(&element).1.abs() * (path.abs() + play) * 4.0 * f64::EPSILON;
             contact_sum += element.inner.norm();
-            force += stacked(-element.inner, element.on_housing());
             largest = largest.max(element.inner.amax()).max(element.outer.amax());
         }
         let load = |axis: &Quadratic| axis.at(0.0);

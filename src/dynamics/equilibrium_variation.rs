@@ -28,6 +28,9 @@ impl Model {
         loads: Rings,
         by: &mut Variation,
     ) -> Option<()> {
+        if self.elements_in_balance() {
+            return self.vary_equilibrium_in_balance(drive, cells, state, loads, by);
+        }
         let now = self.kinematics(drive, 0.0, state);
         let given = ElementVariation {
             offset: by.offset(),

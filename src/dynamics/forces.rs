@@ -22,6 +22,8 @@ pub struct Forces {
     pub(super) other_inner: Vec<Other>,
     /// What was found of the inner ones and of the outer ones.
     pub(super) other_contacts: [Vec<OtherContact>; 2],
+    /// Elements whose balance is looked for one by one: those of which a contact is in one of these lists.
+    pub(super) searched: Vec<Searched>,
     /// Number of elements.
     count: usize,
     /// The bearing's force on the inner ring, then on the outer [N].
@@ -60,6 +62,7 @@ impl Clone for Forces {
             other_outer: with_its_room(&self.other_outer),
             other_inner: with_its_room(&self.other_inner),
             other_contacts: [0, 1].map(|side: usize| with_its_room(&self.other_contacts[side])),
+            searched: with_its_room(&self.searched),
             ..*self
         }
     }
@@ -77,6 +80,9 @@ impl Forces {
         let mut forces = Self::new(model.element_count);
         if !model.may_have_inner_defects {
             (forces.other_inner, forces.other_contacts[0]) = (Vec::new(), Vec::new());
+        }
+        if model.elements_in_balance() {
+            forces.searched = Vec::with_capacity(model.element_count);
         }
         forces
     }
@@ -104,6 +110,7 @@ impl Forces {
             contacts.clear();
         }
         self.torques = [0.0; 3];
+        self.searched.clear();
         self.elements.copy_from_slice(&model.elements);
         if rigid && model.all_defects().all(Defects::is_empty) {
             return;
@@ -118,6 +125,29 @@ impl Forces {
             if !rigid || outer != [SMOOTH; 2] {
                 block.outer[j % WIDEST] = 0.0;
                 self.other_outer.push(Other { element: j, cells: outer });
+            }
+            if model.elements_in_balance() && (!rigid || [inner, outer] != [[SMOOTH; 2]; 2]) {
+                let block = &mut self.elements[j / WIDEST];
+                (block.inner[j % WIDEST], block.outer[j % WIDEST]) = (0.0, 0.0);
+                self.searched.push(Searched { element: j, cells: [inner, outer] });
+            }
+        }
+    }
+
+    /// Path [m] of element `j` in `state`, of which these are the forces: where it is, or where it is in balance.
+    #[inline]
+    pub fn path(&self, model: &Model, state: &[f64], j: usize) -> f64 {
+        if model.elements_in_balance() { self.contacts.balanced[0][j] } else { state[j] }
+    }
+
+    /// Puts where elements in balance are, and how fast they move, into their places of a state; elements with inertia
+    /// have their own.
+    #[inline]
+    pub(crate) fn settle(&self, model: &Model, state: &mut [f64]) {
+        if model.elements_in_balance() {
+            let places = model.layout.radial_velocity;
+            for (to, from) in state.chunks_mut(places.max(1)).zip(&self.contacts.balanced) {
+                to.copy_from_slice(from);
             }
         }
     }
@@ -207,6 +237,14 @@ pub(super) struct Other {
     pub(super) element: usize,
     /// Cells of the raceway and of the element's own defect.
     pub(super) cells: [u32; 2],
+}
+
+/// An element whose balance is looked for alone.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Searched {
+    pub(super) element: usize,
+    /// Cells of its inner and of its outer contact: of the raceway, and of its own defect.
+    pub(super) cells: [[u32; 2]; 2],
 }
 
 /// A contact that is not one of smooth rigid raceways.

@@ -19,7 +19,7 @@ use super::linearized::{Bends, ElementVariation, Linearized};
 use super::model::{Layout, Model};
 use super::raceway::Cells;
 use super::supports::{BODIES, Bodies, BodyMatrix};
-use super::tangent::{Rings, stacked};
+use super::tangent::{RingJacobian, Rings, stacked};
 use crate::numerics::plane::Vector;
 use crate::scene::{MOST_SENSORS, Motion};
 
@@ -64,8 +64,9 @@ impl Jacobian {
     /// Room for a model's Jacobian.
     pub fn new(model: &Model) -> Self {
         let size = model.supports.size();
+        let elements = if model.elements_in_balance() { 0 } else { model.element_count };
         Self {
-            elements: vec![ElementBlock::default(); model.element_count],
+            elements: vec![ElementBlock::default(); elements],
             by_position: BodyMatrix::zeros(size, size),
             by_velocity: BodyMatrix::zeros(size, size),
             places: places(&model.layout),
@@ -206,11 +207,37 @@ impl Model {
             frames: drive.frame_rates(tau),
         };
         self.add_supports(drive, tau, &shared, jacobian, by_time);
+        if self.elements_in_balance() {
+            return self.add_elements_in_balance(cells, state, &shared, jacobian);
+        }
         for j in 0..self.element_count {
             let element =
                 self.linearized(j, self.cells_of(cells, j), (state[j], state[start + j]), &shared.now, Bends::Wanted);
             self.add_element(j, &element, &shared, jacobian);
             self.add_element_by_time(j, &element, &shared, &jacobian.places, by_time);
+        }
+    }
+
+    /// What elements in balance at every instant make of the bodies' part: by positions their elastic
+    /// [tangent](super::tangent), exact; by velocities what dampers hand on. That damping changes as rings move, by χ δ̇ of
+    /// the tangent, is left out, and so is what elements make of the derivative by time: it is for the stability of
+    /// explicit steps, and at rest, for the modes, there is none of either.
+    fn add_elements_in_balance(&self, cells: &Cells, state: &[f64], shared: &Shared, jacobian: &mut Jacobian) {
+        let (mut by_position, mut by_velocity) = (RingJacobian::zeros(), RingJacobian::zeros());
+        for j in 0..self.element_count {
+            let found = self.in_balance(j, self.cells_of(cells, j), state[j], &shared.now);
+            self.add_balanced(&found.elastic, &mut by_position);
+            for axis in 0..2 {
+                let rings = self.damped_by_drift(&found, axis);
+                by_velocity.column_mut(axis).zip_apply(&rings, |sum, force| *sum -= force);
+                by_velocity.column_mut(2 + axis).zip_apply(&rings, |sum, force| *sum += force);
+            }
+        }
+        for (whole, of_elements) in
+            [(&mut jacobian.by_position, by_position), (&mut jacobian.by_velocity, by_velocity)]
+        {
+            let mut corner = whole.fixed_view_mut::<4, 4>(0, 0);
+            corner += RingJacobian::from_diagonal(&shared.inverse_masses) * of_elements;
         }
     }
 

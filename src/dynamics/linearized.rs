@@ -36,6 +36,8 @@ use super::element_contacts::{InnerGap, Meeting};
 use super::kinematics::FramedKinematics;
 use super::model::Model;
 use super::raceway::{Near, SMOOTH};
+use crate::contact::compliant::CompliantContact;
+use crate::contact::force_law::ForceLaw;
 use crate::contact::near_defect::Approach;
 use crate::contact::rolling::RacewaySide;
 use crate::numerics::plane::{Matrix, Vector, turned};
@@ -80,6 +82,8 @@ pub(super) struct Linearized {
     direction_by_angle: Vector,
     /// Outer force per unit of direction, and its derivatives by u, u', cage angle and cage speed.
     amount: f64,
+    /// Equivalent approach of the inner and of the outer contact [m].
+    pub(super) approaches: [f64; 2],
     by_path: f64,
     by_path_rate: f64,
     by_angle: f64,
@@ -219,6 +223,19 @@ impl Model {
         now: &FramedKinematics,
         bends: Bends,
     ) -> Linearized {
+        self.linearized_with([&self.inner.contact, &self.outer.contact], j, cells, (u, path_rate), now, bends)
+    }
+
+    /// As [`linearized_at`](Self::linearized_at), with these contacts instead of the raceways'.
+    pub(super) fn linearized_with(
+        &self,
+        contacts: [&CompliantContact; 2],
+        j: usize,
+        cells: [[u32; 2]; 2],
+        (u, path_rate): (f64, f64),
+        now: &FramedKinematics,
+        bends: Bends,
+    ) -> Linearized {
         let e_r = self.direction(j, &now.cage);
         let e_t = turned(e_r);
         let [omega, _] = self.element_speed(j, &now.cage);
@@ -228,8 +245,9 @@ impl Model {
         let n = e_r * gap.n.x + e_t * gap.n.y;
         let q_rate = now.drift() + e_r * path_rate + e_t * (rho * omega);
         let inner = match cells[0] {
-            [SMOOTH, SMOOTH] => self.smooth_inner(&gap, n, q_rate),
+            [SMOOTH, SMOOTH] => self.smooth_inner(&contacts[0].law, &gap, n, q_rate),
             cells => self.near_inner(
+                &contacts[0].law,
                 &self.inner_meeting(j, cells, &gap, self.element_angle(j, &now.cage)),
                 n,
                 q_rate,
@@ -245,7 +263,7 @@ impl Model {
         let turning = omega - frame_speed;
         let rate = near.by_path * path_rate + near.by_angle * turning;
         let film = self.film_force_with_derivatives(RacewaySide::Outer, near.value, rate);
-        let law = self.outer.contact.with_derivatives(near.value, rate).plus(film);
+        let law = contacts[1].with_derivatives(near.value, rate).plus(film);
         let direction = Vector::new(near.radial, near.tangential);
         Linearized {
             e_r,
@@ -265,6 +283,7 @@ impl Model {
             direction_by_path: Vector::new(near.radial_by_path, near.tangential_by_path),
             direction_by_angle: bend.direction_by_angle,
             amount: law.value,
+            approaches: [inner.approach, near.value],
             by_path: law.by_approach * near.by_path
                 + law.by_rate * (bend.path_path * path_rate + bend.path_angle * turning),
             by_path_rate: law.by_rate * near.by_path,
@@ -275,14 +294,15 @@ impl Model {
     }
 
     /// The inner contact of an element on the smooth raceway, q changing at `q_rate`.
-    fn smooth_inner(&self, gap: &InnerGap, n: Vector, q_rate: Vector) -> InnerContact {
+    fn smooth_inner(&self, law: &ForceLaw, gap: &InnerGap, n: Vector, q_rate: Vector) -> InnerContact {
         let rate = -n.dot(&q_rate);
         let film = self.film_force_with_derivatives(RacewaySide::Inner, gap.approach, rate);
-        let force = self.inner.contact.law.with_derivatives(gap.approach, rate).plus(film);
+        let force = law.with_derivatives(gap.approach, rate).plus(film);
         // P q̇/|q| and Q/|q|
         let turn = (q_rate + n * rate) / gap.distance;
         let across = force.value / gap.distance;
         InnerContact {
+            approach: gap.approach,
             force: n * force.value,
             by_q: Matrix::from_diagonal_element(across)
                 - n * (n * (force.by_approach + across) + turn * force.by_rate).transpose(),
@@ -295,6 +315,7 @@ impl Model {
     /// The inner contact of an element near a defect, q in direction `n` changing at `q_rate`.
     fn near_inner(
         &self,
+        law: &ForceLaw,
         at: &Meeting,
         n: Vector,
         q_rate: Vector,
@@ -308,7 +329,7 @@ impl Model {
         let turning = v_t / distance - frame_speed;
         let rate = -near.by_path * v_n + near.by_angle * turning;
         let film = self.film_force_with_derivatives(RacewaySide::Inner, near.value, rate);
-        let law = self.inner.contact.law.with_derivatives(near.value, rate).plus(film);
+        let law = law.with_derivatives(near.value, rate).plus(film);
         // Δ̇ by the approach and by the angle at constant rates of both.
         let rate_by_approach = -bend.path_path * v_n + bend.path_angle * turning;
         let rate_by_angle = -bend.path_angle * v_n + bend.angle_angle * turning;
@@ -328,6 +349,7 @@ impl Model {
         let along = n * -near.by_path + t * (near.by_angle * per_length);
         let by_turn = law.by_approach * near.by_angle + law.by_rate * rate_by_angle;
         InnerContact {
+            approach: near.value,
             force: direction * law.value,
             by_q,
             by_q_rate: direction * along.transpose() * law.by_rate,
@@ -365,6 +387,7 @@ impl Model {
 
 /// The inner contact of an element to first order.
 struct InnerContact {
+    approach: f64,
     force: Vector,
     by_q: Matrix,
     by_q_rate: Matrix,

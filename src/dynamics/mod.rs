@@ -3,9 +3,13 @@
 //! Knows neither steps nor hosts. Time enters only through a [`drive::Drive`], which gives the cage angle and the
 //! prescribed motions and loads as polynomials of the time since the last communication point.
 
+mod balance_lanes;
+mod balance_variation;
+mod balanced_derivative;
 pub mod contact_lanes;
 pub(crate) mod dense_output;
 pub mod drive;
+mod element_balance;
 mod element_block;
 mod element_contacts;
 pub mod equilibrium;

@@ -20,7 +20,7 @@ use crate::geometry::kinematics::Ratios;
 use crate::numerics::lanes::{Partition, QUAD, WIDEST, padded};
 use crate::numerics::plane::{Vector, turned_by};
 use crate::numerics::sin_cos;
-use crate::scene::{Motion, Ring, Scene};
+use crate::scene::{Damping, ElementInertia, Motion, Ring, Scene};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -68,6 +68,9 @@ pub struct Model {
     pub(super) irregularity: Option<Box<Irregularity>>,
     /// Oil films; `None` for dry contacts.
     pub films: Option<Box<Films>>,
+    /// The contacts with the raceways with their damping, of elements that are in balance without it at every instant;
+    /// `None` for elements with inertia, whose contacts are damped themselves.
+    pub(super) dampers: Option<Box<[CompliantContact; 2]>>,
     /// Whether any contact asks for the frames of defects: all but those of an outer ring that does not turn.
     pub has_frames: bool,
     /// What differs from element to element, eight at a time.
@@ -89,6 +92,9 @@ pub struct Layout {
     pub sensors: usize,
     /// Number of sensors.
     pub sensor_count: usize,
+    /// Whether elements are in balance at every instant: u and w are then no states, but where a search for the balance
+    /// begins.
+    pub elements_in_balance: bool,
     /// Number of states.
     pub len: usize,
 }
@@ -109,7 +115,16 @@ impl Layout {
         let sensors = take(true, 0).unwrap_or_default();
         len = sensors + QUAD * sensor_count;
         let element_count = scene.bearing.element_count;
-        Self { element_count, radial_velocity, shaft, housing, sensors, sensor_count, len: len.next_multiple_of(QUAD) }
+        Self {
+            element_count,
+            radial_velocity,
+            shaft,
+            housing,
+            sensors,
+            sensor_count,
+            elements_in_balance: scene.bearing.element_inertia == ElementInertia::None,
+            len: len.next_multiple_of(QUAD),
+        }
     }
 
     /// Whether state `i` is a position; otherwise it is a velocity.
@@ -142,9 +157,14 @@ impl Layout {
             || self.sensor_places().any(|start| within(start, 2))
     }
 
-    /// Number of states, without the places that only fill lists up.
+    /// Whether place `i` is a state's that is integrated: an element in balance has none.
+    pub fn is_integrated(&self, i: usize) -> bool {
+        self.is_used(i) && !(self.elements_in_balance && i < 2 * self.radial_velocity)
+    }
+
+    /// Number of states that are integrated.
     pub fn count(&self) -> usize {
-        (0..self.len).filter(|&i| self.is_used(i)).count()
+        (0..self.len).filter(|&i| self.is_integrated(i)).count()
     }
 
     /// Name of state `i` for messages.
@@ -173,7 +193,15 @@ impl Model {
     /// law, and of `defective` elements.
     pub fn new(scene: &Scene, [inner, outer]: [Defects; 2], defective: Vec<DefectiveElement>) -> Self {
         let bearing = &scene.bearing;
-        let [inner_law, outer_law] = smooth_laws(bearing, scene.contact.damping);
+        let in_balance = bearing.element_inertia == ElementInertia::None;
+        let damped = smooth_laws(bearing, scene.contact.damping);
+        let dampers = in_balance.then(|| {
+            let [inner, outer] = damped.clone();
+            let compliance = bearing.outer_compliance;
+            Box::new([CompliantContact { law: inner, compliance: 0.0 }, CompliantContact { law: outer, compliance }])
+        });
+        let [inner_law, outer_law] =
+            if in_balance { smooth_laws(bearing, Damping::HuntCrossley(0.0)) } else { damped };
         let stiffness = [inner_law.stiffness, outer_law.stiffness];
         let raceway = |law, compliance, defects| Raceway { contact: CompliantContact { law, compliance }, defects };
         let element_radius = bearing.element_radius();
@@ -210,6 +238,7 @@ impl Model {
             offsets,
             irregularity,
             films: Films::of(scene).map(Box::new),
+            dampers,
         }
     }
 
@@ -295,7 +324,13 @@ impl Model {
     /// Whether each element needs what the plain bearing of dry contacts in an even cage does not.
     #[inline(always)]
     pub(super) fn is_special(&self) -> bool {
-        self.irregularity.is_some() || self.films.is_some()
+        self.irregularity.is_some() || self.films.is_some() || self.dampers.is_some()
+    }
+
+    /// Whether elements are in radial balance at every instant, without inertia.
+    #[inline(always)]
+    pub fn elements_in_balance(&self) -> bool {
+        self.dampers.is_some()
     }
 
     /// Tells an uneven cage after how many turns the communication step of this drive begins, and oil films at what

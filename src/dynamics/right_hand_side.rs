@@ -17,7 +17,7 @@
 
 use super::drive::{Drive, Frame};
 use super::forces::Forces;
-use super::kinematics::{Stage, moved};
+use super::kinematics::{CageState, Kinematics, Stage, moved};
 use super::model::Model;
 use super::other_contacts::OtherOuter;
 use super::raceway::Cells;
@@ -110,6 +110,20 @@ impl Model {
             forces.record_others();
         }
         Lanes::of(simd, [shaft_x, shaft_y, housing_x, housing_y]).store(&mut forces.rings, 0);
+        self.body_rates(simd, stage, &now, [shaft_x, shaft_y, housing_x, housing_y], derivative);
+    }
+
+    /// Derivatives of rings and sensors under the contacts' forces on the rings.
+    #[inline(always)]
+    pub(super) fn body_rates<S: Wide>(
+        &self,
+        simd: S,
+        stage: &Stage,
+        now: &Kinematics,
+        [shaft_x, shaft_y, housing_x, housing_y]: [f64; 4],
+        derivative: &mut [f64],
+    ) {
+        let Stage { drive, cage: &CageState { tau, .. }, state, ahead } = *stage;
         let supports = &self.supports;
         if let Some(i) = self.layout.shaft {
             let force = Vector::new(drive.shaft_load[0].at(tau) + shaft_x, drive.shaft_load[1].at(tau) + shaft_y);
@@ -142,7 +156,7 @@ impl Model {
             .map(|j| {
                 let e_t = turned(self.direction(j, &cage));
                 let [speed, alpha] = self.element_speed(j, &cage);
-                let rho = self.outer_centre_radius + state[j];
+                let rho = self.outer_centre_radius + forces.path(self, state, j);
                 let contacts = &forces.contacts;
                 let inertia = acceleration.dot(&e_t) + 2.0 * contacts.path_rate[j] * speed + rho * alpha;
                 let contacts = contacts.inner[j] * contacts.normal_tangential[j] + contacts.outer_tangential[j];
@@ -179,6 +193,9 @@ impl<const RECORD: bool> Kernel for SpecialDerivative<'_, RECORD> {
     #[inline(always)]
     fn run<S: Wide>(self, simd: S) {
         let Derivative { model, stage, derivative, forces } = self.0;
+        if model.elements_in_balance() {
+            return model.balanced_derivative::<S, RECORD>(simd, &stage, derivative, forces);
+        }
         model.derivative_in::<S, RECORD, true>(simd, &stage, derivative, forces);
     }
 }

@@ -277,6 +277,12 @@ impl<S: Wide> Lanes<S> {
         Self(self.0, self.0.smaller(self.1, limit.1))
     }
 
+    /// In each lane `yes` where this is less than `limit`, else `no`; also where either is no number.
+    #[inline(always)]
+    pub fn if_less(self, limit: Self, yes: Self, no: Self) -> Self {
+        Self(self.0, self.0.select_f64s(self.0.less_than_f64s(self.1, limit.1), yes.1, no.1))
+    }
+
     /// Adds to `sum`, by lanes. Groups of four go to its lower and upper half in turn, which whoever calls keeps count
     /// of.
     #[inline(always)]

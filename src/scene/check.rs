@@ -16,7 +16,7 @@ use super::error::{LONGEST_NAME, SceneError};
 use super::faults::Faults;
 use super::quantity::*;
 use super::{
-    Bearing, Contact, ContactEdge, ContactLaw, Damping, Defect, DefectOn, DefectShape, Film, Motion, Recorder,
+    Bearing, Contact, ContactEdge, ContactLaw, Damping, Defect, DefectOn, DefectShape, ElementInertia, Film, Motion, Recorder,
     RecorderFilter, Ring, Scene, Sensor, SensorMode,
 };
 use std::f64::consts::{PI, TAU};
@@ -53,6 +53,7 @@ impl Scene {
         if sound {
             faults.passes(self.check_crown_law());
             faults.passes(self.check_balls_only());
+            faults.passes(self.check_inertia());
         }
         let bearing = Some(&self.bearing).filter(|_| sound);
         for (index, defect) in self.defects.iter().enumerate() {
@@ -74,6 +75,14 @@ impl Scene {
         match asked.into_iter().find(|(_, asked)| *asked && self.bearing.roller().is_some()) {
             Some((key, _)) => Err(SceneError::NotOfRollers { key }),
             None => Ok(()),
+        }
+    }
+
+    /// The squeeze film of a loose element resists the motion that its inertia keeps up.
+    fn check_inertia(&self) -> Result<(), SceneError> {
+        match self.film {
+            Some(_) if self.bearing.element_inertia == ElementInertia::None => Err(SceneError::FilmWithoutInertia),
+            _ => Ok(()),
         }
     }
 

@@ -164,6 +164,12 @@ pub enum SceneError {
         /// The key, with its value where that is a word.
         key: &'static str,
     },
+    /// Oil films between elements that have no inertia.
+    #[error(
+        "[film] is given and bearing.element_inertia is \"none\": a film resists the speed of an element that its inertia \
+         keeps in motion; with films bearing.element_inertia must be \"full\""
+    )]
+    FilmWithoutInertia,
     /// A relief of a roller's ends that is not known.
     #[error(
         "bearing.roller_profile is \"{given}\": it must be \"log\", \"straight\", or the name of a .csv file{}",

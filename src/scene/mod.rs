@@ -27,7 +27,7 @@ pub use error::SceneError;
 pub use key_fault::{Hint, KeyFault};
 pub use limits::{Bound, Limits};
 pub use remark::Remark;
-pub use rolling_element::{Crown, Roller, RollerProfile, RollingElement};
+pub use rolling_element::{Crown, ElementInertia, Roller, RollerProfile, RollingElement};
 pub use sensor::{MOST_SENSOR_MODES, MOST_SENSORS, Sensor, SensorMode};
 pub use spelling::nearest;
 pub use unit_hint::UnitQuestion;
@@ -169,6 +169,8 @@ pub struct Bearing {
     /// Compliance in series with each outer contact [m/N]: how far the outer raceway yields under an element, by the
     /// ring's and its seat's own deformation, for each newton that this element carries. 0 for a rigid assembly.
     pub outer_compliance: f64,
+    /// Whether an element's mass resists its radial acceleration.
+    pub element_inertia: ElementInertia,
 }
 
 impl Bearing {

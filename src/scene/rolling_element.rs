@@ -1,5 +1,6 @@
 //! What rolls between the rings: balls or cylindrical rollers.
 
+use serde::Deserialize;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -11,6 +12,18 @@ pub enum RollingElement {
     Ball,
     /// Cylindrical rollers on straight raceways: line contacts.
     CylindricalRoller(Roller),
+}
+
+/// Whether an element's mass resists its radial acceleration.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ElementInertia {
+    /// It does: an element vibrates between its raceways.
+    #[default]
+    Full,
+    /// It does not: an element is in radial balance at every instant.
+    None,
 }
 
 /// A cylindrical roller.

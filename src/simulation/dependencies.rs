@@ -7,7 +7,7 @@
 
 use super::quantity::{Parameter, Quantity as Q, RingName};
 use super::variables::{Causality, Dependencies, Variable};
-use crate::scene::{DefectOn, Motion, Scene};
+use crate::scene::{DefectOn, ElementInertia, Motion, Scene};
 
 /// The dependencies of all outputs, in the order of the table.
 pub(super) fn of(table: &[Variable], quantities: &[Q], scene: &Scene) -> Vec<Dependencies> {
@@ -38,6 +38,15 @@ fn follows(output: Q, input: Q, defect: bool, scene: &Scene) -> bool {
     let place = matches!(input, Q::Position(..));
     let pace = matches!(input, Q::Velocity(..));
     let speed = matches!(input, Q::Speed(_));
+    if scene.bearing.element_inertia == ElementInertia::None {
+        // An element in balance hands on at once what either ring does.
+        match output {
+            Q::ElementPath(_) => return place || speed,
+            Q::Force(..) | Q::ElementInnerForce(_) | Q::ElementOuterForce(_) => return place || pace || speed,
+            Q::Acceleration(ring, axis) => return place || pace || speed || input == Q::Load(ring, axis),
+            _ => {}
+        }
+    }
     match output {
         // Inner contacts see both rings, and the cage speed through the rate of approach.
         Q::Force(Shaft, _) | Q::ElementInnerForce(_) => place || pace || speed,

@@ -202,7 +202,13 @@ impl Simulation {
         let progress = &self.state.progress;
         let (cells, state) = (&progress.cells, &progress.state);
         let change = &mut self.change;
-        self.model.vary(&drive, cells, state, self.present_acceleration, &change.variation, &mut change.forces);
+        let acceleration = self.present_acceleration;
+        if self.model.elements_in_balance() {
+            let Change { variation, forces, .. } = change;
+            self.model.vary_in_balance(&drive, cells, state, acceleration, variation, forces);
+        } else {
+            self.model.vary(&drive, cells, state, acceleration, &change.variation, &mut change.forces);
+        }
 
         // At the start nothing accelerates, whatever the inputs are.
         if self.state.started {

@@ -69,7 +69,7 @@ fn first_largest(layout: &Layout, size: impl Fn(usize) -> f64) -> usize {
         let (one, other) = (size(i).abs(), size(than).abs());
         one > other || one.is_nan() && !other.is_nan()
     };
-    let states = (0..layout.len).filter(|&i| layout.is_used(i));
+    let states = (0..layout.len).filter(|&i| layout.is_integrated(i));
     states.fold(0, |largest, i| if larger(i, largest) { i } else { largest })
 }
 

@@ -48,6 +48,8 @@ impl Kernel for Trial<'_> {
         } else {
             explicit(simd, workspace, problem, span, progress);
         }
+        let Workspace { explicit, forces, .. } = &mut *workspace;
+        forces.settle(problem.model, &mut explicit.end);
         workspace.last_force = workspace.forces.rings;
         workspace.largest_approach = workspace.forces.largest_approach_on(simd);
         workspace.changed = workspace.forces.pushing_differs_on(simd, &progress.pushing);
@@ -125,6 +127,7 @@ impl Kernel for Probe<'_> {
             }
         }
         model.derivative_on::<S, true>(simd, &Stage { drive, cage: &cage, state: dense, ahead: None }, scratch, forces);
+        forces.settle(model, dense);
     }
 }
 

@@ -152,7 +152,7 @@ impl Stepper<'_> {
         (workspace.forces.defect_lookups, workspace.forces.unsolved) = (0, None);
         match control.method {
             Method::Automatic => {}
-            Method::DormandPrince | Method::PhaseFitted => progress.choice.implicit = false,
+            Method::DormandPrince | Method::PhaseFitted | Method::Explicit => progress.choice.implicit = false,
             Method::Rodas => progress.choice.implicit = true,
         }
         check_rings(*problem, 0.0, progress)?;

@@ -13,6 +13,7 @@ use super::recorder::Due;
 use super::state::Ended;
 use super::step_error::StepError;
 use super::stepper::{Control, Stepper};
+use super::switching::Method;
 use super::workspace::Problem;
 use crate::dynamics::drive::{Drive, WholeAngle};
 
@@ -157,10 +158,14 @@ impl Simulation {
             // What is not sampled cannot be made up for: whoever records on from here begins anew.
             None => self.state.progress.due = Due::default(),
         }
+        let method = match self.method {
+            Method::Automatic | Method::Rodas if self.model.elements_in_balance() => Method::Explicit,
+            method => method,
+        };
         Ok(Control {
             tolerance: self.inputs.tolerance.map_or(self.scene.tolerance, |i| self.state.reals[i]),
             max_steps: self.scene.max_steps,
-            method: self.method,
+            method,
         })
     }
 

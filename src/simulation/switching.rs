@@ -30,6 +30,9 @@ pub enum Method {
     PhaseFitted,
     /// The linearly implicit one only: Rodas5P.
     Rodas,
+    /// Whichever of the explicit ones is cheaper: all that there is for elements in balance at every instant, which leave
+    /// nothing stiff.
+    Explicit,
 }
 
 /// Tolerance from which on the order of the phase-fitted method is enough: at 1e-7 it takes more time than

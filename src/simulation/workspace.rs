@@ -143,7 +143,7 @@ pub(super) fn step_ends<'a>(
 
 /// Weight that turns the error of state `i` into a length.
 fn weight(layout: &Layout, i: usize) -> f64 {
-    match (layout.is_used(i), layout.is_position(i)) {
+    match (layout.is_integrated(i), layout.is_position(i)) {
         (false, _) => 0.0,
         (true, true) => 1.0,
         (true, false) => 1.0 / VELOCITY_PER_APPROACH,

@@ -171,7 +171,9 @@ impl Assembly {
     pub(super) fn freedoms(&self) -> Vec<Freedom> {
         let Self { model, .. } = self;
         let layout = &model.layout;
-        let mut freedoms: Vec<Freedom> = (0..model.element_count)
+        // An element in balance at every instant moves as the rings do.
+        let elements = if model.elements_in_balance() { 0 } else { model.element_count };
+        let mut freedoms: Vec<Freedom> = (0..elements)
             .map(|j| Freedom {
                 name: format!("element[{}].path", j + 1),
                 body: Body::Element(j),

@@ -4,7 +4,7 @@ use super::super::Bearing;
 use super::super::catalogue::{CatalogueBearing, catalogued};
 use super::super::error::SceneError;
 use super::super::quantity::ELEMENT_COUNT;
-use super::super::{Crown, Roller, RollerProfile, RollingElement};
+use super::super::{Crown, ElementInertia, Roller, RollerProfile, RollingElement};
 use serde::Deserialize;
 use std::sync::Arc;
 
@@ -36,6 +36,7 @@ struct WholeBearing {
     hertz_inner_n_m1_5: Option<f64>,
     hertz_outer_n_m1_5: Option<f64>,
     outer_compliance_m_n: f64,
+    element_inertia: ElementInertia,
 }
 
 /// The keys as they stand in the file.
@@ -86,6 +87,10 @@ pub(super) struct BearingTable {
     /// By how much the outer raceway yields to one element; 0 without it.
     #[serde(default)]
     outer_compliance_m_n: f64,
+    /// "full" without it: elements vibrate between the raceways. "none": each is in radial balance at every instant, for
+    /// rotor studies below 2 kHz.
+    #[serde(default)]
+    element_inertia: ElementInertia,
 }
 
 /// What rolls.
@@ -152,6 +157,7 @@ impl TryFrom<BearingTable> for WholeBearing {
             hertz_inner_n_m1_5: keys.hertz_inner_n_m1_5,
             hertz_outer_n_m1_5: keys.hertz_outer_n_m1_5,
             outer_compliance_m_n: keys.outer_compliance_m_n,
+            element_inertia: keys.element_inertia,
         })
     }
 }
@@ -193,6 +199,7 @@ impl WholeBearing {
             hertz_inner: self.hertz_inner_n_m1_5,
             hertz_outer: self.hertz_outer_n_m1_5,
             outer_compliance: self.outer_compliance_m_n,
+            element_inertia: self.element_inertia,
         })
     }
 

@@ -1,0 +1,326 @@
+//! Elements without inertia on smooth rigid raceways, several at a time: each in radial balance at every instant.
+//!
+//! The equations are those of [`super::element_balance`], of which this is the form without defects,
+//! ```text
+//! R(u) = Q_i(δ_i(u)) n_r − Q_o(u) + B = 0,   δ_i = −G − u − p − …,   B = m (g·e_r + (R_o − r) ω²)
+//! ```
+//! with the names of [`super::contact_lanes`]. R falls with u and has its root between the raceways' touching paths,
+//! widened on the side to which B pushes by the approach under B; that of a contact of constant K is below (|B|/K)^(1/4)
+//! metres. Newton's method from the path last known, halving where it would leave the bracket. An element that has
+//! settled stays where it is while others of its register go on, so that the registers' width changes no bit.
+//!
+//! A place without an element, or with one that is looked for alone, has constants 0 and no force.
+
+use super::contact_lanes::{Record, SERIES, Sums, dot};
+use super::element_block::ElementBlock;
+use super::forces::Forces;
+use super::kinematics::{Kinematics, Stage};
+use super::model::Model;
+use crate::contact::elasticity::{Elastic, Point};
+use crate::contact::force_law::DampedLaw;
+use crate::numerics::lanes::{Kernel, Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, largest_of};
+use crate::numerics::plane::Vector;
+use crate::scene::Damping;
+
+/// Newton's step [m] after which the next is below rounding: what is left is a quarter of its square over the approach,
+/// 5e-20 m under load; under an element's own weight, where the approach is 1e-8 m, it is 1e-10 N.
+const SETTLED: f64 = 1e-12;
+/// Most looks: halving a millimetre down to the last digit, and some of Newton's.
+const LOOKS: usize = 100;
+/// Least stiffness [N/m]: for an element that touches nothing, where Newton's step is then beyond any bracket.
+const NO_STIFFNESS: f64 = 1e-30;
+
+/// All smooth elements of a bearing; gives their force on the inner and on the outer ring. Each contact is kept if
+/// `RECORD`.
+pub(super) struct SmoothElements<'a, const RECORD: bool> {
+    pub(super) model: &'a Model,
+    pub(super) now: &'a Kinematics,
+    pub(super) stage: &'a Stage<'a>,
+    pub(super) derivative: &'a mut [f64],
+    pub(super) forces: &'a mut Forces,
+}
+
+impl<const RECORD: bool> Kernel for SmoothElements<'_, RECORD> {
+    type Output = [f64; 4];
+
+    #[inline(always)]
+    fn run<S: Wide>(self, simd: S) -> [f64; 4] {
+        match self.model.inner.contact.law.elasticity.line() {
+            None => self.elements(simd, Point),
+            Some(line) => self.elements(simd, line),
+        }
+    }
+}
+
+impl<const RECORD: bool> SmoothElements<'_, RECORD> {
+    #[inline(always)]
+    fn elements<S: Wide, E: Elastic>(self, simd: S, elastic: E) -> [f64; 4] {
+        let Self { model, now, stage, derivative, forces } = self;
+        let group = Group::new(model, now, elastic);
+        let mut sums = Sums::default();
+        let Forces { elements, contacts, .. } = forces;
+        if RECORD {
+            contacts.outer_tangential.fill(0.0);
+        }
+        let (state, derivative) = (blocks(stage.state), blocks_mut(derivative));
+        let start = model.layout.radial_velocity / WIDEST;
+        for (k, block) in elements.iter().enumerate() {
+            for part in 0..WIDEST / S::F64_LANES {
+                if (k * WIDEST + part * S::F64_LANES) >= model.element_count {
+                    break;
+                }
+                let of = |numbers: &[f64; WIDEST]| Lanes::part(simd, numbers, part);
+                let at = group.place(simd, block, of);
+                let known = [of(&state[k]), of(&state[start + k])];
+                let element = group.balanced(&at, known, stage.ahead).damped(&group, &at);
+                element.path_rate.put(&mut derivative[k], part);
+                sums.add(element.forces(&at));
+                if RECORD {
+                    element.keep(&at, contacts, (k, part));
+                }
+            }
+        }
+        sums.on_rings()
+    }
+}
+
+/// What all elements share at one instant.
+struct Group<'a, E> {
+    model: &'a Model,
+    now: &'a Kinematics,
+    elastic: E,
+    offset: Vector,
+    drift: Vector,
+    /// As in [`super::contact_lanes`].
+    series: bool,
+    damping: Damping,
+}
+
+/// Where some elements are on their way round, and what their contacts are.
+#[derive(Clone, Copy)]
+struct Place<S: Wide> {
+    simd: S,
+    e_r: [Lanes<S>; 2],
+    e_t: [Lanes<S>; 2],
+    present: Lanes<S>,
+    /// 1 where contacts are smooth, else 0.
+    on: Lanes<S>,
+    /// Constants of the contacts; 1 where they are not smooth.
+    constants: [Lanes<S>; 2],
+    /// Along and across e_r.
+    offset: [Lanes<S>; 2],
+    drift: [Lanes<S>; 2],
+    speed: Lanes<S>,
+    /// Weight and centrifugal force [N], and its rate [N/s].
+    body: Lanes<S>,
+    body_rate: Lanes<S>,
+    /// Velocity of the outer ring along e_r.
+    along: Lanes<S>,
+}
+
+/// The gap of the inner contact at some path.
+#[derive(Clone, Copy)]
+struct Gap<S: Wide> {
+    approach: Lanes<S>,
+    n: [Lanes<S>; 2],
+    distance: Lanes<S>,
+}
+
+/// Elements in balance.
+#[derive(Clone, Copy)]
+struct Balanced<S: Wide> {
+    path: Lanes<S>,
+    path_rate: Lanes<S>,
+    gap: Gap<S>,
+    /// Forces and stiffnesses of the inner and of the outer contact.
+    forces: [Lanes<S>; 2],
+    stiffness: [Lanes<S>; 2],
+}
+
+impl<'a, E: Elastic> Group<'a, E> {
+    #[inline(always)]
+    fn new(model: &'a Model, now: &'a Kinematics, elastic: E) -> Self {
+        let offset = now.offset();
+        let limit = SERIES * model.outer_centre_radius;
+        let series = offset.dot(&offset) <= limit * limit;
+        let damping = model.dampers.as_deref().map_or(Damping::HuntCrossley(0.0), |[inner, _]| inner.law.damping);
+        Self { model, now, elastic, offset, drift: now.drift(), series, damping }
+    }
+
+    #[inline(always)]
+    fn place<S: Wide>(&self, simd: S, block: &ElementBlock, of: impl Fn(&[f64; WIDEST]) -> Lanes<S>) -> Place<S> {
+        let (model, now) = (self.model, self.now);
+        let number = |number: f64| Lanes::splat(simd, number);
+        let (cos, sin) = (of(&block.cos), of(&block.sin));
+        let (cage_cos, cage_sin) = (number(now.cage.direction.x), number(now.cage.direction.y));
+        let e_r = [cage_cos * cos - cage_sin * sin, cage_sin * cos + cage_cos * sin];
+        let e_t = [-e_r[1], e_r[0]];
+        let (inner, one) = (of(&block.inner), number(1.0));
+        // Constants of contacts are far above 1, or 0 for what is no smooth contact.
+        let on = inner.at_most(one);
+        let speed = of(&block.pace) * number(now.cage.speed);
+        let (mass, radius) = (number(model.element_mass), number(model.outer_centre_radius));
+        // That an uneven cage quickens and slows its elements moves no path by 1e-15 of itself.
+        let quickening = number(2.0 * now.cage.acceleration) * radius * speed;
+        Place {
+            simd,
+            e_r,
+            e_t,
+            present: of(&block.present),
+            on,
+            constants: [inner + (one - on), of(&block.outer) + (one - on)],
+            offset: [dot(simd, self.offset, e_r), dot(simd, self.offset, e_t)],
+            drift: [dot(simd, self.drift, e_r), dot(simd, self.drift, e_t)],
+            speed,
+            body: (dot(simd, model.gravity, e_r) + radius * (speed * speed)) * (mass * on),
+            body_rate: (dot(simd, model.gravity, e_t) * speed + quickening) * (mass * on),
+            along: dot(simd, now.housing.velocity, e_r),
+        }
+    }
+
+    /// The inner contact's gap at a path; |q| as in [`super::contact_lanes`].
+    #[inline(always)]
+    fn gap<S: Wide>(&self, at: &Place<S>, u: Lanes<S>) -> Gap<S> {
+        let number = |number: f64| Lanes::splat(at.simd, number);
+        let [p, t] = at.offset;
+        let q_r = number(self.model.outer_centre_radius) + u + p;
+        let (longer, n_r, n_t) = if self.series {
+            let slope = t / q_r;
+            let x = slope * slope;
+            let n_r = number(1.0) - x * (number(0.5) - number(0.375) * x);
+            (t * slope * (number(0.5) - x * (number(0.125) - number(0.0625) * x)), n_r, slope * n_r)
+        } else {
+            let square = t * t;
+            let distance = (q_r * q_r + square).sqrt();
+            let per_distance = number(1.0) / distance;
+            (square / (distance + q_r), q_r * per_distance, t * per_distance)
+        };
+        Gap {
+            approach: (number(-self.model.radial_clearance) - u - p - longer) * at.on,
+            n: [n_r, n_t],
+            distance: q_r + longer,
+        }
+    }
+
+    /// Force and tangent stiffness of a contact.
+    #[inline(always)]
+    fn contact<S: Wide>(&self, constant: Lanes<S>, approach: Lanes<S>) -> [Lanes<S>; 2] {
+        let approach = approach.or_zero();
+        let [secant, order] = self.elastic.secant_and_order(constant, approach);
+        [secant * approach, order * secant]
+    }
+
+    /// Paths and elastic forces, looked for from what is known of path and radial velocity.
+    #[inline(always)]
+    fn balanced<S: Wide>(&self, at: &Place<S>, [u, w]: [Lanes<S>; 2], ahead: Option<f64>) -> Balanced<S> {
+        let number = |number: f64| Lanes::splat(at.simd, number);
+        let zero = number(0.0);
+        let guess = ahead.map_or(u, |ahead| u + number(ahead) * (w - at.along)) * at.on;
+        let (mut low, mut high) = self.bracket(at, guess);
+        let mut u = guess.at_least(low).at_most(high);
+        let (settled, mut look) = (number(SETTLED), 0);
+        loop {
+            look += 1;
+            let gap = self.gap(at, u);
+            let n_r = gap.n[0];
+            let [[inner, k_i], [outer, k_o]] =
+                [(at.constants[0], gap.approach), (at.constants[1], u)].map(|(k, approach)| self.contact(k, approach));
+            let force = inner * n_r - outer + at.body;
+            let (along, slope) = (k_i * n_r, k_i * (n_r * n_r) + k_o);
+            let newton = u + force / slope.at_least(number(NO_STIFFNESS));
+            let (step, change) = ((newton - u).abs(), newton - u);
+            let mut open = [-1.0; QUAD];
+            (step - settled).largest_to(&mut open);
+            if largest_of(open) <= 0.0 || look == LOOKS {
+                let unknown = settled.if_less(step, number(f64::NAN), zero);
+                let stiffness = [k_i, k_o];
+                let forces = [(inner - along * change).or_zero() + unknown, (outer + k_o * change).or_zero() + unknown];
+                let gap = Gap { approach: gap.approach - n_r * change, ..gap };
+                return Balanced { path: newton, path_rate: zero, gap, forces, stiffness };
+            }
+            low = zero.if_less(force, u, low);
+            high = zero.if_less(force, high, u);
+            let middle = number(0.5) * (low + high);
+            let next = low.if_less(newton, newton.if_less(high, newton, middle), middle);
+            u = settled.if_less(step, next, u);
+        }
+    }
+
+    /// Between which paths the balance is.
+    #[inline(always)]
+    fn bracket<S: Wide>(&self, at: &Place<S>, guess: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
+        let number = |number: f64| Lanes::splat(at.simd, number);
+        // The path at which the inner contact touches, but for what the offset's direction makes of it on the way.
+        let touching = (self.gap(at, guess).approach + guess) * number(1.0 + 1e-5);
+        let reach = |body: Lanes<S>, constant| (body.or_zero() / constant).sqrt().sqrt();
+        let zero = number(0.0);
+        let low = touching.at_most(zero) - reach(-at.body, at.constants[0]);
+        let high = touching.or_zero() + reach(at.body, at.constants[1]);
+        (at.body.if_less(zero, low, zero), high)
+    }
+}
+
+impl<S: Wide> Balanced<S> {
+    /// Rates, and what damping changes of the forces.
+    #[inline(always)]
+    fn damped<E: Elastic>(self, group: &Group<E>, at: &Place<S>) -> Self {
+        let number = |number: f64| Lanes::splat(at.simd, number);
+        let Self { path, gap: Gap { n: [n_r, n_t], distance, .. }, forces: [inner, outer], .. } = self;
+        let [k_i, k_o] = self.stiffness;
+        let none = number(NO_STIFFNESS);
+        let [drift, across] = at.drift;
+        let around = across + (number(group.model.outer_centre_radius) + path) * at.speed;
+        let opening = n_r * drift + n_t * around;
+        let turning = n_t * (at.speed - (n_r * around - n_t * drift) / distance);
+        let push = inner * turning - k_i * (n_r * opening) + at.body_rate;
+        let contacts = k_i * (n_r * n_r) + k_o;
+        let path_rate = push / (contacts - inner * (n_t * n_t) / distance).at_least(none);
+        // Where nothing touches there is no rate.
+        let path_rate = none.if_less(contacts, path_rate, number(0.0));
+
+        let law = DampedLaw::new(group.damping, group.elastic, number);
+        let closing = -(opening + n_r * path_rate);
+        let [d_i, d_o] = [(inner, k_i, closing), (outer, k_o, path_rate)]
+            .map(|(force, stiffness, rate)| law.damping_of(force, stiffness, rate).at_least(-force));
+        let change = (d_o * (k_i * (n_r * n_r)) + d_i * (n_r * k_o)) / contacts.at_least(none);
+        let change = change.at_least(-(inner * n_r).at_most(outer));
+        let path_rate = path_rate * at.on;
+        Self { path_rate, forces: [(inner + change / n_r) * at.on, (outer + change) * at.on], ..self }
+    }
+
+    /// Forces on the element along x and y, of the inner contact and then of the outer.
+    #[inline(always)]
+    fn forces(&self, at: &Place<S>) -> [Lanes<S>; 4] {
+        let ([inner, outer], [n_r, n_t]) = (self.forces, self.gap.n);
+        [
+            inner * (n_r * at.e_r[0] + n_t * at.e_t[0]),
+            inner * (n_r * at.e_r[1] + n_t * at.e_t[1]),
+            outer * at.e_r[0],
+            outer * at.e_r[1],
+        ]
+    }
+
+    /// Puts what is kept into its place.
+    #[inline(always)]
+    fn keep(&self, at: &Place<S>, contacts: &mut Record, (k, part): (usize, usize)) {
+        let pushing_length = Lanes::splat(at.simd, 1e-6);
+        let Self { path, path_rate, gap, forces: [inner, outer], .. } = *self;
+        let [known_path, known_velocity] = &mut contacts.balanced;
+        for (list, value) in [
+            (&mut contacts.inner, inner),
+            (&mut contacts.normal_radial, gap.n[0]),
+            (&mut contacts.normal_tangential, gap.n[1]),
+            (&mut contacts.outer, outer),
+            (&mut contacts.outer_radial, outer),
+            (&mut contacts.inner_approach, gap.approach),
+            (&mut contacts.outer_approach, path),
+            (&mut contacts.inner_pushing, gap.approach.at_most(pushing_length)),
+            (&mut contacts.outer_pushing, path.at_most(pushing_length)),
+            (&mut contacts.path_rate, path_rate),
+            (known_path, path),
+            (known_velocity, path_rate + at.along),
+        ] {
+            (value * at.present).put(&mut blocks_mut(list)[k], part);
+        }
+    }
+}

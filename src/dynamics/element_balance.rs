@@ -1,0 +1,247 @@
+//! One element without inertia, in radial balance at every instant.
+//!
+//! With f the inner contact's force on the element and F_r the outer's inwards, both elastic,
+//! ```text
+//! R(u) = f·e_r − F_r + m (g·e_r + (R_o − r) ω²) = 0          (R_o − r) ω²: see `centrifugal_radius`
+//! u'   = −(∂R/∂t + ∂R/∂x ẋ)/(∂R/∂u)                         implicit function theorem, x the rings' positions
+//! ```
+//! *There is one balance.* At fixed rings and time both contacts' forces grow with their approaches and the rest does
+//! not depend on u, so that R falls with u wherever a contact pushes: the elastic energy is convex in u. Where neither
+//! does, R is the weight and the centrifugal force, and the element goes on to the raceway to which these push it; one
+//! that nothing pushes rests against the outer raceway. The path therefore does not depend on where the search begins
+//! but for rounding. Where that push changes its sign the path jumps from one raceway to the other, and both forces are 0
+//! on either side: the *snap* of a loose element is an event of the path, and no force jumps.
+//!
+//! *Damping* of the contacts is what is left of an element's motion where it follows its balance: to first order in the
+//! damping forces d the path lags by u₁ = d/(−∂R/∂u), which hands both contacts the same change N of their radial force,
+//! ```text
+//! d = d_i·e_r − d_o,   N = (d_o k_i + d_i k_o)/(k_i + k_o)     contacts of radial stiffness k_i, k_o in series
+//! ```
+//! with the dampers at the rates of the elastic balance. What is left out is of second order: the share is (ω d/k)², 1e-3
+//! at 2 kHz with the usual damper. Without it rings would ring on that the full model damps. No contact pulls: N is made
+//! smaller where one would. The path is the elastic one.
+
+use super::drive::Frame;
+use super::element_contacts::Meeting;
+use super::kinematics::FramedKinematics;
+use super::linearized::{Bends, ElementChange, ElementVariation, Linearized};
+use super::model::Model;
+use super::raceway::SMOOTH;
+use super::tangent::{Rings, stacked};
+use crate::contact::error::ContactError;
+use crate::contact::rolling::RacewaySide;
+use crate::numerics::plane::{Vector, turned};
+
+/// Change of a path below which Newton's next step is exact to rounding [m]: what is left is 0.25 (this)²/δ, with the
+/// lightest contact's δ of 1e-9 m below 1e-21 m.
+const SETTLED: f64 = 1e-15;
+/// First step of a search that nothing brackets [m]; each next one is twice as long.
+const FIRST_STRIDE: f64 = 1e-8;
+/// Longest of Newton's steps [m].
+const LONGEST_STEP: f64 = 50e-6;
+/// Most looks at the contacts: doubling from the first stride to a metre, and halving back.
+const LOOKS: u64 = 300;
+/// Looks at a contact in balance: one each without and with damping, and four for its second derivatives.
+const LOOKS_AT_BALANCE: u64 = 6;
+/// Share of the forces on an element that may be left of its balance: far above rounding, far below what matters.
+const RESIDUAL: f64 = 1e-9;
+/// Share of an element's distance to which its position is known: some roundings.
+const ROUNDING: f64 = 1e-14;
+
+/// An element in balance.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct InBalance {
+    /// Its contacts without damping.
+    pub(super) elastic: Linearized,
+    /// Its contacts damped at the rates of the balance.
+    pub(super) damped: Linearized,
+    /// u [m]
+    pub(super) path: f64,
+    /// u' [m/s]
+    pub(super) path_rate: f64,
+    /// Force of the inner contact on the element [N].
+    pub(super) inner: Vector,
+    /// Force of the outer contact on the element, inwards and counter-clockwise [N].
+    pub(super) outer: Vector,
+    /// Looks at the contacts that it took.
+    pub(super) looks: u64,
+}
+
+/// What an element in balance exerts on the rest of the bearing.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Exerted {
+    /// Force on the inner and on the outer ring [N].
+    pub(super) rings: [Vector; 2],
+    /// Torque [N m] on the bodies with the defects under its inner and its outer contact, each about its own centre.
+    pub(super) torques: [(Frame, f64); 2],
+}
+
+impl InBalance {
+    /// What it exerts.
+    pub(super) fn exerted(&self) -> Exerted {
+        let Linearized { e_r, e_t, n, distance, rho, frames, .. } = self.elastic;
+        let along = -self.inner.dot(&turned(n)) * distance;
+        Exerted {
+            rings: [-self.inner, e_r * self.outer.x - e_t * self.outer.y],
+            torques: [(frames[0], along), (frames[1], -self.outer.y * rho)],
+        }
+    }
+
+    /// Whether it is one: a search that found none, or a contact without an answer, leaves numbers that are none.
+    pub(super) fn is_found(&self) -> bool {
+        (self.inner.x + self.inner.y + self.outer.x + self.outer.y + self.path_rate).is_finite()
+    }
+}
+
+impl Model {
+    /// Element `j` in balance, looked for from path `guess` [m] on. Where there is no balance, or a contact has no
+    /// answer, forces are no numbers.
+    pub(super) fn in_balance(
+        &self,
+        j: usize,
+        cells: [[u32; 2]; 2],
+        guess: f64,
+        now: &FramedKinematics,
+    ) -> InBalance {
+        let (path, looks) = self.balanced_path(j, cells, guess, now);
+        let elastic = self.linearized_at(j, cells, (path, 0.0), now, Bends::Wanted);
+        let (force, slope) = self.radial_balance(&elastic);
+        let body = self.element_mass * (self.gravity.norm() + self.outer_centre_radius * elastic.omega * elastic.omega);
+        let limit = RESIDUAL * (body + elastic.inner.norm() + elastic.outer.x.abs())
+            + ROUNDING * elastic.rho * slope.abs();
+        let path_rate = self.balance_rate(j, &elastic, now);
+        let dampers = self.dampers.as_deref().map(|[inner, outer]| [inner, outer]);
+        let contacts = dampers.unwrap_or([&self.inner.contact, &self.outer.contact]);
+        let damped = self.linearized_with(contacts, j, cells, (path, path_rate), now, Bends::LeftOut);
+        let ElementChange { inner, outer } = damping(&elastic, &damped);
+        let known = if force.abs() <= limit { 1.0 } else { f64::NAN };
+        InBalance {
+            path,
+            path_rate,
+            inner: (elastic.inner + inner) * known,
+            outer: (elastic.outer + outer) * known,
+            elastic,
+            damped,
+            looks: looks + LOOKS_AT_BALANCE,
+        }
+    }
+
+    /// Path of the balance [m], and how often contacts were looked at.
+    ///
+    /// Newton's method within the bracket that the signs give; where it would leave that or leap, halving, or as long as
+    /// there is no bracket walking on to where the element is pushed.
+    fn balanced_path(&self, j: usize, cells: [[u32; 2]; 2], guess: f64, now: &FramedKinematics) -> (f64, u64) {
+        let (mut low, mut high, mut stride) = (f64::NEG_INFINITY, f64::INFINITY, FIRST_STRIDE);
+        let mut u = if guess.is_finite() { guess } else { 0.0 };
+        for look in 1..LOOKS {
+            let element = self.linearized_at(j, cells, (u, 0.0), now, Bends::LeftOut);
+            let (force, slope) = self.radial_balance(&element);
+            // An inner contact too deep for its law pushes outwards, whatever its force; one outside inwards.
+            let too_deep = element.inner.x.is_nan() && !element.outer.x.is_nan();
+            let force = if too_deep { f64::INFINITY } else { force };
+            if force == 0.0 && slope == 0.0 {
+                // Nothing pushes and nothing touches.
+                return (self.touching_path(j, cells[1], now), look);
+            }
+            if force > 0.0 {
+                low = u
+            } else {
+                high = u
+            }
+            let newton = u - force / slope;
+            if (newton - u).abs() <= SETTLED {
+                return (newton, look);
+            }
+            let next = if newton > low && newton < high && (newton - u).abs() < LONGEST_STEP {
+                newton
+            } else if low.is_finite() && high.is_finite() {
+                0.5 * (low + high)
+            } else {
+                stride *= 2.0;
+                if force > 0.0 { u + stride } else { u - stride }
+            };
+            if next <= low || next >= high || stride > 1.0 {
+                return (u, look);
+            }
+            u = next;
+        }
+        (u, LOOKS)
+    }
+
+    /// u' [m/s] of an element that stays in balance as cage, rings and frames move on.
+    fn balance_rate(&self, j: usize, elastic: &Linearized, now: &FramedKinematics) -> f64 {
+        let Linearized { e_t, omega, .. } = *elastic;
+        let [_, alpha] = self.element_speed(j, &now.cage);
+        let moved = elastic.change(&ElementVariation {
+            offset: now.drift(),
+            cage_angle: omega,
+            frames: now.frames.0.map(|turn| [turn.speed, 0.0]),
+            ..ElementVariation::default()
+        });
+        let body = omega * (self.gravity.dot(&e_t) + 2.0 * self.outer_centre_radius * alpha);
+        let push = moved.radial(elastic) + omega * elastic.inner.dot(&e_t) + self.element_mass * body;
+        let (_, slope) = self.radial_balance(elastic);
+        if slope < 0.0 { -push / slope } else { 0.0 }
+    }
+
+    /// Derivative of an element's forces on the rings by the outer ring's velocity less the inner's along one axis, as
+    /// long as its contacts push [N s/m].
+    pub(super) fn damped_by_drift(&self, found: &InBalance, axis: usize) -> Rings {
+        let InBalance { elastic, damped, .. } = found;
+        let along = elastic.change(&ElementVariation::of_path());
+        let stiffness = -along.radial(elastic);
+        if stiffness <= 0.0 {
+            return Rings::zeros();
+        }
+        let mut drift = Vector::zeros();
+        drift[axis] = 1.0;
+        let pushed = elastic.change(&ElementVariation { offset: drift, ..ElementVariation::default() });
+        let path_rate = pushed.radial(elastic) / stiffness;
+        let d = damped.change(&ElementVariation { drift, path_rate, ..ElementVariation::default() });
+        let lag = d.radial(elastic) / stiffness;
+        let change = ElementChange { inner: d.inner + along.inner * lag, outer: d.outer + along.outer * lag };
+        stacked(-change.inner, change.on_housing(elastic))
+    }
+
+    /// Which contact of an element has no answer, and why it has none.
+    pub(super) fn contact_without_answer(
+        &self,
+        (j, cells): (usize, [[u32; 2]; 2]),
+        path: f64,
+        now: &FramedKinematics,
+    ) -> Option<(f64, ContactError)> {
+        let gap = self.inner_gap(path, now.offset(), self.direction(j, &now.cage));
+        let inner = self.inner_meeting(j, cells[0], &gap, self.element_angle(j, &now.cage));
+        let outer = self.outer_meeting(j, cells[1], path, &now.cage);
+        // A search ends on the near side of where there is no answer.
+        let beyond = |at: Meeting| Meeting { u: at.u + SETTLED, ..at };
+        [(RacewaySide::Outer, outer), (RacewaySide::Inner, inner)]
+            .into_iter()
+            .filter(|(_, at)| at.cells != [SMOOTH; 2])
+            .find_map(|(side, at)| {
+                let (near, _) = self.near_defect(side, &beyond(at), &now.frames);
+                near.err().map(|cause| (self.angle_from_defect(side, &at, &now.frames), cause))
+            })
+    }
+}
+
+/// What damping changes of the forces on an element, its balance kept.
+fn damping(elastic: &Linearized, damped: &Linearized) -> ElementChange {
+    let along = elastic.change(&ElementVariation::of_path());
+    let stiffness = -along.radial(elastic);
+    let (inner, outer) = (damped.inner - elastic.inner, damped.outer - elastic.outer);
+    if stiffness <= 0.0 {
+        return ElementChange::default();
+    }
+    let lag = (inner.dot(&elastic.e_r) - outer.x) / stiffness;
+    let (inner, outer) = (inner + along.inner * lag, outer + along.outer * lag);
+    // No contact pulls.
+    let share = share_that_pushes(&elastic.inner, &inner).min(share_that_pushes(&elastic.outer, &outer));
+    ElementChange { inner: inner * share, outer: outer * share }
+}
+
+/// Largest share of a change that leaves a force pushing, 1 at most.
+fn share_that_pushes(force: &Vector, change: &Vector) -> f64 {
+    let (along, square) = (force.dot(change), force.norm_squared());
+    if along < -square { square / -along } else { 1.0 }
+}
