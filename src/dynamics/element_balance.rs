@@ -245,3 +245,6 @@ fn share_that_pushes(force: &Vector, change: &Vector) -> f64 {
     let (along, square) = (force.dot(change), force.norm_squared());
     if along < -square { square / -along } else { 1.0 }
 }
+
+#[cfg(test)]
+mod tests;

@@ -193,7 +193,7 @@ impl Stepper<'_> {
         let (mut tried, mut at_once) = (0, 0);
         loop {
             let Self { problem, workspace, progress, .. } = self;
-            let wanted = progress.choice.limited(progress.next_step);
+            let wanted = progress.choice.limited(progress.next_step).min(problem.longest_step());
             let h = landing.unwrap_or_else(|| share_of(remaining, wanted, progress.next_step));
             let span = Span { from, length: h };
             tried += 1;

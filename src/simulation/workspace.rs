@@ -14,12 +14,17 @@ use crate::dynamics::jacobian::Jacobian;
 use crate::dynamics::model::{Layout, Model};
 use crate::dynamics::sensor_modes::StepEnds;
 use crate::numerics::row::Row;
+use crate::scene::Motion;
 
 /// Approach below which errors are no longer measured relative to it [m]: a contact of about 0.2 N.
 const SMALLEST_APPROACH: f64 = 0.1e-6;
 /// Turns an approach into a velocity [1/s]: below the rings' angular frequency on their contacts. With it the error of
 /// accelerations comes out at about ten times the tolerance while contacts hold.
 const VELOCITY_PER_APPROACH: f64 = 1e3;
+
+/// Angle by which elements in balance may go round in one step where a host moves a ring [rad]: a fiftieth of a load
+/// zone, over which the stages' sum misses 1e-6 of a mean force.
+const MOST_TURN: f64 = 0.02;
 
 /// What is integrated from one communication point to the next.
 #[derive(Debug, Clone, Copy)]
@@ -28,6 +33,19 @@ pub struct Problem<'a> {
     pub model: &'a Model,
     /// What acts from outside.
     pub drive: &'a Drive,
+}
+
+impl Problem<'_> {
+    /// Longest step [s] over which stages see enough of what a host moves: elements in balance have no state whose error
+    /// would say so, and mean forces are sums over the stages.
+    pub(super) fn longest_step(&self) -> f64 {
+        let hosted = [&self.model.shaft, &self.model.housing].iter().any(|ring| ring.motion == Motion::Host);
+        if hosted && self.model.elements_in_balance() {
+            MOST_TURN / self.drive.cage.0[1].abs()
+        } else {
+            f64::INFINITY
+        }
+    }
 }
 
 /// One step within a communication step.

@@ -8,7 +8,9 @@ use crate::dynamics::drive::{Cubic, Quadratic};
 use crate::dynamics::drive::{Frame, Turning};
 use crate::dynamics::forces::Forces;
 use crate::dynamics::raceway::{Cells, DefectiveElement, Defects, SMOOTH};
-use crate::scene::{CageIrregularity, Damping, DefectOn, Film, Roller, RollerProfile, RollingElement, Scene, Sensor};
+use crate::scene::{
+    CageIrregularity, Damping, DefectOn, ElementInertia, Film, Roller, RollerProfile, RollingElement, Scene, Sensor,
+};
 
 /// Who bears a defect, and for an element the raceway that it faces.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,12 +27,12 @@ pub(crate) fn lively(motions: [Motion; 2], damping: Damping, cage_angle: f64) ->
 
 /// As [`lively`], with a defect of any body under the elements below.
 pub(crate) fn lively_on(bearer: Bearer, motions: [Motion; 2], damping: Damping, cage_angle: f64) -> (Model, Drive) {
-    lively_with(&RollingElement::Ball, bearer, motions, damping, cage_angle)
+    lively_with((&RollingElement::Ball, ElementInertia::Full), bearer, motions, damping, cage_angle)
 }
 
 /// As [`lively_on`], with these elements.
-fn lively_with(
-    element: &RollingElement,
+pub(crate) fn lively_with(
+    (element, inertia): (&RollingElement, ElementInertia),
     bearer: Bearer,
     motions: [Motion; 2],
     damping: Damping,
@@ -39,6 +41,7 @@ fn lively_with(
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/er16k-tb1.toml");
     let mut scene = Scene::from_toml(&std::fs::read_to_string(path).unwrap()).unwrap();
     scene.bearing.element = element.clone();
+    scene.bearing.element_inertia = inertia;
     scene.contact.damping = damping;
     if damping == Damping::HuntCrossley(5.0) {
         let offsets = (0..9).map(|j| 0.01 * (f64::from(j) - 4.0)).collect();
@@ -50,7 +53,7 @@ fn lively_with(
         let of = |(direction, mass)| Sensor { direction, mass, ..Sensor::default() };
         scene.sensors = [(0.3, 0.7), (std::f64::consts::FRAC_PI_2, 1.0), (3.6, 0.2)].map(of).to_vec();
     }
-    if damping == Damping::HuntCrossley(2.0) {
+    if damping == Damping::HuntCrossley(2.0) && inertia == ElementInertia::Full {
         scene.film = Some(Film { viscosity: 0.1, pressure_viscosity: 2e-8, layer: Some(20e-6) });
     }
     for (ring, motion) in [&mut scene.shaft, &mut scene.housing].into_iter().zip(motions) {
@@ -182,7 +185,7 @@ fn compare(element: &RollingElement, bearer: Bearer, angles: impl IntoIterator<I
         MOTIONS.into_iter().flat_map(|m| DAMPINGS.into_iter().map(move |d| (m, d))).enumerate()
     {
         for angle in angles.clone() {
-            let (model, drive) = lively_with(element, bearer, motions, damping, angle);
+            let (model, drive) = lively_with((element, ElementInertia::Full), bearer, motions, damping, angle);
             let (state, _) = moving(&model, &drive, case as u64 + 1);
             let tau = 1e-5;
             let cells = model.cells_at(&drive, tau, &state);
