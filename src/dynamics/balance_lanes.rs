@@ -160,8 +160,8 @@ impl<'a, E: Elastic> Group<'a, E> {
         let on = inner.at_most(one);
         let speed = of(&block.pace) * number(now.cage.speed);
         let (mass, radius) = (number(model.element_mass), number(model.outer_centre_radius));
-        // That an uneven cage quickens and slows its elements moves no path by 1e-15 of itself.
-        let quickening = number(2.0 * now.cage.acceleration) * radius * speed;
+        let nominal = number(now.cage.speed);
+        let alpha = of(&block.pace) * number(now.cage.acceleration) + of(&block.bend) * (nominal * nominal);
         Place {
             simd,
             e_r,
@@ -173,7 +173,7 @@ impl<'a, E: Elastic> Group<'a, E> {
             drift: [dot(simd, self.drift, e_r), dot(simd, self.drift, e_t)],
             speed,
             body: (dot(simd, model.gravity, e_r) + radius * (speed * speed)) * (mass * on),
-            body_rate: (dot(simd, model.gravity, e_t) * speed + quickening) * (mass * on),
+            body_rate: (dot(simd, model.gravity, e_t) + number(2.0) * radius * alpha) * (speed * (mass * on)),
             along: dot(simd, now.housing.velocity, e_r),
         }
     }
@@ -223,8 +223,8 @@ impl<'a, E: Elastic> Group<'a, E> {
             look += 1;
             let gap = self.gap(at, u);
             let n_r = gap.n[0];
-            let [[inner, k_i], [outer, k_o]] =
-                [(at.constants[0], gap.approach), (at.constants[1], u)].map(|(k, approach)| self.contact(k, approach));
+            let [inner, k_i] = self.contact(at.constants[0], gap.approach);
+            let [outer, k_o] = self.contact(at.constants[1], u);
             let force = inner * n_r - outer + at.body;
             let (along, slope) = (k_i * n_r, k_i * (n_r * n_r) + k_o);
             let newton = u + force / slope.at_least(number(NO_STIFFNESS));
@@ -252,10 +252,9 @@ impl<'a, E: Elastic> Group<'a, E> {
         let number = |number: f64| Lanes::splat(at.simd, number);
         // The path at which the inner contact touches, but for what the offset's direction makes of it on the way.
         let touching = (self.gap(at, guess).approach + guess) * number(1.0 + 1e-5);
-        let reach = |body: Lanes<S>, constant| (body.or_zero() / constant).sqrt().sqrt();
         let zero = number(0.0);
-        let low = touching.at_most(zero) - reach(-at.body, at.constants[0]);
-        let high = touching.or_zero() + reach(at.body, at.constants[1]);
+        let low = touching.at_most(zero) - ((-at.body).or_zero() / at.constants[0]).sqrt().sqrt();
+        let high = touching.or_zero() + (at.body.or_zero() / at.constants[1]).sqrt().sqrt();
         (at.body.if_less(zero, low, zero), high)
     }
 }
@@ -280,8 +279,8 @@ impl<S: Wide> Balanced<S> {
 
         let law = DampedLaw::new(group.damping, group.elastic, number);
         let closing = -(opening + n_r * path_rate);
-        let [d_i, d_o] = [(inner, k_i, closing), (outer, k_o, path_rate)]
-            .map(|(force, stiffness, rate)| law.damping_of(force, stiffness, rate).at_least(-force));
+        let d_i = law.damping_of(inner, k_i, closing).at_least(-inner);
+        let d_o = law.damping_of(outer, k_o, path_rate).at_least(-outer);
         let change = (d_o * (k_i * (n_r * n_r)) + d_i * (n_r * k_o)) / contacts.at_least(none);
         let change = change.at_least(-(inner * n_r).at_most(outer));
         let path_rate = path_rate * at.on;

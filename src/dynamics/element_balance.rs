@@ -63,6 +63,8 @@ pub(super) struct InBalance {
     pub(super) inner: Vector,
     /// Force of the outer contact on the element, inwards and counter-clockwise [N].
     pub(super) outer: Vector,
+    /// Whether the inner and the outer contact are near a defect.
+    near: [bool; 2],
     /// Looks at the contacts that it took.
     pub(super) looks: u64,
 }
@@ -80,10 +82,12 @@ impl InBalance {
     /// What it exerts.
     pub(super) fn exerted(&self) -> Exerted {
         let Linearized { e_r, e_t, n, distance, rho, frames, .. } = self.elastic;
-        let along = -self.inner.dot(&turned(n)) * distance;
+        // The force on a smooth raceway goes through the ring's centre.
+        let inner = if self.near[0] { -self.inner.dot(&turned(n)) * distance } else { 0.0 };
+        let outer = if self.near[1] { -self.outer.y * rho } else { 0.0 };
         Exerted {
             rings: [-self.inner, e_r * self.outer.x - e_t * self.outer.y],
-            torques: [(frames[0], along), (frames[1], -self.outer.y * rho)],
+            torques: [(frames[0], inner), (frames[1], outer)],
         }
     }
 
@@ -122,6 +126,7 @@ impl Model {
             outer: (elastic.outer + outer) * known,
             elastic,
             damped,
+            near: cells.map(|cells| cells != [SMOOTH; 2]),
             looks: looks + LOOKS_AT_BALANCE,
         }
     }

@@ -24,6 +24,8 @@ pub(super) struct ElementBlock {
     pub(super) lead: [f64; WIDEST],
     /// Angular speed of the element about the outer ring's centre by that of the nominal cage.
     pub(super) pace: [f64; WIDEST],
+    /// How that changes with the nominal cage's angle [1/rad].
+    pub(super) bend: [f64; WIDEST],
 }
 
 /// All elements of a bearing at these angles [rad] ahead of the cage, of mass 1/`per_mass` [kg]

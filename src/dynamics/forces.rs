@@ -134,10 +134,11 @@ impl Forces {
         }
     }
 
-    /// Path [m] of element `j` in `state`, of which these are the forces: where it is, or where it is in balance.
+    /// Path [m] of each element in `state`, of which these are the forces: where it is, or where it is in balance.
+    /// There may be more places than elements.
     #[inline]
-    pub fn path(&self, model: &Model, state: &[f64], j: usize) -> f64 {
-        if model.elements_in_balance() { self.contacts.balanced[0][j] } else { state[j] }
+    pub fn paths<'a>(&'a self, model: &Model, state: &'a [f64]) -> &'a [f64] {
+        if model.elements_in_balance() { &self.contacts.balanced[0] } else { state }
     }
 
     /// Puts where elements in balance are, and how fast they move, into their places of a state; elements with inertia

@@ -147,14 +147,15 @@ impl Irregularity {
         if self.jitter == 0.0 {
             for block in elements {
                 (block.lead, block.pace) = ([common.angle; WIDEST], [1.0 + common.rate; WIDEST]);
+                block.bend = [common.bend; WIDEST];
             }
             return;
         }
         let (pieces, share) = self.jitters(cage);
         for (block, pieces) in elements.iter_mut().zip(pieces.of_elements.chunks(WIDEST)) {
-            for ((lead, pace), piece) in block.lead.iter_mut().zip(&mut block.pace).zip(pieces) {
+            for (i, piece) in pieces.iter().enumerate() {
                 let found = common + evaluated(piece, share, self.count as f64 / TAU);
-                (*lead, *pace) = (found.angle, 1.0 + found.rate);
+                (block.lead[i], block.pace[i], block.bend[i]) = (found.angle, 1.0 + found.rate, found.bend);
             }
         }
     }

@@ -156,7 +156,7 @@ impl Model {
             .map(|j| {
                 let e_t = turned(self.direction(j, &cage));
                 let [speed, alpha] = self.element_speed(j, &cage);
-                let rho = self.outer_centre_radius + forces.path(self, state, j);
+                let rho = self.outer_centre_radius + forces.paths(self, state)[j];
                 let contacts = &forces.contacts;
                 let inertia = acceleration.dot(&e_t) + 2.0 * contacts.path_rate[j] * speed + rho * alpha;
                 let contacts = contacts.inner[j] * contacts.normal_tangential[j] + contacts.outer_tangential[j];

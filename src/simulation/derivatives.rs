@@ -236,6 +236,15 @@ impl Simulation {
         change.cage_torque = change.forces.cage_torque + by_acceleration.dot(&change.accelerations[1]);
         let wanted = |&reference: &u32| matches!(self.quantities[reference as usize], Quantity::Stiffness(..));
         if unknowns.iter().any(wanted) {
+            // Balances follow inputs at once, states do not.
+            let mut settled = Vec::new();
+            let state = if self.model.elements_in_balance() {
+                settled.extend_from_slice(state);
+                self.forces.settle(&self.model, &mut settled);
+                &settled[..]
+            } else {
+                state
+            };
             change.stiffness = self.model.vary_stiffness(&drive, cells, state, &change.variation);
         }
     }

@@ -95,7 +95,7 @@ impl<'a> Outputs<'a> {
             }
             Quantity::ElementAngle(j) => self.element_angle(j),
             Quantity::ElementSpinAngle(j) => self.model.spin_angle(j, &self.angles.frames, self.element_angle(j)),
-            Quantity::ElementPath(j) => self.forces.path(self.model, self.state, j),
+            Quantity::ElementPath(j) => self.forces.paths(self.model, self.state)[j],
             Quantity::ElementInnerForce(j) => self.forces.contacts.inner[j],
             Quantity::ElementOuterForce(j) => self.forces.contacts.outer[j],
             Quantity::MeanForce(..) | Quantity::Stiffness(..) => return None,

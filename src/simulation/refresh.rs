@@ -67,8 +67,8 @@ impl Simulation {
             let drive = self.drive(false);
             let progress = &self.state.progress;
             let now = self.model.kinematics(&drive, 0.0, &progress.state);
-            let (state, cells) = (&progress.state, &progress.cells);
-            let jacobian = self.model.ring_jacobian(state, cells, &now);
+            let cells = &progress.cells;
+            let jacobian = self.model.ring_jacobian(self.forces.paths(&self.model, &progress.state), cells, &now);
             for (value, quantity) in self.state.reals.iter_mut().zip(self.quantities.iter()) {
                 if let Quantity::Stiffness(row, column) = *quantity {
                     *value = -jacobian[(row, column)];

@@ -1,6 +1,7 @@
 //! Oil films that cannot exist.
 
-use super::{accepted, refused};
+use super::{GOOD, accepted, refused};
+use brinell::scene::Scene;
 
 /// The good scene's cage, after a film with these lines.
 fn film(lines: &str) -> String {
@@ -25,6 +26,16 @@ fn a_viscosity_that_grows_with_pressure_as_no_oils_does_is_refused() {
         refused("[cage]", &with(coefficient), &["(film.pressure_viscosity_1_pa) is", "at least 5e-9", "at most 4e-8"]);
     }
     refused("[cage]", &film("viscosity_pa_s = 0.04"), &["film.pressure_viscosity_1_pa is missing"]);
+}
+
+#[test]
+fn a_film_between_elements_without_inertia_is_refused() {
+    let dry = "element_inertia = \"none\"\nelement_count = 9";
+    accepted("element_count = 9", dry);
+    let text = GOOD.replace("element_count = 9", dry);
+    let text = text.replace("[cage]", &film("viscosity_pa_s = 0.04\npressure_viscosity_1_pa = 2e-8"));
+    let said = Scene::from_toml(&text).unwrap_err().to_string();
+    assert!(said.contains("[film] is given and bearing.element_inertia is \"none\""), "{said}");
 }
 
 #[test]

@@ -17,6 +17,12 @@ fn a_word_that_is_not_known_is_told_with_those_that_are_and_the_nearest() {
         ),
         ("element_count = 9", "element = \"bal\"\nelement_count = 9", "line 5: bearing.element is \"bal\"", "\"ball\""),
         (
+            "element_count = 9",
+            "element_inertia = \"non\"\nelement_count = 9",
+            "line 5: bearing.element_inertia is \"non\"",
+            "\"none\"",
+        ),
+        (
             "motion = \"internal\"\nspeed",
             "motion = \"intern\"\nspeed",
             "line 26: shaft.motion is \"intern\"",

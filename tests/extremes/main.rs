@@ -21,7 +21,7 @@ use brinell::scene::Damping;
 use closed_forms::{energy_of_a_bearing_without_damping, energy_without_damping, load_0, settles};
 use oracle::case;
 use row::Row;
-use scenes::{BALLS, Kind, ROLLERS};
+use scenes::{BALLS, Kind, ROLLERS, without_inertia};
 
 macro_rules! extremes {
     ($kind:ident: $($(#[$attribute:meta])* $name:ident = $case:expr;)*) => {
@@ -71,6 +71,12 @@ extremes! {
     fifty_kilonewton_with_strong_damping_settle = settles(kind, "load jumps to 50 kN, χ = 5 s/m", kind.fifty_kilonewton(CHI(5.0)), 1e-4);
     fifty_kilonewton_with_proportional_damping_settle =
         settles(kind, "load jumps to 50 kN, proportional, τ = 10 µs", kind.fifty_kilonewton(TAU(1e-5)), 1e-4);
+    fifty_kilonewton_on_elements_without_inertia_settle = settles(
+        kind,
+        "load jumps to 50 kN, χ = 0.5 s/m, elements without inertia",
+        without_inertia(kind.fifty_kilonewton(CHI(0.5))),
+        1e-4,
+    );
     fifty_kilonewton_turning_without_damping_agree = case(kind, "50 kN turning, χ = 0");
     fifty_kilonewton_turning_agree = case(kind, "50 kN turning, χ = 0.5 s/m");
     fifty_kilonewton_turning_with_strong_damping_agree = case(kind, "50 kN turning, χ = 5 s/m");
@@ -78,6 +84,7 @@ extremes! {
     a_bearing_at_rest_stays_at_rest = closed_forms::speed_0(kind);
     one_turn_a_second_agrees = case(kind, "speed 1 Hz, spall");
     centrifugal_force_at_a_hundred_thousand_turns_a_minute = closed_forms::speed_100_000_rev_min(kind);
+    centrifugal_force_on_elements_without_inertia = closed_forms::speed_100_000_rev_min_without_inertia(kind);
     a_speed_that_reverses_brings_the_cage_back = closed_forms::reversal(kind);
     a_step_of_speed_agrees = case(kind, "speed steps from 25 to 250 Hz");
     a_ramp_of_speed_agrees = case(kind, "speed ramps up by 10 kHz a second");
@@ -119,6 +126,7 @@ extremes! {
     more_steps_than_allowed_are_an_error = refused::step_budget(kind);
     an_element_thrown_out_is_an_error = refused::thrown_out(kind);
     rings_beside_each_other_are_an_error = refused::rings_apart(kind);
+    rings_beside_each_other_are_an_error_without_inertia = refused::rings_apart_without_inertia(kind);
     a_state_that_is_not_finite_is_an_error = refused::not_finite(kind);
     a_contact_without_an_answer_is_an_error = refused::contact_without_answer(kind);
 }

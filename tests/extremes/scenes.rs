@@ -1,7 +1,7 @@
 //! The scenes that the extremes are made of, of balls and of rollers.
 
 use crate::support::shipped;
-use brinell::scene::{Damping, Defect, DefectShape, Ring, Scene};
+use brinell::scene::{Damping, Defect, DefectShape, ElementInertia, Ring, Scene};
 use std::f64::consts::FRAC_PI_2;
 
 /// One kind of bearing under extremes.
@@ -58,6 +58,12 @@ impl Kind {
 
 pub fn lighter(mut scene: Scene, factor: f64) -> Scene {
     scene.bearing.element_mass = Some(factor * scene.bearing.mass_of_element());
+    scene
+}
+
+/// The same, its elements in balance at every instant.
+pub fn without_inertia(mut scene: Scene) -> Scene {
+    scene.bearing.element_inertia = ElementInertia::None;
     scene
 }
 

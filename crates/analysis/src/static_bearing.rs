@@ -21,7 +21,7 @@ use brinell::dynamics::forces::Forces;
 use brinell::dynamics::kinematics::CageState;
 use brinell::dynamics::model::Model;
 use brinell::numerics::wrap;
-use brinell::scene::{DefectOn, Motion, Ring, Scene, SceneError};
+use brinell::scene::{DefectOn, ElementInertia, Motion, Ring, Scene, SceneError};
 use brinell::simulation::SimulationError;
 use brinell::simulation::setup::{build_model, largest_force, stored_map};
 use brinell::surface::{Surface, SurfaceError, with_roller_profile};
@@ -148,6 +148,8 @@ impl StaticBearing {
         held.shaft = Ring { motion: Motion::Internal, mass: 1.0, ..still };
         held.housing = still;
         held.sensors.clear();
+        // At rest elements are in balance whether they have inertia or not.
+        held.bearing.element_inertia = ElementInertia::Full;
         Ok(Self { load, ..Self::with_surfaces(held, surfaces, map.as_ref())? })
     }
 

@@ -85,7 +85,7 @@ fn elements_found_side_by_side_are_those_found_alone_and_each_is_in_balance() {
             let [shaft, housing] = found.exerted().rings;
             rings += stacked(shaft, housing);
             // Both end their search where 1e-12 m is left of a step; of u' what a different order of roundings makes.
-            let path = forces.path(model, state, j);
+            let path = forces.paths(model, state)[j];
             assert!((path - found.path).abs() < 1e-15, "element {j}: {path:e} against {:e} alone", found.path);
             let rate = rates[j] - found.path_rate;
             assert!(rate.abs() < 1e-8 * found.path_rate.abs() + 1e-11, "element {j}: {rate:e} of {:e}", found.path_rate);
@@ -110,7 +110,7 @@ fn the_balance_does_not_depend_on_where_its_search_begins() {
             from[..model.element_count].fill(guess);
             let (_, again) = case.at(0.0, &from);
             for j in 0..model.element_count {
-                let [one, other] = [&forces, &again].map(|forces| forces.path(model, state, j));
+                let [one, other] = [&forces, &again].map(|forces| forces.paths(model, state)[j]);
                 // A loose element's path is known to the rounding of its contact's approach.
                 assert!((one - other).abs() < 1e-15, "{one:e} and {other:e} from {guess:e}");
                 let alone = model.in_balance(j, model.cells_of(cells, j), guess, &now).path;
@@ -126,7 +126,8 @@ fn the_rate_of_a_path_is_what_the_balance_moves_by() {
     for case in cases() {
         let Moving { model, state, .. } = &case;
         let (rates, forces) = case.at(0.0, state);
-        let h = 2e-9;
+        // A light contact's path bends within a nanometre of its way.
+        let h = 2e-10;
         let moved = |sign: f64| {
             let mut state = state.clone();
             for (place, rate) in state.iter_mut().zip(&rates).skip(2 * model.layout.radial_velocity) {
@@ -139,8 +140,8 @@ fn the_rate_of_a_path_is_what_the_balance_moves_by() {
             continue;
         }
         for j in 0..model.element_count {
-            let quotient = (after.path(model, state, j) - before.path(model, state, j)) / (2.0 * h);
-            // Rounding of a path of 1e-4 m over the difference; the turning direction of a defect's contact.
+            let quotient = (after.paths(model, state)[j] - before.paths(model, state)[j]) / (2.0 * h);
+            // What the search leaves of a light contact's path, 1e-17 m, over the difference; second derivatives 1e-6.
             let limit = 1e-5 * quotient.abs() + 1e-7;
             assert!((rates[j] - quotient).abs() < limit, "element {j}: {} against {quotient}", rates[j]);
             compared += 1;
