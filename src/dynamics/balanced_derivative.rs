@@ -31,7 +31,8 @@ impl Model {
         self.place_uneven(drive, cage, &mut forces.elements);
         let now = self.kinematics_of(stage);
         derivative[self.layout.radial_velocity..2 * self.layout.radial_velocity].fill(0.0);
-        let mut rings = simd.outlined(SmoothElements::<RECORD> { model: self, now: &{ now }, stage, derivative, forces });
+        let mut rings =
+            simd.outlined(SmoothElements::<RECORD> { model: self, now: &{ now }, stage, derivative, forces });
         if !forces.searched.is_empty() {
             if self.has_frames {
                 forces.frames = drive.frames_at(cage.tau);

@@ -100,19 +100,13 @@ impl InBalance {
 impl Model {
     /// Element `j` in balance, looked for from path `guess` [m] on. Where there is no balance, or a contact has no
     /// answer, forces are no numbers.
-    pub(super) fn in_balance(
-        &self,
-        j: usize,
-        cells: [[u32; 2]; 2],
-        guess: f64,
-        now: &FramedKinematics,
-    ) -> InBalance {
+    pub(super) fn in_balance(&self, j: usize, cells: [[u32; 2]; 2], guess: f64, now: &FramedKinematics) -> InBalance {
         let (path, looks) = self.balanced_path(j, cells, guess, now);
         let elastic = self.linearized_at(j, cells, (path, 0.0), now, Bends::Wanted);
         let (force, slope) = self.radial_balance(&elastic);
         let body = self.element_mass * (self.gravity.norm() + self.outer_centre_radius * elastic.omega * elastic.omega);
-        let limit = RESIDUAL * (body + elastic.inner.norm() + elastic.outer.x.abs())
-            + ROUNDING * elastic.rho * slope.abs();
+        let limit =
+            RESIDUAL * (body + elastic.inner.norm() + elastic.outer.x.abs()) + ROUNDING * elastic.rho * slope.abs();
         let path_rate = self.balance_rate(j, &elastic, now);
         let dampers = self.dampers.as_deref().map(|[inner, outer]| [inner, outer]);
         let contacts = dampers.unwrap_or([&self.inner.contact, &self.outer.contact]);

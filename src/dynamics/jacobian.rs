@@ -233,8 +233,7 @@ impl Model {
                 by_velocity.column_mut(2 + axis).zip_apply(&rings, |sum, force| *sum += force);
             }
         }
-        for (whole, of_elements) in
-            [(&mut jacobian.by_position, by_position), (&mut jacobian.by_velocity, by_velocity)]
+        for (whole, of_elements) in [(&mut jacobian.by_position, by_position), (&mut jacobian.by_velocity, by_velocity)]
         {
             let mut corner = whole.fixed_view_mut::<4, 4>(0, 0);
             corner += RingJacobian::from_diagonal(&shared.inverse_masses) * of_elements;

@@ -200,8 +200,7 @@ impl Model {
             let compliance = bearing.outer_compliance;
             Box::new([CompliantContact { law: inner, compliance: 0.0 }, CompliantContact { law: outer, compliance }])
         });
-        let [inner_law, outer_law] =
-            if in_balance { smooth_laws(bearing, Damping::HuntCrossley(0.0)) } else { damped };
+        let [inner_law, outer_law] = if in_balance { smooth_laws(bearing, Damping::HuntCrossley(0.0)) } else { damped };
         let stiffness = [inner_law.stiffness, outer_law.stiffness];
         let raceway = |law, compliance, defects| Raceway { contact: CompliantContact { law, compliance }, defects };
         let element_radius = bearing.element_radius();

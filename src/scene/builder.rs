@@ -1,8 +1,8 @@
 //! Scenes made by a Rust program. What is not said has the value that a scene file gives it.
 
 use super::{
-    Bearing, Cage, CageIrregularity, Contact, ContactEdge, ContactLaw, Damping, Defect, DefectShape,
-    ElementInertia, Experiment, Motion, Recorder, Ring, Roller, RollerProfile, RollingElement, Scene, SceneError, Sensor,
+    Bearing, Cage, CageIrregularity, Contact, ContactEdge, ContactLaw, Damping, Defect, DefectShape, ElementInertia,
+    Experiment, Motion, Recorder, Ring, Roller, RollerProfile, RollingElement, Scene, SceneError, Sensor,
 };
 use std::f64::consts::FRAC_PI_2;
 

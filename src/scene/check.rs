@@ -16,8 +16,8 @@ use super::error::{LONGEST_NAME, SceneError};
 use super::faults::Faults;
 use super::quantity::*;
 use super::{
-    Bearing, Contact, ContactEdge, ContactLaw, Damping, Defect, DefectOn, DefectShape, ElementInertia, Film, Motion, Recorder,
-    RecorderFilter, Ring, Scene, Sensor, SensorMode,
+    Bearing, Contact, ContactEdge, ContactLaw, Damping, Defect, DefectOn, DefectShape, ElementInertia, Film, Motion,
+    Recorder, RecorderFilter, Ring, Scene, Sensor, SensorMode,
 };
 use std::f64::consts::{PI, TAU};
 

@@ -11,6 +11,8 @@ mod support;
 
 use brinell::scene::{ContactLaw, ElementInertia, Ring, Scene};
 use brinell::simulation::Method;
+use brinell_analysis::assembly::Assembly;
+use brinell_analysis::modes::Mode;
 use support::{Named, shipped, shipped_as_it_is};
 
 fn without_inertia(mut scene: Scene) -> Scene {
@@ -222,6 +224,27 @@ fn a_film_is_refused_with_its_reason() {
     let scene = without_inertia(shipped("er16k-tb1-oil"));
     let error = scene.check().unwrap_err().to_string();
     assert!(error.contains("[film]") && error.contains("bearing.element_inertia"), "{error}");
+}
+
+#[test]
+fn modes_and_stiffness_are_those_of_rings_on_elements_without_mass() {
+    let scene = shipped("6205-healthy");
+    let below = |scene: &Scene| -> Vec<[f64; 2]> {
+        let modes = Assembly::new(scene, None, None).unwrap().modes(-1.5).unwrap().modes;
+        let of = |mode: &Mode| [mode.undamped_frequency().unwrap_or(0.0), mode.damping_ratio().unwrap_or(0.0)];
+        modes.iter().map(of).filter(|mode| mode[0] < 2000.0).collect()
+    };
+    let (full, none) = (below(&scene), below(&without_inertia(scene.clone())));
+    assert!(full.len() == none.len() && full.len() >= 4, "{full:?} {none:?}");
+    for ([a, damping_a], [b, damping_b]) in full.iter().zip(&none) {
+        // Some balls of 2 g swing with rings of 3 and 7 kg; dampers to first order.
+        assert!((a - b).abs() < 3e-3 * a && (damping_a - damping_b).abs() < 1e-2 * damping_a, "{full:?} {none:?}");
+    }
+    let [a, b] = [scene.clone(), without_inertia(scene)].map(|mut scene| {
+        scene.shaft_speed = 0.0;
+        Named::started(scene).get("shaft.stiffness.yy")
+    });
+    assert!((a - b).abs() < 1e-9 * a, "{a} {b}");
 }
 
 #[test]

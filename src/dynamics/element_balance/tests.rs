@@ -88,8 +88,13 @@ fn elements_found_side_by_side_are_those_found_alone_and_each_is_in_balance() {
             let path = forces.paths(model, state)[j];
             assert!((path - found.path).abs() < 1e-15, "element {j}: {path:e} against {:e} alone", found.path);
             let rate = rates[j] - found.path_rate;
-            assert!(rate.abs() < 1e-8 * found.path_rate.abs() + 1e-11, "element {j}: {rate:e} of {:e}", found.path_rate);
-            for (together, alone) in [(contacts.inner[j], found.inner.norm()), (contacts.outer[j], found.outer.norm())] {
+            assert!(
+                rate.abs() < 1e-8 * found.path_rate.abs() + 1e-11,
+                "element {j}: {rate:e} of {:e}",
+                found.path_rate
+            );
+            for (together, alone) in [(contacts.inner[j], found.inner.norm()), (contacts.outer[j], found.outer.norm())]
+            {
                 assert!((together - alone).abs() < 1e-9 * scale, "element {j}: {together} N against {alone} N alone");
             }
         }
@@ -210,13 +215,8 @@ fn registers_of_every_width_give_the_same_bits() {
             let (mut rates, mut forces) = (vec![0.0; state.len()], Forces::of(model));
             forces.enter(model, cells);
             model.place_uneven(drive, &cage, &mut forces.elements);
-            let kernel = SmoothElements::<true> {
-                model,
-                now: &now,
-                stage: &stage,
-                derivative: &mut rates,
-                forces: &mut forces,
-            };
+            let kernel =
+                SmoothElements::<true> { model, now: &now, stage: &stage, derivative: &mut rates, forces: &mut forces };
             let rings = if widest { dispatch(kernel) } else { kernel.run(Scalar256b) };
             let contacts = &forces.contacts;
             let all = [&rates[..], &rings, &contacts.inner, &contacts.outer, &contacts.balanced[0]].concat();
