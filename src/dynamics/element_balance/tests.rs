@@ -92,13 +92,14 @@ fn elements_found_side_by_side_are_those_found_alone_and_each_is_in_balance() {
             let share = 2e-12 / pushing.fold(1.0, f64::min);
             let limit = share * found.path_rate.abs() + 1e-11;
             assert!(rate.abs() < limit, "element {j}: {rate:e} of {:e}", found.path_rate);
+            // Dampers follow u'.
             for (together, alone) in [(contacts.inner[j], found.inner.norm()), (contacts.outer[j], found.outer.norm())]
             {
-                assert!((together - alone).abs() < 1e-9 * scale, "element {j}: {together} N against {alone} N alone");
+                assert!((together - alone).abs() < 1e-8 * scale, "element {j}: {together} N against {alone} N alone");
             }
         }
         let miss = (rings - Rings::from(forces.rings)).amax();
-        assert!(miss < 1e-9 * rings.amax(), "{miss:e} N of {rings:?}");
+        assert!(miss < 1e-8 * rings.amax(), "{miss:e} N of {rings:?}");
     }
     assert!(pressed > 500 && near_defect > 100, "{pressed} {near_defect}");
 }
