@@ -161,7 +161,8 @@ impl Unstored {
     }
 }
 
-/// The header of a NumPy file of `rows` rows with a number for each of these names; its length does not depend on `rows`.
+/// The header of a NumPy file of `rows` rows with a number for each of these names; its length does not depend on
+/// `rows`.
 pub fn npy_header(names: &[String], rows: u64) -> Vec<u8> {
     let fields: String = names.iter().map(|name| format!("('{name}', '<f8'), ")).collect();
     let shape = format!("({rows},)");

@@ -60,8 +60,8 @@ fn a_ball_on_the_edge_of_a_body_that_ends_is_pressed_as_hetenyis_half_spaces_say
     }
 }
 
-/// Depth of the step over the contact's half-width, and force over the half-space's with the centre over the edge, half a
-/// half-width and a whole one inside: finite elements in plane strain, ν = 0.3.
+/// Depth of the step over the contact's half-width, and force over the half-space's with the centre over the edge, half
+/// a half-width and a whole one inside: finite elements in plane strain, ν = 0.3.
 const STEPS: [[f64; 4]; 6] = [
     [0.1, 0.983, 0.992, 1.000],
     [0.25, 0.959, 0.979, 0.996],

@@ -38,8 +38,8 @@ fn amplitude(signal: &[f64], frequency: f64) -> f64 {
     2.0 * re.hypot(im) / sum
 }
 
-/// Share of the power from 5 to 300 Hz that lies within 0.14 Hz of the lines m·`carrier` + k·`sideband`, |k| no more than
-/// `most`, m as far as the range goes; and the share of that range which these lines take up.
+/// Share of the power from 5 to 300 Hz that lies within 0.14 Hz of the lines m·`carrier` + k·`sideband`, |k| no more
+/// than `most`, m as far as the range goes; and the share of that range which these lines take up.
 fn comb_share(signal: &[f64], carrier: f64, (sideband, most): (f64, f64)) -> [f64; 2] {
     // Three means over 0.5 ms before every 25th is kept: of what is at 1.7 to 2.3 kHz less than 0.6 % comes down to 300
     // Hz.

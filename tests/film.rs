@@ -219,8 +219,8 @@ fn a_bearing_that_runs_down_and_stands_and_turns_back_has_numbers_throughout() {
 
 #[test]
 fn a_ring_that_a_host_lifts_feels_the_film_give_back_no_work() {
-    // The inner ring swings 3 µm up and down between a gap and a contact, fast enough for the film to matter; over whole
-    // swings the bearing takes work and never gives any.
+    // The inner ring swings 3 µm up and down between a gap and a contact, fast enough for the film to matter; over
+    // whole swings the bearing takes work and never gives any.
     let mut scene = oiled();
     (scene.defects, scene.sensors) = (Vec::new(), Vec::new());
     (scene.shaft, scene.housing) = (Ring::hosted(), Ring::fixed());

@@ -81,7 +81,8 @@ fn a_load_that_jumps_settles_in_the_static_balance() {
         bearing.run(1e-3, 150);
         let largest = |b: &mut Named| b.inner_forces(count).into_iter().fold(0.0, f64::max);
         let expected = largest(&mut at_rest);
-        // Rollers that gravity alone holds go on bouncing, by which the force swings by up to 1.4e-3: its mean over 20 ms.
+        // Rollers that gravity alone holds go on bouncing, by which the force swings by up to 1.4e-3: its mean over 20
+        // ms.
         let samples: Vec<f64> = (0..400)
             .map(|_| {
                 bearing.run(5e-5, 1);

@@ -1,5 +1,5 @@
-//! Numbers of the command line: what is none is told in plain words. Negative ones are taken for numbers, not for options,
-//! so that the command itself says what is wrong with them.
+//! Numbers of the command line: what is none is told in plain words. Negative ones are taken for numbers, not for
+//! options, so that the command itself says what is wrong with them.
 
 /// Any number.
 pub(crate) fn number(text: &str) -> Result<f64, String> {

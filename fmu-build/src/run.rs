@@ -1,5 +1,5 @@
-//! A run without a host: the simulation is stepped directly, its inputs at their start values but for the shaft's speed,
-//! where that has a profile.
+//! A run without a host: the simulation is stepped directly, its inputs at their start values but for the shaft's
+//! speed, where that has a profile.
 
 pub mod columns;
 pub(crate) mod course;

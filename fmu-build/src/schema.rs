@@ -1,5 +1,5 @@
-//! The JSON schema of scene files, by which editors complete and explain their keys: scenes name it in their first line, so
-//! that it stands beside each that is written here.
+//! The JSON schema of scene files, by which editors complete and explain their keys: scenes name it in their first
+//! line, so that it stands beside each that is written here.
 
 use std::path::Path;
 

@@ -1,6 +1,6 @@
 //! `sensor.response` of a scene file: modes are fitted to the file it names and take its place in the scene's text, so
-//! that FMU and simulations know modes only, and everyone sees them. They stand in its line: what is wrong further down is
-//! told with the line that it has in the file.
+//! that FMU and simulations know modes only, and everyone sees them. They stand in its line: what is wrong further down
+//! is told with the line that it has in the file.
 
 use anyhow::{Context, Error, Result, anyhow, bail};
 use brinell::scene::{Scene, SceneError, SensorMode};

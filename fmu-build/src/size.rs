@@ -1,5 +1,5 @@
-//! The command `size`: the damaged part and the length of a spall from recordings, as JSON on standard output and a figure for each
-//! recording.
+//! The command `size`: the damaged part and the length of a spall from recordings, as JSON on standard output and a
+//! figure for each recording.
 //!
 //! Standard output carries the JSON and nothing else; what happens meanwhile goes to standard error.
 

@@ -1,6 +1,6 @@
 //! The model against an independent one: `tests/oracle` holds the same equations in Python, written separately, and
-//! integrates them with SciPy's DOP853 at a relative tolerance of 1e-12. What it found is stored in `tests/oracle` beside
-//! this file, as it takes a minute; an ignored test integrates anew (`BLESS=1` stores that).
+//! integrates them with SciPy's DOP853 at a relative tolerance of 1e-12. What it found is stored in `tests/oracle`
+//! beside this file, as it takes a minute; an ignored test integrates anew (`BLESS=1` stores that).
 #![allow(clippy::unwrap_used)]
 
 mod common;

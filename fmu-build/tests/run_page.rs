@@ -93,8 +93,8 @@ fn a_browser_draws_the_page_without_an_error_and_zooming_shows_every_sample() {
     };
     let path = page("page-drawn", "6205-spall-5deg", &["--stop", "0.3"]);
     let (folder, name) = (path.parent().unwrap(), path.display().to_string());
-    // The sensor's 15 345 samples and nine others: at most 4000 of each are drawn, and all of a millisecond: 51 of the recorder's
-    // and 10 of the others.
+    // The sensor's 15 345 samples and nine others: at most 4000 of each are drawn, and all of a millisecond: 51 of the
+    // recorder's and 10 of the others.
     let all = points(&opened(&browser, folder, &name, &["--dump-dom"]));
     let zoomed = points(&opened(&browser, folder, &format!("{name}#0.1,0.101"), &["--dump-dom"]));
     assert!(all > 20_000 && all < 30 * 4010, "{all} points");

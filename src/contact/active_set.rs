@@ -162,7 +162,8 @@ impl ActiveSet {
     /// Solves the contact; starts from the last set unless it was forgotten.
     ///
     /// # Errors
-    /// [`ContactError::WrongLength`] for a window wider than the kernel's table, [`ContactError::NotConverged`] when the set does not settle.
+    /// [`ContactError::WrongLength`] for a window wider than the kernel's table, [`ContactError::NotConverged`] when
+    /// the set does not settle.
     pub fn solve(&mut self, window: Window<'_>) -> Result<Effort, ContactError> {
         let Window { first, columns, interference } = window;
         let widest = if self.mirror.x { self.pairs.reach() / 2 } else { self.pairs.reach() };

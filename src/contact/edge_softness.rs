@@ -1,10 +1,10 @@
 //! How much softer a raceway is beside a sharp edge than the half-space that Love's solution speaks of.
 //!
-//! On a body that *ends* at the edge a load p(x′, y′) at the distance x′ from it lowers the surface at x by its own part
-//! and by that of its image on the other side, times a factor ψ of Poisson's ratio (Guilbault's idea, J. Tribol. 133
-//! (2011) 031402). Against the exact quarter-space of Hetényi (two half-spaces whose normal stresses on each other's
-//! side are taken off), ψ is 1.29 to 1.35 for ν = 0, 1.74 to 1.81 for 0.3 and 2.30 to 2.40 for 0.45, whatever the
-//! distance.
+//! On a body that *ends* at the edge a load p(x′, y′) at the distance x′ from it lowers the surface at x by its own
+//! part and by that of its image on the other side, times a factor ψ of Poisson's ratio (Guilbault's idea, J. Tribol.
+//! 133 (2011) 031402). Against the exact quarter-space of Hetényi (two half-spaces whose normal stresses on each
+//! other's side are taken off), ψ is 1.29 to 1.35 for ν = 0, 1.74 to 1.81 for 0.3 and 2.30 to 2.40 for 0.45, whatever
+//! the distance.
 //!
 //! A spall's edge is a *step* of depth h: the body goes on below, and far from a shallow step nothing is softer. With s
 //! = x + x′ and the distance y across, the image is here
@@ -13,8 +13,8 @@
 //! ```
 //! As h grows this becomes the end's image, and it vanishes with h. The two numbers were fitted to plane-strain finite
 //! elements of a cylinder over the edge of a step, up to a half-width inside it: forces agree to 3 %
-//! (`tests/contact_edge.rs`), which is the accuracy that is claimed. ½ψ I is added to the influence: half of a contact's
-//! compliance is the spalled body's.
+//! (`tests/contact_edge.rs`), which is the accuracy that is claimed. ½ψ I is added to the influence: half of a
+//! contact's compliance is the spalled body's.
 //!
 //! The influence matrix stays symmetric and positive definite, so that the contact still has an energy: I is symmetric,
 //! and its Laplace transform by s, 2(1 − cos(H√(t² − k²)))/√(t² − k²) for the wave number k along the edge and t > |k|,

@@ -169,7 +169,8 @@ impl LoveContact {
     /// Equivalent approach at radial path `u` and arc `s` [m].
     ///
     /// # Errors
-    /// [`ContactError::OutOfRange`] beyond the largest approach, [`ContactError::NotConverged`] when the grid cannot be solved.
+    /// [`ContactError::OutOfRange`] beyond the largest approach, [`ContactError::NotConverged`] when the grid cannot be
+    /// solved.
     pub fn solve(&mut self, u: f64, s: f64) -> Result<EquivalentApproach, ContactError> {
         let touch = self.first_touch(s);
         let far = touch - 0.1 * self.largest_approach;

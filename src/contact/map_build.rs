@@ -23,8 +23,8 @@ impl ContactMap {
     /// Map for an element over `surface`.
     ///
     /// # Errors
-    /// [`ContactError::BadInput`] for impossible inputs, [`ContactError::MapNotAccurate`] when even the finest nodes miss the
-    /// accuracy by more than is tolerated; what was reached is in [`ContactMap::accuracy`].
+    /// [`ContactError::BadInput`] for impossible inputs, [`ContactError::MapNotAccurate`] when even the finest nodes
+    /// miss the accuracy by more than is tolerated; what was reached is in [`ContactMap::accuracy`].
     pub fn build(
         surface: &Surface,
         element: ElementOnRaceway,

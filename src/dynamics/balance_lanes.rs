@@ -5,9 +5,9 @@
 //! R(u) = Q_i(δ_i(u)) n_r − Q_o(u) + B = 0,   δ_i = −G − u − p − …,   B = m (g·e_r + (R_o − r) ω²)
 //! ```
 //! with the names of [`super::contact_lanes`]. R falls with u and has its root between the raceways' touching paths,
-//! widened on the side to which B pushes by the approach under B; that of a contact of constant K is below (|B|/K)^(1/4)
-//! metres. Newton's method from the path last known, halving where it would leave the bracket. An element that has
-//! settled stays where it is while others of its register go on, so that the registers' width changes no bit.
+//! widened on the side to which B pushes by the approach under B; that of a contact of constant K is below
+//! (|B|/K)^(1/4) metres. Newton's method from the path last known, halving where it would leave the bracket. An element
+//! that has settled stays where it is while others of its register go on, so that the registers' width changes no bit.
 //!
 //! A place without an element, or with one that is looked for alone, has constants 0 and no force.
 

@@ -1,8 +1,8 @@
-//! The right-hand side of a bearing whose elements are in balance at every instant: rings and sensors move, elements are
-//! where rings and time say.
+//! The right-hand side of a bearing whose elements are in balance at every instant: rings and sensors move, elements
+//! are where rings and time say.
 //!
-//! Elements on smooth raceways are found [side by side](super::balance_lanes), those with a contact near a defect, or on
-//! a raceway that yields, [one by one](super::element_balance).
+//! Elements on smooth raceways are found [side by side](super::balance_lanes), those with a contact near a defect, or
+//! on a raceway that yields, [one by one](super::element_balance).
 
 use super::balance_lanes::SmoothElements;
 use super::contact_lanes::Record;
@@ -16,8 +16,8 @@ use crate::numerics::lanes::{Lanes, Wide};
 use crate::numerics::plane::Vector;
 
 impl Model {
-    /// As [`Model::derivative_on`] of a bearing whose elements are in balance. The derivative of a path is its rate, that
-    /// of a radial velocity 0: from them follows where the next stage's search begins, and nothing else.
+    /// As [`Model::derivative_on`] of a bearing whose elements are in balance. The derivative of a path is its rate,
+    /// that of a radial velocity 0: from them follows where the next stage's search begins, and nothing else.
     #[inline(always)]
     pub(super) fn balanced_derivative<S: Wide, const RECORD: bool>(
         &self,

@@ -9,17 +9,18 @@
 //! not depend on u, so that R falls with u wherever a contact pushes: the elastic energy is convex in u. Where neither
 //! does, R is the weight and the centrifugal force, and the element goes on to the raceway to which these push it; one
 //! that nothing pushes rests against the outer raceway. The path therefore does not depend on where the search begins
-//! but for rounding. Where that push changes its sign the path jumps from one raceway to the other, and both forces are 0
-//! on either side: the *snap* of a loose element is an event of the path, and no force jumps.
+//! but for rounding. Where that push changes its sign the path jumps from one raceway to the other, and both forces are
+//! 0 on either side: the *snap* of a loose element is an event of the path, and no force jumps.
 //!
 //! *Damping* of the contacts is what is left of an element's motion where it follows its balance: to first order in the
-//! damping forces d the path lags by u₁ = d/(−∂R/∂u), which hands both contacts the same change N of their radial force,
+//! damping forces d the path lags by u₁ = d/(−∂R/∂u), which hands both contacts the same change N of their radial
+//! force,
 //! ```text
 //! d = d_i·e_r − d_o,   N = (d_o k_i + d_i k_o)/(k_i + k_o)     contacts of radial stiffness k_i, k_o in series
 //! ```
-//! with the dampers at the rates of the elastic balance. What is left out is of second order: the share is (ω d/k)², 1e-3
-//! at 2 kHz with the usual damper. Without it rings would ring on that the full model damps. No contact pulls: N is made
-//! smaller where one would. The path is the elastic one.
+//! with the dampers at the rates of the elastic balance. What is left out is of second order: the share is (ω d/k)²,
+//! 1e-3 at 2 kHz with the usual damper. Without it rings would ring on that the full model damps. No contact pulls: N
+//! is made smaller where one would. The path is the elastic one.
 
 use super::drive::Frame;
 use super::element_contacts::Meeting;
@@ -127,8 +128,8 @@ impl Model {
 
     /// Path of the balance [m], and how often contacts were looked at.
     ///
-    /// Newton's method within the bracket that the signs give; where it would leave that or leap, halving, or as long as
-    /// there is no bracket walking on to where the element is pushed.
+    /// Newton's method within the bracket that the signs give; where it would leave that or leap, halving, or as long
+    /// as there is no bracket walking on to where the element is pushed.
     fn balanced_path(&self, j: usize, cells: [[u32; 2]; 2], guess: f64, now: &FramedKinematics) -> (f64, u64) {
         let (mut low, mut high, mut stride) = (f64::NEG_INFINITY, f64::INFINITY, FIRST_STRIDE);
         let mut u = if guess.is_finite() { guess } else { 0.0 };

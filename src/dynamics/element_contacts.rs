@@ -1,5 +1,5 @@
-//! Where an element stands to the two raceways: its gap to the inner one, its approach to either near a defect, and what
-//! oil films resist with.
+//! Where an element stands to the two raceways: its gap to the inner one, its approach to either near a defect, and
+//! what oil films resist with.
 
 use super::drive::{Frame, Frames};
 use super::kinematics::{CageState, Kinematics};

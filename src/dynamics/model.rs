@@ -399,8 +399,8 @@ impl Model {
         turned_by(cage.direction, sin, cos)
     }
 
-    /// Puts where all elements of an uneven cage are at an instant, and how fast they go, into `elements`; nothing in an
-    /// even one.
+    /// Puts where all elements of an uneven cage are at an instant, and how fast they go, into `elements`; nothing in
+    /// an even one.
     #[inline(always)]
     pub(super) fn place_uneven(&self, drive: &Drive, cage: &CageState, elements: &mut [ElementBlock]) {
         let Some(uneven) = &self.irregularity else { return };

@@ -37,10 +37,12 @@ impl Model {
         (contacts + self.element_mass * body, along + self.element_mass * omega * omega * grows)
     }
 
-    /// Radius [m] at which an element at distance `rho` [m] feels its centrifugal force, and its derivative by the path.
+    /// Radius [m] at which an element at distance `rho` [m] feels its centrifugal force, and its derivative by the
+    /// path.
     ///
-    /// In balance at every instant an element feels that on the smooth outer raceway, different by 1e-3 of itself, over a
-    /// spall 100 µm deep by 6e-3. A force that grows outwards would leave it two balances in its clearance where it about cancels its weight.
+    /// In balance at every instant an element feels that on the smooth outer raceway, different by 1e-3 of itself, over
+    /// a spall 100 µm deep by 6e-3. A force that grows outwards would leave it two balances in its clearance where it
+    /// about cancels its weight.
     #[inline(always)]
     pub(super) fn centrifugal_radius(&self, rho: f64) -> (f64, f64) {
         if self.elements_in_balance() { (self.outer_centre_radius, 0.0) } else { (rho, 1.0) }

@@ -14,8 +14,8 @@
 //! frequency changes with it.
 //!
 //! Of roller bearings all that is inside is estimated: rollers of 0.28 (D − d) to the nearest half millimetre, an
-//! effective length of 0.6 B, as many as take four fifths of the pitch circle (d + D)/2. Makers crown their rollers each in their
-//! own way. NU, NJ, NUP and N differ in their flanges alone.
+//! effective length of 0.6 B, as many as take four fifths of the pitch circle (d + D)/2. Makers crown their rollers
+//! each in their own way. NU, NJ, NUP and N differ in their flanges alone.
 
 /// Millimetres of 1/64 inch, in which balls are made.
 const STEP_OF_BALLS: f64 = 25.4 / 64.0;

@@ -28,8 +28,8 @@ const SMALLEST_RELATIVE_CLEARANCE: f64 = -0.0075;
 /// off is no place in a pocket.
 const FARTHEST: f64 = 0.25;
 
-/// Length of a spall over element diameter: an element that bridges less sinks by 1/8 of it squared over the radius, 2 nm
-/// at 8 µm, and a contact grid that shows it would have a hundred times as many cells as usual. Assumed.
+/// Length of a spall over element diameter: an element that bridges less sinks by 1/8 of it squared over the radius, 2
+/// nm at 8 µm, and a contact grid that shows it would have a hundred times as many cells as usual. Assumed.
 const SHORTEST: f64 = 1e-3;
 
 impl Scene {

@@ -85,13 +85,14 @@ impl Scene {
 }
 
 impl Scene {
-    /// Values of a scene file that are far from what is usual, and would be usual in another unit. What is no scene file has
-    /// none.
+    /// Values of a scene file that are far from what is usual, and would be usual in another unit. What is no scene
+    /// file has none.
     pub fn questions(text: &str) -> Vec<Remark> {
         reading::questions(text)
     }
 
-    /// The JSON schema of a scene file, by which editors complete and explain its keys, with the limits of their values.
+    /// The JSON schema of a scene file, by which editors complete and explain its keys, with the limits of their
+    /// values.
     #[cfg(feature = "schema")]
     pub fn schema() -> schemars::Schema {
         schema::with_limits(schemars::schema_for!(SceneFile))

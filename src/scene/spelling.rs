@@ -3,7 +3,8 @@
 /// Longest word that is compared [bytes].
 const LONGEST: usize = 100;
 
-/// The known word that is spelt most like this one: a beginning of it, or a third of the letters off; `None` if none is.
+/// The known word that is spelt most like this one: a beginning of it, or a third of the letters off; `None` if none
+/// is.
 pub fn nearest<'k>(known: impl IntoIterator<Item = &'k str>, word: &str) -> Option<&'k str> {
     // What is longer is no slip of the pen.
     if word.len() > LONGEST {

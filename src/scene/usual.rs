@@ -1,5 +1,5 @@
-//! Which sizes of values are usual, by practice or by the bearing's own dimensions: what is far off and would be usual in
-//! another unit is asked about. Nothing is refused for it.
+//! Which sizes of values are usual, by practice or by the bearing's own dimensions: what is far off and would be usual
+//! in another unit is asked about. Nothing is refused for it.
 
 use super::catalogue::{Inside, catalogued};
 use super::unit_hint::{UnitQuestion, meant};

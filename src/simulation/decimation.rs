@@ -1,8 +1,8 @@
 //! From samples taken M times as often as rows are wanted to rows without aliases.
 //!
 //! Row k is Σ h(n − kM) · sample n: a low-pass of [`numerics::low_pass`](crate::numerics::low_pass) that reaches
-//! [`HALF`] rows to either side, so it shifts no phase and a row's time is that of its middle sample. Samples are not kept:
-//! each is added to the sums of all rows under way, of which there are fewer than [`UNDER_WAY`], so that what the
+//! [`HALF`] rows to either side, so it shifts no phase and a row's time is that of its middle sample. Samples are not
+//! kept: each is added to the sums of all rows under way, of which there are fewer than [`UNDER_WAY`], so that what the
 //! future depends on is short however large M is. Before its first sample everything stood as it is there.
 //!
 //! With F rows per second, signals pass up to F/2.56, where analysers end the alias-free part of their spectra, and

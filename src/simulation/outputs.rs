@@ -40,7 +40,8 @@ impl<'a> Outputs<'a> {
     }
 
     /// Those of the instant `tau` [s] after the communication point. `derivative` and `forces` are the model's for
-    /// `state`, `sensor_modes` the state of the modes between outer ring and sensors; `start` are the angles at the communication point.
+    /// `state`, `sensor_modes` the state of the modes between outer ring and sensors; `start` are the angles at the
+    /// communication point.
     pub fn new(
         model: &'a Model,
         (drive, tau): (&'a Drive, f64),

@@ -30,8 +30,8 @@ pub enum Method {
     PhaseFitted,
     /// The linearly implicit one only: Rodas5P.
     Rodas,
-    /// Whichever of the explicit ones is cheaper: all that there is for elements in balance at every instant, which leave
-    /// nothing stiff.
+    /// Whichever of the explicit ones is cheaper: all that there is for elements in balance at every instant, which
+    /// leave nothing stiff.
     Explicit,
 }
 

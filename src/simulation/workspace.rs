@@ -36,8 +36,8 @@ pub struct Problem<'a> {
 }
 
 impl Problem<'_> {
-    /// Longest step [s] over which stages see enough of what a host moves: elements in balance have no state whose error
-    /// would say so, and mean forces are sums over the stages.
+    /// Longest step [s] over which stages see enough of what a host moves: elements in balance have no state whose
+    /// error would say so, and mean forces are sums over the stages.
     pub(super) fn longest_step(&self) -> f64 {
         let hosted = [&self.model.shaft, &self.model.housing].iter().any(|ring| ring.motion == Motion::Host);
         if hosted && self.model.elements_in_balance() { MOST_TURN / self.drive.cage.0[1].abs() } else { f64::INFINITY }

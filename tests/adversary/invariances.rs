@@ -1,7 +1,8 @@
-//! What must not change a result: where the scene lies, its units, how the host cuts time, who sets a parameter, which method steps.
+//! What must not change a result: where the scene lies, its units, how the host cuts time, who sets a parameter, which
+//! method steps.
 //!
-//! What only rounding may change is judged in the units of [`crate::units`]: a run at ten times the tolerance says how much of a
-//! difference the scene itself makes, bounces included. The rest must be equal in every bit.
+//! What only rounding may change is judged in the units of [`crate::units`]: a run at ten times the tolerance says how
+//! much of a difference the scene itself makes, bounces included. The rest must be equal in every bit.
 
 mod half_space;
 mod laws;
@@ -179,8 +180,8 @@ fn similar(mut case: Case, draw: &mut Draw) -> Result<(), String> {
         ring.mass = ring.mass.max(1e-4);
     }
     let (length, drawn, density) = (draw.log(0.7, 1.4), draw.log(0.5, 2.0), draw.log(0.5, 2.0));
-    // Densities are drawn up to a fifth of what is accepted. A time so short that a ring would turn faster than it may, 10 kHz in
-    // a scene and 1e5 rad/s for a host, is longer by less force.
+    // Densities are drawn up to a fifth of what is accepted. A time so short that a ring would turn faster than it may,
+    // 10 kHz in a scene and 1e5 rad/s for a host, is longer by less force.
     let [scene, set] = fastest_turn(&case);
     let shortest = (scene / (TAU * 0.999e4)).max(set / 0.999e5);
     let time = (density * length.powi(4) / drawn).sqrt().max(shortest);

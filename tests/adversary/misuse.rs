@@ -1,8 +1,9 @@
-//! Misuse of the C interface: random walks over all 34 functions and all states, several instances at once, from several threads.
+//! Misuse of the C interface: random walks over all 34 functions and all states, several instances at once, from
+//! several threads.
 //!
-//! Arguments are good, or wrong in every way that the standard lets a callee notice: state, count, null, misaligned and overlapping arrays,
-//! references and types, values, times, handles that are freed, invented or another's, bytes that are cut, flipped or another model's,
-//! folders that are shared, full or none. After each call:
+//! Arguments are good, or wrong in every way that the standard lets a callee notice: state, count, null, misaligned and
+//! overlapping arrays, references and types, values, times, handles that are freed, invented or another's, bytes that
+//! are cut, flipped or another model's, folders that are shared, full or none. After each call:
 //!
 //! - the status is one that a model of the standard allows, which knows nothing of Brinell's code;
 //! - an error has one line in the log that begins with the function, what is switched off is silent;
@@ -11,10 +12,11 @@
 //! - so does a new instance that takes only the calls which were not taken back, in variables;
 //! - after an error reading, restoring, resetting and freeing go on, and a reset gives a usable instance.
 //!
-//! Instances are dealt out to the threads anew in each round, so each is used by one thread at a time and wanders between them. A walk is a
-//! function of its seed. `BRINELL_WALK_SEED` is the first seed, `BRINELL_WALK_COUNT` the number of walks, and
-//! `BRINELL_WALK_SECONDS` goes on until so many have passed, and prints the counts so far every half minute, as in
-//! `BRINELL_WALK_SECONDS=3600 cargo test --workspace --release --test adversary misuse -- --nocapture`.
+//! Instances are dealt out to the threads anew in each round, so each is used by one thread at a time and wanders
+//! between them. A walk is a function of its seed. `BRINELL_WALK_SEED` is the first seed, `BRINELL_WALK_COUNT` the
+//! number of walks, and `BRINELL_WALK_SECONDS` goes on until so many have passed, and prints the counts so far every
+//! half minute, as in `BRINELL_WALK_SECONDS=3600 cargo test --workspace --release --test adversary misuse --
+//! --nocapture`.
 
 mod chance;
 mod disk;
@@ -197,7 +199,8 @@ fn number(name: &str) -> Option<u64> {
 /// Time between two looks at a long run.
 const HALF_A_MINUTE: Duration = Duration::from_secs(30);
 
-/// Walks of the seeds that the environment asks for. One that finds something does not keep the others from being taken.
+/// Walks of the seeds that the environment asks for. One that finds something does not keep the others from being
+/// taken.
 fn walks(count: u64, full: impl Fn(&mut Chance) -> FullDisk) -> Tally {
     let first = number("BRINELL_WALK_SEED").unwrap_or(1);
     let count = number("BRINELL_WALK_COUNT").unwrap_or(count);

@@ -1,12 +1,13 @@
 //! Equations of motion of a rolling bearing, contact law `hertz`, written from the equations and not from the crate.
 //!
-//! Each element's distance from the outer ring's centre is ρ = ρ₀ + u, its angle is the cage's. Seen from the outer ring, which
-//! accelerates by a_o:
+//! Each element's distance from the outer ring's centre is ρ = ρ₀ + u, its angle is the cage's. Seen from the outer
+//! ring, which accelerates by a_o:
 //! ```text
 //! m u'' = F·e_r + m (g·e_r + ρ ω² − a_o·e_r)
 //! ```
-//! so a_o comes first. F is what both raceways push: each with Q along the normal of its rigid path, tan κ = P′ over the distance from
-//! that ring's centre. Where the host moves the outer ring by a jump, an element keeps its u and its velocity in space.
+//! so a_o comes first. F is what both raceways push: each with Q along the normal of its rigid path, tan κ = P′ over
+//! the distance from that ring's centre. Where the host moves the outer ring by a jump, an element keeps its u and its
+//! velocity in space.
 
 pub mod balance;
 pub mod envelope;
@@ -85,7 +86,8 @@ pub struct Contact {
     pub over: Option<usize>,
 }
 
-/// A contact, its force on the element (x, y), the torque of that on the body with the defect, and what that turns with.
+/// A contact, its force on the element (x, y), the torque of that on the body with the defect, and what that turns
+/// with.
 struct Push {
     contact: Contact,
     force: [f64; 2],
@@ -207,8 +209,8 @@ impl Bearing {
         [0, 1, 2, 3].map(|which| [angles[which], sum(which, 0), sum(which, 1)])
     }
 
-    /// The force of a contact, beside a film of this thickness [m]: with side 1, that of the outer raceway in series with its
-    /// compliance.
+    /// The force of a contact, beside a film of this thickness [m]: with side 1, that of the outer raceway in series
+    /// with its compliance.
     fn contact(&self, side: usize, film: f64, approach: f64, rate: f64) -> Contact {
         let oil = self.oil.as_ref().map_or(Resistance::default(), |oil| oil.resistance(side, film, approach, rate));
         let film = Contact {

@@ -61,7 +61,8 @@ fn judged_so_far() -> Vec<Entry> {
     entries
 }
 
-/// Takes up where it was broken off, and judges anew what failed; without the file of lines it begins anew. Several may run side by side with seeds of their own.
+/// Takes up where it was broken off, and judges anew what failed; without the file of lines it begins anew. Several may
+/// run side by side with seeds of their own.
 #[test]
 #[ignore = "takes an hour of a core for 10 000 scenes"]
 fn many_random_scenes_agree_with_the_oracle() {
@@ -103,8 +104,8 @@ fn the_page_holds_the_section() {
     assert!(page.contains(include_str!("scenes.md")), "docs/stability.md does not hold tests/adversary/scenes.md");
 }
 
-/// The path that the simulation's elements follow over a scene's defect, at angles all around, is the brute-force envelope, on
-/// either raceway that meets it.
+/// The path that the simulation's elements follow over a scene's defect, at angles all around, is the brute-force
+/// envelope, on either raceway that meets it.
 #[test]
 fn random_rigid_paths_are_the_envelope() {
     for_seeds(60, |_, draw| {

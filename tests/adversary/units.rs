@@ -1,7 +1,7 @@
 //! In what a difference of two runs is measured.
 //!
-//! The unit is what one step of the simulation may be wrong by: its tolerance times the largest approach, for velocities a
-//! thousand of that per second, and what follows from both for forces and accelerations.
+//! The unit is what one step of the simulation may be wrong by: its tolerance times the largest approach, for
+//! velocities a thousand of that per second, and what follows from both for forces and accelerations.
 
 use crate::case::{Case, Damping, Defect, Mode, Motion};
 use crate::oracle::Bearing;
@@ -15,14 +15,15 @@ pub const LIMIT: f64 = 100.0;
 /// Largest allowed difference over the largest force up to which runs are compared.
 pub const HORIZON: f64 = 0.02;
 
-/// How exactly a position is known [m]: to some roundings of the radii, and to what interpolating the rigid path leaves.
+/// How exactly a position is known [m]: to some roundings of the radii, and to what interpolating the rigid path
+/// leaves.
 pub fn rounding(bearing: &Bearing) -> f64 {
     let path = if bearing.defective { 3e-13 * bearing.r } else { 0.0 };
     4e-15 * bearing.rho_0 + path
 }
 
-/// How exactly the place of a defect beside another one is known, along its body and out of it [m]: both may become one profile, whose
-/// arcs are rounded to a picometre.
+/// How exactly the place of a defect beside another one is known, along its body and out of it [m]: both may become one
+/// profile, whose arcs are rounded to a picometre.
 pub fn placing(case: &Case) -> f64 {
     let beside = |(k, defect): (usize, &Defect)| case.defects[..k].iter().any(|other| other.on.is_body_of(defect.on));
     if case.defects.iter().enumerate().any(beside) { 0.5e-12 } else { 0.0 }
@@ -30,10 +31,11 @@ pub fn placing(case: &Case) -> f64 {
 
 /// How exactly the slope of a kept path is known [m/rad] at an angle from the defect's centre.
 ///
-/// The path is kept as cubics through its values and slopes at nodes, at most 5e-6 m or 1.25e-3 r apart along the body with the
-/// defect, and twice as near until the path itself is right to E = 2e-13 r and some roundings. Between nodes w apart a
-/// cubic's value is wrong by w⁴P⁗/384 and its slope by √3/216 w³P⁗, which is 3.08 E/w. A quarter more is for what P⁗ changes
-/// within w. Roundings of the values come into the slope as 1.5 (p₁ − p₀)/w. A level piece is kept as the constant that it is.
+/// The path is kept as cubics through its values and slopes at nodes, at most 5e-6 m or 1.25e-3 r apart along the body
+/// with the defect, and twice as near until the path itself is right to E = 2e-13 r and some roundings. Between nodes w
+/// apart a cubic's value is wrong by w⁴P⁗/384 and its slope by √3/216 w³P⁗, which is 3.08 E/w. A quarter more is for
+/// what P⁗ changes within w. Roundings of the values come into the slope as 1.5 (p₁ − p₀)/w. A level piece is kept as
+/// the constant that it is.
 pub fn slope_error(bearing: &Bearing, surface: &Surface, psi: f64) -> f64 {
     let envelope = &surface.envelope;
     let stretch = envelope.stretch(psi);

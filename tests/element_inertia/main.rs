@@ -42,7 +42,8 @@ fn a_bearing_that_stands_has_the_equilibrium_of_elements_with_inertia() {
         let load = full.get("element[1].force.outer").max(100.0);
         for variable in ["shaft.force.x", "shaft.force.y", "element[1].force.inner", "element[7].force.outer"] {
             let [a, b] = [full.get(variable), none.get(variable)];
-            // Both find a balance to 1e-12 of the largest force; rings of little stiffness lie where rounding puts them.
+            // Both find a balance to 1e-12 of the largest force; rings of little stiffness lie where rounding puts
+            // them.
             assert!((a - b).abs() < 1e-8 * load, "{name}: {variable} is {a} and {b}");
         }
         for j in 1..=full.0.scene().bearing.element_count {

@@ -60,8 +60,8 @@ pub fn speed_100_000_rev_min(kind: Kind) -> Row {
     turns_100_000_times_a_minute("shaft at 100 000 rev/min, rings held concentric", kind.hosted(), 1e-5)
 }
 
-/// Without inertia an element feels the centrifugal force of one that touches the smooth outer raceway: that of its path
-/// beyond it, 1e-5 m of 1.6e-2 m, is left out.
+/// Without inertia an element feels the centrifugal force of one that touches the smooth outer raceway: that of its
+/// path beyond it, 1e-5 m of 1.6e-2 m, is left out.
 pub fn speed_100_000_rev_min_without_inertia(kind: Kind) -> Row {
     let scene = without_inertia(kind.hosted());
     turns_100_000_times_a_minute("the same, elements without inertia", scene, 1e-3)

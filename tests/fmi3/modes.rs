@@ -8,7 +8,8 @@ type Probe = (&'static str, &'static str, fn(&Host) -> Status);
 
 macro_rules! plain {
     ($($name:ident $allowed:literal ($($argument:expr),*);)*) => {
-        // SAFETY of all the blocks: nothing but the handle, NULL with a count of 0, and arguments that are not looked at.
+        // SAFETY of all the blocks: nothing but the handle, NULL with a count of 0, and arguments that are not looked
+        // at.
         [$((stringify!($name), $allowed, (|h| unsafe { $name(h.c, $($argument),*) }) as fn(&Host) -> Status)),*]
     };
 }

@@ -53,8 +53,8 @@ pub fn profile_of(scene: &Scene) -> Option<String> {
 /// Maps of this process, by the fingerprint of what they depend on.
 static MAPS: Mutex<BTreeMap<u64, Arc<OnceLock<Vec<u8>>>>> = Mutex::new(BTreeMap::new());
 
-/// The contact maps of a scene, each computed once for all test programs and kept where `cargo fmu` keeps and finds maps as
-/// well.
+/// The contact maps of a scene, each computed once for all test programs and kept where `cargo fmu` keeps and finds
+/// maps as well.
 ///
 /// Beside it a fingerprint of the sources that compute maps is kept, so that none outlives a change of them.
 pub fn map_of<'p>(scene: &Scene, profiles: impl IntoIterator<Item = &'p str>) -> Option<Vec<u8>> {

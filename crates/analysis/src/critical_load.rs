@@ -123,8 +123,8 @@ impl StaticBearing {
             let balance = self.balance(cage_angle, [x / length * load, y / length * load])?;
             Ok(inside.iter().map(|&j| balance.elements[j].inner_approach).fold(f64::NEG_INFINITY, f64::max))
         };
-        // That of one contact squeezed by the depth: the scale of loads here. The crown of a roller that is barely inside
-        // carries nothing yet.
+        // That of one contact squeezed by the depth: the scale of loads here. The crown of a roller that is barely
+        // inside carries nothing yet.
         let law = self.model.outer.contact.law.clone();
         let scale = match law.elasticity {
             Elasticity::Crowned(_) => ForceLaw { elasticity: Elasticity::Line, ..law }.elastic(deepest),

@@ -1,11 +1,12 @@
 //! Which part of the bearing is damaged: combs at BPFO, BPFI and twice the BSF beside each other.
 //!
-//! A comb near BPFO alone does not prove a fault of the outer raceway. As BPFO + BPFI = Z f_shaft, each of its harmonics
-//! is a sideband of the inner raceway's comb, three of its harmonics fall within 1 % on two of BPFI and four within 2 %
-//! on three of 2 BSF: most recordings of the others show one there too. So the three are sought beside each other, the
-//! inner raceway's with the sidebands of the shaft that carries it through the load zone, an element's with those of the
-//! cage that carries it. Of those that stand above chance the one whose harmonics stand highest above the noise is the
-//! fault's: sidebands are weaker than what they belong to, and a comb that shares some lines has not all of them.
+//! A comb near BPFO alone does not prove a fault of the outer raceway. As BPFO + BPFI = Z f_shaft, each of its
+//! harmonics is a sideband of the inner raceway's comb, three of its harmonics fall within 1 % on two of BPFI and four
+//! within 2 % on three of 2 BSF: most recordings of the others show one there too. So the three are sought beside each
+//! other, the inner raceway's with the sidebands of the shaft that carries it through the load zone, an element's with
+//! those of the cage that carries it. Of those that stand above chance the one whose harmonics stand highest above the
+//! noise is the fault's: sidebands are weaker than what they belong to, and a comb that shares some lines has not all
+//! of them.
 
 use super::envelope::{Comb, Pattern, find_combs_of};
 use super::report::{CombReport, CombsReport, Fault};

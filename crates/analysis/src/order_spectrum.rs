@@ -1,9 +1,9 @@
 //! The order spectrum: a signal at equal shaft angles, and the amplitudes of what repeats so many times per turn.
 //!
 //! In a run whose speed changes, a defect's line smears over all frequencies that it passes; counted per turn it stays
-//! where it is. The angle is the speed's integral by trapezia. Between samples the signal is taken from the cubic through
-//! four of them. As many samples are taken per turn as there are at the slowest speed, so that nothing is folded;
-//! slower parts than an eighth of the fastest are left out, or their few turns would ask for very many.
+//! where it is. The angle is the speed's integral by trapezia. Between samples the signal is taken from the cubic
+//! through four of them. As many samples are taken per turn as there are at the slowest speed, so that nothing is
+//! folded; slower parts than an eighth of the fastest are left out, or their few turns would ask for very many.
 //! ```text
 //! A(o) = 2/Σw |Σ w x exp(−2πi o θ/2π)|,   w Hann's window over the turns
 //! ```

@@ -2,8 +2,9 @@
 //!
 //! Text ([`recording_csv`](super::recording_csv)), NumPy ([`recording_npy`](super::recording_npy)) and WAV, which
 //! goes through `hound`. Columns are chosen by name or by number from 1. Left to itself, the signal is the column
-//! whose name begins with `sensor.acceleration` or, of several sensors, `sensor[1].acceleration`, else with `acc`, `vib` or `signal`, else the only one that does not
-//! count time or samples, else, where columns have no names, the first of those.
+//! whose name begins with `sensor.acceleration` or, of several sensors, `sensor[1].acceleration`, else with `acc`,
+//! `vib` or `signal`, else the only one that does not count time or samples, else, where columns have no names, the
+//! first of those.
 //!
 //! Time is a column that is called so, or has a unit of time and rises, or an unnamed first column beside others that
 //! rises like time. It must be even ([`sampling_times`](super::sampling_times)). A column of any other name that

@@ -145,8 +145,8 @@ pub struct RecordingReport {
     pub passages: usize,
     /// How far its strongest comb stands above chance [standard deviations].
     pub significance: f64,
-    /// Strength of strong passages over that of weak ones, 90 against 10 % quantile of the root mean square above 5 kHz:
-    /// an inner raceway's load zone.
+    /// Strength of strong passages over that of weak ones, 90 against 10 % quantile of the root mean square above 5
+    /// kHz: an inner raceway's load zone.
     pub modulation: f64,
     /// Onset of the entry before the first impact [degrees], where there is one.
     pub onset_deg: Option<f64>,

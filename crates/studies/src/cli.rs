@@ -67,8 +67,8 @@ struct Report {
 
 #[derive(Debug, Args)]
 struct Validate {
-    /// Recordings to be sized, as FILE@HZ=DEGREES with the shaft's speed and the nominal length, 0 if healthy, with an i
-    /// behind it of the inner raceway, or FILE@HZ=ball; FILE@HZ/RATE=... where the sampling rate is another; without
+    /// Recordings to be sized, as FILE@HZ=DEGREES with the shaft's speed and the nominal length, 0 if healthy, with an
+    /// i behind it of the inner raceway, or FILE@HZ=ball; FILE@HZ/RATE=... where the sampling rate is another; without
     /// them the table of recordings stays as it was
     #[arg(value_name = "RECORDING")]
     recordings: Vec<String>,

@@ -1,5 +1,5 @@
-//! What the page of a run is made of beside its signals: the bearing's frequencies, the defects with their surfaces, and
-//! where the files are.
+//! What the page of a run is made of beside its signals: the bearing's frequencies, the defects with their surfaces,
+//! and where the files are.
 
 use std::path::Path;
 

@@ -1,5 +1,5 @@
-//! Signals of a run in a NumPy file: what its tables, figures and sounds are made of. It grows row by row, so that a run
-//! may be longer than memory.
+//! Signals of a run in a NumPy file: what its tables, figures and sounds are made of. It grows row by row, so that a
+//! run may be longer than memory.
 
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Seek, SeekFrom, Write};

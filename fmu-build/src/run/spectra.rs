@@ -48,8 +48,8 @@ impl<'a> Spectra<'a> {
     }
 
     /// Spectrum of the envelope as `<scene>-envelope.csv`, and beside it, as `.json`, band, width of a line and the
-    /// frequencies to mark; nothing where the run is too short or too coarse, or nothing shakes. With a speed that changes
-    /// frequencies are those at the mean speed.
+    /// frequencies to mark; nothing where the run is too short or too coarse, or nothing shakes. With a speed that
+    /// changes frequencies are those at the mean speed.
     pub(super) fn write_envelope(&self, folder: &Path) -> Result<Option<PathBuf>> {
         let Acceleration { samples, rate } = &self.acceleration;
         let Some((characteristic, speed)) = self.frequencies() else { return Ok(None) };

@@ -272,8 +272,8 @@ impl Bench<'_> {
         times.iter().map(between).collect()
     }
 
-    /// Writes the signals beside where they grew, whence they are moved when they are whole: a program that is ended leaves
-    /// nothing in their folder.
+    /// Writes the signals beside where they grew, whence they are moved when they are whole: a program that is ended
+    /// leaves nothing in their folder.
     fn write(&self, written: Written, kept: &Signals, name: &str) -> Result<()> {
         let unit = |k: usize| if k == 0 { "s" } else { "m/s2" };
         let columns: Vec<(usize, &str)> = (0..kept.names().len()).map(|k| (k, unit(k))).collect();

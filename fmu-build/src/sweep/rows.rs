@@ -116,8 +116,8 @@ pub(super) struct Journal {
 }
 
 impl Journal {
-    /// Opens the journal in a folder; gives the rows that are there, each run once. What was torn is cut off, in a fresh
-    /// file that is written in `running`.
+    /// Opens the journal in a folder; gives the rows that are there, each run once. What was torn is cut off, in a
+    /// fresh file that is written in `running`.
     pub(super) fn open(folder: &Path, running: &Path, columns: &[Column]) -> Result<(Self, Vec<Row>)> {
         let path = folder.join(FILE);
         let about = || path.display().to_string();

@@ -45,7 +45,8 @@ fn roller() -> RollingElement {
     RollingElement::CylindricalRoller(roller)
 }
 
-/// Every motion of the rings with every damping, defects anywhere, balls and rollers, elements in and out of the defect.
+/// Every motion of the rings with every damping, defects anywhere, balls and rollers, elements in and out of the
+/// defect.
 fn cases() -> Vec<Moving> {
     use RacewaySide::{Inner, Outer};
     let bearers = [Bearer::Ring(Outer), Bearer::Ring(Inner), Bearer::Element(Outer)];

@@ -1,8 +1,8 @@
 //! All that is wrong with a scene file at once, each fault with its line; and what in it is to be asked about.
 //!
-//! First the keys and each value by itself. Then what is wrong is left out, something possible put where it is needed, and
-//! the rest is read and checked as any file is; what that finds is left out in turn, until nothing is found. A fault that
-//! speaks of what was left out follows from it and is not told.
+//! First the keys and each value by itself. Then what is wrong is left out, something possible put where it is needed,
+//! and the rest is read and checked as any file is; what that finds is left out in turn, until nothing is found. A
+//! fault that speaks of what was left out follows from it and is not told.
 
 use super::keys::{Finding, of_table, tables};
 use super::mended::Mended;

@@ -1,7 +1,8 @@
 //! Random scenes over the whole space of keys, and what a host may do with them.
 //!
-//! Quantities are drawn against each other: a load by the approach that it causes, a support by the contacts' stiffness, a speed
-//! by how far it turns the cage in the time that can be computed. Otherwise most scenes would be either rigid or broken.
+//! Quantities are drawn against each other: a load by the approach that it causes, a support by the contacts'
+//! stiffness, a speed by how far it turns the cage in the time that can be computed. Otherwise most scenes would be
+//! either rigid or broken.
 
 use super::inputs::Inputs;
 use super::parts::{self, Elements};

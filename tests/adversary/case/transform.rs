@@ -29,8 +29,8 @@ impl Case {
         case
     }
 
-    /// Turned about the origin, counter-clockwise. Defects turn with the angle at which their ring begins; on an outer ring at
-    /// rest by their own, and on an element with the element.
+    /// Turned about the origin, counter-clockwise. Defects turn with the angle at which their ring begins; on an outer
+    /// ring at rest by their own, and on an element with the element.
     pub fn turned(&self, degrees: f64) -> Self {
         let (sin, cos) = degrees.to_radians().sin_cos();
         let mut case = self.moved(|[x, y]| [cos * x - sin * y, sin * x + cos * y]);
@@ -75,8 +75,8 @@ impl Case {
         case
     }
 
-    /// With all lengths, forces and times multiplied. Rollers stay similar by forces that grow as areas, and oil does not, as asperities
-    /// have their height.
+    /// With all lengths, forces and times multiplied. Rollers stay similar by forces that grow as areas, and oil does
+    /// not, as asperities have their height.
     pub fn scaled(&self, by: Factors) -> Self {
         let Factors { length, force, time } = by;
         let mass = force * time * time / length;

@@ -1,5 +1,5 @@
-//! Laws `map` and `love` against a half-space solved here, in each of the four ways in which a contact meets a defect, at the start
-//! and along a run that goes over the defect.
+//! Laws `map` and `love` against a half-space solved here, in each of the four ways in which a contact meets a defect,
+//! at the start and along a run that goes over the defect.
 
 use super::laws::{half_contact, pressed, standing, trace};
 use crate::case::{Case, Damping, Defect, Grooves, Length, On, Shape, Topography, bowl};
@@ -76,8 +76,8 @@ struct Meeting {
     solver: HalfSpace,
 }
 
-/// Approach to the smooth raceway, arc from the defect's middle, distance of the centres; and the directions away from the raceway
-/// and counter-clockwise along it.
+/// Approach to the smooth raceway, arc from the defect's middle, distance of the centres; and the directions away from
+/// the raceway and counter-clockwise along it.
 struct Place {
     u: f64,
     arc: f64,
@@ -151,12 +151,13 @@ impl Meeting {
         let own = (normal.max(1e-12) / stiffness).cbrt().powi(2);
         let smooth = solver.forces(own, high + place.u - own, |_, _| 0.0)[0];
         let hertz = stiffness * own.powf(1.5) / smooth;
-        // The energy changes by the arc on the body with the defect, the force acts at the other ends of the centres' line.
+        // The energy changes by the arc on the body with the defect, the force acts at the other ends of the centres'
+        // line.
         [normal * hertz, tangential * hertz * self.own() / place.distance]
     }
 
-    /// Force away from the raceway and along it, the mean of three grids beside each other, and how well it is known: refined until
-    /// that is a hundredth of `scale`, as far as can be afforded.
+    /// Force away from the raceway and along it, the mean of three grids beside each other, and how well it is known:
+    /// refined until that is a hundredth of `scale`, as far as can be afforded.
     fn forces(&self, place: &Place, scale: f64) -> [(f64, f64); 2] {
         let mut coarse = [f64::INFINITY; 2];
         for cells in [[14, 10], [20, 14], [28, 20], [40, 28]] {
@@ -227,7 +228,8 @@ fn agrees(case: &Case, meeting: &Meeting, scale: f64) -> Result<(), String> {
         let place = meeting.place(case, &value);
         let both = found(meeting.pair, &place, &value);
         for (which, (found, (oracle, error))) in both.into_iter().zip(meeting.forces(&place, scale)).enumerate() {
-            // The program's grid, coarse for the sake of time, the oracle's, and what a map may miss of its largest force.
+            // The program's grid, coarse for the sake of time, the oracle's, and what a map may miss of its largest
+            // force.
             let map = case.grid.filter(|_| case.law == "map").map_or(0.0, |(largest, _, accuracy)| largest * accuracy);
             let limit = 0.03 * scale + error + map;
             if !((found - oracle).abs() <= limit) {
@@ -263,8 +265,8 @@ fn love_agrees_with_a_half_space_of_its_own() {
     for_seeds(4, |_, draw| on_the_outer_raceway(draw));
 }
 
-/// The oracle's grid of 28 by 20 cells was too coarse at an edge of 90 degrees, and its change from 14 by 10 said less than what it
-/// was off.
+/// The oracle's grid of 28 by 20 cells was too coarse at an edge of 90 degrees, and its change from 14 by 10 said less
+/// than what it was off.
 #[test]
 fn the_oracle_refines_its_grid_at_an_edge_until_it_has_converged() {
     on_the_outer_raceway(&mut Draw::new(84)).unwrap();

@@ -136,7 +136,8 @@ fn over_a_shallow_and_long_hollow_love_agrees_with_the_rigid_path() {
             force(&case)
         };
         let (hertz, love, smooth) = (at("hertz")?, at("love")?, force(&pressed(&case, approach))?);
-        // The hollow's curvature is up to 8 d/(l/2)² = 1 % of 1/r: as much of the stiffness's square root, and of the coarse grid.
+        // The hollow's curvature is up to 8 d/(l/2)² = 1 % of 1/r: as much of the stiffness's square root, and of the
+        // coarse grid.
         for i in 1..3 {
             if !((hertz[i] - love[i]).abs() <= 0.02 * smooth[1]) {
                 return Err(format!("hertz {hertz:?}, love {love:?}, smooth {smooth:?}"));

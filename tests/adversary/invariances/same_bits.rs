@@ -1,5 +1,5 @@
-//! What must be equal in every bit: a second run, another start time, another order of inputs, a parameter set by the host instead
-//! of the scene, a state that was saved and put back.
+//! What must be equal in every bit: a second run, another start time, another order of inputs, a parameter set by the
+//! host instead of the scene, a state that was saved and put back.
 
 use super::{Course, course, scene};
 use crate::case::{Case, Length, On, Shape};

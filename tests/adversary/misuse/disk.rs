@@ -11,8 +11,8 @@ use std::process::Command;
 /// Tells the child where its small file system is.
 const SMALL: &str = "BRINELL_SMALL_DISK";
 
-/// Runs a test of this program in a process that has a file system of 512 kB. An error with the reason where the system does not
-/// let one make that: it takes Linux and namespaces of users.
+/// Runs a test of this program in a process that has a file system of 512 kB. An error with the reason where the system
+/// does not let one make that: it takes Linux and namespaces of users.
 pub(super) fn run_on_a_small_disk(test: &str) -> Result<(), String> {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("small-disk-{}", std::process::id()));
     fs::create_dir_all(&folder).unwrap();

@@ -20,9 +20,9 @@ pub(super) struct Stage {
     mapped: bool,
 }
 
-/// Rings inside and from the host, an outer ring that turns, spall, trace and none, defects inside, on a ball and in both raceways, an
-/// irregular cage, several sensors and a probe; a contact map, which instances share; a recorder as fast as one may be, so that it
-/// writes within a walk.
+/// Rings inside and from the host, an outer ring that turns, spall, trace and none, defects inside, on a ball and in
+/// both raceways, an irregular cage, several sensors and a probe; a contact map, which instances share; a recorder as
+/// fast as one may be, so that it writes within a walk.
 pub(super) fn stages() -> Vec<Stage> {
     let list = [
         // The first are for instances that share names.
@@ -39,7 +39,8 @@ pub(super) fn stages() -> Vec<Stage> {
     ];
     // A step that a walk has made impossible ends soon.
     let bounded = |text: String| text.replace("[solver]", "[solver]\nmax_steps = 2000");
-    // At the speeds of these walks so strong a damper leaves nothing of a contact's force at an edge, and a start has no balance.
+    // At the speeds of these walks so strong a damper leaves nothing of a contact's force at an edge, and a start has
+    // no balance.
     let bounded = |text: String| bounded(text).replace("damping_chi_s_m = 20.0", "damping_chi_s_m = 0.5");
     let stage = |(name, recorder): (&'static str, bool)| {
         let edit = |text: String| bounded(text) + if recorder { "\n[recorder]\nrate_hz = 1e6\n" } else { "" };

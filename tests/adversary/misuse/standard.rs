@@ -1,7 +1,8 @@
-//! What the standard allows, written down from its table (FMI 2.0.x, section 4.2.4, co-simulation) and from nothing of Brinell.
+//! What the standard allows, written down from its table (FMI 2.0.x, section 4.2.4, co-simulation) and from nothing of
+//! Brinell.
 //!
-//! States that cannot occur here have no letter: *step in progress* and *step canceled* need a step in the background, *step failed* a step
-//! that is discarded, *fatal* condemns other instances.
+//! States that cannot occur here have no letter: *step in progress* and *step canceled* need a step in the background,
+//! *step failed* a step that is discarded, *fatal* condemns other instances.
 
 use brinell_fmi::fmi2::Status;
 

@@ -84,8 +84,8 @@ fn read_inputs(w: &mut Walker) -> Option<Vec<(u32, f64)>> {
     Some(inputs.into_iter().zip(values.ok()?).collect())
 }
 
-/// A derivative that was accepted has moved its input: x + x′h + x″h²/2. What the host leaves out of a ring's motion is taken
-/// from its velocity and acceleration.
+/// A derivative that was accepted has moved its input: x + x′h + x″h²/2. What the host leaves out of a ring's motion is
+/// taken from its velocity and acceleration.
 fn inputs_follow_their_derivatives(w: &mut Walker, before: &[(u32, f64)], h: f64) {
     let after = read_inputs(w).unwrap();
     let value = |name: &str| {

@@ -1,4 +1,5 @@
-//! One instance that is misused, beside a twin that takes only the calls that succeeded, and a model of what the standard says about it.
+//! One instance that is misused, beside a twin that takes only the calls that succeeded, and a model of what the
+//! standard says about it.
 
 use super::chance::Chance;
 use super::stage::{Places, Stage};
@@ -210,8 +211,8 @@ impl<'w> Walker<'w> {
         status <= Status::Warning
     }
 
-    /// A status other than OK has one line that begins with the function; what is switched off is silent, unless samples
-    /// are lost.
+    /// A status other than OK has one line that begins with the function; what is switched off is silent, unless
+    /// samples are lost.
     fn look_at(&self, function: &str, status: Status, lines: &[Line]) {
         let is_lost = |status| status == Status::Warning && matches!(function, "fmi2Terminate" | "fmi2Reset");
         let is_told = |status: Status| self.categories & 1 << status as u8 != 0 || is_lost(status);

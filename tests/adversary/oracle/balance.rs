@@ -1,7 +1,7 @@
 //! A static balance, looked for from many sides: whether a scene that the simulation refuses to start has one.
 //!
-//! For rings in given places each element is balanced by halving; then the free rings go downhill in the square of the force on
-//! them (Levenberg and Marquardt, with difference quotients).
+//! For rings in given places each element is balanced by halving; then the free rings go downhill in the square of the
+//! force on them (Levenberg and Marquardt, with difference quotients).
 
 use super::run::{Pace, Run};
 use super::surfaces::Stretches;
@@ -18,7 +18,8 @@ struct Search<'a> {
     acting: Acting,
 }
 
-/// Largest net force [N] that is left on a free ring or an element at the best stable balance found, and the largest force in play.
+/// Largest net force [N] that is left on a free ring or an element at the best stable balance found, and the largest
+/// force in play.
 pub fn best(bearing: &Bearing, case: &Case) -> (f64, f64) {
     let run = Run::new(bearing, vec![0.0; bearing.len()], case.steps[0].host.as_ref(), Pace::STANDING);
     let free = (0..2).filter(|&which| case.rings[which].motion == Motion::Internal);

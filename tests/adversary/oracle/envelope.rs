@@ -1,16 +1,17 @@
-//! How near two rigid circles come to each other over a profile on one of them, by trying every corner and every straight piece.
+//! How near two rigid circles come to each other over a profile on one of them, by trying every corner and every
+//! straight piece.
 //!
-//! The profile is B(φ) from the centre of the body that bears it, linear in φ between its corners; the other circle has the radius C.
-//! With the touched point T at angle d = φ − ψ from the line of centres, the other circle's centre is at
+//! The profile is B(φ) from the centre of the body that bears it, linear in φ between its corners; the other circle has
+//! the radius C. With the touched point T at angle d = φ − ψ from the line of centres, the other circle's centre is at
 //! ```text
 //! outer ring             ρ  = B cos d − √(C² − B² sin² d)      least, B = R_o + h, C = r
 //! inner ring, and
 //! an element inside      |q| = B cos d + √(C² − B² sin² d)     greatest, B = R_i − h, C = r or B = r − h, C = R_i
 //! an element outside     ρ  = √(C² − B² sin² d) − B cos d      least, B = r − h, C = R_o
 //! ```
-//! and the path P is ρ over the smooth body's, or what is left of the smooth body's |q|: always the least. Where it touches inside a
-//! piece the circles have one tangent there, dP/dφ = 0. As |T − C| stays C all along, dP/dψ over the distance of the centres is
-//! the touched point's way across their line over its way along it.
+//! and the path P is ρ over the smooth body's, or what is left of the smooth body's |q|: always the least. Where it
+//! touches inside a piece the circles have one tangent there, dP/dφ = 0. As |T − C| stays C all along, dP/dψ over the
+//! distance of the centres is the touched point's way across their line over its way along it.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -52,8 +53,8 @@ pub struct Envelope {
 const PARTS: usize = 16;
 
 impl Envelope {
-    /// `profiles` are arcs and depths [m] around the middle of the first, in order and within one turn, `r` and `raceway` the
-    /// radii of element and raceway.
+    /// `profiles` are arcs and depths [m] around the middle of the first, in order and within one turn, `r` and
+    /// `raceway` the radii of element and raceway.
     pub fn new(profiles: &[Vec<(f64, f64)>], pair: Pair, r: f64, raceway: f64) -> Self {
         let (own, other, apart) = match pair {
             Pair::OuterRing => (raceway, r, raceway - r),

@@ -1,13 +1,13 @@
-//! How the force of a contact without damping grows with its approach: Hertz's point contact, or the laminae of a roller after
-//! ISO/TS 16281.
+//! How the force of a contact without damping grows with its approach: Hertz's point contact, or the laminae of a
+//! roller after ISO/TS 16281.
 //!
 //! ```text
 //! point    Q = K δ^(3/2)
 //! laminae  Q = (K/n) Σ max(0, δ − P_k)^(10/9),   K = 2^(10/9) · 35948 L^(8/9) N/mm^(10/9), L in mm
 //! ```
-//! The sum has a corner in its slope wherever a lamina begins to carry. What is integrated is the sum between 2048 steps of
-//! s = √(δ/(δ + P̄)): Q/(K δ^(10/9)) as a cubic through its values and slopes at both ends of a step, slopes no steeper than three
-//! times the rise. How far that is from the sum is a test of the crate's own.
+//! The sum has a corner in its slope wherever a lamina begins to carry. What is integrated is the sum between 2048
+//! steps of s = √(δ/(δ + P̄)): Q/(K δ^(10/9)) as a cubic through its values and slopes at both ends of a step, slopes
+//! no steeper than three times the rise. How far that is from the sum is a test of the crate's own.
 
 use crate::case::Case;
 

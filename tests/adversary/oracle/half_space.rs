@@ -1,7 +1,8 @@
-//! A sphere on an elastic half-space with a defect, solved on a grid of loaded rectangles (Love 1929; Johnson 1985, eq. 3.25).
+//! A sphere on an elastic half-space with a defect, solved on a grid of loaded rectangles (Love 1929; Johnson 1985, eq.
+//! 3.25).
 //!
-//! The grid goes with the element, its cells see the mean depth beneath them, and the pressures are found by dropping what pulls
-//! and adding what overlaps, each time with a factorization of all that presses.
+//! The grid goes with the element, its cells see the mean depth beneath them, and the pressures are found by dropping
+//! what pulls and adding what overlaps, each time with a factorization of all that presses.
 
 use std::f64::consts::PI;
 
@@ -35,8 +36,8 @@ fn love(x: f64, y: f64, a: f64, b: f64) -> f64 {
 }
 
 impl HalfSpace {
-    /// Normal and tangential force [N] on an element that is pressed by `u` [m] against a raceway whose mean depth [m] in a cell,
-    /// between two places along and two across, is `depth`. `high` is how far the highest rim rises [m].
+    /// Normal and tangential force [N] on an element that is pressed by `u` [m] against a raceway whose mean depth [m]
+    /// in a cell, between two places along and two across, is `depth`. `high` is how far the highest rim rises [m].
     pub fn forces(&self, u: f64, high: f64, depth: impl Fn([f64; 2], [f64; 2]) -> f64) -> [f64; 2] {
         if u + high <= 0.0 {
             return [0.0; 2];

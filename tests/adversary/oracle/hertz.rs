@@ -1,4 +1,5 @@
-//! Stiffness of an elliptical contact of two paraboloids, by the arithmetic-geometric mean (Johnson 1985, eqs. 4.25–4.28).
+//! Stiffness of an elliptical contact of two paraboloids, by the arithmetic-geometric mean (Johnson 1985, eqs.
+//! 4.25–4.28).
 
 use std::f64::consts::PI;
 

@@ -104,8 +104,8 @@ impl<'a> Run<'a> {
         &self.stages[0]
     }
 
-    /// Acceleration with which the outer ring carries element `j` outwards [m/s²]: no balance counts the host's, nor that
-    /// of a light ring by the little that is left of its own balance.
+    /// Acceleration with which the outer ring carries element `j` outwards [m/s²]: no balance counts the host's, nor
+    /// that of a light ring by the little that is left of its own balance.
     pub fn carried(&self, j: usize) -> f64 {
         let (sin, cos) = (self.outside.turns[0][0] + TAU * j as f64 / self.bearing.count as f64).sin_cos();
         self.acting.accelerations[1][0] * cos + self.acting.accelerations[1][1] * sin
@@ -234,8 +234,9 @@ impl<'a> Run<'a> {
         Touching { pushing, over, inner }
     }
 
-    /// Share of a step by which the first contact has just changed, to so many halvings. What is left of the step behind the change
-    /// of a force that begins there with its power of 1.5 is a thousandth; a corner turns the force at once.
+    /// Share of a step by which the first contact has just changed, to so many halvings. What is left of the step
+    /// behind the change of a force that begins there with its power of 1.5 is a thousandth; a corner turns the force
+    /// at once.
     fn first_change(
         &mut self,
         start: &[f64],
@@ -314,7 +315,8 @@ impl<'a> Run<'a> {
     }
 }
 
-/// What contacts do: which push and press out oil, whose defects they are over, and in which stretches the inner ones are.
+/// What contacts do: which push and press out oil, whose defects they are over, and in which stretches the inner ones
+/// are.
 #[derive(PartialEq)]
 struct Touching {
     pushing: Vec<[[bool; 2]; 2]>,

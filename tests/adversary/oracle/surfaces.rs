@@ -161,7 +161,8 @@ pub fn of(bearing: &Bearing, case: &Case) -> Option<Surfaces> {
     Some(surfaces)
 }
 
-/// Arcs and depths [m] of all defects of a body of radius `own`, in order from the first on around it; none with a topography.
+/// Arcs and depths [m] of all defects of a body of radius `own`, in order from the first on around it; none with a
+/// topography.
 fn profiles(body: &[&Defect], own: f64, r: f64) -> Option<Vec<Vec<(f64, f64)>>> {
     let all: Vec<Vec<(f64, f64)>> = body.iter().map(|defect| points(defect, own, r)).collect::<Option<_>>()?;
     let begins = all[0][0].0;

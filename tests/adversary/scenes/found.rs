@@ -48,8 +48,9 @@ fn few_elements(count: usize, cage_deg: f64, clearance_um: f64) -> Case {
     }
 }
 
-/// On top of the lowest element the shaft's tangent is indefinite by the little that the elements' distance is shorter than the
-/// centres' radius. The search then went straight along the residual, across the valley's stiff side, and got nowhere.
+/// On top of the lowest element the shaft's tangent is indefinite by the little that the elements' distance is shorter
+/// than the centres' radius. The search then went straight along the residual, across the valley's stiff side, and got
+/// nowhere.
 #[test]
 fn three_elements_or_more_hold_a_shaft_wherever_they_stand() {
     let mut failed = Vec::new();
@@ -71,8 +72,8 @@ fn three_elements_or_more_hold_a_shaft_wherever_they_stand() {
     assert!(failed.is_empty(), "{} failed:\n{}", failed.len(), failed.join("\n"));
 }
 
-/// Preloaded rings that only a soft support holds go together; the search damped that as if it turned the contacts' forces,
-/// and had come a fifth of the way after all its iterations.
+/// Preloaded rings that only a soft support holds go together; the search damped that as if it turned the contacts'
+/// forces, and had come a fifth of the way after all its iterations.
 #[test]
 fn preloaded_rings_go_together_as_far_as_a_soft_support_lets_them() {
     let mut case = few_elements(22, 10.0, -20.0);
@@ -88,8 +89,9 @@ fn preloaded_rings_go_together_as_far_as_a_soft_support_lets_them() {
     }
 }
 
-/// Outputs at the end of a step knew nothing of the accelerations that derivatives of inputs had given it: a ramp of speed
-/// left the elements' inertia out of the cage's torque, and so did an outer ring whose position had a second derivative.
+/// Outputs at the end of a step knew nothing of the accelerations that derivatives of inputs had given it: a ramp of
+/// speed left the elements' inertia out of the cage's torque, and so did an outer ring whose position had a second
+/// derivative.
 #[test]
 fn the_cage_still_accelerates_its_elements_at_the_end_of_a_ramp() {
     let mut case = few_elements(1, 0.0, 5.0);
@@ -122,8 +124,8 @@ fn scene_of(seed: u64) -> Case {
     on_the_outer_raceway(&mut Draw::new(seed)).1
 }
 
-/// A path that leapt back up the edge was kept with a slope that is no number, and a step ended there with an error about
-/// velocities.
+/// A path that leapt back up the edge was kept with a slope that is no number, and a step ended there with an error
+/// about velocities.
 #[test]
 fn a_defect_that_no_element_can_leave_is_refused_at_once() {
     let case = scene_of(517);
@@ -148,8 +150,8 @@ fn elements_far_out_on_a_level_stretch_stand_on_it() {
     agrees(6109);
 }
 
-/// Elements whose damper takes away nearly all that the contact pushes with, at 230 to 26 000 rad/s: the force shows what
-/// the cubics make of the slope, by their width over small elements and by roundings over large bearings.
+/// Elements whose damper takes away nearly all that the contact pushes with, at 230 to 26 000 rad/s: the force shows
+/// what the cubics make of the slope, by their width over small elements and by roundings over large bearings.
 #[test]
 #[ignore = "half a minute"]
 fn strong_dampers_at_high_speed_start_within_what_the_slope_is_known_to() {
@@ -170,9 +172,9 @@ fn what_one_element_leaves_on_a_light_housing_is_no_push_on_the_others() {
     }
 }
 
-/// A communication step shorter than half a step of the oracle was one step in both of its runs, so that it took its own
-/// error for none: up to 2 % of a mean force where a contact begins as √t. So it did where the steps
-/// that grow after a change of contact were the same in both (832).
+/// A communication step shorter than half a step of the oracle was one step in both of its runs, so that it took its
+/// own error for none: up to 2 % of a mean force where a contact begins as √t. So it did where the steps that grow
+/// after a change of contact were the same in both (832).
 #[test]
 fn the_oracle_knows_its_own_error_in_the_shortest_steps() {
     for seed in [832, 1552, 4086, 6854, 7240] {
@@ -181,15 +183,15 @@ fn the_oracle_knows_its_own_error_in_the_shortest_steps() {
 }
 
 /// A host draws the housing off at 1.5 m/s, so that dampers leave nothing of the inner contacts' forces and the support
-/// holds the shaft alone. The search took the contacts' elastic stiffness for it, 49 times too much, and was given up with
-/// 3e-3 N left.
+/// holds the shaft alone. The search took the contacts' elastic stiffness for it, 49 times too much, and was given up
+/// with 3e-3 N left.
 #[test]
 fn a_shaft_that_dampers_let_go_finds_the_balance_of_its_support() {
     agrees(7186);
 }
 
-/// Defects close together were one profile around the first of them, and what of it was more than half a turn away from there was
-/// never met: a spike of 0.15 µm, and 2e-3 of the force.
+/// Defects close together were one profile around the first of them, and what of it was more than half a turn away from
+/// there was never met: a spike of 0.15 µm, and 2e-3 of the force.
 #[test]
 fn a_spike_half_way_around_from_the_next_defect_is_felt() {
     agreed(98, judge(&of_dry_balls(&mut Draw::new(98)).1));

@@ -1,8 +1,8 @@
 //! One scene through the simulation and the oracle, and how far apart they are.
 //!
-//! Differences are in the units of [`crate::units`]. To them come the oracle's own error, from a run with halved steps, and what
-//! the oracle makes of a push of one unit at the start: elements that bounce make small differences large. A scene is judged as
-//! long as all that is small beside the forces themselves.
+//! Differences are in the units of [`crate::units`]. To them come the oracle's own error, from a run with halved steps,
+//! and what the oracle makes of a push of one unit at the start: elements that bounce make small differences large. A
+//! scene is judged as long as all that is small beside the forces themselves.
 
 use crate::case::{Case, Motion, Shape, Step, fastest};
 use crate::oracle::balance;
@@ -188,8 +188,8 @@ impl<'a> Oracles<'a> {
         Self { runs, own: BTreeMap::new(), grown: BTreeMap::new() }
     }
 
-    /// Whether the oil films of the last step press the contacts together by more than three quarters of a per cent of an
-    /// element's diameter.
+    /// Whether the oil films of the last step press the contacts together by more than three quarters of a per cent of
+    /// an element's diameter.
     fn films_press(&self) -> bool {
         let run = &self.runs[1];
         let left = run.bearing().clearance - run.outside.films[0] - run.outside.films[1];

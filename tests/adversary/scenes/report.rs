@@ -6,7 +6,8 @@ use brinell::simulation::SimulationError;
 use std::collections::BTreeMap;
 use std::fmt::{self, Display, Formatter, Write};
 
-/// What came of one scene. As text it is a line of fields between tabs, so that a long run can be broken off and taken up.
+/// What came of one scene. As text it is a line of fields between tabs, so that a long run can be broken off and taken
+/// up.
 pub struct Entry {
     pub seed: u64,
     /// Body with the defect, its shape, motion of the rings, whether the outer one turns, speed, what rolls.

@@ -24,7 +24,8 @@ use fmu_build::project::Project;
 const SCENE: &str = "6205-spall-5deg";
 /// The same bearing with a spall of the inner raceway.
 const INNER_SCENE: &str = "6205-inner-5deg";
-/// Way from the loudest impact that another must keep [degrees]: less than half of a spall of 5 degrees, more than echoes.
+/// Way from the loudest impact that another must keep [degrees]: less than half of a spall of 5 degrees, more than
+/// echoes.
 const APART: f64 = 2.0;
 /// What the inner scene records: long enough for the load zone's share of passages.
 const INNER_SECONDS: f64 = 3.0;
@@ -51,8 +52,8 @@ pub struct Known {
 }
 
 impl Known {
-    /// `FILE@HZ=DEGREES` of the outer raceway, `FILE@HZ=DEGREESi` of the inner one, `FILE@HZ=0` healthy, `FILE@HZ=ball`;
-    /// behind the speed `/RATE` where the sampling rate is another [Hz].
+    /// `FILE@HZ=DEGREES` of the outer raceway, `FILE@HZ=DEGREESi` of the inner one, `FILE@HZ=0` healthy,
+    /// `FILE@HZ=ball`; behind the speed `/RATE` where the sampling rate is another [Hz].
     pub fn parse(text: &str) -> Result<Self> {
         let wanted = || {
             format!(
