@@ -227,7 +227,7 @@ impl Assembly {
             drive.shaft = [position.x, position.y].map(|x| Cubic([x, 0.0, 0.0, 0.0]));
         }
         let (cells, state) = self.equilibrium(model, &drive)?;
-        let mut forces = Forces::new(count);
+        let mut forces = Forces::of(model);
         model.derivative(&drive, 0.0, &cells, &state, &mut vec![0.0; state.len()], &mut forces);
         let mut jacobian = Jacobian::new(model);
         model.linearize(&drive, 0.0, &cells, &state, &mut jacobian, &mut vec![0.0; state.len()]);

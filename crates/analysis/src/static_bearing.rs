@@ -213,7 +213,7 @@ impl StaticBearing {
         let found = model.equilibrium_with_cells(&drive, &mut state);
         let cells =
             found.map_err(|cause| StaticError::Equilibrium { cage_angle_deg: cage_angle.to_degrees(), load, cause })?;
-        let mut forces = Forces::new(model.element_count);
+        let mut forces = Forces::of(model);
         model.derivative(&drive, 0.0, &cells, &state, &mut vec![0.0; state.len()], &mut forces);
         let displacement = model.shaft_state(&drive, 0.0, &state).position;
         let paths = &state[..model.element_count];

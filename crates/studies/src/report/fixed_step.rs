@@ -43,7 +43,7 @@ impl FixedRun {
             model: model.clone(),
             drive,
             cells: Cells::smooth(model.element_count, model.defective.len()),
-            forces: Forces::new(model.element_count),
+            forces: Forces::of(model),
             moved: zeros.clone(),
             slopes: [zeros.clone(), zeros.clone(), zeros.clone(), zeros],
             state,
