@@ -1,25 +1,25 @@
 //! `documentation/index.html`: what a user of the FMU reads. Generated from the scene and the variable table.
 
+mod variables;
+
 use std::fmt::Write;
 
 use brinell::scene::{
     Bearing, ContactEdge, Damping, Defect, DefectOn, DefectShape, Film, Motion, Ring, RollerProfile, Scene, Sensor,
 };
-use brinell::simulation::arrays::of_all_elements;
-use brinell::simulation::variables::{Causality, Kind, Variable};
-use brinell::simulation::{Method, Simulation};
+use brinell::simulation::Method;
+use brinell::simulation::variables::Causality;
 use quick_xml::escape::escape;
 
 use crate::digits::digits;
 use crate::fmu::Version;
 use crate::model::{Model, remarks};
-use crate::model_description::causality;
-use crate::units;
+use variables::{listed, variables};
 
 /// What the model leaves out, in one place for every reader.
 pub const LIMITS: [&str; 8] = [
-    "Rolling elements are balls or cylindrical rollers. Rollers do not tilt and carry no axial load; their law was measured \
-     on steel.",
+    "Rolling elements are balls or cylindrical rollers. Rollers do not tilt and carry no axial load; their law was \
+     measured on steel.",
     "One defect, on a raceway or on a rolling element; a defective ball turns about an axis parallel to the bearing's.",
     "Love's half-space at a vertical edge ignores the corner's own compliance unless the scene has \
      <code>contact.edge = \"step\"</code>: at the edge of a spall 100 µm deep the \
@@ -28,29 +28,31 @@ pub const LIMITS: [&str; 8] = [
      to 0.6 near unloading.",
     "Rings are rigid; they move in the plane, without tilting.",
     "Material stays elastic: no plasticity.",
-    "Contacts are dry, unless the scene has an oil film: one of an even temperature, pressed out of gaps before contacts \
-     begin, and taken off the clearance.",
+    "Contacts are dry, unless the scene has an oil film: one of an even temperature, pressed out of gaps before \
+     contacts begin, and taken off the clearance.",
     "The cage is kinematic: it keeps the elements apart and has no dynamics; elements do not slip tangentially.",
 ];
 
-const STYLE: &str = "body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#1a1a1a}\
+const STYLE: &str = "body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 \
+                     1rem;color:#1a1a1a}\
     table{border-collapse:collapse;width:100%;margin:1rem 0}th,td{text-align:left;padding:.25rem .6rem;\
     border-bottom:1px solid #ccc;vertical-align:top}th{border-bottom:2px solid #666}td.n{white-space:nowrap}\
     pre{background:#f4f4f4;padding:1rem;overflow:auto}code{font-size:.95em}";
 
 /// The equations of motion, for a reader who wants to know what is computed.
-const EQUATIONS: &str = "<p>For each element u is its path, ρ the distance of its centre from the outer ring's, w its absolute \
-    radial velocity, e<sub>r</sub> and e<sub>t</sub> its radial and tangential directions, ω the cage's speed, q the way from \
-    the inner ring's centre to its own and n = q/|q|; v<sub>i</sub>, v<sub>o</sub> are the rings' velocities.</p>\n\
+const EQUATIONS: &str = "<p>For each element u is its path, ρ the distance of its centre from the outer ring's, w its \
+                         absolute radial velocity, e<sub>r</sub> and e<sub>t</sub> its radial and tangential \
+                         directions, ω the cage's speed, q the way from the inner ring's centre to its own and n = \
+                         q/|q|; v<sub>i</sub>, v<sub>o</sub> are the rings' velocities.</p>\n\
     <pre>u' = w − e_r·v_o\n\
     w' = (Q_i n·e_r − F_r)/m + g·e_r + ω (v_o·e_t + ρ ω)\n\
     δ_i = R_i + r − |q|,   Q = Q_e max(0, 1 + χ δ') or max(0, Q_e + τ δ' dQ_e/dδ)\n\
     Q_e = K δ^1.5 of a ball, K δ^(10/9) c(δ) of a roller, c the part of its length that its crown lets carry\n\
     m_i x_i'' = F_i − Σ Q_i n − c_i v_i − k_i x_i\n\
     m_o x_o'' = F_o + Σ (F_r e_r − F_t e_t) − c_o v_o − k_o x_o + f_s,   m_s y_s'' = −f_s</pre>\n\
-    <p>F<sub>r</sub> and F<sub>t</sub> are what the outer raceway exerts on an element. On the smooth raceway the approach is u; \
-    near a defect, on either raceway or on the element, it is an equivalent one, Δ(approach, angle), of the contact law \
-    above, and the force turns with the surface.</p>\n";
+    <p>F<sub>r</sub> and F<sub>t</sub> are what the outer raceway exerts on an element. On the smooth raceway the \
+    approach is u; near a defect, on either raceway or on the element, it is an equivalent one, Δ(approach, angle), of \
+    the contact law above, and the force turns with the surface.</p>\n";
 
 /// The coupling errors that the guide has measured; `masters` finds them.
 const GUIDE: &str = include_str!("../../docs/guide.md");
@@ -232,16 +234,16 @@ fn coupling(page: &mut String, scene: &Scene, version: Version) {
          length and may differ; the solver's own steps are shorter and end on each communication point.</p>\n",
     );
     page.push_str(
-        "<p>The state can be saved, put back and serialized, so steps may be iterated. Directional derivatives of every real \
-         output by every input are given: at a communication point with the states as they are, in initialization mode through \
-         the static equilibrium. Derivatives of outputs by time are given of order 1",
+        "<p>The state can be saved, put back and serialized, so steps may be iterated. Directional derivatives of \
+         every real output by every input are given: at a communication point with the states as they are, in \
+         initialization mode through the static equilibrium. Derivatives of outputs by time are given of order 1",
     );
     page.push_str(match version {
         Version::Fmi2 => ", those of inputs are taken of orders 1 and 2.</p>\n",
         Version::Fmi3 => {
-            ". Adjoint derivatives are given where directional ones are. A host that asks for intermediate updates is called \
-             after each of the solver's steps: it may read outputs there, set inputs that act from there on, and end the \
-             step there or at a later instant.</p>\n"
+            ". Adjoint derivatives are given where directional ones are. A host that asks for intermediate updates is \
+             called after each of the solver's steps: it may read outputs there, set inputs that act from there on, \
+             and end the step there or at a later instant.</p>\n"
         }
     });
     if scene.shaft.motion == Motion::Host || scene.housing.motion == Motion::Host {
@@ -280,70 +282,6 @@ fn masters(page: &mut String) {
             format!("<{cell}>{}</{cell}>", text.replace("> 1", "&gt; 1"))
         });
         line(page, format_args!("<tr>{}</tr>", cells.collect::<String>()));
-    }
-    page.push_str("</table>\n");
-}
-
-/// The variables as the version has them: in FMI 3.0 what every element has is an array.
-fn listed(simulation: &Simulation, version: Version) -> Vec<Variable> {
-    let table = simulation.table();
-    if version == Version::Fmi2 {
-        return table.to_vec();
-    }
-    let arrays = simulation.arrays();
-    let shown = |row: &Variable| match arrays.iter().find(|array| array.rows.contains(&row.reference)) {
-        None => Some(Variable { description: row.meaning().to_owned(), ..row.clone() }),
-        Some(array) if array.rows[0] == row.reference => {
-            let (name, description) = of_all_elements(row);
-            Some(Variable { name: format!("{name}[{}]", array.rows.len()), description, ..row.clone() })
-        }
-        Some(_) => None,
-    };
-    table.iter().filter_map(shown).collect()
-}
-
-fn variables(page: &mut String, table: &[Variable], kind: Causality) {
-    let mut rows = table.iter().filter(|variable| variable.causality == kind).peekable();
-    if rows.peek().is_none() {
-        return;
-    }
-    let word = match kind {
-        Causality::Input => "Inputs",
-        Causality::Parameter => "Parameters, fixed after initialization",
-        Causality::Output => "Outputs",
-        Causality::Local => "Counters, local",
-    };
-    let computed = matches!(kind, Causality::Output | Causality::Local);
-    let start = if computed { "" } else { "<th>Start</th>" };
-    line(
-        page,
-        format_args!(
-            "<h3 id=\"{}\">{word}</h3>\n<table>\n<tr><th>Name</th><th>Unit</th>{start}<th>Meaning</th></tr>",
-            causality(kind)
-        ),
-    );
-    for variable in rows {
-        let (unit, start) = match &variable.kind {
-            Kind::Real { unit, start, .. } => (units::name(*unit), start.map(|value| format!("{value:?}"))),
-            Kind::Integer => ("", None),
-            Kind::Enumeration { items, start, .. } => {
-                let index = usize::try_from(*start - 1).unwrap_or(usize::MAX);
-                ("", items.get(index).map(|(name, _)| (*name).to_owned()))
-            }
-            Kind::Text { start } => ("", Some(start.clone())),
-        };
-        let start = match computed {
-            true => String::new(),
-            false => format!("<td class=\"n\">{}</td>", escape(start.unwrap_or_default())),
-        };
-        line(
-            page,
-            format_args!(
-                "<tr><td class=\"n\"><code>{}</code></td><td class=\"n\">{unit}</td>{start}<td>{}</td></tr>",
-                escape(&variable.name),
-                escape(&variable.description)
-            ),
-        );
     }
     page.push_str("</table>\n");
 }

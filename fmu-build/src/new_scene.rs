@@ -4,7 +4,7 @@ use std::path::Path;
 use std::str::FromStr;
 
 use anyhow::{Context, Result, bail};
-use brinell::scene::{CatalogueBearing, Scene, SceneError, catalogued};
+use brinell::scene::{BearingError, CatalogueBearing, Scene, catalogued};
 
 use crate::schema;
 use crate::whole_file;
@@ -38,7 +38,7 @@ impl FromStr for Spall {
 /// The command: writes `<folder>/<name>.toml`.
 pub(crate) fn command(name: &str, bearing: &str, spall: Option<&Spall>, folder: &Path) -> Result<()> {
     let Some(bearing) = catalogued(bearing) else {
-        bail!(SceneError::NotInCatalogue { name: bearing.to_owned() });
+        bail!(BearingError::NotInCatalogue { name: bearing.to_owned() });
     };
     let text = text(name, &bearing, spall);
     Scene::from_toml(&text).with_context(|| format!("a scene {name} of this bearing and defect is not possible"))?;

@@ -18,7 +18,7 @@ use crate::numerics::number::Number;
 use crate::scene::Damping;
 
 /// Turns the dimensionless factor of Hunt and Crossley's damping into a length of an approach's magnitude [m].
-const PUSHING_LENGTH: f64 = 1e-6;
+pub(crate) const PUSHING_LENGTH: f64 = 1e-6;
 
 /// How contacts of one elasticity are damped, whatever their stiffness; for single numbers or for lanes.
 #[derive(Debug, Clone, Copy)]
@@ -263,7 +263,7 @@ mod tests {
                 prop_assume!(law.pushing(delta, rate) > 1e-8);
                 let force = law.with_derivatives(delta, rate);
                 let crowned = matches!(law.elasticity, Elasticity::Crowned(_));
-                // A crown's second derivative jumps where a step of its table ends, which a shorter difference feels less.
+                // A crown's second derivative jumps where a step of its table ends; a shorter difference feels that less.
                 let (d, v) = (if crowned { 1e-6 } else { 1e-5 } * delta, 1e-6);
                 let by_approach = (law.force(delta + d, rate) - law.force(delta - d, rate)) / (2.0 * d);
                 let by_rate = (law.force(delta, rate + v) - law.force(delta, rate - v)) / (2.0 * v);

@@ -11,13 +11,14 @@
 //!
 //! A place without an element, or with one that is looked for alone, has constants 0 and no force.
 
-use super::contact_lanes::{Record, SERIES, Sums, dot};
+use super::contact_lanes::{Record, Sums};
 use super::element_block::ElementBlock;
 use super::forces::Forces;
+use super::gap_lanes::{Distance, dot, radial};
 use super::kinematics::{Kinematics, Stage};
 use super::model::Model;
 use crate::contact::elasticity::{Elastic, Point};
-use crate::contact::force_law::DampedLaw;
+use crate::contact::force_law::{DampedLaw, PUSHING_LENGTH};
 use crate::numerics::lanes::{Kernel, Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, largest_of};
 use crate::numerics::plane::Vector;
 use crate::scene::Damping;
@@ -76,7 +77,7 @@ impl<const RECORD: bool> SmoothElements<'_, RECORD> {
                 element.path_rate.put(&mut derivative[k], part);
                 sums.add(element.forces(&at));
                 if RECORD {
-                    element.keep(&at, contacts, (k, part));
+                    element.keep(&at, contacts, k, part);
                 }
             }
         }
@@ -91,7 +92,7 @@ struct Group<'a, E> {
     elastic: E,
     offset: Vector,
     drift: Vector,
-    /// As in [`super::contact_lanes`].
+    /// As [`Model::nearly_concentric`] has it.
     series: bool,
     damping: Damping,
 }
@@ -141,8 +142,7 @@ impl<'a, E: Elastic> Group<'a, E> {
     #[inline(always)]
     fn new(model: &'a Model, now: &'a Kinematics, elastic: E) -> Self {
         let offset = now.offset();
-        let limit = SERIES * model.outer_centre_radius;
-        let series = offset.dot(&offset) <= limit * limit;
+        let series = model.nearly_concentric(offset);
         let damping = model.dampers.as_deref().map_or(Damping::HuntCrossley(0.0), |[inner, _]| inner.law.damping);
         Self { model, now, elastic, offset, drift: now.drift(), series, damping }
     }
@@ -151,9 +151,7 @@ impl<'a, E: Elastic> Group<'a, E> {
     fn place<S: Wide>(&self, simd: S, block: &ElementBlock, of: impl Fn(&[f64; WIDEST]) -> Lanes<S>) -> Place<S> {
         let (model, now) = (self.model, self.now);
         let number = |number: f64| Lanes::splat(simd, number);
-        let (cos, sin) = (of(&block.cos), of(&block.sin));
-        let (cage_cos, cage_sin) = (number(now.cage.direction.x), number(now.cage.direction.y));
-        let e_r = [cage_cos * cos - cage_sin * sin, cage_sin * cos + cage_cos * sin];
+        let e_r = radial(simd, now.cage.direction, block, &of);
         let e_t = [-e_r[1], e_r[0]];
         let (inner, one) = (of(&block.inner), number(1.0));
         // Constants of contacts are far above 1, or 0 for what is no smooth contact.
@@ -178,28 +176,14 @@ impl<'a, E: Elastic> Group<'a, E> {
         }
     }
 
-    /// The inner contact's gap at a path; |q| as in [`super::contact_lanes`].
+    /// The inner contact's gap at a path.
     #[inline(always)]
     fn gap<S: Wide>(&self, at: &Place<S>, u: Lanes<S>) -> Gap<S> {
         let number = |number: f64| Lanes::splat(at.simd, number);
         let [p, t] = at.offset;
         let q_r = number(self.model.outer_centre_radius) + u + p;
-        let (longer, n_r, n_t) = if self.series {
-            let slope = t / q_r;
-            let x = slope * slope;
-            let n_r = number(1.0) - x * (number(0.5) - number(0.375) * x);
-            (t * slope * (number(0.5) - x * (number(0.125) - number(0.0625) * x)), n_r, slope * n_r)
-        } else {
-            let square = t * t;
-            let distance = (q_r * q_r + square).sqrt();
-            let per_distance = number(1.0) / distance;
-            (square / (distance + q_r), q_r * per_distance, t * per_distance)
-        };
-        Gap {
-            approach: (number(-self.model.radial_clearance) - u - p - longer) * at.on,
-            n: [n_r, n_t],
-            distance: q_r + longer,
-        }
+        let Distance { longer, n } = Distance::of(at.simd, q_r, t, self.series);
+        Gap { approach: (number(-self.model.radial_clearance) - u - p - longer) * at.on, n, distance: q_r + longer }
     }
 
     /// Force and tangent stiffness of a contact.
@@ -301,8 +285,8 @@ impl<S: Wide> Balanced<S> {
 
     /// Puts what is kept into its place.
     #[inline(always)]
-    fn keep(&self, at: &Place<S>, contacts: &mut Record, (k, part): (usize, usize)) {
-        let pushing_length = Lanes::splat(at.simd, 1e-6);
+    fn keep(&self, at: &Place<S>, contacts: &mut Record, block: usize, part: usize) {
+        let pushing_length = Lanes::splat(at.simd, PUSHING_LENGTH);
         let Self { path, path_rate, gap, forces: [inner, outer], .. } = *self;
         let [known_path, known_velocity] = &mut contacts.balanced;
         for (list, value) in [
@@ -319,7 +303,7 @@ impl<S: Wide> Balanced<S> {
             (known_path, path),
             (known_velocity, path_rate + at.along),
         ] {
-            (value * at.present).put(&mut blocks_mut(list)[k], part);
+            (value * at.present).put(&mut blocks_mut(list)[block], part);
         }
     }
 }

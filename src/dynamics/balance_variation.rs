@@ -13,7 +13,7 @@ use super::model::Model;
 use super::raceway::Cells;
 use super::tangent::{RingJacobian, Rings, stacked};
 use super::variation::{ForceChange, Variation};
-use crate::numerics::plane::Vector;
+use crate::numerics::plane::{Vector, turned};
 
 /// Farthest that rings are moved apart [m], and the way along the raceway by which cage and frames are turned [m].
 const WAY: f64 = 1e-9;
@@ -49,8 +49,9 @@ impl Model {
         for (j, &[inner, outer, path, radial_velocity]) in found.elements.iter().enumerate() {
             (change.inner[j], change.outer[j]) = (inner, outer);
             (by.path[j], by.radial_velocity[j]) = (path, radial_velocity);
-            let element = self.in_balance(j, self.cells_of(cells, j), state[j], &now).elastic;
-            change.torque_by_acceleration -= element.e_t * (element.rho * self.element_mass);
+            let (u, _) = self.balanced_path(j, self.cells_of(cells, j), state[j], &now);
+            let e_t = turned(self.direction(j, &now.cage));
+            change.torque_by_acceleration -= e_t * ((self.outer_centre_radius + u) * self.element_mass);
         }
     }
 

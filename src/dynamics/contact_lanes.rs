@@ -6,6 +6,7 @@
 //! A place without an element has stiffness 0 and no derivative.
 
 use super::element_block::ElementBlock;
+use super::gap_lanes::{Distance, dot, radial};
 use super::kinematics::{Kinematics, Stage};
 use super::model::Model;
 use crate::contact::elasticity::{Elastic, Line, Point};
@@ -24,7 +25,7 @@ struct Smooth<'a, E> {
     drift: Vector,
     /// Acceleration of an element by gravity, and that of its w as the outer ring moves along the raceway [m/s²].
     body: Vector,
-    /// The rings are so nearly concentric that |q| − q_r = t (t/q_r)/2 − … and the direction of q are series in t/q_r.
+    /// As [`Model::nearly_concentric`] has it.
     series: bool,
     /// Time [s] by which paths are still to be moved on along their rates.
     ahead: Option<f64>,
@@ -43,10 +44,6 @@ struct Found<S: Wide> {
     approach: Lanes<S>,
     pushing: [Lanes<S>; 2],
 }
-
-/// Offset of the rings' centres per distance of the elements' below which the series hold to rounding: their next terms
-/// are 0.4 of its sixth power.
-pub(super) const SERIES: f64 = 2e-3;
 
 /// Forces on the inner ring along x and y, then on the outer, by lanes.
 #[derive(Default)]
@@ -165,8 +162,7 @@ impl Model {
     ) -> [f64; 4] {
         let start = self.layout.radial_velocity;
         let (offset, v, omega) = (now.offset(), now.housing.velocity, now.cage.speed);
-        let limit = SERIES * self.outer_centre_radius;
-        let series = offset.dot(&offset) <= limit * limit;
+        let series = self.nearly_concentric(offset);
         // Of elements with speeds of their own the second part is theirs.
         let omega = if SPECIAL { 0.0 } else { omega };
         let body = Vector::new(self.gravity.x + omega * v.y, self.gravity.y - omega * v.x);
@@ -191,7 +187,7 @@ impl Model {
                 found.path_rate.put(&mut derivative[k], part);
                 found.acceleration.put(&mut derivative[w], part);
                 if RECORD {
-                    found.keep(contacts, of(&state[k]), (k, part));
+                    found.keep(contacts, of(&state[k]), k, part);
                 }
             }
         }
@@ -202,7 +198,7 @@ impl Model {
 impl<S: Wide> Found<S> {
     /// Puts what is kept into its place; the outer contact is that on the smooth raceway, at path `u`.
     #[inline(always)]
-    fn keep(&self, contacts: &mut Record, u: Lanes<S>, (k, part): (usize, usize)) {
+    fn keep(&self, contacts: &mut Record, u: Lanes<S>, block: usize, part: usize) {
         for (list, value) in [
             (&mut contacts.inner, self.inner),
             (&mut contacts.normal_radial, self.normal[0]),
@@ -215,7 +211,7 @@ impl<S: Wide> Found<S> {
             (&mut contacts.outer_pushing, self.pushing[1]),
             (&mut contacts.path_rate, self.path_rate),
         ] {
-            value.put(&mut blocks_mut(list)[k], part);
+            value.put(&mut blocks_mut(list)[block], part);
         }
     }
 }
@@ -230,28 +226,15 @@ impl<E: Elastic> Smooth<'_, E> {
         sums: &mut Sums,
     ) -> Found<S> {
         let (model, now) = (self.model, self.now);
-        let (cos, sin, present) = (of(&block.cos), of(&block.sin), of(&block.present));
-        let (cage_cos, cage_sin) = (Lanes::splat(simd, now.cage.direction.x), Lanes::splat(simd, now.cage.direction.y));
-        let e_r = [cage_cos * cos - cage_sin * sin, cage_sin * cos + cage_cos * sin];
+        let present = of(&block.present);
+        let e_r = radial(simd, now.cage.direction, block, &of);
         let path_rate = w - dot(simd, now.housing.velocity, e_r);
         let u = self.ahead.map_or(u, |ahead| u + Lanes::splat(simd, ahead) * path_rate);
         let rho = Lanes::splat(simd, model.outer_centre_radius) + u;
 
-        // |q| = √((ρ+p)² + t²), written so that δ_i loses no digits to the radii's 20 mm.
         let (p, t) = (dot(simd, self.offset, e_r), dot(simd, -turned(self.offset), e_r));
-        let q_r = rho + p;
         let number = |number: f64| Lanes::splat(simd, number);
-        let (longer, n_r, n_t) = if self.series {
-            let slope = t / q_r;
-            let x = slope * slope;
-            let n_r = number(1.0) - x * (number(0.5) - number(0.375) * x);
-            (t * slope * (number(0.5) - x * (number(0.125) - number(0.0625) * x)), n_r, slope * n_r)
-        } else {
-            let square = t * t;
-            let distance = (q_r * q_r + square).sqrt();
-            let per_distance = number(1.0) / distance;
-            (square / (distance + q_r), q_r * per_distance, t * per_distance)
-        };
+        let Distance { longer, n: [n_r, n_t] } = Distance::of(simd, rho + p, t, self.series);
         let delta = number(-self.clearance) - u - p - longer;
         let pace = number(now.cage.speed);
         let speed = if SPECIAL { of(&block.pace) * pace } else { pace };
@@ -312,10 +295,4 @@ impl<const RECORD: bool, const SPECIAL: bool> Kernel for Rollers<'_, RECORD, SPE
         let Self { model, line, now, stage, derivative, found } = self;
         model.contacts_of::<S, Line, RECORD, SPECIAL>(simd, line, now, stage, derivative, found)
     }
-}
-
-/// a·e with the same vector for all lanes.
-#[inline(always)]
-pub(super) fn dot<S: Wide>(simd: S, a: Vector, e: [Lanes<S>; 2]) -> Lanes<S> {
-    Lanes::splat(simd, a.x) * e[0] + Lanes::splat(simd, a.y) * e[1]
 }

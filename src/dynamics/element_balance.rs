@@ -27,6 +27,7 @@ use super::element_contacts::Meeting;
 use super::kinematics::FramedKinematics;
 use super::linearized::{Bends, ElementChange, ElementVariation, Linearized};
 use super::model::Model;
+use super::path_search::PathSearch;
 use super::raceway::SMOOTH;
 use super::tangent::{Rings, stacked};
 use crate::contact::error::ContactError;
@@ -38,8 +39,6 @@ use crate::numerics::plane::{Vector, turned};
 const SETTLED: f64 = 1e-15;
 /// First step of a search that nothing brackets [m]; each next one is twice as long.
 const FIRST_STRIDE: f64 = 1e-8;
-/// Longest of Newton's steps [m].
-const LONGEST_STEP: f64 = 50e-6;
 /// Most looks at the contacts: doubling from the first stride to a metre, and halving back.
 const LOOKS: u64 = 300;
 /// Looks at a contact in balance: one each without and with damping, and four for its second derivatives.
@@ -127,42 +126,27 @@ impl Model {
     }
 
     /// Path of the balance [m], and how often contacts were looked at.
-    ///
-    /// Newton's method within the bracket that the signs give; where it would leave that or leap, halving, or as long
-    /// as there is no bracket walking on to where the element is pushed.
-    fn balanced_path(&self, j: usize, cells: [[u32; 2]; 2], guess: f64, now: &FramedKinematics) -> (f64, u64) {
-        let (mut low, mut high, mut stride) = (f64::NEG_INFINITY, f64::INFINITY, FIRST_STRIDE);
+    pub(super) fn balanced_path(
+        &self,
+        j: usize,
+        cells: [[u32; 2]; 2],
+        guess: f64,
+        now: &FramedKinematics,
+    ) -> (f64, u64) {
+        let mut search = PathSearch::between(f64::NEG_INFINITY, f64::INFINITY, FIRST_STRIDE);
         let mut u = if guess.is_finite() { guess } else { 0.0 };
         for look in 1..LOOKS {
             let element = self.linearized_at(j, cells, (u, 0.0), now, Bends::LeftOut);
-            let (force, slope) = self.radial_balance(&element);
-            // An inner contact too deep for its law pushes outwards, whatever its force; one outside inwards.
-            let too_deep = element.inner.x.is_nan() && !element.outer.x.is_nan();
-            let force = if too_deep { f64::INFINITY } else { force };
+            let (force, slope) = self.radial_push(&element);
             if force == 0.0 && slope == 0.0 {
                 // Nothing pushes and nothing touches.
                 return (self.touching_path(j, cells[1], now), look);
-            }
-            if force > 0.0 {
-                low = u
-            } else {
-                high = u
             }
             let newton = u - force / slope;
             if (newton - u).abs() <= SETTLED {
                 return (newton, look);
             }
-            let next = if newton > low && newton < high && (newton - u).abs() < LONGEST_STEP {
-                newton
-            } else if low.is_finite() && high.is_finite() {
-                0.5 * (low + high)
-            } else {
-                stride *= 2.0;
-                if force > 0.0 { u + stride } else { u - stride }
-            };
-            if next <= low || next >= high || stride > 1.0 {
-                return (u, look);
-            }
+            let Some(next) = search.next(u, force, newton) else { return (u, look) };
             u = next;
         }
         (u, LOOKS)

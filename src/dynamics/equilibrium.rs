@@ -15,6 +15,7 @@ pub use super::equilibrium_error::EquilibriumError;
 use super::kinematics::{FramedKinematics, Kinematics};
 use super::linearized::{Bends, Linearized};
 use super::model::Model;
+use super::path_search::PathSearch;
 use super::raceway::{Cells, SMOOTH};
 use super::tangent::{Rings, stacked};
 use crate::contact::rolling::RacewaySide;
@@ -32,6 +33,8 @@ const FURTHER: f64 = 1e-15;
 const ELEMENT_RESIDUAL: f64 = 1e-9;
 /// Share of an element's distance to which its position is known: some roundings.
 const ROUNDING: f64 = 1e-14;
+/// First step of an element's search that its last path does not begin [m].
+const FIRST_STRIDE: f64 = 1e-6;
 /// Longest step of a ring between two iterations at first [m]; a soft support may have a long way to go.
 const LONGEST_STEP: f64 = 50e-6;
 /// Iterations after which the longest step doubles, rings may go together as far as their supports let them, and the
@@ -154,46 +157,26 @@ impl Model {
         // method bears.
         let element = |u: f64| {
             let element = self.linearized_at(j, cells, (u, 0.0), now, Bends::LeftOut);
-            let (force, slope) = self.radial_balance(&element);
-            // An inner contact too deep for its law pushes outwards, whatever its force. One outside is taken for one
-            // that pushes inwards: no number is not above 0.
-            let too_deep = element.inner.x.is_nan() && !element.outer.x.is_nan();
-            (if too_deep { f64::INFINITY } else { force }, slope, element)
+            let (force, slope) = self.radial_push(&element);
+            (force, slope, element)
         };
         let touch = if cells[1] == [SMOOTH; 2] { 0.0 } else { self.touching_path(j, cells[1], now) };
         let (at_touch, _, touching) = element(touch);
         if at_touch == 0.0 {
             return (touch, touching);
         }
-        // Newton from the path found last, with the bracket that the signs give; where Newton would leave the bracket
-        // or leap, halving, or walking on as long as there is no bracket.
-        let (mut low, mut high) = if at_touch > 0.0 { (touch, f64::INFINITY) } else { (f64::NEG_INFINITY, touch) };
-        let mut stride = 1e-6f64.copysign(at_touch);
-        let mut u = if guess > low && guess < high { guess } else { touch + stride };
+        let (low, high) = if at_touch > 0.0 { (touch, f64::INFINITY) } else { (f64::NEG_INFINITY, touch) };
+        let mut u = if guess > low && guess < high { guess } else { touch + FIRST_STRIDE.copysign(at_touch) };
+        let mut search = PathSearch::between(low, high, FIRST_STRIDE);
         let mut found = element(u);
         for _ in 0..300 {
-            let (f, slope, _) = found;
-            if f > 0.0 {
-                low = u
-            } else {
-                high = u
-            }
-            let newton = u - f / slope;
+            let (force, slope, _) = found;
+            let newton = u - force / slope;
             // A millionth of a millionth of a nanometre: the rounding of micrometre paths.
-            if f == 0.0 || (newton - u).abs() < 1e-21 {
+            if force == 0.0 || (newton - u).abs() < 1e-21 {
                 break;
             }
-            let next = if newton > low && newton < high && (newton - u).abs() < LONGEST_STEP {
-                newton
-            } else if low.is_finite() && high.is_finite() {
-                0.5 * (low + high)
-            } else {
-                stride *= 2.0;
-                u + stride
-            };
-            if next <= low || next >= high || stride.abs() > 1.0 {
-                break;
-            }
+            let Some(next) = search.next(u, force, newton) else { break };
             u = next;
             found = element(u);
         }
@@ -299,7 +282,8 @@ impl Model {
             let solved = matrix.lu().solve(&balance.force);
             solved.filter(|step| step.iter().all(|part| part.is_finite()) && step.dot(&balance.force) > 0.0)
         };
-        // |q| is less than the centres' radius by some of the clearance: on top of an element a little is left of the turning.
+        // |q| is less than the centres' radius by some of the clearance: on top of an element a little is left of the
+        // turning.
         let step = solve(1.0).or_else(|| solve(2.0));
         let step = step.unwrap_or_else(|| balance.force / balance.residual() * longest);
         let length = step.amax();

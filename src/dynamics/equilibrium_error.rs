@@ -34,7 +34,8 @@ pub enum EquilibriumError {
     },
     /// An element that nothing holds.
     #[error(
-        "no static equilibrium: element {element} finds no balance between the raceways, {force:.3e} N are left on it at a path of \
+        "no static equilibrium: element {element} finds no balance between the raceways, {force:.3e} N are left on it \
+         at a path of \
          {path:.3e} m; nothing carries it, or the contact's damping is more than its force at this speed: start it \
          elsewhere with cage.initial_angle, or load or hold the rings"
     )]

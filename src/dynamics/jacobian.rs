@@ -15,8 +15,9 @@
 
 use super::drive::Drive;
 use super::kinematics::{FramedKinematics, Kinematics, RingState, prescribed_rate};
+use super::layout::Layout;
 use super::linearized::{Bends, ElementVariation, Linearized};
-use super::model::{Layout, Model};
+use super::model::Model;
 use super::raceway::Cells;
 use super::supports::{BODIES, Bodies, BodyMatrix};
 use super::tangent::{RingJacobian, Rings, stacked};
@@ -91,7 +92,7 @@ impl Jacobian {
     ///
     /// Neighbours that move too make it larger: without damping by √3 at most; with damping, among many assemblies, by
     /// less than 2 where rings are heavier than an element and by less than 3 where they are not.
-    /// `tests/fastest_eigenvalue.rs` compares it with all eigenvalues.
+    /// `tests/motion/fastest_eigenvalue.rs` compares it with all eigenvalues.
     pub fn fastest(&self) -> (f64, f64) {
         let mut fastest = (0.0, 0.0);
         let mut consider = |by_position: f64, by_velocity: f64| {

@@ -12,12 +12,14 @@
 //! less; the limit is not scaled for them. For cylindrical rollers ISO 76 has 4000 MPa, which a straight one of 7.5 ×
 //! 9 mm reaches at 0.0043 D_w in each contact: the limit is the same.
 
+use super::bearing_error::BearingError;
+use super::defect_error::DefectError;
 use super::error::{LONGEST_NAME, SceneError};
 use super::faults::Faults;
 use super::quantity::*;
 use super::{
-    Bearing, Contact, ContactEdge, ContactLaw, Damping, Defect, DefectOn, DefectShape, ElementInertia, Film, Motion,
-    Recorder, RecorderFilter, Ring, Scene, Sensor, SensorMode,
+    Bearing, Contact, ContactEdge, ContactLaw, Damping, ElementInertia, Film, Motion, Recorder, RecorderFilter, Ring,
+    Scene, Sensor, SensorMode,
 };
 use std::f64::consts::{PI, TAU};
 
@@ -27,10 +29,6 @@ const SMALLEST_RELATIVE_CLEARANCE: f64 = -0.0075;
 /// Offset and jitter of an element from its place in an even cage, as a share of the spacing, at most: what is farther
 /// off is no place in a pocket.
 const FARTHEST: f64 = 0.25;
-
-/// Length of a spall over element diameter: an element that bridges less sinks by 1/8 of it squared over the radius, 2
-/// nm at 8 µm, and a contact grid that shows it would have a hundred times as many cells as usual. Assumed.
-const SHORTEST: f64 = 1e-3;
 
 impl Scene {
     /// Checks every physical quantity.
@@ -73,7 +71,7 @@ impl Scene {
         let asked =
             [("[film]", self.film.is_some()), ("contact.edge = \"step\"", self.contact.edge == ContactEdge::Step)];
         match asked.into_iter().find(|(_, asked)| *asked && self.bearing.roller().is_some()) {
-            Some((key, _)) => Err(SceneError::NotOfRollers { key }),
+            Some((key, _)) => Err(BearingError::NotOfRollers { key }.into()),
             None => Ok(()),
         }
     }
@@ -81,7 +79,9 @@ impl Scene {
     /// The squeeze film of a loose element resists the motion that its inertia keeps up.
     fn check_inertia(&self) -> Result<(), SceneError> {
         match self.film {
-            Some(_) if self.bearing.element_inertia == ElementInertia::None => Err(SceneError::FilmWithoutInertia),
+            Some(_) if self.bearing.element_inertia == ElementInertia::None => {
+                Err(BearingError::FilmWithoutInertia.into())
+            }
             _ => Ok(()),
         }
     }
@@ -214,12 +214,13 @@ impl Bearing {
         // Neighbours' centres are a chord of D_pw sin(π/Z) apart. One element has no neighbour.
         let chord = self.pitch_diameter * libm::sin(PI / self.element_count as f64);
         if self.element_count > 1 && self.element_diameter > chord {
-            return Err(SceneError::ElementsOverlap {
+            return Err(BearingError::ElementsOverlap {
                 count: self.element_count,
                 diameter_mm: shown(self.element_diameter * 1e3),
                 pitch_diameter_mm: shown(self.pitch_diameter * 1e3),
                 limit_mm: shown(chord * 1e3),
-            });
+            }
+            .into());
         }
         Ok(())
     }
@@ -235,17 +236,18 @@ impl Bearing {
         let clearance_um = shown(self.radial_clearance * 1e6);
         let limit_um = shown(self.smallest_radial_clearance() * 1e6);
         if clearance_um < limit_um {
-            return Err(SceneError::NoRoom { clearance_um, limit_um });
+            return Err(BearingError::NoRoom { clearance_um, limit_um }.into());
         }
         let limit_um = shown(self.largest_radial_clearance() * 1e6);
         if clearance_um > limit_um {
-            return Err(SceneError::TooLoose { clearance_um, limit_um });
+            return Err(BearingError::TooLoose { clearance_um, limit_um }.into());
         }
         if self.inner_raceway_radius() <= 0.0 {
-            return Err(SceneError::NoInnerRaceway {
+            return Err(BearingError::NoInnerRaceway {
                 pitch_diameter_mm: shown(self.pitch_diameter * 1e3),
                 limit_mm: shown((self.element_diameter + self.radial_clearance) * 1e3),
-            });
+            }
+            .into());
         }
         Ok(())
     }
@@ -259,7 +261,7 @@ impl Contact {
             Damping::Proportional(tau) => DAMPING_TAU.check(tau),
         });
         if self.edge == ContactEdge::Step && self.law == ContactLaw::Hertz {
-            faults.passes(Err(SceneError::EdgeOfHertz));
+            faults.passes(Err(DefectError::EdgeOfHertz.into()));
         }
         faults.passes(LARGEST_FORCE.check_all(self.largest_force.as_slice()));
         let cells = self.cells.map(|cells| CONTACT_CELLS.check_all(&cells.map(f64::from)));
@@ -279,91 +281,6 @@ impl Film {
     }
 }
 
-impl Defect {
-    /// `bearing` where that is possible itself.
-    fn check(&self, bearing: Option<&Bearing>) -> Result<(), SceneError> {
-        let mut faults = Faults::default();
-        faults.passes(DEFECT_ANGLE.check(self.angle));
-        if let DefectOn::Element { element, tilt } = self.on {
-            if let Some(count) = bearing.map(|bearing| bearing.element_count).filter(|count| element >= *count) {
-                let element = element as i64 + 1;
-                faults.passes(Err(SceneError::NoSuchElement { element, count }));
-            }
-            let with_rollers = bearing.is_some_and(|bearing| bearing.roller().is_some());
-            if faults.passes(TILT.check(tilt)) && with_rollers && tilt != 0.0 {
-                faults.passes(Err(SceneError::TiltOnRoller { tilt_deg: shown(tilt.to_degrees()) }));
-            }
-        }
-        faults.passes(match &self.shape {
-            DefectShape::Spall { length, depth, edge_slope } => {
-                self.check_spall([*length, *depth, *edge_slope], bearing)
-            }
-            DefectShape::Profile(name) => self.check_profile(name),
-        });
-        faults.told()
-    }
-
-    fn check_spall(&self, [length, depth, edge_slope]: [f64; 3], bearing: Option<&Bearing>) -> Result<(), SceneError> {
-        let mut faults = Faults::default();
-        faults.passes(SPALL_DEPTH.check(depth));
-        faults.passes(EDGE_SLOPE.check(edge_slope));
-        // A length in degrees has become one in metres by the bearing's dimensions.
-        let Some(bearing) = bearing else { return faults.told() };
-        faults.passes(SPALL_LENGTH.check(length));
-        faults.told()?;
-        self.check_proportions([length, depth, edge_slope], bearing)
-    }
-
-    /// Of a spall whose length, depth and slope are possible by themselves.
-    fn check_proportions(&self, [length, depth, edge_slope]: [f64; 3], bearing: &Bearing) -> Result<(), SceneError> {
-        let mut faults = Faults::default();
-        let (length_mm, depth_um) = (shown(length * 1e3), shown(depth * 1e6));
-        let (longest, limit) = self.on.longest(bearing);
-        let limit_mm = shown(longest * 1e3);
-        if length_mm >= limit_mm {
-            faults.passes(Err(SceneError::SpallTooLong { length_mm, limit_mm, limit }));
-        }
-        let limit_mm = shown(SHORTEST * bearing.element_diameter * 1e3);
-        if length_mm < limit_mm {
-            faults.passes(Err(SceneError::SpallTooShort { length_mm, limit_mm }));
-        }
-        let (deepest, limit) = self.on.deepest(bearing);
-        let limit_um = shown(deepest * 1e6);
-        if depth_um >= limit_um {
-            faults.passes(Err(SceneError::SpallTooDeep { depth_um, limit_um, limit }));
-        }
-        faults.told()?;
-        let met = self.on.met_length(length, bearing);
-        if met <= 0.0 {
-            return Err(SceneError::PitNotMet { length_mm, limit_mm: shown(self.off_track(bearing) * 1e3) });
-        }
-        // tan of the right angle is large, not infinite, which is all that is asked of it here.
-        let limit_um = shown(0.5 * met * libm::tan(edge_slope).abs() * 1e6);
-        if depth_um > limit_um {
-            let edge_slope_deg = shown(edge_slope.to_degrees());
-            return Err(SceneError::FlanksMeet { depth_um, edge_slope_deg, limit_um, length_mm: shown(met * 1e3) });
-        }
-        Ok(())
-    }
-
-    fn check_profile(&self, name: &str) -> Result<(), SceneError> {
-        if let DefectOn::Element { tilt, .. } = self.on
-            && tilt != 0.0
-        {
-            return Err(SceneError::TiltedProfile { tilt_deg: shown(tilt.to_degrees()) });
-        }
-        check_profile_name(name)
-    }
-
-    /// Diameter of a pit whose rim the rolling track touches [m].
-    fn off_track(&self, bearing: &Bearing) -> f64 {
-        match self.on {
-            DefectOn::Element { tilt, .. } => 2.0 * bearing.element_radius() * libm::sin(tilt).abs(),
-            _ => 0.0,
-        }
-    }
-}
-
 fn check_name(name: &str) -> Result<(), SceneError> {
     let legal = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
     if name.is_empty() || name.len() > LONGEST_NAME || !name.chars().all(legal) {
@@ -372,18 +289,11 @@ fn check_name(name: &str) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// The packed model holds the profile beside the scene, so a name that leads elsewhere would not be found there.
-pub(super) fn check_profile_name(name: &str) -> Result<(), SceneError> {
-    let illegal = |c: char| matches!(c, '/' | '\\' | ':') || c.is_control();
-    if name.is_empty() || name == "." || name == ".." || name.chars().any(illegal) {
-        return Err(SceneError::ProfileName(name.to_owned()));
-    }
-    Ok(())
-}
-
 fn check_groove(ring: &'static str, conformity: f64, range: &Quantity) -> Result<(), SceneError> {
     if conformity > 0.0 && conformity < SMALLEST_CONFORMITY {
-        return Err(SceneError::GrooveTooNarrow { ring, conformity: shown(conformity), limit: SMALLEST_CONFORMITY });
+        return Err(
+            BearingError::GrooveTooNarrow { ring, conformity: shown(conformity), limit: SMALLEST_CONFORMITY }.into()
+        );
     }
     range.check(conformity)
 }

@@ -1,6 +1,7 @@
 //! What a cylindrical roller must satisfy for its contact law to hold.
 
-use super::check::check_profile_name;
+use super::bearing_error::BearingError;
+use super::check_defect::check_profile_name;
 use super::error::SceneError;
 use super::faults::Faults;
 use super::quantity::*;
@@ -17,7 +18,7 @@ impl Bearing {
         let [length_mm, low_mm, high_mm] =
             [roller.length, SHORTEST * self.element_diameter, LONGEST * self.element_diameter].map(|x| shown(x * 1e3));
         if faults.passes(ROLLER_LENGTH.check(roller.length)) && !(low_mm..=high_mm).contains(&length_mm) {
-            faults.passes(Err(SceneError::RollerLength { length_mm, low_mm, high_mm }));
+            faults.passes(Err(BearingError::RollerLength { length_mm, low_mm, high_mm }.into()));
         }
         faults.passes(ROLLER_LAMINAE.check(f64::from(roller.laminae)));
         if let RollerProfile::Measured(crown) = &roller.profile {
@@ -25,7 +26,7 @@ impl Bearing {
         }
         let not_steel = |of: SceneError| match of {
             SceneError::OutOfRange { quantity, key, value, limits } => {
-                SceneError::NotSteel { quantity, key, value, limits }
+                BearingError::NotSteel { quantity, key, value, limits }.into()
             }
             other => other,
         };
@@ -34,7 +35,7 @@ impl Bearing {
         for (key, given) in
             [("bearing.hertz_inner_n_m1_5", self.hertz_inner), ("bearing.hertz_outer_n_m1_5", self.hertz_outer)]
         {
-            faults.passes(given.map_or(Ok(()), |_| Err(SceneError::OnlyBalls { key })));
+            faults.passes(given.map_or(Ok(()), |_| Err(BearingError::OnlyBalls { key }.into())));
         }
         faults.told()
     }
@@ -48,7 +49,7 @@ impl Scene {
                 if !self.defects.is_empty() && self.contact.law != ContactLaw::Hertz =>
             {
                 let (law, _) = self.contact.law.described();
-                Err(SceneError::CrownLaw { law, name: crown.name.clone() })
+                Err(BearingError::CrownLaw { law, name: crown.name.clone() }.into())
             }
             _ => Ok(()),
         }

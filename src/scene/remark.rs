@@ -39,13 +39,14 @@ impl fmt::Display for Remark {
             Self::OpenGroove { ring, conformity } => write!(
                 f,
                 "the groove conformity of the {ring} ring is {conformity:.4}: ball bearings have 0.51 to \
-                 {USUAL_CONFORMITY}. A roller bearing with a groove invented for it gets a ball's point contacts: cylindrical \
-                 rollers are bearing.element = \"cylindrical-roller\""
+                 {USUAL_CONFORMITY}. A roller bearing with a groove invented for it gets a ball's point contacts: \
+                 cylindrical rollers are bearing.element = \"cylindrical-roller\""
             ),
             Self::ThickFilms { together_um, clearance_um } => write!(
                 f,
                 "the oil films of both raceways are {together_um:.2} um thick together, of a radial clearance of \
-                 {clearance_um} um (bearing.radial_clearance_um): they press the bearing as if it were that much tighter"
+                 {clearance_um} um (bearing.radial_clearance_um): they press the bearing as if it were that much \
+                 tighter"
             ),
             Self::OtherUnit { line, question } => {
                 let UnitQuestion { key, value, unit, usual, source, .. } = question;

@@ -50,7 +50,8 @@ const USUAL: [Usual; 28] = [
     Usual {
         keys: &["bearing.radial_clearance_um", "bearing.internal_clearance_um"],
         range: |of| of.diameter.map(|d| [0.2, 50.0 * d]),
-        source: "assumed: from a fifth of a micrometre to a twentieth of the element's diameter; ISO 5753 has whole micrometres",
+        source: "assumed: from a fifth of a micrometre to a twentieth of the element's diameter; ISO 5753 has whole \
+                 micrometres",
     },
     Usual {
         keys: &["bearing.youngs_modulus_gpa"],

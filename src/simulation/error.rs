@@ -42,8 +42,8 @@ pub enum SimulationError {
     ForeignState,
     /// Oil films so thick that they press the contacts beyond the elastic range.
     #[error(
-        "oil films of {films_um:.3} um at {speed_hz} Hz leave a radial clearance of {clearance_um:.3} um: it must be at \
-         least {limit_um:.3} um"
+        "oil films of {films_um:.3} um at {speed_hz} Hz leave a radial clearance of {clearance_um:.3} um: it must be \
+         at least {limit_um:.3} um"
     )]
     ThickFilms {
         /// Both films together [µm].

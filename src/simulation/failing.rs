@@ -7,7 +7,8 @@ use super::step_error::{SMALLEST_STEP, StepError};
 
 use super::workspace::{Problem, Span, Workspace};
 use crate::dynamics::forces::UnsolvedContact;
-use crate::dynamics::model::{Layout, Model};
+use crate::dynamics::layout::Layout;
+use crate::dynamics::model::Model;
 
 /// Whether a step shorter than the one of length `h` that failed is still worth trying.
 pub(super) fn check_step(

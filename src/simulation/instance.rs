@@ -239,7 +239,7 @@ impl Simulation {
         (&self.model, self.drive(true))
     }
 
-    /// The state vector, laid out as [`crate::dynamics::model::Layout`] says.
+    /// The state vector, laid out as [`crate::dynamics::layout::Layout`] says.
     pub fn state_vector(&self) -> &[f64] {
         &self.state.progress.state
     }

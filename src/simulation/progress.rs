@@ -14,7 +14,7 @@ const FIRST_STEP: f64 = 1e-6;
 /// The part of the state that the integration owns.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Progress {
-    /// State vector, as [`crate::dynamics::model::Layout`] lays it out.
+    /// State vector, as [`crate::dynamics::layout::Layout`] lays it out.
     pub state: Row,
     /// State of the modes between outer ring and sensors, z and z' of each; of no length without any.
     pub sensor_modes: Row,

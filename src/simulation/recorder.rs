@@ -124,8 +124,8 @@ impl Recorder {
         }
         let pass = rate / RATE_PER_PASS;
         format!(
-            "{rate} samples/s; accelerations and forces on rings are filtered without delay, flat to {pass} Hz and nothing from \
-             {} Hz on; the last row is {:.3} ms before the end of the run",
+            "{rate} samples/s; accelerations and forces on rings are filtered without delay, flat to {pass} Hz and \
+             nothing from {} Hz on; the last row is {:.3} ms before the end of the run",
             rate - pass,
             1e3 * self.lag()
         )

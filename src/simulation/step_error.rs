@@ -27,8 +27,8 @@ pub enum StepError {
     /// A state or its derivative is infinite or not a number, however short the step.
     #[error(
         "{component} leaves all bounds {since:.6e} s into the communication step, however short the integration step \
-         ({step:.1e} s): it was {value:.6e} and changes by {rate:.1e} a second, in SI units; look for an extreme input or \
-         parameter"
+         ({step:.1e} s): it was {value:.6e} and changes by {rate:.1e} a second, in SI units; look for an extreme input \
+         or parameter"
     )]
     NotFinite {
         /// What changes fastest, by the measure of error control.
@@ -44,8 +44,8 @@ pub enum StepError {
     },
     /// The contact law has no answer for a contact near the defect, however short the step.
     #[error(
-        "element {element}, {angle_deg:.4} degrees from the defect's centre, {since:.6e} s into the communication step: \
-         {cause}. The outer ring's centre is at ({:.3e}, {:.3e}) m from the inner's", offset[0], offset[1]
+        "element {element}, {angle_deg:.4} degrees from the defect's centre, {since:.6e} s into the communication \
+         step: {cause}. The outer ring's centre is at ({:.3e}, {:.3e}) m from the inner's", offset[0], offset[1]
     )]
     Contact {
         /// Number of the element, from 1.
@@ -76,9 +76,10 @@ pub enum StepError {
     },
     /// The rings' centres are further apart than any bearing's can be.
     #[error(
-        "offset of the rings' centres {offset:.3e} m (limit: an element's radius, {limit:.3e} m) {since:.6e} s into the \
-         communication step: shaft at ({:.3e}, {:.3e}) m, housing at ({:.3e}, {:.3e}) m; check prescribed positions, \
-         velocities and accelerations, loads and support stiffness", shaft[0], shaft[1], housing[0], housing[1]
+        "offset of the rings' centres {offset:.3e} m (limit: an element's radius, {limit:.3e} m) {since:.6e} s into \
+         the communication step: shaft at ({:.3e}, {:.3e}) m, housing at ({:.3e}, {:.3e}) m; check prescribed \
+         positions, velocities and accelerations, loads and support \
+         stiffness", shaft[0], shaft[1], housing[0], housing[1]
     )]
     RingsApart {
         /// Position of the inner ring's centre [m].
@@ -94,8 +95,8 @@ pub enum StepError {
     },
     /// Elements go round so fast that time does not pass between one knot of the defect and the next.
     #[error(
-        "elements passed {count} edges of the defect at one instant, {since:.6e} s into the communication step: the cage \
-         turns too fast for any time to pass between them; check shaft.speed and its derivatives"
+        "elements passed {count} edges of the defect at one instant, {since:.6e} s into the communication step: the \
+         cage turns too fast for any time to pass between them; check shaft.speed and its derivatives"
     )]
     TooFast {
         /// Passages without any time between them.

@@ -44,9 +44,9 @@ impl Method {
     pub fn automatic_in_words() -> String {
         let order = |[step, estimate]: [usize; 2]| format!("order {step}({estimate})");
         format!(
-            "an explicit phase-fitted pair of {} at tolerances from {LOOSE:e} on, the explicit pair of Dormand and Prince \
-             of {} at smaller ones and where damping is strong, and Rodas5P, linearly implicit, of {} where contacts are \
-             stiff",
+            "an explicit phase-fitted pair of {} at tolerances from {LOOSE:e} on, the explicit pair of Dormand and \
+             Prince of {} at smaller ones and where damping is strong, and Rodas5P, linearly implicit, of {} where \
+             contacts are stiff",
             order(phase_fitted::ORDERS),
             order(dormand_prince::ORDERS),
             order(rodas::ORDERS)

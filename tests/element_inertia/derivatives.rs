@@ -26,6 +26,33 @@ fn pressed(scene: Scene) -> Named {
     bearing
 }
 
+fn values(bearing: &mut Named, references: &[u32]) -> Vec<f64> {
+    let mut values = vec![0.0; references.len()];
+    bearing.0.reals(references, &mut values).unwrap();
+    values
+}
+
+/// Derivatives by an input as given, and the values with that input `h` below and above what it is.
+struct Sides {
+    given: Vec<f64>,
+    before: Vec<f64>,
+    after: Vec<f64>,
+}
+
+fn either_side(bearing: &mut Named, references: &[u32], input: &str, h: f64) -> Sides {
+    let known = bearing.reference(input);
+    let mut given = vec![0.0; references.len()];
+    bearing.0.directional_derivative(references, &[known], &[1.0], &mut given).unwrap();
+    let start = bearing.get(input);
+    let mut at = |value: f64| {
+        bearing.set(input, value);
+        values(bearing, references)
+    };
+    let (before, after) = (at(start - h), at(start + h));
+    bearing.set(input, start);
+    Sides { given, before, after }
+}
+
 #[test]
 fn derivatives_by_inputs_are_what_setting_them_shows() {
     let mut bearing = pressed(hosted());
@@ -35,18 +62,7 @@ fn derivatives_by_inputs_are_what_setting_them_shows() {
     let (names, references): (Vec<_>, Vec<_>) = outputs(&bearing).into_iter().unzip();
     let mut compared = 0;
     for (input, h) in [("shaft.x", 1e-10), ("shaft.y", 1e-10), ("shaft.vy", 1e-5), ("shaft.speed", 1e-4)] {
-        let known = bearing.reference(input);
-        let mut given = vec![0.0; references.len()];
-        bearing.0.directional_derivative(&references, &[known], &[1.0], &mut given).unwrap();
-        let start = bearing.get(input);
-        let mut at = |value: f64| {
-            bearing.set(input, value);
-            let mut values = vec![0.0; references.len()];
-            bearing.0.reals(&references, &mut values).unwrap();
-            values
-        };
-        let (before, after) = (at(start - h), at(start + h));
-        bearing.set(input, start);
+        let Sides { given, before, after } = either_side(&mut bearing, &references, input, h);
         for (i, name) in names.iter().enumerate() {
             if name.contains("mean_force") {
                 continue;
@@ -77,9 +93,7 @@ fn derivatives_by_time_are_what_short_steps_show() {
             if h > 0.0 {
                 bearing.0.step(h).unwrap();
             }
-            let mut values = vec![0.0; references.len()];
-            bearing.0.reals(&references, &mut values).unwrap();
-            values
+            values(&mut bearing, &references)
         };
         let h = 5e-8;
         let (before, near, far) = (at(0.0), at(h), at(2.0 * h));
@@ -99,18 +113,7 @@ fn derivatives_of_the_start_are_what_other_starts_show() {
     let names = ["shaft.x", "shaft.y", "housing.y", "element[1].path", "element[3].force.outer", "shaft.force.y"];
     let references: Vec<u32> = names.iter().map(|name| bearing.reference(name)).collect();
     for (input, h) in [("shaft.load.y", 1e-3), ("shaft.load.x", 1e-3), ("shaft.speed", 1e-2)] {
-        let known = bearing.reference(input);
-        let mut given = vec![0.0; references.len()];
-        bearing.0.directional_derivative(&references, &[known], &[1.0], &mut given).unwrap();
-        let start = bearing.get(input);
-        let mut at = |value: f64| {
-            bearing.set(input, value);
-            let mut values = vec![0.0; references.len()];
-            bearing.0.reals(&references, &mut values).unwrap();
-            values
-        };
-        let (before, after) = (at(start - h), at(start + h));
-        bearing.set(input, start);
+        let Sides { given, before, after } = either_side(&mut bearing, &references, input, h);
         for (i, name) in names.iter().enumerate() {
             let found = (after[i] - before[i]) / (2.0 * h);
             // The equilibrium is found to 1e-12 of the largest force, 300 N.

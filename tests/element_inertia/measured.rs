@@ -118,7 +118,8 @@ fn bands_events_and_run_time_beside_the_full_model() {
                 };
                 let [a, b] = [of(&full, &exact[0], 1000), of(&none, &exact[1], 4000)];
                 println!(
-                    "  tolerance {tolerance:e}, sensor {sensors}: {:.4} s/s, error {:.1e}; {:.4} s/s, error {:.1e}; ratio {:.1}",
+                    "  tolerance {tolerance:e}, sensor {sensors}: {:.4} s/s, error {:.1e}; {:.4} s/s, error {:.1e}; \
+                     ratio {:.1}",
                     a.0,
                     a.1,
                     b.0,

@@ -1,6 +1,7 @@
 //! The table `[bearing]`: dimensions and material, or a catalogue's name instead of them.
 
 use super::super::Bearing;
+use super::super::bearing_error::BearingError;
 use super::super::catalogue::{CatalogueBearing, catalogued};
 use super::super::error::SceneError;
 use super::super::quantity::ELEMENT_COUNT;
@@ -87,8 +88,8 @@ pub(super) struct BearingTable {
     /// By how much the outer raceway yields to one element; 0 without it.
     #[serde(default)]
     outer_compliance_m_n: f64,
-    /// "full" without it: elements vibrate between the raceways. "none": each is in radial balance at every instant, for
-    /// rotor studies below 2 kHz.
+    /// "full" without it: elements vibrate between the raceways. "none": each is in radial balance at every
+    /// instant, for rotor studies below 2 kHz.
     #[serde(default)]
     element_inertia: ElementInertia,
 }
@@ -124,7 +125,7 @@ impl TryFrom<BearingTable> for WholeBearing {
         if let (Some(bearing), Some((kind, elements)), Some(asked)) = (named, kind, keys.element)
             && kind != asked
         {
-            return Err(SceneError::OtherElements { name: bearing.designation, elements });
+            return Err(BearingError::OtherElements { name: bearing.designation, elements }.into());
         }
         let element = keys.element.or(kind.map(|(kind, _)| kind)).unwrap_or_default();
         let inside = named.map(|bearing| bearing.inside);
@@ -167,7 +168,7 @@ const fn missing(key: &'static str) -> SceneError {
 }
 
 fn bearing_named(name: &str) -> Result<CatalogueBearing, SceneError> {
-    catalogued(name).ok_or_else(|| SceneError::NotInCatalogue { name: name.to_owned() })
+    catalogued(name).ok_or_else(|| BearingError::NotInCatalogue { name: name.to_owned() }.into())
 }
 
 /// Clearance where the file says none [µm].
@@ -212,7 +213,7 @@ impl WholeBearing {
                 ("bearing.roller_laminae", self.roller_laminae.is_some()),
             ];
             let given = keys.into_iter().find_map(|(key, given)| given.then_some(key));
-            return given.map_or(Ok(RollingElement::Ball), |key| Err(SceneError::OnlyRollers { key }));
+            return given.map_or(Ok(RollingElement::Ball), |key| Err(BearingError::OnlyRollers { key }.into()));
         }
         let keys = [
             ("bearing.groove_diameter_mm", self.groove_diameter_mm.is_some()),
@@ -222,7 +223,7 @@ impl WholeBearing {
             ("bearing.hertz_outer_n_m1_5", self.hertz_outer_n_m1_5.is_some()),
         ];
         if let Some((key, _)) = keys.into_iter().find(|(_, given)| *given) {
-            return Err(SceneError::OnlyBalls { key });
+            return Err(BearingError::OnlyBalls { key }.into());
         }
         let why = "bearing.element is \"cylindrical-roller\"";
         let length = self.roller_length_mm.ok_or(SceneError::Missing { key: LENGTH, why })? / 1e3;
@@ -232,7 +233,7 @@ impl WholeBearing {
             Some(file) if file.ends_with(".csv") => {
                 RollerProfile::Measured(Crown { name: file.to_owned(), points: Arc::default() })
             }
-            Some(other) => return Err(SceneError::RollerProfile { given: other.to_owned() }),
+            Some(other) => return Err(BearingError::RollerProfile { given: other.to_owned() }.into()),
         };
         let laminae = self.roller_laminae.unwrap_or(Roller::LAMINAE);
         Ok(RollingElement::CylindricalRoller(Roller { length, profile, laminae }))

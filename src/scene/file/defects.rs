@@ -2,7 +2,7 @@
 
 use super::one_or_more::OneOrMore;
 use crate::scene::faults::Faults;
-use crate::scene::{Bearing, Defect, DefectOn, DefectShape, SceneError};
+use crate::scene::{Bearing, Defect, DefectError, DefectOn, DefectShape, SceneError};
 use serde::Deserialize;
 
 /// A defect.
@@ -61,7 +61,7 @@ impl DefectTable {
             let given =
                 [("defect.element", self.element.map(|number| number as f64)), ("defect.tilt_deg", self.tilt_deg)];
             if let Some((key, value)) = given.into_iter().find_map(|(key, value)| value.map(|value| (key, value))) {
-                return Err(SceneError::NotOnElement { key, value });
+                return Err(DefectError::NotOnElement { key, value }.into());
             }
         }
         Ok(match self.on {
@@ -72,7 +72,7 @@ impl DefectTable {
                     SceneError::Missing { key: "defect.element", why: "defect.on is \"element\"" };
                 let (number, count) = (self.element.ok_or(MISSING)?, bearing.element_count);
                 let element = usize::try_from(number).ok().filter(|number| (1..=count).contains(number));
-                let element = element.ok_or(SceneError::NoSuchElement { element: number, count })? - 1;
+                let element = element.ok_or(DefectError::NoSuchElement { element: number, count })? - 1;
                 DefectOn::Element { element, tilt: self.tilt_deg.unwrap_or(0.0).to_radians() }
             }
         })

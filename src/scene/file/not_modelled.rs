@@ -13,14 +13,15 @@ struct Asked {
 }
 
 /// What is said to a defect that is given by another key.
-const DEFECTS: &str = "defects are said by a table [defect], or by several [[defect]], whose key `on` is \"outer\", \"inner\" or \"element\"";
+const DEFECTS: &str = "defects are said by a table [defect], or by several [[defect]], whose key `on` \
+                       is \"outer\", \"inner\" or \"element\"";
 const ELEMENTS: &str = "rolling elements are said by bearing.element, \"ball\" or \"cylindrical-roller\" with \
                         bearing.roller_length_mm; other rollers are not modelled, so far";
 const BY_NAME: &str =
     "a bearing is given by its dimensions or by bearing.catalogue, its rolling elements by bearing.element";
 const PLANE: &str = "the rings move in one plane, so far: no axial load, no contact angle, no tilt";
-const DRY: &str = "an oil film is said by a table [film] with viscosity_pa_s and pressure_viscosity_1_pa; friction is not \
-                   modelled";
+const DRY: &str = "an oil film is said by a table [film] with viscosity_pa_s and pressure_viscosity_1_pa; friction is \
+                   not modelled";
 
 const ASKED: [Asked; 6] = [
     Asked { tables: &[""], names: &["race"], parts: &["defect", "spall", "raceway", "_race"], only: DEFECTS },

@@ -2,7 +2,8 @@
 //! press oil out of a gap g that closes.
 //!
 //! ```text
-//! h/R_x = 2.69 U^0.67 G^0.53 W^−0.067 (1 − 0.61 e^(−0.73 k)),   U = η ū/(E′R_x), G = αE′, W = Q/(E′R_x²), k = 1.03 (R_y/R_x)^0.64
+//! h/R_x = 2.69 U^0.67 G^0.53 W^−0.067 (1 − 0.61 e^(−0.73 k))
+//! U = η ū/(E′R_x),   G = αE′,   W = Q/(E′R_x²),   k = 1.03 (R_y/R_x)^0.64
 //! F = c g'/g (1 − g/H)²,   c = 12πη (R_xR_y)^1.5/(R_x + R_y);   within the contact, Δ ≥ 0: g = h, and (1 − Δ/h)² of it
 //! ```
 //! with E′ = E/(1 − ν²), Q the most loaded contact's of five in Z, W at least 1e-5, and surfaces no nearer than their
