@@ -64,9 +64,10 @@ fn written(head: &str, rules: impl Iterator<Item = &'static Rule>) -> String {
     let tests = tests();
     let mut page = head.to_owned();
     page.push_str(
-        "Written by `tests/conformance.rs`; do not edit. Every test named here is run by `cargo test --workspace`, most against the \
-         exported C functions themselves; two of the library's own run with `--release`, which links the library that is shipped. The \
-         suite fails with any of them, so a rule stands as *passes* only while its tests do. What is measured says with what.\n",
+        "Written by `tests/conformance.rs`; do not edit. Every test named here is run by `cargo test --workspace`, \
+         most against the exported C functions themselves; two of the library's own run with `--release`, which links \
+         the library that is shipped. The suite fails with any of them, so a rule stands as *passes* only while its \
+         tests do. What is measured says with what.\n",
     );
     let mut section = "";
     for (of, rule, evidence) in rules {

@@ -126,7 +126,8 @@ fn every_module_of_the_crate_has_a_place_in_the_order() {
 
 #[test]
 fn the_reader_of_imports_sees_what_it_should() {
-    let text = "use crate::scene::Scene; // crate::fmi2\nuse crate::{\n    contact::Law,\n    fmi2::{self, Status},\n};\n\
+    let text = "use crate::scene::Scene; // crate::fmi2\nuse crate::{\n    contact::Law,\n    fmi2::{self, \
+                Status},\n};\n\
                 //! [`crate::fmi2`]\nlet x = crate::dynamics::run();\npub(crate) use super::y;\nuse brinell::z;\n\
                 let s = \"// no comment\"; crate::geometry::f();\n";
     let found: Vec<_> = imports(text);

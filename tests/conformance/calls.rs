@@ -90,7 +90,8 @@ pub(super) const RULES: &[Rule] = &[
     ),
     (
         "Variables",
-        "Units with their base units, enumerations, ranges, nominals, descriptions and the default experiment are in the description, which keeps to the schema.",
+        "Units with their base units, enumerations, ranges, nominals, descriptions and the default experiment are in \
+         the description, which keeps to the schema.",
         &[
             T("validate_fmu_finds_nothing"),
             T("the_committed_model_descriptions_are_those_of_the_shipped_scenes"),
@@ -99,7 +100,8 @@ pub(super) const RULES: &[Rule] = &[
     ),
     (
         "Variables",
-        "Outputs and InitialUnknowns ascend and list exactly what each depends on: perturbing every input moves what is listed and nothing else.",
+        "Outputs and InitialUnknowns ascend and list exactly what each depends on: perturbing every input moves what \
+         is listed and nothing else.",
         &[
             T("directional_derivatives_at_communication_points_are_central_differences"),
             T("directional_derivatives_in_initialization_mode_are_central_differences"),
@@ -117,7 +119,8 @@ pub(super) const RULES: &[Rule] = &[
     ),
     (
         "Saved states",
-        "A state continues in another instance and another process with the same bits, in the middle of an impact and with law love.",
+        "A state continues in another instance and another process with the same bits, in the middle of an impact and \
+         with law love.",
         &[
             T("a_state_in_bytes_continues_in_another_instance_bit_by_bit"),
             T("a_state_taken_in_an_impact_continues_in_another_process_with_the_same_bits"),
@@ -136,7 +139,8 @@ pub(super) const RULES: &[Rule] = &[
     ),
     (
         "Derivatives",
-        "Directional derivatives of every real output by every input are central differences, at communication points and in initialization mode.",
+        "Directional derivatives of every real output by every input are central differences, at communication points \
+         and in initialization mode.",
         &[
             T("directional_derivatives_at_communication_points_are_central_differences"),
             T("directional_derivatives_in_initialization_mode_are_central_differences"),

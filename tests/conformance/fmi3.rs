@@ -8,7 +8,8 @@ use super::{
 pub(crate) const RULES: &[Rule] = &[
     (
         "Binary",
-        "All 75 functions of fmi3Functions.h are exported; those of capabilities that are not declared are errors with a reason.",
+        "All 75 functions of fmi3Functions.h are exported; those of capabilities that are not declared are errors with \
+         a reason.",
         &[
             Test("exactly_the_functions_of_the_standard_are_exported"),
             Test("what_is_not_provided_is_an_error_with_a_reason"),
@@ -48,7 +49,8 @@ pub(crate) const RULES: &[Rule] = &[
     ),
     (
         "State machine",
-        "A wrong token, a path that is none, event mode and impossible intermediate variables give NULL and a log line.",
+        "A wrong token, a path that is none, event mode and impossible intermediate variables give NULL and a log \
+         line.",
         &[
             Test("whatever_keeps_an_instance_from_being_made_is_told_though_logging_is_off"),
             Test("only_inputs_and_outputs_may_be_asked_for_in_intermediate_updates"),
@@ -69,7 +71,8 @@ pub(crate) const RULES: &[Rule] = &[
     ),
     (
         "State machine",
-        "Without event mode: hasEventMode is false, eventModeUsed is refused, no event is signalled, and functions of events are errors.",
+        "Without event mode: hasEventMode is false, eventModeUsed is refused, no event is signalled, and functions of \
+         events are errors.",
         &[
             Test("whatever_keeps_an_instance_from_being_made_is_told_though_logging_is_off"),
             Test("a_step_gives_no_event_no_end_no_early_return_and_its_end"),
@@ -94,7 +97,8 @@ pub(crate) const RULES: &[Rule] = &[
     ),
     (
         "Intermediate updates",
-        "The host is called after each accepted integration step, at times that never go back, the last at the step's end; being watched changes no bit.",
+        "The host is called after each accepted integration step, at times that never go back, the last at the step's \
+         end; being watched changes no bit.",
         &[
             Test("a_run_that_is_watched_has_the_bits_of_one_that_is_not"),
             Test("law_love_which_starts_anew_after_each_look_agrees_within_what_its_solver_leaves"),
@@ -102,7 +106,8 @@ pub(crate) const RULES: &[Rule] = &[
     ),
     (
         "Intermediate updates",
-        "An early return ends the step where the host was told, or exactly at a later instant that it names, with the outputs that were shown there.",
+        "An early return ends the step where the host was told, or exactly at a later instant that it names, with the \
+         outputs that were shown there.",
         &[
             Test("a_step_returns_early_where_it_is_asked_with_the_outputs_that_were_shown_there"),
             Test("a_step_returns_exactly_at_a_later_instant_that_the_host_names"),
@@ -112,7 +117,8 @@ pub(crate) const RULES: &[Rule] = &[
     ),
     (
         "Intermediate updates",
-        "Inputs that the host has asked for may be set, and act from there on: what FMI 2.0's derivatives of inputs were for.",
+        "Inputs that the host has asked for may be set, and act from there on: what FMI 2.0's derivatives of inputs \
+         were for.",
         &[
             Test("an_input_set_in_an_update_acts_from_there_on"),
             Test("inputs_set_to_where_they_are_change_no_bit"),
@@ -121,7 +127,8 @@ pub(crate) const RULES: &[Rule] = &[
     ),
     (
         "Intermediate updates",
-        "Other variables, other functions, a time outside the step and a callback that unwinds fail the step with the reason; a saved state is restored.",
+        "Other variables, other functions, a time outside the step and a callback that unwinds fail the step with the \
+         reason; a saved state is restored.",
         &[Test("what_an_update_may_not_do_fails_the_step_with_the_reason")],
     ),
     (
@@ -141,7 +148,8 @@ pub(crate) const RULES: &[Rule] = &[
     ),
     (
         "Variables",
-        "Float64, UInt64 (counters), Enumeration and String; of the other types there are none, and their functions say so.",
+        "Float64, UInt64 (counters), Enumeration and String; of the other types there are none, and their functions \
+         say so.",
         &[
             Test("counters_enumerations_and_strings_have_their_types"),
             Test("unknown_references_wrong_types_and_what_cannot_be_set_are_errors_that_say_so"),
@@ -167,7 +175,8 @@ pub(crate) const RULES: &[Rule] = &[
     ),
     (
         "Saved states",
-        "Rewinding and bytes repeat every bit, in another instance and under the other version as well; foreign states are errors.",
+        "Rewinding and bytes repeat every bit, in another instance and under the other version as well; foreign states \
+         are errors.",
         &[
             Test("a_rewound_instance_of_fmi_3_repeats_every_bit_and_so_does_one_from_bytes"),
             Test("a_state_in_bytes_goes_from_one_version_of_fmi_to_the_other"),
@@ -176,7 +185,8 @@ pub(crate) const RULES: &[Rule] = &[
     ),
     (
         "Derivatives",
-        "Directional derivatives are central differences, adjoint ones their transposed product, of arrays with all elements; output derivatives are those of FMI 2.0.",
+        "Directional derivatives are central differences, adjoint ones their transposed product, of arrays with all \
+         elements; output derivatives are those of FMI 2.0.",
         &[
             Test("directional_derivatives_are_central_differences_and_arrays_give_all_their_elements"),
             Test("adjoint_derivatives_are_the_transposed_product_of_directional_ones"),
@@ -196,7 +206,8 @@ pub(crate) const RULES: &[Rule] = &[
     ),
     (
         "Logging",
-        "Categories are turned on and off one by one; nothing is logged when all are off, except why no instance was made; # is doubled.",
+        "Categories are turned on and off one by one; nothing is logged when all are off, except why no instance was \
+         made; # is doubled.",
         &[
             Test("categories_are_turned_on_and_off_one_by_one"),
             Test("a_number_sign_which_names_variables_in_messages_is_doubled"),
@@ -204,7 +215,8 @@ pub(crate) const RULES: &[Rule] = &[
     ),
     (
         "Archive",
-        "Terminals for both rings after the schema, an icon, documentation and licences; packing again gives equal bytes.",
+        "Terminals for both rings after the schema, an icon, documentation and licences; packing again gives equal \
+         bytes.",
         &[
             Test("states_derivatives_updates_and_terminals_of_every_shipped_scene_keep_to_fmi_3"),
             Test("an_fmu_of_fmi_3_holds_the_library_in_the_folder_of_every_processor_and_terminals_with_an_icon"),

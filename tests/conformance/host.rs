@@ -18,7 +18,7 @@ pub(super) const RULES: &[Rule] = &[
         &[
             T("packing_a_scene_twice_gives_equal_bytes"),
             M(
-                "cargo test -p fmu-build --test library -- --ignored two_builds_in_two_folders_give_equal_bytes",
+                "cargo test -p fmu-build --test fmu library -- --ignored two_builds_in_two_folders_give_equal_bytes",
                 "equal",
             ),
         ],
@@ -33,8 +33,8 @@ pub(super) const RULES: &[Rule] = &[
     ),
     (
         "Hostile callers",
-        "Any sequence of calls with any arguments has the statuses of the standard, changes nothing where it fails, and leaves an instance \
-         that can be reset.",
+        "Any sequence of calls with any arguments has the statuses of the standard, changes nothing where it fails, \
+         and leaves an instance that can be reset.",
         &[
             T("any_sequence_of_calls_has_the_statuses_of_the_standard_and_leaves_what_succeeded_untouched"),
             T("on_a_full_disk_calls_fail_with_an_error_and_a_reset_always_works"),
@@ -85,7 +85,8 @@ pub(super) const RULES: &[Rule] = &[
     ),
     (
         "Cost",
-        "20 values read in 45 ns, set in 25 ns; 10 ns in a step beyond the solver; a state saved or set back in 100 ns; created, initialized and freed in 50 µs.",
+        "20 values read in 45 ns, set in 25 ns; 10 ns in a step beyond the solver; a state saved or set back in 100 \
+         ns; created, initialized and freed in 50 µs.",
         &[M(
             "cargo bench --bench fmi2_interface",
             "22 ns, 23 ns, 32 and 59 ns are kept; a step's 17 to 27 ns and 74 µs are not",

@@ -31,7 +31,8 @@ pub(super) const RULES: &[Rule] = &[
     ),
     (
         "Binary",
-        "A file that an instance writes is no other instance's, in this process or another: the second is refused at its start.",
+        "A file that an instance writes is no other instance's, in this process or another: the second is refused at \
+         its start.",
         &[
             T("instances_whose_names_become_one_file_name_are_told_so_at_the_start"),
             T("a_recording_of_another_process_is_left_alone_while_it_is_written_and_no_longer"),
@@ -59,7 +60,8 @@ pub(super) const RULES: &[Rule] = &[
     ),
     (
         "Binary",
-        "Further platforms are packed when their Rust target is installed, and refused with the command that installs it when not.",
+        "Further platforms are packed when their Rust target is installed, and refused with the command that installs \
+         it when not.",
         &[T("a_platform_without_its_standard_library_is_refused_with_the_command_that_installs_it")],
     ),
     (
@@ -81,7 +83,8 @@ pub(super) const RULES: &[Rule] = &[
     ("State machine", "A reset instance is as a new one.", &[T("a_reset_instance_runs_like_a_new_one_to_the_bit")]),
     (
         "State machine",
-        "A recording that cannot be stored fails a step, but neither a termination nor a reset: these warn, and say what was lost.",
+        "A recording that cannot be stored fails a step, but neither a termination nor a reset: these warn, and say \
+         what was lost.",
         &[T("a_full_disk_costs_samples_that_are_told_and_no_instance")],
     ),
     (
@@ -116,7 +119,8 @@ pub(super) const RULES: &[Rule] = &[
     ),
     (
         "State machine",
-        "Resource URIs with one, two and three slashes, escapes, spaces, plus signs and other alphabets are understood.",
+        "Resource URIs with one, two and three slashes, escapes, spaces, plus signs and other alphabets are \
+         understood.",
         &[
             T("resources_are_found_under_every_form_of_file_uri_and_odd_names"),
             T("one_two_and_three_slashes_and_localhost_name_the_same_path"),

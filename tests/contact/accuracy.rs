@@ -2,12 +2,10 @@
 //! trace, a rough topography.
 #![allow(clippy::unwrap_used)]
 
-#[path = "support/er16k.rs"]
-mod er16k;
-mod support;
-
+use crate::support;
 use std::fmt::Write;
 
+use crate::er16k::OUTER as ER16K;
 use brinell::contact::love::LoveContact;
 use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::{MapSpecification, Sequential};
@@ -15,7 +13,6 @@ use brinell::contact::raceway_grid::{ElementOnRaceway, Resolution};
 use brinell::contact::rolling::RacewaySide;
 use brinell::simulation::setup;
 use brinell::surface::{Surface, Topography};
-use er16k::OUTER as ER16K;
 
 /// A shallow spall with sloped flanks, whose floor is rough by 1 µm and different at front and back; the element
 /// touches the floor.
@@ -95,7 +92,7 @@ fn the_map_follows_the_grid_over_a_measured_trace() {
     demonstrate_shipped("6205-epps");
 }
 
-/// `cargo test --release --test contact_accuracy -- --ignored`
+/// `cargo test --release --test contact accuracy:: -- --ignored`
 #[test]
 #[ignore = "takes minutes: without mirrored halves a contact has twice the unknowns"]
 fn the_map_follows_the_grid_over_a_rough_topography() {

@@ -3,19 +3,15 @@
 //! One test only, for the count is the whole program's.
 #![allow(clippy::unwrap_used)]
 
-#[path = "support/counting.rs"]
-mod counting;
-#[path = "support/er16k.rs"]
-mod er16k;
-
+use crate::er16k;
 use std::f64::consts::FRAC_PI_2;
 
+use crate::counting::counted;
 use brinell::contact::love::LoveContact;
 use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::{MapSpecification, Sequential};
 use brinell::contact::raceway_grid::Resolution;
 use brinell::surface::{Profile, Surface};
-use counting::counted;
 
 #[test]
 fn contacts_of_an_element_that_passes_an_edge_allocate_nothing() {

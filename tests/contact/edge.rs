@@ -2,9 +2,7 @@
 //! below a step.
 #![allow(clippy::unwrap_used)]
 
-#[path = "support/er16k.rs"]
-mod er16k;
-
+use crate::er16k::OUTER as ER16K;
 use brinell::contact::edge_softness::{EdgeSoftness, image_factor};
 use brinell::contact::error::ContactError;
 use brinell::contact::love::LoveContact;
@@ -12,7 +10,6 @@ use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::{MapSpecification, Sequential};
 use brinell::contact::raceway_grid::Resolution;
 use brinell::surface::{Profile, Surface};
-use er16k::OUTER as ER16K;
 use std::f64::consts::FRAC_PI_2;
 
 /// A spall 6.5 mm long with flanks of this slope [rad].

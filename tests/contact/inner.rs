@@ -2,16 +2,13 @@
 //! defect of an element is the same problem on either side; only the arc is counted along the element then.
 #![allow(clippy::unwrap_used)]
 
-#[path = "support/er16k.rs"]
-mod er16k;
-
+use crate::er16k::{INNER, OUTER};
 use brinell::contact::love::LoveContact;
 use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::{MapSpecification, Sequential};
 use brinell::contact::raceway_grid::{ElementOnRaceway, Resolution};
 use brinell::contact::rolling::RacewaySide;
 use brinell::surface::{Profile, Surface};
-use er16k::{INNER, OUTER};
 use std::f64::consts::FRAC_PI_2;
 
 /// 640 N on the inner raceway.
@@ -74,7 +71,7 @@ fn a_convex_raceway_lets_the_element_sink_half_as_much_again_as_a_concave_one() 
     assert!(forces(&mut inner, inside + 1e-6, past - 1.37e-3)[0] > 0.0);
 }
 
-/// `cargo test --workspace --test contact_inner -- --ignored --nocapture` prints the rows of `docs/contact.md`.
+/// `cargo test --workspace --test contact inner:: -- --ignored --nocapture` prints the rows of `docs/contact.md`.
 #[test]
 #[ignore = "takes minutes"]
 fn the_map_follows_the_grid_and_the_grid_a_finer_one() {

@@ -1,19 +1,16 @@
 //! The contact of an element with a damaged raceway: grid, map, and their joint with the closed form.
 #![allow(clippy::unwrap_used)]
 
-#[path = "support/er16k.rs"]
-mod er16k;
-
 use std::f64::consts::FRAC_PI_2;
 use std::sync::OnceLock;
 
+use crate::er16k::OUTER as ER16K;
 use brinell::contact::error::ContactError;
 use brinell::contact::love::LoveContact;
 use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::{MapSpecification, Sequential};
 use brinell::contact::raceway_grid::{Across, ElementOnRaceway, Resolution};
 use brinell::surface::{Profile, Surface, Topography};
-use er16k::OUTER as ER16K;
 
 const LENGTH: f64 = 6.517e-3;
 const LARGEST: f64 = 10e-6;

@@ -2,15 +2,13 @@
 //! middle of a profile, or the defect is refused.
 #![allow(clippy::unwrap_used)]
 
-mod support;
-
+use crate::support::{Named, shipped};
 use brinell::contact::error::ContactError;
 use brinell::contact::rigid_path::RigidPath;
 use brinell::contact::rolling::Rolling;
 use brinell::scene::{ContactLaw, Defect, DefectShape, Motion, Scene};
 use brinell::simulation::{Simulation, SimulationError};
 use std::f64::consts::{FRAC_PI_2, TAU};
-use support::{Named, shipped};
 
 const DEPTH: f64 = 100e-6;
 

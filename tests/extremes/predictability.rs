@@ -161,9 +161,12 @@ fn oil([dry, oiled]: [&Run; 2]) -> String {
     let [dry, oiled] = [("er16k-tb1", TOLERANCES[2]), ("er16k-tb1-oil", TOLERANCES[2])]
         .map(|(scene, tolerance)| Run::of(scene, tolerance, 0.0).steps);
     format!(
-        "A contact counts as begun here where its force begins, which with oil is where the gap begins to close: the outer\n\
-         raceway is felt {:.1} ms before it is touched. What the loaded elements do hardly changes. Steps are fewer, as\n\
-         nothing bounces: {} over 0.1 s at the default tolerance, {} of them refused, where the dry bearing takes {} and\n\
+        "A contact counts as begun here where its force begins, which with oil is where the gap begins to close: the \
+         outer\n\
+         raceway is felt {:.1} ms before it is touched. What the loaded elements do hardly changes. Steps are fewer, \
+         as\n\
+         nothing bounces: {} over 0.1 s at the default tolerance, {} of them refused, where the dry bearing takes {} \
+         and\n\
          refuses {}.\n",
         1e3 * (before - after),
         oiled[0],
@@ -184,16 +187,17 @@ pub fn tables() -> [(&'static str, String); 4] {
     let mut dry = growth([&exact, &moved]);
     writeln!(
         dry,
-        "\nFrom 5 to 50 ms that is ten times every {milliseconds:.1} ms, or every {contacts:.0} contacts begun by any of the elements; after it the \
-         paths differ by as much as the play lets them."
+        "\nFrom 5 to 50 ms that is ten times every {milliseconds:.1} ms, or every {contacts:.0} contacts begun by any \
+         of the elements; after it the paths differ by as much as the play lets them."
     )
     .unwrap();
     let oiled = [0.0, 1e-12].map(|moved| Run::of("er16k-tb1-oil", TIGHTEST, moved));
     let changed = oil([&exact, &oiled[0]]);
     let oiled = growth([&oiled[0], &oiled[1]]) + "\n" + &outline([("dry", &exact), ("with oil", &oiled[0])]);
 
-    let mut text = "| tolerance | error of `housing.ay`, 0–10 ms | 10–20 ms | 20–30 ms | 50–100 ms | its rms, 0–50 ms | 50–100 ms | \
-                    contact lost | struck again | `housing.ay` largest |\n|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n"
+    let mut text = "| tolerance | error of `housing.ay`, 0–10 ms | 10–20 ms | 20–30 ms | 50–100 ms | its rms, 0–50 ms \
+                    | 50–100 ms | contact lost | struck again | `housing.ay` largest \
+                    |\n|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n"
         .to_owned();
     let line = |name: String, run: &Run| {
         let errors = WINDOWS.map(|(from, to)| format!("{:.0e}", run.error(&exact, from, to))).join(" | ");

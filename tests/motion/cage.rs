@@ -1,12 +1,10 @@
 //! Irregular cages: elements off even spacing, jitter about it, a speed that wanders.
 #![allow(clippy::unwrap_used)]
 
-mod support;
-
+use crate::support::defects::{cells_kept, element, held, inner, spall};
+use crate::support::{Named, shipped};
 use brinell::scene::{CageIrregularity, Defect, DefectOn, Motion, Ring, Scene};
 use std::f64::consts::{FRAC_PI_2, TAU};
-use support::defects::{cells_kept, element, held, inner, spall};
-use support::{Named, shipped};
 
 fn irregular(mut scene: Scene, offsets: Vec<f64>, jitter: f64, wander: f64) -> Scene {
     scene.cage.irregularity = Some(CageIrregularity { offsets, jitter, wander, seed: 42 });
@@ -236,7 +234,7 @@ fn a_defect_of_an_element_is_where_the_scene_says_at_the_start() {
 
 #[test]
 fn keys_of_the_cage_are_read_and_refused_with_their_limits() {
-    let text = include_str!("../scenes/er16k-tb1.toml");
+    let text = include_str!("../../scenes/er16k-tb1.toml");
     let with = |keys: &str| {
         let (before, after) = text.split_once("[cage]\n").unwrap();
         Scene::from_toml(&format!("{before}[cage]\n{keys}\n{after}"))

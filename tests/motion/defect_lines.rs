@@ -1,12 +1,10 @@
 //! Lines of steady runs with a defect of the inner raceway or of a ball, against those of an independent simulation.
 #![allow(clippy::unwrap_used)]
 
-mod support;
-
+use crate::support::Named;
+use crate::support::defects::{element, inner};
 use brinell::scene::{Ring, Scene};
 use std::f64::consts::TAU;
-use support::Named;
-use support::defects::{element, inner};
 
 /// Mean force on the outer ring, x and y, in every 20 µs of a run of some seconds [N].
 fn housing_force(mut scene: Scene, seconds: f64) -> [Vec<f64>; 2] {

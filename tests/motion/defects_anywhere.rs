@@ -1,8 +1,8 @@
 //! Defects of the inner raceway and of rolling elements, and outer rings that turn: closed forms, symmetries, energy.
 #![allow(clippy::unwrap_used)]
 
-mod support;
-
+use crate::support::defects::{PAST_INNER, SPIN, cells_kept, element, inner, spall};
+use crate::support::{Named, map_of};
 use brinell::contact::rolling::RacewaySide;
 use brinell::dynamics::drive::Frame;
 use brinell::dynamics::forces::Forces;
@@ -10,8 +10,6 @@ use brinell::geometry::hertz_constant::HertzConstants;
 use brinell::scene::{ContactLaw, Damping, Defect, DefectOn, Ring, Scene};
 use brinell_analysis::static_bearing::StaticBearing;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use support::defects::{PAST_INNER, SPIN, cells_kept, element, inner, spall};
-use support::{Named, map_of};
 
 #[test]
 fn frequencies_of_the_elements_spin_are_those_of_pure_rolling() {

@@ -7,13 +7,10 @@
 
 #![allow(clippy::unwrap_used)]
 
-#[path = "support/counting.rs"]
-mod counting;
-mod support;
-
+use crate::counting;
+use crate::support::{Named, shipped};
 use brinell::scene::{ContactLaw, Defect, DefectShape, Scene};
 use std::f64::consts::FRAC_PI_2;
-use support::{Named, shipped};
 
 const LAWS: [ContactLaw; 3] = [ContactLaw::Hertz, ContactLaw::Map, ContactLaw::Love];
 

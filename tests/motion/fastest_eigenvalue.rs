@@ -1,8 +1,7 @@
 //! The fastest eigenvalue that steps are chosen by, [`Jacobian::fastest`], against all eigenvalues of the Jacobian.
 #![allow(clippy::unwrap_used)]
 
-mod support;
-
+use crate::support::{Named, shipped};
 use brinell::dynamics::drive::{Drive, Quadratic};
 use brinell::dynamics::jacobian::Jacobian;
 use brinell::dynamics::model::Model;
@@ -12,7 +11,6 @@ use brinell::simulation::setup::build_model;
 use brinell::surface::Surface;
 use brinell_eigen::eigenvalues;
 use std::f64::consts::TAU;
-use support::{Named, shipped};
 
 /// Numbers that are always the same.
 struct Draw(u64);

@@ -1,8 +1,7 @@
 //! The oil film: what it takes off the clearance, what it resists with before contacts begin, and that it is state.
 #![allow(clippy::unwrap_used)]
 
-mod support;
-
+use crate::support::{Named, shipped};
 use brinell::dynamics::drive::Drive;
 use brinell::dynamics::film;
 use brinell::dynamics::forces::Forces;
@@ -12,7 +11,6 @@ use brinell::geometry::film_thickness::{LubricatedContact, rolling_speed_ratio};
 use brinell::scene::{Film, Motion, Ring, Scene};
 use brinell::simulation::Simulation;
 use std::f64::consts::TAU;
-use support::{Named, shipped};
 
 const OIL: Film = Film { viscosity: 0.04, pressure_viscosity: 2e-8, layer: None };
 

@@ -4,10 +4,8 @@
 //! prototype of the same equations; they agree with the four events that the paper describes.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
-mod support;
-
+use crate::support::{Named, shipped};
 use brinell::scene::ContactLaw;
-use support::{Named, shipped};
 
 /// Time after which element 1 of `er16k-tb1` passes the leading edge [s].
 const ENTRY: f64 = 5e-3;

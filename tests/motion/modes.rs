@@ -1,8 +1,7 @@
 //! Natural frequencies, damping ratios and shapes: against the simulation's own free decay, closed forms and sums.
 #![allow(clippy::unwrap_used)]
 
-mod support;
-
+use crate::support::{Named, map_of, profile_of, shipped, shipped_as_it_is};
 use brinell::dynamics::jacobian::Jacobian;
 use brinell::dynamics::kinematics::FramedKinematics;
 use brinell::dynamics::raceway::Cells;
@@ -16,7 +15,6 @@ use brinell_analysis::modes_report::ModesReport;
 use brinell_analysis::static_bearing::StaticBearing;
 use brinell_eigen::eigenvalues;
 use std::f64::consts::TAU;
-use support::{Named, map_of, profile_of, shipped, shipped_as_it_is};
 
 const STILL: Ring = Ring::fixed();
 

@@ -1,13 +1,10 @@
 //! The model against laws: balance, symmetry, conservation, and what a step may not do.
 
-#[path = "support/counting.rs"]
-mod counting;
-mod support;
-
+use crate::counting;
+use crate::support::{Named, shipped};
 use brinell::scene::{Damping, Motion, Scene};
 use brinell::simulation::Method;
 use proptest::prelude::*;
-use support::{Named, shipped};
 
 fn without_damping(mut scene: Scene) -> Scene {
     scene.contact.damping = Damping::HuntCrossley(0.0);

@@ -1,14 +1,12 @@
 //! The recorder samples inside the step, and the recording is a file that NumPy reads.
 #![allow(clippy::unwrap_used)]
 
-mod support;
-
+use crate::support::{Named, shipped};
 use brinell::recording::Recording;
 use brinell::scene::{ContactLaw, Defect, DefectShape, Recorder, RecorderFilter, Scene};
 use std::f64::consts::FRAC_PI_2;
 use std::fs;
 use std::path::PathBuf;
-use support::{Named, shipped};
 
 const RATE: f64 = 51_200.0;
 

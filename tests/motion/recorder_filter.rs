@@ -1,18 +1,15 @@
 //! What the recorder's filter lets through, and what it keeps out.
 //!
-//! `cargo test --test recorder_filter -- --nocapture aliases` prints the levels of docs/guide.md.
+//! `cargo test --test motion recorder_filter -- --nocapture` prints the levels of docs/guide.md.
 #![allow(clippy::unwrap_used)]
 
-#[path = "support/counting.rs"]
-mod counting;
-mod support;
-
+use crate::counting;
+use crate::support::{Named, shipped};
 use RecorderFilter::{LinearPhase, None};
 use brinell::numerics::low_pass::low_pass;
 use brinell::scene::{Recorder, RecorderFilter, Scene};
 use brinell_analysis::spectrum::power;
 use std::ops::Range;
-use support::{Named, shipped};
 
 fn started(mut scene: Scene, rate: f64, filter: RecorderFilter) -> Named {
     scene.recorder = Some(Recorder { rate, filter });
@@ -86,7 +83,7 @@ fn no_aliases_reach_the_band_below_the_rate_over_2_56() {
 
 /// Levels [dB] without a filter in the guide's row of a rate [Hz]: sensor, housing, force on the shaft.
 fn levels_in_the_guide(rate: f64) -> Vec<f64> {
-    let (guide, number) = (include_str!("../docs/guide.md"), format!("{}", rate as u64));
+    let (guide, number) = (include_str!("../../docs/guide.md"), format!("{}", rate as u64));
     let name = format!("| {} {} |", &number[..number.len() - 3], &number[number.len() - 3..]);
     let row = guide.lines().find(|line| line.starts_with(&name)).unwrap();
     let cells = row.split('|').filter(|cell| cell.contains("dB"));

@@ -2,8 +2,7 @@
 //! ones.
 #![allow(clippy::unwrap_used)]
 
-mod support;
-
+use crate::support::{Named, shipped};
 use brinell::contact::map_specification::Sequential;
 use brinell::contact::rigid_path::RigidPath;
 use brinell::contact::rolling::Rolling;
@@ -13,7 +12,6 @@ use brinell::surface::{Profile, Surface};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::OnceLock;
-use support::{Named, shipped};
 
 /// Two rings that nothing moves and nine elements pressed between them by 25 µm, so that each is in contact all the
 /// time; free ones bounce, and two such runs can be compared for a few strikes only.

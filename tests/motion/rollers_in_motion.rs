@@ -1,8 +1,7 @@
 //! Cylindrical rollers in motion: closed forms at the extremes, energy, both methods, defects of every body.
 #![allow(clippy::unwrap_used)]
 
-mod support;
-
+use crate::support::{Named, shipped};
 use brinell::contact::rolling::RacewaySide;
 use brinell::contact::smooth_laws::elastic_law;
 use brinell::geometry::kinematics::cage_ratio;
@@ -10,7 +9,6 @@ use brinell::geometry::line_contact::line_constant;
 use brinell::scene::{Bearing, ContactLaw, Damping, DefectOn, Ring, Roller, RollerProfile, RollingElement, Scene};
 use brinell::simulation::Method;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use support::{Named, shipped};
 
 fn healthy() -> Scene {
     shipped("nu205-healthy")

@@ -1,11 +1,9 @@
 //! The structure between the outer ring and a sensor.
 #![allow(clippy::unwrap_used)]
 
-mod support;
-
+use crate::support::{Named, shipped};
 use brinell::scene::{Recorder, RecorderFilter, Ring, Scene, Sensor, SensorMode};
 use std::f64::consts::TAU;
-use support::{Named, shipped};
 
 /// The first as damping that couples modes would have it.
 const MODES: [SensorMode; 2] = [
@@ -225,7 +223,7 @@ fn what_is_wrong_with_a_mode_is_said_with_its_key_and_limit() {
 #[test]
 fn tables_of_modes_belong_to_the_sensor_before_them() {
     // What stands after the sensor goes with it; all of it has defaults.
-    let (text, _) = include_str!("../scenes/6205-spall-5deg.toml").split_once("\n[sensor]\n").unwrap();
+    let (text, _) = include_str!("../../scenes/6205-spall-5deg.toml").split_once("\n[sensor]\n").unwrap();
     let mode = "[[sensor.mode]]\nfrequency_hz = 2300\ndamping_ratio = 0.03\ngain = 0.8\nquadrature_gain = 0.2\n";
     let with = |tables: &str| Scene::from_toml(&format!("{text}\n{tables}"));
     let count =

@@ -1,12 +1,10 @@
 //! Accelerometers along any direction, and the probe between the rings.
 #![allow(clippy::unwrap_used)]
 
-mod support;
-
+use crate::support::{Named, shipped};
 use brinell::scene::{Ring, Scene, Sensor};
 use brinell::simulation::variables::Causality;
 use std::f64::consts::FRAC_PI_2;
-use support::{Named, shipped};
 
 fn sensor(degrees: f64, mass: f64) -> Sensor {
     Sensor { direction: degrees.to_radians(), mass, ..Sensor::default() }
@@ -69,7 +67,7 @@ fn turning_the_scene_with_its_sensors_changes_no_signal() {
 
 #[test]
 fn one_table_among_several_sensors_is_the_table_alone() {
-    let text = include_str!("../scenes/6205-spall-5deg.toml");
+    let text = include_str!("../../scenes/6205-spall-5deg.toml");
     assert!(text.contains("\n[sensor]\n"));
     let several = text.replace("\n[sensor]\n", "\n[[sensor]]\ndirection_deg = 90\n");
     assert_eq!(Scene::from_toml(&several).unwrap(), Scene::from_toml(text).unwrap());
@@ -160,7 +158,7 @@ fn what_is_wrong_with_a_sensor_is_said_with_its_number() {
     scene.sensors = vec![Sensor { direction: FRAC_PI_2 * 1e9, ..Sensor::default() }];
     assert!(refused(&scene).contains("sensor.direction_deg"));
     let text =
-        include_str!("../scenes/6205-spall-5deg.toml").replace("\n[sensor]\n", "\n[probe]\nangle = 3\n[sensor]\n");
+        include_str!("../../scenes/6205-spall-5deg.toml").replace("\n[sensor]\n", "\n[probe]\nangle = 3\n[sensor]\n");
     let message = Scene::from_toml(&text).unwrap_err().to_string();
     assert!(message.contains("probe.angle"), "{message}");
 }

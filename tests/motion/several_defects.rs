@@ -1,16 +1,14 @@
 //! Several defects of one bearing: on one body or on several, far apart or under one envelope.
 #![allow(clippy::unwrap_used)]
 
-mod support;
-
+use crate::support::Named;
+use crate::support::defects::{held, spall};
 use brinell::contact::contact_maps::ContactMaps;
 use brinell::contact::map_specification::Sequential;
 use brinell::scene::{ContactLaw, Defect, DefectOn, DefectShape, Scene};
 use brinell::simulation::{Simulation, setup};
 use brinell::surface::Surface;
 use std::f64::consts::{FRAC_PI_2, PI};
-use support::Named;
-use support::defects::{held, spall};
 
 /// ER16K with these defects under law `hertz`, its outer ring held.
 fn bearing(defects: Vec<Defect>) -> Scene {
@@ -133,7 +131,7 @@ fn the_order_in_which_defects_are_named_changes_no_bit() {
 
 #[test]
 fn one_table_among_several_is_the_table_alone() {
-    let text = include_str!("../scenes/er16k-inner.toml");
+    let text = include_str!("../../scenes/er16k-inner.toml");
     assert!(text.contains("\n[defect]\n"));
     let several = Scene::from_toml(&text.replace("\n[defect]\n", "\n[[defect]]\n")).unwrap();
     assert_eq!(several, Scene::from_toml(text).unwrap());
@@ -188,7 +186,7 @@ fn overlaps_and_topographies_too_close_are_refused_with_their_numbers() {
 
 #[test]
 fn what_is_wrong_with_one_of_several_defects_is_said_with_its_number() {
-    let text = include_str!("../scenes/er16k-inner.toml");
+    let text = include_str!("../../scenes/er16k-inner.toml");
     let (before, after) = text.split_once("\n[defect]\n").unwrap();
     let both = |second: &str| {
         let spall = "on = \"outer\"\nangle_deg = 10\nlength_mm = 1\ndepth_um = 20\n";

@@ -1,15 +1,13 @@
 //! Static stiffness, load distribution and critical load.
 #![allow(clippy::unwrap_used)]
 
-mod support;
-
+use crate::support::{profile_of, shipped};
 use brinell::scene::{DefectOn, DefectShape, Scene};
 use brinell_analysis::critical_load::CriticalLoad;
 use brinell_analysis::static_bearing::{Balance, StaticBearing, StaticError};
 use brinell_analysis::stiffness::{min_mean_max, sweep};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
-use support::{profile_of, shipped};
 
 fn bearing(scene: &Scene) -> StaticBearing {
     StaticBearing::new(scene, profile_of(scene).as_deref()).unwrap()
@@ -227,7 +225,8 @@ proptest! {
         for element in &balance.elements {
             // n from the displaced inner ring's centre to the element's.
             let rho = 0.5 * scene.bearing.pitch_diameter + 0.5 * scene.bearing.radial_clearance + element.path;
-            let q = [rho * element.angle.cos() - balance.displacement[0], rho * element.angle.sin() - balance.displacement[1]];
+            let (sin, cos) = element.angle.sin_cos();
+            let q = [rho * cos - balance.displacement[0], rho * sin - balance.displacement[1]];
             let length = q[0].hypot(q[1]);
             prop_assert!(element.inner_force >= 0.0 && element.outer_force >= 0.0);
             for a in 0..2 {

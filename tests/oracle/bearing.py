@@ -1,4 +1,5 @@
-"""Equations of motion of a rolling bearing with one rectangular spall, contact law `hertz`: the other side of a cross-check.
+"""Equations of motion of a rolling bearing with one rectangular spall, contact law `hertz`: the other side of a
+cross-check.
 
 Written from the equations, without looking at the Rust code. SI units, y up, angles counter-clockwise from +x.
 
@@ -6,8 +7,8 @@ Assumed: rigid rings that translate, turn evenly and do not tilt; a kinematic ca
 elements that spin as if they rolled on both raceways; no friction, lubricant or axial motion. Invalid beside a spall's
 edge, where Hertz's paraboloids are not what touches.
 
-States: shaft x y vx vy | housing x y vx vy (each only if that ring is `internal`) | resonator y vy (if any) | u[Z] | w[Z].
-u is how far an element's centre lies outside its path on the smooth outer raceway, w its absolute radial velocity.
+States: shaft x y vx vy | housing x y vx vy (each only if that ring is `internal`) | resonator y vy (if any) | u[Z] |
+w[Z]. u is how far an element's centre lies outside its path on the smooth outer raceway, w its absolute radial velocity.
 """
 
 from dataclasses import dataclass, field
@@ -55,7 +56,8 @@ class Point:
 
 
 class Line:
-    """Contact of a roller, cut into laminae: Q = K/n Σ max(0, δ - P_k)^(10/9), ISO/TS 16281 for one of its two contacts."""
+    """Contact of a roller, cut into laminae: Q = K/n Σ max(0, δ - P_k)^(10/9), ISO/TS 16281 for one of its two
+    contacts."""
 
     def __init__(self, bearing):
         length, d_w = bearing["roller_length_mm"], bearing["element_diameter_mm"]
@@ -108,7 +110,9 @@ class Bearing:
         b, contact, cage = scene["bearing"], scene.get("contact", {}), scene.get("cage", {})
         d_w, d_pw = b["element_diameter_mm"] * 1e-3, b["pitch_diameter_mm"] * 1e-3
         self.z = b["element_count"]
-        self.clearance = b["radial_clearance_um"] * MICRO if "radial_clearance_um" in b else b["internal_clearance_um"] * MICRO / 2
+        self.clearance = (
+            b["radial_clearance_um"] * MICRO if "radial_clearance_um" in b else b["internal_clearance_um"] * MICRO / 2
+        )
         self.r, self.r_o, self.r_i = d_w / 2, (d_pw + d_w + self.clearance) / 2, (d_pw - d_w - self.clearance) / 2
         self.rho0 = self.r_o - self.r  # radius of an element's centre at u = 0
 
@@ -175,7 +179,9 @@ class Bearing:
             if isinstance(growth, Point):
                 damped = approach + 1.5 * self.tau * rate
             else:  # by Q over its secant; where nothing carries it is of a straight roller's order
-                damped = approach + self.tau * rate * np.where(d > 0, slope * d / np.where(elastic > 0, elastic, 1.0), 10 / 9)
+                damped = approach + self.tau * rate * np.where(
+                    d > 0, slope * d / np.where(elastic > 0, elastic, 1.0), 10 / 9
+                )
             secant = np.where(d > 0, elastic / np.where(d > 0, d, 1.0), 0.0)
             return secant * np.maximum(damped * (d > 0), 0.0), np.minimum(approach, damped) / MICRO
         factor = 1 + self.chi * rate
@@ -193,7 +199,9 @@ class Bearing:
         t_i = np.array([-n[1], n[0]])
         # R_i + r - |q| without cancellation: R_i + r = ρ0 - G_r, and ρ0 - |q| = (ρ0² - |q|²)/(ρ0 + |q|).
         inner = -self.clearance - (2 * self.rho0 * (e_r * s).sum(0) + (s * s).sum(0)) / (self.rho0 + q_length)
-        inner_rate = -((n * ((v_o - v_i)[:, None] + u_dot * e_r)).sum(0) + rho * self.omega_c * (s * e_t).sum(0) / q_length)
+        inner_rate = -(
+            (n * ((v_o - v_i)[:, None] + u_dot * e_r)).sum(0) + rho * self.omega_c * (s * e_t).sum(0) / q_length
+        )
         outer, outer_rate, slope_i, slope_o, corners = u, u_dot, 0.0, 0.0, np.empty(0)
         if self.spall:
             phi = np.arctan2(q[1], q[0])
@@ -233,7 +241,9 @@ class Bearing:
         at = 0
         if self.shaft.motion == "internal":
             dy[0:2] = v_i
-            dy[2:4] = (c.on_shaft() + self.shaft.load - self.shaft.damping * v_i - self.shaft.stiffness * x_i) / self.shaft.mass
+            dy[2:4] = (
+                c.on_shaft() + self.shaft.load - self.shaft.damping * v_i - self.shaft.stiffness * x_i
+            ) / self.shaft.mass
             at = 4
         resonator = np.zeros(2)
         if self.sensor:

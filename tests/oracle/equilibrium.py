@@ -1,9 +1,9 @@
 """Static equilibrium of elements and rings at one cage angle, and the condensed stiffness around it.
 
-Rings at rest or moving as given; elements carried round by the cage (centrifugal force counts), u' = 0. The contacts' damping at
-these rates belongs to the balance, so that nothing accelerates at the start. An element without a net outward push rests at u = 0, or on the inner ring if
-that is near. Given the rings, each element's balance falls monotonically with u, so
-bisection finds it to rounding; Newton moves the rings.
+Rings at rest or moving as given; elements carried round by the cage (centrifugal force counts), u' = 0. The contacts'
+damping at these rates belongs to the balance, so that nothing accelerates at the start. An element without a net
+outward push rests at u = 0, or on the inner ring if that is near. Given the rings, each element's balance falls
+monotonically with u, so bisection finds it to rounding; Newton moves the rings.
 """
 
 import numpy as np
@@ -13,7 +13,9 @@ ZERO = np.zeros(2)
 
 def static_contacts(bearing, t, u, x_i, x_o):
     """Contacts with u' = 0, free rings at rest and given rings at their velocity."""
-    v_i, v_o = (ZERO if ring.motion == "internal" else ring.given_motion(t)[1] for ring in (bearing.shaft, bearing.housing))
+    v_i, v_o = (
+        ZERO if ring.motion == "internal" else ring.given_motion(t)[1] for ring in (bearing.shaft, bearing.housing)
+    )
     return bearing.contacts(t, u, 0 * u, x_i, v_i, x_o, v_o)
 
 
@@ -95,7 +97,9 @@ class Equilibrium:
             if np.linalg.norm(r) <= 1e-13 * load + 1e-15:
                 break
             move, scale = -np.linalg.lstsq(self.jacobian(x), r, rcond=1e-12)[0], 1.0
-            while scale > 1e-6 and np.linalg.norm(self.residual(x + scale * move)) > (1 - 1e-4 * scale) * np.linalg.norm(r):
+            while scale > 1e-6 and np.linalg.norm(self.residual(x + scale * move)) > (
+                1 - 1e-4 * scale
+            ) * np.linalg.norm(r):
                 scale /= 2
             if scale <= 1e-6:  # no descent left: rounding, or a kink
                 break

@@ -2,9 +2,9 @@
 
     python tests/oracle/extremes.py [PART OF A CASE'S NAME]
 
-DOP853 at a relative tolerance of 1e-12 on the equations of bearing.py, landing on edges and contact changes. Each case runs
-once more at 1e-10; the column `own_error` is the largest difference of any force over the largest force.
-With a name, only such cases are computed anew and the others kept.
+DOP853 at a relative tolerance of 1e-12 on the equations of bearing.py, landing on edges and contact changes. Each case
+runs once more at 1e-10; the column `own_error` is the largest difference of any force over the largest force. With a
+name, only such cases are computed anew and the others kept.
 """
 
 import csv
@@ -138,7 +138,11 @@ def main():
             for line in csv.DictReader(file):
                 kept.setdefault(line["what"], []).append(line)
     with ProcessPoolExecutor() as pool, open(TABLE, "w", newline="", encoding="utf-8") as file:
-        anew = {case["what"]: pool.submit(rows, case) for case in cases if wanted in case["what"] or case["what"] not in kept}
+        anew = {
+            case["what"]: pool.submit(rows, case)
+            for case in cases
+            if wanted in case["what"] or case["what"] not in kept
+        }
         writer = csv.DictWriter(file, ["what", "step", *NAMES, "own_error"], lineterminator="\n")
         writer.writeheader()
         for case in cases:

@@ -1,4 +1,5 @@
-"""Numbers to hold a bearing against: events of a passage, ringing, natural frequencies, static stiffness, critical load.
+"""Numbers to hold a bearing against: events of a passage, ringing, natural frequencies, static stiffness, critical
+load.
 
     python tests/oracle/measure.py passage SCENE.toml [--stop 0.08] [--rtol 1e-9]
     python tests/oracle/measure.py modes SCENE.toml [--remove N …]      elements N (from 1) taken out
@@ -41,7 +42,9 @@ def fit_ringing(t, signal):
 
 
 def outer_spall(bearing):
-    assert bearing.spall and bearing.spall.on == "outer" and not bearing.omega_o, "a spall of an outer ring at rest only"
+    assert bearing.spall and bearing.spall.on == "outer" and not bearing.omega_o, (
+        "a spall of an outer ring at rest only"
+    )
     return bearing.spall
 
 
@@ -58,10 +61,17 @@ def passage(bearing, stop, rtol):
         changes = [((at - start) * 1e3, side, gained) for at, side, k, gained in run.changes
                    if k == j and -1e-3 < at - start < length + 2e-3]
         print(f"element {j + 1}: leading edge at t = {start * 1e3:.4f} ms, trailing edge {length * 1e3:.4f} ms later")
-        print("  contact changes, ms: " + " ".join(f"{at:.3f}{side[0]}{'+' if gained else '-'}" for at, side, gained in changes))
+        print(
+            "  contact changes, ms: "
+            + " ".join(f"{at:.3f}{side[0]}{'+' if gained else '-'}" for at, side, gained in changes)
+        )
         t, q = a["time"] - start, a[f"element[{j + 1}].force.outer"]
-        for name, low, high in (("before the edge", -1e-3, 0.0), ("on the floor", 1e-3, length - 1.05e-3),
-                                ("at the trailing edge", length - 1.05e-3, length), ("after it", length, length + 3e-3)):
+        for name, low, high in (
+            ("before the edge", -1e-3, 0.0),
+            ("on the floor", 1e-3, length - 1.05e-3),
+            ("at the trailing edge", length - 1.05e-3, length),
+            ("after it", length, length + 3e-3),
+        ):
             window = np.flatnonzero((t > low) & (t < high))
             k = window[np.argmax(q[window])]
             print(f"  outer force {name}: at most {q[k]:.1f} N, at {t[k] * 1e3:.2f} ms")
@@ -82,7 +92,11 @@ def modes(bearing, t=0.0):
     jacobian = np.array([(bearing.rhs(t, y + d) - bearing.rhs(t, y - d)) / (2 * d.max()) for d in np.diag(step)]).T
     bearing.chi = chi
     values, vectors = np.linalg.eig(jacobian)
-    found = [(v.imag / (2 * np.pi), -v.real / abs(v), vectors[:bearing.n_rings, i]) for i, v in enumerate(values) if v.imag > 60]
+    found = [
+        (v.imag / (2 * np.pi), -v.real / abs(v), vectors[: bearing.n_rings, i])
+        for i, v in enumerate(values)
+        if v.imag > 60
+    ]
     return sorted((m for m in found if m[0] < 20e3), key=lambda m: m[0])
 
 
@@ -114,7 +128,8 @@ def stiffness_over_cage_angle(bearing, points):
 
 
 def critical_loads(bearing, t):
-    """(angle from the spall's middle, load that squeezes it against the floor) of each element on the floor at time t."""
+    """(angle from the spall's middle, load that squeezes it against the floor) of each element on the floor at time
+    t."""
     way = bearing.shaft.load / np.linalg.norm(bearing.shaft.load)
     spall = outer_spall(bearing)
     psi = spall.angle("outer", bearing.angles(t), t)
@@ -149,13 +164,20 @@ def main():
     elif args.what == "stiffness":
         _, held, free = stiffness_over_cage_angle(hold_housing(bearing), args.points)
         for name, k in (("held", held), ("free", free)):
-            print(f"transverse {name}: min {k.min() / 1e6:.2f}, mean {k.mean() / 1e6:.2f}, max {k.max() / 1e6:.2f} N/µm")
+            print(
+                f"transverse {name}: min {k.min() / 1e6:.2f}, mean {k.mean() / 1e6:.2f}, max {k.max() / 1e6:.2f} N/µm"
+            )
     else:
         hold_housing(bearing)
         turn = 2 * np.pi / bearing.z / abs(bearing.omega_c)
         for t in np.arange(40) * turn / 40:
-            print(f"cage {np.degrees(bearing.omega_c * t):5.1f}° past its start: " + (", ".join(
-                f"element at {psi:+.1f}° from {load:.1f} N" for psi, load in critical_loads(bearing, t)) or "none on the floor"))
+            print(
+                f"cage {np.degrees(bearing.omega_c * t):5.1f}° past its start: "
+                + (
+                    ", ".join(f"element at {psi:+.1f}° from {load:.1f} N" for psi, load in critical_loads(bearing, t))
+                    or "none on the floor"
+                )
+            )
 
 
 if __name__ == "__main__":

@@ -65,8 +65,16 @@ class Reference:
                 self.t, self.y = solver.t, solver.y
                 continue
             dense, changed = solver.dense_output(), np.flatnonzero(after != before)
-            times = [brentq(lambda t: self.switches(t, dense(t))[k] if t > solver.t_old else (1.0 if before[k] else -1.0),
-                            solver.t_old, solver.t, xtol=1e-17, rtol=1e-15) for k in changed]
+            times = [
+                brentq(
+                    lambda t: self.switches(t, dense(t))[k] if t > solver.t_old else (1.0 if before[k] else -1.0),
+                    solver.t_old,
+                    solver.t,
+                    xtol=1e-17,
+                    rtol=1e-15,
+                )
+                for k in changed
+            ]
             at, k = min(zip(times, changed))
             if k < 2 * self.bearing.z:
                 side = "outer" if k >= self.bearing.z else "inner"

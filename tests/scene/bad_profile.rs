@@ -4,7 +4,7 @@ use brinell::scene::{Bearing, Defect, DefectShape, Scene};
 use brinell::surface::{Profile, Surface};
 
 fn er16k() -> Bearing {
-    match Scene::from_toml(include_str!("../scenes/er16k-tb1.toml")) {
+    match Scene::from_toml(include_str!("../../scenes/er16k-tb1.toml")) {
         Ok(scene) => scene.bearing,
         Err(error) => panic!("{error}"),
     }

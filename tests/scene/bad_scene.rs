@@ -2,21 +2,13 @@
 //!
 //! Each test changes one good scene in one place and reads the message as a user would.
 
-#[path = "bad_scene/at_once.rs"]
 mod at_once;
-#[path = "bad_scene/bodies.rs"]
 mod bodies;
-#[path = "bad_scene/defect.rs"]
 mod defect;
-#[path = "bad_scene/film.rs"]
 mod film;
-#[path = "bad_scene/keys.rs"]
 mod keys;
-#[path = "bad_scene/rollers.rs"]
 mod rollers;
-#[path = "bad_scene/units.rs"]
 mod units;
-#[path = "bad_scene/words.rs"]
 mod words;
 
 use brinell::scene::Scene;

@@ -181,11 +181,13 @@ fn contact_laws_have_the_numbers_and_names_of_the_published_interface() {
 
 #[test]
 fn a_bearing_of_the_catalogue_is_the_one_with_its_dimensions_and_a_key_beside_the_name_wins() {
-    let dimensions = "element_count = 9\nelement_diameter_mm = 7.94\npitch_diameter_mm = 39.32\ngroove_diameter_mm = 8.19\n\
+    let dimensions = "element_count = 9\nelement_diameter_mm = 7.94\npitch_diameter_mm = 39.32\ngroove_diameter_mm = \
+                      8.19\n\
                       youngs_modulus_gpa = 207\npoissons_ratio = 0.3\ndensity_kg_m3 = 7800\n";
     assert!(SHORT.contains(dimensions));
     let with = |keys: &str| Scene::from_toml(&SHORT.replace(dimensions, keys)).unwrap().bearing;
-    let published = "element_count = 9\nelement_diameter_mm = 7.94\npitch_diameter_mm = 39.04\nconformity_inner = 0.52\n\
+    let published = "element_count = 9\nelement_diameter_mm = 7.94\npitch_diameter_mm = 39.04\nconformity_inner = \
+                     0.52\n\
                      conformity_outer = 0.52\nyoungs_modulus_gpa = 207\npoissons_ratio = 0.3\ndensity_kg_m3 = 7800\n";
     let catalogued = with("catalogue = \"6205\"\n");
     assert_eq!(catalogued, with(published));

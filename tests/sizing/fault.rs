@@ -4,6 +4,7 @@
 // What a test calls may end it like the test itself.
 #![allow(clippy::unwrap_used)]
 
+use crate::machine::{RATE, Spall, scene, signal, signal_of};
 use brinell::scene::{ContactLaw, Scene};
 use brinell::simulation::Simulation;
 use brinell_analysis::recording::Recording;
@@ -11,11 +12,7 @@ use brinell_analysis::report::{Fault, Report, Standing, Verdict};
 use brinell_analysis::spall_size::size;
 use brinell_analysis::spectrum::{Band, Spectrum};
 use brinell_analysis::statistics::{Random, rms};
-use machine::{RATE, Spall, scene, signal, signal_of};
 use std::f64::consts::TAU;
-
-#[path = "support/machine.rs"]
-mod machine;
 
 fn sized(signal: Vec<f64>, speed: f64) -> Report {
     size(&[Recording::new("made", signal, RATE, speed).unwrap()], &scene()).unwrap()
@@ -141,7 +138,7 @@ fn the_interval_holds_what_is_picked_in_resamples_too() {
 
 /// What the sensor of the shipped inner scene records at a speed [Hz], by the cheap law, with noise 30 dB below it.
 fn simulated(speed: f64, seconds: f64) -> Vec<f64> {
-    let mut scene = Scene::from_toml(include_str!("../scenes/6205-inner-5deg.toml")).unwrap();
+    let mut scene = Scene::from_toml(include_str!("../../scenes/6205-inner-5deg.toml")).unwrap();
     scene.shaft_speed = TAU * speed;
     scene.contact.law = ContactLaw::Hertz;
     let mut simulation = Simulation::new(scene, None).unwrap();

@@ -4,6 +4,7 @@
 // What a test calls may end it like the test itself.
 #![allow(clippy::unwrap_used)]
 
+use crate::machine::{RATE, scene, signal};
 use brinell::scene::{ContactLaw, Defect, DefectShape, Scene};
 use brinell::simulation::Simulation;
 use brinell_analysis::error::SizingError;
@@ -12,11 +13,7 @@ use brinell_analysis::report::{Kind, Method, Report, Verdict};
 use brinell_analysis::spall_size::size;
 use brinell_analysis::static_bearing::StaticBearing;
 use brinell_analysis::statistics::Random;
-use machine::{RATE, scene, signal};
 use std::f64::consts::{FRAC_PI_2, TAU};
-
-#[path = "support/machine.rs"]
-mod machine;
 
 fn sized(signal: Vec<f64>, speed: f64, scene: &Scene) -> Report {
     size(&[Recording::new("made", signal, RATE, speed).unwrap()], scene).unwrap()
@@ -123,7 +120,7 @@ fn simulated_deep(scene: &Scene, length: f64, depth: f64, seconds: f64) -> Vec<f
 }
 
 fn rig(speed: f64) -> Scene {
-    let mut scene = Scene::from_toml(include_str!("../scenes/er16k-tb1.toml")).unwrap();
+    let mut scene = Scene::from_toml(include_str!("../../scenes/er16k-tb1.toml")).unwrap();
     scene.shaft_speed = TAU * speed;
     scene
 }
@@ -188,7 +185,7 @@ fn a_spall_longer_than_the_spacing_is_called_extended_and_rings_as_its_stiffness
     assert!(!report.reason.contains("WARNING"));
 }
 
-/// `cargo test --release --test spall_size -- --ignored`
+/// `cargo test --release --test sizing length:: -- --ignored`
 #[test]
 #[ignore = "takes half a minute: two long simulations and their sizing"]
 fn an_extended_spall_whose_floor_carries_is_sized_and_warned_about() {

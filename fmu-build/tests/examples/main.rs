@@ -28,12 +28,17 @@ const SYSTEM: &str = "python examples/system_of_fmus.py --short";
 const COST: &str = "python examples/step_cost.py --steps 200";
 const SWEEP: &str =
     "python examples/sweep.py --runs 8 --stop 0.1 --grid defect.length_deg=15.8 --random shaft.speed_hz=10:40";
-const LABELLED: &str = "python examples/sweep.py --kinds healthy,outer,inner,element --law hertz --runs 8 --stop 0.1 --settle 0.02 --signals -o target/labelled";
-const MEASURED: &str = "python examples/sweep.py --kinds healthy,outer,inner --law hertz --runs 12 --stop 0.2 --settle 0.02 --speed-profile up.csv --noise-db 10:30 --rate 12800 --filter --write wav,npy --signals --grid bearing.element_count=8,9 --grid defect.length_mm=1.2 -o target/measured";
-const SIZED: &str = "python examples/sweep.py --runs 1 --stop 0.6 --grid defect.length_deg=15.8 --random shaft.speed_hz=10:40 --size -o target/sized";
+const LABELLED: &str = "python examples/sweep.py --kinds healthy,outer,inner,element --law hertz --runs 8 --stop 0.1 \
+                        --settle 0.02 --signals -o target/labelled";
+const MEASURED: &str = "python examples/sweep.py --kinds healthy,outer,inner --law hertz --runs 12 --stop 0.2 --settle \
+                        0.02 --speed-profile up.csv --noise-db 10:30 --rate 12800 --filter --write wav,npy --signals \
+                        --grid bearing.element_count=8,9 --grid defect.length_mm=1.2 -o target/measured";
+const SIZED: &str = "python examples/sweep.py --runs 1 --stop 0.6 --grid defect.length_deg=15.8 --random \
+                     shaft.speed_hz=10:40 --size -o target/sized";
 const SCHEDULER: &str = "dask scheduler --host 127.0.0.1 --port 8786 --no-dashboard";
 const WORKER: &str = "dask worker tcp://127.0.0.1:8786 --nworkers 2 --nthreads 1 --no-dashboard";
-const CLUSTER: &str = "python examples/sweep.py --scheduler tcp://127.0.0.1:8786 --runs 8 --stop 0.1 --grid defect.length_deg=15.8 --random shaft.speed_hz=10:40";
+const CLUSTER: &str = "python examples/sweep.py --scheduler tcp://127.0.0.1:8786 --runs 8 --stop 0.1 --grid \
+                       defect.length_deg=15.8 --random shaft.speed_hz=10:40";
 /// What this file's environment or another test does.
 const SET_UP: [&str; 8] = [
     "python3 -m venv target/examples-env",

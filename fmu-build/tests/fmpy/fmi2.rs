@@ -1,8 +1,7 @@
 //! A public importer drives the FMUs: fmpy, through the C interface. The scripts in `tests/python` say what they check.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -2,8 +2,7 @@
 //! they check.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::path::{Path, PathBuf};
 
 use fmu_build::{check, project::Project};

@@ -1,8 +1,7 @@
 //! The zip file: reproducible to the byte, and plain enough for every importer.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use fmu_build::archive::{Archive, ArchiveError};
 use fmu_build::fmu::{self, Version};
 use fmu_build::library::{Binary, Library};

@@ -1,9 +1,8 @@
 //! The model library as it is packed: old enough for every Linux, stripped, free of this machine's paths.
-//! `cargo test --workspace --release --test library`. The files of all platforms: `platform_files.rs`.
+//! `cargo test --workspace --release --test fmu library`. The files of all platforms: `platform_files.rs`.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::process::Command;
 
 use fmu_build::library::{Choice, Library};

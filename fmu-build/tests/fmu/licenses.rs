@@ -1,10 +1,9 @@
 //! The licences of all crates that are compiled into the model library stand in `fmu-build/assets/third-party.txt`,
 //! which every FMU holds; those of the program in `third-party-program.txt`, which goes along with it. After a change
-//! of dependencies: `BLESS=1 cargo test --workspace --test licenses`.
+//! of dependencies: `BLESS=1 cargo test --workspace --test fmu licenses`.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

@@ -1,9 +1,8 @@
 //! The model descriptions of all shipped scenes stand in `modelDescription/`, so that a change of the public interface
-//! is a diff to review. After an intended change: `BLESS=1 cargo test -p fmu-build --test model_description`.
+//! is a diff to review. After an intended change: `BLESS=1 cargo test -p fmu-build --test fmu model_description`.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::collections::BTreeSet;
 use std::{env, fs};
 

@@ -1,8 +1,7 @@
 //! Reference results as the FMI cross-check and FMI-LS-REF want them: fmpy accepts the files, and finds the results.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::ffi::OsString;
 use std::path::Path;
 use std::process::Command;

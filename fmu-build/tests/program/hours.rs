@@ -9,8 +9,7 @@
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::env;
 use std::fs;
 use std::path::Path;

@@ -1,8 +1,7 @@
 //! What a user reads when something is wrong: the reason, once.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};

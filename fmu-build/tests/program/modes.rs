@@ -1,8 +1,7 @@
 //! The command `modes`: its file is there, whole, and a figure can be drawn of it.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::fs;
 use std::path::PathBuf;
 

@@ -1,8 +1,7 @@
 //! The notebooks of `examples/notebooks` run, cell after cell, with the Python module that the wheel brings.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::fs;
 use std::path::Path;
 
@@ -128,7 +127,8 @@ clean = brinell.run("6205-healthy", columns=names, speed_profile=profile)
 assert list(clean) == ["time", "shaft.speed", "sensor.acceleration"], list(clean)
 assert clean["time"][-1] == 0.02 or abs(clean["time"][-1] - 0.02) < 1e-12
 assert np.allclose(clean["shaft.speed"], 2 * np.pi * (10 + 500 * clean["time"]), rtol=1e-12)
-noisy = [brinell.run("6205-healthy", columns=names, speed_profile=profile, noise_db=20, noise_seed=s) for s in (1, 1, 2)]
+noise = {"speed_profile": profile, "noise_db": 20}
+noisy = [brinell.run("6205-healthy", columns=names, **noise, noise_seed=s) for s in (1, 1, 2)]
 first, again, other = (run["sensor.acceleration"] for run in noisy)
 assert np.array_equal(first, again) and not np.array_equal(first, other)
 scene = folder / "bad.toml"

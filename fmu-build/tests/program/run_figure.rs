@@ -1,8 +1,7 @@
 //! The figure of `run`, as a program: the envelope's spectrum and the frequencies that are marked in it.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::collections::BTreeSet;
 use std::fs;
 use std::process::Command;

@@ -1,8 +1,7 @@
 //! What `run` can be told, as a program: columns and formats of its table, a speed that changes, noise, sound.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::f64::consts::TAU;
 use std::fs;
 use std::path::{Path, PathBuf};

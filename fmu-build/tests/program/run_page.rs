@@ -2,8 +2,7 @@
 //! samples themselves. `BRINELL_BROWSER` names a Chromium; without it those that are usual are tried.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::env;
 use std::fs;
 use std::path::Path;

@@ -1,8 +1,7 @@
 //! The JSON schema of scene files: valid for every scene that is shipped or written, not for what is refused.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::collections::HashMap;
 use std::env;
 use std::fs;

@@ -1,8 +1,7 @@
 //! The command `stiffness`: its files are there, whole, and agree with each other.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::fs;
 
 use fmu_build::model::Model;

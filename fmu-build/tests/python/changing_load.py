@@ -1,7 +1,8 @@
 """A load that changes with each step, set by hand: at every communication point Newton's law holds on the shaft.
 
 m a = F_load + F_bearing − c v − k x (a ring's weight is part of its load). All terms are outputs, inputs or parameters
-of the FMU, so the balance is exact up to rounding: 1e-12 of the largest term, with three digits to spare for five terms.
+of the FMU, so the balance is exact up to rounding: 1e-12 of the largest term, with three digits to spare for five
+terms.
 """
 
 import math

@@ -1,8 +1,8 @@
 """Directional derivatives through fmpy against central differences, for every input and real output of each FMU.
 
-At communication points in and beside the defect: an input is set, the outputs are read, no step between. Near a defect the map's
-second derivatives are differences themselves; where an input feeds through only first ones enter. 1e-5 leaves room for the
-curvature of a contact over a thousandth of a typical approach.
+At communication points in and beside the defect: an input is set, the outputs are read, no step between. Near a defect
+the map's second derivatives are differences themselves; where an input feeds through only first ones enter. 1e-5 leaves
+room for the curvature of a contact over a thousandth of a typical approach.
 """
 
 import sys
@@ -36,6 +36,8 @@ for fmu in sys.argv[1:]:
             given = np.array(host.slave.getDirectionalDerivative(unknowns, [variable.valueReference], [1.0]))
             allowed = 1e-5 * np.abs(given) + 1e-11 * np.maximum(np.abs(middle), 1.0) / step
             bad = np.flatnonzero(np.abs(found - given) > allowed)
-            assert not len(bad), f"{fmu}: {outputs[bad[0]]} by {variable.name}: {given[bad[0]]} given, {found[bad[0]]} found"
+            assert not len(bad), (
+                f"{fmu}: {outputs[bad[0]]} by {variable.name}: {given[bad[0]]} given, {found[bad[0]]} found"
+            )
         host.step(1.1e-3)
     host.close()

@@ -1,4 +1,5 @@
-"""FMUs of FMI 3.0 through fmpy: states, derivatives, dependencies, intermediate updates with an early return, terminals."""
+"""FMUs of FMI 3.0 through fmpy: states, derivatives, dependencies, intermediate updates with an early return,
+terminals."""
 
 import sys
 import zipfile

@@ -1,15 +1,15 @@
 """A light shaft, 0.1 kg, is the host's, and the bearing an FMU that is stepped again until both agree.
 
-The reference is the same bearing with the shaft inside one FMU. The host's shaft has mass m, damper c, load L and moves with
-a constant acceleration a through each step of length H; the FMU, started from the saved state, is given that motion and
-answers with its mean force F(a). Wanted is the a of
+The reference is the same bearing with the shaft inside one FMU. The host's shaft has mass m, damper c, load L and moves
+with a constant acceleration a through each step of length H; the FMU, started from the saved state, is given that
+motion and answers with its mean force F(a). Wanted is the a of
 
     m a + c (v + a H/2) = F(a) + L
 
-once by fixed point, a <- (F + L - c v)/(m + c H/2), once by Newton's method, whose derivative comes from the FMU's directional
-derivatives of the force by position and velocity: dF/da = F_x H^2/6 + F_v H/2, the mean of the motion that a adds. Elements
-do not stand still through a step, so this derivative is not exact, and the iteration is a damped one. Without iteration, one
-pass a step, the scheme is the plain one of the guide.
+once by fixed point, a <- (F + L - c v)/(m + c H/2), once by Newton's method, whose derivative comes from the FMU's
+directional derivatives of the force by position and velocity: dF/da = F_x H^2/6 + F_v H/2, the mean of the motion that
+a adds. Elements do not stand still through a step, so this derivative is not exact, and the iteration is a damped one.
+Without iteration, one pass a step, the scheme is the plain one of the guide.
 
 Arguments: FMU of er16k-tb1, FMU of er16k-tb1-hosted-shaft, and where to put table and figure, if they are wanted.
 """
@@ -103,7 +103,9 @@ def main():
             error = np.sqrt(np.mean((rows[:, :2] - expected[: len(rows), :2]) ** 2)) / sag if whole else np.inf
             found[scheme, step] = (rows, expected, error, passes)
             table.append((scheme, step, error, passes.mean(), passes.max()))
-            print(f"{scheme:12} H = {step:.2e} s: error {error:.2e} of the largest excursion, {passes.mean():.2f} passes")
+            print(
+                f"{scheme:12} H = {step:.2e} s: error {error:.2e} of the largest excursion, {passes.mean():.2f} passes"
+            )
 
     for step in steps:
         for scheme in ["fixed point", "newton"]:
@@ -142,7 +144,9 @@ def draw(found, table, stem):
     passes.legend()
     plotting.save(figure, stem)
     with open(f"{stem}.md", "w", encoding="utf-8", newline="\n") as file:
-        file.write("| scheme | step [µs] | error / largest excursion | passes, mean | passes, most |\n|---|---|---|---|---|\n")
+        file.write(
+            "| scheme | step [µs] | error / largest excursion | passes, mean | passes, most |\n|---|---|---|---|---|\n"
+        )
         for scheme, step, error, mean, most in table:
             shown = "unstable" if not np.isfinite(error) or error > 1 else f"{error:.1e}"
             file.write(f"| {scheme} | {1e6 * step:g} | {shown} | {mean:.2f} | {most} |\n")

@@ -1,6 +1,7 @@
 """A sweep on a dask cluster that runs already, and on workers that join it later.
 
-Arguments: the commands that start scheduler and worker and run the sweep, as the guide has them; a folder for the results.
+Arguments: the commands that start scheduler and worker and run the sweep, as the guide has them; a folder for the
+results.
 """
 
 import json
@@ -28,7 +29,9 @@ def run(command):
     """Runs the sweep and gives what it found, as JSON."""
     words = command.split()
     script = Path(__file__).resolve().parents[3] / words[1]
-    done = subprocess.run([sys.executable, script, *words[2:], "-o", folder], stdout=subprocess.PIPE, text=True, timeout=240)
+    done = subprocess.run(
+        [sys.executable, script, *words[2:], "-o", folder], stdout=subprocess.PIPE, text=True, timeout=240
+    )
     assert done.returncode == 0, done.returncode
     return done.stdout.splitlines()[-1]
 

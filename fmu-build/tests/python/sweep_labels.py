@@ -6,7 +6,9 @@ from pathlib import Path
 import numpy as np
 import pyarrow.parquet as parquet
 
-rows = [row for part in sorted(Path(sys.argv[1]).glob("part-*.parquet")) for row in parquet.read_table(part).to_pylist()]
+rows = [
+    row for part in sorted(Path(sys.argv[1]).glob("part-*.parquet")) for row in parquet.read_table(part).to_pylist()
+]
 rows.sort(key=lambda row: row["run"])
 assert [row["label_kind"] for row in rows] == 2 * ["healthy", "outer", "inner", "element"], rows
 for row in rows:

@@ -19,7 +19,11 @@ for row in rows:
     assert np.array_equal(np.load(folder / f"run-{row['run']:07d}.npy"), signal)
     rate, heard = wavfile.read(folder / f"run-{row['run']:07d}.wav")
     assert rate == 12800 and heard.dtype == np.float32 and np.array_equal(heard, signal)
-    assert row["label_speed_profile"] == "up" and 10 <= row["label_noise_db"] <= 30 and row["noise_db"] == row["label_noise_db"]
+    assert (
+        row["label_speed_profile"] == "up"
+        and 10 <= row["label_noise_db"] <= 30
+        and row["noise_db"] == row["label_noise_db"]
+    )
     # 10 to 30 Hz in 0.1 s, then 30 Hz: from 20 ms on 26.4 Hz in the mean.
     assert abs(row["label_speed_hz"] - (0.08 * 22 + 0.1 * 30) / 0.18) < 0.02, row["label_speed_hz"]
     ratio = 0.5 * (1 - 7.94 / 39.32) * row["bearing.element_count"]
@@ -32,6 +36,8 @@ for one, other in zip(rows[:6], rows[6:]):
     # Four standard errors of 2288 draws are 6 %.
     assert abs(found / (clean * np.sqrt(sum(shares))) - 1) < 0.06, (one["run"], found)
 # A spall's envelope follows its passages though their frequency changes threefold.
-lines = {kind: [row["envelope_1_bpfo_m_s2"] for row in rows if row["label_kind"] == kind] for kind in ("healthy", "outer")}
+lines = {
+    kind: [row["envelope_1_bpfo_m_s2"] for row in rows if row["label_kind"] == kind] for kind in ("healthy", "outer")
+}
 assert min(lines["outer"]) > 100 * max(lines["healthy"]), lines
 print(len(rows), "measured")

@@ -258,8 +258,8 @@ fn compare(
             measure.units = measure.units.max(off / allowed(*kind));
             if !(off <= LIMIT * allowed(*kind)) {
                 return Verdict::Failed(format!(
-                    "step {i}: {name} is {a:e}, the oracle says {b:e}: {off:e} apart, allowed {:e} (its own error {:e}, \
-                     growth {:e}); forces up to {scale:e} N",
+                    "step {i}: {name} is {a:e}, the oracle says {b:e}: {off:e} apart, allowed {:e} (its own error \
+                     {:e}, growth {:e}); forces up to {scale:e} N",
                     LIMIT * allowed(*kind),
                     oracles.own[kind],
                     oracles.grown[kind]

@@ -115,8 +115,8 @@ impl<'a> Tally<'a> {
             }
         }
         let mut text = format!(
-            "Of {} scenes {} agreed, {} failed, {} were refused with an error, and of {} the oracle could not judge even the first \
-             step.\n\n",
+            "Of {} scenes {} agreed, {} failed, {} were refused with an error, and of {} the oracle could not judge \
+             even the first step.\n\n",
             self.entries.len(),
             self.agreed.len(),
             self.failed().len(),
@@ -156,8 +156,8 @@ impl<'a> Tally<'a> {
         let start = self.agreed.iter().fold(0.0f64, |m, (_, measure)| m.max(measure.start));
         writeln!(
             text,
-            "\nThe forces of the start are the oracle's to {start:.0e} of the largest. The worst difference later is {worst:.0} units \
-             of {} allowed.\n",
+            "\nThe forces of the start are the oracle's to {start:.0e} of the largest. The worst difference later is \
+             {worst:.0} units of {} allowed.\n",
             crate::units::LIMIT
         )
         .unwrap();

@@ -98,7 +98,8 @@ fn a_name_that_the_catalogue_has_not_hides_nothing_and_nothing_is_said_of_a_bear
 #[test]
 fn faults_of_one_of_several_tables_are_told_with_its_lines() {
     let several = "[[defect]]\nangle_deg = 0.0\nlength_mm = 1.0\ndepth_um = \"50\"\n[[defect]]\nangle_deg = 90.0\n\
-                   length_mm = 500.0\ndepth_um = 5000.0\n[[defect]]\nangle_deg = 90.0\nlength_mm = 1.0\non = \"outside\"\n";
+                   length_mm = 500.0\ndepth_um = 5000.0\n[[defect]]\nangle_deg = 90.0\nlength_mm = 1.0\non \
+                   = \"outside\"\n";
     let defect = &GOOD[GOOD.find("[defect]").unwrap()..GOOD.find("[shaft]").unwrap()];
     let said = said(&[(defect, several)]);
     let wanted = [

@@ -50,8 +50,8 @@ fn an_empty_file_is_told_all_that_it_needs() {
 
 #[test]
 fn a_defect_said_in_other_words_is_answered_with_how_it_is_said() {
-    let only = "not modelled: defects are said by a table [defect], or by several [[defect]], whose key `on` is \"outer\", \
-                \"inner\" or \"element\"";
+    let only = "not modelled: defects are said by a table [defect], or by several [[defect]], whose key `on` \
+                is \"outer\", \"inner\" or \"element\"";
     let angle = "angle_deg = -90.0\nlength_deg";
     for key in ["race", "raceway", "location", "ring", "inner", "on_ring"] {
         let more = format!("angle_deg = -90.0\n{key} = \"inner\"\nlength_deg");
@@ -76,8 +76,8 @@ fn other_elements_are_answered_with_those_that_there_are_and_other_wishes_with_w
     // A catalogue's name for a bearing, by another key than the catalogue's.
     for key in ["bearing_type = \"NU205\"", "designation = \"NU 205 ECP\"", "series = \"NJ\"", "model = \"22210\""] {
         let name = key.split(' ').next().unwrap();
-        let by_name = "not modelled: a bearing is given by its dimensions or by bearing.catalogue, its rolling elements by \
-                       bearing.element";
+        let by_name = "not modelled: a bearing is given by its dimensions or by bearing.catalogue, its rolling \
+                       elements by bearing.element";
         refused("element_count = 9", &with(key), &[&format!("bearing.{name} is {by_name}")]);
         refused("[bearing]", &format!("{key}\n[bearing]"), &[&format!("{name} is {by_name}")]);
     }

@@ -1,0 +1,17 @@
+//! The program `brinell` as its users run it: commands, options, what it writes and what it says.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod contact;
+mod hours;
+mod messages;
+mod modes;
+mod notebooks;
+mod run_figure;
+mod run_options;
+mod run_page;
+mod schema;
+mod size;
+mod stiffness;
+mod sweep;
+mod whole_files;

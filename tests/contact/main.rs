@@ -1,0 +1,21 @@
+//! Contacts near a defect: grids, maps, forces and pressures against closed forms, finer grids and each other.
+
+mod accuracy;
+mod allocations;
+#[path = "../support/counting.rs"]
+mod counting;
+mod edge;
+#[path = "../support/er16k.rs"]
+mod er16k;
+mod grid;
+mod inner;
+mod laws;
+mod map;
+mod pressure;
+mod rigid_path;
+mod rollers;
+mod rollers_near_defects;
+#[path = "../support/mod.rs"]
+mod support;
+mod surface;
+mod whole_raceway;

@@ -1,0 +1,24 @@
+//! How bearings move: against laws of mechanics, closed forms and each other.
+
+mod cage;
+mod clearance;
+#[path = "../support/counting.rs"]
+mod counting;
+mod defect_lines;
+mod defects_anywhere;
+mod exactness;
+mod fastest_eigenvalue;
+mod film;
+mod line_spall;
+mod modes;
+mod physics;
+mod recorder;
+mod recorder_filter;
+mod reversals;
+mod rollers_in_motion;
+mod sensor_modes;
+mod sensors;
+mod several_defects;
+mod stiffness;
+#[path = "../support/mod.rs"]
+mod support;

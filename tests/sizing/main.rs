@@ -1,0 +1,6 @@
+//! Which part is damaged and how long its spall is, from signals that are made here or simulated.
+
+mod fault;
+mod length;
+#[path = "../support/machine.rs"]
+mod machine;
