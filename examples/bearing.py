@@ -63,7 +63,9 @@ def changed_scene(base, name, changes, folder):
         else:
             table[last] = value
     tables = {key: value for key, value in scene.items() if isinstance(value, dict)}
-    several = {key: value for key, value in scene.items() if isinstance(value, list) and value and isinstance(value[0], dict)}
+    several = {
+        key: value for key, value in scene.items() if isinstance(value, list) and value and isinstance(value[0], dict)
+    }
     for defect in several.get("defect", [tables.get("defect", {})]):
         # A scene names a file beside it: that of the base scene, or one that is in the folder already.
         if "profile" in defect and (base.parent / defect["profile"]).is_file():
@@ -115,7 +117,13 @@ def executable():
 
 def build(scenes, folder):
     """Builds the FMUs of scene files. Gives their paths: each bears its scene's name, whatever the file's is."""
-    command = [*program(), "build", *(str(Path(scene).resolve()) for scene in scenes), "-o", str(Path(folder).resolve())]
+    command = [
+        *program(),
+        "build",
+        *(str(Path(scene).resolve()) for scene in scenes),
+        "-o",
+        str(Path(folder).resolve()),
+    ]
     subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
     names = [tomllib.loads(Path(scene).read_text(encoding="utf-8"))["name"] for scene in scenes]
     return [Path(folder) / f"{name}.fmu" for name in names]

@@ -25,7 +25,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         let scene = Scene::from_toml(&std::fs::read_to_string(format!("scenes/{name}.toml"))?)?;
         println!("\n`{name}`, {:.0} ms\n", 1e3 * stop);
         println!(
-            "| law | unloaded from | loaded again | peak force | its time | rms difference | largest difference | run time |"
+            "| law | unloaded from | loaded again | peak force | its time | rms difference | largest difference | run \
+             time |"
         );
         println!("|---|---|---|---|---|---|---|---|");
         let laws = [

@@ -3,9 +3,9 @@
 
     python examples/coupling_error.py [--short]
 
-Hosts: a mass of 3 kg on one bearing, the rigid rotor of step_by_step.py, the ROSS rotor. The error is that of the shaft's
-place in the bearing, rms over rms of its motion, against the same host with two passes and a fine step. A spall magnifies small
-differences: the FMU's tolerance is 1e-8 here, so that the coupling's error is seen alone.
+Hosts: a mass of 3 kg on one bearing, the rigid rotor of step_by_step.py, the ROSS rotor. The error is that of the
+shaft's place in the bearing, rms over rms of its motion, against the same host with two passes and a fine step. A spall
+magnifies small differences: the FMU's tolerance is 1e-8 here, so that the coupling's error is seen alone.
 """
 
 import argparse

@@ -3,9 +3,9 @@
 
     python examples/masters.py [--short]
 
-Two units that a master couples: the bearing, told position, velocity and acceleration of its shaft, and a rotor of
-3 kg, told one force. The rotor rests under half its load; at the start the other half is added, so that it swings in
-the bearing. It has no damper of its own that would hide what energy the coupling makes. The error is that of its position,
+Two units that a master couples: the bearing, told position, velocity and acceleration of its shaft, and a rotor of 3
+kg, told one force. The rotor rests under half its load; at the start the other half is added, so that it swings in the
+bearing. It has no damper of its own that would hide what energy the coupling makes. The error is that of its position,
 rms over rms of its way, against one FMU that holds the same mass: no coupling at all.
 
 Masters:

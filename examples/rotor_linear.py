@@ -3,12 +3,12 @@
 
     python examples/rotor_linear.py [--short] [-o target/examples]
 
-Healthy bearing. The linear one has `shaft.stiffness` and the contacts' damping at rest, mean over the cage's places within
-one element spacing, and the housing's mass on its springs behind it.
+Healthy bearing. The linear one has `shaft.stiffness` and the contacts' damping at rest, mean over the cage's places
+within one element spacing, and the housing's mass on its springs behind it.
 
-Response to a small unbalance around the first critical speed: ROSS's own run_unbalance_response against the component at
-shaft speed of the motion with the FMU. Free decay: after a strike on the disk at 10 Hz; the passing elements excite the
-rotor, too, so a run without the strike is taken off.
+Response to a small unbalance around the first critical speed: ROSS's own run_unbalance_response against the component
+at shaft speed of the motion with the FMU. Free decay: after a strike on the disk at 10 Hz; the passing elements excite
+the rotor, too, so a run without the strike is taken off.
 """
 
 import argparse

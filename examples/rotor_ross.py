@@ -136,7 +136,9 @@ def main():
     parser.add_argument("--step", type=float, help="communication step [s]; default 5e-5, or 1e-5 with --host ross")
     parser.add_argument("--stop", type=float, default=4.0, help="end [s]")
     parser.add_argument("--columns", default="", help="signals to write, as 'node[12].y,shaft.force.*'; default: none")
-    parser.add_argument("--format", choices=signal_table.FORMATS, default=signal_table.FORMATS[0], help="of their table")
+    parser.add_argument(
+        "--format", choices=signal_table.FORMATS, default=signal_table.FORMATS[0], help="of their table"
+    )
     parser.add_argument("-o", "--output", type=Path, default=Path("target/examples"))
     options = parser.parse_args()
     machine = shown()

@@ -6,7 +6,8 @@
 
 The spall of 6205-spall-5deg, 5 degrees and 15 um, as a grid of depths over arc and width. Each edge wanders along the
 raceway by `--edges` mm, and the floor goes up and down by `--floor` um (root mean squares), over 0.25 mm: invented, for
-no such surface was at hand. A measured one has the same three columns. With both at 0 it is the spall of straight edges.
+no such surface was at hand. A measured one has the same three columns. With both at 0 it is the spall of straight
+edges.
 """
 
 import argparse

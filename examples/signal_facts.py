@@ -12,8 +12,8 @@ Definitions, the mean taken off beforehand:
             with the mean of all; they begin 30 % of a period before the loudest place of the mean envelope
   scatter   standard deviation over mean of the passages' RMS; what of its variance repeats with the cage's turn (four
             harmonics), with the shaft's (three), and with both
-  crest     largest magnitude over RMS of the whole file; kurtosis is the excess
-  entry     first extreme of the mean passage below 2.5 kHz (Butterworth of second order, forwards and backwards) that is
+  crest     largest magnitude over RMS of the whole file; kurtosis is the excess entry     first extreme of the mean
+  passage below 2.5 kHz (Butterworth of second order, forwards and backwards) that is
             at least 15 % of its largest; rise from 10 to 90 % of it
 """
 

@@ -9,7 +9,8 @@ FORMATS = ("parquet", "npy", "csv")
 
 
 def chosen(patterns, known):
-    """The names that patterns stand for, in the order asked; `*` for any characters. A ValueError names one without any."""
+    """The names that patterns stand for, in the order asked; `*` for any characters. A ValueError names one without
+    any."""
     found = []
     for pattern in patterns:
         fits = re.compile(re.escape(pattern).replace(r"\*", ".*"))
@@ -38,5 +39,7 @@ def write(stem, kind, columns):
         else:
             with open(part, "w", encoding="utf-8", newline="\n") as file:
                 file.write(",".join(columns) + "\n")
-                file.writelines(",".join(map(repr, row)) + "\n" for row in zip(*(list(map(float, v)) for v in columns.values())))
+                file.writelines(
+                    ",".join(map(repr, row)) + "\n" for row in zip(*(list(map(float, v)) for v in columns.values()))
+                )
     return path

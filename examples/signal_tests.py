@@ -3,10 +3,10 @@
 
     python examples/signal_tests.py [--seconds 2.5] [--workers 2] [-o target/signals] [GROUP …]
 
-Groups: `added`, single changes of 6205-spall-5deg; `surface`, oil and soft edges in that scene, and edges and floor that
-vary across the track (rough_spall.py); `taken`, 6205-spall-5deg-machine with one of its parts put back; `irregular`, that
-scene without lobes and with an even cage, and one irregularity at a time. Facts are those of signal_facts.py; the first
-0.3 s of a run are left out. Markdown.
+Groups: `added`, single changes of 6205-spall-5deg; `surface`, oil and soft edges in that scene, and edges and floor
+that vary across the track (rough_spall.py); `taken`, 6205-spall-5deg-machine with one of its parts put back;
+`irregular`, that scene without lobes and with an even cage, and one irregularity at a time. Facts are those of
+signal_facts.py; the first 0.3 s of a run are left out. Markdown.
 """
 
 import argparse
@@ -38,12 +38,13 @@ MODES = [
 ]
 EVEN = {"cage.irregularity": None, "defect": [SPALL]}
 
-# Oil and elements that bounce without it: 40 mPa s and 2e-8 1/Pa are assumed, a mineral oil of about 46 mm2/s at 40 degrees.
+# Oil and elements that bounce without it: 40 mPa s and 2e-8 1/Pa are assumed, a mineral oil of about 46 mm2/s at 40
+# degrees.
 OIL = {"film.viscosity_pa_s": 0.04, "film.pressure_viscosity_1_pa": 2e-8}
 DRY = {"contact.damping_chi_s_m": 0.5}
 
-# Group: base scene, and what is changed in it, one line of the table each. A surface is what rough_spall.profile takes: edges
-# [mm], floor [um], seed; a swing is a share of the speed and how often a turn it swings.
+# Group: base scene, and what is changed in it, one line of the table each. A surface is what rough_spall.profile takes:
+# edges [mm], floor [um], seed; a swing is a share of the speed and how often a turn it swings.
 GROUPS = {
     "added": (
         OLD,
@@ -144,7 +145,9 @@ def jobs_of(case, name, base, options, pool):
     for speed in SPEEDS:
         told = {"recorder.rate_hz": RATE, "shaft.speed_hz": speed, **changes}
         scene = changed_scene(base, f"{name}-{speed:.0f}", told, options.output)
-        swing = swinging(scene.with_suffix(".speed.csv"), speed, *case["swing"], options.seconds) if "swing" in case else []
+        swing = (
+            swinging(scene.with_suffix(".speed.csv"), speed, *case["swing"], options.seconds) if "swing" in case else []
+        )
         jobs.append(pool.submit(run, scene, options.seconds, swing))
     return jobs
 
@@ -154,8 +157,9 @@ def line(label, signals):
     found = [signal_facts.facts(signal, RATE, speed) for signal, speed in zip(signals, SPEEDS)]
     three = lambda form, key, factor=1.0: " / ".join(format(factor * one[key], form) for one in found)  # noqa: E731
     shares = " / ".join(f"{one['_shares'][0]:.1f}+{one['_shares'][1]:.1f}" for one in found)
+    growth = signal_facts.growth(SPEEDS, found)
     return (
-        f"| {label} | {signal_facts.growth(SPEEDS, found):.2f} | {three('.2f', 'entry_ms')} | {three('.2f', 'scatter')} "
+        f"| {label} | {growth:.2f} | {three('.2f', 'entry_ms')} | {three('.2f', 'scatter')} "
         f"| {shares if min(one['scatter'] for one in found) > 0.03 else '–'} | {three('.1f', '5 to 10 kHz', 100)} "
         f"| {three('.0f', 'crest')} | {three('.0f', 'kurtosis')} |"
     )

@@ -117,7 +117,9 @@ def draw(rows, seen, step, passes, stem):
     figure, axes = plots(4, 9, sharex=True)
     axes[0].plot(t, [-outer_load(when)[1::2].sum() for when in t], color=BLACK)
     axes[0].set_ylabel("load on the\nrotor, down (N)")
-    axes[0].set_title(f"Rigid rotor on two bearings, {passes} pass{'es' * (passes > 1)}, step {step * 1e6:g} µs", loc="left")
+    axes[0].set_title(
+        f"Rigid rotor on two bearings, {passes} pass{'es' * (passes > 1)}, step {step * 1e6:g} µs", loc="left"
+    )
     axes[1].plot(t, forces[:, 1], color=BLUE, label="left, healthy", linewidth=0.8)
     axes[1].plot(t, forces[:, 3], color=ORANGE, label="right, spalled", linewidth=0.8)
     axes[1].set_ylabel("bearing's force on\nthe shaft, y (N)")

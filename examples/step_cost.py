@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Where the run time goes: processor time of one communication step in the FMU, in fmpy and ctypes, in the rest of Python.
+"""Where the run time goes: processor time of one communication step in the FMU, in fmpy and ctypes, in the rest of
+Python.
 
     python examples/step_cost.py [--steps 2000]
 
-The three calls of a step (set inputs, step, get outputs) are timed at the C interface, with the processor time of this thread.
-fmpy's and ctypes' share is that of calls that do nothing; the cost of the clock is taken off. Markdown.
+The three calls of a step (set inputs, step, get outputs) are timed at the C interface, with the processor time of this
+thread. fmpy's and ctypes' share is that of calls that do nothing; the cost of the clock is taken off. Markdown.
 """
 
 import argparse
@@ -21,7 +22,8 @@ SPEED = 2 * np.pi * 30.0
 
 
 class Watch:
-    """Looks on while bearings are stepped: one row [ns] per doStep of when it began, the time in FMUs and the calls so far."""
+    """Looks on while bearings are stepped: one row [ns] per doStep of when it began, the time in FMUs and the calls so
+    far."""
 
     def __init__(self):
         self.rows, self.inside, self.calls, self.original = [], 0, 0, Bearing.__init__
@@ -88,8 +90,11 @@ def main():
     healthy, spalled = fmus_in(options.output)
     bearing = Bearing(spalled)
     nothing = bearing.slave.component, None, 0, None
-    idle = mean_time(bearing.slave._functions["fmi2GetReal"], *nothing), mean_time(bearing.slave.fmi2GetReal, *nothing), \
-        mean_time(time.thread_time_ns)
+    idle = (
+        mean_time(bearing.slave._functions["fmi2GetReal"], *nothing),
+        mean_time(bearing.slave.fmi2GetReal, *nothing),
+        mean_time(time.thread_time_ns),
+    )
     bearing.close()
     print("| host | step | whole | FMU | fmpy and ctypes | rest of Python |")
     print("|---|---|---|---|---|---|")

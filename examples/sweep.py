@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Thousands of runs over length, depth, load and speed of a defect, on all cores or a cluster, into Parquet.
 
-On one machine `brinell sweep` does it quicker and without Python (docs/sweeps.md). This is for clusters, for FMUs as their
-hosts run them, and for spalls that are to be sized from each signal.
+On one machine `brinell sweep` does it quicker and without Python (docs/sweeps.md). This is for clusters, for FMUs as
+their hosts run them, and for spalls that are to be sized from each signal.
 
     python examples/sweep.py --runs 500 --seed 1 [--workers 2] [-o target/sweep]
         --grid defect.length_deg=2,5,10,15.8 --grid defect.depth_um=20,50,100
@@ -13,16 +13,16 @@ hosts run them, and for spalls that are to be sized from each signal.
 
 Run i takes the grid's point i modulo its size and random values that depend on seed and i alone: the same design to the
 bit on any machine, and a longer one begins with the shorter. What an FMU can be told costs a run 0.1 ms (load, speed,
-slip, first angle), a clearance more than 2.5 µm off the scene's seconds where the law is `map`: a new contact map. Other
-keys of the scene make one FMU per grid point, so let them be on the grid.
+slip, first angle), a clearance more than 2.5 µm off the scene's seconds where the law is `map`: a new contact map.
+Other keys of the scene make one FMU per grid point, so let them be on the grid.
 
 With `--kinds` runs take the kinds of fault in turn, each at every point of the grid. Each row says in its label_…
-columns what it is a run of: kind, length, depth and position of the defect, load and speed. Under law `map` each size of a
-defect inside needs a map of some minutes; `--law hertz` needs none.
+columns what it is a run of: kind, length, depth and position of the defect, load and speed. Under law `map` each size
+of a defect inside needs a map of some minutes; `--law hertz` needs none.
 
-A `--speed-profile` (CSV: time_s, speed_hz; several are taken in turn) moves the shaft's speed in straight lines, noise is
-white and so many decibels below the signal, `--filter` takes the sensor's samples through the FMU's recorder, which lets
-nothing be folded, and `--write` puts each run's signal beside the rows, as run-0000000.wav and .npy.
+A `--speed-profile` (CSV: time_s, speed_hz; several are taken in turn) moves the shaft's speed in straight lines, noise
+is white and so many decibels below the signal, `--filter` takes the sensor's samples through the FMU's recorder, which
+lets nothing be folded, and `--write` puts each run's signal beside the rows, as run-0000000.wav and .npy.
 
 FMUs are built once and shipped to each worker once, also to one that starts later; a worker keeps one instance per FMU
 and resets it between runs. Results go to part-*.parquet in the output folder as they come; started again, the
@@ -104,7 +104,11 @@ def prepare(base, runs, folder, law=None, recorder=None):
     if recorder:
         all_runs.update({"recorder.rate_hz": recorder, "recorder.filter": "linear-phase"})
     for run in runs:
-        values = [(value if isinstance(value, str) else f"{value:g}").replace(".", "p") for key, value in run.items() if not is_told(key, run)]
+        values = [
+            (value if isinstance(value, str) else f"{value:g}").replace(".", "p")
+            for key, value in run.items()
+            if not is_told(key, run)
+        ]
         name = "-".join([Path(base).stem, *([run["kind"]] if "kind" in run else []), *values])
         if name not in scenes:
             scenes[name] = bearing.changed_scene(base, name, {**all_runs, **changes(run)}, folder)
@@ -121,7 +125,9 @@ def label(scene, run):
     row["label_load_n"] = run.get("shaft.load_n", load)
     row["label_speed_hz"] = run.get("shaft.speed_hz", shaft["speed_hz"])
     row["label_speed_profile"], row["label_noise_db"] = run.get("speed_profile"), run.get("noise_db")
-    row["label_kind"] = "healthy" if defect is None else "several" if isinstance(defect, list) else defect.get("on", "outer")
+    row["label_kind"] = (
+        "healthy" if defect is None else "several" if isinstance(defect, list) else defect.get("on", "outer")
+    )
     if isinstance(defect, dict):
         length = defect.get("length_mm")
         if length is None and "length_deg" in defect:
@@ -132,8 +138,8 @@ def label(scene, run):
 
 
 def radius_mm(dimensions, kind):
-    """Radius of the body that bears a defect, at the groove's bottom or on the element's track; NaN where a catalogue has
-    the dimensions."""
+    """Radius of the body that bears a defect, at the groove's bottom or on the element's track; NaN where a catalogue
+    has the dimensions."""
     if not {"pitch_diameter_mm", "element_diameter_mm"} <= set(dimensions):
         return float("nan")
     pitch, element = dimensions["pitch_diameter_mm"], dimensions["element_diameter_mm"]
@@ -144,8 +150,8 @@ def radius_mm(dimensions, kind):
 class Bearings(WorkerPlugin):
     """Lives on a worker: the FMUs' files, one instance of each, and the module that drives them.
 
-    The module comes with the plugin and is imported only after `setup`: a worker that joins later unpacks all its plugins
-    at once, before a file that was uploaded for it is there.
+    The module comes with the plugin and is imported only after `setup`: a worker that joins later unpacks all its
+    plugins at once, before a file that was uploaded for it is there.
     """
 
     name = "bearings"
@@ -155,7 +161,9 @@ class Bearings(WorkerPlugin):
         modules = [Path(module), Path(module).with_name("sweep_signals.py")]
         self.modules = {path.name: path.read_bytes() for path in modules}
         self.files = {name: Path(path).read_bytes() for name, path in paths.items()}
-        self.scenes = {name: Path(path).with_suffix(".toml").read_text(encoding="utf-8") for name, path in paths.items()}
+        self.scenes = {
+            name: Path(path).with_suffix(".toml").read_text(encoding="utf-8") for name, path in paths.items()
+        }
 
     def setup(self, worker):
         self.folder = Path(worker.local_directory) / "bearings"
@@ -239,7 +247,9 @@ def done_already(folder):
 def columns(runs, options):
     """Every part has the same columns, whatever its runs."""
     known = {"run": pyarrow.int64(), "fmu": pyarrow.string(), "error": pyarrow.string()}
-    known.update({"signal": pyarrow.list_(pyarrow.float32()), "sized_verdict": pyarrow.string(), "sized_kind": pyarrow.string()})
+    known.update(
+        {"signal": pyarrow.list_(pyarrow.float32()), "sized_verdict": pyarrow.string(), "sized_kind": pyarrow.string()}
+    )
     known.update({"kind": pyarrow.string(), "label_kind": pyarrow.string()})
     known["label_speed_profile"] = pyarrow.string()
     keys = dict.fromkeys(itertools.chain.from_iterable(runs))
@@ -340,7 +350,14 @@ def main(arguments=None):
     told = {**{name: getattr(chosen, name) for name in names}, "profiles": profiles}
     chosen.output.mkdir(parents=True, exist_ok=True)
     scene = chosen.base.read_text(encoding="utf-8")
-    design_of = {"grid": grid, "random": random, "seed": chosen.seed, "options": told, "kinds": kinds, "law": chosen.law}
+    design_of = {
+        "grid": grid,
+        "random": random,
+        "seed": chosen.seed,
+        "options": told,
+        "kinds": kinds,
+        "law": chosen.law,
+    }
     text = json.dumps({"scene": scene, **design_of}, indent=1)
     refuse_another_design(chosen.output, text)
     try:

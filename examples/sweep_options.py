@@ -66,7 +66,9 @@ def noise_of(text):
 
 
 def parser():
-    parser = argparse.ArgumentParser(description="Thousands of runs over a design, on all cores or a cluster, into Parquet.")
+    parser = argparse.ArgumentParser(
+        description="Thousands of runs over a design, on all cores or a cluster, into Parquet."
+    )
     add = parser.add_argument
     add("--base", type=Path, default=bearing.SCENES / "er16k-tb1.toml", help="scene that the runs change")
     add("--grid", action="append", default=[], type=grid_of, metavar="KEY=V,V,…", help="values of a scene key")
@@ -117,4 +119,7 @@ def check(parser, chosen):
     if chosen.speed_profile and chosen.size:
         parser.error("--size takes one speed for each run: leave out --speed-profile")
     if chosen.rate < sweep_signals.ENOUGH_WITHOUT_FILTER and not chosen.filter:
-        print(f"note: {chosen.rate:g} Hz without --filter: what is above {chosen.rate / 2:g} Hz is folded", file=sys.stderr)
+        print(
+            f"note: {chosen.rate:g} Hz without --filter: what is above {chosen.rate / 2:g} Hz is folded",
+            file=sys.stderr,
+        )

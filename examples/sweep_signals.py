@@ -39,7 +39,9 @@ def speed_profile(path, stop):
         except ValueError:
             raise ValueError(f"{path} line {number}: {','.join(row)!r} must be two numbers") from None
         if not (np.isfinite(time) and abs(speed) <= 1e4):
-            raise ValueError(f"{path} line {number}: time_s is {time}, speed_hz {speed}: it must be at most 10000 either way")
+            raise ValueError(
+                f"{path} line {number}: time_s is {time}, speed_hz {speed}: it must be at most 10000 either way"
+            )
         if time != 0 if not points else time <= points[-1][0]:
             raise ValueError(f"{path} line {number}: time_s is {time}: times must begin with 0 and ascend")
         points.append((time, speed))
@@ -128,8 +130,8 @@ def with_noise(signal, ratio, seed, index):
 def features(signal, passages, bpfo):
     """RMS [m/s²], kurtosis, and the envelope's amplitudes at multiples of the passage frequency [m/s²].
 
-    `passages` is how many elements have passed a point of the outer raceway at each sample: with a speed that changes the
-    lines stay where they are.
+    `passages` is how many elements have passed a point of the outer raceway at each sample: with a speed that changes
+    the lines stay where they are.
     """
     signal = signal - signal.mean()
     rms = float(np.sqrt(np.mean(signal**2)))

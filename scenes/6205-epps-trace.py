@@ -1,9 +1,10 @@
 """Writes 6205-epps-trace.csv, a stand-in for a measured trace that was never published.
 
-The trace of Epps' etched spall (SKF 6205, 0.8 mm long) is not public; only its length is taken from the literature. Everything
-else here is assumed: a floor 40 um deep, so deep that an element of 7.94 mm, which sinks 17 um into 0.8 mm, does not reach it;
-flanks that lose this depth within 8 um; a floor roughness of 1.5 um rms that is correlated over some 12 um, as etching leaves it;
-smooth raceway beside it. The noise comes from a seeded generator written out below, so every run writes the same bytes.
+The trace of Epps' etched spall (SKF 6205, 0.8 mm long) is not public; only its length is taken from the literature.
+Everything else here is assumed: a floor 40 um deep, so deep that an element of 7.94 mm, which sinks 17 um into 0.8 mm,
+does not reach it; flanks that lose this depth within 8 um; a floor roughness of 1.5 um rms that is correlated over some
+12 um, as etching leaves it; smooth raceway beside it. The noise comes from a seeded generator written out below, so
+every run writes the same bytes.
 
     python3 scenes/6205-epps-trace.py > scenes/6205-epps-trace.csv
 """
@@ -18,7 +19,8 @@ CORRELATION = 3  # assumed, in points
 
 
 def noise(count, seed=6205):
-    """Sums of twelve uniform numbers, variance 1, from a linear congruential generator (Numerical Recipes' constants)."""
+    """Sums of twelve uniform numbers, variance 1, from a linear congruential generator (Numerical Recipes'
+    constants)."""
     state = seed
     values = []
     for _ in range(count):

@@ -6,10 +6,11 @@
 The second prints, for a sphere on so many cells each way, errors of largest pressure and force against
 Hertz and the CPU time of one solution, which other work on the machine hardly lengthens.
 
-Makes two environments of its own under target/peers (slippy needs an old NumPy) and prints, for each case, force error against a
-Brinell solution at residual 1e-12, best time, and the ratio to Brinell's time at residual 1e-8. Tamaas prescribes the force, the others the
-approach. Everybody gets the same number of tries, and the best counts. slippy's kernel is wrong on cells that are not square, hence square cells only; ContactMechanics' default minimiser
-stagnates at a sharp edge, `dual_minimize_proxy` does not.
+Makes two environments of its own under target/peers (slippy needs an old NumPy) and prints, for each case, force error
+against a Brinell solution at residual 1e-12, best time, and the ratio to Brinell's time at residual 1e-8. Tamaas
+prescribes the force, the others the approach. Everybody gets the same number of tries, and the best counts. slippy's
+kernel is wrong on cells that are not square, hence square cells only; ContactMechanics' default minimiser stagnates at
+a sharp edge, `dual_minimize_proxy` does not.
 """
 
 import json
@@ -40,9 +41,21 @@ def cases(sizes=(32, 64, 128), kinds=(("sphere", 1.2), ("edge", 1.3))):
             cell = 2 * half / n
             x = [(i + 0.5) * cell - half for i in range(n)]
             step = [0.1 if kind == "edge" and v > 0 else 0.0 for v in x]
-            yield f"{kind}-{n}", dict(
-                nx=n, ny=n, cell_x=cell, cell_y=cell, x_first_centre=x[0], y_first_centre=x[0], delta=APPROACH, Estar=1.0,
-                hx=[v * v / 2 + s for v, s in zip(x, step)], hy=[v * v / 2 for v in x])
+            yield (
+                f"{kind}-{n}",
+                dict(
+                    nx=n,
+                    ny=n,
+                    cell_x=cell,
+                    cell_y=cell,
+                    x_first_centre=x[0],
+                    y_first_centre=x[0],
+                    delta=APPROACH,
+                    Estar=1.0,
+                    hx=[v * v / 2 + s for v, s in zip(x, step)],
+                    hy=[v * v / 2 for v in x],
+                ),
+            )
 
 
 def brinell(path, *options):

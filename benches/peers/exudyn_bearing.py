@@ -4,12 +4,13 @@
 
 Needs `exudyn` (1.13.6) and `numpy`, in an environment of their own.
 
-The bearing has the size, load and speed of scenes/6205-healthy.toml and Exudyn's own parts: balls and cage as rigid bodies with
-six degrees of freedom each, friction, grooves as tori, the outer ring fixed. Contacts are linear with the stiffness that Hertz's
-have under this load, and the bearing is preloaded by 5 µm: with Hertz's exponent, or where contacts open, its Newton iteration
-does not converge at these steps. Ours has a kinematic cage, balls that move radially, Hertz's contacts, clearance and a moving outer
-ring. The two do not compute the same, and there is no error to compare at; what stands here is what a user of a general
-program waits. The step of Exudyn's own bearing example is 1e-4 s.
+The bearing has the size, load and speed of scenes/6205-healthy.toml and Exudyn's own parts: balls and cage as rigid
+bodies with six degrees of freedom each, friction, grooves as tori, the outer ring fixed. Contacts are linear with the
+stiffness that Hertz's have under this load, and the bearing is preloaded by 5 µm: with Hertz's exponent, or where
+contacts open, its Newton iteration does not converge at these steps. Ours has a kinematic cage, balls that move
+radially, Hertz's contacts, clearance and a moving outer ring. The two do not compute the same, and there is no error to
+compare at; what stands here is what a user of a general program waits. The step of Exudyn's own bearing example is 1e-4
+s.
 """
 
 import argparse
@@ -88,7 +89,9 @@ def main():
     print(f"exudyn {exu.config.Version()}")
     for step in args.steps:
         cost, mean, spread = run(step, args.stop)
-        print(f"step {step:.0e} s: {cost:.2f} CPU s/s; shaft at {1e6 * mean:.2f} µm, {1e6 * spread:.2f} µm rms about it")
+        print(
+            f"step {step:.0e} s: {cost:.2f} CPU s/s; shaft at {1e6 * mean:.2f} µm, {1e6 * spread:.2f} µm rms about it"
+        )
 
 
 if __name__ == "__main__":

@@ -33,7 +33,8 @@ TOLERANCES = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8]
 
 
 def compile_rhs(b):
-    """The right-hand side of one scene as machine code: rhs(t, y, dy) and jac(t, y, J). Rings internal, Hunt-Crossley."""
+    """The right-hand side of one scene as machine code: rhs(t, y, dy) and jac(t, y, J). Rings internal,
+    Hunt-Crossley."""
     assert b.n_rings == 8 and b.law == "hunt-crossley", "both rings internal, Hunt-Crossley damping"
     z, n_r, n_f, m, rho0, r, r_o, clearance = b.z, b.n_rings, b.n_front, b.mass, b.rho0, b.r, b.r_o, b.clearance
     k_i, k_o, chi, omega, theta0, gx, gy = b.k_i, b.k_o, b.chi, b.omega_c, b.theta0, b.gravity[0], b.gravity[1]
@@ -41,7 +42,10 @@ def compile_rhs(b):
                                     b.housing.mass, b.housing.damping, b.housing.stiffness)
     fsx, fsy, fhx, fhy = *b.shaft.load, *b.housing.load
     sensor, (m_r, k_r, c_r) = bool(b.sensor), b.sensor or (1.0, 0.0, 0.0)
-    half, spall, depth, roll_in = b.half_length, *((b.defect_angle, b.depth, b.roll_in) if b.half_length else (0.0, 0.0, 0.0))
+    half, spall, depth, roll_in = (
+        b.half_length,
+        *((b.defect_angle, b.depth, b.roll_in) if b.half_length else (0.0, 0.0, 0.0)),
+    )
     tau, n = 2 * math.pi, b.n_front + 2 * b.z
 
     @numba.njit
@@ -76,7 +80,13 @@ def compile_rhs(b):
             outer, radial, tangential = u - p, 0.0, 0.0
             if outer > 0:
                 tan = slope / (rho0 + u)
-                radial = k_o * outer * math.sqrt(outer) * max(0.0, 1 + chi * (u_dot - slope * omega)) / math.sqrt(1 + tan * tan)
+                radial = (
+                    k_o
+                    * outer
+                    * math.sqrt(outer)
+                    * max(0.0, 1 + chi * (u_dot - slope * omega))
+                    / math.sqrt(1 + tan * tan)
+                )
                 tangential = radial * tan
             shx -= q_i * qx / length
             shy -= q_i * qy / length
@@ -198,7 +208,9 @@ def main():
     table = []
     for path in args.scenes:
         problem = Problem(path, args.stop, args.step)
-        print("{}, {} s: reference's own error {:.1e}, path {:.1e} m".format(problem.name, args.stop, *problem.own_error))
+        print(
+            "{}, {} s: reference's own error {:.1e}, path {:.1e} m".format(problem.name, args.stop, *problem.own_error)
+        )
         for peer in args.peers:
             PEERS[peer](problem, TOLERANCES[0])  # the compiler's time, once per kind of array
             for rtol in TOLERANCES:

@@ -89,7 +89,10 @@ plotting.save(figure, stem.with_name(stem.name + "-co-simulation"))
 with open(data / "contact.csv", encoding="utf-8") as file:
     contacts = list(csv.DictReader(file))
 figure, axis = plt.subplots(figsize=(plotting.WIDTH, 4.2))
-for law, colour, marker, name in (("love", BLUE, "o", "grid against a finer grid"), ("map", ORANGE, "s", "map against its grid")):
+for law, colour, marker, name in (
+    ("love", BLUE, "o", "grid against a finer grid"),
+    ("map", ORANGE, "s", "map against its grid"),
+):
     own = [row for row in contacts if row["law"] == law]
     time = [float(row["seconds_per_contact"]) for row in own]
     for column, face, kind in (("max_normal", colour, "largest"), ("rms_normal", "white", "root mean square")):

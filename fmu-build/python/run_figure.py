@@ -60,13 +60,18 @@ def panels():
             colour = plt.cm.viridis((j - 1) / max(count, 2))
             axis.plot(time, data[f"element[{j}].force.outer"], color=colour, linewidth=0.9, label=str(j))
 
-    yield ("largest outer\nforce on an\nelement (N)" if plotting.is_long(time) else "outer force on\nelements (N)"), outer
+    yield (
+        ("largest outer\nforce on an\nelement (N)" if plotting.is_long(time) else "outer force on\nelements (N)"),
+        outer,
+    )
 
 
 def lines(axis, name, frequency, colour, style, top):
     """Harmonics of a characteristic frequency up to `top`, the first one darkest."""
     for k in range(1, int(top / frequency) + 1):
-        axis.axvline(k * frequency, color=colour, linestyle=style, linewidth=1.0, alpha=1.0 if k == 1 else 0.5, zorder=1)
+        axis.axvline(
+            k * frequency, color=colour, linestyle=style, linewidth=1.0, alpha=1.0 if k == 1 else 0.5, zorder=1
+        )
     label = f"{name} {frequency:.1f} Hz"
     axis.plot([], [], color=colour, linestyle=style, linewidth=1.0, label=label)
 
@@ -86,7 +91,9 @@ def envelope(axis, path):
     low, high = (f / 1e3 for f in said["band_hz"])
     axis.set_xlim(0, top)
     axis.set_ylim(0, 1.08 * amplitude[frequency > 0.5 * said["line_width_hz"]].max())
-    axis.set_xlabel(f"frequency (Hz); lines are {said['line_width_hz']:.2g} Hz wide; harmonics of BPFO, BPFI and 2 BSF pale")
+    axis.set_xlabel(
+        f"frequency (Hz); lines are {said['line_width_hz']:.2g} Hz wide; harmonics of BPFO, BPFI and 2 BSF pale"
+    )
     axis.set_ylabel("squared envelope\n(share of its mean)")
     axis.set_title(f"envelope, {low:.2g} to {high:.2g} kHz", fontsize=10)
     axis.legend(loc="lower right", bbox_to_anchor=(1, 0.98), ncols=4, columnspacing=1.2)

@@ -1,7 +1,7 @@
 """The page of a run: one file with signals, paths over the defects and spectra, to hover over and to zoom into.
 
-Arguments: a JSON file that says where the signals are and what there is to mark; the page. Plotly's own script stands in
-the page, which asks no network for anything.
+Arguments: a JSON file that says where the signals are and what there is to mark; the page. Plotly's own script stands
+in the page, which asks no network for anything.
 """
 
 import base64
@@ -79,7 +79,10 @@ def panels(run, count):
 
 def signals(run, count):
     """What the page shows over time, and in words how it was made shorter."""
-    chosen = [(unit, [s for s in of if run.moves(s[0]) or (unit == "Hz" and run.has(s[0]))]) for unit, of in panels(run, count)]
+    chosen = [
+        (unit, [s for s in of if run.moves(s[0]) or (unit == "Hz" and run.has(s[0]))])
+        for unit, of in panels(run, count)
+    ]
     chosen = [(unit, of) for unit, of in chosen if of]
     total = sum(len(run.source(name)) for _, of in chosen for name, _ in of)
     every = 1 if total <= MOST_NUMBERS else int(np.ceil(2 * total / MOST_NUMBERS))
@@ -96,9 +99,27 @@ def signals(run, count):
             # A pair of extremes stands for so many samples.
             width = step if every == 1 else 0.5 * every * step
             label = short(name, len(of)) + (" (dashed)" if dash == "dash" else "")
-            row.append({"name": name, "label": label, "unit": unit, "colour": colour, "dash": dash, "start": float(time[0]), "end": float(time[-1]), "step": width, "values": packed(kept)})
+            row.append(
+                {
+                    "name": name,
+                    "label": label,
+                    "unit": unit,
+                    "colour": colour,
+                    "dash": dash,
+                    "start": float(time[0]),
+                    "end": float(time[-1]),
+                    "step": width,
+                    "values": packed(kept),
+                }
+            )
             words["recorder" if source is run.recording else "communication points"] = step
-        shown.append({"unit": unit, "signals": row, "title": "force of the outer raceway on element" if of[0][0][0].endswith("].force.outer") else ""})
+        shown.append(
+            {
+                "unit": unit,
+                "signals": row,
+                "title": "force of the outer raceway on element" if of[0][0][0].endswith("].force.outer") else "",
+            }
+        )
     said = "; ".join(f"{name}: a sample every {1e6 * step:.4g} µs" for name, step in words.items())
     if every > 1:
         said += f". The run is long: of each {every} samples the page has the least and the greatest"
@@ -141,7 +162,12 @@ def path(run, about, defect, number):
         near = np.flatnonzero(np.abs(along) <= room)
         for piece in np.split(near, np.flatnonzero((np.diff(near) > 1) | (np.abs(np.diff(along[near])) > room)) + 1):
             if piece.size > 1:
-                pieces.append((time[piece[0]], np.column_stack([along[piece], way[piece] * 1e6, time[piece], np.full(piece.size, j)])))
+                pieces.append(
+                    (
+                        time[piece[0]],
+                        np.column_stack([along[piece], way[piece] * 1e6, time[piece], np.full(piece.size, j)]),
+                    )
+                )
     pieces = [piece for _, piece in sorted(pieces, key=lambda piece: -piece[0])]
     kept, points = [], 0
     for piece in pieces:
@@ -154,14 +180,32 @@ def path(run, about, defect, number):
     rows = np.concatenate(kept)
     element = defect["on"] == "element"
     scale = 1.0 if element else 1e3
-    outline = np.vstack([[-room, 0], surface, [room, 0]]) * [scale, -1e6] if not element else np.array([[-180.0, 0.0], [180.0, 0.0]])
-    told = f"{len(kept) // 2} passages" if len(kept) // 2 == len(pieces) else f"the last {len(kept) // 2} of {len(pieces)} passages"
+    outline = (
+        np.vstack([[-room, 0], surface, [room, 0]]) * [scale, -1e6]
+        if not element
+        else np.array([[-180.0, 0.0], [180.0, 0.0]])
+    )
+    told = (
+        f"{len(kept) // 2} passages"
+        if len(kept) // 2 == len(pieces)
+        else f"the last {len(kept) // 2} of {len(pieces)} passages"
+    )
     body = {"outer": "outer raceway", "inner": "inner raceway", "element": "smooth outer raceway"}[defect["on"]]
-    where = "spin of the element (degrees),<br>0: the defect faces the outer raceway" if element else "arc from the defect's middle (mm)"
+    where = (
+        "spin of the element (degrees),<br>0: the defect faces the outer raceway"
+        if element
+        else "arc from the defect's middle (mm)"
+    )
     return {
         "title": f"Defect {number}: {body if not element else 'element ' + str(defect['element'])}, {told}",
-        "body": body, "axis": where, "along": "°" if element else "mm", "surface": outline.tolist(),
-        "x": packed(rows[:, 0] * scale), "y": packed(rows[:, 1]), "time": packed(rows[:, 2]), "element": packed(rows[:, 3]),
+        "body": body,
+        "axis": where,
+        "along": "°" if element else "mm",
+        "surface": outline.tolist(),
+        "x": packed(rows[:, 0] * scale),
+        "y": packed(rows[:, 1]),
+        "time": packed(rows[:, 2]),
+        "element": packed(rows[:, 3]),
     }
 
 
@@ -170,7 +214,14 @@ def marks(frequencies, top):
     for name, (colour, dash) in MARKS.items():
         if 0 < frequencies[name] <= top:
             count = 1 if name == "FTF" else min(HARMONICS, int(top / frequencies[name]))
-            found.append({"name": name, "colour": colour, "dash": dash, "at": [k * frequencies[name] for k in range(1, count + 1)]})
+            found.append(
+                {
+                    "name": name,
+                    "colour": colour,
+                    "dash": dash,
+                    "at": [k * frequencies[name] for k in range(1, count + 1)],
+                }
+            )
     return found
 
 
@@ -183,8 +234,12 @@ def spectrum(x, y, wide, frequencies, **words):
     beyond = np.arange(len(y)) * step * every > 0.5 * wide
     top, middle = float(y[beyond].max()), float(np.median(y[beyond]))
     return {
-        "step": step * every, "y": packed(y), "top": 1.5 * top if words["log"] else 1.08 * top, "floor": max(0.1 * middle, 1e-7 * top) if words["log"] else 0.0,
-        "marks": marks(frequencies, float(x[-1])), **words,
+        "step": step * every,
+        "y": packed(y),
+        "top": 1.5 * top if words["log"] else 1.08 * top,
+        "floor": max(0.1 * middle, 1e-7 * top) if words["log"] else 0.0,
+        "marks": marks(frequencies, float(x[-1])),
+        **words,
     }
 
 
@@ -197,18 +252,33 @@ def spectra(about):
         yield (
             f"Envelope spectrum, {low:.3g} to {high:.3g} kHz{at}; lines are {said['line_width_hz']:.2g} Hz wide",
             spectrum(
-                data["frequency"], data["amplitude"], said["line_width_hz"], said["frequencies_hz"], log=False, unit="Hz",
-                name="squared envelope", axis="frequency (Hz)", label="squared envelope<br>(share of its mean)",
+                data["frequency"],
+                data["amplitude"],
+                said["line_width_hz"],
+                said["frequencies_hz"],
+                log=False,
+                unit="Hz",
+                name="squared envelope",
+                axis="frequency (Hz)",
+                label="squared envelope<br>(share of its mean)",
                 shown=float(data["frequency"][-1]),
             ),
         )
     if about["orders"]:
         data, said = plotting.read_csv(about["orders"]["file"]), about["orders"]["said"]
         yield (
-            f"Order spectrum of the acceleration, {said['from_s']:.4g} to {said['to_s']:.4g} s; lines are {said['line_width']:.2g} orders wide",
+            f"Order spectrum of the acceleration, {said['from_s']:.4g} to {said['to_s']:.4g} s; "
+            f"lines are {said['line_width']:.2g} orders wide",
             spectrum(
-                data["order"], data["amplitude"], said["line_width"], said["orders"], log=True, unit="×",
-                name="acceleration", axis="order (times per turn)", label="amplitude (m/s²)",
+                data["order"],
+                data["amplitude"],
+                said["line_width"],
+                said["orders"],
+                log=True,
+                unit="×",
+                name="acceleration",
+                axis="order (times per turn)",
+                label="amplitude (m/s²)",
                 shown=min(float(data["order"][-1]), 6 * said["orders"]["BPFI"]),
             ),
         )
@@ -229,8 +299,9 @@ p {{ margin: 0.3em 0; color: #555; }}
 #errors {{ color: #b00020; white-space: pre-line; }}
 </style>
 <script>
-addEventListener("error", (event) => {{ document.getElementById("errors").textContent += event.message + "\\n"; }});
-addEventListener("unhandledrejection", (event) => {{ document.getElementById("errors").textContent += event.reason + "\\n"; }});
+const tell = (what) => {{ document.getElementById("errors").textContent += what + "\\n"; }};
+addEventListener("error", (event) => tell(event.message));
+addEventListener("unhandledrejection", (event) => tell(event.reason));
 </script>
 </head>
 <body data-state="empty">
@@ -238,7 +309,8 @@ addEventListener("unhandledrejection", (event) => {{ document.getElementById("er
 {lines}
 <div id="errors"></div>
 <h2>Signals</h2>
-<p>Drag to zoom, double-click to see all. Zoomed out, a line goes through the least and the greatest value of each pixel.</p>
+<p>Drag to zoom, double-click to see all.
+Zoomed out, a line goes through the least and the greatest value of each pixel.</p>
 <p id="asked"></p>
 <div id="signals"></div>
 """
@@ -249,7 +321,8 @@ def main():
     run = Run(about)
     shown, said = signals(run, about["count"])
     if about["recorder_rate"]:
-        said += f". What the recorder samples at {about['recorder_rate']:g} Hz of accelerations and forces on rings is filtered"
+        rate = about["recorder_rate"]
+        said += f". What the recorder samples at {rate:g} Hz of accelerations and forces on rings is filtered"
     paths = [path(run, about, defect, k) for k, defect in enumerate(about["defects"], 1)]
     paths = [one for one in paths if one]
     drawn = list(spectra(about))
@@ -257,11 +330,14 @@ def main():
     lines = "\n".join(f"<p>{html.escape(line)}</p>" for line in [about["description"], said, *about["notes"]] if line)
     text = HEAD.format(name=html.escape(about["name"]), lines=lines)
     text += "".join(f'<h2>{html.escape(one["title"])}</h2><div id="path-{k}"></div>\n' for k, one in enumerate(paths))
-    text += "".join(f'<h2>{html.escape(title)}</h2><div id="spectrum-{k}"></div>\n' for k, (title, _) in enumerate(drawn))
+    text += "".join(
+        f'<h2>{html.escape(title)}</h2><div id="spectrum-{k}"></div>\n' for k, (title, _) in enumerate(drawn)
+    )
     library = (Path(plotly.__file__).parent / "package_data" / "plotly.min.js").read_text(encoding="utf-8")
     program = (Path(__file__).parent / "run_page.js").read_text(encoding="utf-8")
     # No "</" inside a script ends it.
-    text += f"<script>{library}</script>\n<script>const DATA = {json.dumps(data).replace('</', '<' + chr(92) + '/')};\n{program}</script>\n"
+    told = json.dumps(data).replace("</", "<\\/")
+    text += f"<script>{library}</script>\n<script>const DATA = {told};\n{program}</script>\n"
     text += "</body>\n</html>\n"
     with plotting.whole(sys.argv[2]) as part:
         part.write_text(text, encoding="utf-8")

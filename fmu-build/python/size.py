@@ -1,4 +1,5 @@
-"""Averaged passages of recordings: signal, high-frequency envelope, and the path of an element over the spall that was found."""
+"""Averaged passages of recordings: signal, high-frequency envelope, and the path of an element over the spall that was
+found."""
 
 import json
 import sys
@@ -19,7 +20,13 @@ def mark(axis, found, labelled):
     if edges:
         axis.axvspan(*edges, color="#eeeeee", zorder=0)
         for at, name in zip(edges, ("leading edge", "trailing edge")):
-            axis.axvline(at, color="black", linewidth=0.9, linestyle="--" if name == "leading edge" else "-.", label=name if labelled else None)
+            axis.axvline(
+                at,
+                color="black",
+                linewidth=0.9,
+                linestyle="--" if name == "leading edge" else "-.",
+                label=name if labelled else None,
+            )
     for k, at in enumerate(found["impacts_deg"]):
         axis.axvline(at, color=VERMILION, linewidth=0.9, label="impact" if labelled and k == 0 else None)
 
@@ -29,7 +36,8 @@ def title(found):
     if found["length_deg"] is None:
         looks = {"inner": ", looks like the inner raceway", "element": ", looks like a rolling element"}
         return f"{name}: unresolved{looks.get(found['fault'], '')}"
-    return f"{name}: {found['length_deg']:.2f} ± {found['uncertainty_deg']:.2f} degrees ({found['kind']}), {found['passages']} passages"
+    length = f"{found['length_deg']:.2f} ± {found['uncertainty_deg']:.2f} degrees"
+    return f"{name}: {length} ({found['kind']}), {found['passages']} passages"
 
 
 def draw(stem):
@@ -62,7 +70,11 @@ def draw(stem):
         axis.legend(loc="upper right", ncols=6, columnspacing=1)
     raceway = "the inner raceway" if found["fault"] == "inner" else "the outer raceway"
     origin = "leading edge" if "model" in data else "first impact"
-    axes[-1].set_xlabel(f"element travel from the {origin} (degrees of {raceway})" if found["length_deg"] else f"element travel (degrees of {raceway})")
+    axes[-1].set_xlabel(
+        f"element travel from the {origin} (degrees of {raceway})"
+        if found["length_deg"]
+        else f"element travel (degrees of {raceway})"
+    )
     edges = found["edges_deg"]
     if edges:
         room = max(4.0, 0.8 * (edges[1] - edges[0]))

@@ -12,7 +12,9 @@ GREY = "#777777"
 stem = Path(sys.argv[1])
 data = plotting.read_csv(stem.with_name(stem.name + "-stiffness.csv"))
 critical_file = stem.with_name(stem.name + "-critical-load.csv")
-variations = plotting.read_csv(critical_file) if critical_file.exists() and np.isfinite(data["critical_load"]).any() else None
+variations = (
+    plotting.read_csv(critical_file) if critical_file.exists() and np.isfinite(data["critical_load"]).any() else None
+)
 
 middle = 0.5 * (data["cage.angle"][0] + data["cage.angle"][-1])
 cage = np.degrees(data["cage.angle"] - middle)
@@ -76,7 +78,16 @@ def distribution(axis):
     axis.plot(angles.ravel()[order], forces.ravel()[order], color=GREY, linewidth=0.9, label="one element on its way")
     for place, colour, marker in ((0.5, BLUE, "o"), (0.75, GREEN, "s"), (1.0, VERMILION, "^")):
         k = int(np.argmin(np.abs(cage - (cage[0] + place * (cage[-1] - cage[0])))))
-        axis.plot(angles[:, k], forces[:, k], marker, color=colour, markersize=6, clip_on=False, zorder=3, label=f"cage angle {cage[k]:.0f}°")
+        axis.plot(
+            angles[:, k],
+            forces[:, k],
+            marker,
+            color=colour,
+            markersize=6,
+            clip_on=False,
+            zorder=3,
+            label=f"cage angle {cage[k]:.0f}°",
+        )
     axis.set_xlim(-180, 180)
     axis.set_xticks(range(-180, 181, 45))
     axis.set_ylim(0, 1.05 * forces.max())
@@ -131,7 +142,9 @@ if over_shaft.exists():
     figure, axis = plt.subplots(figsize=(plotting.WIDTH, 3.4))
     angle = np.degrees(turn["shaft.angle"])
     least, mean, greatest = (turn[f"stiffness.free.{which}"] * 1e-6 for which in ("least", "mean", "greatest"))
-    axis.fill_between(angle, least, greatest, color=BLUE, alpha=0.2, linewidth=0, label="least to greatest over the cage angle")
+    axis.fill_between(
+        angle, least, greatest, color=BLUE, alpha=0.2, linewidth=0, label="least to greatest over the cage angle"
+    )
     axis.plot(angle, mean, color=BLUE, label="mean over the cage angle")
     axis.set_xlim(-180, 180)
     axis.set_xticks(range(-180, 181, 45))

@@ -18,7 +18,15 @@ def read(name):
 def event(axis, at, text, height=0.97):
     """A dotted line with its name at the top of the axis."""
     axis.axvline(at, color="black", linewidth=0.8, linestyle=":")
-    axis.annotate(text, (at, height), xycoords=axis.get_xaxis_transform(), xytext=(3, 0), textcoords="offset points", va="top", fontsize=9)
+    axis.annotate(
+        text,
+        (at, height),
+        xycoords=axis.get_xaxis_transform(),
+        xytext=(3, 0),
+        textcoords="offset points",
+        va="top",
+        fontsize=9,
+    )
 
 
 def legend_above(axis, *what, **options):
@@ -32,7 +40,11 @@ def four_events():
     free = time[(time > 0) & (data["map element[1].force.outer"] == 0)][0]
     again = time[(time > free + 1) & (data["map element[1].force.inner"] > 0)][0]
     figure, axes = plt.subplots(3, 1, figsize=(plotting.WIDTH, 7.2), sharex=True)
-    panels = (("housing.ay", 1.0, "housing, y\n(m/s²)"), ("element[1].force.outer", 1.0, "outer force on\nthe element (N)"), ("element[1].path", 1e6, "path of the\nelement (µm)"))
+    panels = (
+        ("housing.ay", 1.0, "housing, y\n(m/s²)"),
+        ("element[1].force.outer", 1.0, "outer force on\nthe element (N)"),
+        ("element[1].path", 1e6, "path of the\nelement (µm)"),
+    )
     for axis, (name, scale, label) in zip(axes, panels):
         for law, colour, style in (("hertz", ORANGE, "-"), ("map", BLUE, "-")):
             axis.plot(time, scale * data[f"{law} {name}"], style, color=colour, linewidth=0.8, label=f"law {law}")
@@ -67,11 +79,27 @@ def epps():
     top.set_title("Etched spall of 0.8 mm on a 6205, 1500 N, 25 Hz")
     legend_above(top, ncols=2)
     time = data["time"] * 1e3
-    panels = (("housing.ay", 1.0, "housing, y\n(m/s²)"), ("element[1].path", 1e6, "path of the\nelement (µm)"), ("element[1].force.outer", 1.0, "outer force on\nthe element (N)"))
-    curves = (("trace hertz", GREEN, "-", "trace, law hertz"), ("sharp hertz", ORANGE, ":", "90° edges, law hertz"), ("trace map", BLUE, "-", "trace, law map"), ("sharp map", SKY, ":", "90° edges, law map"))
+    panels = (
+        ("housing.ay", 1.0, "housing, y\n(m/s²)"),
+        ("element[1].path", 1e6, "path of the\nelement (µm)"),
+        ("element[1].force.outer", 1.0, "outer force on\nthe element (N)"),
+    )
+    curves = (
+        ("trace hertz", GREEN, "-", "trace, law hertz"),
+        ("sharp hertz", ORANGE, ":", "90° edges, law hertz"),
+        ("trace map", BLUE, "-", "trace, law map"),
+        ("sharp map", SKY, ":", "90° edges, law map"),
+    )
     for axis, (name, scale, label) in zip(axes[1:], panels):
         for case, colour, style, text in curves:
-            axis.plot(time, scale * data[f"{case} {name}"], style, color=colour, linewidth=1.8 if style == ":" else 0.9, label=text)
+            axis.plot(
+                time,
+                scale * data[f"{case} {name}"],
+                style,
+                color=colour,
+                linewidth=1.8 if style == ":" else 0.9,
+                label=text,
+            )
         axis.set_ylabel(label)
         axis.set_xlim(-0.5, 2.5)
         for edge in (0.0, 0.5447):
@@ -90,20 +118,33 @@ def spectrograms(name, rows, title):
     rate = 1e3 / (time[1] - time[0])
     # 15.8 degrees after the entry an element leaves, of the extended spall too: 55.8 is one spacing more.
     exit_at = 10.997
-    figure, axes = plt.subplots(len(rows), 2, figsize=(plotting.WIDTH, 0.9 + 2.0 * len(rows)), sharex="col", sharey=True)
+    figure, axes = plt.subplots(
+        len(rows), 2, figsize=(plotting.WIDTH, 0.9 + 2.0 * len(rows)), sharex="col", sharey=True
+    )
     mesh = None
     for line, (key, label) in zip(axes, rows):
         passage = data[f"{key} sensor.acceleration"]
         # The passage repeats: three in a row leave the middle one without ends.
         long = np.tile(passage - passage.mean(), 3)
         window = int(round(5e-3 * rate))
-        frequency, at, power = signal.spectrogram(long, rate, window="hann", nperseg=window, noverlap=window - 8, nfft=4096, mode="psd")
+        frequency, at, power = signal.spectrogram(
+            long, rate, window="hann", nperseg=window, noverlap=window - 8, nfft=4096, mode="psd"
+        )
         at = at * 1e3 - time.size / rate * 1e3 + time[0]
         shown = frequency <= 2000
         level = 10 * np.log10(power[shown] / power[shown][:, (at > time[0]) & (at < time[-1])].max() + 1e-9)
         for axis, centre, event_name in zip(line, (0.0, exit_at), ("entry", "exit")):
             near = (at > centre - 3) & (at < centre + 9)
-            mesh = axis.pcolormesh(at[near] - centre, frequency[shown], level[:, near], vmin=-30, vmax=0, cmap="viridis", rasterized=True, shading="nearest")
+            mesh = axis.pcolormesh(
+                at[near] - centre,
+                frequency[shown],
+                level[:, near],
+                vmin=-30,
+                vmax=0,
+                cmap="viridis",
+                rasterized=True,
+                shading="nearest",
+            )
             axis.axvline(0, color="white", linewidth=0.9, linestyle=":")
             axis.set_title(f"{label}: {event_name}")
             axis.grid(False)
@@ -154,7 +195,9 @@ def beside():
     for speed, style in zip(speeds, styles * 3):
         data = read(f"beside-{speed}hz-harmonics")
         bottom.plot(data["harmonic"], data["recording"], style, color=BLUE, marker=".", label=f"recording, {speed} Hz")
-        bottom.plot(data["harmonic"], data["scene"], style, color=VERMILION, marker=".", label=f"with flanks, {speed} Hz")
+        bottom.plot(
+            data["harmonic"], data["scene"], style, color=VERMILION, marker=".", label=f"with flanks, {speed} Hz"
+        )
     bottom.set_xlim(1, 20)
     bottom.set_ylim(0, None)
     bottom.set_xticks(range(1, 21))
@@ -166,10 +209,19 @@ def beside():
 
 four_events()
 epps()
-spectrograms("validation-spectrograms", (("tb1", "TB1, 500 N"), ("tb2-500", "TB2, 500 N"), ("tb2-600", "TB2, 600 N")), "Nominal depth of 100 µm, rigid rings")
+spectrograms(
+    "validation-spectrograms",
+    (("tb1", "TB1, 500 N"), ("tb2-500", "TB2, 500 N"), ("tb2-600", "TB2, 600 N")),
+    "Nominal depth of 100 µm, rigid rings",
+)
 spectrograms(
     "validation-assumptions",
-    (("30um-500", "30 µm, 500 N"), ("30um-600", "30 µm, 600 N"), ("soft-500", "compliant, 500 N"), ("soft-600", "compliant, 600 N")),
+    (
+        ("30um-500", "30 µm, 500 N"),
+        ("30um-600", "30 µm, 600 N"),
+        ("soft-500", "compliant, 500 N"),
+        ("soft-600", "compliant, 600 N"),
+    ),
     "TB2 with its floor within reach: two assumptions",
 )
 beside()

@@ -269,9 +269,9 @@ fn summary(
     text += &line("load zone, half-angle", zone, "degrees");
     let Some(bottom) = bottom else { return Ok(text) };
     let Some(critical) = critical else {
-        return Ok(
-            text + "critical load: none; no load that the contact law covers brings the elements at the bottom of the defect to carry\n"
-        );
+        return Ok(text
+            + "critical load: none; no load that the contact law covers brings the elements at the bottom of the \
+                    defect to carry\n");
     };
     let angles = [critical.cage_angle.to_degrees(), bottom.path * 1e6];
     text += &format!(

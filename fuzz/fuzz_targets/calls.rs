@@ -67,7 +67,9 @@ impl Run<'_> {
             Call::Derivatives(..) | Call::Directional(..) => self.differentiate(call),
             Call::Status(which, kind) => self.ask(which, kind),
             Call::Null(which) => self.null(which),
-            Call::Get(_) | Call::GetAll | Call::GetInteger(_) | Call::GetBoolean(_) | Call::GetString(_) => self.read(call),
+            Call::Get(_) | Call::GetAll | Call::GetInteger(_) | Call::GetBoolean(_) | Call::GetString(_) => {
+                self.read(call)
+            }
             Call::Set(..)
             | Call::SetSmall(..)
             | Call::SetInteger(..)

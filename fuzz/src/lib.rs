@@ -7,11 +7,11 @@ use std::ffi::CString;
 use std::path::PathBuf;
 use std::{fs, ptr};
 
-use brinell_fmi::fmi2::*;
 use brinell::scene::Scene;
 use brinell::simulation::Simulation;
 use brinell::simulation::guid::guid;
 use brinell::simulation::variables::{Kind, Variable};
+use brinell_fmi::fmi2::*;
 
 /// Scenes: both rings moved by forces, one of them by the host, both by the host; and defects of all bodies, an outer
 /// ring that turns, an irregular cage, sensors and a probe.
@@ -101,12 +101,8 @@ pub fn get(c: Component, references: &[u32]) -> Status {
 
 /// Runs a simulation for a moment: results are finite or there is an error.
 pub fn run(mut simulation: Simulation) {
-    let reals: Vec<u32> = simulation
-        .table()
-        .iter()
-        .filter(|v| matches!(v.kind, Kind::Real { .. }))
-        .map(|v| v.reference)
-        .collect();
+    let reals: Vec<u32> =
+        simulation.table().iter().filter(|v| matches!(v.kind, Kind::Real { .. })).map(|v| v.reference).collect();
     let mut values = vec![0.0; reals.len()];
     if simulation.initialize(0.0).is_err() {
         return;

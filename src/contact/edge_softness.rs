@@ -13,7 +13,7 @@
 //! ```
 //! As h grows this becomes the end's image, and it vanishes with h. The two numbers were fitted to plane-strain finite
 //! elements of a cylinder over the edge of a step, up to a half-width inside it: forces agree to 3 %
-//! (`tests/contact_edge.rs`), which is the accuracy that is claimed. ½ψ I is added to the influence: half of a
+//! (`tests/contact/edge.rs`), which is the accuracy that is claimed. ½ψ I is added to the influence: half of a
 //! contact's compliance is the spalled body's.
 //!
 //! The influence matrix stays symmetric and positive definite, so that the contact still has an energy: I is symmetric,

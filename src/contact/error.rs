@@ -39,8 +39,8 @@ pub enum ContactError {
     },
     /// Softness of edges is asked for, and there is none.
     #[error(
-        "contact.edge = \"step\": the defect has no edge steeper than 60 degrees, and no other is softer than a half-space; \
-         leave contact.edge out"
+        "contact.edge = \"step\": the defect has no edge steeper than 60 degrees, and no other is softer than a \
+         half-space; leave contact.edge out"
     )]
     NoEdge,
     /// A defect whose two ends are so close together, the long way round the raceway, that one contact feels both.
@@ -62,9 +62,9 @@ pub enum ContactError {
     },
     /// A rigid element that lies so deep beside a wall that only its side meets the edge: its path leaps there.
     #[error(
-        "defect: {at_mm:.4} mm from its middle an element of radius {radius_mm:.4} mm lies {depth_mm:.4} mm deep beside an edge \
-         that it meets with its side; the limit is {limit_mm:.4} mm, from deeper down no rigid element rolls out: make the \
-         defect shallower or its flank gentler"
+        "defect: {at_mm:.4} mm from its middle an element of radius {radius_mm:.4} mm lies {depth_mm:.4} mm deep \
+         beside an edge that it meets with its side; the limit is {limit_mm:.4} mm, from deeper down no rigid element \
+         rolls out: make the defect shallower or its flank gentler"
     )]
     NoWayOut {
         /// Where the element's centre is, along the raceway from the defect's middle [mm].
@@ -88,7 +88,8 @@ pub enum ContactError {
     },
     /// The contact touches the border of its window, so part of it may lie outside.
     #[error(
-        "the contact reaches the window's edge at column {column}, row {row}: the window is too small for approach {approach:e} m"
+        "the contact reaches the window's edge at column {column}, row {row}: the window is too small for approach \
+         {approach:e} m"
     )]
     ReachesEdge {
         /// Column of the offending cell.
@@ -110,8 +111,8 @@ pub enum ContactError {
     },
     /// Outside the range the law was prepared for.
     #[error(
-        "{quantity} is {value:.6e} m, the range prepared is {}; contact.largest_force_n says how large forces near the defect \
-         may be",
+        "{quantity} is {value:.6e} m, the range prepared is {}; contact.largest_force_n says how large forces near the \
+         defect may be",
         prepared(*lower, *upper)
     )]
     OutOfRange {
@@ -132,7 +133,8 @@ pub enum ContactError {
     },
     /// The map did not reach the accuracy asked for.
     #[error(
-        "contact map: error {achieved:e} of full scale with {nodes} nodes, {requested:e} was asked for: more cells (contact.cells) or a larger error (contact.map_accuracy) may help"
+        "contact map: error {achieved:e} of full scale with {nodes} nodes, {requested:e} was asked for: more cells \
+         (contact.cells) or a larger error (contact.map_accuracy) may help"
     )]
     MapNotAccurate {
         /// Largest error found between nodes, relative to full scale.

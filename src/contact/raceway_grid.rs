@@ -37,7 +37,7 @@ pub struct Resolution {
 /// Part of a cell by which a raceway that ends at an edge is continued beyond it. A cell that ends at an edge carries
 /// its pressure uniformly, where the true one grows without bound towards the edge: it is too soft by the same force as
 /// if the raceway ended this much earlier. Found by comparison with finer grids; it is that of a flat punch, too
-/// (`tests/contact_grid.rs`).
+/// (`tests/contact/grid.rs`).
 const BEYOND_EDGE: f64 = 0.17;
 
 /// Refuses measured points that are farther apart than a cell is long or wide.

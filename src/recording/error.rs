@@ -31,8 +31,8 @@ pub enum RecordingError {
     },
     /// Another process writes it, or another FMU's library in this one.
     #[error(
-        "recording {path}: another process, or another FMU in this one, is writing it, and instance {name:?} would write \
-         over it. Give the instances other names, or another recorder.folder",
+        "recording {path}: another process, or another FMU in this one, is writing it, and instance {name:?} would \
+         write over it. Give the instances other names, or another recorder.folder",
         path = path.display()
     )]
     ClaimedElsewhere {

@@ -190,8 +190,8 @@ pub enum SurfaceError {
     },
     /// A rim so far above the deepest point that an element there would meet it with its side.
     #[error(
-        "defect profile: from its highest point to its deepest it is {height_um:.3} um: it must be below {limit_um:.3} um, the \
-         radius of an element"
+        "defect profile: from its highest point to its deepest it is {height_um:.3} um: it must be below {limit_um:.3} \
+         um, the radius of an element"
     )]
     TooRugged {
         /// Height of the highest above the deepest point [µm].
@@ -201,8 +201,8 @@ pub enum SurfaceError {
     },
     /// A depth, or a rim, as large as an element's radius.
     #[error(
-        "defect profile: the depth is {depth_um:.3} um, {arc_mm:.6} mm from the middle of the trace: its magnitude must be \
-         below {limit_um:.3} um, {limit}"
+        "defect profile: the depth is {depth_um:.3} um, {arc_mm:.6} mm from the middle of the trace: its magnitude \
+         must be below {limit_um:.3} um, {limit}"
     )]
     TooDeep {
         /// Arc from the middle [mm].

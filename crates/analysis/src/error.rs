@@ -99,7 +99,8 @@ pub enum SizingError {
     },
     /// Too few elements pass the defect during the recording.
     #[error(
-        "{name}: {duration:.3} s hold {passages:.1} passages at a ball pass frequency of {bpfo:.3} Hz: at least {limit} are needed"
+        "{name}: {duration:.3} s hold {passages:.1} passages at a ball pass frequency of {bpfo:.3} Hz: at least \
+         {limit} are needed"
     )]
     TooShort {
         /// The recording.
@@ -115,7 +116,8 @@ pub enum SizingError {
     },
     /// The ball pass frequency is too high for the sampling rate: rate or speed are wrong.
     #[error(
-        "{name}: {samples:.1} samples per passage ({rate:.1} Hz at a ball pass frequency of {bpfo:.3} Hz): at least {limit} are needed; is the rate or the speed of {speed} Hz wrong?"
+        "{name}: {samples:.1} samples per passage ({rate:.1} Hz at a ball pass frequency of {bpfo:.3} Hz): at least \
+         {limit} are needed; is the rate or the speed of {speed} Hz wrong?"
     )]
     TooCoarse {
         /// The recording.

@@ -63,8 +63,8 @@ pub enum ResponseError {
     },
     /// No modes come near.
     #[error(
-        "{modes} modes miss {:.1} % of the response (limit {:.0} %): it is not that of a structure that passes slow motion \
-         unchanged, or too noisy",
+        "{modes} modes miss {:.1} % of the response (limit {:.0} %): it is not that of a structure that passes slow \
+         motion unchanged, or too noisy",
         100.0 * misfit, 100.0 * LARGEST_MISFIT
     )]
     Misfit {

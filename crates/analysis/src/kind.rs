@@ -94,15 +94,16 @@ impl Judged {
         let load = load(scene);
         if let Some((critical, depth)) = self.critical_load.zip(self.depth).filter(|&(critical, _)| load >= critical) {
             text += &format!(
-                "; WARNING: the load of {load:.0} N is above the critical load of {critical:.0} N (at the depth that fits best, {:.0} um): \
-                 elements inside the spall carry load, and stiffness does not tell an extended from a line spall",
+                "; WARNING: the load of {load:.0} N is above the critical load of {critical:.0} N (at the depth that \
+                 fits best, {:.0} um): elements inside the spall carry load, and stiffness does not tell an extended \
+                 from a line spall",
                 1e6 * depth
             );
         }
         if let Some(depth) = self.critical_depth {
             text += &format!(
-                "; WARNING: were the spall shallower than {:.1} um, the load of {load:.0} N would be above the critical load of an extended \
-                 one, whose inner elements then carry: it would ring like a line spall",
+                "; WARNING: were the spall shallower than {:.1} um, the load of {load:.0} N would be above the \
+                 critical load of an extended one, whose inner elements then carry: it would ring like a line spall",
                 1e6 * depth
             );
         }

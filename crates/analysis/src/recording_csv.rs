@@ -125,8 +125,8 @@ fn one_meaning_of_commas(rows: &[Line]) -> Result<(), String> {
     match rows.iter().find(|(_, line)| twice(line)) {
         None => Ok(()),
         Some((number, line)) => Err(format!(
-            "line {number}: '{line}': commas seem to part numbers and their decimals alike: part columns by semicolons, \
-             or write decimal points"
+            "line {number}: '{line}': commas seem to part numbers and their decimals alike: part columns by \
+             semicolons, or write decimal points"
         )),
     }
 }

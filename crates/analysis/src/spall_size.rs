@@ -311,8 +311,8 @@ fn basis(report: &Report, sized: &[Sized], scene: &Scene) -> String {
     }
     if report.standing == Some(Standing::Provisional) {
         text += &format!(
-            "; PROVISIONAL: an event that belongs to the structure, at the same time at any speed, is told from one of the spall by \
-             recordings at speeds {SPEEDS_APART} times apart that agree in degrees"
+            "; PROVISIONAL: an event that belongs to the structure, at the same time at any speed, is told from one of \
+             the spall by recordings at speeds {SPEEDS_APART} times apart that agree in degrees"
         );
     }
     let lost = sized.iter().filter(|s| s.length.is_err()).count();

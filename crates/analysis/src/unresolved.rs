@@ -5,19 +5,21 @@
 pub enum Unresolved {
     /// Nothing repeats with the ball pass frequency.
     #[error(
-        "nothing repeats with the ball pass frequency: its comb stands {0:.1} standard deviations above chance, limit {1:.1}"
+        "nothing repeats with the ball pass frequency: its comb stands {0:.1} standard deviations above chance, limit \
+         {1:.1}"
     )]
     NoPattern(f64, f64),
     /// Something else repeats.
     #[error(
-        "nothing repeats with the ball pass frequency: its comb stands {0:.1} standard deviations above chance, limit {1:.1}; but one at \
-         {2:.2} Hz stands {3:.1} above it: are speed, rate and bearing right, or is it not the outer raceway?"
+        "nothing repeats with the ball pass frequency: its comb stands {0:.1} standard deviations above chance, limit \
+         {1:.1}; but one at {2:.2} Hz stands {3:.1} above it: are speed, rate and bearing right, or is it not the \
+         outer raceway?"
     )]
     OtherPattern(f64, f64, f64, f64),
     /// A rolling element's fault.
     #[error(
-        "it looks like a fault of a rolling element, whose length is not read from recordings: combs stand above chance by, in standard \
-         deviations: {0}"
+        "it looks like a fault of a rolling element, whose length is not read from recordings: combs stand above \
+         chance by, in standard deviations: {0}"
     )]
     OfElement(String),
     /// No kind of fault stands out.
@@ -25,13 +27,14 @@ pub enum Unresolved {
     TwoKinds(String),
     /// An inner raceway's comb without its load zone.
     #[error(
-        "it looks like a fault of the inner raceway, but passages do not grow and fade as it turns through the load zone: strong ones are {0:.2} \
-         times as strong as weak ones, limit {1:.1}"
+        "it looks like a fault of the inner raceway, but passages do not grow and fade as it turns through the load \
+         zone: strong ones are {0:.2} times as strong as weak ones, limit {1:.1}"
     )]
     NoLoadZone(f64, f64),
     /// Impacts and echoes cannot be told apart in what the rate leaves.
     #[error(
-        "a sampling rate of {0:.0} Hz: below {1:.0} Hz the band above the rings' modes is too narrow to tell impacts from their echoes"
+        "a sampling rate of {0:.0} Hz: below {1:.0} Hz the band above the rings' modes is too narrow to tell impacts \
+         from their echoes"
     )]
     LowRate(f64, f64),
     /// A piece is missing.
@@ -50,13 +53,14 @@ pub enum Unresolved {
     NoImpact(f64),
     /// More impacts than a spall makes.
     #[error(
-        "impacts at {0:.2?} degrees in each passage: a spall makes two at most, and which of these is the last is not told"
+        "impacts at {0:.2?} degrees in each passage: a spall makes two at most, and which of these is the last is not \
+         told"
     )]
     ManyImpacts(Vec<f64>),
     /// What may be an echo or the last impact.
     #[error(
-        "the last impact is {0:.2} degrees after the first, or it is what follows at {1:.2} degrees: that is as loud as an impact before, \
-         passage by passage, but comes when echoes have died down"
+        "the last impact is {0:.2} degrees after the first, or it is what follows at {1:.2} degrees: that is as loud \
+         as an impact before, passage by passage, but comes when echoes have died down"
     )]
     PerhapsLast(f64, f64),
     /// The picking does not hold.
@@ -64,13 +68,14 @@ pub enum Unresolved {
     Unstable(usize, usize),
     /// Onset and impacts cannot be told apart.
     #[error(
-        "one impact per passage and no clear entry before it (clearness {0:.1}, limit {1:.1}): entry and exit are not apart"
+        "one impact per passage and no clear entry before it (clearness {0:.1}, limit {1:.1}): entry and exit are not \
+         apart"
     )]
     OneImpact(f64, f64),
     /// One impact inside.
     #[error(
-        "one impact per passage in the load zone (strong passages are {0:.1} times as strong as weak ones): entry and exit on the inner raceway \
-         are not apart"
+        "one impact per passage in the load zone (strong passages are {0:.1} times as strong as weak ones): entry and \
+         exit on the inner raceway are not apart"
     )]
     OneInside(f64),
     /// No entry.

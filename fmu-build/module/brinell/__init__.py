@@ -114,7 +114,12 @@ def run(
     the names wanted beside the time, in which ``*`` stands for any characters; ``speed_profile`` is a CSV file with
     time_s and speed_hz; ``noise_db`` is the signal-to-noise ratio of the sensors.
     """
-    given = {"stop": stop, "step": step, "noise-db": noise_db, "noise-seed": noise_seed if noise_db is not None else None}
+    given = {
+        "stop": stop,
+        "step": step,
+        "noise-db": noise_db,
+        "noise-seed": noise_seed if noise_db is not None else None,
+    }
     options = [f"--{name}={value!r}" for name, value in given.items() if value is not None]
     options += [f"--speed-profile={os.fspath(speed_profile)}"] if speed_profile is not None else []
     names = columns if isinstance(columns, str) else ",".join(columns)

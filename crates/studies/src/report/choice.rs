@@ -100,7 +100,8 @@ pub(super) fn measure(extent: Extent, data: &Path) -> Result<Vec<Row>> {
         writeln!(
             out,
             "what,phase_fitted_cpu_s_per_s,dormand_prince_cpu_s_per_s,implicit_cpu_s_per_s,automatic_cpu_s_per_s,\
-             phase_fitted_steps_per_s,dormand_prince_steps_per_s,implicit_steps_per_s,automatic_steps_per_s,implicit_share"
+             phase_fitted_steps_per_s,dormand_prince_steps_per_s,implicit_steps_per_s,automatic_steps_per_s,\
+             implicit_share"
         )?;
         for Row { what, cost, steps, implicit } in &rows {
             let numbers = cost.iter().chain(steps).map(|value| format!("{value:.4e}")).collect::<Vec<_>>().join(",");

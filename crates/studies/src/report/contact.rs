@@ -152,7 +152,8 @@ fn write(path: &Path, rows: &[Row]) -> Result<()> {
     whole_file::write_with(path, |out| {
         writeln!(
             out,
-            "law,columns,rows,nodes,max_normal,rms_normal,max_tangential,rms_tangential,seconds_per_contact,seconds_to_prepare"
+            "law,columns,rows,nodes,max_normal,rms_normal,max_tangential,rms_tangential,seconds_per_contact,\
+             seconds_to_prepare"
         )?;
         for Row { law, cells, nodes, error: [a, b, c, d], seconds, prepare } in rows {
             let nodes = nodes.map_or(String::new(), |nodes| nodes.to_string());

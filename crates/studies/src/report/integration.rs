@@ -250,7 +250,8 @@ fn write(path: &Path, rows: &[Row]) -> Result<()> {
     whole_file::write_with(path, |out| {
         writeln!(
             out,
-            "scene,method,setting,cpu_s_per_s,steps_per_s,implicit_share,acceleration_rms,acceleration_max,path_rms_m,path_max_m"
+            "scene,method,setting,cpu_s_per_s,steps_per_s,implicit_share,acceleration_rms,acceleration_max,path_rms_m,\
+             path_max_m"
         )?;
         for row in rows {
             let d = row.deviation;

@@ -22,8 +22,8 @@ pub(super) fn page(
 ) -> String {
     let mut text = format!(
         "# Error against run time\n\n\
-         Written by `cargo fmu report`; the numbers behind it are in [`data/`](data). Measured on: {machine}. Times are CPU \
-         times of one thread, the fastest of several runs.\n\n\
+         Written by `cargo fmu report`; the numbers behind it are in [`data/`](data). Measured on: {machine}. Times \
+         are CPU times of one thread, the fastest of several runs.\n\n\
          What stiff and extreme cases do is in [stability.md](stability.md).\n\n"
     );
     text += &contact_part(contacts);
@@ -35,11 +35,12 @@ pub(super) fn page(
 
 fn contact_part(rows: &[contact::Row]) -> String {
     let mut text = "## Contact\n\n\
-         One ball on the 90° edge of a spall (ER16K, 100 µm deep, approaches to 10 µm). Grids (law `love`) against one of 128 × 48 \
-         cells, maps against their own grid; errors over the smooth contact's force at 10 µm. Grids are warm, 50 nm further each \
-         time. [contact.md](contact.md) says how grids and maps are made.\n\n\
+         One ball on the 90° edge of a spall (ER16K, 100 µm deep, approaches to 10 µm). Grids (law `love`) against one \
+         of 128 × 48 cells, maps against their own grid; errors over the smooth contact's force at 10 µm. Grids are \
+         warm, 50 nm further each time. [contact.md](contact.md) says how grids and maps are made.\n\n\
          ![Error against time of one contact](figures/error-vs-run-time-contact.svg)\n\n\
-         | law | cells | nodes, both flanks | normal force: largest | rms | tangential: largest | rms | one contact | to prepare, one core |\n\
+         | law | cells | nodes, both flanks | normal force: largest | rms | tangential: largest | rms | one contact \
+         | to prepare, one core |\n\
          |---|---:|---:|---:|---:|---:|---:|---:|---:|\n"
         .to_owned();
     for row in rows {
@@ -52,8 +53,8 @@ fn contact_part(rows: &[contact::Row]) -> String {
         };
         let _ = writeln!(
             text,
-            "| {} | {} × {} | {nodes} | {max_normal:.1e} | {rms_normal:.1e} | {max_tangential:.1e} | {rms_tangential:.1e} | \
-             {seconds} | {} s |",
+            "| {} | {} × {} | {nodes} | {max_normal:.1e} | {rms_normal:.1e} | {max_tangential:.1e} \
+             | {rms_tangential:.1e} | {seconds} | {} s |",
             row.law,
             row.cells.columns,
             row.cells.rows,
@@ -66,10 +67,11 @@ fn contact_part(rows: &[contact::Row]) -> String {
 fn integration_part(found: &Integration) -> String {
     let mut text = format!(
         "## Time integration\n\n\
-         Every shipped scene for {:.0} ms from rest, communication step 0.1 ms, compared every 10 µs. *Acceleration* is the outer \
-         ring's along y (`housing.ay`), its error the root mean square over that of the acceleration itself; where the host moves \
-         the outer ring it is `shaft.force.y`. *Path* is the largest error of any element's path. Fixed steps do not land on \
-         edges and contact changes; they are what a program without error control does.\n\n\
+         Every shipped scene for {:.0} ms from rest, communication step 0.1 ms, compared every 10 µs. *Acceleration* \
+         is the outer ring's along y (`housing.ay`), its error the root mean square over that of the acceleration \
+         itself; where the host moves the outer ring it is `shaft.force.y`. *Path* is the largest error of any \
+         element's path. Fixed steps do not land on edges and contact changes; they are what a program without error \
+         control does.\n\n\
          ![Error against CPU time](figures/error-vs-run-time.svg)\n\n\
          CPU seconds per simulated second of the cheapest run whose acceleration error is at most\n\n",
         1e3 * found.stop
@@ -84,9 +86,10 @@ fn integration_part(found: &Integration) -> String {
     }
     text += "\n– : no run of this method is as exact as that.\n\n\
              ### What a tolerance means\n\n\
-             Automatic method: error of the acceleration (rms; largest over largest) and of the paths (rms; largest) by \
-             `solver.tolerance`.\n\n\
-             | scene | tolerance | CPU s/s | steps/s | implicit | acceleration rms | largest | path rms, m | largest, m |\n\
+             Automatic method: error of the acceleration (rms; largest over largest) and of the paths (rms; largest) \
+             by `solver.tolerance`.\n\n\
+             | scene | tolerance | CPU s/s | steps/s | implicit | acceleration rms | largest | path rms, m | largest, \
+             m |\n\
              |---|---:|---:|---:|---:|---:|---:|---:|---:|\n";
     for row in found.rows.iter().filter(|row| row.method == "automatic") {
         let d = row.deviation;
@@ -105,9 +108,9 @@ fn integration_part(found: &Integration) -> String {
         );
     }
     text += "\n### How far the reference can be trusted\n\n\
-             The reference is the automatic method at tolerance 1e-12. Beside it: Rodas5P alone at 1e-11, and, over the first 20 ms \
-             and with law `hertz`, SciPy's DOP853 at 1e-12 on equations written separately (`tests/oracle`), with both stopping at \
-             each contact change.\n\n\
+             The reference is the automatic method at tolerance 1e-12. Beside it: Rodas5P alone at 1e-11, and, over \
+             the first 20 ms and with law `hertz`, SciPy's DOP853 at 1e-12 on equations written separately \
+             (`tests/oracle`), with both stopping at each contact change.\n\n\
              | scene | compared | Rodas5P: acceleration rms | path, m | DOP853: acceleration rms | path, m |\n\
              |---|---|---:|---:|---:|---:|\n";
     for Check { scene, signal, pair, oracle } in &found.checks {
@@ -138,11 +141,11 @@ fn cost(seconds: f64) -> String {
 
 fn coupled_part(coupled: &[Coupled]) -> String {
     let mut text = "## Co-simulation\n\n\
-         A host that is a mass on the inner ring, motion in and force out, against one simulation with the mass inside; the \
-         housing stands. *held*: motion and force stay what they are during a step. *extrapolated*: the FMU goes on with velocity and \
-         acceleration, and the host uses the mean and the end force. *rolled back once*: as before, then the state is put back and \
-         the step repeated with the motion that came out. Error: rms of the ring's place over that of its distance from the start, \
-         20 ms after the load has doubled.\n\n\
+         A host that is a mass on the inner ring, motion in and force out, against one simulation with the mass \
+         inside; the housing stands. *held*: motion and force stay what they are during a step. *extrapolated*: the \
+         FMU goes on with velocity and acceleration, and the host uses the mean and the end force. *rolled back once*: \
+         as before, then the state is put back and the step repeated with the motion that came out. Error: rms of the \
+         ring's place over that of its distance from the start, 20 ms after the load has doubled.\n\n\
          ![Error against communication step](figures/error-vs-run-time-co-simulation.svg)\n\n"
         .to_owned();
     for Coupled { scene, rows, steps } in coupled {
@@ -167,8 +170,8 @@ fn coupled_part(coupled: &[Coupled]) -> String {
 
 fn leaving_out_part(parts: &[Part]) -> String {
     let mut text = "## What leaving out saves\n\n\
-         SKF 6205 at 25 Hz, tolerance 1e-5, communication step 0.1 ms; one part more in each line. What a scene does not name is \
-         neither computed nor stored nor among the variables.\n\n\
+         SKF 6205 at 25 Hz, tolerance 1e-5, communication step 0.1 ms; one part more in each line. What a scene does \
+         not name is neither computed nor stored nor among the variables.\n\n\
          | scene | states | variables | CPU s per simulated s | steps per s | contacts near the defect per s |\n\
          |---|---:|---:|---:|---:|---:|\n"
         .to_owned();

@@ -76,7 +76,8 @@ fn steps(python: &Python, extent: Extent, folder: &Path) -> Result<()> {
     print!("{}", python.run("elements.py", [data.as_os_str(), figures.join("elements").as_os_str()])?);
     let seconds = steady::measure(extent, &data)?;
     let path = folder.join("cost-of-steps.md");
-    let text = steps_page::page(&machine::description(), &choices, &elements, &hosted) + &steps_page::seconds(&seconds);
+    let mut text = steps_page::page(&machine::description(), &choices, &elements, &hosted);
+    text += &steps_page::seconds(&seconds, &elements);
     whole_file::write(&path, text)?;
     println!("{}", path.display());
     Ok(())

@@ -17,7 +17,7 @@ use fmu_build::model::Model;
 use fmu_build::whole_file;
 
 /// Tolerances of the runs.
-const TOLERANCES: [f64; 2] = [1e-3, 1e-5];
+const TOLERANCES: [f64; 3] = [1e-2, 1e-3, 1e-5];
 /// Tolerance of the run that they are held against.
 const REFERENCE: f64 = 1e-7;
 /// The start, which is left out, and what is measured alone of it [s].
@@ -35,6 +35,8 @@ pub(super) struct Row {
     pub(super) steps: [f64; 2],
     /// Root mean square of the signal over the reference's, less 1.
     pub(super) error: f64,
+    /// How many balls it has, if they are balls.
+    pub(super) balls: Option<usize>,
 }
 
 /// Measures and writes `steady.csv`.
@@ -58,17 +60,20 @@ pub(super) fn measure(extent: Extent, data: &Path) -> Result<Vec<Row>> {
     };
     let mut rows = Vec::new();
     for &scene in names {
-        let subject = Subject::new(&Model::read(&scene_file(scene))?, scene.to_owned(), length)?;
+        let model = Model::read(&scene_file(scene))?;
+        let bearing = &model.scene.bearing;
+        let balls = bearing.roller().is_none().then_some(bearing.element_count);
+        let subject = Subject::new(&model, scene.to_owned(), length)?;
         let reference = run(&subject, REFERENCE, length)?;
         for tolerance in TOLERANCES {
             let found = run(&subject, tolerance, length)?;
             let error = found.rms / reference.rms - 1.0;
-            rows.push(Row { scene, tolerance, cost: found.cost, steps: found.steps, error });
+            rows.push(Row { scene, tolerance, cost: found.cost, steps: found.steps, error, balls });
         }
     }
     whole_file::write_with(&data.join("steady.csv"), |out| {
         writeln!(out, "scene,tolerance,first_cpu_s_per_s,cpu_s_per_s,steps_per_s,rejected_steps_per_s,rms_error")?;
-        for Row { scene, tolerance, cost: [first, cost], steps: [steps, rejected], error } in &rows {
+        for Row { scene, tolerance, cost: [first, cost], steps: [steps, rejected], error, .. } in &rows {
             writeln!(out, "{scene},{tolerance:e},{first:.4e},{cost:.4e},{steps:.4e},{rejected:.4e},{error:.3e}")?;
         }
         Ok(())

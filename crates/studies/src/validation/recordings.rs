@@ -57,7 +57,8 @@ impl Known {
     pub fn parse(text: &str) -> Result<Self> {
         let wanted = || {
             format!(
-                "{text}: recordings are given as FILE@HZ=DEGREES or FILE@HZ/RATE=DEGREES, with an i behind it for the inner raceway, or ball"
+                "{text}: recordings are given as FILE@HZ=DEGREES or FILE@HZ/RATE=DEGREES, with an i behind it for the \
+                 inner raceway, or ball"
             )
         };
         let (path, rest) = text.rsplit_once('@').with_context(wanted)?;
@@ -91,7 +92,8 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
         Ok(Recording::read(&known.path, &source)?)
     };
     let mut text = String::from(
-        "| recording | nominal (°) | looks like | found (°) | 95 % (°) | error | onset (°) | impacts (°) |\n|---|---:|---|---:|---:|---:|---:|---|\n",
+        "| recording | nominal (°) | looks like | found (°) | 95 % (°) | error | onset (°) | impacts (°) \
+         |\n|---|---:|---|---:|---:|---:|---:|---|\n",
     );
     let mut groups: Vec<(f64, Fault, Vec<Recording>)> = Vec::new();
     let mut beside: Vec<Beside> = Vec::new();
@@ -144,7 +146,8 @@ fn outer_beside(project: &Project, [case, with_flanks]: [&Case; 2], beside: &[Be
         return Ok(String::new());
     }
     let mut text = String::from("\n### The scene beside the recording of 5°\n\n");
-    text += "| shaft (Hz) | | onset before the first impact (°) | first to last impact (°) | length by events (°) | null of the envelope's harmonics |\n|---:|---|---:|---:|---:|---:|\n";
+    text += "| shaft (Hz) | | onset before the first impact (°) | first to last impact (°) | length by events (°) \
+             | null of the envelope's harmonics |\n|---:|---|---:|---:|---:|---:|\n";
     for (speed, figure, found, comb) in beside {
         writeln!(text, "{}", beside_row(*speed, "recording", Some(found), comb))?;
         for (label, case) in [("scene", case), ("with flanks", with_flanks)] {
@@ -171,7 +174,8 @@ fn inner_beside(project: &Project, recorded: &[(f64, RecordingReport, Loud)]) ->
     let case = Case::shipped(project, INNER_SCENE)?;
     let mut text = String::from(
         "\n### The inner scene beside the recording of 5°\n\n\
-         | shaft (Hz) | | looks like | two loudest (° apart) | impacts (° after the first) | onset before the first impact (°) | length by events (°) | strong over weak passages |\n\
+         | shaft (Hz) | | looks like | two loudest (° apart) | impacts (° after the first) | onset before the first \
+         impact (°) | length by events (°) | strong over weak passages |\n\
          |---:|---|---|---:|---|---:|---:|---:|\n",
     );
     for (speed, found, loud) in recorded {

@@ -4,9 +4,11 @@
 //! the way past the leading edge, L the spall's length, P = s²/(2 r_e) the way sunk and δ the approach of the most
 //! loaded element,
 //! ```text
-//! force lost   1 − (1 − min(P(s), P(L − s))/δ)^1.5,   all of it while that is above δ;  edges rounded over a random way
+//! force lost   1 − (1 − min(P(s), P(L − s))/δ)^1.5,   all of it while that is above δ;
+//!                edges rounded over a random way
 //! first impact   where the element meets the floor or, before that, the other edge (s = L/2)
-//! last impact    where a free element takes up its load again: between L − s_u and L, P(s_u) = δ; none if it never got free
+//! last impact    where a free element takes up its load again: between L − s_u and L, P(s_u) = δ;
+//!                none if it never got free
 //! ```
 //! On the inner raceway 1/r_e = 1/r + 1/R_i; it turns with the shaft, and force and impacts follow a load zone that is
 //! drawn: the cosine of its angle, and opposite to the load 5 to 30 % of the most.
