@@ -10,6 +10,7 @@ use zip::{CompressionMethod, DateTime, System, ZipWriter, write::SimpleFileOptio
 
 /// Why an archive was not written.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ArchiveError {
     /// A name that unpacks differently on another system.
     #[error("archive entry {0:?}: names are relative, with forward slashes and without '..'")]

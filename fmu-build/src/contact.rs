@@ -13,7 +13,7 @@ use brinell_analysis::subsurface::Stress;
 use clap::ValueEnum;
 
 use crate::csv;
-use crate::model::read_all;
+use crate::model::{SceneFiles, read_all};
 use crate::project::Project;
 use crate::python::Python;
 use crate::stiffness::beside;
@@ -49,7 +49,7 @@ const SURFACE_LINES: usize = 64;
 /// The command: prints the summary, and writes `<folder>/<scene>-contact.json`, `-pressure.csv`, `-surface.csv`,
 /// `-depth.csv`, `-plane.csv` and, if wanted, a figure.
 pub fn command(project: &Project, scene: &Path, options: &Options, folder: &Path) -> Result<()> {
-    let (_, read, profiles) = read_all(scene)?;
+    let SceneFiles { scene: read, profiles, .. } = read_all(scene)?;
     let about = || scene.display().to_string();
     let side = if options.on == On::Outer { RacewaySide::Outer } else { RacewaySide::Inner };
     let angle = options.angle_deg.to_radians();

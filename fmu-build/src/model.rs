@@ -56,22 +56,33 @@ pub fn remarks(text: &str, scene: &Scene) -> impl Iterator<Item = Remark> {
     Scene::questions(text).into_iter().chain(scene.remarks()).chain(film::remark(scene))
 }
 
+/// A scene with the files that it is read from.
+#[derive(Debug)]
+pub struct SceneFiles {
+    /// Text of the scene's file.
+    pub text: String,
+    /// The scene.
+    pub scene: Scene,
+    /// The profiles that it names.
+    pub profiles: Vec<Profile>,
+}
+
 /// Reads a scene as [`read_scene`] does, and the profiles beside it; what is unusual in it is told.
-pub fn read_all(path: &Path) -> Result<(String, Scene, Vec<Profile>)> {
+pub fn read_all(path: &Path) -> Result<SceneFiles> {
     let (text, scene) = read_scene(path)?;
     for remark in remarks(&text, &scene) {
         eprintln!("note: {}: {remark}", path.display());
     }
     let profile = |name: &str| anyhow::Ok(Profile { name: name.to_owned(), text: shipped::text_beside(path, name)? });
     let profiles = scene.profile_names().into_iter().map(profile).collect::<Result<_>>()?;
-    Ok((text, scene, profiles))
+    Ok(SceneFiles { text, scene, profiles })
 }
 
 impl Model {
     /// Reads a scene file, or a shipped scene by its name, and the profile beside it. An error names the file.
     pub fn read(path: &Path) -> Result<Self> {
         let about = || path.display().to_string();
-        let (scene_text, scene, profiles) = read_all(path)?;
+        let SceneFiles { text: scene_text, scene, profiles } = read_all(path)?;
         let texts = || profiles.iter().map(|profile| profile.text.as_str());
         let map = contact_map::of(&scene, texts(), &Project::find()).with_context(about)?;
         let simulation = Simulation::with_map(scene.clone(), texts(), map.as_deref()).with_context(about)?;

@@ -53,6 +53,7 @@ pub const FUNCTIONS: [&str; 34] = [
 
 /// Why an FMU's library did not do what it was asked.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum SlaveError {
     /// The file is no library, or lacks something.
     #[error("library")]

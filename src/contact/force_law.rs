@@ -263,7 +263,7 @@ mod tests {
                 prop_assume!(law.pushing(delta, rate) > 1e-8);
                 let force = law.with_derivatives(delta, rate);
                 let crowned = matches!(law.elasticity, Elasticity::Crowned(_));
-                // A crown's second derivative jumps where a step of its table ends; a shorter difference feels that less.
+                // A crown's second derivative jumps where a step of its table ends, felt less by short differences.
                 let (d, v) = (if crowned { 1e-6 } else { 1e-5 } * delta, 1e-6);
                 let by_approach = (law.force(delta + d, rate) - law.force(delta - d, rate)) / (2.0 * d);
                 let by_rate = (law.force(delta, rate + v) - law.force(delta, rate - v)) / (2.0 * v);

@@ -57,6 +57,7 @@ mod reading;
 mod rings;
 #[cfg(feature = "schema")]
 mod schema;
+mod tables;
 mod values;
 
 use super::error::SceneError;

@@ -92,7 +92,7 @@ fn the_map_follows_the_grid_over_a_measured_trace() {
     demonstrate_shipped("6205-epps");
 }
 
-/// `cargo test --release --test contact accuracy:: -- --ignored`
+/// `cargo test --workspace --release --test contact accuracy:: -- --ignored`
 #[test]
 #[ignore = "takes minutes: without mirrored halves a contact has twice the unknowns"]
 fn the_map_follows_the_grid_over_a_rough_topography() {

@@ -1,6 +1,6 @@
 //! What is measured of elements without inertia: spectra by band, events and run time beside the full model.
 //!
-//! The figures of `docs/guide.md`: `cargo test --release --test element_inertia -- --ignored --nocapture`.
+//! The figures of `docs/guide.md`: `cargo test --workspace --release --test element_inertia -- --ignored --nocapture`.
 
 use super::without_inertia;
 use crate::support::{Named, shipped};

@@ -2,7 +2,7 @@
 //! a closed form, or an oracle, or to be refused clearly.
 //!
 //! Each case gives a row of `docs/stability.md`. To write that file anew:
-//! `cargo test --release --test extremes -- --ignored write`.
+//! `cargo test --workspace --release --test extremes -- --ignored write`.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, unreachable_pub)]
 

@@ -39,6 +39,30 @@ fn a_rewound_instance_repeats_every_bit() {
 }
 
 #[test]
+fn elements_without_inertia_are_rewound_and_go_on_in_another_instance_with_the_same_bits() {
+    let without = |text: String| text.replace("[bearing]\n", "[bearing]\nelement_inertia = \"none\"\n");
+    let started = |name: &str| {
+        let host = Host::with(Resources::edited("er16k-tb1", "resources", without), name, true);
+        host.start();
+        host
+    };
+    let host = started("instance 1");
+    assert_eq!(host.table().iter().filter(|variable| variable.name.contains(".path")).count(), 9);
+    run(&host, 0, 55);
+    let state = host.save();
+    let bytes = host.serialize(state);
+    let first = run(&host, 55, 20);
+    assert_eq!(host.restore(state), Status::Ok);
+    assert_eq!(run(&host, 55, 20), first);
+    assert_eq!(host.free(state), Status::Ok);
+    let other = started("instance 2");
+    let state = other.deserialize(&bytes).unwrap();
+    assert_eq!(other.restore(state), Status::Ok);
+    assert_eq!(run(&other, 55, 20), first);
+    assert_eq!(other.free(state), Status::Ok);
+}
+
+#[test]
 fn a_step_that_failed_leaves_nothing_behind_in_a_state_put_back() {
     // A millisecond takes more steps than that; 0.1 ms does not.
     let few = |text: String| text.replace("[solver]", "[solver]\nmax_steps = 100");

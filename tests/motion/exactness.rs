@@ -3,7 +3,7 @@
 //!
 //! Bits are also the same whatever the machine's instructions; kernels choose them at run time, so the rest of the
 //! program is what compiler flags can change: the golden runs hold under each of them, `for cpu in x86-64 x86-64-v3
-//! native; do RUSTFLAGS="-C target-cpu=$cpu" cargo test --release --test golden; done`.
+//! native; do RUSTFLAGS="-C target-cpu=$cpu" cargo test --workspace --release --test golden; done`.
 
 #![allow(clippy::unwrap_used)]
 

@@ -1,6 +1,6 @@
 //! What the recorder's filter lets through, and what it keeps out.
 //!
-//! `cargo test --test motion recorder_filter -- --nocapture` prints the levels of docs/guide.md.
+//! `cargo test --workspace --test motion recorder_filter -- --nocapture` prints the levels of docs/guide.md.
 #![allow(clippy::unwrap_used)]
 
 use crate::counting;

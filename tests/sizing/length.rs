@@ -185,7 +185,7 @@ fn a_spall_longer_than_the_spacing_is_called_extended_and_rings_as_its_stiffness
     assert!(!report.reason.contains("WARNING"));
 }
 
-/// `cargo test --release --test sizing length:: -- --ignored`
+/// `cargo test --workspace --release --test sizing length:: -- --ignored`
 #[test]
 #[ignore = "takes half a minute: two long simulations and their sizing"]
 fn an_extended_spall_whose_floor_carries_is_sized_and_warned_about() {

@@ -7,11 +7,14 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::hash::Hasher;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
+use std::thread;
 
 use brinell::contact::contact_maps::ContactMaps;
+use brinell::contact::error::ContactError;
 use brinell::contact::map::ContactMap;
-use brinell::contact::map_specification::Sequential;
+use brinell::contact::map_specification::Runner;
 use brinell::numerics::checksum::Checksum;
 use brinell::scene::{Bearing, ContactLaw, Scene};
 use brinell::simulation::Simulation;
@@ -78,7 +81,7 @@ fn one_map(needed: &NeededMap) -> Vec<u8> {
         {
             return bytes;
         }
-        let bytes = needed.build(&mut Sequential(|_, _| {})).unwrap().to_bytes();
+        let bytes = needed.build(&mut Cores).unwrap().to_bytes();
         fs::create_dir_all(&folder).unwrap();
         for (path, content) in [(&file, &bytes[..]), (&made_by, sources.as_bytes())] {
             let partial = path.with_extension(format!("{}.part", std::process::id()));
@@ -88,6 +91,30 @@ fn one_map(needed: &NeededMap) -> Vec<u8> {
         bytes
     });
     bytes.clone()
+}
+
+/// As many threads as there are cores; the map has the same bits however many.
+struct Cores;
+
+impl Runner for Cores {
+    fn run<T: Send>(
+        &mut self,
+        count: usize,
+        job: &(dyn Fn(usize) -> Result<T, ContactError> + Sync),
+    ) -> Result<Vec<T>, ContactError> {
+        let (next, results) = (AtomicUsize::new(0), Mutex::new((0..count).map(|_| None).collect::<Vec<_>>()));
+        thread::scope(|scope| {
+            for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
+                scope.spawn(|| {
+                    while let Some(index) = Some(next.fetch_add(1, Ordering::Relaxed)).filter(|&index| index < count) {
+                        let result = job(index);
+                        results.lock().unwrap()[index] = Some(result);
+                    }
+                });
+            }
+        });
+        results.into_inner().unwrap().into_iter().flatten().collect()
+    }
 }
 
 /// Fingerprint of the sources on which the bits of a map depend.

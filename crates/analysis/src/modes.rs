@@ -18,6 +18,7 @@ use std::f64::consts::TAU;
 
 /// Why there are no modes.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ModesError {
     /// The equilibrium is missing.
     #[error(transparent)]

@@ -1,12 +1,12 @@
 //! Robust statistics, and a generator of random numbers that gives the same ones everywhere.
 
-/// The value below which `share` of the values lie, by sorting; `None` of nothing.
+/// The value below which `share` of the values lie, between the two nearest in proportion; `None` of nothing.
 pub fn quantile(values: &[f64], share: f64) -> Option<f64> {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let at = share.clamp(0.0, 1.0) * (sorted.len().checked_sub(1)?) as f64;
-    let (i, t) = (at as usize, at.fract());
-    Some(sorted[i] + t * (sorted[(i + 1).min(sorted.len() - 1)] - sorted[i]))
+    let mut values = values.to_vec();
+    let at = share.clamp(0.0, 1.0) * (values.len().checked_sub(1)?) as f64;
+    let (_, &mut below, rest) = values.select_nth_unstable_by(at as usize, f64::total_cmp);
+    let above = rest.iter().copied().min_by(f64::total_cmp).unwrap_or(below);
+    Some(below + at.fract() * (above - below))
 }
 
 /// Median; 0 of nothing.

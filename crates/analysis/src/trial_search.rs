@@ -86,12 +86,12 @@ impl Search<'_> {
             .collect();
         let mut ruler = self.fits(&ruler, Run::Long);
         ruler.sort_by(|a, b| a.trial.length.total_cmp(&b.trial.length));
-        let seems = top(&ruler, self.target)?.0;
+        let seems = top(&ruler, self.target)?.length;
         let mut length = seems;
         let mut passage = Vec::new();
         for _ in 0..2 {
             passage = self.rig.passage(trial(length, law), Run::Long).ok()?;
-            length = (length - (top(&ruler, &passage)?.0 - seems)).max(FINE);
+            length = (length - (top(&ruler, &passage)?.length - seems)).max(FINE);
         }
         Some(OwnLaw { length, similarity: similarity(self.target, &passage), passage })
     }
@@ -138,23 +138,33 @@ impl Peak {
     fn of(mut fits: Vec<Fit>, target: &[f64]) -> Option<Self> {
         fits.sort_by(|a, b| a.trial.length.total_cmp(&b.trial.length));
         let depth = fits.first()?.trial.depth;
-        let (length, similarity, top) = top(&fits, target)?;
+        let Top { length, similarity, index: top } = top(&fits, target)?;
         Some(Self { length, depth, similarity, fits, top })
     }
 }
 
-/// Length, similarity and index at the top of the parabola through the best three.
-pub(super) fn top(fits: &[Fit], target: &[f64]) -> Option<(f64, f64, usize)> {
+/// Where trials are most similar.
+pub(super) struct Top {
+    /// Length at the top of the parabola through the best three.
+    pub(super) length: f64,
+    /// Similarity of the best.
+    pub(super) similarity: f64,
+    /// Which that is.
+    pub(super) index: usize,
+}
+
+/// The top of trials by rising length.
+pub(super) fn top(fits: &[Fit], target: &[f64]) -> Option<Top> {
     let like: Vec<f64> = fits.iter().map(|f| similarity(target, &f.passage)).collect();
     let i = (0..like.len()).max_by(|&a, &b| like[a].total_cmp(&like[b]))?;
     let length = fits[i].trial.length;
     if i == 0 || i + 1 == fits.len() {
-        return Some((length, like[i], i));
+        return Some(Top { length, similarity: like[i], index: i });
     }
     let (a, b, c) = (like[i - 1], like[i], like[i + 1]);
     let bend = a - 2.0 * b + c;
     let shift = if bend < 0.0 { 0.5 * (a - c) / bend } else { 0.0 };
-    Some((length + shift * FINE, b, i))
+    Some(Top { length: length + shift * FINE, similarity: b, index: i })
 }
 
 /// Lengths from one to another [degrees].

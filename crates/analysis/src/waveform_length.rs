@@ -184,7 +184,7 @@ fn bootstrap(rows: &[Vec<f64>], bpfo: f64, best: &Peak) -> f64 {
                     *s += x;
                 }
             }
-            top(&best.fits, &below_cut(&sum, bpfo)).map(|(length, _, _)| length)
+            top(&best.fits, &below_cut(&sum, bpfo)).map(|top| top.length)
         })
         .collect();
     statistics::spread(&lengths)

@@ -6,7 +6,7 @@
 use brinell::scene::{Scene, SceneError};
 use toml::Value;
 
-use super::design::Run;
+use super::design::{Point, Run};
 use super::faults::Fault;
 use super::file::{Sweep, number};
 use super::scenes::Base;
@@ -26,7 +26,7 @@ pub(super) fn faults(base: &Base, sweep: &Sweep, is_whole: &dyn Fn(&str) -> bool
         let first = first(sweep, point, is_whole);
         let wrong = said(base, sweep, &first);
         wrong.iter().for_each(|said| tell(about(sweep, said, 0)));
-        for (position, (key, line, values)) in others(sweep, is_whole).into_iter().enumerate() {
+        for (position, Others { key, line, values }) in others(sweep, is_whole).into_iter().enumerate() {
             for value in values {
                 let mut run = first.clone();
                 run.values[position] = (key.to_owned(), value);
@@ -53,7 +53,7 @@ pub(super) fn takes_whole_numbers(base: &Base, sweep: &Sweep, key: &str) -> bool
 
 /// The run of a kind with the first value of every key.
 fn first(sweep: &Sweep, point: u64, is_whole: &dyn Fn(&str) -> bool) -> Run {
-    let (kind, profile, mut values) = sweep.point(point);
+    let Point { kind, profile, mut values } = sweep.point(point);
     let low = |entry: &super::file::Entry<[f64; 2]>| {
         (entry.key.clone(), super::design::drawn(entry.of, 0.0, is_whole(&entry.key)))
     };
@@ -61,15 +61,24 @@ fn first(sweep: &Sweep, point: u64, is_whole: &dyn Fn(&str) -> bool) -> Run {
     Run { index: 0, kind, profile, values, noise: None }
 }
 
-/// The other values that runs have, by key, in the order of a run's values.
-fn others<'s>(sweep: &'s Sweep, is_whole: &dyn Fn(&str) -> bool) -> Vec<(&'s str, usize, Vec<Value>)> {
-    let grid = sweep.grid.iter().map(|entry| {
-        (entry.key.as_str(), entry.line, entry.of.iter().skip(1).take(TRIED).cloned().collect::<Vec<_>>())
+/// The other values that runs have of a key, and its line.
+struct Others<'s> {
+    key: &'s str,
+    line: usize,
+    values: Vec<Value>,
+}
+
+/// Those of all keys, in the order of a run's values.
+fn others<'s>(sweep: &'s Sweep, is_whole: &dyn Fn(&str) -> bool) -> Vec<Others<'s>> {
+    let grid = sweep.grid.iter().map(|entry| Others {
+        key: &entry.key,
+        line: entry.line,
+        values: entry.of.iter().skip(1).take(TRIED).cloned().collect(),
     });
     let random = sweep.random.iter().map(|entry| {
         let [_, high] = entry.of;
         let highest = super::design::drawn([high, high], 0.0, is_whole(&entry.key));
-        (entry.key.as_str(), entry.line, vec![highest])
+        Others { key: &entry.key, line: entry.line, values: vec![highest] }
     });
     grid.chain(random).collect()
 }

@@ -25,10 +25,20 @@ pub(super) struct Run {
     pub(super) noise: Option<(f64, u64)>,
 }
 
+/// A point of the grid.
+#[derive(Debug)]
+pub(super) struct Point {
+    pub(super) kind: Option<Kind>,
+    /// Which speed profile.
+    pub(super) profile: Option<usize>,
+    /// Keys and their values.
+    pub(super) values: Vec<(String, Value)>,
+}
+
 impl Sweep {
     /// Run number `index`; `is_whole` says which keys take whole numbers only.
     pub(super) fn run(&self, index: u64, is_whole: &dyn Fn(&str) -> bool) -> Run {
-        let (kind, profile, mut values) = self.point(index % self.points());
+        let Point { kind, profile, mut values } = self.point(index % self.points());
         for entry in &self.random {
             let draw = uniform(self.seed, checksum(entry.key.as_bytes()), index as i64);
             values.push((entry.key.clone(), drawn(entry.of, draw, is_whole(&entry.key))));
@@ -41,7 +51,7 @@ impl Sweep {
     }
 
     /// A point of the grid: kinds take turns first, then the last key of the grid, speed profiles at last.
-    pub(super) fn point(&self, number: u64) -> (Option<Kind>, Option<usize>, Vec<(String, Value)>) {
+    pub(super) fn point(&self, number: u64) -> Point {
         let mut rest = number;
         let mut next = |count: usize| {
             let count = count.max(1) as u64;
@@ -56,7 +66,7 @@ impl Sweep {
         }
         values.reverse();
         let profile = next(self.speed_profiles.len());
-        (kind, (!self.speed_profiles.is_empty()).then_some(profile), values)
+        Point { kind, profile: (!self.speed_profiles.is_empty()).then_some(profile), values }
     }
 }
 
@@ -112,7 +122,7 @@ mod tests {
         different.dedup();
         assert_eq!(different.len(), 24);
         // Kinds take turns first.
-        let kinds: Vec<_> = (0..4).map(|number| sweep.point(number).0.unwrap().word()).collect();
+        let kinds: Vec<_> = (0..4).map(|number| sweep.point(number).kind.unwrap().word()).collect();
         assert_eq!(kinds, ["healthy", "inner", "healthy", "inner"]);
     }
 

@@ -1,10 +1,11 @@
 //! What the tests of this crate share: the shipped scenes, a compiled library, one Python environment.
 #![allow(dead_code, clippy::unwrap_used)] // each test binary uses a part of this
 
+use std::collections::BTreeMap;
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::sync::{Arc, Mutex, OnceLock};
 
 use fmu_build::fmu::{self, Version};
 use fmu_build::library::{Choice, Library};
@@ -68,12 +69,24 @@ pub(crate) fn folder(name: &str) -> PathBuf {
 
 /// The FMU of a shipped scene in a folder.
 pub(crate) fn fmu_of(name: &str, folder: &Path) -> PathBuf {
-    fmu::write(&model(name), library(), Version::Fmi2, folder).unwrap()
+    packed(name, Version::Fmi2, folder)
 }
 
 /// The FMU of a shipped scene after FMI 3.0 in a folder.
 pub(crate) fn fmu3_of(name: &str, folder: &Path) -> PathBuf {
-    fmu::write(&model(name), library(), Version::Fmi3, folder).unwrap()
+    packed(name, Version::Fmi3, folder)
+}
+
+/// The FMU of a shipped scene in a folder, packed once for all tests of a program: that takes a second, most of it for
+/// the library.
+fn packed(name: &str, version: Version, folder: &Path) -> PathBuf {
+    type Packed = BTreeMap<(String, &'static str), Arc<OnceLock<Vec<u8>>>>;
+    static PACKED: Mutex<Packed> = Mutex::new(BTreeMap::new());
+    let fmu = Arc::clone(PACKED.lock().unwrap().entry((name.to_owned(), version.number())).or_default());
+    let bytes = fmu.get_or_init(|| fmu::pack(&model(name), library(), version).unwrap());
+    let path = folder.join(name).with_extension("fmu");
+    fs::write(&path, bytes).unwrap();
+    path
 }
 
 /// Names of the shipped scenes.

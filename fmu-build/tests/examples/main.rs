@@ -47,10 +47,10 @@ const SET_UP: [&str; 8] = [
     // Packages that only this page of measurements needs.
     "pip install libcosimpy==0.0.6 ecospy==0.7.2 tbb",
     "LD_LIBRARY_PATH=target/examples-env/lib python examples/system_of_fmus.py --masters ours,fmpy,libcosim,ecos",
-    // tests/reference.rs runs it, with all scenes.
+    // tests/fmu/reference.rs runs it, with all scenes.
     "brinell build er16k-tb1 --reference",
     "brinell build er16k-tb1 --reference --fmi 3",
-    // tests/contact.rs runs it, on fewer cells.
+    // tests/program/contact.rs runs it, on fewer cells.
     "brinell contact er16k-tb1 --on outer --angle 7.85 --force 300",
 ];
 

@@ -1,14 +1,10 @@
 //! What is wrong with the keys of a scene file. Asked only of a file that was refused.
 
-use super::bearing::BearingTable;
-use super::cage::CageTable;
-use super::film::FilmTable;
 use super::kinds::{Keys, TableOf};
 use super::not_modelled::instead_of;
 use super::places::{Found, Place};
-use super::rings::{HousingTable, ProbeTable, SensorModeTable, SensorTable, ShaftTable};
+use super::tables::{path, tables};
 use super::values;
-use super::{ContactTable, DefectTable, ExperimentTable, RecorderTable, SceneFile, SolverTable};
 use crate::scene::key_fault::{Hint, KeyFault};
 use crate::scene::spelling::nearest;
 use toml::de::DeValue;
@@ -38,26 +34,6 @@ const GROOVES: [&str; 2] = ["groove_diameter_mm", "conformity_inner"];
 const BALL: &str = "ball";
 const ROLLER: &str = "cylindrical-roller";
 const ROLLER_LENGTH: &str = "roller_length_mm";
-
-/// All tables and the keys that each takes, as the tables themselves say.
-pub(super) fn tables() -> [TableOf; 14] {
-    [
-        TableOf::of::<SceneFile>(""),
-        TableOf::of::<BearingTable>("bearing"),
-        TableOf::of::<ContactTable>("contact"),
-        TableOf::of::<FilmTable>("film"),
-        TableOf::of::<CageTable>("cage"),
-        TableOf::of::<DefectTable>("defect"),
-        TableOf::of::<ShaftTable>("shaft"),
-        TableOf::of::<HousingTable>("housing"),
-        TableOf::of::<SensorTable>("sensor"),
-        TableOf::of::<SensorModeTable>("sensor.mode"),
-        TableOf::of::<ProbeTable>("probe"),
-        TableOf::of::<SolverTable>("solver"),
-        TableOf::of::<RecorderTable>("recorder"),
-        TableOf::of::<ExperimentTable>("experiment"),
-    ]
-}
 
 /// A fault, and the keys that cannot be relied on because of it.
 pub(super) struct Finding {
@@ -130,12 +106,6 @@ fn needed(table: &str) -> Keys {
     NEEDED.iter().find(|(name, _)| *name == table).map_or(&[], |(_, keys)| keys)
 }
 
-/// A key with its table, as it is shown; a table in brackets.
-pub(super) fn path(table: &str, key: &str, is_table: bool) -> String {
-    let path = if table.is_empty() { key.to_owned() } else { format!("{table}.{key}") };
-    if is_table { format!("[{path}]") } else { path }
-}
-
 fn hint(table: &str, keys: Keys, key: &str) -> Hint {
     let elsewhere = tables().into_iter().find(|other| other.name != table && other.keys.contains(&key));
     match (elsewhere, nearest(keys.iter().copied(), key)) {
@@ -149,6 +119,11 @@ fn hint(table: &str, keys: Keys, key: &str) -> Hint {
 mod tests {
     use super::super::kinds::Kind;
     use super::*;
+    use crate::scene::file::bearing::BearingTable;
+    use crate::scene::file::cage::CageTable;
+    use crate::scene::file::film::FilmTable;
+    use crate::scene::file::rings::{HousingTable, ProbeTable, SensorModeTable, SensorTable, ShaftTable};
+    use crate::scene::file::{ContactTable, DefectTable, ExperimentTable, RecorderTable, SolverTable};
     use serde::Deserialize;
 
     #[test]

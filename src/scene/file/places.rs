@@ -1,6 +1,6 @@
 //! Where tables stand in a scene file, and which keys a message names.
 
-use super::keys::tables;
+use super::tables::tables;
 use toml::de::{DeTable, DeValue};
 use toml::{Table, Value};
 

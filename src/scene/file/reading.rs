@@ -4,9 +4,10 @@
 //! and the rest is read and checked as any file is; what that finds is left out in turn, until nothing is found. A
 //! fault that speaks of what was left out follows from it and is not told.
 
-use super::keys::{Finding, of_table, tables};
+use super::keys::{Finding, of_table};
 use super::mended::Mended;
 use super::places::{Place, all_of, named};
+use super::tables::{path, tables};
 use super::values::numbers;
 use crate::scene::key_fault::KeyFault;
 use crate::scene::usual::Dimensions;
@@ -156,7 +157,7 @@ impl<'a, 'f> Reading<'a, 'f> {
     }
 
     fn question(&self, table: &str, key: &str, value: &DeValue<'_>) -> Option<UnitQuestion> {
-        let key = super::keys::path(table, key, false);
+        let key = path(table, key, false);
         // Of a vector its largest component.
         let largest = numbers(value).into_iter().max_by(|a, b| a.abs().total_cmp(&b.abs()))?;
         self.dimensions.question(&key, largest)

@@ -1,8 +1,8 @@
 //! What is wrong with single values of a scene file, whatever the rest of it says: of another kind than their key
 //! takes, a word that is not known, outside its limits. Asked only of a file that was refused.
 
-use super::keys::path;
 use super::kinds::{Kind, TableOf};
+use super::tables::path;
 use crate::scene::quantity::of_key;
 use crate::scene::spelling::nearest;
 use toml::de::DeValue;

@@ -94,11 +94,22 @@ pub fn study(scene: &Scene, masses: &[f64], steps: &[f64]) -> Result<Vec<Row>, S
     Ok(rows)
 }
 
-/// Longest step up to which a coupling is stable with all shorter ones too, per mass and coupling, in the rows' order.
-pub fn limits(rows: &[Row]) -> Vec<(f64, Coupling, Option<f64>)> {
-    let mut limits: Vec<(f64, Coupling, Option<f64>)> = Vec::new();
+/// How far a coupling is stable.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limit {
+    /// Mass of the host [kg].
+    pub host_mass: f64,
+    /// The coupling.
+    pub coupling: Coupling,
+    /// Longest step [s] up to which all shorter ones are stable, too.
+    pub longest: Option<f64>,
+}
+
+/// One for each mass and coupling, in the rows' order.
+pub fn limits(rows: &[Row]) -> Vec<Limit> {
+    let mut limits: Vec<Limit> = Vec::new();
     for row in rows {
-        let known = limits.iter().any(|l| l.0 == row.host_mass && l.1 == row.coupling);
+        let known = limits.iter().any(|l| l.host_mass == row.host_mass && l.coupling == row.coupling);
         if known {
             continue;
         }
@@ -111,7 +122,7 @@ pub fn limits(rows: &[Row]) -> Vec<(f64, Coupling, Option<f64>)> {
             }
         }
         let longest = stable.into_iter().filter(|&step| step < unstable).reduce(f64::max);
-        limits.push((row.host_mass, row.coupling, longest));
+        limits.push(Limit { host_mass: row.host_mass, coupling: row.coupling, longest });
     }
     limits
 }
@@ -357,7 +368,7 @@ mod tests {
         assert!(error(Coupling::RolledBack, 1e-5).unwrap() < error(Coupling::Extrapolated, 1e-5).unwrap());
         assert_eq!(error(Coupling::Held, 1e-4), None);
         let limits = limits(&rows);
-        assert_eq!(limits[0], (3.0, Coupling::Held, Some(1e-5)));
-        assert_eq!(limits[2].2, Some(5e-4));
+        assert_eq!(limits[0], Limit { host_mass: 3.0, coupling: Coupling::Held, longest: Some(1e-5) });
+        assert_eq!(limits[2].longest, Some(5e-4));
     }
 }

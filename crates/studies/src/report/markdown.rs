@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::co_simulation::Coupled;
 use super::contact;
-use super::coupling::{Coupling, limits};
+use super::coupling::{Coupling, Limit, limits};
 use super::integration::{Check, Integration, Row};
 use super::leaving_out::Part;
 
@@ -156,7 +156,7 @@ fn coupled_part(coupled: &[Coupled]) -> String {
             head.join(" | "),
             "---:|".repeat(head.len())
         );
-        for (mass, coupling, longest) in limits(rows) {
+        for Limit { host_mass: mass, coupling, longest } in limits(rows) {
             let same = rows.iter().filter(|row| row.host_mass == mass && row.coupling == coupling);
             let cells: Vec<String> =
                 same.map(|row| row.error.map_or("–".to_owned(), |error| format!("{error:.0e}"))).collect();

@@ -97,7 +97,7 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
     );
     let mut groups: Vec<(f64, Fault, Vec<Recording>)> = Vec::new();
     let mut beside: Vec<Beside> = Vec::new();
-    let mut inside: Vec<(f64, RecordingReport, Loud)> = Vec::new();
+    let mut inside: Vec<Inside> = Vec::new();
     for one in known {
         let recording = read(one)?;
         let report = spall_size::size_with(std::slice::from_ref(&recording), &scene, &maps, &mut |_| ())?;
@@ -106,10 +106,12 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
         };
         text += &row(found, one)?;
         if one.nominal == case.length().round() && one.fault == Fault::Outer {
-            beside.push((one.speed, figure.clone(), found.clone(), harmonics(&recording, &scene)?));
+            let comb = harmonics(&recording, &scene)?;
+            beside.push(Beside { speed: one.speed, figure: figure.clone(), found: found.clone(), comb });
         }
         if one.nominal == case.length().round() && one.fault == Fault::Inner {
-            inside.push((one.speed, found.clone(), Loud::of(&recording, &scene)?));
+            let loud = Loud::of(&recording, &scene)?;
+            inside.push(Inside { speed: one.speed, found: found.clone(), loud });
         }
         match groups.iter_mut().find(|(nominal, fault, _)| *nominal == one.nominal && *fault == one.fault) {
             Some((_, _, group)) => group.push(recording),
@@ -137,8 +139,23 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
     Ok(text)
 }
 
-/// What stands beside an outer recording: speed, figure, report and harmonics of its envelope.
-type Beside = (f64, Figure, RecordingReport, Vec<f64>);
+/// What stands beside an outer recording.
+struct Beside {
+    /// Of the shaft [Hz].
+    speed: f64,
+    figure: Figure,
+    found: RecordingReport,
+    /// Harmonics of its envelope.
+    comb: Vec<f64>,
+}
+
+/// What stands beside an inner recording.
+struct Inside {
+    /// Of the shaft [Hz].
+    speed: f64,
+    found: RecordingReport,
+    loud: Loud,
+}
 
 /// The outer scene and that with flanks beside recordings of their length, as Markdown; nothing without these.
 fn outer_beside(project: &Project, [case, with_flanks]: [&Case; 2], beside: &[Beside]) -> Result<String> {
@@ -148,7 +165,7 @@ fn outer_beside(project: &Project, [case, with_flanks]: [&Case; 2], beside: &[Be
     let mut text = String::from("\n### The scene beside the recording of 5°\n\n");
     text += "| shaft (Hz) | | onset before the first impact (°) | first to last impact (°) | length by events (°) \
              | null of the envelope's harmonics |\n|---:|---|---:|---:|---:|---:|\n";
-    for (speed, figure, found, comb) in beside {
+    for Beside { speed, figure, found, comb } in beside {
         writeln!(text, "{}", beside_row(*speed, "recording", Some(found), comb))?;
         for (label, case) in [("scene", case), ("with flanks", with_flanks)] {
             let case = case.clone().at_speed(*speed);
@@ -167,7 +184,7 @@ fn outer_beside(project: &Project, [case, with_flanks]: [&Case; 2], beside: &[Be
 }
 
 /// The inner scene beside recordings of its length, as Markdown; nothing without these.
-fn inner_beside(project: &Project, recorded: &[(f64, RecordingReport, Loud)]) -> Result<String> {
+fn inner_beside(project: &Project, recorded: &[Inside]) -> Result<String> {
     if recorded.is_empty() {
         return Ok(String::new());
     }
@@ -178,7 +195,7 @@ fn inner_beside(project: &Project, recorded: &[(f64, RecordingReport, Loud)]) ->
          impact (°) | length by events (°) | strong over weak passages |\n\
          |---:|---|---|---:|---|---:|---:|---:|\n",
     );
-    for (speed, found, loud) in recorded {
+    for Inside { speed, found, loud } in recorded {
         writeln!(text, "{}", inner_row(*speed, "recording", found, loud))?;
         let case = case.clone().at_speed(*speed);
         let signal = case.record(project, &["sensor.acceleration"], RATE, INNER_SECONDS)?.remove(0);
