@@ -26,7 +26,7 @@ from scipy.integrate import odeint, solve_ivp
 from sksundae.cvode import CVODE
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tests" / "oracle"))
-from bearing import Bearing
+from bearing import Bearing, Point
 from reference import Reference
 
 TOLERANCES = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8]
@@ -36,15 +36,17 @@ def compile_rhs(b):
     """The right-hand side of one scene as machine code: rhs(t, y, dy) and jac(t, y, J). Rings internal,
     Hunt-Crossley."""
     assert b.n_rings == 8 and b.law == "hunt-crossley", "both rings internal, Hunt-Crossley damping"
+    assert isinstance(b.growth_i, Point), "balls"
+    assert b.spall is None or (b.spall.on == "outer" and b.spall.omega == 0), "a spall of a standing outer ring"
     z, n_r, n_f, m, rho0, r, r_o, clearance = b.z, b.n_rings, b.n_front, b.mass, b.rho0, b.r, b.r_o, b.clearance
-    k_i, k_o, chi, omega, theta0, gx, gy = b.k_i, b.k_o, b.chi, b.omega_c, b.theta0, b.gravity[0], b.gravity[1]
+    k_i, k_o, chi, omega, theta0, gx, gy = b.growth_i.constant, b.growth_o.constant, b.chi, b.omega_c, b.theta0, *b.gravity
     m_s, c_s, k_s, m_h, c_h, k_h = (b.shaft.mass, b.shaft.damping, b.shaft.stiffness,
                                     b.housing.mass, b.housing.damping, b.housing.stiffness)
     fsx, fsy, fhx, fhy = *b.shaft.load, *b.housing.load
     sensor, (m_r, k_r, c_r) = bool(b.sensor), b.sensor or (1.0, 0.0, 0.0)
+    path = b.spall.paths["outer"] if b.spall else None
     half, spall, depth, roll_in = (
-        b.half_length,
-        *((b.defect_angle, b.depth, b.roll_in) if b.half_length else (0.0, 0.0, 0.0)),
+        (path.half_length, b.spall.middle, path.depth, path.roll_in) if path else (0.0, 0.0, 0.0, 0.0)
     )
     tau, n = 2 * math.pi, b.n_front + 2 * b.z
 
