@@ -1,4 +1,5 @@
-//! Our side of `benches/peers/integration.py`: seconds per simulated second and error over the first 20 ms, law `hertz`.
+//! Our side of `benches/peers/integration.py`: seconds per simulated second and error over the first 20 ms under law
+//! `hertz`.
 //!
 //!     cargo run --release --example beside_peers -- scenes/6205-healthy.toml scenes/er16k-tb1.toml
 //!

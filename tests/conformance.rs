@@ -1,6 +1,7 @@
 //! Writes `docs/fmi2-conformance.md` and `docs/fmi3-conformance.md`: each rule of FMI 2.0 co-simulation, what importers
 //! ask beyond it, and what FMI 3.0 asks beside it, with the tests that show it. A rule whose test is gone fails here; a
-//! test that fails fails the suite that this belongs to. After a change: `BLESS=1 cargo test --workspace --test conformance`.
+//! test that fails fails the suite that this belongs to. After a change: `BLESS=1 cargo test --workspace
+//! --test conformance`.
 #![allow(clippy::unwrap_used)]
 
 #[path = "conformance/rules.rs"]

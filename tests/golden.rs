@@ -5,8 +5,8 @@
 //! did: bits may differ in the last places where arithmetic is written in another order, and such a run still agrees
 //! within them. Outputs that a file does not name are not looked at, so a new variable changes no file.
 //!
-//! `BLESS=1 cargo test --workspace --test golden` writes the files anew. Read the difference before it is committed: a slower
-//! solver (more steps, more rejected ones) is a regression too.
+//! `BLESS=1 cargo test --workspace --test golden` writes the files anew. Read the difference before it is committed:
+//! a slower solver (more steps, more rejected ones) is a regression too.
 #![allow(clippy::unwrap_used)]
 
 #[path = "golden/runs.rs"]

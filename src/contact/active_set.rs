@@ -4,8 +4,8 @@
 //! kernel. A primal–dual active set (Hintermüller, Ito and Kunisch 2002): solve K p = g on the set, drop cells that
 //! pull, add cells that interpenetrate, until nothing changes; Cholesky in between. Since K⁻¹ has no positive
 //! off-diagonal terms, starting from *all* interfering cells and only dropping also ends at the solution; that slower
-//! path is the fallback. Dropping without adding from any other start is wrong: `tests/contact/grid.rs` shows how much force
-//! it loses.
+//! path is the fallback. Dropping without adding from any other start is wrong: `tests/contact/grid.rs` shows how much
+//! force it loses.
 //!
 //! The next contact starts from the last set, and the last factor is kept while the set stays the same, so a warm
 //! contact costs two triangular solutions and one product. Cells are addressed by their column on the raceway; only

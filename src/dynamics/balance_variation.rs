@@ -75,13 +75,7 @@ impl Model {
             jacobian.set_column(axis, &-by_offset);
             jacobian.set_column(2 + axis, &by_offset);
         }
-        let moved = self.free_rings_matrix(&jacobian, 0.0).lu().solve(&self.free_rings(force))?;
-        if moved.iter().any(|value| !value.is_finite()) {
-            return None;
-        }
-        by.shaft.position += Vector::new(moved[0], moved[1]);
-        by.housing.position += Vector::new(moved[2], moved[3]);
-        Some(())
+        self.move_free_rings(&jacobian, force, by)
     }
 
     /// The change by central differences.

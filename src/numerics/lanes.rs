@@ -137,8 +137,7 @@ pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
     widest(kernel)
 }
 
-/// Runs a kernel as a machine does that has no wide registers: the way that other tests do not take, and a third of
-/// the code to compile.
+/// Runs a kernel as a machine does that has no wide registers: the way that tests of the whole library do not take.
 #[cfg(test)]
 pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
     kernel.run(Scalar256b)

@@ -1,8 +1,8 @@
 //! The adversary: random scenes, recordings, calls and symmetries that look for a silent wrong number.
 //!
 //! A failure prints its seed, and each case that was found is kept as a test of its own where it belongs.
-//! `BRINELL_SEED=7 cargo test --workspace --test adversary NAME` replays a seed; `BRINELL_SCENES=10000` makes every test of random
-//! scenes that long, beginning with `BRINELL_SEED` if both are given.
+//! `BRINELL_SEED=7 cargo test --workspace --test adversary NAME` replays a seed; `BRINELL_SCENES=10000` makes every
+//! test of random scenes that long, beginning with `BRINELL_SEED` if both are given.
 //!
 //! `unsafe` is what a C interface is called with.
 #![allow(unsafe_code)]

@@ -67,7 +67,7 @@ pub(super) fn take_step(instance: &mut Borrowed, point: f64, step: f64) -> Resul
         let time = if under_way.is_done() && !early { whole.time } else { point + under_way.elapsed() };
         // Rounding may not lead beyond the step.
         let time = time.clamp(point, whole.time);
-        let wanted = update(instance, (point, time, whole.time), under_way.is_done())?;
+        let wanted = update(instance, Instants { from: point, time, to: whole.time }, under_way.is_done())?;
         instance.simulation.resume(&mut under_way, look)?;
         if let Some(at) = wanted {
             under_way.bring_forward(at - point);
@@ -81,8 +81,19 @@ pub(super) fn take_step(instance: &mut Borrowed, point: f64, step: f64) -> Resul
     Ok(Reached { time: reached.time, early })
 }
 
+/// When the host is called within a step [s].
+struct Instants {
+    /// Begin of the step.
+    from: f64,
+    /// Where it has come to.
+    time: f64,
+    /// End of the step.
+    to: f64,
+}
+
 /// Calls the host. Gives the time at which it wants the step to return early, if it does.
-fn update(instance: &mut Borrowed, (from, time, to): (f64, f64, f64), is_done: bool) -> Result<Option<f64>, Failure> {
+fn update(instance: &mut Borrowed, at: Instants, is_done: bool) -> Result<Option<f64>, Failure> {
+    let Instants { from, time, to } = at;
     let Some(updates) = &mut instance.updates else { return Ok(None) };
     let (callback, environment) = (updates.callback, updates.environment);
     let can_return = updates.early_return && !is_done;
