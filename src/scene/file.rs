@@ -18,7 +18,7 @@
 //! | `bearing.density_kg_m3` | from `element_mass_g`, which is then needed |
 //! | `bearing.element_mass_g`, `hertz_inner_n_m1_5`, `hertz_outer_n_m1_5` | computed |
 //! | `contact.law` | `"map"` with a defect, else `"hertz"` |
-//! | `contact.largest_force_n` | four times the static force on the most loaded element, at least 1000 N |
+//! | `contact.largest_force_n` | four times the static force on the most loaded element, at least 1000 N, rounded up to 1, 1.25, 1.6, 2, 2.5, 3.15, … kN |
 //! | `contact.cells` | `[48, 32]`, rollers `[48, 16]`: cells along and across the contact at the largest force, laws `map` and `love` |
 //! | `contact.map_accuracy` | 1e-3 of the largest force; without the key up to 2e-2 is tolerated and reported |
 //! | `contact.damping` | `"hunt-crossley"`; its `damping_chi_s_m` 0.5 |

@@ -186,11 +186,25 @@ pub(super) fn softness_of_edges(scene: &Scene) -> Option<EdgeSoftness> {
     }
 }
 
-/// Force [N] up to which the contact map of a scene reaches.
+/// Least force that the contact map of a scene reaches [N].
+const LEAST_FORCE: f64 = 1000.0;
+/// Steps of the largest forces within a decade: preferred numbers R10 (ISO 3), so that scenes of similar loads share
+/// their maps.
+const PREFERRED: [f64; 10] = [1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0];
+
+/// Force [N] up to which the contact map of a scene reaches: what the scene asks for, or else four times the static
+/// force on the most loaded element, 5 F/Z (Stribeck), at least 1000 N, rounded up to a preferred number.
 pub fn largest_force(scene: &Scene) -> f64 {
+    if let Some(force) = scene.contact.largest_force {
+        return force;
+    }
     let load = [scene.shaft.load, scene.housing.load].iter().map(|f| f[0].hypot(f[1])).fold(0.0, f64::max);
-    let assumed = (4.0 * 5.0 * load / scene.bearing.element_count as f64).max(1000.0);
-    scene.contact.largest_force.unwrap_or(assumed)
+    let needed = 4.0 * 5.0 * load / scene.bearing.element_count as f64;
+    let mut decade = LEAST_FORCE;
+    while 10.0 * decade < needed {
+        decade *= 10.0;
+    }
+    PREFERRED.iter().map(|step| step * decade).find(|force| *force >= needed).unwrap_or(10.0 * decade)
 }
 
 /// Approach [m] of an element to a raceway under a force [N], what the ring yields outside included.
@@ -200,4 +214,35 @@ pub(super) fn largest_approach(bearing: &Bearing, side: RacewaySide, force: f64)
         RacewaySide::Outer => bearing.outer_compliance,
     };
     elastic_law(bearing, side).approach_under(force) + compliance * force
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    /// The largest force of a bearing of ten balls whose shaft carries `load` [N].
+    fn of_load(load: f64) -> f64 {
+        let mut scene = Scene::from_toml(include_str!("../../scenes/er16k-tb1.toml")).unwrap();
+        (scene.bearing.element_count, scene.shaft.load) = (10, [0.6 * load, -0.8 * load]);
+        largest_force(&scene)
+    }
+
+    #[test]
+    fn the_largest_force_is_a_preferred_number_that_covers_four_times_the_static_one() {
+        for (needed, largest) in [(0.0, 1000.0), (999.0, 1000.0), (1001.0, 1250.0), (3151.0, 4000.0)] {
+            assert_eq!(of_load(0.5 * needed), largest, "{needed} N");
+        }
+        for (needed, largest) in [(9999.0, 1e4), (10_001.0, 1.25e4), (8.1e6, 1e7)] {
+            assert_eq!(of_load(0.5 * needed), largest, "{needed} N");
+        }
+    }
+
+    #[test]
+    fn a_force_that_the_scene_names_is_taken_as_it_is() {
+        let mut scene = Scene::from_toml(include_str!("../../scenes/er16k-tb1.toml")).unwrap();
+        scene.contact.largest_force = Some(1111.0);
+        assert_eq!(largest_force(&scene), 1111.0);
+    }
 }

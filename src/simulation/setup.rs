@@ -109,9 +109,8 @@ fn prepared(scene: &Scene) -> Bearing {
     bearing
 }
 
-/// What the contact map of a scene covers on one raceway: forces up to `contact.largest_force_n`, or else four times
-/// the static force on the most loaded element, 5 F/Z (Stribeck), and at least 1000 N. Outside Δ counts the rings' and
-/// seats' compliance as well. An accuracy that the scene asks for is held; the usual one may be missed, in defects
+/// What the contact map of a scene covers on one raceway: forces up to the [`largest_force`]. Outside Δ counts the
+/// rings' and seats' compliance as well. An accuracy that the scene asks for is held; the usual one may be missed, in defects
 /// deeper than they are long, by what `TOLERATED` says.
 pub fn map_specification(scene: &Scene, side: RacewaySide) -> MapSpecification {
     let largest = largest_approach(&prepared(scene), side, largest_force(scene));

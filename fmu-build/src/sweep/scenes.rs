@@ -24,9 +24,6 @@ const LOADS: [&str; 2] = ["shaft.load_n", "housing.load_n"];
 /// Maps for many defects are coarser than that of one studied closely: 0.4 % of the largest force, for a third of the
 /// time.
 const MAP_ACCURACY: f64 = 4e-3;
-/// The least force that a contact map of a sweep reaches [N]; larger ones are twice, four times, … as large, so that
-/// sweeps over other loads find their maps.
-const LEAST_FORCE: f64 = 1000.0;
 
 /// The scene that runs change.
 pub(super) struct Base {
@@ -184,10 +181,5 @@ fn force_of_map(scene: &Scene, sweep: &Sweep) -> f64 {
     let heaviest = grid.chain(random).chain(own).fold(0.0, f64::max);
     let mut heavy = scene.clone();
     (heavy.shaft.load, heavy.housing.load) = ([0.0, -heaviest], [0.0; 2]);
-    let needed = largest_force(&heavy);
-    let mut force = LEAST_FORCE;
-    while force < needed {
-        force *= 2.0;
-    }
-    force
+    largest_force(&heavy)
 }
