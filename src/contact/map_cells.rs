@@ -140,6 +140,22 @@ impl Cells {
         [f.value, f.ds, f.du, f.dus]
     }
 
+    /// The cells of a raceway that is this one's mirror image.
+    pub(super) fn mirrored(&self) -> Self {
+        let strips = self.rows.len();
+        let nodes =
+            self.nodes.iter().map(|(&(i, j), &[f, ds, dh, dsh])| ((strips * FINEST - i, j), [f, -ds, dh, -dsh]));
+        let mut mirrored = Self {
+            size: self.size,
+            rows: self.rows.iter().rev().copied().collect(),
+            leaves: self.leaves.iter().map(|&(level, i, j)| (level, (strips << level) - 1 - i, j)).collect(),
+            nodes: nodes.collect(),
+            cubics: BTreeMap::new(),
+        };
+        mirrored.assemble();
+        mirrored
+    }
+
     /// The cells as a map stores them: coarse ones strip by strip, cut ones after.
     pub(super) fn stored(&self) -> (Vec<Cell>, Vec<Cubic>) {
         let index: BTreeMap<Key, u32> = self.cubics.keys().zip(0..).map(|(&key, n)| (key, n)).collect();

@@ -18,59 +18,18 @@ use super::{
     map_cells::{Cells, FINEST, Key, LEVELS, Node, Place},
     map_checks::{Check, Error, summary},
     map_specification::{MapSpecification, Runner},
+    patch_plan::{LOWEST, PatchPlan},
     raceway_grid::ElementOnRaceway,
 };
 
 /// Coarse cells up to the largest approach.
 const ROWS: f64 = 4.0;
-/// Coarse cells begin so many of their heights above the reference path.
-const LOWEST: f64 = -1.0;
 /// The grid is prepared for so many times the largest approach: coarse cells reach above it.
 const PREPARED: f64 = 1.8;
 /// The root mean square error is to be this part of the largest one.
 const MEAN: f64 = 0.1;
 /// Nodes or cells of one job: the next contact starts from the last one within a job.
 const JOB: usize = 8;
-
-/// One stretch of nodes to be computed: its ends, what is beyond them, and its cells.
-#[derive(Debug, Clone)]
-struct PatchPlan {
-    start: f64,
-    before: f64,
-    after: f64,
-    references: Vec<[f64; 4]>,
-    cells: Cells,
-}
-
-impl PatchPlan {
-    fn end(&self) -> f64 {
-        self.start + self.cells.size[0] * self.cells.rows.len() as f64
-    }
-
-    /// Arc and reference path at a place along the lattice, with the reference's slope.
-    fn reference(&self, i: usize) -> (f64, [f64; 2]) {
-        let strip = (i / FINEST).min(self.references.len() - 1);
-        let q = (i - strip * FINEST) as f64 / FINEST as f64;
-        let width = self.cells.size[0];
-        let [c0, c1, c2, c3] = self.references[strip];
-        let path = c0 + q * (c1 + q * (c2 + q * c3));
-        let slope = (c1 + q * (2.0 * c2 + 3.0 * q * c3)) / width;
-        (self.start + i as f64 / FINEST as f64 * width, [path, slope])
-    }
-
-    fn height(&self, j: f64) -> f64 {
-        (LOWEST + j / FINEST as f64) * self.cells.size[1]
-    }
-
-    /// Depth of the flat stretch that begins or ends at a place along the lattice.
-    fn flat(&self, i: usize) -> Option<f64> {
-        match i {
-            0 => Some(self.before),
-            i if i == self.references.len() * FINEST => Some(self.after),
-            _ => None,
-        }
-    }
-}
 
 /// A map in the making.
 pub struct MapPlan {
@@ -81,6 +40,8 @@ pub struct MapPlan {
     idle: Mutex<Vec<LoveContact>>,
     /// Whether the element is a roller.
     line: bool,
+    /// Whether the defect is its own mirror image about arc 0.
+    symmetric: bool,
     patches: Vec<PatchPlan>,
 }
 
@@ -109,7 +70,8 @@ impl MapPlan {
         let fingerprint = ContactMap::fingerprint_of(surface, element, specification);
         let line = element.length().is_some();
         let idle = Mutex::default();
-        let mut plan = Self { specification, fingerprint, contact, idle, line, patches: Vec::new() };
+        let symmetric = surface.is_symmetric();
+        let mut plan = Self { specification, fingerprint, contact, idle, line, symmetric, patches: Vec::new() };
         plan.patches = plan.patches_for(surface, element);
         if let (Some(first), Some(last)) = (plan.patches.first(), plan.patches.last()) {
             let felt = (first.start, last.end());
@@ -167,11 +129,24 @@ impl MapPlan {
     }
 
     /// Computes nodes and the errors between them, and cuts cells until the accuracy is met or cells are at their
-    /// smallest.
+    /// smallest. Of a symmetric defect with a patch for each flank only the first half is computed.
     ///
     /// # Errors
     /// When a contact cannot be solved.
     pub fn build(mut self, runner: &mut impl Runner) -> Result<ContactMap, ContactError> {
+        let count = self.patches.len();
+        let halved = self.symmetric && count.is_multiple_of(2);
+        self.patches.truncate(if halved { count / 2 } else { count });
+        let accuracy = self.refine(runner)?;
+        if halved {
+            let others: Vec<PatchPlan> = self.patches.iter().rev().map(PatchPlan::mirrored).collect();
+            self.patches.extend(others);
+        }
+        Ok(ContactMap { accuracy, ..self.map() })
+    }
+
+    /// Cuts cells until they are accurate enough; returns how accurate they are.
+    fn refine(&mut self, runner: &mut impl Runner) -> Result<Accuracy, ContactError> {
         self.lay_out(runner)?;
         let mut errors: BTreeMap<(usize, Key), Vec<Error>> = BTreeMap::new();
         // Where a neighbour is cut, a cell gets another cubic, and its checks stay.
@@ -217,7 +192,7 @@ impl MapPlan {
                     .collect();
             }
             if poor.is_empty() {
-                return Ok(ContactMap { accuracy, ..map });
+                return Ok(accuracy);
             }
             for (p, key) in poor {
                 self.patches[p].cells.divide(key);
@@ -368,23 +343,5 @@ impl MapPlan {
     /// The smooth contact's force at an approach [m], but for a factor; of a roller as if it were straight.
     fn grown(&self, approach: f64) -> f64 {
         approach * if self.line { ninth_root(approach) } else { approach.sqrt() }
-    }
-}
-
-impl PatchPlan {
-    fn flat_of(&self, k: usize, strips: usize) -> Option<f64> {
-        match k {
-            0 => Some(self.before),
-            k if k == strips => Some(self.after),
-            _ => None,
-        }
-    }
-
-    fn reference_at(&self, s: f64) -> f64 {
-        let along = (s - self.start) / self.cells.size[0];
-        let strip = (along.max(0.0) as usize).min(self.references.len() - 1);
-        let q = along - strip as f64;
-        let [c0, c1, c2, c3] = self.references[strip];
-        c0 + q * (c1 + q * (c2 + q * c3))
     }
 }

@@ -26,6 +26,7 @@ pub mod map_format;
 pub mod map_plan;
 pub mod map_specification;
 pub mod near_defect;
+mod patch_plan;
 pub mod raceway_grid;
 pub mod rigid_path;
 mod rigid_roller;

@@ -92,6 +92,17 @@ impl Surface {
         }
     }
 
+    /// Whether the profile is its own mirror image about arc 0, to the bit. Topographies are not asked.
+    pub(crate) fn is_symmetric(&self) -> bool {
+        match self {
+            Self::Profile(profile) => {
+                let mirrored = profile.points().iter().rev().map(|&(arc, depth)| (-arc, depth));
+                mirrored.eq(profile.points().iter().copied())
+            }
+            Self::Topography(_) => false,
+        }
+    }
+
     /// Arcs [m], ascending, at which the depth jumps.
     pub fn edges(&self) -> Vec<f64> {
         match self {

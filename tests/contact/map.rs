@@ -123,6 +123,33 @@ fn the_map_joins_the_closed_forms_in_value_and_slope() {
 }
 
 #[test]
+fn the_far_flank_of_a_symmetric_spall_is_the_near_ones_mirror_image() {
+    let map = coarse_map();
+    let [from, to] = [map.knots()[0], map.knots()[1]];
+    for n in 0..200 {
+        let (q, t) = ((0.754_877_666 * f64::from(n)).fract(), (0.569_840_291 * f64::from(n)).fract());
+        let (s, u) = (from + q * (to - from), t * (LARGEST + 20e-6));
+        let (Ok(near), Ok(far)) = (map.lookup(u, s), map.lookup(u, -s)) else { continue };
+        // Rounding of the arc, 3 mm, times slopes of up to 0.1.
+        assert!((near.value - far.value).abs() < 1e-18, "{s} {u}: {near:?} {far:?}");
+        assert!((near.du - far.du).abs() < 1e-12 && (near.ds + far.ds).abs() < 1e-12, "{s} {u}: {near:?} {far:?}");
+    }
+}
+
+#[test]
+fn a_defect_that_is_hardly_asymmetric_has_a_map_of_each_flank() {
+    let depth = 100e-6;
+    let [half, shifted] = [0.5 * LENGTH, 0.5 * LENGTH + 1e-9];
+    let points = vec![(-half, 0.0), (-half, depth), (shifted, depth), (shifted, 0.0)];
+    let surface = Surface::Profile(Profile::from_points(points).unwrap());
+    let map = ContactMap::build(&surface, ER16K, specification(1e-2), &mut Sequential(|_, _| ())).unwrap();
+    // The far flank is where the profile has it.
+    let ends = [map.knots()[0] + half, map.knots()[3] - shifted];
+    assert!((ends[0] + ends[1]).abs() < 1e-15, "{ends:?}");
+    assert!((map.knots()[0] + map.knots()[3]).abs() > 0.9e-9);
+}
+
+#[test]
 fn beyond_the_largest_approach_a_lookup_is_an_error() {
     let map = coarse_map();
     assert!(map.lookup(3.0 * LARGEST, -0.5 * LENGTH).is_err());
