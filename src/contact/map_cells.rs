@@ -156,6 +156,21 @@ impl Cells {
         mirrored
     }
 
+    /// The cells of two mirror images that meet, `self` first.
+    pub(super) fn followed_by(&self, mirrored: &Self) -> Self {
+        let strips = self.rows.len();
+        let mut whole = self.clone();
+        whole.rows.extend(&mirrored.rows);
+        whole.leaves.extend(mirrored.leaves.iter().map(|&(level, i, j)| (level, (strips << level) + i, j)));
+        whole.nodes.extend(mirrored.nodes.iter().map(|(&(i, j), &node)| ((strips * FINEST + i, j), node)));
+        // Where they meet, nothing changes along the raceway.
+        for (_, node) in whole.nodes.iter_mut().filter(|((i, _), _)| *i == strips * FINEST) {
+            (node[1], node[3]) = (0.0, 0.0);
+        }
+        whole.assemble();
+        whole
+    }
+
     /// The cells as a map stores them: coarse ones strip by strip, cut ones after.
     pub(super) fn stored(&self) -> (Vec<Cell>, Vec<Cubic>) {
         let index: BTreeMap<Key, u32> = self.cubics.keys().zip(0..).map(|(&key, n)| (key, n)).collect();

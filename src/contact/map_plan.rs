@@ -105,7 +105,7 @@ impl MapPlan {
                 PatchPlan {
                     start,
                     before: pair[0].2,
-                    after: pair[1].2,
+                    after: Some(pair[1].2),
                     references: Vec::new(),
                     cells: Cells::new(size, vec![0; strips as usize]),
                 }
@@ -129,17 +129,25 @@ impl MapPlan {
     }
 
     /// Computes nodes and the errors between them, and cuts cells until the accuracy is met or cells are at their
-    /// smallest. Of a symmetric defect with a patch for each flank only the first half is computed.
+    /// smallest. Of a symmetric defect only the first half is computed.
     ///
     /// # Errors
     /// When a contact cannot be solved.
     pub fn build(mut self, runner: &mut impl Runner) -> Result<ContactMap, ContactError> {
-        let count = self.patches.len();
-        let halved = self.symmetric && count.is_multiple_of(2);
-        self.patches.truncate(if halved { count / 2 } else { count });
+        let whole = self.patches.len();
+        if self.symmetric {
+            self.patches.truncate(whole.div_ceil(2));
+            if let Some(middle) = self.patches.last_mut().filter(|_| !whole.is_multiple_of(2)) {
+                *middle = middle.halved();
+            }
+        }
         let accuracy = self.refine(runner)?;
-        if halved {
-            let others: Vec<PatchPlan> = self.patches.iter().rev().map(PatchPlan::mirrored).collect();
+        if self.symmetric {
+            if let Some(middle) = self.patches.last_mut().filter(|_| !whole.is_multiple_of(2)) {
+                *middle = middle.with_mirror_image();
+            }
+            let others = self.patches[..whole / 2].iter().rev();
+            let others: Vec<PatchPlan> = others.filter_map(|patch| Some(patch.mirrored(patch.after?))).collect();
             self.patches.extend(others);
         }
         Ok(ContactMap { accuracy, ..self.map() })
@@ -208,6 +216,8 @@ impl MapPlan {
             let ends: Vec<[f64; 2]> = (0..=strips)
                 .map(|k| match patch.flat_of(k, strips) {
                     Some(depth) => [depth, 0.0],
+                    // Where the mirror image begins.
+                    None if k == strips => [self.contact.first_touch(patch.end()), 0.0],
                     None => {
                         let (s, h) = (patch.start + k as f64 * width, self.contact.grid().cell()[0]);
                         let touch = |s: f64| self.contact.first_touch(s);

@@ -12,9 +12,10 @@ pub(super) const LOWEST: f64 = -1.0;
 pub(super) struct PatchPlan {
     /// First arc [m].
     pub(super) start: f64,
-    /// Depths of the flat stretches before and after [m].
+    /// Depth of the flat stretch before [m].
     pub(super) before: f64,
-    pub(super) after: f64,
+    /// Depth of the flat stretch after [m]; `None` where the mirror image of this one follows.
+    pub(super) after: Option<f64>,
     /// Reference path of each strip, coefficients of q⁰ … q³ [m].
     pub(super) references: Vec<[f64; 4]>,
     pub(super) cells: Cells,
@@ -55,7 +56,7 @@ impl PatchPlan {
     pub(super) fn flat_of(&self, k: usize, strips: usize) -> Option<f64> {
         match k {
             0 => Some(self.before),
-            k if k == strips => Some(self.after),
+            k if k == strips => self.after,
             _ => None,
         }
     }
@@ -65,18 +66,32 @@ impl PatchPlan {
         self.flat_of(i, self.references.len() * FINEST)
     }
 
+    /// What is to be computed of a stretch that is its own mirror image about arc 0: that before it.
+    pub(super) fn halved(&self) -> Self {
+        let strips = self.cells.rows.len().div_ceil(2);
+        let size = [-self.start / strips as f64, self.cells.size[1]];
+        Self { after: None, cells: Cells::new(size, vec![0; strips]), ..self.clone() }
+    }
+
     /// The same stretch on the other side of arc 0, where the raceway is its mirror image.
-    pub(super) fn mirrored(&self) -> Self {
+    pub(super) fn mirrored(&self, before: f64) -> Self {
         let references = self.references.iter().rev().map(|&[c0, c1, c2, c3]| {
             // The cubic in 1 − q.
             [c0 + c1 + c2 + c3, -(c1 + 2.0 * c2 + 3.0 * c3), c2 + 3.0 * c3, -c3]
         });
         Self {
             start: -self.end(),
-            before: self.after,
-            after: self.before,
+            before,
+            after: Some(self.before),
             references: references.collect(),
             cells: self.cells.mirrored(),
         }
+    }
+
+    /// A stretch that ends at arc 0 together with its mirror image.
+    pub(super) fn with_mirror_image(&self) -> Self {
+        let Self { after, mut references, cells, .. } = self.mirrored(self.before);
+        references.splice(0..0, self.references.iter().copied());
+        Self { after, references, cells: self.cells.followed_by(&cells), ..self.clone() }
     }
 }

@@ -7,6 +7,7 @@
 
 use super::synthesis::{Rig, Run, Trial, similarity};
 use brinell::scene::ContactLaw;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Step of the last search [degrees].
 pub(super) const FINE: f64 = 0.1;
@@ -39,6 +40,8 @@ impl Search<'_> {
         let mut best = from.clone();
         let (mut by_length, mut by_depth) = FIRST_STEPS;
         let mut halvings = 0;
+        // Neighbours of one trial are neighbours of the next, and were less similar.
+        let mut tried = vec![from.trial];
         for _ in 0..MOST_STEPS {
             let around = [-1.0, 0.0, 1.0].into_iter().flat_map(|l| [1.0 / by_depth, 1.0, by_depth].map(|d| (l, d)));
             let trials: Vec<Trial> = around
@@ -48,7 +51,9 @@ impl Search<'_> {
                     depth: best.trial.depth * d,
                     ..best.trial
                 })
+                .filter(|trial| !tried.iter().any(|before| is_same(before, trial)))
                 .collect();
+            tried.extend(&trials);
             let next = self.fits(&trials, Run::Short).into_iter().next();
             if let Some(next) = next.filter(|next| next.similarity > best.similarity) {
                 best = next;
@@ -99,21 +104,35 @@ impl Search<'_> {
     /// The trials in the order of their similarity; those that cannot be simulated are left out.
     pub(super) fn fits(&self, trials: &[Trial], run: Run) -> Vec<Fit> {
         let threads = std::thread::available_parallelism().map_or(1, |n| n.get().min(8));
-        let share = trials.len().div_ceil(threads).max(1);
         let fit = |&trial: &Trial| {
             let passage = self.rig.passage(trial, run).ok()?;
             Some(Fit { trial, similarity: similarity(self.target, &passage), passage })
         };
-        let mut fits: Vec<Fit> = std::thread::scope(|scope| {
-            let parts: Vec<_> = trials
-                .chunks(share)
-                .map(|part| scope.spawn(move || part.iter().filter_map(fit).collect::<Vec<_>>()))
-                .collect();
-            parts.into_iter().flat_map(|part| part.join().unwrap_or_default()).collect()
+        // Some trials take several times as long as others: each thread takes the next that nobody has begun.
+        let next = AtomicUsize::new(0);
+        let work = || {
+            let mut done = Vec::new();
+            loop {
+                let index = next.fetch_add(1, Ordering::Relaxed);
+                let Some(trial) = trials.get(index) else { return done };
+                done.extend(fit(trial).map(|fit| (index, fit)));
+            }
+        };
+        let mut done: Vec<(usize, Fit)> = std::thread::scope(|scope| {
+            let workers: Vec<_> = (0..threads.min(trials.len())).map(|_| scope.spawn(work)).collect();
+            workers.into_iter().flat_map(|worker| worker.join().unwrap_or_default()).collect()
         });
+        // Whoever was first: trials that are equally similar keep their order.
+        done.sort_by_key(|&(index, _)| index);
+        let mut fits: Vec<Fit> = done.into_iter().map(|(_, fit)| fit).collect();
         fits.sort_by(|a, b| b.similarity.total_cmp(&a.similarity));
         fits
     }
+}
+
+/// Whether two trials of a climb are one, but for the rounding of the steps that led to them.
+fn is_same(one: &Trial, other: &Trial) -> bool {
+    (one.length - other.length).abs() < 1e-9 && (one.depth / other.depth - 1.0).abs() < 1e-9
 }
 
 /// The answer by the scene's own law.
