@@ -97,12 +97,18 @@ pub fn find_combs_of<const N: usize>(
     let mut best: [Option<Comb>; N] = std::array::from_fn(|_| None);
     for band in bands {
         let (envelope, rate) = envelope(band);
-        for (best, &pattern) in best.iter_mut().zip(&patterns) {
-            let found = comb_within(&envelope, rate, pattern, [1.0 - SLIP.end(), 1.0 - SLIP.start()], speed, band);
-            if best.as_ref().is_none_or(|best| found.significance >= best.significance) {
-                *best = Some(found);
+        let found =
+            |pattern| comb_within(&envelope, rate, pattern, [1.0 - SLIP.end(), 1.0 - SLIP.start()], speed, band);
+        std::thread::scope(|scope| {
+            for (best, &pattern) in best.iter_mut().zip(&patterns) {
+                scope.spawn(move || {
+                    let found = found(pattern);
+                    if best.as_ref().is_none_or(|best| found.significance >= best.significance) {
+                        *best = Some(found);
+                    }
+                });
             }
-        }
+        });
     }
     std::array::from_fn(|k| {
         let none = Band { low: 0.0, high: 0.45 * rate };
