@@ -22,6 +22,7 @@ const SCRIPTS: &[(&str, &str)] = &[
     ("contact.py", include_str!("../python/contact.py")),
     ("demo.py", include_str!("../python/demo.py")),
     ("elements.py", include_str!("../python/elements.py")),
+    ("side_by_side.py", include_str!("../python/side_by_side.py")),
     ("host.py", include_str!("../python/host.py")),
     ("plotting.py", include_str!("../python/plotting.py")),
     ("report.py", include_str!("../python/report.py")),

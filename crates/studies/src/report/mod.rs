@@ -24,6 +24,7 @@ mod leaving_out;
 mod machine;
 mod markdown;
 mod run;
+mod side_by_side;
 mod steady;
 mod steps_page;
 
@@ -35,6 +36,7 @@ use anyhow::{Context, Result};
 use fmu_build::project::Project;
 use fmu_build::python::Python;
 use fmu_build::whole_file;
+use side_by_side::SideBySide;
 
 /// How much of the report to make.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -74,6 +76,10 @@ fn steps(python: &Python, extent: Extent, folder: &Path) -> Result<()> {
     let choices = choice::measure(extent, &data)?;
     let (elements, hosted) = elements::measure(extent, &data)?;
     print!("{}", python.run("elements.py", [data.as_os_str(), figures.join("elements").as_os_str()])?);
+    if let Some(gain) = SideBySide::new(&elements) {
+        gain.write(&data)?;
+        print!("{}", python.run("side_by_side.py", [data.as_os_str(), figures.join("side-by-side").as_os_str()])?);
+    }
     let seconds = steady::measure(extent, &data)?;
     let path = folder.join("cost-of-steps.md");
     let mut text = steps_page::page(&machine::description(), &choices, &elements, &hosted);

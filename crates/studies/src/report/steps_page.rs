@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::choice;
 use super::elements::{self, Hosted};
+use super::side_by_side::SideBySide;
 use super::steady;
 
 /// The whole page.
@@ -47,7 +48,9 @@ pub(super) fn page(machine: &str, choices: &[choice::Row], elements: &[elements:
         let cells = row.seconds.map(|s| format!("{:.3} | {:.4}", 1e6 * s, 1e6 * s / row.count as f64));
         let _ = writeln!(text, "| {} | {} |", row.count, cells.join(" | "));
     }
-    text += &SideBySide::new(elements).map_or_else(String::new, |gain| gain.section());
+    if let Some(gain) = SideBySide::new(elements) {
+        text += &gain.section();
+    }
     text += "\n## A communication step of 10 µs\n\n\
          6205-healthy with both rings moved by the host, which sets position and velocity before each step.\n\n\
          | tolerance | a communication step | integration steps in it |\n|---:|---:|---:|\n";
@@ -55,57 +58,6 @@ pub(super) fn page(machine: &str, choices: &[choice::Row], elements: &[elements:
         let _ = writeln!(text, "| {tolerance:.0e} | {:.3} µs | {steps:.2} |", 1e6 * seconds);
     }
     text
-}
-
-/// What bearings side by side in registers would gain.
-struct SideBySide<'a> {
-    /// Explicit steps of healthy bearings, by rising numbers of elements.
-    elements: &'a [elements::Row],
-    /// What eight elements more cost of a step [s].
-    per_register: f64,
-}
-
-impl<'a> SideBySide<'a> {
-    /// `None` where all bearings fill one register.
-    fn new(elements: &'a [elements::Row]) -> Option<Self> {
-        let (few, many) = (elements.first()?, elements.last()?);
-        let more = registers(many.count) - registers(few.count);
-        (more > 0.0).then(|| Self { elements, per_register: (many.seconds[0] - few.seconds[0]) / more })
-    }
-
-    /// Step of a healthy bearing of this many elements, alone and as one of eight, each a lane [s]: a register for each
-    /// element of all eight instead of one for each eight elements of one, and an eighth of all else.
-    fn step(&self, count: usize) -> Option<[f64; 2]> {
-        let alone = self.elements.iter().find(|row| row.count == count)?.seconds[0];
-        let rest = (alone - registers(count) * self.per_register).max(0.0);
-        Some([alone, (count as f64 * self.per_register + rest) / 8.0])
-    }
-
-    /// The section.
-    fn section(&self) -> String {
-        let mut text = format!(
-            "\n### Bearings side by side\n\n\
-             Eight bearings could share registers, a lane for each. A register of elements costs {:.3} µs of a step \
-             here, whosever elements they are; of all else in a step eight bearings would take an eighth each, if \
-             nothing of it had to be done one by one: control of steps, knots, contact changes. So a step would be at \
-             best as many times cheaper as the table says. It would take the right-hand side and the stepper a second \
-             time, and is left out.\n\n\
-             | elements | alone (µs) | one of eight, at best (µs) | times |\n|---:|---:|---:|---:|\n",
-            1e6 * self.per_register
-        );
-        for row in self.elements {
-            if let Some([alone, shared]) = self.step(row.count) {
-                let (count, times) = (row.count, alone / shared);
-                let _ = writeln!(text, "| {count} | {:.3} | {:.3} | {times:.1} |", 1e6 * alone, 1e6 * shared);
-            }
-        }
-        text
-    }
-}
-
-/// Registers of eight places that so many elements fill.
-fn registers(count: usize) -> f64 {
-    count.div_ceil(8) as f64
 }
 
 /// What whole seconds cost.
@@ -123,10 +75,12 @@ pub(super) fn seconds(rows: &[steady::Row], elements: &[elements::Row]) -> Strin
     for row in rows {
         let steady::Row { scene, tolerance, cost: [first, cost], steps: [steps, rejected], error, balls } = row;
         let step = cost / steps;
-        let balls = balls.and_then(|count| gain.as_ref()?.step(count));
-        let times = balls.map_or_else(
+        let times = gain.as_ref().zip(*balls).map_or_else(
             || "–".to_owned(),
-            |[alone, shared]| format!("{:.1}", step / (step - alone + shared).max(shared)),
+            |(gain, count)| {
+                let [alone, shared] = [1, 8].map(|beside| gain.step(count, beside));
+                format!("{:.1}", step / (step - alone + shared).max(shared))
+            },
         );
         let _ = writeln!(
             text,
@@ -134,5 +88,39 @@ pub(super) fn seconds(rows: &[steady::Row], elements: &[elements::Row]) -> Strin
             100.0 * error
         );
     }
+    text += &bounds(rows);
     text
+}
+
+/// Frequency up to which the elements of `6205-healthy` vibrate [Hz], as `brinell modes` says.
+const FASTEST: f64 = 55.0e3;
+/// Reach ωh of the phase-fitted pair's stability.
+const REACH: f64 = 4.0;
+
+/// Why a second does not cost less.
+fn bounds(rows: &[steady::Row]) -> String {
+    let of = |scene: &str| rows.iter().find(|row| row.scene == scene && row.tolerance == 1e-3);
+    let (Some(healthy), Some(spalled)) = (of("6205-healthy"), of("er16k-tb1")) else { return String::new() };
+    let cost_of_a_step = healthy.cost[1] / healthy.steps[0];
+    let [accepted, rejected] = spalled.steps;
+    format!(
+        "\n### What bounds it\n\n\
+         *Healthy*, tolerance 1e-3. The elements of `6205-healthy` vibrate at up to {:.0} kHz under its load \
+         (`brinell modes 6205-healthy`), and an explicit step is stable up to ωh = {REACH}: {:.0} steps a second. The \
+         run takes {:.0}, at any tolerance above 1e-4: it is stability that limits its steps, and a step of five \
+         evaluations costs {:.2} µs. Half the time would need half as many evaluations: a method of longer reach, or \
+         `bearing.element_inertia = \"none\"`, which leaves the element vibrations out.\n\n\
+         *Spalled*, tolerance 1e-3. `er16k-tb1` tries {:.0} steps a second, {:.0} of which end at a contact change or \
+         are too long, and one costs {:.2} µs: elements near the spall are looked up in the contact map one by one, \
+         and contact changes are searched for. If its accepted steps cost what a healthy bearing's do, and none were \
+         rejected, the second would cost {:.2} s.\n",
+        1e-3 * FASTEST,
+        std::f64::consts::TAU * FASTEST / REACH,
+        healthy.steps[0],
+        1e6 * cost_of_a_step,
+        accepted + rejected,
+        rejected,
+        1e6 * spalled.cost[1] / (accepted + rejected),
+        accepted * cost_of_a_step,
+    )
 }
