@@ -1,14 +1,16 @@
-//! The layers import in one direction only: a module names, by `crate::…`, none that stands to its right; and a crate
-//! of the workspace depends only on those that it may know.
+//! The layers import in one direction only: a module names, by `crate::…`, none that stands to its right; in no crate of
+//! the workspace do modules import each other; and a crate depends only on those that it may know.
 #![allow(clippy::unwrap_used)]
 
+#[path = "layers/cycles.rs"]
+mod cycles;
 #[path = "layers/reader.rs"]
 mod reader;
 
-use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use cycles::cycles;
 use reader::imports;
 
 /// The order of the layers; each may import those before it.
@@ -69,35 +71,31 @@ fn no_layer_imports_backwards() {
 }
 
 #[test]
-fn no_module_of_a_layer_imports_one_that_imports_it() {
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut cycles = Vec::new();
-    for layer in ORDER {
-        let files: Vec<_> = files_of(&source, layer).into_iter().filter_map(|file| module(&source, &file)).collect();
-        let parents = files.iter().flat_map(|(path, _)| (0..path.len()).map(|depth| path[..depth].to_vec()));
-        for parent in parents.collect::<BTreeSet<_>>() {
-            let name = [&[layer.to_owned()], &parent[..]].concat().join("::");
-            let below = files.iter().filter_map(|(path, text)| {
-                // A module and those in its folder may name each other; those of the folder one another only one way.
-                let path = path.strip_prefix(&parent[..]).filter(|path| parent.is_empty() || !path.is_empty())?;
-                Some((path.to_vec(), text.clone()))
-            });
-            let cycle = reader::cycle(&reader::graph(&name, &below.collect::<Vec<_>>()));
-            cycles.extend(cycle.map(|cycle| format!("in {name}: {}", cycle.join(" -> "))));
-        }
+fn no_module_imports_one_that_imports_it() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut found = Vec::new();
+    for (folder, _) in CRATES {
+        let source = root.join(folder).join("src");
+        let files = files_below(&source).into_iter().map(|file| (module(&source, &file), read(&file))).collect();
+        let files = reader::without_tests(files);
+        assert!(!files.is_empty(), "{} has no file", source.display());
+        // The order of the layers themselves is another test's.
+        let layers = || ORDER.map(|layer| vec![layer.to_owned()]).to_vec();
+        let tops = if folder.is_empty() { layers() } else { vec![Vec::new()] };
+        found.extend(tops.iter().flat_map(|top| cycles(top, &files)).map(|cycle| format!("{folder}: {cycle}")));
     }
-    assert!(cycles.is_empty(), "\n{}", cycles.join("\n"));
+    assert!(found.is_empty(), "\n{}", found.join("\n"));
 }
 
-/// Path of a file's module within its layer, and its text; none for files of tests.
-fn module(source: &Path, file: &Path) -> Option<(reader::Path, String)> {
+/// Path of a file's module from its crate's root.
+fn module(source: &Path, file: &Path) -> reader::Path {
     let inside = file.strip_prefix(source).unwrap().with_extension("");
-    let mut path: reader::Path = inside.iter().skip(1).map(|part| part.to_string_lossy().into_owned()).collect();
-    if path.last().is_some_and(|name| name == "mod") {
+    let mut path: reader::Path = inside.iter().map(|part| part.to_string_lossy().into_owned()).collect();
+    let is_root = path.len() == 1 && matches!(&*path[0], "lib" | "main");
+    if is_root || path.last().is_some_and(|name| name == "mod") {
         path.pop();
     }
-    let is_test = path.last().is_some_and(|name| name == "tests" || name == "trees");
-    (!is_test).then(|| (path, fs::read_to_string(file).unwrap()))
+    path
 }
 
 #[test]
@@ -107,21 +105,32 @@ fn the_reader_of_cycles_finds_one_that_is_there() {
         (path, text.to_owned())
     };
     let good = [
-        file("", "pub mod a;\npub use b::{B, C};\npub struct Own;"),
-        file("a", "use super::{B, Own};\nuse crate::other::a;"),
-        file("b", "//! `super::a`\nfn f() {}\n#[cfg(test)]\nmod tests {\n    use super::super::a;\n}"),
-        file("a/part", "use super::super::b::f;\nuse super::g;"),
+        file("layer", "pub mod a;\npub(crate) use b::{B, C};\npub struct Own;\n#[cfg(test)]\nmod trees;"),
+        file("layer/a", "use super::{B, Own};\nuse crate::other::a;\npub mod part;\nuse part::Part;"),
+        file("layer/b", "//! `super::a`\nfn f() {}\n#[cfg(test)]\nmod tests {\n    use super::super::a;\n}"),
+        file("layer/a/part", "use super::super::b::f;\nuse super::g;"),
+        file("layer/trees", "use super::{a, b};"),
+        file("other", "pub mod a;"),
+        file("other/a", "use crate::layer::a::A;"),
     ];
-    assert_eq!(reader::cycle(&reader::graph("layer", &good)), None);
-    for bad in [file("b", "use super::a::A;"), file("b", "use crate::layer::{c, a};"), file("b", "use super::Own;")] {
+    let found = |top: &[&str], more: &[(usize, &str)]| {
         let mut files = good.clone();
-        let closes = bad.1.contains("Own");
-        files[2] = bad;
-        if closes {
-            files[0].1 += "\nuse a::A;";
+        for (place, text) in more {
+            files[*place].1.insert_str(0, &format!("{text}\n"));
         }
-        assert!(reader::cycle(&reader::graph("layer", &files)).is_some(), "{files:?}");
+        cycles(&top.iter().map(|name| name.to_string()).collect::<Vec<_>>(), &reader::without_tests(files.to_vec()))
+    };
+    assert_eq!(found(&["layer"], &[]), [""; 0]);
+    for text in ["use super::a::A;", "use crate::layer::{c, a};", "use crate::{layer::a::{self, A}, other};"] {
+        assert_eq!(found(&["layer"], &[(2, text)]), ["in crate::layer: a -> b -> a"], "{text}");
     }
+    for text in ["use a::A;", "use self::a::A;"] {
+        let cycle = "in crate::layer: crate::layer -> a -> crate::layer";
+        assert_eq!(found(&["layer"], &[(0, text)]), [cycle], "{text}");
+    }
+    // What a folder's file only hands on comes from where it is.
+    assert_eq!(found(&["layer"], &[(0, "pub use a::A;"), (2, "use super::A;")]), ["in crate::layer: a -> b -> a"]);
+    assert_eq!(found(&[], &[]), ["in crate: layer -> other -> layer"]);
 }
 
 #[test]
@@ -161,12 +170,14 @@ fn allowed(layer: &str, import: &str) -> bool {
 }
 
 fn files_of(source: &Path, layer: &str) -> Vec<PathBuf> {
-    let mut files = Vec::new();
     let single = source.join(layer).with_extension("rs");
-    if single.is_file() {
-        files.push(single);
-    }
-    let mut folders = vec![source.join(layer)];
+    let single = single.is_file().then_some(single);
+    single.into_iter().chain(files_below(&source.join(layer))).collect()
+}
+
+fn files_below(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    let mut folders = vec![folder.to_owned()];
     while let Some(folder) = folders.pop() {
         let Ok(entries) = fs::read_dir(&folder) else { continue };
         for path in entries.map(|entry| entry.unwrap().path()) {
@@ -179,4 +190,8 @@ fn files_of(source: &Path, layer: &str) -> Vec<PathBuf> {
     }
     files.sort();
     files
+}
+
+fn read(file: &Path) -> String {
+    fs::read_to_string(file).unwrap()
 }

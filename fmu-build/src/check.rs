@@ -10,7 +10,7 @@ use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 use zip::ZipArchive;
 
-use crate::fmu::Version;
+use crate::fmi_version::Version;
 use crate::platform::Platform;
 use crate::project::Project;
 use crate::python::Python;

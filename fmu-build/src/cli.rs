@@ -138,7 +138,9 @@ fn build(project: &Project, options: Build) -> Result<()> {
     let read = |path: &PathBuf| {
         let mut model = Model::read(path)?;
         if options.reference {
-            model.reference = Some(Reference::of(&model).with_context(|| path.display().to_string())?);
+            model.reference = Some(
+                Reference::of(&model.scene, model.simulation.clone()).with_context(|| path.display().to_string())?,
+            );
         }
         Ok(model)
     };

@@ -8,6 +8,7 @@ use brinell::contact::rolling::Rolling;
 use brinell::surface::Surface;
 
 use crate::csv;
+use crate::fmi_version::Version;
 use crate::fmu;
 use crate::library::{Choice, Library};
 use crate::model::Model;
@@ -29,7 +30,7 @@ pub fn command(project: &Project, library: &Choice, folder: &Path) -> Result<()>
     for line in library.describe() {
         println!("{line}");
     }
-    let path = fmu::write(&model, &library, fmu::Version::Fmi2, folder)?;
+    let path = fmu::write(&model, &library, Version::Fmi2, folder)?;
     println!("{}", path.display());
     let raceway = folder.join("raceway.csv");
     whole_file::write(&raceway, raceway_csv(&model)?)?;

@@ -12,7 +12,7 @@ use brinell::simulation::variables::Causality;
 use quick_xml::escape::escape;
 
 use crate::digits::digits;
-use crate::fmu::Version;
+use crate::fmi_version::Version;
 use crate::model::{Model, remarks};
 use variables::{listed, variables};
 

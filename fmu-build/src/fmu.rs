@@ -6,6 +6,7 @@ use anyhow::{Context, Result};
 
 use crate::archive::Archive;
 use crate::documentation;
+use crate::fmi_version::Version;
 use crate::library::Library;
 use crate::model::Model;
 use crate::model_description::{self, CAPABILITIES};
@@ -18,28 +19,6 @@ const LICENSE: &str = "Brinell is licensed under either of\n\n\
     - the Apache License, Version 2.0 (LICENSE-APACHE), or\n\
     - the MIT license (LICENSE-MIT)\n\nat your option.\n\n\
     third-party.txt lists what else is compiled into the model library.\n";
-
-/// Version of the standard that an FMU keeps to. The library is the same for both.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
-pub enum Version {
-    /// FMI 2.0
-    #[default]
-    #[value(name = "2")]
-    Fmi2,
-    /// FMI 3.0
-    #[value(name = "3")]
-    Fmi3,
-}
-
-impl Version {
-    /// As the standard writes it.
-    pub fn number(self) -> &'static str {
-        match self {
-            Self::Fmi2 => "2.0",
-            Self::Fmi3 => "3.0",
-        }
-    }
-}
 
 /// Packs a scene and the compiled library.
 pub fn pack(model: &Model, library: &Library, version: Version) -> Result<Vec<u8>> {

@@ -21,8 +21,7 @@ use brinell::simulation::variables::{Causality, Kind};
 
 use crate::archive::{Archive, ArchiveError};
 use crate::csv;
-use crate::model::Model;
-use crate::run::grid::Grid;
+use crate::grid::Grid;
 use crate::whole_file;
 use crate::xml::Xml;
 
@@ -67,12 +66,11 @@ pub struct Reference {
 }
 
 impl Reference {
-    /// Runs the model as it is.
+    /// Runs a simulation of the scene as it is.
     ///
     /// # Errors
     /// What ends a run; a file that would be larger than the rules allow.
-    pub fn of(model: &Model) -> Result<Self> {
-        let (scene, mut simulation) = (&model.scene, model.simulation.clone());
+    pub fn of(scene: &Scene, mut simulation: Simulation) -> Result<Self> {
         let grid = grid(scene)?;
         let stimuli = Stimuli::of(&simulation, scene, grid);
         let outputs = outputs(&simulation);

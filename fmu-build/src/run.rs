@@ -3,7 +3,6 @@
 
 pub mod columns;
 pub(crate) mod course;
-pub mod grid;
 pub mod noise;
 mod page;
 pub mod signals;
@@ -20,13 +19,13 @@ use brinell::scene::{Recorder, RecorderFilter, Scene};
 use brinell::simulation::Simulation;
 
 use crate::digits::digits;
+use crate::grid::Grid;
 use crate::model::{Model, Profile};
 use crate::project::Project;
 use crate::python::Python;
 use crate::whole_file;
 use columns::Columns;
 use course::{Course, Done};
-use grid::Grid;
 use noise::Noise;
 use signals::Signals;
 use spectra::{Acceleration, Spectra};

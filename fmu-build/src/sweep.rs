@@ -25,8 +25,8 @@ use anyhow::{Context, Result, bail};
 use brinell::scene::Experiment;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::grid::Grid;
 use crate::project::Project;
-use crate::run::grid::Grid;
 use crate::run::speed_profile::SpeedProfile;
 use crate::whole_file::{self, NotWritten};
 use bench::Bench;

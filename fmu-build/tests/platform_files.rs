@@ -11,7 +11,8 @@ mod macos;
 use std::process::Command;
 use std::sync::OnceLock;
 
-use fmu_build::fmu::{self, Version};
+use fmu_build::fmi_version::Version;
+use fmu_build::fmu;
 use fmu_build::library::{Binary, Choice, Library};
 use fmu_build::project::Project;
 use fmu_build::zig::{OLDEST_GLIBC, needed_glibc};

@@ -1,103 +1,48 @@
-//! Reads what a Rust file imports, as far as the layers need it.
+//! Reads which paths a Rust file names, as far as the layers need it.
 
-use std::collections::{BTreeMap, BTreeSet};
-
-/// A module by its path within a layer; that of the layer's own file is empty.
+/// A module, or an item in one, by its path from the crate's root.
 pub(super) type Path = Vec<String>;
 
-/// Modules of a layer that each of its files names, the file's own path first. `files` are paths and texts; tests in
-/// files do not count.
-pub(super) fn graph(layer: &str, files: &[(Path, String)]) -> BTreeMap<String, BTreeSet<String>> {
-    let known: BTreeSet<&Path> = files.iter().map(|(path, _)| path).collect();
-    let facade = files.iter().find(|(path, _)| path.is_empty()).map_or("", |(_, text)| text);
-    let handed_on = handed_on(facade);
-    let mut graph = BTreeMap::<String, BTreeSet<String>>::new();
-    for (path, text) in files {
-        let from = top(path);
-        let own = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
-        for name in named(layer, path, own) {
-            // An item of the layer's own file, a module below it, or an item that the file hands on from one.
-            let to = match name.first() {
-                Some(first) if known.iter().any(|module| module.first() == Some(first)) => first.clone(),
-                Some(first) => handed_on.get(first).cloned().unwrap_or_default(),
-                None => continue,
-            };
-            if to != from {
-                graph.entry(from.clone()).or_default().insert(to);
-            }
-        }
-    }
-    graph
+/// A file by its module, and its text.
+pub(super) type File = (Path, String);
+
+/// One path of a `use`, as it is written, and the name that it has from there on: `*` stands for many.
+#[derive(Debug, PartialEq)]
+pub(super) struct Use {
+    /// The path.
+    pub(super) path: Path,
+    /// The name.
+    pub(super) name: String,
+    /// Whether others may take it from there.
+    pub(super) is_public: bool,
 }
 
-/// The first cycle of a graph, if there is one.
-pub(super) fn cycle(graph: &BTreeMap<String, BTreeSet<String>>) -> Option<Vec<String>> {
-    fn search<'a>(
-        graph: &'a BTreeMap<String, BTreeSet<String>>,
-        at: &'a String,
-        way: &mut Vec<&'a String>,
-        done: &mut BTreeSet<&'a String>,
-    ) -> Option<Vec<String>> {
-        if let Some(start) = way.iter().position(|module| *module == at) {
-            return Some(way[start..].iter().map(|module| (*module).clone()).collect());
-        }
-        if !done.insert(at) {
-            return None;
-        }
-        way.push(at);
-        let found = graph.get(at).into_iter().flatten().find_map(|next| search(graph, next, way, done));
-        way.pop();
-        found
-    }
-    let mut done = BTreeSet::new();
-    graph.keys().find_map(|start| search(graph, start, &mut Vec::new(), &mut done))
-}
-
-fn top(path: &Path) -> String {
-    path.first().cloned().unwrap_or_default()
-}
-
-/// Names that the layer's file hands on by `pub use module::…`, and the module of each.
-fn handed_on(facade: &str) -> BTreeMap<String, String> {
-    let mut found = BTreeMap::new();
-    for part in facade.split("pub use ").skip(1) {
-        let statement = part.split(';').next().unwrap_or_default();
-        let Some((module, names)) = statement.split_once("::") else { continue };
-        for name in names.trim_matches(['{', '}']).split(',') {
-            found.insert(name.trim().to_owned(), module.to_owned());
-        }
-    }
-    found
-}
-
-/// Paths within the layer that a file names, by `super::` or by `crate::layer::`.
-fn named(layer: &str, path: &Path, text: &str) -> Vec<Path> {
-    let code: String = text.lines().map(|line| without_comment(line) + "\n").collect();
-    let mut found = Vec::new();
-    let mut keep = |base: &[String], rest: &str| {
-        let names = rest.strip_prefix('{').map_or_else(|| vec![name_at(rest)], first_names);
-        found.extend(names.into_iter().map(|name| [base, &[name]].concat()));
+/// The files without those of modules under `#[cfg(test)]`, and each without its own tests.
+pub(super) fn without_tests(files: Vec<File>) -> Vec<File> {
+    let declared = |(path, text): &File| -> Vec<Path> {
+        let after = text.split("#[cfg(test)]\n").skip(1).filter_map(|after| after.lines().next()?.strip_suffix(';'));
+        let names = after.filter_map(|line| line.split_once("mod ")).map(|(_, name)| name.to_owned());
+        names.map(|name| [&path[..], &[name]].concat()).collect()
     };
-    for (at, _) in code.match_indices("super::") {
-        let before = &code[..at];
-        // The later ones of `super::super::` are counted with the first. A file that is handed down names its parent.
-        if before.ends_with("super::") || path.is_empty() {
-            continue;
-        }
-        let (mut up, mut rest) = (0, &code[at..]);
-        while let Some(further) = rest.strip_prefix("super::") {
-            (up, rest) = (up + 1, further);
-        }
-        if let Some(depth) = path.len().checked_sub(up) {
-            keep(&path[..depth], rest);
-        }
-    }
-    for (at, prefix) in code.match_indices(&format!("crate::{layer}::")) {
-        keep(&[], &code[at + prefix.len()..]);
-    }
-    if path.is_empty() {
-        for line in code.lines().filter(|line| line.starts_with("use ") && !line.starts_with("use crate::")) {
-            keep(&[], &line["use ".len()..]);
+    let tests: Vec<Path> = files.iter().flat_map(declared).collect();
+    let kept = files.into_iter().filter(|(path, _)| !tests.iter().any(|test| path.starts_with(test)));
+    kept.map(|(path, text)| (path, text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default().to_owned()))
+        .collect()
+}
+
+/// Every path within the crate that a module's text names by `crate::`, `super::` or `self::`, from the crate's root.
+pub(super) fn named(module: &Path, text: &str) -> Vec<Path> {
+    let code = without_comments(text);
+    let mut found: Vec<Path> = after("crate::", &code).flat_map(|at| paths(&code[at..])).collect();
+    for (keyword, least) in [("super::", 1), ("self::", 0)] {
+        for at in after(keyword, &code) {
+            let (mut up, mut rest) = (least, &code[at..]);
+            while let Some(further) = rest.strip_prefix("super::") {
+                (up, rest) = (up + 1, further);
+            }
+            if let Some(depth) = module.len().checked_sub(up) {
+                found.extend(paths(rest).into_iter().map(|path| [&module[..depth], &path].concat()));
+            }
         }
     }
     found
@@ -105,44 +50,82 @@ fn named(layer: &str, path: &Path, text: &str) -> Vec<Path> {
 
 /// Every name that follows `crate::`, alone or in braces, with its line; comments do not count.
 pub(super) fn imports(text: &str) -> Vec<(usize, String)> {
-    let code: String = text.lines().map(|line| without_comment(line) + "\n").collect();
+    let code = without_comments(text);
     let mut found = Vec::new();
-    for (at, _) in code.match_indices("crate::") {
-        let before = code[..at].chars().next_back();
-        if before.is_some_and(|c| c.is_alphanumeric() || c == '_' || c == '$') {
-            continue;
-        }
+    for at in after("crate::", &code) {
         let line = code[..at].matches('\n').count() + 1;
-        let rest = &code[at + "crate::".len()..];
-        match rest.strip_prefix('{') {
-            Some(list) => found.extend(first_names(list).into_iter().map(|name| (line, name))),
-            None => found.push((line, name_at(rest))),
+        found.extend(paths(&code[at..]).into_iter().filter_map(|path| Some((line, path.first()?.clone()))));
+    }
+    found.dedup();
+    found
+}
+
+/// What a file's own `use` lines bring, those of its functions not counted.
+pub(super) fn uses(text: &str) -> Vec<Use> {
+    let code = without_comments(text);
+    let mut found = Vec::new();
+    for at in after("use ", &code) {
+        let before = code[..at - "use ".len()].rsplit('\n').next().unwrap_or_default();
+        let is_public = before == "pub " || before.starts_with("pub(") && before.ends_with(") ");
+        if is_public || before.is_empty() {
+            tree(&code[at..], &Path::new(), is_public, &mut found);
         }
     }
     found
 }
 
-/// The first name of each path in a list that ends with its closing brace.
-fn first_names(list: &str) -> Vec<String> {
-    let (mut names, mut depth, mut start) = (Vec::new(), 0, true);
-    for (at, c) in list.char_indices() {
-        match c {
-            '{' => depth += 1,
-            '}' if depth == 0 => break,
-            '}' => depth -= 1,
-            ',' if depth == 0 => start = true,
-            c if start && (c.is_alphabetic() || c == '_') => {
-                names.push(name_at(&list[at..]));
-                start = false;
+/// Where what follows a keyword begins: those that stand within a longer word or path do not count.
+fn after<'t>(keyword: &'t str, code: &'t str) -> impl Iterator<Item = usize> + 't {
+    let within = |c: char| c.is_alphanumeric() || matches!(c, '_' | ':');
+    let whole = move |at: &usize| !code[..*at].chars().next_back().is_some_and(within);
+    code.match_indices(keyword).map(|(at, _)| at).filter(whole).map(|at| at + keyword.len())
+}
+
+/// Every path of what stands after `crate::` and the like: one, or those of a list.
+fn paths(text: &str) -> Vec<Path> {
+    let mut found = Vec::new();
+    tree(text, &Path::new(), false, &mut found);
+    found.into_iter().map(|each| each.path).collect()
+}
+
+/// Reads one path or a list of paths that go on from `start`. Gives what follows.
+fn tree<'t>(text: &'t str, start: &Path, is_public: bool, found: &mut Vec<Use>) -> &'t str {
+    let (mut path, mut rest) = (start.clone(), text.trim_start());
+    loop {
+        if let Some(list) = rest.strip_prefix('{') {
+            rest = list.trim_start();
+            while !rest.is_empty() && !rest.starts_with('}') {
+                rest = tree(rest, &path, is_public, found);
+                rest = &rest[rest.find([',', '}']).unwrap_or(rest.len())..];
+                rest = rest.trim_start_matches(',').trim_start();
             }
-            _ => {}
+            return rest.strip_prefix('}').unwrap_or_default();
+        }
+        let name = name_at(rest);
+        rest = &rest[name.len()..];
+        if name != "self" && !name.is_empty() {
+            path.push(name);
+        }
+        match rest.strip_prefix("::") {
+            Some(further) => rest = further,
+            None => break,
         }
     }
-    names
+    let name = match rest.trim_start().strip_prefix("as ") {
+        Some(renamed) => name_at(renamed),
+        None if rest.starts_with('*') => "*".to_owned(),
+        None => path.last().cloned().unwrap_or_default(),
+    };
+    found.push(Use { path, name, is_public });
+    rest
 }
 
 fn name_at(text: &str) -> String {
     text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
+}
+
+fn without_comments(text: &str) -> String {
+    text.lines().map(|line| without_comment(line) + "\n").collect()
 }
 
 fn without_comment(line: &str) -> String {

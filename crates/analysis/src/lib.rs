@@ -17,6 +17,7 @@ pub mod event_length;
 pub mod events;
 pub mod fault;
 pub mod frequency_response;
+mod interleaving;
 mod kind;
 mod linear_prediction;
 mod load_zone;

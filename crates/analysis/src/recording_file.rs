@@ -11,6 +11,7 @@
 //! ticks from sample to sample, as counters and angles do, must have no holes.
 
 use super::error::SizingError;
+use super::interleaving::deinterleaved;
 use super::sampling_times::{self, Clock, Uneven};
 use super::{recording_csv, recording_npy};
 use std::path::Path;
@@ -186,11 +187,6 @@ fn wav(bytes: &[u8]) -> Result<Table, String> {
     let columns = deinterleaved(&samples.map_err(|e| e.to_string())?, spec.channels as usize);
     let clocks = vec![false; columns.len()];
     Ok(Table { names: Vec::new(), columns, clocks, rate: Some(f64::from(spec.sample_rate)) })
-}
-
-/// Channels out of samples that take turns.
-pub(super) fn deinterleaved(samples: &[f64], channels: usize) -> Vec<Vec<f64>> {
-    (0..channels.max(1)).map(|k| samples.iter().skip(k).step_by(channels.max(1)).copied().collect()).collect()
 }
 
 #[cfg(test)]

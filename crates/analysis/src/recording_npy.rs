@@ -1,8 +1,8 @@
 //! NumPy's `.npy` files. Numbers of one or two dimensions are read, in C or Fortran order, and arrays of one dimension
 //! with named fields, as the recorder of an FMU writes them. Of two dimensions the shorter one counts channels.
 
+use super::interleaving::deinterleaved;
 use super::npy_header::Header;
-use super::recording_file::deinterleaved;
 
 /// Names, empty where there are none, and the columns.
 type Columns = (Vec<String>, Vec<Vec<f64>>);

@@ -11,7 +11,7 @@
 use super::c_types::Status;
 use super::clock::Clock;
 use super::mode::Mode;
-use super::snapshots::Snapshot;
+use super::snapshot::Snapshot;
 use brinell::numerics::bytes::Reader;
 use brinell::numerics::checksum::checksum;
 use brinell::simulation::Simulation;

@@ -13,12 +13,13 @@
 //! | `failure` | what can go wrong, with which status and which advice |
 //! | `logger` | the host's logger and its categories |
 //! | `instantiation` | how an instance comes to be, or why it does not |
-//! | `uri`, `resources` | where the scene lies, and how it is read |
+//! | `uri`, `resources`, `resource_error` | where the scene lies, how it is read, and what can be wrong with it |
 //! | `shared_models` | the models read, one for all instances that have the same resources |
 //! | `clock` | communication points and steps |
 //! | `instance` | one instance: model, clock, mode |
-//! | `snapshots`, `blob` | saved states as handles and as bytes |
+//! | `snapshot`, `snapshots`, `blob` | a saved state, as a handle and as bytes |
 //! | `addressing` | what references stand for in FMI 3.0: rows of the variable table, arrays, the time |
+//! | `intermediate_updates` | what a host wants of intermediate updates |
 //! | `intermediate` | steps that tell the host how far they have come, and return early |
 //! | [`fmi2`], [`fmi3`] | the functions of FMI 2.0 and of FMI 3.0 |
 
@@ -39,9 +40,12 @@ mod handles;
 mod instance;
 mod instantiation;
 mod intermediate;
+mod intermediate_updates;
 mod logger;
 mod mode;
+mod resource_error;
 mod resources;
 mod shared_models;
+mod snapshot;
 mod snapshots;
 mod uri;

@@ -2,50 +2,14 @@
 //!
 //! The one place in the FMU that reads files, and only when an instance is made.
 
+use std::fs;
 use std::path::{Component, Path, PathBuf};
-use std::{fs, io};
 
+use super::resource_error::ResourceError;
 use super::shared_models::SharedModel;
-use super::uri::UriError;
-use brinell::scene::{Scene, SceneError};
+use brinell::scene::Scene;
+use brinell::simulation::Simulation;
 use brinell::simulation::guid::guid;
-use brinell::simulation::{Simulation, SimulationError};
-
-/// Why the model could not be read or set up.
-#[derive(Debug, thiserror::Error)]
-pub(super) enum ResourceError {
-    /// The location names no path.
-    #[error(transparent)]
-    Uri(#[from] UriError),
-    /// A file that cannot be read.
-    #[error("resource {path}: {source}")]
-    Unreadable {
-        /// Its path.
-        path: PathBuf,
-        /// What the system says.
-        source: io::Error,
-    },
-    /// A profile that does not lie in the directory.
-    #[error("profile \"{0}\": it must be the name of a file beside scene.toml")]
-    OutsideResources(String),
-    /// A scene that is refused.
-    #[error("resource {path}: {source}")]
-    Scene {
-        /// Path of the scene.
-        path: PathBuf,
-        /// What is wrong with it.
-        source: SceneError,
-    },
-    /// A scene that cannot be set up.
-    #[error(transparent)]
-    Simulation(#[from] SimulationError),
-}
-
-impl ResourceError {
-    pub(super) fn unreadable(path: &Path, source: io::Error) -> Self {
-        Self::Unreadable { path: path.to_owned(), source }
-    }
-}
 
 /// The model that the resources in a directory describe.
 pub(super) fn load(directory: &Path) -> Result<SharedModel, ResourceError> {

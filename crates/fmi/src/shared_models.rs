@@ -14,7 +14,7 @@ use std::io::{self, Read, Seek, SeekFrom};
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use super::resources::ResourceError;
+use super::resource_error::ResourceError;
 use brinell::contact::contact_maps::ContactMaps;
 use brinell::contact::map_format::{HEAD, TAIL};
 use brinell::simulation::{Simulation, SimulationError};

@@ -7,24 +7,9 @@
 use std::ptr;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::c_types::{FmuState, Status};
-use super::clock::Clock;
+use super::c_types::FmuState;
 use super::failure::Failure;
-use super::mode::Mode;
-use brinell::simulation::State;
-
-/// Everything that an instance's future depends on. Logging is not part of it.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Snapshot {
-    /// Mode.
-    pub(super) mode: Mode,
-    /// Time.
-    pub(super) clock: Option<Clock>,
-    /// Status of the last step.
-    pub(super) last_step: Status,
-    /// The bearing.
-    pub(super) simulation: State,
-}
+use super::snapshot::Snapshot;
 
 /// ```text
 /// handle:  00000000 | 1 | serial number (31 bits) | index (20 bits) | 1000

@@ -8,14 +8,15 @@ use brinell::scene::Experiment;
 use brinell_analysis::recording::Speed;
 use clap::Args;
 
+use crate::fmi_version::Version;
+use crate::grid::Grid;
 use crate::new_scene::Spall;
 use crate::numbers::{number, seed, whole};
-use crate::run::grid::Grid;
 use crate::run::noise::Noise;
 use crate::run::speed_profile::SpeedProfile;
 use crate::run::table::Format;
 use crate::run::wav::Wav;
-use crate::{contact, fmu, library, run, sweep};
+use crate::{contact, library, run, sweep};
 
 /// Options of `build`.
 #[derive(Debug, Args)]
@@ -28,7 +29,7 @@ pub struct Build {
     pub(super) output: Option<PathBuf>,
     /// Version of the FMI standard
     #[arg(long, value_enum, default_value_t, value_name = "VERSION")]
-    pub(super) fmi: fmu::Version,
+    pub(super) fmi: Version,
     /// Beside each FMU the inputs, outputs and options of a reference run, as the FMI cross-check wants them; an FMU of
     /// FMI 3.0 holds them as well
     #[arg(long)]

@@ -6,7 +6,7 @@ use brinell::simulation::variables::{Causality, Kind, Variable};
 use quick_xml::escape::escape;
 
 use super::line;
-use crate::fmu::Version;
+use crate::fmi_version::Version;
 use crate::model_description::causality;
 use crate::units;
 

@@ -8,9 +8,9 @@ use brinell::scene::Scene;
 use brinell::simulation::Simulation;
 
 use super::columns::Columns;
-use super::grid::Grid;
 use super::signals::{Growing, Signals};
 use super::speed_profile::SpeedProfile;
+use crate::grid::Grid;
 use crate::whole_file::NotWritten;
 
 /// When a run communicates, and how fast its shaft turns.

@@ -7,7 +7,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock};
 
-use fmu_build::fmu::{self, Version};
+use fmu_build::fmi_version::Version;
+use fmu_build::fmu;
 use fmu_build::library::{Choice, Library};
 use fmu_build::model::Model;
 use fmu_build::project::Project;

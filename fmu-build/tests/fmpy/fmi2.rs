@@ -7,10 +7,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use brinell::scene::Experiment;
-use fmu_build::fmu::Version;
+use fmu_build::fmi_version::Version;
+use fmu_build::grid::Grid;
 use fmu_build::model::Model;
+use fmu_build::run;
 use fmu_build::run::table::Format;
-use fmu_build::run::{self, grid::Grid};
 use fmu_build::{check, project::Project};
 
 fn all_fmus(folder: &Path) -> Vec<PathBuf> {

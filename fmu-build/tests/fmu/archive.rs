@@ -3,7 +3,8 @@
 
 use crate::common;
 use fmu_build::archive::{Archive, ArchiveError};
-use fmu_build::fmu::{self, Version};
+use fmu_build::fmi_version::Version;
+use fmu_build::fmu;
 use fmu_build::library::{Binary, Library};
 use fmu_build::platform::PLATFORMS;
 

@@ -18,7 +18,7 @@ use crate::failure::Failure;
 use crate::handles;
 use crate::instance;
 use crate::instantiation::{self, Refusal, text};
-use crate::intermediate::IntermediateUpdates;
+use crate::intermediate_updates::IntermediateUpdates;
 use crate::logger::Logger;
 use crate::mode::Mode;
 use crate::shared_models::SharedModel;

@@ -1,0 +1,44 @@
+//! What can be wrong with an FMU's resources.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::uri::UriError;
+use brinell::scene::SceneError;
+use brinell::simulation::SimulationError;
+
+/// Why the model could not be read or set up.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum ResourceError {
+    /// The location names no path.
+    #[error(transparent)]
+    Uri(#[from] UriError),
+    /// A file that cannot be read.
+    #[error("resource {path}: {source}")]
+    Unreadable {
+        /// Its path.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// A profile that does not lie in the directory.
+    #[error("profile \"{0}\": it must be the name of a file beside scene.toml")]
+    OutsideResources(String),
+    /// A scene that is refused.
+    #[error("resource {path}: {source}")]
+    Scene {
+        /// Path of the scene.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: SceneError,
+    },
+    /// A scene that cannot be set up.
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
+}
+
+impl ResourceError {
+    pub(super) fn unreadable(path: &Path, source: io::Error) -> Self {
+        Self::Unreadable { path: path.to_owned(), source }
+    }
+}
