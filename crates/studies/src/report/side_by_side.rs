@@ -33,7 +33,7 @@ impl<'a> SideBySide<'a> {
         let spread: f64 = points.iter().map(|point| (point[0] - x).powi(2)).sum();
         let product: f64 = points.iter().map(|point| (point[0] - x) * (point[1] - y)).sum();
         let per_register = product / spread;
-        (spread > 0.0).then(|| Self { elements, per_register, rest: y - per_register * x })
+        (spread > 0.0).then_some(Self { elements, per_register, rest: y - per_register * x })
     }
 
     /// CPU time of a healthy bearing's step [s], one of `beside` bearings at best.
