@@ -138,9 +138,8 @@ fn build(project: &Project, options: Build) -> Result<()> {
     let read = |path: &PathBuf| {
         let mut model = Model::read(path)?;
         if options.reference {
-            model.reference = Some(
-                Reference::of(&model.scene, model.simulation.clone()).with_context(|| path.display().to_string())?,
-            );
+            let reference = Reference::of(&model.scene, model.simulation.clone());
+            model.reference = Some(reference.with_context(|| path.display().to_string())?);
         }
         Ok(model)
     };
