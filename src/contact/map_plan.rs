@@ -12,7 +12,7 @@ use std::sync::{Mutex, PoisonError};
 
 use super::{
     error::ContactError,
-    flat_stretches::{check_ends, flats, reach, shallowest},
+    flat_stretches::{Flat, check_ends, flats, reach, shallowest},
     love::LoveContact,
     map::{Accuracy, ContactMap, Patch, Stretch, Strip},
     map_cells::{Cells, FINEST, Key, LEVELS, Node, Place},
@@ -42,20 +42,27 @@ struct PatchPlan {
     cells: Cells,
 }
 
+/// A point of the reference path: arc [m], path [m] and its slope by the arc.
+struct Reference {
+    arc: f64,
+    path: f64,
+    slope: f64,
+}
+
 impl PatchPlan {
     fn end(&self) -> f64 {
         self.start + self.cells.size[0] * self.cells.rows.len() as f64
     }
 
-    /// Arc and reference path at a place along the lattice, with the reference's slope.
-    fn reference(&self, i: usize) -> (f64, [f64; 2]) {
+    /// The reference at a place along the lattice.
+    fn reference(&self, i: usize) -> Reference {
         let strip = (i / FINEST).min(self.references.len() - 1);
         let q = (i - strip * FINEST) as f64 / FINEST as f64;
         let width = self.cells.size[0];
         let [c0, c1, c2, c3] = self.references[strip];
         let path = c0 + q * (c1 + q * (c2 + q * c3));
         let slope = (c1 + q * (2.0 * c2 + 3.0 * q * c3)) / width;
-        (self.start + i as f64 / FINEST as f64 * width, [path, slope])
+        Reference { arc: self.start + i as f64 / FINEST as f64 * width, path, slope }
     }
 
     fn height(&self, j: f64) -> f64 {
@@ -127,23 +134,23 @@ impl MapPlan {
         let clear = 1.2 * element.contact_half_axes(largest)[0] + 3.0 * cell;
         let raised = -shallowest(surface);
         let mut free = Vec::new();
-        for (s0, s1, depth) in flats(surface) {
+        for Flat { start, end, depth } in flats(surface) {
             // Higher raceway on either side must stay below the element that presses on the flat.
             let margin = clear.max(reach(element, depth + raised + largest) + 2.0 * cell);
             let margin = if depth <= -raised { clear.max(self.contact.soft_reach()) } else { margin };
-            if s1 - s0 > 2.0 * margin + 2.0 * strip_width {
-                free.push((s0 + margin, s1 - margin, depth));
+            if end - start > 2.0 * margin + 2.0 * strip_width {
+                free.push(Flat { start: start + margin, end: end - margin, depth });
             }
         }
         free.windows(2)
             .map(|pair| {
-                let (start, end) = (pair[0].1, pair[1].0);
+                let (start, end) = (pair[0].end, pair[1].start);
                 let strips = ((end - start) / strip_width).ceil().max(1.0);
                 let size = [(end - start) / strips, largest / ROWS];
                 PatchPlan {
                     start,
-                    before: pair[0].2,
-                    after: pair[1].2,
+                    before: pair[0].depth,
+                    after: pair[1].depth,
                     references: Vec::new(),
                     cells: Cells::new(size, vec![0; strips as usize]),
                 }
@@ -198,21 +205,21 @@ impl MapPlan {
             errors.retain(|place, _| is_leaf(place));
             checks.retain(|place, _| is_leaf(place));
             // Better than asked for: the checks do not hit the worst place, least of all in large cells.
-            let limit = |key: &Key| if key.0 < 2 { 0.5 } else { 0.8 } * self.specification.accuracy;
+            let limit = |key: &Key| if key.level < 2 { 0.5 } else { 0.8 } * self.specification.accuracy;
             let far = |found: &[Error], limit: f64| found.iter().flatten().any(|e| e.abs() > limit);
             let mut poor: Vec<(usize, Key)> = errors
                 .iter()
-                .filter(|((_, key), found)| key.0 < LEVELS && far(found, limit(key)))
+                .filter(|((_, key), found)| key.level < LEVELS && far(found, limit(key)))
                 .map(|(&place, _)| place)
                 .collect();
             let accuracy = summary(&errors);
             let mean = MEAN * self.specification.accuracy;
             if poor.is_empty() && accuracy.rms_normal.max(accuracy.rms_tangential) > 0.85 * mean {
                 // Cells that hold more than their share of the mean square, by their area.
-                let share = |key: &Key| 1.5 * mean * f64::from(1_u32 << key.0);
+                let share = |key: &Key| 1.5 * mean * f64::from(1_u32 << key.level);
                 poor = errors
                     .iter()
-                    .filter(|((_, key), found)| key.0 < LEVELS && far(found, share(key)))
+                    .filter(|((_, key), found)| key.level < LEVELS && far(found, share(key)))
                     .map(|(&place, _)| place)
                     .collect();
             }
@@ -283,8 +290,8 @@ impl MapPlan {
         if patch.flat(i).is_some() {
             return Ok([height, 0.0, 1.0, 0.0]);
         }
-        let (s, [path, slope]) = patch.reference(i);
-        let a = contact.continued(path + height, s)?;
+        let Reference { arc, path, slope } = patch.reference(i);
+        let a = contact.continued(path + height, arc)?;
         Ok([a.value, a.ds + a.du * slope, a.du, a.dus + a.duu * slope])
     }
 
@@ -337,7 +344,7 @@ impl MapPlan {
     /// Checks of some cells: at four points of each large one and two of each small one, but for those without contact
     /// and beyond the largest approach.
     fn checks(&self, cells: &[(usize, Key)]) -> Result<Vec<Vec<Check>>, ContactError> {
-        let of_cell = |contact: &mut LoveContact, (p, (level, i, j)): (usize, Key)| {
+        let of_cell = |contact: &mut LoveContact, (p, Key { level, i, j }): (usize, Key)| {
             let patch = &self.patches[p];
             let side = (FINEST >> level) as f64;
             let mut found = Vec::new();
