@@ -15,7 +15,7 @@ use crate::platform::Platform;
 use crate::project::Project;
 use crate::python::Python;
 use crate::slave::{SavedState, Slave, SlaveError};
-use crate::slave3::Slave3;
+use crate::slave3::{Slave3, Stepped};
 
 /// Communication steps that are tried.
 const STEPS: u32 = 100;
@@ -64,8 +64,13 @@ struct Output {
     count: usize,
 }
 
-/// A variable under way: reference, name, causality.
-type Started = (u32, String, String);
+/// A variable under way.
+#[derive(Debug, Default)]
+struct Started {
+    reference: u32,
+    name: String,
+    causality: String,
+}
 
 impl Description {
     fn read(text: &str) -> Result<Self> {
@@ -124,7 +129,7 @@ impl Description {
             // Another type's dimensions belong to no output kept here.
             "Dimension" => {
                 let size = attribute(element, "start")?.context("a dimension that is no plain number")?;
-                if let Some(output) = self.outputs.last_mut().filter(|output| output.reference == variable.0) {
+                if let Some(output) = self.outputs.last_mut().filter(|output| output.reference == variable.reference) {
                     output.count *= size.parse::<usize>()?;
                 }
             }
@@ -139,7 +144,7 @@ impl Description {
         self.outputs.iter().flat_map(|output| std::iter::repeat_n(output.name.as_str(), output.count))
     }
 
-    fn real(&mut self, (reference, name, causality): &Started) {
+    fn real(&mut self, Started { reference, name, causality }: &Started) {
         match causality.as_str() {
             "output" => self.outputs.push(Output { reference: *reference, name: name.clone(), count: 1 }),
             "input" => self.inputs += 1,
@@ -151,7 +156,7 @@ impl Description {
 fn started(element: &BytesStart<'_>) -> Result<Started> {
     let reference = attribute(element, "valueReference")?.context("a variable without valueReference")?;
     let name = attribute(element, "name")?.context("a variable without name")?;
-    Ok((reference.parse()?, name, attribute(element, "causality")?.unwrap_or_default()))
+    Ok(Started { reference: reference.parse()?, name, causality: attribute(element, "causality")?.unwrap_or_default() })
 }
 
 fn attribute(element: &BytesStart<'_>, name: &str) -> Result<Option<String>> {
@@ -272,7 +277,7 @@ impl Unit {
         match self {
             Self::Two(slave) => Ok(slave.step(from, step)?),
             Self::Three(slave) => {
-                let (time, terminate) = slave.step(from, step)?;
+                let Stepped { time, terminate } = slave.step(from, step)?;
                 ensure!(!terminate, "fmi3DoStep at {from} s: the FMU wants the run to end at {time} s");
                 // A solver of fixed steps may miss the end by some of them; an early return was not allowed.
                 ensure!(

@@ -25,8 +25,8 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
     let [[x, y], [x_o, y_o]] = assembly.loads();
     let direction = if [x, y] == [0.0; 2] { libm::atan2(0.0 - y_o, 0.0 - x_o) } else { libm::atan2(y, x) };
     // In the middle of the sweep element 1 is in the middle of the defect, at its ends two elements are about it.
-    let middle = assembly.defect().map_or(direction, |(_, centre)| centre);
-    let length = assembly.defect().map(|(length, _)| length);
+    let middle = assembly.defect().map_or(direction, |defect| defect.centre);
+    let length = assembly.defect().map(|defect| defect.length);
     let points = options.points.unwrap_or_else(|| enough_points(assembly.period(), length));
     let found = sweep(&assembly, middle - 0.5 * assembly.period(), points)?;
     let report = ModesReport::new(scene.name.clone(), &assembly, middle, &found);

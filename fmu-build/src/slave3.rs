@@ -94,6 +94,15 @@ const FUNCTIONS: [&str; 75] = [
 type Handle = *mut c_void;
 type Logger = unsafe extern "C" fn(*mut c_void, c_int, *const c_char, *const c_char);
 
+/// What `fmi3DoStep` says.
+#[derive(Debug, Clone, Copy)]
+pub struct Stepped {
+    /// The time reached [s].
+    pub time: f64,
+    /// Whether the FMU wants the run to end.
+    pub terminate: bool,
+}
+
 /// One instance of a co-simulation FMU. It wants no intermediate updates and no early return.
 #[derive(Debug)]
 pub struct Slave3 {
@@ -163,8 +172,8 @@ impl Slave3 {
         Ok(values)
     }
 
-    /// `fmi3DoStep`. Gives the time reached, and whether the FMU wants the run to end.
-    pub fn step(&mut self, from: f64, step: f64) -> Result<(f64, bool), SlaveError> {
+    /// `fmi3DoStep`.
+    pub fn step(&mut self, from: f64, step: f64) -> Result<Stepped, SlaveError> {
         let (mut event, mut terminate, mut early, mut time) = (false, false, false, f64::NAN);
         call!(
             self,
@@ -172,7 +181,7 @@ impl Slave3 {
             (Handle, f64, f64, bool, *mut bool, *mut bool, *mut bool, *mut f64),
             (self.instance, from, step, false, &mut event, &mut terminate, &mut early, &mut time)
         )?;
-        Ok((time, terminate))
+        Ok(Stepped { time, terminate })
     }
 
     /// `fmi3GetFMUState`.

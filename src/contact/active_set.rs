@@ -17,11 +17,11 @@ use super::{
     cholesky::Cholesky,
     error::ContactError,
     half_space::KernelTable,
-    row_pairs::{Image, RowPairs, SEGMENT},
-    soft_edges::SoftEdge,
+    row_pairs::{CellPlace, Image, Loaded, RowPairs, SEGMENT},
+    soft_edges::{SoftEdge, WindowEdge},
 };
 
-pub use super::row_pairs::{Mirror, Run};
+pub use super::row_pairs::{Mirror, PressedCell, Run};
 
 /// Interpenetration below this part of the largest interference counts as touching; rounding of K p is far below.
 const TOUCHING: f64 = 1e-13;
@@ -61,8 +61,7 @@ pub struct ActiveSet {
     /// Shared by copies of a solver.
     pairs: Arc<RowPairs>,
     mirror: Mirror,
-    /// Edges that make the raceway softer, and whether the window under way feels each.
-    edges: Vec<(SoftEdge, bool)>,
+    edges: Vec<WindowEdge>,
     factor: Cholesky,
     factored: Vec<Run>,
     /// The factor holds for this place only.
@@ -106,7 +105,7 @@ impl ActiveSet {
 
     /// With edges that make the raceway softer.
     pub(super) fn with_edges(self, edges: Vec<SoftEdge>) -> Self {
-        Self { edges: edges.into_iter().map(|edge| (edge, false)).collect(), ..self }
+        Self { edges: edges.into_iter().map(|soft| WindowEdge { soft, is_felt: false }).collect(), ..self }
     }
 
     /// Forgets the last contact.
@@ -125,9 +124,13 @@ impl ActiveSet {
         &self.pressure[..count]
     }
 
-    /// Active cells of the last contact: run, place in the run, pressure over π E*.
-    pub fn cells(&self) -> impl Iterator<Item = (Run, usize, f64)> + '_ {
-        self.runs.iter().flat_map(|run| (0..run.length).map(|k| (*run, k, self.pressure[run.at + k])))
+    /// Active cells of the last contact.
+    pub fn cells(&self) -> impl Iterator<Item = PressedCell> + '_ {
+        let cell = |run: &Run, k: usize| {
+            let unknown = run.at + k;
+            PressedCell { row: run.row, column: run.first + k as i32, unknown, pressure: self.pressure[unknown] }
+        };
+        self.runs.iter().flat_map(move |run| (0..run.length).map(move |k| cell(run, k)))
     }
 
     /// Largest |gap| where pressed and penetration where not, over the window just solved [m].
@@ -136,8 +139,8 @@ impl ActiveSet {
         let mut deflection = vec![0.0; window.columns.next_multiple_of(SEGMENT)];
         let segments: Vec<i32> = (0..window.columns).step_by(SEGMENT).map(|c| window.first + c as i32).collect();
         for row in 0..self.pairs.rows() {
-            let how = (self.mirror.x, felt(&self.edges));
-            self.pairs.deflect(how, (&self.runs, &self.pressure), (row, &segments), &mut deflection);
+            let loaded = Loaded { runs: &self.runs, pressure: &self.pressure };
+            self.pairs.deflect(self.mirror.x, felt(&self.edges), loaded, row, &segments, &mut deflection);
             let cells = row * window.columns..(row + 1) * window.columns;
             for ((&g, &state), &u) in window.interference[cells.clone()].iter().zip(&self.state[cells]).zip(&deflection)
             {
@@ -175,8 +178,8 @@ impl ActiveSet {
             });
         }
         let largest = interference.iter().fold(0.0_f64, |m, &g| m.max(g));
-        for (edge, felt) in &mut self.edges {
-            *felt = edge.is_felt(first, columns);
+        for edge in &mut self.edges {
+            edge.is_felt = edge.soft.is_felt(first, columns);
         }
         self.start(first, columns, interference, largest);
         let mut effort = Effort::default();
@@ -300,8 +303,9 @@ impl ActiveSet {
                         }
                     }
                     for edge in felt(&self.edges).filter(|edge| edge.bears(from)) {
-                        let (skip, images) = edge.on((target.row, to, length), (source.row, from));
-                        for (out, image) in out[skip..].iter_mut().zip(images) {
+                        let place = |row: usize, column: i32| CellPlace { row, column };
+                        let image = edge.on(place(target.row, to), length, place(source.row, from));
+                        for (out, image) in out[image.skip..].iter_mut().zip(image.values) {
                             *out += image;
                         }
                     }
@@ -365,8 +369,8 @@ impl ActiveSet {
                 continue;
             }
             let out = &mut self.deflection[..SEGMENT * self.segments.len()];
-            let how = (self.mirror.x, felt(&self.edges));
-            self.pairs.deflect(how, (&self.runs, &self.pressure), (row, &self.segments), out);
+            let loaded = Loaded { runs: &self.runs, pressure: &self.pressure };
+            self.pairs.deflect(self.mirror.x, felt(&self.edges), loaded, row, &self.segments, out);
             for (&segment, deflection) in self.segments.iter().zip(out.chunks_exact(SEGMENT)) {
                 let from = (segment - window.first) as usize;
                 for (c, &u) in (from..columns).zip(deflection) {
@@ -382,6 +386,6 @@ impl ActiveSet {
 }
 
 /// The edges that the window under way feels.
-fn felt(edges: &[(SoftEdge, bool)]) -> impl Iterator<Item = &SoftEdge> + Clone {
-    edges.iter().filter(|(_, felt)| *felt).map(|(edge, _)| edge)
+fn felt(edges: &[WindowEdge]) -> impl Iterator<Item = &SoftEdge> + Clone {
+    edges.iter().filter(|edge| edge.is_felt).map(|edge| &edge.soft)
 }

@@ -91,24 +91,39 @@ impl<'a> ConjugateGradients<'a> {
 
 impl GridSolver for ConjugateGradients<'_> {
     fn at_approach(&mut self, approach: f64) -> Result<GridContact, ContactError> {
-        let mut solution: Option<(usize, Vec<f64>)> = None;
-        let (mut residual, mut iterations) = (0.0, 0);
+        let mut solution: Option<Coarse> = None;
+        let mut reached = Reached::default();
         for (depth, level) in self.levels.iter_mut().enumerate().rev() {
             level.start(approach, solution.take());
             let limit = if depth == 0 { self.tolerance } else { COARSE_TOLERANCE } * approach.abs();
-            (residual, iterations) = Arch::new().dispatch(Solve(level, limit))?;
+            reached = Arch::new().dispatch(Solve(level, limit))?;
             if depth > 0 {
-                solution = Some((level.columns, level.pressure[..level.columns * level.rows].to_vec()));
+                let pressure = level.pressure[..level.columns * level.rows].to_vec();
+                solution = Some(Coarse { columns: level.columns, pressure });
             }
         }
         let finest = &self.levels[0];
         let scaled = finest.pressure[..finest.columns * finest.rows].to_vec();
-        self.problem.finish(approach, scaled, residual / approach.abs(), iterations)
+        self.problem.finish(approach, scaled, reached.residual / approach.abs(), reached.iterations)
     }
 
     fn first_touch(&self) -> f64 {
         self.problem.first_touch()
     }
+}
+
+/// The pressures on the coarser grid.
+struct Coarse {
+    columns: usize,
+    pressure: Vec<f64>,
+}
+
+/// What an iteration has reached.
+#[derive(Debug, Clone, Copy, Default)]
+struct Reached {
+    /// [m]
+    residual: f64,
+    iterations: usize,
 }
 
 impl Level {
@@ -132,12 +147,12 @@ impl Level {
 
     /// Pressure from the coarser grid, bilinear; or none, with the set of cells whose interference exceeds half the
     /// largest.
-    fn start(&mut self, approach: f64, coarse: Option<(usize, Vec<f64>)>) {
+    fn start(&mut self, approach: f64, coarse: Option<Coarse>) {
         for (g, h) in self.interference.iter_mut().zip(&self.gap) {
             *g = approach - h;
         }
         match coarse {
-            Some((n, p)) => {
+            Some(Coarse { columns: n, pressure: p }) => {
                 let m = p.len() / n;
                 let at = |i: usize, j: usize| p[j * n + i];
                 let near = |k: usize, count: usize| {
@@ -172,9 +187,8 @@ impl Level {
         self.fft.multiply(&self.pressure[..cells], &mut self.deflection[..cells]);
     }
 
-    /// Residual reached [m] and iterations.
     #[inline(always)]
-    fn solve(&mut self, limit: f64) -> Result<(f64, usize), ContactError> {
+    fn solve(&mut self, limit: f64) -> Result<Reached, ContactError> {
         const MOST: usize = 1000;
         let cells = self.columns * self.rows;
         let mut iterations = 0;
@@ -186,7 +200,7 @@ impl Level {
             let [open, penetration, pull] = self.advance(step);
             residual = open.max(penetration);
             if residual <= limit && pull == 0.0 {
-                return Ok((residual, iterations));
+                return Ok(Reached { residual, iterations });
             }
             // The set is changed when its own equation is solved well enough to tell, the better the longer it takes.
             if open <= penetration.max(limit) || (pull > 0.0 && open <= 0.3 * best) {
@@ -265,7 +279,7 @@ impl Level {
 struct Solve<'a>(&'a mut Level, f64);
 
 impl NullaryFnOnce for Solve<'_> {
-    type Output = Result<(f64, usize), ContactError>;
+    type Output = Result<Reached, ContactError>;
 
     #[inline(always)]
     fn call(self) -> Self::Output {

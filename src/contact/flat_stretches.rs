@@ -39,19 +39,30 @@ pub(super) fn reach(element: ElementOnRaceway, depth: f64) -> f64 {
     (2.0 * depth.max(0.0) / element.curvatures()[0]).sqrt()
 }
 
-/// Stretches of constant depth: first and last arc, depth [m].
-pub(super) fn flats(surface: &Surface) -> Vec<(f64, f64, f64)> {
+/// A stretch of constant depth.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Flat {
+    /// First arc [m].
+    pub(super) start: f64,
+    /// Last arc [m].
+    pub(super) end: f64,
+    /// Depth [m].
+    pub(super) depth: f64,
+}
+
+/// Stretches of constant depth.
+pub(super) fn flats(surface: &Surface) -> Vec<Flat> {
     let (from, to) = surface.extent();
-    let mut flats = vec![(f64::NEG_INFINITY, from, 0.0)];
+    let mut flats = vec![Flat { start: f64::NEG_INFINITY, end: from, depth: 0.0 }];
     if let Surface::Profile(profile) = surface {
         for pair in profile.points().windows(2) {
             let ((s0, d0), (s1, d1)) = (pair[0], pair[1]);
             if d0 == d1 && s1 > s0 {
-                flats.push((s0, s1, d0));
+                flats.push(Flat { start: s0, end: s1, depth: d0 });
             }
         }
     }
-    flats.push((to, f64::INFINITY, 0.0));
+    flats.push(Flat { start: to, end: f64::INFINITY, depth: 0.0 });
     flats
 }
 

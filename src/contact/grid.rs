@@ -10,7 +10,7 @@
 use libm::pow;
 
 use super::{
-    active_set::{ActiveSet, Mirror, Window},
+    active_set::{ActiveSet, Mirror, PressedCell, Window},
     error::ContactError,
     half_space::KernelTable,
 };
@@ -276,6 +276,14 @@ pub struct GridActiveSet<'a> {
     interference: Vec<f64>,
 }
 
+/// The part of a grid that is unknown: all of it, half or a quarter.
+struct Unknowns {
+    first_column: usize,
+    first_row: usize,
+    columns: usize,
+    rows: usize,
+}
+
 impl<'a> GridActiveSet<'a> {
     /// Prepares the solver. With `warm` each contact starts from the one before.
     ///
@@ -288,16 +296,16 @@ impl<'a> GridActiveSet<'a> {
         Ok(Self { problem, solver, mirror, warm, interference: Vec::new() })
     }
 
-    fn quarter(&self) -> (usize, usize, usize, usize) {
+    fn unknowns(&self) -> Unknowns {
         let (n, m) = (self.problem.columns, self.problem.rows);
         let (i0, j0) = (if self.mirror.x { n / 2 } else { 0 }, if self.mirror.y { m / 2 } else { 0 });
-        (i0, j0, n - i0, m - j0)
+        Unknowns { first_column: i0, first_row: j0, columns: n - i0, rows: m - j0 }
     }
 }
 
 impl GridSolver for GridActiveSet<'_> {
     fn at_approach(&mut self, approach: f64) -> Result<GridContact, ContactError> {
-        let (i0, j0, columns, rows) = self.quarter();
+        let Unknowns { first_column: i0, first_row: j0, columns, rows } = self.unknowns();
         let n = self.problem.columns;
         self.interference.clear();
         for j in 0..rows {
@@ -312,8 +320,8 @@ impl GridSolver for GridActiveSet<'_> {
         let residual = self.solver.residual(window) / approach.abs().max(f64::MIN_POSITIVE);
         let mut scaled = vec![0.0; self.problem.gap.len()];
         let m = self.problem.rows;
-        for (run, k, p) in self.solver.cells() {
-            let (i, j) = (i0 + (run.first as usize + k), j0 + run.row);
+        for PressedCell { row, column, pressure: p, .. } in self.solver.cells() {
+            let (i, j) = (i0 + column as usize, j0 + row);
             let (left, front) = (if self.mirror.x { n - 1 - i } else { i }, if self.mirror.y { m - 1 - j } else { j });
             for (i, j) in [(i, j), (left, j), (i, front), (left, front)] {
                 scaled[j * n + i] = p;

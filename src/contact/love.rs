@@ -27,14 +27,14 @@ use crate::surface::Surface;
 use libm::pow;
 
 use super::{
-    active_set::{ActiveSet, Window},
+    active_set::{ActiveSet, PressedCell, Window},
     edge_softness::{EdgeSoftness, StepImage},
     equivalent::EquivalentApproach,
     error::ContactError,
     half_space::KernelTable,
     raceway_grid::{ElementOnRaceway, RacewayGrid, Resolution},
     smooth_scale::{Energy, SmoothScale},
-    soft_edges::{GridEdge, SoftEdge},
+    soft_edges::{GridEdge, SoftEdge, WindowSize},
 };
 
 /// Nodes of the smooth raceway's energy; quadratically dense towards zero.
@@ -309,18 +309,18 @@ impl Layer {
         loop {
             let span = self.grid.window(u, s);
             self.grid.interference(u, s, span, &mut self.interference, &mut self.slopes);
-            for (row, values) in self.interference.chunks_exact_mut(span.1).enumerate() {
+            for (row, values) in self.interference.chunks_exact_mut(span.count).enumerate() {
                 let share = self.grid.share(row);
                 if share < 1.0 {
                     values.iter_mut().for_each(|value| *value *= share);
                 }
             }
-            let window = Window { first: span.0, columns: span.1, interference: &self.interference };
+            let window = Window { first: span.first, columns: span.count, interference: &self.interference };
             self.solver.solve(window)?;
             let rows = self.grid.rows();
             let border = |row: usize| row + 1 == rows || (row == 0 && !self.grid.mirrored());
             if !self.grid.can_widen() || !self.solver.runs().iter().any(|run| border(run.row)) {
-                return Ok(self.collect(span.0));
+                return Ok(self.collect(span.first));
             }
             // The contact is wider than the grid across the raceway: more rows, and once more.
             let half = self.grid.half_rows();
@@ -333,20 +333,20 @@ impl Layer {
         self.solver.right_hand_side(&mut self.unit);
         let columns = self.slopes.len();
         let mut energy = Energy::default();
-        for (run, k, p) in self.solver.cells() {
-            let column = (run.first - first) as usize + k;
-            let share = self.grid.share(run.row);
+        for PressedCell { row, column, unknown, pressure: p } in self.solver.cells() {
+            let column = (column - first) as usize;
+            let share = self.grid.share(row);
             // ∂h/∂s = −∂h/∂t
-            energy.w += 0.5 * p * self.interference[run.row * columns + column];
+            energy.w += 0.5 * p * self.interference[row * columns + column];
             energy.u += share * p;
             energy.s += share * p * self.slopes[column];
-            self.unit[run.at + k] = share;
+            self.unit[unknown] = share;
         }
         self.solver.apply_inverse(&mut self.unit);
-        for (run, k, _) in self.solver.cells() {
-            let by_u = self.grid.share(run.row) * self.unit[run.at + k];
+        for PressedCell { row, column, unknown, .. } in self.solver.cells() {
+            let by_u = self.grid.share(row) * self.unit[unknown];
             energy.uu += by_u;
-            energy.us += by_u * self.slopes[(run.first - first) as usize + k];
+            energy.us += by_u * self.slopes[(column - first) as usize];
         }
         energy
     }
@@ -360,7 +360,7 @@ fn solver_for(
     let columns = grid.widest(grid.deepest() + 3.0 * largest_approach);
     let rows = if grid.mirrored() { 2 * grid.rows() } else { grid.rows() };
     let kernel = KernelTable::new(columns, rows, grid.cell());
-    let size = (columns, grid.rows(), rows);
+    let size = WindowSize { columns, rows: grid.rows(), kernel_rows: rows };
     let edges = softness.into_iter().flat_map(|softness| {
         let soft = move |edge| SoftEdge::new(edge, softness.of.factor, grid.cell(), size, grid.mirror());
         softness.edges(grid).map(soft)

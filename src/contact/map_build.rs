@@ -79,8 +79,7 @@ impl ContactMap {
                 }
             }
             Surface::Topography(topography) => {
-                let (arcs, axials, depths) = topography.grid();
-                for values in [arcs, axials, depths] {
+                for values in [topography.arcs(), topography.axials(), topography.depths()] {
                     number(values.len() as f64);
                     for &value in values {
                         number(value);

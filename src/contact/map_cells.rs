@@ -20,8 +20,29 @@ pub(super) type Node = [f64; 4];
 /// Place on the lattice: along the raceway, along the path.
 pub(super) type Place = (usize, usize);
 
-/// Number of cuts, and index among cells so often cut along the raceway and the path.
-pub(super) type Key = (u32, usize, usize);
+/// A cell, in the order of coarse ones first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Key {
+    /// Number of cuts.
+    pub(super) level: u32,
+    /// Index among cells so often cut, along the raceway.
+    pub(super) i: usize,
+    /// The same along the path.
+    pub(super) j: usize,
+}
+
+impl Key {
+    /// Those of coarse cells, of which there are as many above each other as `rows` says, strip by strip.
+    fn coarse(rows: &[usize]) -> impl Iterator<Item = Self> {
+        rows.iter().enumerate().flat_map(|(i, &rows)| (0..rows).map(move |j| Self { level: 0, i, j }))
+    }
+
+    /// The four parts, left low, right low, left high, right high.
+    fn parts(self) -> [Self; 4] {
+        let Self { level, i, j } = self;
+        [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(di, dj)| Self { level: level + 1, i: 2 * i + di, j: 2 * j + dj })
+    }
+}
 
 /// The cells of one patch.
 #[derive(Debug, Clone)]
@@ -37,12 +58,12 @@ pub(super) struct Cells {
 
 impl Cells {
     pub(super) fn new(size: [f64; 2], rows: Vec<usize>) -> Self {
-        let leaves = rows.iter().enumerate().flat_map(|(k, &rows)| (0..rows).map(move |row| (0, k, row))).collect();
+        let leaves = Key::coarse(&rows).collect();
         Self { size, rows, leaves, nodes: BTreeMap::new(), cubics: BTreeMap::new() }
     }
 
     /// Corners of a cell: left low, right low, left high, right high.
-    pub(super) fn corners((level, i, j): Key) -> [Place; 4] {
+    pub(super) fn corners(Key { level, i, j }: Key) -> [Place; 4] {
         let side = FINEST >> level;
         [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)].map(|(i, j)| (i * side, j * side))
     }
@@ -53,7 +74,7 @@ impl Cells {
             return None;
         }
         (0..=LEVELS)
-            .map(|level| (level, i >> (LEVELS - level), j >> (LEVELS - level)))
+            .map(|level| Key { level, i: i >> (LEVELS - level), j: j >> (LEVELS - level) })
             .find(|k| self.leaves.contains(k))
     }
 
@@ -63,9 +84,9 @@ impl Cells {
         for (di, dj) in [(1, 1), (0, 1), (1, 0), (0, 0)] {
             let (Some(left), Some(low)) = ((i + di).checked_sub(1), (j + dj).checked_sub(1)) else { continue };
             let Some(leaf) = self.leaf_at(left, low) else { continue };
-            let side = FINEST >> leaf.0;
+            let side = FINEST >> leaf.level;
             let corner = i.is_multiple_of(side) && j.is_multiple_of(side);
-            if !corner && coarsest.is_none_or(|other| leaf.0 < other.0) {
+            if !corner && coarsest.is_none_or(|other| leaf.level < other.level) {
                 coarsest = Some(leaf);
             }
         }
@@ -77,7 +98,7 @@ impl Cells {
         if !self.leaves.contains(&key) {
             return;
         }
-        let (level, i, j) = key;
+        let Key { level, i, j } = key;
         let side = FINEST >> level;
         let (left, low) = (i * side, j * side);
         let sides = [
@@ -89,15 +110,13 @@ impl Cells {
         for (i, j) in sides {
             if let (Some(i), Some(j)) = (i, j)
                 && let Some(neighbour) = self.leaf_at(i, j)
-                && neighbour.0 < level
+                && neighbour.level < level
             {
                 self.divide(neighbour);
             }
         }
         self.leaves.remove(&key);
-        for (di, dj) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
-            self.leaves.insert((level + 1, 2 * i + di, 2 * j + dj));
-        }
+        self.leaves.extend(key.parts());
     }
 
     /// Corners that are nodes and not yet known, strip by strip upwards.
@@ -121,7 +140,7 @@ impl Cells {
                 Some(coarse) => self.hanging(coarse, place),
                 None => self.nodes.get(&place).copied().unwrap_or_default(),
             });
-            let part = 1.0 / f64::from(1_u32 << key.0);
+            let part = 1.0 / f64::from(1_u32 << key.level);
             let cubic = cubic(&corners, self.size[0] * part, self.size[1] * part);
             if before.get(&key) != Some(&cubic) {
                 changed.push(key);
@@ -132,9 +151,9 @@ impl Cells {
     }
 
     fn hanging(&self, coarse: Key, (i, j): Place) -> Node {
-        let side = FINEST >> coarse.0;
-        let (q, t) = ((i - coarse.1 * side) as f64 / side as f64, (j - coarse.2 * side) as f64 / side as f64);
-        let cells = f64::from(1_u32 << coarse.0);
+        let side = FINEST >> coarse.level;
+        let (q, t) = ((i - coarse.i * side) as f64 / side as f64, (j - coarse.j * side) as f64 / side as f64);
+        let cells = f64::from(1_u32 << coarse.level);
         let Some(cubic) = self.cubics.get(&coarse) else { return [f64::NAN; 4] };
         let f = evaluate(cubic, q, t, cells / self.size[0], cells / self.size[1]);
         [f.value, f.ds, f.du, f.dus]
@@ -148,7 +167,7 @@ impl Cells {
         let mut mirrored = Self {
             size: self.size,
             rows: self.rows.iter().rev().copied().collect(),
-            leaves: self.leaves.iter().map(|&(level, i, j)| (level, (strips << level) - 1 - i, j)).collect(),
+            leaves: self.leaves.iter().map(|&key| Key { i: (strips << key.level) - 1 - key.i, ..key }).collect(),
             nodes: nodes.collect(),
             cubics: BTreeMap::new(),
         };
@@ -161,7 +180,7 @@ impl Cells {
         let strips = self.rows.len();
         let mut whole = self.clone();
         whole.rows.extend(&mirrored.rows);
-        whole.leaves.extend(mirrored.leaves.iter().map(|&(level, i, j)| (level, (strips << level) + i, j)));
+        whole.leaves.extend(mirrored.leaves.iter().map(|&key| Key { i: (strips << key.level) + key.i, ..key }));
         whole.nodes.extend(mirrored.nodes.iter().map(|(&(i, j), &node)| ((strips * FINEST + i, j), node)));
         // Where they meet, nothing changes along the raceway.
         for (_, node) in whole.nodes.iter_mut().filter(|((i, _), _)| *i == strips * FINEST) {
@@ -174,17 +193,15 @@ impl Cells {
     /// The cells as a map stores them: coarse ones strip by strip, cut ones after.
     pub(super) fn stored(&self) -> (Vec<Cell>, Vec<Cubic>) {
         let index: BTreeMap<Key, u32> = self.cubics.keys().zip(0..).map(|(&key, n)| (key, n)).collect();
-        let mut keys: Vec<Key> =
-            self.rows.iter().enumerate().flat_map(|(k, &rows)| (0..rows).map(move |row| (0, k, row))).collect();
+        let mut keys: Vec<Key> = Key::coarse(&self.rows).collect();
         let mut cells = Vec::new();
         while let Some(&key) = keys.get(cells.len()) {
             if let Some(&leaf) = index.get(&key) {
                 cells.push(Cell::Leaf(leaf));
                 continue;
             }
-            let (level, i, j) = key;
             let first = keys.len() as u32;
-            keys.extend([(0, 0), (1, 0), (0, 1), (1, 1)].map(|(di, dj)| (level + 1, 2 * i + di, 2 * j + dj)));
+            keys.extend(key.parts());
             cells.push(Cell::Divided([first, first + 1, first + 2, first + 3]));
         }
         (cells, self.cubics.values().copied().collect())

@@ -54,7 +54,7 @@ pub(super) fn summary(errors: &BTreeMap<(usize, Key), Vec<Error>>) -> Accuracy {
     let mut accuracy = Accuracy::default();
     let (mut squares, mut weights) = ([0.0; 2], 0.0);
     for ((_, key), found) in errors {
-        let weight = 0.25_f64.powi(key.0 as i32);
+        let weight = 0.25_f64.powi(key.level as i32);
         let weight = weight / found.len().max(1) as f64;
         for [normal, tangential] in found {
             accuracy.max_normal = accuracy.max_normal.max(normal.abs());

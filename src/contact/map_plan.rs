@@ -12,13 +12,13 @@ use std::sync::{Mutex, PoisonError};
 
 use super::{
     error::ContactError,
-    flat_stretches::{check_ends, flats, reach, shallowest},
+    flat_stretches::{Flat, check_ends, flats, reach, shallowest},
     love::LoveContact,
     map::{Accuracy, ContactMap, Patch, Stretch, Strip},
     map_cells::{Cells, FINEST, Key, LEVELS, Node, Place},
     map_checks::{Check, Error, summary},
     map_specification::{MapSpecification, Runner},
-    patch_plan::{LOWEST, PatchPlan},
+    patch_plan::{LOWEST, PatchPlan, Reference},
     raceway_grid::ElementOnRaceway,
 };
 
@@ -89,23 +89,23 @@ impl MapPlan {
         let clear = 1.2 * element.contact_half_axes(largest)[0] + 3.0 * cell;
         let raised = -shallowest(surface);
         let mut free = Vec::new();
-        for (s0, s1, depth) in flats(surface) {
+        for Flat { start, end, depth } in flats(surface) {
             // Higher raceway on either side must stay below the element that presses on the flat.
             let margin = clear.max(reach(element, depth + raised + largest) + 2.0 * cell);
             let margin = if depth <= -raised { clear.max(self.contact.soft_reach()) } else { margin };
-            if s1 - s0 > 2.0 * margin + 2.0 * strip_width {
-                free.push((s0 + margin, s1 - margin, depth));
+            if end - start > 2.0 * margin + 2.0 * strip_width {
+                free.push(Flat { start: start + margin, end: end - margin, depth });
             }
         }
         free.windows(2)
             .map(|pair| {
-                let (start, end) = (pair[0].1, pair[1].0);
+                let (start, end) = (pair[0].end, pair[1].start);
                 let strips = ((end - start) / strip_width).ceil().max(1.0);
                 let size = [(end - start) / strips, largest / ROWS];
                 PatchPlan {
                     start,
-                    before: pair[0].2,
-                    after: Some(pair[1].2),
+                    before: pair[0].depth,
+                    after: Some(pair[1].depth),
                     references: Vec::new(),
                     cells: Cells::new(size, vec![0; strips as usize]),
                 }
@@ -181,21 +181,21 @@ impl MapPlan {
             errors.retain(|place, _| is_leaf(place));
             checks.retain(|place, _| is_leaf(place));
             // Better than asked for: the checks do not hit the worst place, least of all in large cells.
-            let limit = |key: &Key| if key.0 < 2 { 0.5 } else { 0.8 } * self.specification.accuracy;
+            let limit = |key: &Key| if key.level < 2 { 0.5 } else { 0.8 } * self.specification.accuracy;
             let far = |found: &[Error], limit: f64| found.iter().flatten().any(|e| e.abs() > limit);
             let mut poor: Vec<(usize, Key)> = errors
                 .iter()
-                .filter(|((_, key), found)| key.0 < LEVELS && far(found, limit(key)))
+                .filter(|((_, key), found)| key.level < LEVELS && far(found, limit(key)))
                 .map(|(&place, _)| place)
                 .collect();
             let accuracy = summary(&errors);
             let mean = MEAN * self.specification.accuracy;
             if poor.is_empty() && accuracy.rms_normal.max(accuracy.rms_tangential) > 0.85 * mean {
                 // Cells that hold more than their share of the mean square, by their area.
-                let share = |key: &Key| 1.5 * mean * f64::from(1_u32 << key.0);
+                let share = |key: &Key| 1.5 * mean * f64::from(1_u32 << key.level);
                 poor = errors
                     .iter()
-                    .filter(|((_, key), found)| key.0 < LEVELS && far(found, share(key)))
+                    .filter(|((_, key), found)| key.level < LEVELS && far(found, share(key)))
                     .map(|(&place, _)| place)
                     .collect();
             }
@@ -268,8 +268,8 @@ impl MapPlan {
         if patch.flat(i).is_some() {
             return Ok([height, 0.0, 1.0, 0.0]);
         }
-        let (s, [path, slope]) = patch.reference(i);
-        let a = contact.continued(path + height, s)?;
+        let Reference { arc, path, slope } = patch.reference(i);
+        let a = contact.continued(path + height, arc)?;
         Ok([a.value, a.ds + a.du * slope, a.du, a.dus + a.duu * slope])
     }
 
@@ -322,7 +322,7 @@ impl MapPlan {
     /// Checks of some cells: at four points of each large one and two of each small one, but for those without contact
     /// and beyond the largest approach.
     fn checks(&self, cells: &[(usize, Key)]) -> Result<Vec<Vec<Check>>, ContactError> {
-        let of_cell = |contact: &mut LoveContact, (p, (level, i, j)): (usize, Key)| {
+        let of_cell = |contact: &mut LoveContact, (p, Key { level, i, j }): (usize, Key)| {
             let patch = &self.patches[p];
             let side = (FINEST >> level) as f64;
             let mut found = Vec::new();

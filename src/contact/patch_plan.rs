@@ -7,6 +7,13 @@ use super::map_cells::{Cells, FINEST};
 /// Coarse cells begin so many of their heights above the reference path.
 pub(super) const LOWEST: f64 = -1.0;
 
+/// A point of the reference path: arc [m], path [m] and its slope by the arc.
+pub(super) struct Reference {
+    pub(super) arc: f64,
+    pub(super) path: f64,
+    pub(super) slope: f64,
+}
+
 /// One stretch of nodes to be computed: its ends, what is beyond them, and its cells.
 #[derive(Debug, Clone)]
 pub(super) struct PatchPlan {
@@ -27,15 +34,15 @@ impl PatchPlan {
         self.start + self.cells.size[0] * self.cells.rows.len() as f64
     }
 
-    /// Arc and reference path at a place along the lattice, with the reference's slope.
-    pub(super) fn reference(&self, i: usize) -> (f64, [f64; 2]) {
+    /// The reference at a place along the lattice.
+    pub(super) fn reference(&self, i: usize) -> Reference {
         let strip = (i / FINEST).min(self.references.len() - 1);
         let q = (i - strip * FINEST) as f64 / FINEST as f64;
         let width = self.cells.size[0];
         let [c0, c1, c2, c3] = self.references[strip];
         let path = c0 + q * (c1 + q * (c2 + q * c3));
         let slope = (c1 + q * (2.0 * c2 + 3.0 * q * c3)) / width;
-        (self.start + i as f64 / FINEST as f64 * width, [path, slope])
+        Reference { arc: self.start + i as f64 / FINEST as f64 * width, path, slope }
     }
 
     /// Reference path at an arc [m].

@@ -20,7 +20,7 @@
 // `!(a > b)` is true for NaN as well, and is meant to be.
 #![allow(clippy::neg_cmp_op_on_partial_ord)]
 
-use crate::surface::Surface;
+use crate::surface::{Corner, Interval, Surface};
 
 pub use super::element_on_raceway::{Across, ElementOnRaceway};
 use super::{active_set::Mirror, error::ContactError, soft_edges::GridEdge};
@@ -44,8 +44,8 @@ const BEYOND_EDGE: f64 = 0.17;
 fn check_sampling(surface: &Surface, cell: [f64; 2]) -> Result<(), ContactError> {
     for ((interval, cell), direction) in surface.coarsest_intervals().into_iter().zip(cell).zip(["along", "across"]) {
         // Distances of points that were rounded when they were written.
-        if let Some((at, step)) = interval.filter(|&(_, step)| step > cell * (1.0 + 1e-6)) {
-            let (step_um, at_mm, cell_um) = (step * 1e6, at * 1e3, cell * 1e6);
+        if let Some(Interval { middle, length }) = interval.filter(|of| of.length > cell * (1.0 + 1e-6)) {
+            let (step_um, at_mm, cell_um) = (length * 1e6, middle * 1e3, cell * 1e6);
             return Err(ContactError::TooCoarse { direction, step_um, at_mm, cell_um });
         }
     }
@@ -55,14 +55,31 @@ fn check_sampling(surface: &Surface, cell: [f64; 2]) -> Result<(), ContactError>
 /// An edge is what is steeper than 60°: there the pressure has a peak narrower than any cell.
 const STEEP: f64 = 1.732;
 
+/// Consecutive columns.
+#[derive(Debug, Clone, Copy)]
+pub struct ColumnSpan {
+    /// The first.
+    pub first: i32,
+    /// How many.
+    pub count: usize,
+}
+
+/// A border between columns that is a sharp edge.
+#[derive(Debug, Clone, Copy)]
+struct SharpBorder {
+    /// The column before which it lies.
+    border: i32,
+    /// Whether the raceway that ends there has the lower columns.
+    below: bool,
+}
+
 /// Where columns lie.
 struct Columns {
     /// First border of column 0 [m].
     origin: f64,
     /// Length of a column [m].
     length: f64,
-    /// Borders that are edges, and whether the raceway that ends there has the lower columns.
-    edges: Vec<(i32, bool)>,
+    edges: Vec<SharpBorder>,
 }
 
 /// Continues the raceway a little beyond its edges, and finds the grid's origin and its cells' length, some
@@ -73,18 +90,17 @@ fn columns_at_edges(surface: &mut Surface, length: f64) -> Columns {
         Surface::Profile(profile) => profile.upper_corners(STEEP, drop),
         Surface::Topography(_) => Vec::new(),
     };
-    let (Some(&(first, first_fall)), Some(&(last, last_fall)), Surface::Profile(profile)) =
-        (corners.first(), corners.last(), &mut *surface)
-    else {
+    let (Some(&begin), Some(&end), Surface::Profile(profile)) = (corners.first(), corners.last(), &mut *surface) else {
         let (first, last) = surface.extent();
         let whole = ((last - first) / length).ceil().max(1.0);
         return Columns { origin: first, length: (last - first) / whole, edges: Vec::new() };
     };
-    let (mut cell, mut edges) = (length, vec![(0, first_fall > 0.0)]);
+    let (Corner { arc: first, fall: first_fall }, Corner { arc: last, fall: last_fall }) = (begin, end);
+    let (mut cell, mut edges) = (length, vec![SharpBorder { border: 0, below: first_fall > 0.0 }]);
     if last > first {
         let whole = ((last - first) / length).ceil().max(1.0);
         cell = (last - first) / (whole - (last_fall - first_fall) * BEYOND_EDGE);
-        edges.push((whole as i32, last_fall > 0.0));
+        edges.push(SharpBorder { border: whole as i32, below: last_fall > 0.0 });
     }
     *profile = profile.with_corners_continued(STEEP, drop, BEYOND_EDGE * cell);
     Columns { origin: first + first_fall * BEYOND_EDGE * cell, length: cell, edges }
@@ -102,8 +118,7 @@ pub struct RacewayGrid {
     middle_row: bool,
     across: Vec<f64>,
     first_column: i32,
-    /// Borders that are sharp edges, and whether the raceway that ends there has the lower columns.
-    edges: Vec<(i32, bool)>,
+    edges: Vec<SharpBorder>,
     /// Depth of each cell from `first_column`; one row for a profile.
     depth: Vec<f64>,
     depth_columns: usize,
@@ -213,7 +228,7 @@ impl RacewayGrid {
     /// that is less.
     pub(super) fn edges(&self, distance: f64, deepest: f64) -> impl Iterator<Item = GridEdge> {
         let columns = (distance / self.cell[0]).ceil() as i32;
-        self.edges.iter().map(move |&(border, below)| {
+        self.edges.iter().map(move |&SharpBorder { border, below }| {
             let beyond = if below { border..border + columns } else { border - columns..border };
             let depth = beyond.filter_map(|column| self.depth.get(usize::try_from(column - self.first_column).ok()?));
             let depth = depth.fold(0.0, |most: f64, &depth| most.max(depth));
@@ -280,10 +295,10 @@ impl RacewayGrid {
     }
 
     /// Columns that can touch at radial path `u` [m]: a superset, since circles bend away faster than paraboloids.
-    pub fn window(&self, u: f64, s: f64) -> (i32, usize) {
+    pub fn window(&self, u: f64, s: f64) -> ColumnSpan {
         let reach = (2.0 * (u + self.raised).max(0.0) / self.element.curvatures()[0]).sqrt();
         let (from, to) = (self.column_at(s - reach), self.column_at(s + reach));
-        (from, (to - from + 1) as usize)
+        ColumnSpan { first: from, count: (to - from + 1) as usize }
     }
 
     /// Widest window for paths up to `u` [m].
@@ -330,7 +345,7 @@ impl RacewayGrid {
         &self,
         u: f64,
         s: f64,
-        (first, columns): (i32, usize),
+        ColumnSpan { first, count: columns }: ColumnSpan,
         out: &mut Vec<f64>,
         slopes: &mut Vec<f64>,
     ) {

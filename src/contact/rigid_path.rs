@@ -18,8 +18,8 @@
 //! only its side meets the edge, the path leaps and there is no force to climb it with: such a profile is refused.
 
 use super::error::ContactError;
-use super::rigid_roller::{Feature, Roller};
-use super::rolling::Rolling;
+use super::rigid_roller::{Feature, Roller, Stretch, Stretches};
+use super::rolling::{Rolling, Touch};
 use crate::numerics::hermite;
 
 /// Path of a rigid element over a profile, as pieces between knots.
@@ -78,13 +78,13 @@ impl RigidPath {
     pub fn new(points: &[(f64, f64)], rolling: Rolling) -> Result<Self, ContactError> {
         let roller = Roller::new(points, rolling);
         roller.check_ends()?;
-        let (first, stretches) = roller.stretches();
+        let Stretches { begin, list: stretches } = roller.stretches();
         for pair in stretches.windows(2) {
-            check_climb(&roller, pair[0].0, [pair[0].1, pair[1].1])?;
+            check_climb(&roller, pair[0].end, [pair[0].feature, pair[1].feature])?;
         }
-        let mut knots = vec![first];
+        let mut knots = vec![begin];
         let mut pieces = Vec::with_capacity(stretches.len());
-        for (end, feature) in stretches {
+        for Stretch { end, feature } in stretches {
             pieces.push(Piece::new(&roller, feature, knots[knots.len() - 1], end));
             knots.push(end);
         }
@@ -105,15 +105,15 @@ impl RigidPath {
 
 /// Refuses a leap of the path between two features that meet at `angle`.
 fn check_climb(roller: &Roller, angle: f64, features: [Feature; 2]) -> Result<(), ContactError> {
-    let [before, behind] = features.map(|feature| roller.touch_slope(feature, angle));
+    let [before, behind] = features.map(|feature| roller.touch(feature, angle));
     let rolling = roller.rolling();
-    if [before, behind].iter().all(|&(path, slope)| slope.abs() <= STEEPEST * rolling.distance(path)) {
+    if [before, behind].iter().all(|&Touch { path, slope }| slope.abs() <= STEEPEST * rolling.distance(path)) {
         return Ok(());
     }
     Err(ContactError::NoWayOut {
         at_mm: angle * rolling.bearer_radius() * 1e3,
-        depth_mm: before.0.max(behind.0) * 1e3,
-        limit_mm: before.0.min(behind.0) * 1e3,
+        depth_mm: before.path.max(behind.path) * 1e3,
+        limit_mm: before.path.min(behind.path) * 1e3,
         radius_mm: rolling.element_radius * 1e3,
     })
 }
@@ -122,7 +122,7 @@ impl Piece {
     fn new(roller: &Roller, feature: Feature, start: f64, end: f64) -> Self {
         if roller.is_level(feature) {
             // Not by its ends: rounding puts them beside the floor, where the slope is none of the floor's.
-            let (path, _) = roller.touch_slope(feature, 0.5 * (start + end));
+            let path = roller.touch(feature, 0.5 * (start + end)).path;
             return Self { start, per_width: 1.0 / (end - start), cubics: vec![[path, 0.0, 0.0, 0.0]] };
         }
         let rolling = roller.rolling();
@@ -131,7 +131,7 @@ impl Piece {
         let arc = (end - start) * rolling.bearer_radius();
         let mut count = (arc / interval).ceil().max(1.0) as usize;
         loop {
-            let piece = Self::of_intervals(roller, feature, (start, end), count);
+            let piece = Self::of_intervals(roller, feature, start, end, count);
             if count >= MOST || piece.error(roller, feature) <= limit {
                 return piece;
             }
@@ -139,15 +139,15 @@ impl Piece {
         }
     }
 
-    fn of_intervals(roller: &Roller, feature: Feature, (start, end): (f64, f64), count: usize) -> Self {
+    fn of_intervals(roller: &Roller, feature: Feature, start: f64, end: f64, count: usize) -> Self {
         let width = (end - start) / count as f64;
-        let node = |i: usize| roller.touch_slope(feature, start + width * i as f64);
-        let (mut p0, mut m0) = node(0);
+        let node = |i: usize| roller.touch(feature, start + width * i as f64);
+        let Touch { path: mut p0, slope: mut m0 } = node(0);
         m0 *= width;
         let cubics = (1..=count)
             .map(|i| {
-                let (p1, s1) = node(i);
-                let m1 = s1 * width;
+                let Touch { path: p1, slope } = node(i);
+                let m1 = slope * width;
                 let cubic = hermite::cubic([p0, m0, p1, m1]);
                 (p0, m0) = (p1, m1);
                 cubic
@@ -161,7 +161,7 @@ impl Piece {
     fn error(&self, roller: &Roller, feature: Feature) -> f64 {
         let off = |i: usize| {
             let angle = self.start + (i as f64 + 0.5) / self.per_width;
-            (self.at(angle).path - roller.touch_slope(feature, angle).0).abs()
+            (self.at(angle).path - roller.touch(feature, angle).path).abs()
         };
         let last = self.cubics.len() - 1;
         (0..last).step_by(16).chain([last]).map(off).fold(0.0, f64::max)

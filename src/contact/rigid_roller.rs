@@ -5,7 +5,7 @@
 
 use super::error::ContactError;
 use super::flat_stretches::check_ends;
-use super::rolling::Rolling;
+use super::rolling::{Rolling, Touch};
 
 /// What the element touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,11 +18,43 @@ pub(super) enum Feature {
     Stretch(usize),
 }
 
+/// A point of the profile in polar form.
+#[derive(Debug, Clone, Copy)]
+struct Vertex {
+    /// φ [rad].
+    phi: f64,
+    /// B [m].
+    radius: f64,
+}
+
+/// The feature that is touched at an angle [rad].
+#[derive(Debug, Clone, Copy)]
+struct Touched {
+    angle: f64,
+    feature: Feature,
+}
+
+/// A stretch of the path over one feature.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stretch {
+    /// Angle at which it ends [rad].
+    pub(super) end: f64,
+    pub(super) feature: Feature,
+}
+
+/// All stretches of the path.
+pub(super) struct Stretches {
+    /// Angle at which the first one begins [rad].
+    pub(super) begin: f64,
+    /// Each begins where the one before ends.
+    pub(super) list: Vec<Stretch>,
+}
+
 /// The profile in polar form and the circle that rolls over it.
 pub(super) struct Roller {
     rolling: Rolling,
-    /// (φ, B), φ non-decreasing; starts and ends on the smooth body.
-    vertices: Vec<(f64, f64)>,
+    /// φ does not decrease; starts and ends on the smooth body.
+    vertices: Vec<Vertex>,
     shallowest: f64,
     deepest: f64,
 }
@@ -31,25 +63,25 @@ impl Roller {
     /// `points` as (arc, depth) [m].
     pub(super) fn new(points: &[(f64, f64)], rolling: Rolling) -> Self {
         let radius = rolling.bearer_radius();
-        let mut vertices: Vec<(f64, f64)> =
-            points.iter().map(|&(arc, depth)| (arc / radius, rolling.radius_at(depth))).collect();
+        let vertex = |&(arc, depth): &(f64, f64)| Vertex { phi: arc / radius, radius: rolling.radius_at(depth) };
+        let mut vertices: Vec<Vertex> = points.iter().map(vertex).collect();
         if let (Some(&first), Some(&last)) = (vertices.first(), vertices.last()) {
             // A profile that does not start or end at depth 0 has a wall there.
-            if first.1 != radius {
-                vertices.insert(0, (first.0, radius));
+            if first.radius != radius {
+                vertices.insert(0, Vertex { radius, ..first });
             }
-            if last.1 != radius {
-                vertices.push((last.0, radius));
+            if last.radius != radius {
+                vertices.push(Vertex { radius, ..last });
             }
         }
-        let depths = || vertices.iter().map(|v| rolling.depth_of(v.1));
+        let depths = || vertices.iter().map(|v| rolling.depth_of(v.radius));
         let (shallowest, deepest) = (depths().fold(0.0, f64::min), depths().fold(0.0, f64::max));
         Self { rolling, vertices, shallowest, deepest }
     }
 
     /// First and last angle of the profile.
     fn ends(&self) -> (f64, f64) {
-        (self.vertices.first().map_or(0.0, |v| v.0), self.vertices.last().map_or(0.0, |v| v.0))
+        (self.vertices.first().map_or(0.0, |v| v.phi), self.vertices.last().map_or(0.0, |v| v.phi))
     }
 
     /// Refuses a profile around the whole body.
@@ -79,11 +111,11 @@ impl Roller {
         match feature {
             Feature::Raceway => true,
             Feature::Vertex(_) => false,
-            Feature::Stretch(index) => self.vertices[index].1 == self.vertices[index + 1].1,
+            Feature::Stretch(index) => self.vertices[index].radius == self.vertices[index + 1].radius,
         }
     }
 
-    /// Where the path begins, and its stretches of one touched feature each, as (end angle, feature).
+    /// The path's stretches of one touched feature each.
     ///
     /// A point p keeps the centre q outside the circle of radius r about it, of which the path follows the arc that
     /// faces the ring's centre: q·(q − p) < 0. The circles about two points with the middle m meet at m + t and m − t,
@@ -94,32 +126,32 @@ impl Roller {
     ///
     /// Along a straight piece, R linear in φ, the raceway's curvature is at most 1.09/R, less than the element's 1/r:
     /// it is touched at one point at most.
-    pub(super) fn stretches(&self) -> (f64, Vec<(f64, Feature)>) {
+    pub(super) fn stretches(&self) -> Stretches {
         let (first, last) = self.extent();
         let mut found = Vec::new();
         let at = |share: f64| {
             let angle = first + (last - first) * share;
-            (angle, self.touched(angle))
+            Touched { angle, feature: self.touched(angle) }
         };
         let (left, middle, right) = (at(1e-12), at(0.5), at(1.0 - 1e-12));
         self.bisect(left, middle, &mut found);
         self.bisect(middle, right, &mut found);
-        found.push((last, right.1));
-        (first, found)
+        found.push(Stretch { end: last, feature: right.feature });
+        Stretches { begin: first, list: found }
     }
 
-    /// Pushes the ends of all features that give way to another between two angles.
-    fn bisect(&self, left: (f64, Feature), right: (f64, Feature), found: &mut Vec<(f64, Feature)>) {
-        if left.1 == right.1 {
+    /// Pushes the stretches of all features that give way to another between two angles.
+    fn bisect(&self, left: Touched, right: Touched, found: &mut Vec<Stretch>) {
+        if left.feature == right.feature {
             return;
         }
-        let middle = 0.5 * (left.0 + right.0);
+        let middle = 0.5 * (left.angle + right.angle);
         // 1e-13 rad is 2e-15 m along the raceway.
-        if right.0 - left.0 < 1e-13 || middle <= left.0 || middle >= right.0 {
-            found.push((middle, left.1));
+        if right.angle - left.angle < 1e-13 || middle <= left.angle || middle >= right.angle {
+            found.push(Stretch { end: middle, feature: left.feature });
             return;
         }
-        let middle = (middle, self.touched(middle));
+        let middle = Touched { angle: middle, feature: self.touched(middle) };
         self.bisect(left, middle, found);
         self.bisect(middle, right, found);
     }
@@ -131,7 +163,7 @@ impl Roller {
         if angle <= first || angle >= last {
             best.0 = 0.0;
         }
-        let nearest = self.vertices.partition_point(|v| v.0 < angle);
+        let nearest = self.vertices.partition_point(|v| v.phi < angle);
         // The straight piece above the centre first: its ends may be far away.
         if let Some(below) = nearest.checked_sub(1)
             && let Some(path) = self.stretch(below, angle)
@@ -142,7 +174,7 @@ impl Roller {
         // Then outwards on either side, a vertex and the piece that leads on from it, until even the shallowest point
         // there is too far to be touched.
         let mut consider = |index: usize, beyond: Option<usize>| -> bool {
-            let (phi, radius) = self.vertices[index];
+            let Vertex { phi, radius } = self.vertices[index];
             if self.lower_bound(phi - angle) > best.0 {
                 return false;
             }
@@ -171,7 +203,7 @@ impl Roller {
     }
 
     fn vertex(&self, index: usize, angle: f64) -> Option<f64> {
-        let (phi, radius) = self.vertices[index];
+        let Vertex { phi, radius } = self.vertices[index];
         self.rolling.path_over(radius, phi - angle)
     }
 
@@ -182,14 +214,15 @@ impl Roller {
     }
 
     fn radius_on(&self, index: usize, phi: f64) -> f64 {
-        let ((phi0, r0), (phi1, r1)) = (self.vertices[index], self.vertices[index + 1]);
+        let [Vertex { phi: phi0, radius: r0 }, Vertex { phi: phi1, radius: r1 }] =
+            [self.vertices[index], self.vertices[index + 1]];
         r0 + (r1 - r0) * ((phi - phi0) / (phi1 - phi0))
     }
 
     /// Angle of the touched point inside a straight piece: there the path over the piece's points has a minimum.
     fn stretch_touch(&self, index: usize, angle: f64) -> Option<f64> {
-        let &(phi1, r1) = self.vertices.get(index + 1)?;
-        let (phi0, r0) = self.vertices[index];
+        let &Vertex { phi: phi1, radius: r1 } = self.vertices.get(index + 1)?;
+        let Vertex { phi: phi0, radius: r0 } = self.vertices[index];
         if phi1 <= phi0 {
             return None;
         }
@@ -214,22 +247,22 @@ impl Roller {
         }
     }
 
-    /// P and dP/dψ over one feature. By the envelope theorem only the direct dependence on ψ counts.
-    pub(super) fn touch_slope(&self, feature: Feature, angle: f64) -> (f64, f64) {
-        let (phi, radius) = match feature {
-            Feature::Raceway => return (0.0, 0.0),
+    /// The path over one feature. By the envelope theorem only the direct dependence on ψ counts.
+    pub(super) fn touch(&self, feature: Feature, angle: f64) -> Touch {
+        let Vertex { phi, radius } = match feature {
+            Feature::Raceway => return Touch::default(),
             Feature::Vertex(index) => self.vertices[index],
             // At the ends of a stretch rounding may put the touched point just outside it: then its end is touched.
             Feature::Stretch(index) => {
                 let phi = self.stretch_touch(index, angle).unwrap_or_else(|| {
-                    let reach = |v: (f64, f64)| self.rolling.path_over(v.1, v.0 - angle).unwrap_or(f64::INFINITY);
+                    let reach = |v: Vertex| self.rolling.path_over(v.radius, v.phi - angle).unwrap_or(f64::INFINITY);
                     let (from, to) = (self.vertices[index], self.vertices[index + 1]);
-                    if reach(from) <= reach(to) { from.0 } else { to.0 }
+                    if reach(from) <= reach(to) { from.phi } else { to.phi }
                 });
-                (phi, self.radius_on(index, phi))
+                Vertex { phi, radius: self.radius_on(index, phi) }
             }
         };
-        self.rolling.path_and_slope(radius, phi - angle)
+        self.rolling.touch(radius, phi - angle)
     }
 }
 
@@ -256,21 +289,21 @@ mod tests {
                     })
                     .collect();
                 let roller = Roller::new(&points, Rolling::outer_ring(3.97e-3, 23.6325e-3));
-                let (first, stretches) = roller.stretches();
-                let last = stretches[stretches.len() - 1].0;
+                let Stretches { begin: first, list: stretches } = roller.stretches();
+                let last = stretches[stretches.len() - 1].end;
                 let mut stretch = 0;
                 for i in 1..20_000 {
                     let angle = first + (last - first) * f64::from(i) / 20_000.0;
-                    while angle > stretches[stretch].0 {
+                    while angle > stretches[stretch].end {
                         stretch += 1;
                     }
                     // Where two ends of stretches fall together rounding decides between neighbours.
                     let near = |end: f64| (end - angle).abs() < 1e-12;
                     let feature = roller.touched(angle);
                     assert!(
-                        feature == stretches[stretch].1 || stretches.iter().any(|s| near(s.0)),
+                        feature == stretches[stretch].feature || stretches.iter().any(|s| near(s.end)),
                         "{depth} at {angle}: {feature:?}, not {:?}",
-                        stretches[stretch].1
+                        stretches[stretch].feature
                     );
                 }
             }

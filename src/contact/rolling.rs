@@ -47,6 +47,23 @@ impl RacewaySide {
     }
 }
 
+/// Where the bodies touch, as the path sees it.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Touch {
+    /// Path P [m].
+    pub(super) path: f64,
+    /// Its derivative by the angle ψ at which the bodies touch [m/rad].
+    pub(super) slope: f64,
+}
+
+/// The triangle of the two centres and the touched point.
+struct Triangle {
+    sin: f64,
+    cos: f64,
+    /// √(C² − B² sin² d) [m].
+    root: f64,
+}
+
 impl Rolling {
     /// An element of radius `element_radius` on a defect of the outer ring, whose radius is `raceway_radius` [m].
     pub fn outer_ring(element_radius: f64, raceway_radius: f64) -> Self {
@@ -100,13 +117,12 @@ impl Rolling {
         self.raceway == RacewaySide::Outer && !self.on_element
     }
 
-    /// sin d, cos d and √(C² − B² sin² d) over a point at radius B = `radius` and angle `d`; `None` beyond reach, the
-    /// far side included.
-    fn triangle(&self, radius: f64, d: f64) -> Option<(f64, f64, f64)> {
+    /// The triangle over a point at radius B = `radius` and angle `d`; `None` beyond reach, the far side included.
+    fn triangle(&self, radius: f64, d: f64) -> Option<Triangle> {
         let (sin, cos) = sin_cos(d);
         let other = self.other_radius();
         let square = other * other - radius * radius * sin * sin;
-        (square > 0.0 && cos > 0.0).then(|| (sin, cos, square.sqrt()))
+        (square > 0.0 && cos > 0.0).then(|| Triangle { sin, cos, root: square.sqrt() })
     }
 
     /// The path by B cos d and the root.
@@ -120,11 +136,11 @@ impl Rolling {
 
     /// Path [m] over a point at radius B = `radius` and angle `d`; `None` beyond reach.
     pub(super) fn path_over(&self, radius: f64, d: f64) -> Option<f64> {
-        self.triangle(radius, d).map(|(_, cos, root)| self.path(radius * cos, root))
+        self.triangle(radius, d).map(|Triangle { cos, root, .. }| self.path(radius * cos, root))
     }
 
-    /// Path [m] over a point, and its derivative by the angle ψ at which the bodies touch [m/rad], with d = φ − ψ.
-    pub(super) fn path_and_slope(&self, radius: f64, d: f64) -> (f64, f64) {
+    /// The path over a point, with d = φ − ψ.
+    pub(super) fn touch(&self, radius: f64, d: f64) -> Touch {
         let (sin, cos) = sin_cos(d);
         let other = self.other_radius();
         let root = (other * other - radius * radius * sin * sin).max(0.0).sqrt();
@@ -134,13 +150,13 @@ impl Rolling {
             (RacewaySide::Outer, true) => turn - across,
             (RacewaySide::Inner, _) => -across - turn,
         };
-        (self.path(radius * cos, root), slope)
+        Touch { path: self.path(radius * cos, root), slope }
     }
 
     /// Derivative of the path [m/rad] by the touched point's angle φ where the radius grows by `slope` [m/rad]; `None`
     /// beyond reach.
     pub(super) fn change_along(&self, radius: f64, slope: f64, d: f64) -> Option<f64> {
-        let (sin, cos, root) = self.triangle(radius, d)?;
+        let Triangle { sin, cos, root } = self.triangle(radius, d)?;
         let turn = (radius * slope * sin * sin + radius * radius * sin * cos) / root;
         Some(match (self.raceway, self.on_element) {
             (RacewaySide::Outer, false) => slope * cos - radius * sin + turn,

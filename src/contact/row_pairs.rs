@@ -34,14 +34,36 @@ impl Mirror {
     }
 }
 
+/// A cell of a window.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CellPlace {
+    pub(super) row: usize,
+    pub(super) column: i32,
+}
+
+/// The influence of a cell on consecutive cells of a row.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Influence<'a> {
+    /// How many of them do not feel it before the first that does.
+    pub(super) skip: usize,
+    /// On that one and those after it, in the kernel's unit.
+    pub(super) values: &'a [f64],
+}
+
+/// Active cells, run by run, with their pressures over π E*.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Loaded<'a> {
+    pub(super) runs: &'a [Run],
+    pub(super) pressure: &'a [f64],
+}
+
 /// What an edge adds to the influence of cells on each other.
 pub(super) trait Image {
     /// Whether a column is of the raceway that ends there.
     fn bears(&self, column: i32) -> bool;
 
-    /// Influence of a cell in row `source` and column `from`, which is of that raceway, on those of row `target` from
-    /// column `to` on: which of `length` of them is the first that feels it, and how much it and those after it do.
-    fn on(&self, target: (usize, i32, usize), source: (usize, i32)) -> (usize, &[f64]);
+    /// Influence of the cell `source`, which is of that raceway, on `length` cells of a row from `first` on.
+    fn on(&self, first: CellPlace, length: usize, source: CellPlace) -> Influence<'_>;
 }
 
 /// Influence of rows of cells on each other, the mirrored half added.
@@ -92,13 +114,15 @@ impl RowPairs {
         self.rows
     }
 
-    /// K p on segments of one row: `at` is the row and the first column of each segment, whose cells go into `out` one
-    /// segment after the other. `edges` are those that the window feels.
+    /// K p on segments of one row: `firsts` are the first columns of the segments, whose cells go into `out` one segment
+    /// after the other. `edges` are those that the window feels.
     pub(super) fn deflect<'a, I: Image + 'a>(
         &self,
-        (mirror_x, edges): (bool, impl Iterator<Item = &'a I> + Clone),
-        (runs, pressure): (&[Run], &[f64]),
-        (row, firsts): (usize, &[i32]),
+        mirror_x: bool,
+        edges: impl Iterator<Item = &'a I> + Clone,
+        Loaded { runs, pressure }: Loaded,
+        row: usize,
+        firsts: &[i32],
         out: &mut [f64],
     ) {
         Arch::new().dispatch(Deflect { pairs: self, mirror_x, edges, runs, pressure, row, firsts, out });
@@ -123,6 +147,19 @@ pub struct Run {
     pub length: usize,
     /// Index of the first cell's unknown.
     pub at: usize,
+}
+
+/// A cell of the contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PressedCell {
+    /// Row.
+    pub row: usize,
+    /// Column on the raceway.
+    pub column: i32,
+    /// Index of its unknown.
+    pub unknown: usize,
+    /// Pressure over π E*.
+    pub pressure: f64,
 }
 
 /// K p on segments of one row.
@@ -172,9 +209,10 @@ impl<'e, I: Image + 'e, E: Iterator<Item = &'e I> + Clone> Deflect<'_, E> {
                     }
                 }
                 for edge in self.edges.clone().filter(|edge| edge.bears(from)) {
+                    let source = CellPlace { row: run.row, column: from };
                     for (sum, first) in sums.iter_mut().zip(firsts) {
-                        let (skip, image) = edge.on((self.row, first, SEGMENT), (run.row, from));
-                        for (sum, image) in sum[skip..].iter_mut().zip(image) {
+                        let image = edge.on(CellPlace { row: self.row, column: first }, SEGMENT, source);
+                        for (sum, image) in sum[image.skip..].iter_mut().zip(image.values) {
                             *sum = image.mul_add(p, *sum);
                         }
                     }

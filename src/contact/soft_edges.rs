@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::edge_softness::StepImage;
 use super::half_space::KernelTable;
-use super::row_pairs::{Image, Mirror, RowPairs};
+use super::row_pairs::{CellPlace, Image, Influence, Mirror, RowPairs};
 
 /// An edge of the raceway on a grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,13 +29,31 @@ pub(super) struct SoftEdge {
     pairs: Arc<RowPairs>,
 }
 
+/// An edge and the window under way.
+#[derive(Debug, Clone)]
+pub(super) struct WindowEdge {
+    pub(super) soft: SoftEdge,
+    /// Whether the window feels it.
+    pub(super) is_felt: bool,
+}
+
+/// Sizes of the largest window, in cells.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct WindowSize {
+    pub(super) columns: usize,
+    /// Rows of unknowns.
+    pub(super) rows: usize,
+    /// Rows of the kernel.
+    pub(super) kernel_rows: usize,
+}
+
 impl SoftEdge {
-    /// The edge for windows of up to `columns` and `rows` of unknowns, of which the kernel has `kernel_rows`.
+    /// The edge for windows of up to this size.
     pub(super) fn new(
         edge: GridEdge,
         factor: f64,
         cell: [f64; 2],
-        (columns, rows, kernel_rows): (usize, usize, usize),
+        WindowSize { columns, rows, kernel_rows }: WindowSize,
         mirror: Mirror,
     ) -> Self {
         let felt = (StepImage::reach(edge.depth) / cell[0]).ceil() as usize;
@@ -72,13 +90,13 @@ impl Image for SoftEdge {
     }
 
     #[inline(always)]
-    fn on(&self, (target, to, length): (usize, i32, usize), (source, from): (usize, i32)) -> (usize, &[f64]) {
-        let border = self.edge.border;
+    fn on(&self, first: CellPlace, length: usize, source: CellPlace) -> Influence<'_> {
+        let (border, to, from) = (self.edge.border, first.column, source.column);
         let inside = (border - to).clamp(0, length as i32) as usize;
         let (skip, end) = if self.edge.below { (0, inside) } else { (inside, length) };
         let middle = self.pairs.reach() as i32 - 1;
         let start = (middle + to + skip as i32 + from + 1 - 2 * border) as usize;
-        let pair = self.pairs.pair(target, source);
-        (skip, pair.get(start..start + (end - skip)).unwrap_or(&[]))
+        let pair = self.pairs.pair(first.row, source.row);
+        Influence { skip, values: pair.get(start..start + (end - skip)).unwrap_or(&[]) }
     }
 }

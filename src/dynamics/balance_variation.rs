@@ -49,7 +49,7 @@ impl Model {
         for (j, &[inner, outer, path, radial_velocity]) in found.elements.iter().enumerate() {
             (change.inner[j], change.outer[j]) = (inner, outer);
             (by.path[j], by.radial_velocity[j]) = (path, radial_velocity);
-            let (u, _) = self.balanced_path(j, self.cells_of(cells, j), state[j], &now);
+            let u = self.balanced_path(j, self.cells_of(cells, j), state[j], &now).path;
             let e_t = turned(self.direction(j, &now.cage));
             change.torque_by_acceleration -= e_t * ((self.outer_centre_radius + u) * self.element_mass);
         }

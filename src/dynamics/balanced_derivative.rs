@@ -7,7 +7,7 @@
 use super::balance_lanes::SmoothElements;
 use super::contact_lanes::Record;
 use super::element_balance::InBalance;
-use super::forces::{Forces, UnsolvedContact};
+use super::forces::Forces;
 use super::kinematics::{FramedKinematics, Kinematics, Stage, moved};
 use super::linearized::Linearized;
 use super::model::Model;
@@ -66,9 +66,9 @@ impl Model {
             let found = self.in_balance(j, cells, guess, &now);
             forces.defect_lookups += found.looks * cells.iter().filter(|cells| **cells != [SMOOTH; 2]).count() as u64;
             if !found.is_found()
-                && let Some((angle, cause)) = self.contact_without_answer((j, cells), found.path, &now)
+                && let Some(unsolved) = self.contact_without_answer(j, cells, found.path, &now)
             {
-                forces.unsolved = Some(UnsolvedContact { element: j, angle, offset: now.offset().into(), cause });
+                forces.unsolved = Some(unsolved);
             }
             let exerted = found.exerted();
             for (sum, force) in rings.iter_mut().zip(exerted.rings) {

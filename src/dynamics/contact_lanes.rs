@@ -132,18 +132,19 @@ impl Model {
         now: &Kinematics,
         stage: &Stage,
         derivative: &mut [f64],
-        (elements, contacts): (&[ElementBlock], &mut Record),
+        elements: &[ElementBlock],
+        contacts: &mut Record,
     ) -> [f64; 4] {
         // A function of its own, so that nothing of it is in the way of balls.
         if let Some(line) = self.inner.contact.law.elasticity.line() {
-            let found = (elements, contacts);
             return simd.outlined(Rollers::<RECORD, SPECIAL> {
                 model: self,
                 line,
                 now: &{ *now },
                 stage,
                 derivative,
-                found,
+                elements,
+                contacts,
             });
         }
         self.contacts_of::<S, Point, RECORD, SPECIAL>(simd, Point, now, stage, derivative, (elements, contacts))
@@ -183,7 +184,7 @@ impl Model {
                     break;
                 }
                 let of = |numbers: &[f64; WIDEST]| Lanes::part(simd, numbers, part);
-                let found = smooth.contacts::<S, SPECIAL>((simd, of(&state[k]), of(&state[w])), block, of, &mut sums);
+                let found = smooth.contacts::<S, SPECIAL>(simd, of(&state[k]), of(&state[w]), block, of, &mut sums);
                 found.path_rate.put(&mut derivative[k], part);
                 found.acceleration.put(&mut derivative[w], part);
                 if RECORD {
@@ -217,10 +218,13 @@ impl<S: Wide> Found<S> {
 }
 
 impl<E: Elastic> Smooth<'_, E> {
+    /// Of elements at the paths `u` [m] and absolute radial velocities `w` [m/s].
     #[inline(always)]
     fn contacts<S: Wide, const SPECIAL: bool>(
         &self,
-        (simd, u, w): (S, Lanes<S>, Lanes<S>),
+        simd: S,
+        u: Lanes<S>,
+        w: Lanes<S>,
         block: &ElementBlock,
         of: impl Fn(&[f64; WIDEST]) -> Lanes<S>,
         sums: &mut Sums,
@@ -284,7 +288,8 @@ struct Rollers<'a, const RECORD: bool, const SPECIAL: bool> {
     now: &'a Kinematics,
     stage: &'a Stage<'a>,
     derivative: &'a mut [f64],
-    found: (&'a [ElementBlock], &'a mut Record),
+    elements: &'a [ElementBlock],
+    contacts: &'a mut Record,
 }
 
 impl<const RECORD: bool, const SPECIAL: bool> Kernel for Rollers<'_, RECORD, SPECIAL> {
@@ -292,7 +297,7 @@ impl<const RECORD: bool, const SPECIAL: bool> Kernel for Rollers<'_, RECORD, SPE
 
     #[inline(always)]
     fn run<S: Wide>(self, simd: S) -> [f64; 4] {
-        let Self { model, line, now, stage, derivative, found } = self;
-        model.contacts_of::<S, Line, RECORD, SPECIAL>(simd, line, now, stage, derivative, found)
+        let Self { model, line, now, stage, derivative, elements, contacts } = self;
+        model.contacts_of::<S, Line, RECORD, SPECIAL>(simd, line, now, stage, derivative, (elements, contacts))
     }
 }

@@ -29,7 +29,8 @@ impl Model {
         &self,
         drive: &Drive,
         ends: [Known; 2],
-        (h, share): (f64, f64),
+        h: f64,
+        share: f64,
         cage: &CageState,
         out: &mut [f64],
     ) {
@@ -110,7 +111,7 @@ mod tests {
             let ends = [known(&state[..], &rates[0][..], 0.0), known(&end, &rates[1], h)];
             for share in [0.3, 0.7] {
                 let mut found = vec![0.0; state.len()];
-                model.dense_output(&drive, ends, (h, share), &drive.cage_at(share * h), &mut found);
+                model.dense_output(&drive, ends, h, share, &drive.cage_at(share * h), &mut found);
                 let expected = integrated(&model, &drive, (&state, &cells), share * h);
                 for i in (0..state.len()).filter(|&i| model.layout.is_used(i)) {
                     let limit = if model.layout.is_position(i) { 1e-16 } else { 2e-9 };

@@ -24,13 +24,13 @@
 
 use super::drive::Frame;
 use super::element_contacts::Meeting;
-use super::kinematics::FramedKinematics;
+use super::forces::UnsolvedContact;
+use super::kinematics::{FramedKinematics, PathMotion};
 use super::linearized::{Bends, ElementChange, ElementVariation, Linearized};
 use super::model::Model;
 use super::path_search::PathSearch;
 use super::raceway::SMOOTH;
-use super::tangent::{Rings, stacked};
-use crate::contact::error::ContactError;
+use super::tangent::{RadialForce, Rings, stacked};
 use crate::contact::rolling::RacewaySide;
 use crate::numerics::plane::{Vector, turned};
 
@@ -78,6 +78,15 @@ pub(super) struct Exerted {
     pub(super) torques: [(Frame, f64); 2],
 }
 
+/// A path that was searched for.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct FoundPath {
+    /// [m]
+    pub(super) path: f64,
+    /// How often contacts were looked at.
+    looks: u64,
+}
+
 impl InBalance {
     /// What it exerts.
     pub(super) fn exerted(&self) -> Exerted {
@@ -101,16 +110,17 @@ impl Model {
     /// Element `j` in balance, looked for from path `guess` [m] on. Where there is no balance, or a contact has no
     /// answer, forces are no numbers.
     pub(super) fn in_balance(&self, j: usize, cells: [[u32; 2]; 2], guess: f64, now: &FramedKinematics) -> InBalance {
-        let (path, looks) = self.balanced_path(j, cells, guess, now);
-        let elastic = self.linearized_at(j, cells, (path, 0.0), now, Bends::Wanted);
-        let (force, slope) = self.radial_balance(&elastic);
+        let FoundPath { path, looks } = self.balanced_path(j, cells, guess, now);
+        let elastic = self.linearized_at(j, cells, PathMotion::at_rest(path), now, Bends::Wanted);
+        let RadialForce { force, slope } = self.radial_balance(&elastic);
         let body = self.element_mass * (self.gravity.norm() + self.outer_centre_radius * elastic.omega * elastic.omega);
         let limit =
             RESIDUAL * (body + elastic.inner.norm() + elastic.outer.x.abs()) + ROUNDING * elastic.rho * slope.abs();
         let path_rate = self.balance_rate(j, &elastic, now);
         let dampers = self.dampers.as_deref().map(|[inner, outer]| [inner, outer]);
         let contacts = dampers.unwrap_or([&self.inner.contact, &self.outer.contact]);
-        let damped = self.linearized_with(contacts, j, cells, (path, path_rate), now, Bends::LeftOut);
+        let damped =
+            self.linearized_with(contacts, j, cells, PathMotion { path, rate: path_rate }, now, Bends::LeftOut);
         let ElementChange { inner, outer } = damping(&elastic, &damped);
         let known = if force.abs() <= limit { 1.0 } else { f64::NAN };
         InBalance {
@@ -125,31 +135,31 @@ impl Model {
         }
     }
 
-    /// Path of the balance [m], and how often contacts were looked at.
+    /// Path of the balance, looked for from `guess` [m] on.
     pub(super) fn balanced_path(
         &self,
         j: usize,
         cells: [[u32; 2]; 2],
         guess: f64,
         now: &FramedKinematics,
-    ) -> (f64, u64) {
+    ) -> FoundPath {
         let mut search = PathSearch::between(f64::NEG_INFINITY, f64::INFINITY, FIRST_STRIDE);
         let mut u = if guess.is_finite() { guess } else { 0.0 };
         for look in 1..LOOKS {
-            let element = self.linearized_at(j, cells, (u, 0.0), now, Bends::LeftOut);
-            let (force, slope) = self.radial_push(&element);
+            let element = self.linearized_at(j, cells, PathMotion::at_rest(u), now, Bends::LeftOut);
+            let RadialForce { force, slope } = self.radial_push(&element);
             if force == 0.0 && slope == 0.0 {
                 // Nothing pushes and nothing touches.
-                return (self.touching_path(j, cells[1], now), look);
+                return FoundPath { path: self.touching_path(j, cells[1], now), looks: look };
             }
             let newton = u - force / slope;
             if (newton - u).abs() <= SETTLED {
-                return (newton, look);
+                return FoundPath { path: newton, looks: look };
             }
-            let Some(next) = search.next(u, force, newton) else { return (u, look) };
+            let Some(next) = search.next(u, force, newton) else { return FoundPath { path: u, looks: look } };
             u = next;
         }
-        (u, LOOKS)
+        FoundPath { path: u, looks: LOOKS }
     }
 
     /// u' [m/s] of an element that stays in balance as cage, rings and frames move on.
@@ -164,7 +174,7 @@ impl Model {
         });
         let body = omega * (self.gravity.dot(&e_t) + 2.0 * self.outer_centre_radius * alpha);
         let push = moved.radial(elastic) + omega * elastic.inner.dot(&e_t) + self.element_mass * body;
-        let (_, slope) = self.radial_balance(elastic);
+        let slope = self.radial_balance(elastic).slope;
         if slope < 0.0 { -push / slope } else { 0.0 }
     }
 
@@ -187,13 +197,14 @@ impl Model {
         stacked(-change.inner, change.on_housing(elastic))
     }
 
-    /// Which contact of an element has no answer, and why it has none.
+    /// The contact of element `j` that has no answer.
     pub(super) fn contact_without_answer(
         &self,
-        (j, cells): (usize, [[u32; 2]; 2]),
+        j: usize,
+        cells: [[u32; 2]; 2],
         path: f64,
         now: &FramedKinematics,
-    ) -> Option<(f64, ContactError)> {
+    ) -> Option<UnsolvedContact> {
         let gap = self.inner_gap(path, now.offset(), self.direction(j, &now.cage));
         let inner = self.inner_meeting(j, cells[0], &gap, self.element_angle(j, &now.cage));
         let outer = self.outer_meeting(j, cells[1], path, &now.cage);
@@ -204,7 +215,10 @@ impl Model {
             .filter(|(_, at)| at.cells != [SMOOTH; 2])
             .find_map(|(side, at)| {
                 let (near, _) = self.near_defect(side, &beyond(at), &now.frames);
-                near.err().map(|cause| (self.angle_from_defect(side, &at, &now.frames), cause))
+                near.err().map(|cause| {
+                    let angle = self.angle_from_defect(side, &at, &now.frames);
+                    UnsolvedContact { element: j, angle, offset: now.offset().into(), cause }
+                })
             })
     }
 }

@@ -12,12 +12,12 @@
 use super::drive::{Drive, Frame, Quadratic};
 use super::element_contacts::Meeting;
 pub use super::equilibrium_error::EquilibriumError;
-use super::kinematics::{FramedKinematics, Kinematics};
+use super::kinematics::{FramedKinematics, Kinematics, PathMotion};
 use super::linearized::{Bends, Linearized};
 use super::model::Model;
 use super::path_search::PathSearch;
 use super::raceway::{Cells, SMOOTH};
-use super::tangent::{Rings, stacked};
+use super::tangent::{RadialForce, Rings, stacked};
 use crate::contact::rolling::RacewaySide;
 use crate::numerics::plane::Vector;
 
@@ -156,12 +156,11 @@ impl Model {
         // u' = 0. Without second derivatives of the approach the slope is that of another damping, which Newton's
         // method bears.
         let element = |u: f64| {
-            let element = self.linearized_at(j, cells, (u, 0.0), now, Bends::LeftOut);
-            let (force, slope) = self.radial_push(&element);
-            (force, slope, element)
+            let element = self.linearized_at(j, cells, PathMotion::at_rest(u), now, Bends::LeftOut);
+            (self.radial_push(&element), element)
         };
         let touch = if cells[1] == [SMOOTH; 2] { 0.0 } else { self.touching_path(j, cells[1], now) };
-        let (at_touch, _, touching) = element(touch);
+        let (RadialForce { force: at_touch, .. }, touching) = element(touch);
         if at_touch == 0.0 {
             return (touch, touching);
         }
@@ -170,7 +169,7 @@ impl Model {
         let mut search = PathSearch::between(low, high, FIRST_STRIDE);
         let mut found = element(u);
         for _ in 0..300 {
-            let (force, slope, _) = found;
+            let (RadialForce { force, slope }, _) = found;
             let newton = u - force / slope;
             // A millionth of a millionth of a nanometre: the rounding of micrometre paths.
             if force == 0.0 || (newton - u).abs() < 1e-21 {
@@ -180,7 +179,7 @@ impl Model {
             u = next;
             found = element(u);
         }
-        (u, found.2)
+        (u, found.1)
     }
 
     /// Refuses elements whose balance lies where the contact law near the defect has no answer: their search ends
@@ -198,8 +197,8 @@ impl Model {
                 }
                 let (Err(cause), _) = self.near_defect(side, &at, &now.frames) else { continue };
                 // The search may have ended on the far side, where all is no number.
-                let element = self.linearized_at(j, cells, (u - FURTHER, 0.0), &now, Bends::LeftOut);
-                let residual = self.radial_balance(&element).0;
+                let element = self.linearized_at(j, cells, PathMotion::at_rest(u - FURTHER), &now, Bends::LeftOut);
+                let residual = self.radial_balance(&element).force;
                 if !(residual.abs() <= UNBALANCED * element.inner.norm()) {
                     let angle_deg = self.angle_from_defect(side, &at, &now.frames).to_degrees();
                     return Err(EquilibriumError::Contact { element: j + 1, angle_deg, residual, cause });
@@ -213,8 +212,9 @@ impl Model {
     fn check_elements(&self, given: &Given, rings: Rings, u: &[f64]) -> Result<(), EquilibriumError> {
         let now = given.placed(rings);
         for (j, &path) in u.iter().enumerate() {
-            let element = self.linearized_at(j, self.cells_of(given.cells, j), (path, 0.0), &now, Bends::LeftOut);
-            let (force, slope) = self.radial_balance(&element);
+            let along = PathMotion::at_rest(path);
+            let element = self.linearized_at(j, self.cells_of(given.cells, j), along, &now, Bends::LeftOut);
+            let RadialForce { force, slope } = self.radial_balance(&element);
             let [omega, _] = self.element_speed(j, &now.cage);
             let body = self.element_mass * (self.gravity.norm() + element.rho * omega * omega);
             let contacts = element.inner.norm() + element.outer.x.abs();
@@ -245,7 +245,7 @@ impl Model {
                 (path, element)
             };
             u[j] = path;
-            rounding += self.radial_balance(&element).1.abs() * (path.abs() + play) * 4.0 * f64::EPSILON;
+            rounding += self.radial_balance(&element).slope.abs() * (path.abs() + play) * 4.0 * f64::EPSILON;
             contact_sum += element.inner.norm();
             largest = largest.max(element.inner.amax()).max(element.outer.amax());
         }

@@ -70,6 +70,6 @@ impl Model {
 
     fn at_start(&self, j: usize, cells: &Cells, state: &[f64], now: &FramedKinematics) -> Linearized {
         let cells = self.cells_of(cells, j);
-        self.linearized(j, cells, (state[j], state[self.layout.radial_velocity + j]), now, Bends::Wanted)
+        self.linearized(j, cells, state[j], state[self.layout.radial_velocity + j], now, Bends::Wanted)
     }
 }

@@ -72,6 +72,14 @@ struct Pieces {
     of_cage: [f64; 4],
 }
 
+/// A place among evenly spaced knots.
+struct Place {
+    /// Number of the interval between two of them.
+    interval: i64,
+    /// Share of it that is behind.
+    share: f64,
+}
+
 /// Courses of random numbers; 0 is that of the constant offsets.
 #[derive(Clone, Copy)]
 enum Course {
@@ -163,7 +171,7 @@ impl Irregularity {
     /// The polynomials of all elements' jitter at an instant, and the share of their interval that is behind.
     #[inline(always)]
     fn jitters(&self, cage: &CageState) -> (Ref<'_, Pieces>, f64) {
-        let (interval, share) = self.place(cage, self.count as f64);
+        let Place { interval, share } = self.place(cage, self.count as f64);
         if self.pieces.borrow().jitter != Some(interval) {
             self.renew(&mut self.pieces.borrow_mut(), interval);
         }
@@ -208,7 +216,7 @@ impl Irregularity {
             return Lead::default();
         }
         let per_turn = 1.0 / WANDER_TURNS;
-        let (interval, share) = self.place(cage, per_turn);
+        let Place { interval, share } = self.place(cage, per_turn);
         let mut pieces = self.pieces.borrow_mut();
         if pieces.wander != Some(interval) {
             pieces.wander = Some(interval);
@@ -219,14 +227,14 @@ impl Irregularity {
         evaluated(&pieces.of_cage, share, per_turn / TAU)
     }
 
-    /// Interval between knots, `per_turn` of them in a turn, and the share of it that is behind.
+    /// Where the cage is among knots of which there are `per_turn` in a turn.
     #[inline(always)]
-    fn place(&self, cage: &CageState, per_turn: f64) -> (i64, f64) {
+    fn place(&self, cage: &CageState, per_turn: f64) -> Place {
         // Whole turns first, so that no digits are lost to them.
         let turns = self.turns.get() as f64 * per_turn;
         let (whole, rest) = (turns.floor(), turns - turns.floor());
         let at = rest + (cage.angle - self.start) / TAU * per_turn;
-        (whole as i64 + at.floor() as i64, at - at.floor())
+        Place { interval: whole as i64 + at.floor() as i64, share: at - at.floor() }
     }
 
     /// The spline's polynomial in one interval.
@@ -278,8 +286,8 @@ mod tests {
                     let quotient = (values[1] - values[0]) / (2.0 * step);
                     assert!((quotient - slope).abs() < 1e-5 * size, "{angle} {quotient} {slope}");
                 }
-                if (of.place(&at(&of, 0, angle), 9.0).1 - 0.5).abs() < 0.4
-                    && (of.place(&at(&of, 0, angle), 1.0 / 3.0).1 - 0.5).abs() < 0.4
+                if (of.place(&at(&of, 0, angle), 9.0).share - 0.5).abs() < 0.4
+                    && (of.place(&at(&of, 0, angle), 1.0 / 3.0).share - 0.5).abs() < 0.4
                 {
                     let quotient = (after.bend - before.bend) / (2.0 * step);
                     assert!((quotient - here.twist).abs() < 1e-5, "{angle} {quotient} {}", here.twist);

@@ -45,6 +45,24 @@ pub struct ElementBlock {
     pub rings_by_velocity: Rings,
 }
 
+/// Where a body's position and velocity along one axis stand in the state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct BodyPlace {
+    /// Of the position.
+    pub position: usize,
+    /// Of the velocity.
+    pub velocity: usize,
+}
+
+/// What moves fastest.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Fastest {
+    /// Magnitude of its eigenvalue [1/s].
+    pub eigenvalue: f64,
+    /// Its damping ratio, 0 to 1.
+    pub damping: f64,
+}
+
 /// The Jacobian in its blocks.
 #[derive(Debug, Clone)]
 pub struct Jacobian {
@@ -54,9 +72,8 @@ pub struct Jacobian {
     pub by_position: BodyMatrix,
     /// Accelerations of the bodies by their velocities [1/s].
     pub by_velocity: BodyMatrix,
-    /// Where position and velocity of each body stand in the state; `None` for a body without state, whose rows and
-    /// columns count for nothing.
-    pub places: [Option<(usize, usize)>; BODIES],
+    /// Where each body stands in the state; `None` for a body without state, whose rows and columns count for nothing.
+    pub places: [Option<BodyPlace>; BODIES],
     /// Where the elements' velocities begin in the state.
     pub radial_velocity: usize,
 }
@@ -87,14 +104,13 @@ impl Jacobian {
         }
     }
 
-    /// Largest eigenvalue magnitude [1/s] of the elements and bodies, each taken alone while all else stands still, and
-    /// the damping ratio (0 to 1) of the one that has it.
+    /// The fastest of the elements and bodies, each taken alone while all else stands still.
     ///
-    /// Neighbours that move too make it larger: without damping by √3 at most; with damping, among many assemblies, by
+    /// Neighbours that move too make the eigenvalue larger: without damping by √3 at most; with damping, among many assemblies, by
     /// less than 2 where rings are heavier than an element and by less than 3 where they are not.
     /// `tests/motion/fastest_eigenvalue.rs` compares it with all eigenvalues.
-    pub fn fastest(&self) -> (f64, f64) {
-        let mut fastest = (0.0, 0.0);
+    pub fn fastest(&self) -> Fastest {
+        let mut fastest = Fastest::default();
         let mut consider = |by_position: f64, by_velocity: f64| {
             // λ² = by_velocity λ + by_position
             let half = 0.5 * by_velocity;
@@ -105,8 +121,8 @@ impl Jacobian {
             } else {
                 ((-by_position).sqrt(), -half / (-by_position).sqrt())
             };
-            if root > fastest.0 {
-                fastest = (root, damping.clamp(0.0, 1.0));
+            if root > fastest.eigenvalue {
+                fastest = Fastest { eigenvalue: root, damping: damping.clamp(0.0, 1.0) };
             }
         };
         for block in &self.elements {
@@ -137,11 +153,11 @@ impl Jacobian {
             matrix[j][w] = 1.0;
             (matrix[w][j], matrix[w][w]) = (block.by_path, block.by_velocity);
             for a in 0..2 {
-                if let Some((x, v)) = self.places[a] {
+                if let Some(BodyPlace { position: x, velocity: v }) = self.places[a] {
                     (matrix[w][x], matrix[w][v]) = (-block.by_offset[a], block.by_shaft_velocity[a]);
                     (matrix[v][j], matrix[v][w]) = (block.rings_by_path[a], block.rings_by_velocity[a]);
                 }
-                if let Some((x, v)) = self.places[2 + a] {
+                if let Some(BodyPlace { position: x, velocity: v }) = self.places[2 + a] {
                     (matrix[w][x], matrix[w][v]) = (block.by_offset[a], block.by_housing_velocity[a]);
                     (matrix[v][j], matrix[v][w]) = (block.rings_by_path[2 + a], block.rings_by_velocity[2 + a]);
                     matrix[j][v] = -block.e_r[a];
@@ -149,10 +165,10 @@ impl Jacobian {
             }
         }
         let bodies = || self.places.iter().enumerate().filter_map(|(i, place)| place.map(|place| (i, place)));
-        for (i, (x, v)) in bodies() {
+        for (i, BodyPlace { position: x, velocity: v }) in bodies() {
             matrix[x][v] = 1.0;
-            for (k, (x_k, v_k)) in bodies() {
-                (matrix[v][x_k], matrix[v][v_k]) = (self.by_position[(i, k)], self.by_velocity[(i, k)]);
+            for (k, by) in bodies() {
+                (matrix[v][by.position], matrix[v][by.velocity]) = (self.by_position[(i, k)], self.by_velocity[(i, k)]);
             }
         }
         matrix
@@ -213,7 +229,7 @@ impl Model {
         }
         for j in 0..self.element_count {
             let element =
-                self.linearized(j, self.cells_of(cells, j), (state[j], state[start + j]), &shared.now, Bends::Wanted);
+                self.linearized(j, self.cells_of(cells, j), state[j], state[start + j], &shared.now, Bends::Wanted);
             self.add_element(j, &element, &shared, jacobian);
             self.add_element_by_time(j, &element, &shared, &jacobian.places, by_time);
         }
@@ -282,7 +298,7 @@ impl Model {
         j: usize,
         element: &Linearized,
         shared: &Shared,
-        places: &[Option<(usize, usize)>; BODIES],
+        places: &[Option<BodyPlace>; BODIES],
         by_time: &mut [f64],
     ) {
         let Linearized { e_r, e_t, rho, omega, .. } = *element;
@@ -310,8 +326,8 @@ impl Model {
         let turning = e_r * (omega * element.outer.y) + e_t * (omega * element.outer.x);
         let force = stacked(-with_time.inner, with_time.on_housing(element) + turning);
         for i in 0..4 {
-            if let Some((_, place)) = places[i] {
-                by_time[place] += shared.inverse_masses[i] * force[i];
+            if let Some(BodyPlace { velocity, .. }) = places[i] {
+                by_time[velocity] += shared.inverse_masses[i] * force[i];
             }
         }
     }
@@ -331,15 +347,16 @@ impl Model {
         let forces = self.supports.forces(&velocity, &acceleration) + loads;
         let rates = forces.component_mul(&self.supports.inverse_masses());
         for (place, rate) in jacobian.places.iter().zip(&rates) {
-            if let Some((_, velocity)) = *place {
+            if let Some(BodyPlace { velocity, .. }) = *place {
                 by_time[velocity] = *rate;
             }
         }
     }
 }
 
-fn places(layout: &Layout) -> [Option<(usize, usize)>; BODIES] {
-    let ring = |start: Option<usize>, axis: usize| start.map(|i| (i + axis, i + 2 + axis));
+fn places(layout: &Layout) -> [Option<BodyPlace>; BODIES] {
+    let ring =
+        |start: Option<usize>, axis: usize| start.map(|i| BodyPlace { position: i + axis, velocity: i + 2 + axis });
     let mut places = [None; BODIES];
     places[..4].copy_from_slice(&[
         ring(layout.shaft, 0),
@@ -348,7 +365,7 @@ fn places(layout: &Layout) -> [Option<(usize, usize)>; BODIES] {
         ring(layout.housing, 1),
     ]);
     for (place, i) in places.iter_mut().skip(4).zip(layout.sensor_places()) {
-        *place = Some((i, i + 1));
+        *place = Some(BodyPlace { position: i, velocity: i + 1 });
     }
     places
 }

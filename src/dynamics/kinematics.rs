@@ -32,6 +32,23 @@ pub struct RingState {
     pub velocity: Vector,
 }
 
+/// An element on its path.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PathMotion {
+    /// u [m].
+    pub(super) path: f64,
+    /// u' [m/s].
+    pub(super) rate: f64,
+}
+
+impl PathMotion {
+    /// At rest at a path [m].
+    #[inline]
+    pub(super) fn at_rest(path: f64) -> Self {
+        Self { path, rate: 0.0 }
+    }
+}
+
 /// Cage and rings at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Kinematics {

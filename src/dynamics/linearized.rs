@@ -33,7 +33,7 @@
 
 use super::drive::Frame;
 use super::element_contacts::{InnerGap, Meeting};
-use super::kinematics::FramedKinematics;
+use super::kinematics::{FramedKinematics, PathMotion};
 use super::model::Model;
 use super::raceway::{Near, SMOOTH};
 use crate::contact::compliant::CompliantContact;
@@ -206,24 +206,25 @@ impl Model {
         &self,
         j: usize,
         cells: [[u32; 2]; 2],
-        (u, w): (f64, f64),
+        u: f64,
+        w: f64,
         now: &FramedKinematics,
         bends: Bends,
     ) -> Linearized {
-        let path_rate = w - now.housing.velocity.dot(&self.direction(j, &now.cage));
-        self.linearized_at(j, cells, (u, path_rate), now, bends)
+        let rate = w - now.housing.velocity.dot(&self.direction(j, &now.cage));
+        self.linearized_at(j, cells, PathMotion { path: u, rate }, now, bends)
     }
 
-    /// Element `j` at path and path rate `(u, u')`.
+    /// The same at this motion along its path.
     pub(super) fn linearized_at(
         &self,
         j: usize,
         cells: [[u32; 2]; 2],
-        (u, path_rate): (f64, f64),
+        along: PathMotion,
         now: &FramedKinematics,
         bends: Bends,
     ) -> Linearized {
-        self.linearized_with([&self.inner.contact, &self.outer.contact], j, cells, (u, path_rate), now, bends)
+        self.linearized_with([&self.inner.contact, &self.outer.contact], j, cells, along, now, bends)
     }
 
     /// As [`linearized_at`](Self::linearized_at), with these contacts instead of the raceways'.
@@ -232,7 +233,7 @@ impl Model {
         contacts: [&CompliantContact; 2],
         j: usize,
         cells: [[u32; 2]; 2],
-        (u, path_rate): (f64, f64),
+        PathMotion { path: u, rate: path_rate }: PathMotion,
         now: &FramedKinematics,
         bends: Bends,
     ) -> Linearized {

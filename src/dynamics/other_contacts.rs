@@ -22,7 +22,8 @@ impl Model {
     fn other_outer_contacts<const RECORD: bool>(
         &self,
         now: &Kinematics,
-        state: (&[f64], Option<f64>),
+        state: &[f64],
+        ahead: Option<f64>,
         forces: &mut Forces,
     ) -> Vector {
         let Forces { other_outer, other_contacts: [_, contacts], elements, torques, .. } = forces;
@@ -32,7 +33,7 @@ impl Model {
         }
         let mut sum = OuterSum { on_housing: Vector::zeros(), elements, torques, contacts };
         for &Other { element: j, cells } in other_outer.iter() {
-            let at @ OnPath { u, path_rate, .. } = self.on_path(j, now, state, sum.elements);
+            let at @ OnPath { u, path_rate, .. } = self.on_path(j, now, state, ahead, sum.elements);
             // Each way to the end with its own numbers: what is one or another is written to memory and read late.
             match cells {
                 [SMOOTH, SMOOTH] => sum.add::<RECORD>(self, &at, self.yielding_contact(u, path_rate)),
@@ -41,7 +42,7 @@ impl Model {
                     let [angle, speed] = self.turning(j, now, sum.elements);
                     let (meeting, frame) = (self.outer_meeting_at(angle, j, cells, u), self.outer.defects.frame);
                     let near = self.near_ring_defect(RacewaySide::Outer, &meeting, frames).unwrap_or_else(|cause| {
-                        self.without_answer(RacewaySide::Outer, (&meeting, now, frames), cause, unsolved)
+                        self.without_answer(RacewaySide::Outer, &meeting, now, frames, cause, unsolved)
                     });
                     let turning = speed - frames.of(frame).speed;
                     let found = self.outer_contact(&near, frame, [path_rate, turning], meeting.distance);
@@ -51,7 +52,7 @@ impl Model {
                     *defect_lookups += 1;
                     let [angle, speed] = self.turning(j, now, sum.elements);
                     let meeting = self.outer_meeting_at(angle, j, cells, u);
-                    let found = self.own_outer_contact(&meeting, [path_rate, speed], (now, frames), unsolved);
+                    let found = self.own_outer_contact(&meeting, [path_rate, speed], now, frames, unsolved);
                     sum.add::<RECORD>(self, &at, found);
                 }
             }
@@ -65,7 +66,8 @@ impl Model {
         &self,
         j: usize,
         now: &Kinematics,
-        (state, ahead): (&[f64], Option<f64>),
+        state: &[f64],
+        ahead: Option<f64>,
         elements: &[ElementBlock],
     ) -> OnPath {
         let (block, i, cage) = (&elements[j / WIDEST], j % WIDEST, &now.cage);
@@ -88,7 +90,8 @@ impl Model {
     pub(super) fn other_inner_contacts<const RECORD: bool>(
         &self,
         now: &Kinematics,
-        state: (&[f64], Option<f64>),
+        state: &[f64],
+        ahead: Option<f64>,
         forces: &mut Forces,
     ) -> Vector {
         let mut on_shaft = Vector::zeros();
@@ -99,14 +102,14 @@ impl Model {
             contacts.clear();
         }
         for &Other { element: j, cells } in other_inner.iter() {
-            let OnPath { e_r, u, path_rate, .. } = self.on_path(j, now, state, elements);
+            let OnPath { e_r, u, path_rate, .. } = self.on_path(j, now, state, ahead, elements);
             let [angle, speed] = self.turning(j, now, elements);
             *lookups += 1;
             let gap = self.inner_gap(u, now.offset(), e_r);
             let at = self.inner_meeting(j, cells, &gap, angle);
             let (near, frame) = self.near_defect(RacewaySide::Inner, &at, frames);
-            let near = near
-                .unwrap_or_else(|cause| self.without_answer(RacewaySide::Inner, (&at, now, frames), cause, unsolved));
+            let near =
+                near.unwrap_or_else(|cause| self.without_answer(RacewaySide::Inner, &at, now, frames, cause, unsolved));
             let near = Near::new(near, frame, frames);
             let around = (self.outer_centre_radius + u) * speed;
             let q_rate = [now.drift().dot(&e_r) + path_rate, now.drift().dot(&turned(e_r)) + around];
@@ -129,7 +132,9 @@ impl Model {
     fn without_answer(
         &self,
         side: RacewaySide,
-        (at, now, frames): (&Meeting, &Kinematics, &Frames),
+        at: &Meeting,
+        now: &Kinematics,
+        frames: &Frames,
         cause: ContactError,
         unsolved: &mut Option<UnsolvedContact>,
     ) -> Approach {
@@ -157,12 +162,13 @@ impl Model {
         &self,
         at: &Meeting,
         [path_rate, speed]: [f64; 2],
-        (now, frames): (&Kinematics, &Frames),
+        now: &Kinematics,
+        frames: &Frames,
         unsolved: &mut Option<UnsolvedContact>,
     ) -> OtherContact {
         let (near, frame) = self.near_defect(RacewaySide::Outer, at, frames);
         let near =
-            near.unwrap_or_else(|cause| self.without_answer(RacewaySide::Outer, (at, now, frames), cause, unsolved));
+            near.unwrap_or_else(|cause| self.without_answer(RacewaySide::Outer, at, now, frames, cause, unsolved));
         let turning = speed - frames.of(frame).speed;
         self.outer_contact(&near, frame, [path_rate, turning], at.distance)
     }
@@ -247,7 +253,9 @@ struct OnPath {
 pub(super) struct OtherOuter<'a, const RECORD: bool> {
     pub(super) model: &'a Model,
     pub(super) now: &'a Kinematics,
-    pub(super) state: (&'a [f64], Option<f64>),
+    pub(super) state: &'a [f64],
+    /// Time [s] by which paths are still to be moved on along their rates.
+    pub(super) ahead: Option<f64>,
     pub(super) forces: &'a mut Forces,
 }
 
@@ -256,6 +264,6 @@ impl<const RECORD: bool> Kernel for OtherOuter<'_, RECORD> {
 
     #[inline(always)]
     fn run<S: Wide>(self, _: S) -> Vector {
-        self.model.other_outer_contacts::<RECORD>(self.now, self.state, self.forces)
+        self.model.other_outer_contacts::<RECORD>(self.now, self.state, self.ahead, self.forces)
     }
 }

@@ -2,6 +2,7 @@
 
 use super::linearized::Linearized;
 use super::model::Model;
+use super::tangent::RadialForce;
 
 /// Longest of Newton's steps [m].
 const LONGEST_STEP: f64 = 50e-6;
@@ -47,9 +48,9 @@ impl PathSearch {
 impl Model {
     /// As [`Model::radial_balance`], where contacts need not have an answer: an inner contact too deep for its law
     /// pushes outwards, whatever its force. One outside is taken for one that pushes inwards: no number is not above 0.
-    pub(super) fn radial_push(&self, element: &Linearized) -> (f64, f64) {
-        let (force, slope) = self.radial_balance(element);
+    pub(super) fn radial_push(&self, element: &Linearized) -> RadialForce {
+        let RadialForce { force, slope } = self.radial_balance(element);
         let too_deep = element.inner.x.is_nan() && !element.outer.x.is_nan();
-        (if too_deep { f64::INFINITY } else { force }, slope)
+        RadialForce { force: if too_deep { f64::INFINITY } else { force }, slope }
     }
 }

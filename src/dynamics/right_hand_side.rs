@@ -83,18 +83,22 @@ impl Model {
             if self.has_frames {
                 forces.frames = drive.frames_at(tau);
             }
-            let state = (state, ahead);
             if RECORD {
                 forces.torques = [0.0; 3];
             }
             // A copy for each call, so that what is known of the instant can stay in registers: what is written to
             // memory in parts and read together soon after is read late.
             if outer {
-                on_housing =
-                    simd.outlined(OtherOuter::<RECORD> { model: self, now: &{ now }, state, forces: &mut *forces });
+                on_housing = simd.outlined(OtherOuter::<RECORD> {
+                    model: self,
+                    now: &{ now },
+                    state,
+                    ahead,
+                    forces: &mut *forces,
+                });
             }
             if inner {
-                on_shaft = self.other_inner_contacts::<RECORD>(&{ now }, state, forces);
+                on_shaft = self.other_inner_contacts::<RECORD>(&{ now }, state, ahead, forces);
             }
         }
         let [shaft_x, shaft_y, housing_x, housing_y] = self.smooth_contacts::<S, RECORD, SPECIAL>(
@@ -102,7 +106,8 @@ impl Model {
             &now,
             stage,
             derivative,
-            (&forces.elements, &mut forces.contacts),
+            &forces.elements,
+            &mut forces.contacts,
         );
         let (shaft_x, shaft_y) = (shaft_x + on_shaft.x, shaft_y + on_shaft.y);
         let (housing_x, housing_y) = (housing_x + on_housing.x, housing_y + on_housing.y);

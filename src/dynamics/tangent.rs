@@ -6,7 +6,7 @@
 //!
 //! An element that nothing touches does not answer.
 
-use super::kinematics::FramedKinematics;
+use super::kinematics::{FramedKinematics, PathMotion};
 use super::linearized::{Bends, ElementVariation, Linearized};
 use super::model::Model;
 use super::raceway::Cells;
@@ -24,17 +24,28 @@ pub(super) struct Balanced {
     pub(super) rings: Rings,
 }
 
+/// Radial force R on an element, inertia of the turning cage and gravity included.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct RadialForce {
+    /// R [N].
+    pub(super) force: f64,
+    /// Its derivative by u [N/m].
+    pub(super) slope: f64,
+}
+
 impl Model {
-    /// Radial force R on an element [N], inertia of the turning cage and gravity included, and its derivative by u
-    /// [N/m].
+    /// Radial force on an element, 0 in balance.
     #[inline]
-    pub(super) fn radial_balance(&self, element: &Linearized) -> (f64, f64) {
+    pub(super) fn radial_balance(&self, element: &Linearized) -> RadialForce {
         let Linearized { e_r, rho, omega, .. } = *element;
         let (radius, grows) = self.centrifugal_radius(rho);
         let body = self.gravity.dot(&e_r) + radius * omega * omega;
         let contacts = element.inner.dot(&e_r) - element.outer.x;
         let along = element.change(&ElementVariation::of_path()).radial(element);
-        (contacts + self.element_mass * body, along + self.element_mass * omega * omega * grows)
+        RadialForce {
+            force: contacts + self.element_mass * body,
+            slope: along + self.element_mass * omega * omega * grows,
+        }
     }
 
     /// Radius [m] at which an element at distance `rho` [m] feels its centrifugal force, and its derivative by the
@@ -81,7 +92,8 @@ impl Model {
     pub(super) fn ring_jacobian_at(&self, u: &[f64], cells: &Cells, now: &FramedKinematics) -> RingJacobian {
         let mut jacobian = RingJacobian::zeros();
         for j in 0..self.element_count {
-            let element = self.linearized_at(j, self.cells_of(cells, j), (u[j], 0.0), now, Bends::LeftOut);
+            let along = PathMotion::at_rest(u[j]);
+            let element = self.linearized_at(j, self.cells_of(cells, j), along, now, Bends::LeftOut);
             self.add_balanced(&element, &mut jacobian);
         }
         jacobian

@@ -10,7 +10,7 @@
 
 use super::drive::{Drive, Frame};
 use super::irregularity::Lead;
-use super::kinematics::{CageState, FramedKinematics, RingState};
+use super::kinematics::{CageState, FramedKinematics, PathMotion, RingState};
 use super::linearized::{Bends, DIFFERENCE, ElementChange, ElementVariation, Linearized};
 use super::model::Model;
 use super::raceway::{Cells, SMOOTH};
@@ -135,8 +135,8 @@ impl Model {
             let in_cells = self.cells_of(cells, j);
             let rings_move = in_cells[0] != [SMOOTH; 2] && by.offset() != none;
             let bends = if moves || rings_move || by.path[j] != 0.0 { Bends::Wanted } else { Bends::LeftOut };
-            let place = (state[j], state[self.layout.radial_velocity + j]);
-            let element = self.linearized(j, in_cells, place, &now, bends);
+            let (u, w) = (state[j], state[self.layout.radial_velocity + j]);
+            let element = self.linearized(j, in_cells, u, w, &now, bends);
             let Linearized { e_r, e_t, rho, omega, .. } = element;
             let Going { turn, speed: speed_change, alpha, alpha_change } = self.going(j, &now.cage, by);
             let path_rate =
@@ -201,8 +201,8 @@ impl Model {
             let (in_cells, u) = (self.cells_of(cells, j), state[j]);
             let turn = self.going(j, &now.cage, by).turn;
             let rho = self.outer_centre_radius + u;
-            let element = self.linearized_at(j, in_cells, (u, 0.0), &still, Bends::LeftOut);
-            let (_, radial) = self.radial_balance(&element);
+            let element = self.linearized_at(j, in_cells, PathMotion::at_rest(u), &still, Bends::LeftOut);
+            let radial = self.radial_balance(&element).slope;
             if radial == 0.0 {
                 continue;
             }
@@ -210,12 +210,12 @@ impl Model {
             let q = by.offset() + e_r * by.path[j] + e_t * (rho * turn);
             let dg = match in_cells[0] {
                 [SMOOTH, SMOOTH] => self.vary_inner_stiffness(u, offset, e_r, q + element.n * by.clearance),
-                _ => self.vary_near_inner_stiffness(j, in_cells, (u, &still), by, element.n),
+                _ => self.vary_near_inner_stiffness(j, in_cells, u, &still, by, element.n),
             };
             let across = g * e_r;
             let d_across = dg * e_r + g * e_t * turn;
             let d_radial = e_t.dot(&across) * turn + e_r.dot(&d_across)
-                - self.vary_outer_stiffness(j, in_cells, u, &still, (by.path[j], turn, by.frames));
+                - self.vary_outer_stiffness(j, in_cells, u, &still, by, turn);
             let mixed = d_across * across.transpose();
             sum += dg - (mixed + mixed.transpose()) / radial
                 + across * across.transpose() * (d_radial / (radial * radial));
@@ -228,7 +228,8 @@ impl Model {
         &self,
         j: usize,
         cells: [[u32; 2]; 2],
-        (u, still): (f64, &FramedKinematics),
+        u: f64,
+        still: &FramedKinematics,
         by: &Variation,
         n: Vector,
     ) -> Matrix {
@@ -248,7 +249,8 @@ impl Model {
             for (turn, by) in moved.frames.0.iter_mut().zip(by.frames) {
                 turn.angle += share * by[0];
             }
-            self.linearized_at(j, cells, (u + share * by.path[j], 0.0), &moved, Bends::LeftOut).by_q
+            let along = PathMotion::at_rest(u + share * by.path[j]);
+            self.linearized_at(j, cells, along, &moved, Bends::LeftOut).by_q
         };
         (at(step) - at(-step)) / (2.0 * step)
     }
@@ -271,23 +273,27 @@ impl Model {
         Matrix::from_diagonal_element(dc) - n * n.transpose() * (dk + dc) - (mixed + mixed.transpose()) * (k + c)
     }
 
-    /// Change of an outer contact's radial tangent stiffness by path [m], cage angle [rad] and frames; near a defect
-    /// and where the raceway yields by central differences, like the second derivatives of the approach.
+    /// Change of an outer contact's radial tangent stiffness by path and frames of a variation and as the element's
+    /// angle changes by `turn` [rad]; near a defect and where the raceway yields by central differences, like the
+    /// second derivatives of the approach.
     fn vary_outer_stiffness(
         &self,
         j: usize,
         cells: [[u32; 2]; 2],
         u: f64,
         still: &FramedKinematics,
-        (path, turn, frames): (f64, f64, [[f64; 2]; 3]),
+        by: &Variation,
+        turn: f64,
     ) -> f64 {
+        let path = by.path[j];
         if cells[1] == [SMOOTH; 2] && self.outer.contact.compliance == 0.0 {
             return if u > 0.0 { self.outer.contact.law.hardening(u) * path } else { 0.0 };
         }
         let radial = |u: f64, angle: f64| {
             // Nothing moves and the rings' offset does not matter to the outer contact.
             let still = FramedKinematics { frames: still.frames, ..FramedKinematics::at_rest(angle, Vector::zeros()) };
-            self.linearized_at(j, cells, (u, 0.0), &still, Bends::LeftOut).change(&ElementVariation::of_path()).outer.x
+            let element = self.linearized_at(j, cells, PathMotion::at_rest(u), &still, Bends::LeftOut);
+            element.change(&ElementVariation::of_path()).outer.x
         };
         let angle = still.cage.angle;
         let mut change = 0.0;
@@ -299,7 +305,7 @@ impl Model {
             return change;
         }
         let at = self.outer_meeting(j, cells[1], u, &still.cage);
-        let turn = turn - frames[self.approach(RacewaySide::Outer, &at, &still.frames).frame as usize][0];
+        let turn = turn - by.frames[self.approach(RacewaySide::Outer, &at, &still.frames).frame as usize][0];
         if turn != 0.0 {
             let step = DIFFERENCE / self.outer_centre_radius;
             let (behind, ahead) = (radial(u, angle - step), radial(u, angle + step));

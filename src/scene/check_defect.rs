@@ -4,7 +4,7 @@ use super::defect_error::DefectError;
 use super::error::SceneError;
 use super::faults::Faults;
 use super::quantity::*;
-use super::{Bearing, Defect, DefectOn, DefectShape};
+use super::{Bearing, Defect, DefectLimit, DefectOn, DefectShape};
 
 /// Length of a spall over element diameter: an element that bridges less sinks by 1/8 of it squared over the radius, 2
 /// nm at 8 µm, and a contact grid that shows it would have a hundred times as many cells as usual. Assumed.
@@ -49,7 +49,7 @@ impl Defect {
     fn check_proportions(&self, [length, depth, edge_slope]: [f64; 3], bearing: &Bearing) -> Result<(), SceneError> {
         let mut faults = Faults::default();
         let (length_mm, depth_um) = (shown(length * 1e3), shown(depth * 1e6));
-        let (longest, limit) = self.on.longest(bearing);
+        let DefectLimit { size: longest, what: limit } = self.on.longest(bearing);
         let limit_mm = shown(longest * 1e3);
         if length_mm >= limit_mm {
             faults.passes(Err(DefectError::SpallTooLong { length_mm, limit_mm, limit }.into()));
@@ -58,7 +58,7 @@ impl Defect {
         if length_mm < limit_mm {
             faults.passes(Err(DefectError::SpallTooShort { length_mm, limit_mm }.into()));
         }
-        let (deepest, limit) = self.on.deepest(bearing);
+        let DefectLimit { size: deepest, what: limit } = self.on.deepest(bearing);
         let limit_um = shown(deepest * 1e6);
         if depth_um >= limit_um {
             faults.passes(Err(DefectError::SpallTooDeep { depth_um, limit_um, limit }.into()));

@@ -49,6 +49,15 @@ pub enum DefectShape {
     Profile(String),
 }
 
+/// What a size of a defect must stay below.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DefectLimit {
+    /// [m]
+    pub size: f64,
+    /// What that is.
+    pub what: &'static str,
+}
+
 /// Part of the way around its body beyond which a defect of the inner ring or of an element is none of one place.
 const LONGEST: f64 = 0.9;
 /// Part of an element's radius beyond which a hole in it leaves no half-space.
@@ -76,22 +85,24 @@ impl DefectOn {
         }
     }
 
-    /// Length that a defect must stay below [m], and what that is.
-    pub fn longest(self, bearing: &Bearing) -> (f64, &'static str) {
+    /// What a defect's length must stay below.
+    pub fn longest(self, bearing: &Bearing) -> DefectLimit {
         let around = TAU * self.radius(bearing);
-        match self {
+        let (size, what) = match self {
             Self::Outer => (around, "the circumference of the outer raceway"),
             Self::Inner => (LONGEST * around, "nine tenths of the circumference of the inner raceway"),
             Self::Element { .. } => (LONGEST * around, "nine tenths of the circumference of an element"),
-        }
+        };
+        DefectLimit { size, what }
     }
 
-    /// Depth that a defect must stay below [m], and what that is.
-    pub fn deepest(self, bearing: &Bearing) -> (f64, &'static str) {
-        match self {
+    /// What a defect's depth must stay below.
+    pub fn deepest(self, bearing: &Bearing) -> DefectLimit {
+        let (size, what) = match self {
             Self::Element { .. } => (DEEPEST * bearing.element_radius(), "a fifth of the radius of an element"),
             _ => (bearing.element_radius(), "the radius of an element"),
-        }
+        };
+        DefectLimit { size, what }
     }
 
     /// Length [m] along the rolling track of a spall of this length: the chord on which the track crosses a round pit

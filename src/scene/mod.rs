@@ -29,7 +29,7 @@ pub use builder::SceneBuilder;
 pub(crate) use cage::centred;
 pub use cage::{Cage, CageIrregularity};
 pub use catalogue::{CatalogueBearing, Inside, catalogue, catalogued};
-pub use defect::{Defect, DefectOn, DefectShape};
+pub use defect::{Defect, DefectLimit, DefectOn, DefectShape};
 pub use defect_error::DefectError;
 pub use error::SceneError;
 pub use key_fault::{Hint, KeyFault};

@@ -2,7 +2,7 @@
 //! in another unit is asked about. Nothing is refused for it.
 
 use super::catalogue::{Inside, catalogued};
-use super::unit_hint::{UnitQuestion, meant};
+use super::unit_hint::{Meant, UnitQuestion, meant};
 use std::f64::consts::PI;
 
 /// A smallest and a largest size.
@@ -208,7 +208,7 @@ impl Dimensions {
             let key = usual.keys.iter().find(|known| **known == key)?;
             Some((*key, (usual.range)(self)?, usual.source))
         })?;
-        let (meant, unit, given) = meant(key, value, usual)?;
+        let Meant { value: meant, unit, given } = meant(key, value, usual)?;
         Some(UnitQuestion { key, value, meant, unit, given, usual, source })
     }
 }

@@ -10,7 +10,7 @@
 
 use nalgebra::{Const, LU, SMatrix};
 
-use crate::dynamics::jacobian::Jacobian;
+use crate::dynamics::jacobian::{BodyPlace, Jacobian};
 use crate::dynamics::model::Model;
 use crate::dynamics::supports::{BODIES, Bodies, FEW_BODIES};
 use crate::dynamics::tangent::{Rings, stacked};
@@ -119,7 +119,7 @@ impl Arrow {
         let start = jacobian.radial_velocity;
         let inverse_shift = 1.0 / self.shift;
         // What the positions' right-hand sides alone would move.
-        let shifted = jacobian.places.map(|place| place.map_or(0.0, |(position, _)| b[position] * inverse_shift));
+        let shifted = jacobian.places.map(|place| place.map_or(0.0, |place| b[place.position] * inverse_shift));
         let offset = Vector::new(shifted[2] - shifted[0], shifted[3] - shifted[1]);
         let mut rings = Rings::zeros();
         for (j, (block, solved)) in jacobian.elements.iter().zip(&self.elements).enumerate() {
@@ -135,14 +135,14 @@ impl Arrow {
         let mut of_rings = v.fixed_rows_mut::<RINGS>(0);
         of_rings += rings;
         for (v, place) in v.iter_mut().zip(&jacobian.places) {
-            *v = place.map_or(0.0, |(_, velocity)| *v + b[velocity]);
+            *v = place.map_or(0.0, |place| *v + b[place.velocity]);
         }
         if !self.bodies.solve(&mut v) {
             // Error control takes a step back whose result is no number.
             v.fill(f64::NAN);
         }
         for (i, place) in jacobian.places.iter().enumerate() {
-            if let Some((position, velocity)) = *place {
+            if let Some(BodyPlace { position, velocity }) = *place {
                 b[velocity] = v[i];
                 b[position] = (v[i] + b[position]) * inverse_shift;
             }

@@ -47,6 +47,18 @@ struct Begun<'a> {
     lead: f64,
 }
 
+/// A crossing as the two ends of the step show it.
+#[derive(Clone, Copy)]
+struct Candidate<'a> {
+    begun: Begun<'a>,
+    /// Share of the step at which it happens if motion is even.
+    share: f64,
+    /// Angle to go until then [rad], with its sign.
+    way: f64,
+    /// The cell beyond.
+    cell: u32,
+}
+
 /// The first crossing within the step tried last.
 pub(super) fn first_crossing(
     workspace: &mut Workspace,
@@ -61,7 +73,7 @@ pub(super) fn first_crossing(
         tau,
         paths: state,
     });
-    let mut first: Option<(f64, Begun, f64, u32)> = None;
+    let mut first: Option<Candidate> = None;
     for at in watched(problem, progress) {
         let frame = start.now.frames.of(at.defects.frame).angle;
         let direction = start.now.cage.angle + model.element_offset(at.element);
@@ -74,23 +86,19 @@ pub(super) fn first_crossing(
         let way = angle.max(0.0);
         if travel != 0.0 && travel.abs() >= way {
             let share = way / travel.abs();
-            if first.is_none_or(|(least, ..)| share < least) {
-                first = Some((share, begun, way * travel.signum(), beyond));
+            if first.is_none_or(|first| share < first.share) {
+                first = Some(Candidate { begun, share, way: way * travel.signum(), cell: beyond });
             }
         }
     }
-    let (guess, begun, way, cell) = first?;
-    let share = root(workspace, (problem, span, progress), &begun, (guess, way));
-    Some(Crossing { share, contact: begun.at.contact, cell })
+    let first = first?;
+    let share = root(workspace, problem, span, progress, &first);
+    Some(Crossing { share, contact: first.begun.at.contact, cell: first.cell })
 }
 
-/// Share of the step at which a contact has made its `way` [rad], bracketed by secants; on the far side.
-fn root(
-    workspace: &mut Workspace,
-    (problem, span, progress): (Problem, Span, &Progress),
-    begun: &Begun,
-    (guess, way): (f64, f64),
-) -> f64 {
+/// Share of the step at which a contact has made its way, bracketed by secants; on the far side.
+fn root(workspace: &mut Workspace, problem: Problem, span: Span, progress: &Progress, of: &Candidate) -> f64 {
+    let Candidate { begun, share: guess, way, .. } = *of;
     let model = problem.model;
     let (mut low, mut high) = (0.0f64, 1.0f64);
     let mut share = guess;

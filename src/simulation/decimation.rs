@@ -35,6 +35,15 @@ pub(super) struct Decimation {
     before: [f64; HALF],
 }
 
+/// Where a sample is among the rows.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    /// Number of the row that it is in the middle of or behind.
+    pub(super) row: u64,
+    /// How many samples behind.
+    pub(super) phase: usize,
+}
+
 impl Decimation {
     /// `factor` samples for a row.
     pub(super) fn new(factor: u64) -> Self {
@@ -57,9 +66,9 @@ impl Decimation {
         self.factor
     }
 
-    /// Number of the row that sample number `sample` is in the middle of or behind, and how many samples behind.
-    pub(super) fn place(&self, sample: u64) -> (u64, usize) {
-        (sample / self.factor, (sample % self.factor) as usize)
+    /// Where sample number `sample` is among the rows.
+    pub(super) fn place(&self, sample: u64) -> Place {
+        Place { row: sample / self.factor, phase: (sample % self.factor) as usize }
     }
 
     /// Rows that are complete when so many samples have been taken.
@@ -68,9 +77,9 @@ impl Decimation {
         begun.saturating_sub(HALF as u64)
     }
 
-    /// Adds a sample that is `phase` samples behind the middle of row number `row` to the sums of all rows that it
-    /// belongs to. `sums` has all slots of the sample's first number, then all of its second, and so on.
-    pub(super) fn add(&self, (row, phase): (u64, usize), sample: &[f64], sums: &mut [f64]) {
+    /// Adds a sample at this place to the sums of all rows that it belongs to. `sums` has all slots of the sample's
+    /// first number, then all of its second, and so on.
+    pub(super) fn add(&self, Place { row, phase }: Place, sample: &[f64], sums: &mut [f64]) {
         let latest = slot(row + HALF as u64);
         if phase == 0 {
             self.begin(row, latest, sample, sums);

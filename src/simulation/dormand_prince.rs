@@ -3,7 +3,7 @@
 //! Coefficients: Dormand and Prince (1980); dense output: Hairer, Nørsett and Wanner, *Solving Ordinary Differential
 //! Equations I*, II.6. The last stage of a step is the first of the next.
 
-use super::explicit::{Explicit, LAST, RightHandSide, combine, row};
+use super::explicit::{Explicit, LAST, RightHandSide, Weights, combine, row};
 use crate::numerics::lanes::{Each, Lanes, Wide};
 
 /// Order of a step, and of the one that its error is estimated by.
@@ -47,34 +47,37 @@ pub fn try_step<S: Wide>(
     right_hand_side: &mut impl RightHandSide,
 ) {
     let Explicit { stages, end, trial, positions, partition } = room;
-    let cut = (*partition, &positions[..]);
+    let (partition, kinds) = (*partition, &positions[..]);
     let rows = (row(STAGES[1]), row(STAGES[2]), row(STAGES[3]), row(STAGES[4]), row(STAGES[5]));
     for stage in 1..LAST {
         let (done, rest) = stages.split_at_mut(stage);
         match stage {
-            1 => combine(simd, cut, (state, [&done[0]]), (h, &rows.0, &rows.0), trial),
-            2 => combine(simd, cut, (state, [&done[0], &done[1]]), (h, &rows.1, &rows.1), trial),
-            3 => combine(simd, cut, (state, [&done[0], &done[1], &done[2]]), (h, &rows.2, &rows.2), trial),
+            1 => combine(simd, partition, kinds, state, [&done[0]], Weights::alike(h, &rows.0), trial),
+            2 => combine(simd, partition, kinds, state, [&done[0], &done[1]], Weights::alike(h, &rows.1), trial),
+            3 => {
+                let stages = [&done[0][..], &done[1], &done[2]];
+                combine(simd, partition, kinds, state, stages, Weights::alike(h, &rows.2), trial);
+            }
             4 => {
-                let from = (state, [&done[0][..], &done[1], &done[2], &done[3]]);
-                combine(simd, cut, from, (h, &rows.3, &rows.3), trial);
+                let stages = [&done[0][..], &done[1], &done[2], &done[3]];
+                combine(simd, partition, kinds, state, stages, Weights::alike(h, &rows.3), trial);
             }
             _ => {
-                let from = (state, [&done[0][..], &done[1], &done[2], &done[3], &done[4]]);
-                combine(simd, cut, from, (h, &rows.4, &rows.4), trial);
+                let stages = [&done[0][..], &done[1], &done[2], &done[3], &done[4]];
+                combine(simd, partition, kinds, state, stages, Weights::alike(h, &rows.4), trial);
             }
         }
-        right_hand_side.evaluate(simd, stage, (trial, None), &mut rest[0]);
+        right_hand_side.evaluate(simd, stage, trial, None, &mut rest[0]);
     }
     let [a, b, c, d, e, f, last] = stages;
     let weights = STAGES[LAST];
-    combine(simd, cut, (state, [&a[..], b, c, d, e, f]), (h, &weights, &weights), end);
-    right_hand_side.evaluate(simd, LAST, (end, None), last);
+    combine(simd, partition, kinds, state, [&a[..], b, c, d, e, f], Weights::alike(h, &weights), end);
+    right_hand_side.evaluate(simd, LAST, end, None, last);
 }
 
-/// State at share `share` of the step tried last, into `out`.
+/// State at share `share` of the step tried last, whose length was `h`, into `out`.
 #[inline(always)]
-pub fn dense<S: Wide>(simd: S, room: &Explicit, state: &[f64], (h, share): (f64, f64), out: &mut [f64]) {
+pub fn dense<S: Wide>(simd: S, room: &Explicit, state: &[f64], h: f64, share: f64, out: &mut [f64]) {
     let [first, _, b, c, d, e, last] = &room.stages;
     room.partition.for_each(simd, [state, &room.end, first, b, c, d, e, last], out, &Dense { h, share }, &mut ());
 }
@@ -121,7 +124,7 @@ mod tests {
     struct From(f64, f64);
 
     impl RightHandSide for From {
-        fn evaluate<S: Wide>(&mut self, _: S, stage: usize, (state, _): (&[f64], Option<f64>), out: &mut [f64]) {
+        fn evaluate<S: Wide>(&mut self, _: S, stage: usize, state: &[f64], _: Option<f64>, out: &mut [f64]) {
             right_hand_side(self.0 + NODES[stage] * self.1, state, out);
         }
     }
@@ -199,7 +202,7 @@ mod tests {
             (1..20)
                 .map(|i| {
                     let share = i as f64 / 20.0;
-                    dense(Scalar256b, &method, &state, (h, share), &mut found);
+                    dense(Scalar256b, &method, &state, h, share, &mut found);
                     (found[1] - 0.5 * (2.0 * share * h).sin()).abs()
                 })
                 .fold(0.0, f64::max)

@@ -25,7 +25,7 @@ pub(super) fn check_step(
         return Ok(());
     }
     if error.is_finite() {
-        let component = worst(workspace, model, span.length, (progress.choice.implicit, workspace.pair));
+        let component = worst(workspace, model, span.length, progress.choice.implicit, workspace.pair);
         return Err(StepError::Underflow { step, limit, since, component });
     }
     // Rings that the host has moved apart say more than what follows from it.
@@ -56,8 +56,9 @@ fn diverging(workspace: &mut Workspace, problem: Problem, span: Span, step: f64,
     StepError::NotFinite { component, value, rate: rates[fastest], step, since }
 }
 
-/// Name of the state with the largest error in the step tried last, whose length was `h`.
-pub(super) fn worst(workspace: &Workspace, model: &Model, h: f64, (implicit, pair): (bool, Pair)) -> String {
+/// Name of the state with the largest error in the step tried last, whose length was `h`; tried by the implicit method
+/// or, explicitly, by this pair.
+pub(super) fn worst(workspace: &Workspace, model: &Model, h: f64, implicit: bool, pair: Pair) -> String {
     let error = |i: usize| {
         if implicit { workspace.implicit.error(i) } else { workspace.explicit.error_of(pair.error_parts(), i, h) }
     };

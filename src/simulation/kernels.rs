@@ -91,7 +91,7 @@ fn implicit<S: Wide>(simd: S, workspace: &mut Workspace, problem: Problem, span:
     let [first, .., last] = &mut explicit.stages;
     let cages = drive.cage_after(from, rodas::NODES.map(|node| node * h));
     let mut system = System { model, drive, cages, forces, jacobian, arrow };
-    implicit.try_step(simd, &progress.state, (first, by_time), h, &mut system);
+    implicit.try_step(simd, &progress.state, first, by_time, h, &mut system);
     *largest_error = implicit.largest_error(weights);
     let stage = Stage { drive, cage: &cages[rodas::NODES.len() - 1], state: &implicit.end, ahead: None };
     model.derivative_on::<S, true>(simd, &stage, last, forces);
@@ -117,13 +117,13 @@ impl Kernel for Probe<'_> {
         let cage = drive.cage_at(from + share * h);
         match pair {
             _ if progress.choice.implicit => implicit.dense(simd, &progress.state, share, dense),
-            Pair::DormandPrince => dormand_prince::dense(simd, explicit, &progress.state, (h, share), dense),
+            Pair::DormandPrince => dormand_prince::dense(simd, explicit, &progress.state, h, share, dense),
             Pair::PhaseFitted => {
                 let start =
                     Known { cage: drive.cage_at(from), state: &progress.state, derivative: &explicit.stages[0] };
                 let end =
                     Known { cage: drive.cage_at(from + h), state: &explicit.end, derivative: &explicit.stages[LAST] };
-                model.dense_output(drive, [start, end], (h, share), &cage, dense);
+                model.dense_output(drive, [start, end], h, share, &cage, dense);
             }
         }
         model.derivative_on::<S, true>(simd, &Stage { drive, cage: &cage, state: dense, ahead: None }, scratch, forces);
@@ -168,8 +168,7 @@ struct Stages<'a> {
 
 impl RightHandSide for Stages<'_> {
     #[inline(always)]
-    fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: (&[f64], Option<f64>), out: &mut [f64]) {
-        let (state, ahead) = state;
+    fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: &[f64], ahead: Option<f64>, out: &mut [f64]) {
         let (model, forces) = (self.model, &mut *self.forces);
         let at = Stage { drive: self.drive, cage: &self.cages[stage.min(LAST - 1)], state, ahead };
         match ahead {

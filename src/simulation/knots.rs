@@ -70,18 +70,14 @@ impl Contact {
     }
 }
 
-/// The earliest scheduled passage of a contact into another cell between `tau`, on `legs`, and `end`.
-pub(super) fn next_knot(
-    model: &Model,
-    drive: &Drive,
-    (tau, legs): (f64, Legs),
-    end: f64,
-    cells: &Cells,
-) -> Option<Knot> {
+/// The earliest scheduled passage of a contact into another cell between `from`, on `legs`, and `end`, both in [s]
+/// since the communication point.
+pub(super) fn next_knot(model: &Model, drive: &Drive, from: f64, legs: Legs, end: f64, cells: &Cells) -> Option<Knot> {
     // In an uneven cage elements go by no quadratic of time: their passages are found like those inside.
     if model.is_uneven() {
         return None;
     }
+    let over = |frame: Frame| Search { model, drive, frame, from, end };
     let ring = passages(drive, Frame::Housing, legs.ring, |way, leg| {
         let on = |(j, &cell): (usize, &u32)| Way {
             defects: &model.outer.defects,
@@ -89,9 +85,8 @@ pub(super) fn next_knot(
             cell,
             contact: Contact::Outer(j),
         };
-        let found =
-            earliest((model, drive, Frame::Housing), (tau, leg), (way, end), cells.outer.iter().enumerate().map(on));
-        found.map(|(tau, contact, cell)| Knot { tau, contact, cell, legs: Legs { ring: leg, ..legs } })
+        let found = over(Frame::Housing).earliest(way, leg, cells.outer.iter().enumerate().map(on));
+        found.map(|Passage { tau, contact, cell }| Knot { tau, contact, cell, legs: Legs { ring: leg, ..legs } })
     });
     if model.defective.is_empty() {
         return ring;
@@ -104,8 +99,8 @@ pub(super) fn next_knot(
             cell: cells[1],
             contact: Contact::Own(k, 1),
         });
-        let found = earliest((model, drive, Frame::Spin), (tau, leg), (way, end), own);
-        found.map(|(tau, contact, cell)| Knot { tau, contact, cell, legs: Legs { spin: leg, ..legs } })
+        let found = over(Frame::Spin).earliest(way, leg, own);
+        found.map(|Passage { tau, contact, cell }| Knot { tau, contact, cell, legs: Legs { spin: leg, ..legs } })
     });
     match (ring, spin) {
         (Some(ring), Some(spin)) => Some(if spin.tau < ring.tau { spin } else { ring }),
@@ -136,30 +131,46 @@ struct Way<'a> {
     contact: Contact,
 }
 
-/// The earliest passage by `end` on a leg that goes `way`, 1 or −1, of contacts over defects that turn with `frame`.
-fn earliest<'a>(
-    (model, drive, frame): (&Model, &Drive, Frame),
-    (tau, leg): (f64, Leg),
-    (way, end): (f64, f64),
-    contacts: impl Iterator<Item = Way<'a>>,
-) -> Option<(f64, Contact, u32)> {
-    let (cage_angle, turned, against) =
-        (drive.cage_angle(tau), drive.frames_at(tau).of(frame).angle, against(drive, frame));
-    let (mut speed, acceleration) = (way * against.rate_at(tau), way * against.0[2]);
-    if leg == Leg::Out {
-        // Where the cage is about to turn, rounding may show it on its way back already.
-        speed = speed.max(0.0);
-    }
-    let mut earliest: Option<(f64, Contact, u32)> = None;
-    for on in contacts.filter(|on| !on.defects.is_empty()) {
-        let direction = cage_angle + model.element_offset(on.element) - turned;
-        let Some(Ahead { angle, beyond }) = on.defects.ahead(on.cell, direction, way > 0.0) else { continue };
-        let at = tau + passage(speed, acceleration, angle.max(0.0));
-        if at <= end && earliest.is_none_or(|e| at < e.0) {
-            earliest = Some((at, on.contact, beyond));
+/// Where passages of contacts over defects that turn with `frame` are looked for: between two times since the
+/// communication point [s].
+struct Search<'a> {
+    model: &'a Model,
+    drive: &'a Drive,
+    frame: Frame,
+    from: f64,
+    end: f64,
+}
+
+/// When a contact enters another cell [s] since the communication point, and which.
+#[derive(Clone, Copy)]
+struct Passage {
+    tau: f64,
+    contact: Contact,
+    cell: u32,
+}
+
+impl Search<'_> {
+    /// The earliest passage on a leg that goes `way`, 1 or −1.
+    fn earliest<'a>(&self, way: f64, leg: Leg, contacts: impl Iterator<Item = Way<'a>>) -> Option<Passage> {
+        let Self { model, drive, frame, from, end } = *self;
+        let (cage_angle, turned, against) =
+            (drive.cage_angle(from), drive.frames_at(from).of(frame).angle, against(drive, frame));
+        let (mut speed, acceleration) = (way * against.rate_at(from), way * against.0[2]);
+        if leg == Leg::Out {
+            // Where the cage is about to turn, rounding may show it on its way back already.
+            speed = speed.max(0.0);
         }
+        let mut earliest: Option<Passage> = None;
+        for on in contacts.filter(|on| !on.defects.is_empty()) {
+            let direction = cage_angle + model.element_offset(on.element) - turned;
+            let Some(Ahead { angle, beyond }) = on.defects.ahead(on.cell, direction, way > 0.0) else { continue };
+            let tau = from + passage(speed, acceleration, angle.max(0.0));
+            if tau <= end && earliest.is_none_or(|e| tau < e.tau) {
+                earliest = Some(Passage { tau, contact: on.contact, cell: beyond });
+            }
+        }
+        earliest
     }
-    earliest
 }
 
 /// Time until speed·t + ½ acceleration·t² reaches `angle` ≥ 0 on its way forward, infinite if never. Where it begins by
@@ -233,7 +244,7 @@ mod tests {
     /// Passes the knots of one communication step; gives how many.
     fn walk(model: &Model, drive: &Drive, end: f64, cells: &mut Cells) -> usize {
         let (mut tau, mut legs, mut count) = (0.0, Legs::OUT, 0);
-        while let Some(knot) = next_knot(model, drive, (tau, legs), end, cells) {
+        while let Some(knot) = next_knot(model, drive, tau, legs, end, cells) {
             (tau, legs) = (knot.tau.max(tau), knot.legs);
             knot.contact.enter(knot.cell, cells);
             count += 1;

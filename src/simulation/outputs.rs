@@ -17,6 +17,21 @@ pub struct Angles {
     pub frames: [f64; 3],
 }
 
+/// The solution at one instant.
+#[derive(Debug, Clone, Copy)]
+pub struct Solution<'a> {
+    /// What acts from outside.
+    pub drive: &'a Drive,
+    /// Time since the communication point [s].
+    pub tau: f64,
+    /// State vector.
+    pub state: &'a [f64],
+    /// Its derivative.
+    pub derivative: &'a [f64],
+    /// State of the modes between outer ring and sensors.
+    pub sensor_modes: &'a [f64],
+}
+
 /// All that the outputs of one instant are computed from.
 #[derive(Debug)]
 pub struct Outputs<'a> {
@@ -39,16 +54,10 @@ impl<'a> Outputs<'a> {
         self.acceleration[RingName::Housing.index()]
     }
 
-    /// Those of the instant `tau` [s] after the communication point. `derivative` and `forces` are the model's for
-    /// `state`, `sensor_modes` the state of the modes between outer ring and sensors; `start` are the angles at the
+    /// Those of a solution. Its derivative and `forces` are the model's for its state; `start` are the angles at the
     /// communication point.
-    pub fn new(
-        model: &'a Model,
-        (drive, tau): (&'a Drive, f64),
-        (state, derivative, sensor_modes): (&'a [f64], &[f64], &[f64]),
-        forces: &'a Forces,
-        start: Angles,
-    ) -> Self {
+    pub fn new(model: &'a Model, solution: Solution<'a>, forces: &'a Forces, start: Angles) -> Self {
+        let Solution { drive, tau, state, derivative, sensor_modes } = solution;
         model.begin(drive);
         let mut sensors = [0.0; MOST_SENSORS];
         for (k, place) in model.layout.sensor_places().enumerate() {

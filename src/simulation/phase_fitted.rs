@@ -18,7 +18,7 @@
 //! conditions were moved until phase, amplitude and reach were as above, with the residuals of order 5 as small as that
 //! leaves them. The tests check all of it.
 
-use super::explicit::{Explicit, LAST, RightHandSide, combine, row};
+use super::explicit::{Explicit, LAST, RightHandSide, Weights, combine, row};
 use crate::numerics::lanes::Wide;
 
 /// Order of a step, and of the one that its error is estimated by.
@@ -72,27 +72,37 @@ pub fn try_step<S: Wide>(
     right_hand_side: &mut impl RightHandSide,
 ) {
     let Explicit { stages, end, trial, positions, partition } = room;
-    let cut = (*partition, &positions[..]);
+    let (partition, kinds) = (*partition, &positions[..]);
     for stage in 1..5 {
         let (done, rest) = stages.split_at_mut(stage);
         match stage {
-            1 => combine(simd, cut, (state, [&done[0]]), (h, &row(POSITIONS[1]), &row(VELOCITIES[1])), trial),
-            2 => combine(simd, cut, (state, [&done[0], &done[1]]), (h, &row(POSITIONS[2]), &row(VELOCITIES[2])), trial),
+            1 => {
+                let stages = [&done[0][..]];
+                let weights = Weights { h, positions: &row(POSITIONS[1]), velocities: &row(VELOCITIES[1]) };
+                combine(simd, partition, kinds, state, stages, weights, trial);
+            }
+            2 => {
+                let stages = [&done[0][..], &done[1]];
+                let weights = Weights { h, positions: &row(POSITIONS[2]), velocities: &row(VELOCITIES[2]) };
+                combine(simd, partition, kinds, state, stages, weights, trial);
+            }
             3 => {
-                let from = (state, [&done[0][..], &done[1], &done[2]]);
-                combine(simd, cut, from, (h, &row(POSITIONS[3]), &row(VELOCITIES[3])), trial);
+                let stages = [&done[0][..], &done[1], &done[2]];
+                let weights = Weights { h, positions: &row(POSITIONS[3]), velocities: &row(VELOCITIES[3]) };
+                combine(simd, partition, kinds, state, stages, weights, trial);
             }
             _ => {
-                let from = (state, [&done[0][..], &done[1], &done[2], &done[3]]);
-                combine(simd, cut, from, (h, &row(POSITIONS[4]), &row(VELOCITIES[4])), trial);
+                let stages = [&done[0][..], &done[1], &done[2], &done[3]];
+                let weights = Weights { h, positions: &row(POSITIONS[4]), velocities: &row(VELOCITIES[4]) };
+                combine(simd, partition, kinds, state, stages, weights, trial);
             }
         }
-        right_hand_side.evaluate(simd, stage, (trial, Some(h * POSITIONS[stage][stage])), &mut rest[0]);
+        right_hand_side.evaluate(simd, stage, trial, Some(h * POSITIONS[stage][stage]), &mut rest[0]);
     }
     let [a, b, c, d, e, _, last] = stages;
     let weights = row(WEIGHTS);
-    combine(simd, cut, (state, [&a[..], b, c, d, e]), (h, &weights, &weights), end);
-    right_hand_side.evaluate(simd, LAST, (end, None), last);
+    combine(simd, partition, kinds, state, [&a[..], b, c, d, e], Weights::alike(h, &weights), end);
+    right_hand_side.evaluate(simd, LAST, end, None, last);
 }
 
 #[cfg(test)]
@@ -262,7 +272,7 @@ mod tests {
     struct Oscillators<F>(F, f64, f64);
 
     impl<F: Fn(f64, f64, f64) -> f64> RightHandSide for Oscillators<F> {
-        fn evaluate<S: Wide>(&mut self, _: S, stage: usize, (state, ahead): (&[f64], Option<f64>), out: &mut [f64]) {
+        fn evaluate<S: Wide>(&mut self, _: S, stage: usize, state: &[f64], ahead: Option<f64>, out: &mut [f64]) {
             let (tau, h) = (self.1, self.2);
             for i in [0, 2] {
                 let (v, node) = (state[i + 1], NODES[stage.min(LAST - 1)]);
@@ -280,7 +290,7 @@ mod tests {
         for step in 0..count {
             let mut equations = Oscillators(force, step as f64 * h, h);
             let mut first = [0.0; 4];
-            equations.evaluate(Scalar256b, 0, (&state, None), &mut first);
+            equations.evaluate(Scalar256b, 0, &state, None, &mut first);
             room.stages[0].copy_from_slice(&first);
             try_step(Scalar256b, &mut room, &state, h, &mut equations);
             state.copy_from_slice(&room.end);
@@ -317,7 +327,7 @@ mod tests {
     struct Lists(f64);
 
     impl RightHandSide for Lists {
-        fn evaluate<S: Wide>(&mut self, _: S, _: usize, (state, ahead): (&[f64], Option<f64>), out: &mut [f64]) {
+        fn evaluate<S: Wide>(&mut self, _: S, _: usize, state: &[f64], ahead: Option<f64>, out: &mut [f64]) {
             let places = (0..9).map(|j| (j, 16 + j)).chain([(32, 33), (34, 35)]);
             for (x, v) in places {
                 let moved = state[x] + ahead.unwrap_or(0.0) * state[v];
@@ -347,7 +357,7 @@ mod tests {
             .map(|i| if (9..16).contains(&i) || (25..32).contains(&i) { 0.0 } else { (i as f64).sin() })
             .collect();
         let mut first = vec![0.0; 36];
-        Lists(3.0).evaluate(Scalar256b, 0, (&state, None), &mut first);
+        Lists(3.0).evaluate(Scalar256b, 0, &state, None, &mut first);
         room.stages[0].copy_from_slice(&first);
         let wide = dispatch(OneStep(&mut room, &state));
         let narrow = OneStep(&mut room, &state).run(Scalar256b);

@@ -10,7 +10,7 @@
 
 use std::f64::consts::TAU;
 
-use super::decimation::{Decimation, HALF, RATE_PER_PASS, UNDER_WAY, slot};
+use super::decimation::{Decimation, HALF, Place, RATE_PER_PASS, UNDER_WAY, slot};
 use super::outputs::{Angles, Outputs};
 use super::quantity::Quantity;
 use super::setup::largest_force;
@@ -59,8 +59,9 @@ pub struct Recorder {
     values: Vec<f64>,
     /// Folder that the host wants the recording in; empty for no recording.
     pub(super) folder: String,
-    /// Time and angles at the communication point.
-    start: (f64, Angles),
+    /// Time [s] and angles at the communication point.
+    start_time: f64,
+    start_angles: Angles,
 }
 
 /// Rows that have not been fetched yet.
@@ -102,7 +103,8 @@ impl Recorder {
             first: 0,
             values: Vec::new(),
             folder: String::new(),
-            start: (0.0, Angles::default()),
+            start_time: 0.0,
+            start_angles: Angles::default(),
         })
     }
 
@@ -181,7 +183,7 @@ impl Recorder {
 
     /// A communication step begins at `time` [s] and these angles.
     pub(super) fn begin(&mut self, time: f64, angles: Angles) {
-        self.start = (time, angles);
+        (self.start_time, self.start_angles) = (time, angles);
     }
 
     /// A communication step of `step` [s] is done.
@@ -196,12 +198,12 @@ impl Recorder {
 
     /// Angles at the communication point.
     pub(super) fn angles(&self) -> Angles {
-        self.start.1
+        self.start_angles
     }
 
     /// Takes the sample that is due.
     pub(super) fn take(&mut self, due: &mut Due, under_way: &mut [f64], outputs: &Outputs) {
-        let time = self.start.0 + due.delay;
+        let time = self.start_time + due.delay;
         if let Some(decimation) = &self.decimation {
             let place = decimation.place(due.taken);
             let (vibrations, others) = self.signals.split_at(self.sample.len());
@@ -209,7 +211,7 @@ impl Recorder {
             // First the sums of what is filtered, then the time and the rest.
             let (sums, plain) = under_way.split_at_mut(UNDER_WAY * self.sample.len());
             decimation.add(place, &self.sample, sums);
-            if let (row, 0) = place {
+            if let Place { row, phase: 0 } = place {
                 let width = 1 + others.len();
                 let middle = &mut plain[slot(row) * width..][..width];
                 middle[0] = time;

@@ -2,7 +2,7 @@
 
 use super::SimulationError;
 use super::instance::{Fresh, Simulation};
-use super::outputs::Outputs;
+use super::outputs::{Outputs, Solution};
 use super::quantity::Quantity;
 
 impl Simulation {
@@ -23,13 +23,14 @@ impl Simulation {
             self.rest();
         }
         let progress = &self.state.progress;
-        let outputs = Outputs::new(
-            &self.model,
-            (&drive, 0.0),
-            (&progress.state, &self.derivative, &progress.sensor_modes),
-            &self.forces,
-            self.state.angles(),
-        );
+        let solution = Solution {
+            drive: &drive,
+            tau: 0.0,
+            state: &progress.state,
+            derivative: &self.derivative,
+            sensor_modes: &progress.sensor_modes,
+        };
+        let outputs = Outputs::new(&self.model, solution, &self.forces, self.state.angles());
         self.present_acceleration = outputs.housing_acceleration();
         let solves_grids = self.model.solves_grids();
         for (i, quantity) in self.quantities.iter().enumerate().skip(self.inputs.count) {

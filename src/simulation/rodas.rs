@@ -135,7 +135,8 @@ impl Rodas {
         &mut self,
         simd: S,
         state: &[f64],
-        (first, by_time): (&[f64], &[f64]),
+        first: &[f64],
+        by_time: &[f64],
         h: f64,
         system: &mut impl System,
     ) {

@@ -16,7 +16,7 @@ use super::crossings::{Crossing, first_crossing};
 use super::failing::{check_rings, check_step, worst};
 use super::kernels::{probe, try_step};
 use super::knots::{Knot, Legs, next_knot};
-use super::outputs::Outputs;
+use super::outputs::{Outputs, Solution};
 use super::progress::Progress;
 use super::recorder::Recorder;
 use super::step_error::StepError;
@@ -85,7 +85,7 @@ impl Stepper<'_> {
     pub fn start(&mut self, step: f64) -> Result<Advance, StepError> {
         let first_count = self.progress.steps + self.progress.rejected_steps;
         self.begin()?;
-        let mut advance = Advance::new(step, self.next_knot((0.0, Legs::OUT), step), first_count);
+        let mut advance = Advance::new(step, self.next_knot(0.0, Legs::OUT, step), first_count);
         self.pass_what_is_due(&mut advance)?;
         Ok(advance)
     }
@@ -94,7 +94,7 @@ impl Stepper<'_> {
     pub fn go_on(&mut self, advance: &mut Advance) -> Result<(), StepError> {
         let (tau, end) = (advance.tau, advance.end);
         let target = advance.knot.map_or(end, |k| k.tau.min(end));
-        let by = (self.progress.choice.implicit, self.workspace.pair);
+        let (implicit, pair) = (self.progress.choice.implicit, self.workspace.pair);
         let h = self.accepted_step(tau, target)?;
         for (sum, force) in advance.impulse.iter_mut().zip(self.workspace.weighted_force) {
             *sum += h * force;
@@ -110,7 +110,7 @@ impl Stepper<'_> {
                 limit: self.control.max_steps,
                 since: advance.tau,
                 step: self.progress.next_step,
-                component: worst(self.workspace, self.problem.model, h, by),
+                component: worst(self.workspace, self.problem.model, h, implicit, pair),
             });
         }
         self.pass_what_is_due(advance)
@@ -165,8 +165,8 @@ impl Stepper<'_> {
         Ok(())
     }
 
-    fn next_knot(&self, from: (f64, Legs), end: f64) -> Option<Knot> {
-        next_knot(self.problem.model, self.problem.drive, from, end, &self.progress.cells)
+    fn next_knot(&self, from: f64, legs: Legs, end: f64) -> Option<Knot> {
+        next_knot(self.problem.model, self.problem.drive, from, legs, end, &self.progress.cells)
     }
 
     /// Passes a knot at `tau` and gives the next one; `at_once` counts those between which no time passes.
@@ -179,7 +179,7 @@ impl Stepper<'_> {
             return Err(StepError::TooFast { count: *at_once, since: tau });
         }
         at.contact.enter(at.cell, &mut self.progress.cells);
-        Ok(self.next_knot((tau, at.legs), end))
+        Ok(self.next_knot(tau, at.legs, end))
     }
 
     /// Takes one step from `from` that goes no further than `to`, as long as error control and contact changes allow,
@@ -310,8 +310,8 @@ impl Stepper<'_> {
             let ends = step_ends(explicit, implicit, &progress.state, span.length);
             problem.model.sensor_modes.advance(ends, share, sensor_modes);
             let Workspace { dense, scratch, sensor_modes, forces, .. } = &**workspace;
-            let at = (&dense[..], &scratch[..], &sensor_modes[..]);
-            let outputs = Outputs::new(problem.model, (problem.drive, tau), at, forces, recorder.angles());
+            let solution = Solution { drive: problem.drive, tau, state: dense, derivative: scratch, sensor_modes };
+            let outputs = Outputs::new(problem.model, solution, forces, recorder.angles());
             recorder.take(&mut progress.due, &mut progress.under_way, &outputs);
         }
         // What the recorder looks up is not the solver's work.

@@ -16,7 +16,7 @@
 use super::pair::Pair;
 use super::step_error::SMALLEST_STEP;
 use super::{dormand_prince, phase_fitted, rodas};
-use crate::dynamics::jacobian::Jacobian;
+use crate::dynamics::jacobian::{Fastest, Jacobian};
 
 /// Which methods a simulation may use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -185,8 +185,8 @@ impl Choice {
 
 /// Steps per second that the stability of an explicit method asks for.
 fn rate_of_steps(jacobian: &Jacobian, pair: Pair) -> f64 {
-    let (fastest, damping) = jacobian.fastest();
-    fastest / reach(pair, damping)
+    let Fastest { eigenvalue, damping } = jacobian.fastest();
+    eigenvalue / reach(pair, damping)
 }
 
 /// Longest stable step of an explicit method [s]; a number even where nothing moves by itself.
@@ -197,7 +197,7 @@ fn stable_step(jacobian: &Jacobian, pair: Pair) -> f64 {
 /// Whether the fastest motion is so strongly damped that the phase-fitted method does not pay: its step costs a tenth
 /// more.
 fn is_damped(jacobian: &Jacobian) -> bool {
-    let (_, damping) = jacobian.fastest();
+    let damping = jacobian.fastest().damping;
     reach(Pair::PhaseFitted, damping) < 1.1 * reach(Pair::DormandPrince, damping)
 }
 

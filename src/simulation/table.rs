@@ -30,13 +30,57 @@ pub(super) struct Builder<'a> {
 pub(super) const RINGS: [RingName; 2] = [RingName::Shaft, RingName::Housing];
 const AXES: [&str; 2] = ["x", "y"];
 
-/// Inputs of a prescribed ring: prefix of the name, noun, quantity, unit, largest value and nominal.
-type Prescribed = (&'static str, &'static str, fn(RingName, usize) -> Quantity, Unit, (f64, f64));
+/// Sizes of an input: from -`largest` to `largest`, in its unit.
+#[derive(Debug, Clone, Copy)]
+struct Size {
+    largest: f64,
+    nominal: f64,
+}
+
+/// Start value, limits and nominal value of a parameter, in its unit.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Limited {
+    pub(super) start: f64,
+    pub(super) min: f64,
+    pub(super) max: f64,
+    pub(super) nominal: f64,
+}
+
+/// An input of a prescribed ring along each axis.
+struct Prescribed {
+    /// What the axis has before it in the name.
+    prefix: &'static str,
+    noun: &'static str,
+    quantity: fn(RingName, usize) -> Quantity,
+    unit: Unit,
+    size: Size,
+}
+
 const PRESCRIBED: [Prescribed; 3] = [
-    ("", "Position", Q::Position, Unit::Metre, (0.01, 1e-5)),
-    ("v", "Velocity", Q::Velocity, Unit::MetrePerSecond, (1e3, 1e-2)),
-    ("a", "Acceleration", Q::Acceleration, Unit::MetrePerSecondSquared, (1e9, 10.0)),
+    Prescribed {
+        prefix: "",
+        noun: "Position",
+        quantity: Q::Position,
+        unit: Unit::Metre,
+        size: Size { largest: 0.01, nominal: 1e-5 },
+    },
+    Prescribed {
+        prefix: "v",
+        noun: "Velocity",
+        quantity: Q::Velocity,
+        unit: Unit::MetrePerSecond,
+        size: Size { largest: 1e3, nominal: 1e-2 },
+    },
+    Prescribed {
+        prefix: "a",
+        noun: "Acceleration",
+        quantity: Q::Acceleration,
+        unit: Unit::MetrePerSecondSquared,
+        size: Size { largest: 1e9, nominal: 10.0 },
+    },
 ];
+const SPEED: Size = Size { largest: 1e5, nominal: 100.0 };
+const LOAD: Size = Size { largest: 1e9, nominal: 1000.0 };
 
 impl Builder<'_> {
     pub(super) fn motion(&self, ring: RingName) -> Motion {
@@ -54,12 +98,12 @@ impl Builder<'_> {
             Q::Speed(RingName::Shaft),
             Unit::RadianPerSecond,
             scene.shaft_speed,
-            (1e5, 100.0),
+            SPEED,
         );
         if let Some(speed) = scene.housing_speed {
             let text = "Speed of the outer ring, counter-clockwise";
             let (quantity, unit) = (Q::Speed(RingName::Housing), Unit::RadianPerSecond);
-            self.input("housing.speed", text, quantity, unit, speed, (1e5, 100.0));
+            self.input("housing.speed", text, quantity, unit, speed, SPEED);
         }
         for ring in RINGS {
             let (name, what, load) = match ring {
@@ -75,12 +119,12 @@ impl Builder<'_> {
                             Q::Load(ring, axis),
                             Unit::Newton,
                             load[axis],
-                            (1e9, 1000.0),
+                            LOAD,
                         );
                     }
                 }
                 Motion::Host => {
-                    for (prefix, noun, quantity, unit, range) in PRESCRIBED {
+                    for Prescribed { prefix, noun, quantity, unit, size } in PRESCRIBED {
                         for (axis, letter) in AXES.iter().enumerate() {
                             let optional = if prefix == "a" { " (optional, extrapolates within the step)" } else { "" };
                             self.input(
@@ -89,7 +133,7 @@ impl Builder<'_> {
                                 quantity(ring, axis),
                                 unit,
                                 0.0,
-                                range,
+                                size,
                             );
                         }
                     }
@@ -281,8 +325,9 @@ impl Builder<'_> {
         }
     }
 
-    fn input(&mut self, name: &str, text: &str, quantity: Quantity, unit: Unit, start: f64, range: (f64, f64)) {
-        let kind = Kind::Real { unit, start: Some(start), min: Some(-range.0), max: Some(range.0), nominal: range.1 };
+    fn input(&mut self, name: &str, text: &str, quantity: Quantity, unit: Unit, start: f64, size: Size) {
+        let Size { largest, nominal } = size;
+        let kind = Kind::Real { unit, start: Some(start), min: Some(-largest), max: Some(largest), nominal };
         let text = [text, "; ", quantity.input_derivatives().1].concat();
         self.push(name, &text, kind, (Causality::Input, Variability::Continuous), quantity);
     }
@@ -308,9 +353,9 @@ impl Builder<'_> {
         text: &str,
         quantity: Quantity,
         unit: Unit,
-        (start, min, max, nominal): (f64, Option<f64>, Option<f64>, f64),
+        Limited { start, min, max, nominal }: Limited,
     ) {
-        let kind = Kind::Real { unit, start: Some(start), min, max, nominal };
+        let kind = Kind::Real { unit, start: Some(start), min: Some(min), max: Some(max), nominal };
         self.push(name, text, kind, (Causality::Parameter, Variability::Fixed), quantity);
     }
 

@@ -1,14 +1,9 @@
 //! The parameters in the variable table: what a host may set before the start, with limits.
 
 use super::quantity::{Parameter, Quantity as Q, RingName};
-use super::table::{Builder, CONTACT_LAWS, RINGS};
+use super::table::{Builder, CONTACT_LAWS, Limited, RINGS};
 use super::variables::{Causality, Kind, Unit, Variability};
 use crate::scene::{Damping, DefectOn, Motion};
-
-/// Start value, limits and nominal value of a parameter.
-fn limited(start: f64, min: f64, max: f64, nominal: f64) -> (f64, Option<f64>, Option<f64>, f64) {
-    (start, Some(min), Some(max), nominal)
-}
 
 impl Builder<'_> {
     pub(super) fn parameters(&mut self) {
@@ -19,7 +14,12 @@ impl Builder<'_> {
             "Radial internal clearance; negative is a preload",
             Q::Parameter(Parameter::RadialClearance),
             Unit::Metre,
-            limited(bearing.radial_clearance, -bearing.element_diameter, bearing.element_diameter, 1e-5),
+            Limited {
+                start: bearing.radial_clearance,
+                min: -bearing.element_diameter,
+                max: bearing.element_diameter,
+                nominal: 1e-5,
+            },
         );
         self.damping();
         self.push(
@@ -34,14 +34,14 @@ impl Builder<'_> {
             "Lag of the cage behind pure rolling",
             Q::Parameter(Parameter::CageSlip),
             Unit::One,
-            limited(scene.cage.slip, 0.0, 1.0, 0.01),
+            Limited { start: scene.cage.slip, min: 0.0, max: 1.0, nominal: 0.01 },
         );
         self.parameter(
             "cage.initial_angle",
             "Angle of element 1 at the start, counter-clockwise from +x",
             Q::Parameter(Parameter::CageInitialAngle),
             Unit::Radian,
-            limited(scene.cage.initial_angle, -1e3, 1e3, 1.0),
+            Limited { start: scene.cage.initial_angle, min: -1e3, max: 1e3, nominal: 1.0 },
         );
         self.defect_angles();
         self.turning_parameters();
@@ -55,7 +55,7 @@ impl Builder<'_> {
             "Relative tolerance of the time integration",
             Q::Parameter(Parameter::Tolerance),
             Unit::One,
-            limited(scene.tolerance, 1e-12, 0.1, 1e-5),
+            Limited { start: scene.tolerance, min: 1e-12, max: 0.1, nominal: 1e-5 },
         );
         if scene.recorder.is_some() {
             self.push(
@@ -86,7 +86,7 @@ impl Builder<'_> {
                 },
                 Q::Parameter(Parameter::DefectAngle(index)),
                 Unit::Radian,
-                limited(defect.angle, -1e3, 1e3, 1.0),
+                Limited { start: defect.angle, min: -1e3, max: 1e3, nominal: 1.0 },
             );
         }
     }
@@ -96,7 +96,7 @@ impl Builder<'_> {
         let scene = self.scene;
         let mut angle = |name: &str, what: &str, ring, start| {
             let (quantity, unit) = (Q::Parameter(Parameter::RingInitialAngle(ring)), Unit::Radian);
-            self.parameter(name, what, quantity, unit, limited(start, -1e3, 1e3, 1.0));
+            self.parameter(name, what, quantity, unit, Limited { start, min: -1e3, max: 1e3, nominal: 1.0 });
         };
         if scene.has_defect_of_inner_ring() {
             let what = "Angle of the inner ring at the start, counter-clockwise";
@@ -112,7 +112,7 @@ impl Builder<'_> {
                 "Lag of the elements' spin behind pure rolling",
                 Q::Parameter(Parameter::SpinSlip),
                 Unit::One,
-                limited(scene.cage.spin_slip, -1.0, 1.0, 0.01),
+                Limited { start: scene.cage.spin_slip, min: -1.0, max: 1.0, nominal: 0.01 },
             );
         }
     }
@@ -127,7 +127,7 @@ impl Builder<'_> {
             &format!("Contact damping: {what}"),
             Q::Parameter(Parameter::ContactDamping),
             unit,
-            limited(damping, 0.0, 1e6, nominal),
+            Limited { start: damping, min: 0.0, max: 1e6, nominal },
         );
     }
 
@@ -141,21 +141,21 @@ impl Builder<'_> {
             &format!("Mass of the {what} and what moves with it"),
             Q::Parameter(Parameter::RingMass(ring)),
             Unit::Kilogram,
-            limited(parts.mass, 1e-6, 1e9, 1.0),
+            Limited { start: parts.mass, min: 1e-6, max: 1e9, nominal: 1.0 },
         );
         self.parameter(
             &format!("{name}.damping"),
             &format!("Viscous damping of the {what} to ground"),
             Q::Parameter(Parameter::RingDamping(ring)),
             Unit::NewtonSecondPerMetre,
-            limited(parts.damping, 0.0, 1e12, 1000.0),
+            Limited { start: parts.damping, min: 0.0, max: 1e12, nominal: 1000.0 },
         );
         self.parameter(
             &format!("{name}.stiffness"),
             &format!("Support stiffness of the {what} to ground"),
             Q::Parameter(Parameter::RingStiffness(ring)),
             Unit::NewtonPerMetre,
-            limited(parts.stiffness, 0.0, 1e15, 1e7),
+            Limited { start: parts.stiffness, min: 0.0, max: 1e15, nominal: 1e7 },
         );
     }
 }

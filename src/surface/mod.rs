@@ -6,12 +6,15 @@
 
 mod csv;
 mod error;
+mod interval;
 mod profile;
 pub(crate) mod roller_profile;
 mod topography;
 mod trace;
 
 pub use error::SurfaceError;
+pub use interval::Interval;
+pub(crate) use profile::Corner;
 pub use profile::Profile;
 pub use roller_profile::with_roller_profile;
 pub use topography::Topography;
@@ -111,9 +114,9 @@ impl Surface {
         }
     }
 
-    /// Middle and length [m] of the longest interval along the raceway, and across it, between measured points of
-    /// different depth; `None` where the surface is not measured or does not change.
-    pub fn coarsest_intervals(&self) -> [Option<(f64, f64)>; 2] {
+    /// The longest interval along the raceway, and across it, between measured points of different depth; `None` where
+    /// the surface is not measured or does not change.
+    pub fn coarsest_intervals(&self) -> [Option<Interval>; 2] {
         match self {
             Self::Profile(profile) => [profile.coarsest(), None],
             Self::Topography(topography) => topography.coarsest(),
@@ -132,28 +135,32 @@ impl Surface {
     pub(crate) fn depths(&self) -> Box<dyn Iterator<Item = f64> + '_> {
         match self {
             Self::Profile(profile) => Box::new(profile.points().iter().map(|&(_, depth)| depth)),
-            Self::Topography(topography) => Box::new(topography.grid().2.iter().copied()),
+            Self::Topography(topography) => Box::new(topography.depths().iter().copied()),
         }
     }
 
     /// Refuses a surface that is not possible on a body of this bearing.
     fn check_fits(&self, on: DefectOn, bearing: &Bearing) -> Result<(), SurfaceError> {
-        let ((longest, limit), element_radius) = (on.longest(bearing), bearing.element_radius());
+        let (longest, element_radius) = (on.longest(bearing), bearing.element_radius());
         let (first, last) = self.extent();
-        if last - first >= longest {
-            return Err(SurfaceError::TooLong { length_mm: (last - first) * 1e3, limit_mm: longest * 1e3, limit });
+        if last - first >= longest.size {
+            return Err(SurfaceError::TooLong {
+                length_mm: (last - first) * 1e3,
+                limit_mm: longest.size * 1e3,
+                limit: longest.what,
+            });
         }
         let (arc, depth) = match self {
             Self::Profile(profile) => profile.farthest(),
             Self::Topography(topography) => topography.farthest(),
         };
-        let (deepest, limit) = on.deepest(bearing);
-        if depth.abs() >= deepest {
+        let deepest = on.deepest(bearing);
+        if depth.abs() >= deepest.size {
             return Err(SurfaceError::TooDeep {
                 arc_mm: arc * 1e3,
                 depth_um: depth * 1e6,
-                limit_um: deepest * 1e6,
-                limit,
+                limit_um: deepest.size * 1e6,
+                limit: deepest.what,
             });
         }
         let (shallowest, deepest) = self.depths().fold((0.0_f64, 0.0_f64), |(low, high), h| (low.min(h), high.max(h)));

@@ -3,7 +3,7 @@
 //! h(s) is linear between its points. Two points at one arc are a vertical edge. Outside its points h = 0; where the
 //! first or last point is not at depth 0 the profile ends in a vertical edge.
 
-use super::SurfaceError;
+use super::{Interval, SurfaceError};
 
 /// Depth h [m] over the arc s [m].
 #[derive(Debug, Clone, PartialEq)]
@@ -12,6 +12,15 @@ pub struct Profile {
     points: Vec<(f64, f64)>,
     /// Whether the points are samples of something unknown between them, and not corners of a polygon.
     sampled: bool,
+}
+
+/// The upper corner of an edge.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Corner {
+    /// Its arc [m].
+    pub(crate) arc: f64,
+    /// +1 where the raceway falls with growing arc, −1 where it rises.
+    pub(crate) fall: f64,
 }
 
 impl Profile {
@@ -77,11 +86,10 @@ impl Profile {
         Self { sampled: true, ..self }
     }
 
-    /// Middle and length [m] of the longest straight line between two samples that differ; `None` for a polygon.
-    pub(super) fn coarsest(&self) -> Option<(f64, f64)> {
+    /// The longest straight line between two samples that differ; `None` for a polygon.
+    pub(super) fn coarsest(&self) -> Option<Interval> {
         let lines = self.points.windows(2).filter(|pair| self.sampled && pair[0].1 != pair[1].1);
-        let lines = lines.map(|pair| (0.5 * (pair[0].0 + pair[1].0), pair[1].0 - pair[0].0));
-        lines.max_by(|a, b| a.1.total_cmp(&b.1))
+        Interval::longest(lines.map(|pair| Interval::between(pair[0].0, pair[1].0)))
     }
 
     /// With every depth multiplied by `factor`.
@@ -90,7 +98,7 @@ impl Profile {
     }
 
     /// Upper corners of edges that are at least `steep` (tangent) and `drop` [m] deep, in ascending order: index of the
-    /// point, and +1 where the raceway falls with growing arc, −1 where it rises.
+    /// point, and [`Corner::fall`].
     fn corners(&self, steep: f64, drop: f64) -> Vec<(usize, f64)> {
         let step = |k: usize| {
             let ((s0, d0), (s1, d1)) = (self.points[k], self.points[k + 1]);
@@ -110,10 +118,9 @@ impl Profile {
         corners
     }
 
-    /// Arcs [m] of the upper corners of edges at least `steep` (tangent) and `drop` [m] deep, with +1 where the raceway
-    /// falls with growing arc and −1 where it rises.
-    pub(crate) fn upper_corners(&self, steep: f64, drop: f64) -> Vec<(f64, f64)> {
-        self.corners(steep, drop).into_iter().map(|(k, fall)| (self.points[k].0, fall)).collect()
+    /// Upper corners of edges at least `steep` (tangent) and `drop` [m] deep, in ascending order.
+    pub(crate) fn upper_corners(&self, steep: f64, drop: f64) -> Vec<Corner> {
+        self.corners(steep, drop).into_iter().map(|(k, fall)| Corner { arc: self.points[k].0, fall }).collect()
     }
 
     /// With the upper side of such edges continued level by `distance` [m], and a vertical edge there.

@@ -11,7 +11,7 @@
 
 use super::csv;
 use super::trace::{ARC, DEPTH};
-use super::{Profile, SurfaceError};
+use super::{Interval, Profile, SurfaceError};
 
 /// Column of the axial coordinate; its presence tells a topography from a trace.
 pub(super) const AXIAL: &str = "axial_mm";
@@ -81,9 +81,19 @@ impl Topography {
         Self { depths: self.depths.iter().map(|depth| factor * depth).collect(), ..self.clone() }
     }
 
-    /// Arcs, axial coordinates, and depths with those of one arc side by side [m].
-    pub fn grid(&self) -> (&[f64], &[f64], &[f64]) {
-        (&self.arcs, &self.axials, &self.depths)
+    /// Arcs of the grid, ascending [m].
+    pub fn arcs(&self) -> &[f64] {
+        &self.arcs
+    }
+
+    /// Axial coordinates of the grid, ascending [m].
+    pub fn axials(&self) -> &[f64] {
+        &self.axials
+    }
+
+    /// Depths, those of one arc side by side [m].
+    pub fn depths(&self) -> &[f64] {
+        &self.depths
     }
 
     /// First and last arc [m].
@@ -133,13 +143,12 @@ impl Topography {
         Profile::closed(self.arcs.iter().map(|&arc| (arc, self.depth_at(arc, axial))).collect())
     }
 
-    /// Middle and length [m] of the longest interval between two arcs, and between two axial coordinates, over which
-    /// the depth changes.
-    pub(super) fn coarsest(&self) -> [Option<(f64, f64)>; 2] {
+    /// The longest interval between two arcs, and between two axial coordinates, over which the depth changes.
+    pub(super) fn coarsest(&self) -> [Option<Interval>; 2] {
         let h = |i: usize, j: usize| self.depths[i * self.axials.len() + j];
         let longest = |lines: &[f64], differ: &dyn Fn(usize) -> bool| {
             let intervals = lines.windows(2).enumerate().filter(|(k, _)| differ(*k));
-            intervals.map(|(_, pair)| (0.5 * (pair[0] + pair[1]), pair[1] - pair[0])).max_by(|a, b| a.1.total_cmp(&b.1))
+            Interval::longest(intervals.map(|(_, pair)| Interval::between(pair[0], pair[1])))
         };
         [
             longest(&self.arcs, &|i| (0..self.axials.len()).any(|j| h(i, j) != h(i + 1, j))),

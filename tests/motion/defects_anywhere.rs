@@ -286,5 +286,5 @@ fn radii_and_lengths_are_those_of_the_body_that_bears_the_defect() {
     // A chord 2 r sin λ off the middle of a pit.
     let expected = (1e-3f64.powi(2) - (2.0 * bearing.element_radius() * 0.1f64.sin()).powi(2)).sqrt();
     assert!((tilted.met_length(1e-3, bearing) - expected).abs() < 1e-15);
-    assert!(TAU * bearing.inner_raceway_radius() * 0.9 == DefectOn::Inner.longest(bearing).0);
+    assert!(TAU * bearing.inner_raceway_radius() * 0.9 == DefectOn::Inner.longest(bearing).size);
 }

@@ -3,7 +3,7 @@
 
 use crate::support::{Named, shipped};
 use brinell::dynamics::drive::{Drive, Quadratic};
-use brinell::dynamics::jacobian::Jacobian;
+use brinell::dynamics::jacobian::{Fastest, Jacobian};
 use brinell::dynamics::model::Model;
 use brinell::scene::{Damping, Motion, Scene, Sensor};
 use brinell::simulation::Method;
@@ -111,7 +111,7 @@ fn ratio(seed: u64, lightest: f64, damped: bool) -> (f64, String) {
     let mut draw = Draw::new(seed);
     let scene = scene(&mut draw, lightest, damped);
     let (model, jacobian) = jacobian(&mut draw, &scene);
-    let (fastest, damping) = jacobian.fastest();
+    let Fastest { eigenvalue: fastest, damping } = jacobian.fastest();
     let layout = &model.layout;
     let used: Vec<usize> = (0..layout.len).filter(|&i| layout.is_used(i)).collect();
     let matrix = jacobian.matrix(layout.len);

@@ -28,8 +28,17 @@ pub struct Assembly {
     loads: [[f64; 2]; 2],
     /// Angles of cage, inner and outer ring at the start of the scene [rad].
     angles: [f64; 3],
-    /// Length of the first defect [rad] and the angle of its centre.
-    defect: Option<(f64, f64)>,
+    /// Of the first defect.
+    defect: Option<DefectPlace>,
+}
+
+/// Where a defect is on its body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DefectPlace {
+    /// Length along the body [rad].
+    pub length: f64,
+    /// Angle of the centre [rad].
+    pub centre: f64,
 }
 
 /// What holds an element between the raceways.
@@ -134,7 +143,7 @@ impl Assembly {
         });
         let of_first = scene.defects.first().zip(surfaces.first()).map(|(defect, surface)| {
             let (first, last) = surface.extent();
-            ((last - first) / defect.on.radius(&scene.bearing), defect.angle)
+            DefectPlace { length: (last - first) / defect.on.radius(&scene.bearing), centre: defect.angle }
         });
         Ok(Self {
             model,
@@ -162,8 +171,8 @@ impl Assembly {
         self.loads
     }
 
-    /// Length along its body [rad] of the scene's first defect and the angle of its centre [rad]; `None` without one.
-    pub fn defect(&self) -> Option<(f64, f64)> {
+    /// Where the scene's first defect is; `None` without one.
+    pub fn defect(&self) -> Option<DefectPlace> {
         self.defect
     }
 

@@ -3,6 +3,7 @@
 use super::contact_pressure::{BallOnRaceway, Pressed};
 use super::subsurface::{Corners, Stress, maximum};
 use brinell::contact::rolling::RacewaySide;
+use brinell::surface::Interval;
 use serde::Serialize;
 use std::f64::consts::PI;
 
@@ -230,10 +231,10 @@ fn notes(ball: &BallOnRaceway, pressed: &Pressed) -> Vec<String> {
     }
     for (surface, _) in &ball.defects {
         for (interval, cell) in surface.coarsest_intervals().into_iter().zip(pressed.cell) {
-            if let Some((_, step)) = interval.filter(|&(_, step)| step > cell) {
+            if let Some(Interval { length, .. }) = interval.filter(|of| of.length > cell) {
                 notes.push(format!(
                     "measured points are up to {:.2} um apart, cells {:.2} um: the surface is straight between points",
-                    1e6 * step,
+                    1e6 * length,
                     1e6 * cell
                 ));
             }

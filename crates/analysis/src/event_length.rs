@@ -31,8 +31,10 @@ use brinell::scene::Scene;
 
 /// Share of a period before the first impact.
 const LEAD: f64 = 0.3;
-/// The window of a jump: the way in which an impact's envelope rises [degrees], but not less than this time [s].
-const JUMP: (f64, f64) = (0.25, 1.2e-4);
+/// The window of a jump: the way in which an impact's envelope rises [degrees], but not less than [`JUMP_TIME`].
+const JUMP_WAY: f64 = 0.25;
+/// Shortest window of a jump [s].
+const JUMP_TIME: f64 = 1.2e-4;
 /// Clearness of the entry's excursion below which it is not taken for one.
 const CLEAR: f64 = 3.0;
 /// The same for an entry far before a single impact, where there is more to mistake.
@@ -210,7 +212,7 @@ impl Grid {
     fn new(measured: &Measured) -> Self {
         let points = measured.points();
         let degree = points as f64 / measured.spacing;
-        let width = ((JUMP.0).max(JUMP.1 * measured.travel()) * degree).round().max(2.0) as usize;
+        let width = (JUMP_WAY.max(JUMP_TIME * measured.travel()) * degree).round().max(2.0) as usize;
         // The level of noise scatters by 5.6 dB; a jump is the difference of two means over all passages. Six
         // deviations.
         let smallest = (6.0 * 5.6 / (measured.passages.starts.len() as f64).sqrt()).max(3.0);

@@ -27,6 +27,15 @@ const FREE_DEPTH: f64 = 1e-3;
 const DEPTHS: (f64, f64) = (1e-7, FREE_DEPTH);
 const HALVINGS: usize = 14;
 
+/// Where elements cross the spall in an averaged passage.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Crossing {
+    /// Where an entry begins [share of a period].
+    pub(super) entry: f64,
+    /// How far from it the next exit is [degrees].
+    pub(super) way: f64,
+}
+
 /// What a recording says of the kind of its spall.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Judged {
@@ -45,20 +54,20 @@ pub(super) struct Judged {
 }
 
 impl Judged {
-    /// `entry` is where an entry begins [share of a period], and how far from it the next exit is [degrees].
+    /// `crossing` where it is known.
     pub(super) fn of(
         measured: &Measured,
         scene: &Scene,
         rig: Option<&Rig<'_>>,
         waveform: Option<&WaveformLength>,
-        entry: Option<(f64, f64)>,
+        crossing: Option<Crossing>,
     ) -> Self {
         let spacing = measured.spacing;
         let trial = |length: f64, depth: f64| Trial { length, depth, law: ContactLaw::Hertz };
-        let ringing = entry.and_then(|(at, over)| measured_ringing(measured, at, over));
-        let expected = rig.zip(entry).and_then(|(rig, (_, over))| {
+        let ringing = crossing.and_then(|at| measured_ringing(measured, at.entry, at.way));
+        let expected = rig.zip(crossing).and_then(|(rig, Crossing { way, .. })| {
             let of = |length: f64| ringing::expected(rig, trial(length, FREE_DEPTH), spacing).ok();
-            Some([of(over)?, of(over + spacing)?])
+            Some([of(way)?, of(way + spacing)?])
         });
         let by_ringing = by_ringing(ringing, expected);
         let critical_load =
@@ -68,9 +77,9 @@ impl Judged {
             if critical_load.is_some_and(|critical| load(scene) >= critical) { Kind::Undecided } else { by_ringing };
         let kind = waveform.map_or(by_ringing, |w| by_similarity(w, spacing, heard));
         // With two elements in the spall, or heard to swing on fewer elements, it is no question.
-        let critical_depth = entry
+        let critical_depth = crossing
             .filter(|_| waveform.is_none() && kind != Kind::Extended)
-            .and_then(|(_, over)| critical_depth(scene, over + spacing));
+            .and_then(|at| critical_depth(scene, at.way + spacing));
         Self { kind, ringing, expected, critical_load, depth: waveform.map(|w| w.depth), critical_depth, spacing }
     }
 

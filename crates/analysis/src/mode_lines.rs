@@ -28,24 +28,33 @@ pub fn sweep(assembly: &Assembly, first: f64, count: usize) -> Result<Vec<Modes>
     Ok(found)
 }
 
+/// Two modes at neighbouring angles that may be one.
+struct Candidate {
+    nearness: f64,
+    /// Index at the angle before.
+    old: usize,
+    /// Index here.
+    new: usize,
+}
+
 /// Gives the modes at an angle the lines of those before, and new lines to the rest.
 fn follow(before: Option<&Modes>, here: &mut Modes, lines: &mut usize) {
-    let mut candidates: Vec<(f64, usize, usize)> = Vec::new();
+    let mut candidates: Vec<Candidate> = Vec::new();
     for (i, old) in before.iter().flat_map(|modes| modes.modes.iter().enumerate()) {
         for (k, new) in here.modes.iter().enumerate() {
-            let alike = nearness(old, new);
-            if alike > SAME {
-                candidates.push((alike, i, k));
+            let nearness = nearness(old, new);
+            if nearness > SAME {
+                candidates.push(Candidate { nearness, old: i, new: k });
             }
         }
     }
-    candidates.sort_by(|a, b| b.0.total_cmp(&a.0));
+    candidates.sort_by(|a, b| b.nearness.total_cmp(&a.nearness));
     let mut taken = Vec::new();
-    for (_, i, k) in candidates {
-        let line = before.and_then(|modes| modes.modes[i].line);
-        if here.modes[k].line.is_none() && !taken.contains(&i) {
-            here.modes[k].line = line;
-            taken.push(i);
+    for Candidate { old, new, .. } in candidates {
+        let line = before.and_then(|modes| modes.modes[old].line);
+        if here.modes[new].line.is_none() && !taken.contains(&old) {
+            here.modes[new].line = line;
+            taken.push(old);
         }
     }
     for mode in here.modes.iter_mut().filter(|mode| mode.line.is_none() && mode.undamped_frequency().is_some()) {

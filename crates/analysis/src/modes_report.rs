@@ -92,7 +92,7 @@ impl ModesReport {
             shaft_load_n,
             housing_load_n,
             middle_deg: middle.to_degrees(),
-            defect_length_deg: assembly.defect().map(|(length, _)| length.to_degrees()),
+            defect_length_deg: assembly.defect().map(|defect| defect.length.to_degrees()),
             freedoms: assembly.freedom_names(),
             lines: lines.enumerate().map(|(line, modes)| line_report(line, &modes, &bodies)).collect(),
             angles: sweep.iter().map(angle_report).collect(),

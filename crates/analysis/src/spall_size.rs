@@ -11,7 +11,7 @@
 
 use super::error::SizingError;
 use super::event_length::{self, EventLength};
-use super::kind::Judged;
+use super::kind::{Crossing, Judged};
 use super::measured::Measured;
 use super::raceway::{self, Raceway};
 use super::recording::Recording;
@@ -94,7 +94,7 @@ pub fn size_with(
                 sized.iter().filter_map(|s| s.length.as_ref().err().map(|e| format!("{}: {e}", s.measured.name)));
             report.reason = std::iter::once(why).chain(each).collect::<Vec<_>>().join("; ");
         }
-        Ok((length, uncertainty)) => {
+        Ok(Combined { length, uncertainty }) => {
             let radius = Raceway::of(report.fault).radius(&scene.bearing);
             let millimetres = 1e3 * radius * length.to_radians() / length;
             report.verdict = Verdict::Resolved;
@@ -150,15 +150,14 @@ impl Sized {
             heard.as_ref().map(|heard| heard.as_ref().map_or_else(|other| other.similarity, |w| w.similarity));
         let waveform = heard.and_then(Result::ok);
         let spacing = measured.spacing;
-        // Where an entry begins [share of a period], and how far from it the next exit is [degrees].
-        let entry = match (&waveform, &events) {
-            (Some(w), _) => Some((w.entry, w.length.rem_euclid(spacing))),
-            (None, Ok(e)) => Some(((e.first + e.onset) / spacing, e.length)),
+        let crossing = match (&waveform, &events) {
+            (Some(w), _) => Some(Crossing { entry: w.entry, way: w.length.rem_euclid(spacing) }),
+            (None, Ok(e)) => Some(Crossing { entry: (e.first + e.onset) / spacing, way: e.length }),
             _ => None,
         };
         // Stiffness over the cage's angle tells kinds of spalls outside.
-        let entry = entry.filter(|_| measured.raceway == Raceway::Outer);
-        let judged = Judged::of(&measured, scene, rig.as_ref(), waveform.as_ref(), entry);
+        let crossing = crossing.filter(|_| measured.raceway == Raceway::Outer);
+        let judged = Judged::of(&measured, scene, rig.as_ref(), waveform.as_ref(), crossing);
         let length = match (&waveform, &events) {
             (Some(w), _) => of_waveform(w, scene, judged.kind),
             (None, Ok(e)) => {
@@ -249,8 +248,16 @@ fn of_waveform(waveform: &WaveformLength, scene: &Scene, kind: Kind) -> Result<L
     Ok(Length { length, statistical, systematic, method: Method::Waveform, kind })
 }
 
-/// Mean and standard uncertainty of lengths [degrees] of one spall; or why there is none.
-fn combine(lengths: &[&Length], of: usize) -> Result<(f64, f64), String> {
+/// What several lengths of one spall say together.
+struct Combined {
+    /// Their mean [degrees].
+    length: f64,
+    /// Its standard uncertainty [degrees].
+    uncertainty: f64,
+}
+
+/// Combines lengths of one spall from so many recordings; or says why there is none.
+fn combine(lengths: &[&Length], of: usize) -> Result<Combined, String> {
     if 2 * lengths.len() <= of {
         return Err(format!("{} of {of} recordings give a length", lengths.len()));
     }
@@ -264,7 +271,7 @@ fn combine(lengths: &[&Length], of: usize) -> Result<(f64, f64), String> {
     }
     let systematic = lengths.iter().map(|l| l.systematic).fold(0.0, f64::max);
     let statistical = (1.0 / total).sqrt().max(scatter / (all.len() as f64).sqrt());
-    Ok((mean, statistical.hypot(systematic)))
+    Ok(Combined { length: mean, uncertainty: statistical.hypot(systematic) })
 }
 
 /// The fault that all recordings in which one is heard look like.

@@ -144,22 +144,30 @@ pub fn below_cut(passage: &[f64], bpfo: f64) -> Vec<f64> {
 
 /// Largest magnitude of the circular correlation of two passages from [`below_cut`].
 pub fn similarity(measured: &[f64], simulated: &[f64]) -> f64 {
-    best_shift(measured, simulated).1
+    best_shift(measured, simulated).similarity
 }
 
-/// Share of a period by which the simulated passage must be moved to lie over the measured one, and their similarity
-/// then.
+/// How a simulated passage lies best over a measured one.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BestShift {
+    /// Share of a period by which it must be moved.
+    pub shift: f64,
+    /// Their similarity then.
+    pub similarity: f64,
+}
+
+/// How the simulated passage must be moved to lie over the measured one.
 ///
 /// Between grid points by a parabola: half a point off would cost more similarity than a tenth of the length.
-pub fn best_shift(measured: &[f64], simulated: &[f64]) -> (f64, f64) {
+pub fn best_shift(measured: &[f64], simulated: &[f64]) -> BestShift {
     let correlation = super::spectrum::circular_correlation(measured, simulated);
     let n = correlation.len();
     let Some(best) = (0..n).max_by(|&i, &j| correlation[i].abs().total_cmp(&correlation[j].abs())) else {
-        return (0.0, 0.0);
+        return BestShift::default();
     };
     let at = |i: usize| correlation[i % n].abs();
     let (a, b, c) = (at(best + n - 1), at(best), at(best + 1));
     let bend = a - 2.0 * b + c;
     let shift = if bend < 0.0 { 0.5 * (a - c) / bend } else { 0.0 };
-    ((best as f64 + shift) / n as f64, b - 0.25 * (a - c) * shift)
+    BestShift { shift: (best as f64 + shift) / n as f64, similarity: b - 0.25 * (a - c) * shift }
 }

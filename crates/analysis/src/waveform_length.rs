@@ -130,7 +130,7 @@ fn search(measured: &Measured, scene: &Scene, rig: &Rig<'_>, heard: &mut NotAlik
         all.map(|f| f.similarity)
             .fold(if (best.length > spacing) == extended { best.similarity } else { 0.0 }, f64::max)
     };
-    let (shift, _) = best_shift(&target, &best.passage);
+    let shift = best_shift(&target, &best.passage).shift;
     Some(WaveformLength {
         length: best.length,
         depth: cheap.depth,

@@ -19,6 +19,14 @@ enum Kind {
     Array(u8),
 }
 
+/// Where a row is in its variable.
+pub(super) struct ElementPlace {
+    /// Reference of the variable.
+    pub(super) reference: u32,
+    /// Element, counted from 1; 0 in a scalar.
+    pub(super) element: usize,
+}
+
 /// What the references of one model stand for.
 #[derive(Debug)]
 pub(super) struct Addressing {
@@ -91,14 +99,14 @@ impl Addressing {
         }
     }
 
-    /// Reference and place, counted from 1, of a row in its variable; the place in a scalar is 0.
-    pub(super) fn place_of(&self, row: u32) -> (u32, usize) {
+    /// Where a row is in its variable.
+    pub(super) fn place_of(&self, row: u32) -> ElementPlace {
         for array in &self.arrays {
             if let Some(place) = array.rows.iter().position(|&one| one == row) {
-                return (array.rows[0], place + 1);
+                return ElementPlace { reference: array.rows[0], element: place + 1 };
             }
         }
-        (row, 0)
+        ElementPlace { reference: row, element: 0 }
     }
 
     /// Whether an intermediate update can touch a variable: inputs and outputs. modelDescription.xml names those that

@@ -13,7 +13,7 @@ use brinell_analysis::statistics::mean;
 use clap::ValueEnum;
 use toml::Value;
 
-use super::design::Run;
+use super::design::{Run, RunNoise};
 use super::file::{Kind as Fault, Sweep};
 use super::maps::Maps;
 use super::rows::{Cell, Column, Kind, Row};
@@ -120,8 +120,8 @@ impl Bench<'_> {
         if let Some(profile) = run.profile {
             put("speed_profile", Cell::Text(self.sweep.speed_profiles[profile].clone()));
         }
-        if let Some((ratio, _)) = run.noise {
-            put("noise_db", Cell::Number(ratio));
+        if let Some(noise) = run.noise {
+            put("noise_db", Cell::Number(noise.ratio));
         }
     }
 
@@ -138,7 +138,7 @@ impl Bench<'_> {
         let course = Course { grid: self.grid, profile };
         let done = course.simulate(&scene, &mut simulation, columns, &own, &own)?;
         let kept = self.kept(&scene, &done, &own.join(format!("{name}.kept")))?;
-        if let Some((ratio, seed)) = run.noise {
+        if let Some(RunNoise { ratio, seed }) = run.noise {
             let sensors: Vec<usize> = (1..kept.names().len()).collect();
             Noise::new(ratio, seed)?.add(&kept, &sensors, 0)?;
         }

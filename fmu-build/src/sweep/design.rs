@@ -12,6 +12,15 @@ use super::file::{Kind, Sweep};
 const NOISE_RATIO: &str = "noise_db";
 const NOISE: &str = "noise";
 
+/// Noise added to a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct RunNoise {
+    /// Signal-to-noise ratio [dB].
+    pub(super) ratio: f64,
+    /// Which noise.
+    pub(super) seed: u64,
+}
+
 /// What one run is.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Run {
@@ -21,8 +30,7 @@ pub(super) struct Run {
     pub(super) profile: Option<usize>,
     /// Keys of the scene from the grid, then those drawn at random.
     pub(super) values: Vec<(String, Value)>,
-    /// Signal-to-noise ratio [dB], and which noise.
-    pub(super) noise: Option<(f64, u64)>,
+    pub(super) noise: Option<RunNoise>,
 }
 
 /// A point of the grid.
@@ -45,7 +53,8 @@ impl Sweep {
         }
         let noise = self.noise.map(|[low, high]| {
             let draw = uniform(self.seed, checksum(NOISE_RATIO.as_bytes()), index as i64);
-            (low + (high - low) * draw, bits(self.seed, checksum(NOISE.as_bytes()), index as i64))
+            let seed = bits(self.seed, checksum(NOISE.as_bytes()), index as i64);
+            RunNoise { ratio: low + (high - low) * draw, seed }
         });
         Run { index, kind, profile, values, noise }
     }
@@ -106,7 +115,7 @@ mod tests {
             assert_ne!(run.noise, other.noise);
             assert_eq!((&run.values[..], run.noise), (&further.values[..3], further.noise));
         }
-        let mut seeds: Vec<u64> = short.iter().map(|run| run.noise.unwrap().1).collect();
+        let mut seeds: Vec<u64> = short.iter().map(|run| run.noise.unwrap().seed).collect();
         seeds.sort_unstable();
         seeds.dedup();
         assert_eq!(seeds.len(), 40, "two runs with one noise");

@@ -301,8 +301,8 @@ impl Reading<'_, '_> {
         };
         let mut found = Vec::new();
         leaves(place, values, "", &mut found);
-        found.sort_by_key(|(at, ..)| *at);
-        found.into_iter().map(|(at, key, of)| Entry { key, of, line: (self.line)(at) }).collect()
+        found.sort_by_key(|leaf| leaf.at);
+        found.into_iter().map(|Leaf { at, key, of }| Entry { key, of, line: (self.line)(at) }).collect()
     }
 
     /// Keys that stand twice, of which the first stays, and two ways to say one thing.
@@ -336,15 +336,24 @@ fn is_meant(wanted: &str, key: &str) -> bool {
     key == wanted || nearest(KEYS.into_iter().chain(TABLES), key) == Some(wanted)
 }
 
-/// Keys and values of a table, those of tables in it included, with their positions in the text.
-fn leaves(at: &DeTable<'_>, values: &Table, path: &str, found: &mut Vec<(usize, String, Value)>) {
+/// A key and its value.
+struct Leaf {
+    /// Position in the text.
+    at: usize,
+    /// With the tables that it is in.
+    key: String,
+    of: Value,
+}
+
+/// Keys and values of a table, those of tables in it included.
+fn leaves(at: &DeTable<'_>, values: &Table, path: &str, found: &mut Vec<Leaf>) {
     for (key, value) in at.iter() {
         let name = key.get_ref().as_ref();
         let Some(of) = values.get(name) else { continue };
         let path = if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
         match (value.get_ref(), of) {
             (DeValue::Table(inner), Value::Table(values)) => leaves(inner, values, &path, found),
-            _ => found.push((key.span().start, path, of.clone())),
+            _ => found.push(Leaf { at: key.span().start, key: path, of: of.clone() }),
         }
     }
 }

@@ -96,7 +96,7 @@ fn step(method: &mut Rodas, tau: f64, y: &[f64], h: f64) {
     let mut first = [0.0; 4];
     right_hand_side(tau, y, &mut first);
     let by_time = [-LAMBDA * tau.sin() - tau.cos(), 0.0, 0.0, 0.0];
-    method.try_step(Scalar256b, y, (&first, &by_time), h, &mut Equations { tau, h, y: y[1] });
+    method.try_step(Scalar256b, y, &first, &by_time, h, &mut Equations { tau, h, y: y[1] });
 }
 
 fn integrate(count: usize) -> Vec<f64> {

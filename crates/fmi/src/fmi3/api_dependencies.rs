@@ -14,8 +14,12 @@ use crate::failure::Failure;
 use crate::instance;
 use crate::mode::Mode;
 
-/// Element of the dependent variable, reference of the independent one.
-type Dependency = (usize, ValueReference);
+/// What one element of the dependent variable depends on.
+struct Dependency {
+    element: usize,
+    /// Reference of the independent variable.
+    independent: ValueReference,
+}
 
 fn dependencies(instance: &instance::Instance, reference: ValueReference) -> Result<Vec<Dependency>, Failure> {
     let addressing = addressing(instance)?;
@@ -23,10 +27,11 @@ fn dependencies(instance: &instance::Instance, reference: ValueReference) -> Res
     let initial = matches!(instance.mode, Mode::Instantiated | Mode::Initialization);
     let all = instance.simulation.dependencies();
     let of_row = |row: &u32| {
-        let place = addressing.place_of(*row).1;
+        let element = addressing.place_of(*row).element;
         let found = all.iter().find(|of| of.output == *row);
         let known = found.map_or(&[][..], |of| if initial { &of.initial } else { &of.direct });
-        known.iter().map(move |&known| (place, addressing.place_of(known).0)).collect::<Vec<_>>()
+        let on = move |&known: &u32| Dependency { element, independent: addressing.place_of(known).reference };
+        known.iter().map(on).collect::<Vec<_>>()
     };
     Ok(rows.iter().flat_map(of_row).collect())
 }
@@ -68,7 +73,7 @@ pub unsafe extern "C" fn fmi3GetVariableDependencies(
             let (name, given, needed) = ("nDependencies", nDependencies, found.len());
             return Err(Failure::DependencyCount { name, given, needed });
         }
-        let (places, references): (Vec<_>, Vec<_>) = found.into_iter().unzip();
+        let (places, references): (Vec<_>, Vec<_>) = found.iter().map(|of| (of.element, of.independent)).unzip();
         // SAFETY: this function's contract; null and misaligned arrays are refused.
         unsafe {
             store_all("elementIndicesOfDependent", elementIndicesOfDependent, &places)?;

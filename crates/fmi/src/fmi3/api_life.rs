@@ -53,7 +53,6 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
 ) -> Instance {
     // SAFETY: null or ended by NUL, by this function's contract.
     let [name, token, path] = unsafe { [text(instanceName), text(instantiationToken), text(resourcePath)] };
-    let required = (requiredIntermediateVariables, nRequiredIntermediateVariables);
     instantiation::instantiate(
         "fmi3InstantiateCoSimulation",
         name,
@@ -66,9 +65,9 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
         },
         |instance| {
             // SAFETY: this function's contract.
-            let required = unsafe { references(required)? };
+            let required = unsafe { references(requiredIntermediateVariables, nRequiredIntermediateVariables)? };
             let early_return = earlyReturnAllowed != FALSE;
-            arrange(instance, required, (intermediateUpdate, instanceEnvironment), early_return)
+            arrange(instance, required, intermediateUpdate, instanceEnvironment, early_return)
         },
     )
 }
@@ -83,7 +82,7 @@ fn model(token: Option<&CStr>, path: Option<&CStr>) -> Result<SharedModel, Refus
 
 /// # Safety
 /// If the pointer is neither null nor misaligned, it points to as many references.
-unsafe fn references<'a>((pointer, count): (*const ValueReference, usize)) -> Result<&'a [ValueReference], Refusal> {
+unsafe fn references<'a>(pointer: *const ValueReference, count: usize) -> Result<&'a [ValueReference], Refusal> {
     if count == 0 {
         return Ok(&[]);
     }
@@ -98,7 +97,8 @@ unsafe fn references<'a>((pointer, count): (*const ValueReference, usize)) -> Re
 fn arrange(
     instance: &mut instance::Instance,
     required: &[ValueReference],
-    (callback, environment): (Option<IntermediateUpdateCallback>, InstanceEnvironment),
+    callback: Option<IntermediateUpdateCallback>,
+    environment: InstanceEnvironment,
     early_return: bool,
 ) -> Result<(), Refusal> {
     let addressing = Addressing::of(&instance.simulation);
@@ -139,9 +139,8 @@ pub unsafe extern "C" fn fmi3InstantiateModelExchange(
     instanceEnvironment: InstanceEnvironment,
     logMessage: Option<LogMessageCallback>,
 ) -> Instance {
-    let logging = (instanceEnvironment, logMessage, loggingOn);
     // SAFETY: this function's contract.
-    unsafe { refuse("fmi3InstantiateModelExchange", instanceName, logging) }
+    unsafe { refuse("fmi3InstantiateModelExchange", instanceName, instanceEnvironment, logMessage, loggingOn) }
 }
 
 /// `fmi3InstantiateScheduledExecution`: NULL after a line to the logger, for this FMU is for co-simulation.
@@ -161,9 +160,8 @@ pub unsafe extern "C" fn fmi3InstantiateScheduledExecution(
     _lockPreemption: Option<PreemptionCallback>,
     _unlockPreemption: Option<PreemptionCallback>,
 ) -> Instance {
-    let logging = (instanceEnvironment, logMessage, loggingOn);
     // SAFETY: this function's contract.
-    unsafe { refuse("fmi3InstantiateScheduledExecution", instanceName, logging) }
+    unsafe { refuse("fmi3InstantiateScheduledExecution", instanceName, instanceEnvironment, logMessage, loggingOn) }
 }
 
 /// # Safety
@@ -171,7 +169,9 @@ pub unsafe extern "C" fn fmi3InstantiateScheduledExecution(
 unsafe fn refuse(
     function: &'static str,
     name: FmiString,
-    (environment, callback, on): (InstanceEnvironment, Option<LogMessageCallback>, Bool),
+    environment: InstanceEnvironment,
+    callback: Option<LogMessageCallback>,
+    on: Bool,
 ) -> Instance {
     // SAFETY: this function's contract.
     let name = unsafe { text(name) };

@@ -127,10 +127,10 @@ fn compare(what: &'static str, simulation: &Simulation, stop: f64) -> Result<Row
             let taken = start.elapsed();
             spent += taken;
             row.cost[i] = row.cost[i].min(taken.as_secs_f64() / stop);
-            let (steps, share) = counted(&mut run)?;
+            let Counted { steps, implicit } = counted(&mut run)?;
             row.steps[i] = steps / stop;
             if method == Method::Automatic {
-                row.implicit = share;
+                row.implicit = implicit;
             }
         }
         rounds += 1;
@@ -141,13 +141,20 @@ fn compare(what: &'static str, simulation: &Simulation, stop: f64) -> Result<Row
     Ok(row)
 }
 
-/// Tried steps in explicit ones, and the share of implicit ones. Rejected steps are not counted by method: they are
-/// taken to be shared like the accepted.
-fn counted(run: &mut Simulation) -> Result<(f64, f64)> {
+/// The steps of a run.
+struct Counted {
+    /// Tried ones, an implicit one as so many explicit ones as it costs.
+    steps: f64,
+    /// Share of implicit ones.
+    implicit: f64,
+}
+
+/// Counts steps. Rejected ones are not counted by method: they are taken to be shared like the accepted.
+fn counted(run: &mut Simulation) -> Result<Counted> {
     let mut rejected = [0];
     run.integers(&[run.reference("solver.rejected_steps")?], &mut rejected)?;
     let (all, implicit) = run.step_counts();
     let share = implicit as f64 / all as f64;
     let tried = all as f64 + f64::from(rejected[0]);
-    Ok((tried * (1.0 + (EXPLICIT_STEPS - 1.0) * share), share))
+    Ok(Counted { steps: tried * (1.0 + (EXPLICIT_STEPS - 1.0) * share), implicit: share })
 }

@@ -95,7 +95,7 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
         "| recording | nominal (°) | looks like | found (°) | 95 % (°) | error | onset (°) | impacts (°) \
          |\n|---|---:|---|---:|---:|---:|---:|---|\n",
     );
-    let mut groups: Vec<(f64, Fault, Vec<Recording>)> = Vec::new();
+    let mut groups: Vec<Group> = Vec::new();
     let mut beside: Vec<Beside> = Vec::new();
     let mut inside: Vec<Inside> = Vec::new();
     for one in known {
@@ -113,19 +113,20 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
             let loud = Loud::of(&recording, &scene)?;
             inside.push(Inside { speed: one.speed, found: found.clone(), loud });
         }
-        match groups.iter_mut().find(|(nominal, fault, _)| *nominal == one.nominal && *fault == one.fault) {
-            Some((_, _, group)) => group.push(recording),
-            None => groups.push((one.nominal, one.fault, vec![recording])),
+        match groups.iter_mut().find(|group| group.nominal == one.nominal && group.fault == one.fault) {
+            Some(group) => group.recordings.push(recording),
+            None => groups.push(Group { nominal: one.nominal, fault: one.fault, recordings: vec![recording] }),
         }
     }
-    for (nominal, fault, group) in groups.iter().filter(|(nominal, _, group)| group.len() > 1 && *nominal > 0.0) {
-        let report = spall_size::size_with(group, &scene, &maps, &mut |_| ())?;
+    let several = groups.iter().filter(|group| group.recordings.len() > 1 && group.nominal > 0.0);
+    for Group { nominal, fault, recordings } in several {
+        let report = spall_size::size_with(recordings, &scene, &maps, &mut |_| ())?;
         let per_degree = report.length_mm.zip(report.length_deg).map_or(1.0, |(mm, deg)| mm / deg);
         let error = |deg: f64| format!("{:+.1} %", 100.0 * (deg / nominal - 1.0));
         writeln!(
             text,
             "| **all {} of {nominal}° {} together** | {nominal} | {} | {} | {} | {} | | {} |",
-            group.len(),
+            recordings.len(),
             if *fault == Fault::Inner { "inside" } else { "outside" },
             looks_like(report.fault),
             number(report.length_deg),
@@ -137,6 +138,13 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
     text += &outer_beside(project, [&case, &with_flanks], &beside)?;
     text += &inner_beside(project, &inside)?;
     Ok(text)
+}
+
+/// Recordings of one fault and one nominal length [degrees].
+struct Group {
+    nominal: f64,
+    fault: Fault,
+    recordings: Vec<Recording>,
 }
 
 /// What stands beside an outer recording.

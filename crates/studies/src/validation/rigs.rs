@@ -5,6 +5,7 @@
 //! scene that sizes them knows the bearing, and the load within a third; it has no rig.
 
 use std::fmt::Write;
+use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -20,8 +21,8 @@ use brinell_analysis::statistics::Random;
 use super::Values;
 use super::synthetic_rig::SyntheticRig;
 
-/// Number from which each group of machines begins, and how many are in it, for each length.
-const GROUPS: [(u64, u64); 3] = [(0, 20), (100, 20), (500, 40)];
+/// Numbers of the machines of each group, for each length.
+const GROUPS: [Range<u64>; 3] = [0..20, 100..120, 500..540];
 /// Lengths of spalls [degrees]; 0 is healthy.
 const LENGTHS: [f64; 7] = [0.0, 0.5, 0.9, 1.3, 2.0, 5.0, 8.0];
 /// Lengths on the inner raceway.
@@ -73,16 +74,16 @@ impl Found {
 }
 
 /// What sizing gives of all machines of a group.
-fn sized(raceway: Raceway, length: f64, (first, machines): (u64, u64)) -> Result<Vec<Found>> {
-    let next = AtomicU64::new(0);
+fn sized(raceway: Raceway, length: f64, machines: Range<u64>) -> Result<Vec<Found>> {
+    let next = AtomicU64::new(machines.start);
     let found = Mutex::new(Vec::new());
     let work = || {
         loop {
-            let k = next.fetch_add(1, Ordering::Relaxed);
-            if k >= machines {
+            let number = next.fetch_add(1, Ordering::Relaxed);
+            if number >= machines.end {
                 break;
             }
-            let one = one(first + k, raceway, length);
+            let one = one(number, raceway, length);
             found.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push(one);
         }
     };
