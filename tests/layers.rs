@@ -1,5 +1,5 @@
-//! The layers import in one direction only: a module names, by `crate::…`, none that stands to its right; in no crate of
-//! the workspace do modules import each other; and a crate depends only on those that it may know.
+//! The layers import in one direction only: a module names, by `crate::…`, none that stands to its right; in no crate
+//! of the workspace do modules import each other; and a crate depends only on those that it may know.
 #![allow(clippy::unwrap_used)]
 
 #[path = "layers/cycles.rs"]

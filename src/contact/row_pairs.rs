@@ -114,8 +114,8 @@ impl RowPairs {
         self.rows
     }
 
-    /// K p on segments of one row: `firsts` are the first columns of the segments, whose cells go into `out` one segment
-    /// after the other. `edges` are those that the window feels.
+    /// K p on segments of one row: `firsts` are the first columns of the segments, whose cells go into `out` one
+    /// segment after the other. `edges` are those that the window feels.
     pub(super) fn deflect<'a, I: Image + 'a>(
         &self,
         mirror_x: bool,

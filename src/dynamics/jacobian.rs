@@ -106,8 +106,8 @@ impl Jacobian {
 
     /// The fastest of the elements and bodies, each taken alone while all else stands still.
     ///
-    /// Neighbours that move too make the eigenvalue larger: without damping by √3 at most; with damping, among many assemblies, by
-    /// less than 2 where rings are heavier than an element and by less than 3 where they are not.
+    /// Neighbours that move too make the eigenvalue larger: without damping by √3 at most; with damping, among many
+    /// assemblies, by less than 2 where rings are heavier than an element and by less than 3 where they are not.
     /// `tests/motion/fastest_eigenvalue.rs` compares it with all eigenvalues.
     pub fn fastest(&self) -> Fastest {
         let mut fastest = Fastest::default();

@@ -110,8 +110,8 @@ fn prepared(scene: &Scene) -> Bearing {
 }
 
 /// What the contact map of a scene covers on one raceway: forces up to the [`largest_force`]. Outside Δ counts the
-/// rings' and seats' compliance as well. An accuracy that the scene asks for is held; the usual one may be missed, in defects
-/// deeper than they are long, by what `TOLERATED` says.
+/// rings' and seats' compliance as well. An accuracy that the scene asks for is held; the usual one may be missed, in
+/// defects deeper than they are long, by what `TOLERATED` says.
 pub fn map_specification(scene: &Scene, side: RacewaySide) -> MapSpecification {
     let largest = largest_approach(&prepared(scene), side, largest_force(scene));
     let usual = if scene.bearing.roller().is_some() {
