@@ -18,7 +18,7 @@ Other keys of the scene make one FMU per grid point, so let them be on the grid.
 
 With `--kinds` runs take the kinds of fault in turn, each at every point of the grid. Each row says in its label_…
 columns what it is a run of: kind, length, depth and position of the defect, load and speed. Under law `map` each size
-of a defect inside needs a map of some minutes; `--law hertz` needs none.
+of a defect needs a map of some CPU seconds; `--law hertz` needs none.
 
 A `--speed-profile` (CSV: time_s, speed_hz; several are taken in turn) moves the shaft's speed in straight lines, noise
 is white and so many decibels below the signal, `--filter` takes the sensor's samples through the FMU's recorder, which
