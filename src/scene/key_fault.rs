@@ -4,6 +4,7 @@ use std::fmt;
 
 /// One fault in the keys of a scene file.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum KeyFault {
     /// A key or a table that means nothing here.
     Unknown {
