@@ -3,8 +3,6 @@
 
 use std::fs;
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 use anyhow::Result;
@@ -17,6 +15,8 @@ use brinell::scene::{ContactLaw, Scene};
 use brinell::simulation::setup::{self, NeededMap};
 use brinell::surface::Surface;
 use indicatif::{ProgressBar, ProgressStyle};
+use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::project::Project;
 use crate::whole_file;
@@ -48,7 +48,7 @@ pub(crate) fn one(scene: &Scene, needed: &NeededMap, project: &Project, threads:
     if let Some(map) = kept(needed.fingerprint, project) {
         return Ok(map);
     }
-    let mut cores = Cores { threads, bar: bar(&scene.name) };
+    let mut cores = Cores { pool: ThreadPoolBuilder::new().num_threads(threads).build()?, bar: bar(&scene.name) };
     let map = needed.build(&mut cores)?;
     cores.bar.finish_and_clear();
     let (reached, wanted) = (map.accuracy().max(), setup::map_specification(scene, RacewaySide::Outer).accuracy);
@@ -75,7 +75,7 @@ fn bar(name: &str) -> ProgressBar {
 
 /// Runs jobs on several threads; results keep their order, so the map has the same bits however many there are.
 struct Cores {
-    threads: usize,
+    pool: ThreadPool,
     bar: ProgressBar,
 }
 
@@ -86,23 +86,9 @@ impl Runner for Cores {
         job: &(dyn Fn(usize) -> Result<T, ContactError> + Sync),
     ) -> Result<Vec<T>, ContactError> {
         self.bar.inc_length(count as u64);
-        let next = AtomicUsize::new(0);
-        let results: Mutex<Vec<Option<Result<T, ContactError>>>> = Mutex::new((0..count).map(|_| None).collect());
-        thread::scope(|scope| {
-            for _ in 0..self.threads.min(count) {
-                scope.spawn(|| {
-                    loop {
-                        let index = next.fetch_add(1, Ordering::Relaxed);
-                        if index >= count {
-                            break;
-                        }
-                        let result = job(index);
-                        results.lock().unwrap_or_else(PoisonError::into_inner)[index] = Some(result);
-                        self.bar.inc(1);
-                    }
-                });
-            }
-        });
-        results.into_inner().unwrap_or_else(PoisonError::into_inner).into_iter().flatten().collect()
+        let job = |index| job(index).inspect(|_| self.bar.inc(1));
+        // All before the first that failed, so that the same one is told every time.
+        let results: Vec<_> = self.pool.install(|| (0..count).into_par_iter().with_max_len(1).map(job).collect());
+        results.into_iter().collect()
     }
 }

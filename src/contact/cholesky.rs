@@ -3,8 +3,8 @@
 //!
 //! Left-looking in panels of eight columns. Every entry is formed by fused multiply-adds in ascending order of the
 //! summation index and every dot product by eight fixed partial sums, so the bits do not depend on the vector width of
-//! the machine: nalgebra's and faer's choose their order of sums by it, and allocate. Nothing is allocated once the storage
-//! has met its largest matrix.
+//! the machine: nalgebra's and faer's choose their order of sums by it, and allocate. Nothing is allocated once the
+//! storage has met its largest matrix.
 
 // Register tiles are addressed by lane and column: iterators would hide which.
 #![allow(clippy::needless_range_loop)]

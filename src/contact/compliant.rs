@@ -227,15 +227,11 @@ mod tests {
                 prop_assert!((force.value - law.force(delta, rate)).abs() <= 1e-14 * force.value);
                 let limit = if crowned { 1e-3 } else { 1e-7 };
                 let unit = by_approach.abs() + 0.1 * law.elastic_stiffness(delta);
-                // On the step itself, where damping has the elastic force's slope, the derivative is one side's, and the
-                // quotient lies between both.
-                let sides = [delta - d, delta + d].map(|delta| law.with_derivatives(delta, rate).by_approach);
-                let [low, high] = if crowned {
-                    [sides[0].min(sides[1]), sides[0].max(sides[1])]
-                } else {
-                    [force.by_approach; 2]
-                };
-                prop_assert!(low - limit * unit < by_approach && by_approach < high + limit * unit);
+                // On the step itself, where damping has the elastic force's slope, the derivative is one side's, and
+                // the quotient lies between both.
+                let ends = if crowned { [delta - d, delta + d] } else { [delta; 2] };
+                let [a, b] = ends.map(|delta| law.with_derivatives(delta, rate).by_approach);
+                prop_assert!(a.min(b) - limit * unit < by_approach && by_approach < a.max(b) + limit * unit);
                 prop_assert!((force.by_rate - by_rate).abs() < 1e-7 * by_rate.abs());
                 let elastic = (law.elastic(delta + d) - law.elastic(delta - d)) / (2.0 * d);
                 let limit = if crowned { 1e-3 } else { 1e-9 };

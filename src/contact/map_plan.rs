@@ -45,6 +45,16 @@ pub struct MapPlan {
     patches: Vec<PatchPlan>,
 }
 
+/// The grid solver, and where it is needed.
+#[derive(Debug)]
+pub struct Unmapped {
+    pub(super) contact: LoveContact,
+    /// Ascending arcs [m] at which cells meet.
+    pub(super) knots: Vec<f64>,
+    /// Depth [m] of each cell that is flat.
+    pub(super) flats: Vec<Option<f64>>,
+}
+
 impl MapPlan {
     /// Plans the coarsest nodes.
     ///
@@ -113,9 +123,8 @@ impl MapPlan {
             .collect()
     }
 
-    /// The grid solver without nodes, the arcs [m] between which it is needed, and the depth of the flat stretches
-    /// between them: what law `love` solves inside the step.
-    pub fn into_love(self) -> (LoveContact, Vec<f64>, Vec<Option<f64>>) {
+    /// The grid solver without nodes: what law `love` solves inside the step.
+    pub fn into_love(self) -> Unmapped {
         let (mut knots, mut flats) = (Vec::new(), Vec::new());
         for (index, patch) in self.patches.iter().enumerate() {
             if index > 0 {
@@ -125,7 +134,7 @@ impl MapPlan {
             knots.push(patch.end());
             flats.push(None);
         }
-        (self.contact, knots, flats)
+        Unmapped { contact: self.contact, knots, flats }
     }
 
     /// Computes nodes and the errors between them, and cuts cells until the accuracy is met or cells are at their
@@ -134,21 +143,24 @@ impl MapPlan {
     /// # Errors
     /// When a contact cannot be solved.
     pub fn build(mut self, runner: &mut impl Runner) -> Result<ContactMap, ContactError> {
+        if !self.symmetric {
+            let accuracy = self.refine(runner)?;
+            return Ok(ContactMap { accuracy, ..self.map() });
+        }
+        // Of an odd number of patches the middle one lies across arc 0.
         let whole = self.patches.len();
-        if self.symmetric {
-            self.patches.truncate(whole.div_ceil(2));
-            if let Some(middle) = self.patches.last_mut().filter(|_| !whole.is_multiple_of(2)) {
-                *middle = middle.halved();
-            }
+        let middle = (!whole.is_multiple_of(2)).then_some(whole / 2);
+        // What follows the last one that is computed is the first one's mirror image.
+        let beyond: Vec<f64> = self.patches.drain(whole.div_ceil(2)..).map(|patch| patch.before).collect();
+        if let Some(middle) = middle {
+            self.patches[middle] = self.patches[middle].halved();
         }
         let accuracy = self.refine(runner)?;
-        if self.symmetric {
-            if let Some(middle) = self.patches.last_mut().filter(|_| !whole.is_multiple_of(2)) {
-                *middle = middle.with_mirror_image();
-            }
-            let others = self.patches[..whole / 2].iter().rev();
-            let others: Vec<PatchPlan> = others.filter_map(|patch| Some(patch.mirrored(patch.after?))).collect();
-            self.patches.extend(others);
+        if let Some(middle) = middle {
+            self.patches[middle] = self.patches[middle].with_mirror_image();
+        }
+        for (k, before) in beyond.into_iter().enumerate() {
+            self.patches.push(self.patches[whole / 2 - 1 - k].mirrored(before));
         }
         Ok(ContactMap { accuracy, ..self.map() })
     }

@@ -13,6 +13,7 @@ use super::equivalent::EquivalentApproach;
 use super::error::ContactError;
 use super::love::LoveContact;
 use super::map::ContactMap;
+use super::map_plan::Unmapped;
 use super::rigid_path::RigidPath;
 
 /// Equivalent approach of one element to a raceway, and the direction of the contact force on the element.
@@ -117,10 +118,9 @@ pub struct NearLove {
 }
 
 impl NearLove {
-    /// A grid for a defect on a body of this radius [m]. Between the ascending arcs `knots` [m] the surface is flat at
-    /// a depth [m] or the grid is solved.
-    pub fn new(contact: LoveContact, knots: &[f64], flats: Vec<Option<f64>>, bearer_radius: f64) -> Self {
-        let knots = knots.iter().map(|arc| arc / bearer_radius).collect();
+    /// A grid for a defect on a body of this radius [m].
+    pub fn new(Unmapped { contact, knots, flats }: Unmapped, bearer_radius: f64) -> Self {
+        let knots = knots.into_iter().map(|arc| arc / bearer_radius).collect();
         Self { contact: RefCell::new(contact), bearer_radius, knots, flats }
     }
 

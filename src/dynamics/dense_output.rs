@@ -71,7 +71,7 @@ mod tests {
     use crate::scene::{Damping, Motion};
 
     /// The state after `time`, by many classical Runge–Kutta steps.
-    fn integrated(model: &Model, drive: &Drive, (state, cells): (&[f64], &Cells), time: f64) -> Vec<f64> {
+    fn integrated(model: &Model, drive: &Drive, state: &[f64], cells: &Cells, time: f64) -> Vec<f64> {
         let (mut y, mut forces, count) = (state.to_vec(), Forces::new(model.element_count), 50);
         let h = time / f64::from(count);
         for step in 0..count {
@@ -101,7 +101,7 @@ mod tests {
         for motion in [Motion::Internal, Motion::Host] {
             let (model, drive) = lively([motion; 2], Damping::HuntCrossley(0.3), 0.2);
             let (state, cells) = moving(&model, &drive, 5);
-            let end = integrated(&model, &drive, (&state, &cells), h);
+            let end = integrated(&model, &drive, &state, &cells, h);
             let mut forces = Forces::new(model.element_count);
             let mut rates = [vec![0.0; state.len()], vec![0.0; state.len()]];
             for ((at, tau), rates) in [(&state, 0.0), (&end, h)].into_iter().zip(&mut rates) {
@@ -112,7 +112,7 @@ mod tests {
             for share in [0.3, 0.7] {
                 let mut found = vec![0.0; state.len()];
                 model.dense_output(&drive, ends, h, share, &drive.cage_at(share * h), &mut found);
-                let expected = integrated(&model, &drive, (&state, &cells), share * h);
+                let expected = integrated(&model, &drive, &state, &cells, share * h);
                 for i in (0..state.len()).filter(|&i| model.layout.is_used(i)) {
                     let limit = if model.layout.is_position(i) { 1e-16 } else { 2e-9 };
                     let miss = (found[i] - expected[i]).abs();

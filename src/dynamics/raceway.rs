@@ -45,7 +45,16 @@ pub struct Defects {
     pub frame: Frame,
 }
 
-/// The surface around a defect, and where on its body it is.
+/// The surface around a defect, and where on its body it is to be.
+#[derive(Debug, Clone)]
+pub struct Centred {
+    /// The surface under the scene's contact law.
+    pub surface: NearDefect,
+    /// Angle of the defect's centre [rad] in the body's frame.
+    pub centre: f64,
+}
+
+/// The surface around a defect on its body, among the others there.
 #[derive(Debug, Clone)]
 pub struct Placed {
     /// The surface under the scene's contact law.
@@ -130,15 +139,15 @@ impl Cells {
 }
 
 impl Defects {
-    /// Defects of a body that turns with `frame`, each with the angle of its centre [rad] in that frame.
-    pub fn new(frame: Frame, surfaces: impl IntoIterator<Item = (NearDefect, f64)>) -> Self {
+    /// Defects of a body that turns with `frame`.
+    pub fn new(frame: Frame, surfaces: impl IntoIterator<Item = Centred>) -> Self {
         let mut defects = Self { placed: Vec::new(), frame };
         surfaces.into_iter().for_each(|one| defects.add(one));
         defects
     }
 
-    /// One more, with the angle of its centre [rad] in the body's frame.
-    pub fn add(&mut self, (surface, centre): (NearDefect, f64)) {
+    /// One more.
+    pub fn add(&mut self, Centred { surface, centre }: Centred) {
         let first = self.placed.last().map_or(0, |last| last.first + last.cell_count());
         self.placed.push(Placed { surface, centre, first });
     }

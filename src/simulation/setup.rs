@@ -20,7 +20,7 @@ use crate::contact::rolling::{RacewaySide, Rolling};
 use crate::dynamics::drive::Frame;
 use crate::dynamics::kinematics::CageState;
 use crate::dynamics::model::Model;
-use crate::dynamics::raceway::{DefectiveElement, Defects};
+use crate::dynamics::raceway::{Centred, DefectiveElement, Defects};
 use crate::scene::{Bearing, ContactLaw, Damping, DefectOn, Ring, Scene};
 use crate::surface::roller_profile::unread;
 use crate::surface::{Surface, SurfaceError};
@@ -233,8 +233,8 @@ fn near(
             NearDefect::Map(NearMap::new(map, rolling.bearer_radius()))
         }
         (ContactLaw::Love, _) => {
-            let (contact, knots, flats) = MapPlan::new(surface, element, specification)?.into_love();
-            NearDefect::Love(Box::new(NearLove::new(contact, &knots, flats, rolling.bearer_radius())))
+            let grid = MapPlan::new(surface, element, specification)?.into_love();
+            NearDefect::Love(Box::new(NearLove::new(grid, rolling.bearer_radius())))
         }
     };
     let (knots, radius) = (near.knots(), rolling.bearer_radius());
@@ -266,8 +266,8 @@ pub fn build_model(
     for spot in &arranged(scene, surfaces)? {
         let mut near = |side| near(scene, spot, side, map, &mut computed);
         match spot.on {
-            DefectOn::Inner => rings[0].push((near(RacewaySide::Inner)?, spot.centre)),
-            DefectOn::Outer => rings[1].push((near(RacewaySide::Outer)?, spot.centre)),
+            DefectOn::Inner => rings[0].push(Centred { surface: near(RacewaySide::Inner)?, centre: spot.centre }),
+            DefectOn::Outer => rings[1].push(Centred { surface: near(RacewaySide::Outer)?, centre: spot.centre }),
             DefectOn::Element { element, .. } => {
                 // At the start the defect is at its angle from the direction of its element, and the spin is counted
                 // from there; the inner raceway is met with the opposite side.
@@ -275,7 +275,10 @@ pub fn build_model(
                 let start = CageState::at_rest(scene.cage.initial_angle);
                 let facing = Model::smooth(scene).element_angle(element, &start);
                 let centre = facing + spot.centre;
-                let both = [(near(RacewaySide::Inner)?, centre - PI), (near(RacewaySide::Outer)?, centre)];
+                let both = [
+                    Centred { surface: near(RacewaySide::Inner)?, centre: centre - PI },
+                    Centred { surface: near(RacewaySide::Outer)?, centre },
+                ];
                 match defective.iter_mut().find(|other| other.element == element) {
                     Some(other) => {
                         other.defects.iter_mut().zip(both).for_each(|(defects, one)| defects.add(one));

@@ -7,9 +7,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::hash::Hasher;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
-use std::thread;
 
 use brinell::contact::contact_maps::ContactMaps;
 use brinell::contact::error::ContactError;
@@ -20,6 +18,7 @@ use brinell::scene::{Bearing, ContactLaw, Scene};
 use brinell::simulation::Simulation;
 use brinell::simulation::setup::{self, NeededMap};
 use brinell::surface::Surface;
+use rayon::prelude::*;
 
 /// A scene file that ships with the project, with the contact law that needs no map: these tests are of what moves.
 pub fn shipped(name: &str) -> Scene {
@@ -102,18 +101,7 @@ impl Runner for Cores {
         count: usize,
         job: &(dyn Fn(usize) -> Result<T, ContactError> + Sync),
     ) -> Result<Vec<T>, ContactError> {
-        let (next, results) = (AtomicUsize::new(0), Mutex::new((0..count).map(|_| None).collect::<Vec<_>>()));
-        thread::scope(|scope| {
-            for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
-                scope.spawn(|| {
-                    while let Some(index) = Some(next.fetch_add(1, Ordering::Relaxed)).filter(|&index| index < count) {
-                        let result = job(index);
-                        results.lock().unwrap()[index] = Some(result);
-                    }
-                });
-            }
-        });
-        results.into_inner().unwrap().into_iter().flatten().collect()
+        (0..count).into_par_iter().with_max_len(1).map(job).collect()
     }
 }
 

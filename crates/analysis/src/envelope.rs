@@ -12,6 +12,7 @@
 
 use super::spectrum::{self, Band, Spectrum};
 use super::statistics;
+use rayon::prelude::*;
 
 /// Harmonics in the comb. The envelope of two impacts per passage has nulls: one harmonic proves nothing.
 const HARMONICS: usize = 10;
@@ -99,14 +100,10 @@ pub fn find_combs_of<const N: usize>(
         let (envelope, rate) = envelope(band);
         let found =
             |pattern| comb_within(&envelope, rate, pattern, [1.0 - SLIP.end(), 1.0 - SLIP.start()], speed, band);
-        std::thread::scope(|scope| {
-            for (best, &pattern) in best.iter_mut().zip(&patterns) {
-                scope.spawn(move || {
-                    let found = found(pattern);
-                    if best.as_ref().is_none_or(|best| found.significance >= best.significance) {
-                        *best = Some(found);
-                    }
-                });
+        best.par_iter_mut().zip(&patterns).for_each(|(best, &pattern)| {
+            let found = found(pattern);
+            if best.as_ref().is_none_or(|best| found.significance >= best.significance) {
+                *best = Some(found);
             }
         });
     }

@@ -7,7 +7,7 @@
 
 use super::synthesis::{Rig, Run, Trial, similarity};
 use brinell::scene::ContactLaw;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use rayon::prelude::*;
 
 /// Step of the last search [degrees].
 pub(super) const FINE: f64 = 0.1;
@@ -103,28 +103,12 @@ impl Search<'_> {
 
     /// The trials in the order of their similarity; those that cannot be simulated are left out.
     pub(super) fn fits(&self, trials: &[Trial], run: Run) -> Vec<Fit> {
-        let threads = std::thread::available_parallelism().map_or(1, |n| n.get().min(8));
         let fit = |&trial: &Trial| {
             let passage = self.rig.passage(trial, run).ok()?;
             Some(Fit { trial, similarity: similarity(self.target, &passage), passage })
         };
-        // Some trials take several times as long as others: each thread takes the next that nobody has begun.
-        let next = AtomicUsize::new(0);
-        let work = || {
-            let mut done = Vec::new();
-            loop {
-                let index = next.fetch_add(1, Ordering::Relaxed);
-                let Some(trial) = trials.get(index) else { return done };
-                done.extend(fit(trial).map(|fit| (index, fit)));
-            }
-        };
-        let mut done: Vec<(usize, Fit)> = std::thread::scope(|scope| {
-            let workers: Vec<_> = (0..threads.min(trials.len())).map(|_| scope.spawn(work)).collect();
-            workers.into_iter().flat_map(|worker| worker.join().unwrap_or_default()).collect()
-        });
-        // Whoever was first: trials that are equally similar keep their order.
-        done.sort_by_key(|&(index, _)| index);
-        let mut fits: Vec<Fit> = done.into_iter().map(|(_, fit)| fit).collect();
+        // One by one, because some trials take several times as long as others.
+        let mut fits: Vec<Fit> = trials.par_iter().with_max_len(1).filter_map(fit).collect();
         fits.sort_by(|a, b| b.similarity.total_cmp(&a.similarity));
         fits
     }

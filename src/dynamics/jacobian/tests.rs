@@ -7,7 +7,7 @@ use crate::contact::rolling::{RacewaySide, Rolling};
 use crate::dynamics::drive::{Cubic, Quadratic};
 use crate::dynamics::drive::{Frame, Turning};
 use crate::dynamics::forces::Forces;
-use crate::dynamics::raceway::{Cells, DefectiveElement, Defects, SMOOTH};
+use crate::dynamics::raceway::{Cells, Centred, DefectiveElement, Defects, SMOOTH};
 use crate::scene::{
     CageIrregularity, Damping, DefectOn, ElementInertia, Film, Roller, RollerProfile, RollingElement, Scene, Sensor,
 };
@@ -63,16 +63,17 @@ pub(crate) fn lively_with(
         NearDefect::Hertz(RigidPath::new(&profile, Rolling::of(&scene.bearing, side, on_element)).unwrap())
     };
     let centre = scene.defects[0].angle;
-    let on = |side| (bearer == Bearer::Ring(side)).then(|| (near(side, false), centre));
+    let on = |side| (bearer == Bearer::Ring(side)).then(|| Centred { surface: near(side, false), centre });
     let rings = [
-        Defects::new(Frame::Shaft, on(RacewaySide::Inner).map(|(near, centre)| (near, centre - 0.4))),
+        Defects::new(Frame::Shaft, on(RacewaySide::Inner).map(|on| Centred { centre: on.centre - 0.4, ..on })),
         Defects::new(Frame::Housing, on(RacewaySide::Outer)),
     ];
     let mut own = Vec::new();
     if let Bearer::Element(facing) = bearer {
         let towards = if facing == RacewaySide::Outer { cage_angle } else { cage_angle + std::f64::consts::PI };
-        let defects = [(RacewaySide::Inner, std::f64::consts::PI), (RacewaySide::Outer, 0.0)]
-            .map(|(side, back)| Defects::new(Frame::Spin, [(near(side, true), towards - back - 0.1)]));
+        let defects = [(RacewaySide::Inner, std::f64::consts::PI), (RacewaySide::Outer, 0.0)].map(|(side, back)| {
+            Defects::new(Frame::Spin, [Centred { surface: near(side, true), centre: towards - back - 0.1 }])
+        });
         own.push(DefectiveElement { element: 0, defects, mark: 0.0 });
     }
     // Frames are looked at only where the scene says that something turns.

@@ -83,7 +83,7 @@ fn steps(python: &Python, extent: Extent, folder: &Path) -> Result<()> {
     let seconds = steady::measure(extent, &data)?;
     let path = folder.join("cost-of-steps.md");
     let mut text = steps_page::page(&machine::description(), &choices, &elements, &hosted);
-    text += &steps_page::seconds(&seconds, &elements);
+    text += &steps_page::seconds(&seconds, &elements, steady::fastest_of_healthy()?);
     whole_file::write(&path, text)?;
     println!("{}", path.display());
     Ok(())

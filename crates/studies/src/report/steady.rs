@@ -6,8 +6,11 @@
 
 use std::path::Path;
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use brinell::simulation::{Method, Simulation};
+use brinell_analysis::assembly::{Assembly, Hold};
+use brinell_analysis::mode_lines::sweep;
+use brinell_analysis::modes_report::ModesReport;
 use cpu_time::ThreadTime;
 
 use super::Extent;
@@ -23,6 +26,9 @@ const REFERENCE: f64 = 1e-7;
 /// The start, which is left out, and what is measured alone of it [s].
 const START: f64 = 0.3;
 const FIRST: f64 = 0.025;
+
+/// Cage angles within one element spacing at which modes are looked at.
+const CAGE_ANGLES: usize = 24;
 
 /// One scene at one tolerance.
 #[derive(Debug, Clone)]
@@ -79,6 +85,16 @@ pub(super) fn measure(extent: Extent, data: &Path) -> Result<Vec<Row>> {
         Ok(())
     })?;
     Ok(rows)
+}
+
+/// Frequency up to which the loaded elements of `6205-healthy` vibrate [Hz].
+pub(super) fn fastest_of_healthy() -> Result<f64> {
+    let model = Model::read(&scene_file("6205-healthy"))?;
+    let assembly = Assembly::new(&model.scene, None, None)?;
+    let found = sweep(&assembly, 0.0, CAGE_ANGLES)?;
+    let report = ModesReport::new(model.scene.name.clone(), &assembly, 0.0, &found);
+    let [[_, most], _] = report.of_elements(Hold::Pressed).context("6205-healthy has no loaded element")?;
+    Ok(most)
 }
 
 /// What one run gave.

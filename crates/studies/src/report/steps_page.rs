@@ -12,8 +12,8 @@ pub(super) fn page(machine: &str, choices: &[choice::Row], elements: &[elements:
     let mut text = format!(
         "# Cost of steps\n\n\
          Written by `cargo fmu report`, and alone by `cargo fmu report --steps`; the numbers behind it are in \
-         [`data/`](data). Measured on: {machine}. Times are CPU times of one thread, the fastest of many runs; whole seconds \
-         were run once each, at the end.\n\n\
+         [`data/`](data). Measured on: {machine}. Times are CPU times of one thread, the fastest of many runs; whole \
+         seconds were run once each, at the end.\n\n\
          ## Choice of the method\n\n\
          Tolerance 1e-5, communication step 0.1 ms. The methods take turns: the phase-fitted pair \
          alone, Dormand–Prince alone, Rodas5P alone, and the automatic choice. *Steps* are those tried per simulated \
@@ -63,8 +63,8 @@ pub(super) fn page(machine: &str, choices: &[choice::Row], elements: &[elements:
     text
 }
 
-/// What whole seconds cost.
-pub(super) fn seconds(rows: &[steady::Row], elements: &[elements::Row]) -> String {
+/// What whole seconds cost; elements of `6205-healthy` vibrate at up to `fastest` [Hz].
+pub(super) fn seconds(rows: &[steady::Row], elements: &[elements::Row], fastest: f64) -> String {
     let mut text = "\n## A whole second\n\n\
          Shipped scenes after the first 0.3 s, when what hung in the clearance has begun to bounce. *Start*: the first \
          25 ms from rest. *RMS*: that of `housing.ay`, or `shaft.force.y` where the host has the outer ring, over the \
@@ -91,17 +91,15 @@ pub(super) fn seconds(rows: &[steady::Row], elements: &[elements::Row]) -> Strin
             100.0 * error
         );
     }
-    text += &bounds(rows);
+    text += &bounds(rows, fastest);
     text
 }
 
-/// Frequency up to which the elements of `6205-healthy` vibrate [Hz], as `brinell modes` says.
-const FASTEST: f64 = 55.0e3;
 /// Reach ωh of the phase-fitted pair's stability.
 const REACH: f64 = 4.0;
 
-/// Why a second does not cost less.
-fn bounds(rows: &[steady::Row]) -> String {
+/// Why a second does not cost less; elements of `6205-healthy` vibrate at up to `fastest` [Hz].
+fn bounds(rows: &[steady::Row], fastest: f64) -> String {
     let of = |scene: &str| rows.iter().find(|row| row.scene == scene && row.tolerance == 1e-3);
     let (Some(healthy), Some(spalled)) = (of("6205-healthy"), of("er16k-tb1")) else { return String::new() };
     let cost_of_a_step = healthy.cost[1] / healthy.steps[0];
@@ -117,8 +115,8 @@ fn bounds(rows: &[steady::Row]) -> String {
          are too long, and one costs {:.2} µs: elements near the spall are looked up in the contact map one by one, \
          and contact changes are searched for. If its accepted steps cost what a healthy bearing's do, and none were \
          rejected, the second would cost {:.2} s: with such steps nothing can go below that.\n",
-        1e-3 * FASTEST,
-        std::f64::consts::TAU * FASTEST / REACH,
+        1e-3 * fastest,
+        std::f64::consts::TAU * fastest / REACH,
         healthy.steps[0],
         1e6 * cost_of_a_step,
         accepted + rejected,

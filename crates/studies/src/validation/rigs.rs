@@ -6,8 +6,6 @@
 
 use std::fmt::Write;
 use std::ops::Range;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use anyhow::Result;
 use brinell::scene::Scene;
@@ -17,6 +15,7 @@ use brinell_analysis::recording::Recording;
 use brinell_analysis::report::Fault;
 use brinell_analysis::spall_size;
 use brinell_analysis::statistics::Random;
+use rayon::prelude::*;
 
 use super::Values;
 use super::synthetic_rig::SyntheticRig;
@@ -75,24 +74,7 @@ impl Found {
 
 /// What sizing gives of all machines of a group.
 fn sized(raceway: Raceway, length: f64, machines: Range<u64>) -> Result<Vec<Found>> {
-    let next = AtomicU64::new(machines.start);
-    let found = Mutex::new(Vec::new());
-    let work = || {
-        loop {
-            let number = next.fetch_add(1, Ordering::Relaxed);
-            if number >= machines.end {
-                break;
-            }
-            let one = one(number, raceway, length);
-            found.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push(one);
-        }
-    };
-    std::thread::scope(|scope| {
-        for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
-            scope.spawn(work);
-        }
-    });
-    found.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner).into_iter().collect()
+    machines.into_par_iter().map(|number| one(number, raceway, length)).collect()
 }
 
 fn one(number: u64, raceway: Raceway, length: f64) -> Result<Found> {
