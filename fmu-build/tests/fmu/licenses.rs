@@ -87,6 +87,28 @@ fn texts(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
+/// A package's licence: its own files, those of another package of the same repository, or, of a package that came
+/// without any, the terms of MIT with its authors' names.
+fn texts_of(package: &Value, all: &Value) -> Vec<String> {
+    let of = |package: &Value| texts(Path::new(package["manifest_path"].as_str().unwrap()).parent().unwrap());
+    let siblings = all["packages"].as_array().unwrap().iter().filter(|one| one["repository"] == package["repository"]);
+    if let Some(files) = std::iter::once(package).chain(siblings).map(of).find(|found| !found.is_empty()) {
+        return files.iter().map(|file| fs::read_to_string(file).unwrap().replace("\r\n", "\n")).collect();
+    }
+    let (name, license) = (&package["name"], package["license"].as_str().unwrap());
+    assert!(license.split([' ', '/']).any(|offered| offered == "MIT"), "{name}: no text of its licence, {license}");
+    let authors: Vec<_> = package["authors"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|name| name.as_str().unwrap().trim_end_matches(" <>"))
+        .collect();
+    let authors = if authors.is_empty() { "its authors".to_owned() } else { authors.join(", ") };
+    let ours = fs::read_to_string(common::root().join("LICENSE-MIT")).unwrap();
+    let terms = &ours[ours.find("Permission is hereby granted").unwrap()..];
+    vec![format!("MIT License (the package came without a text)\n\nCopyright (c) {authors}\n\n{terms}")]
+}
+
 fn written(ours: &str, what: &str) -> String {
     let metadata = metadata();
     let mut by_text: BTreeMap<String, Vec<String>> = BTreeMap::new();
@@ -96,8 +118,7 @@ fn written(ours: &str, what: &str) -> String {
         let shown = format!("{} {}", field("name"), field("version"));
         assert!(!field("license").is_empty(), "{shown}: no licence is named");
         writeln!(page, "{shown}: {}, {}", field("license").replace('/', " OR "), field("repository")).unwrap();
-        for file in texts(Path::new(field("manifest_path")).parent().unwrap()) {
-            let text = fs::read_to_string(&file).unwrap().replace("\r\n", "\n");
+        for text in texts_of(package, &metadata) {
             by_text.entry(text.trim().to_owned()).or_default().push(shown.clone());
         }
     }
