@@ -32,23 +32,98 @@ from reference import Reference
 TOLERANCES = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8]
 
 
+def compile_inner(b):
+    """Contact of an element and the inner ring as machine code: inner(c, s, u, u_dot, x, y, vx, vy), the last four of
+    the outer ring's centre against the inner ring's. Force, direction times length (x and y), length."""
+    rho0, clearance, k_i, chi, omega = b.rho0, b.clearance, b.growth_i.constant, b.chi, b.omega_c
+
+    @numba.njit
+    def inner(c, s, u, u_dot, x, y, vx, vy):
+        sx, sy = x + u * c, y + u * s
+        qx, qy = rho0 * c + sx, rho0 * s + sy
+        length = math.sqrt(qx * qx + qy * qy)
+        depth = -clearance - (2 * rho0 * (c * sx + s * sy) + sx * sx + sy * sy) / (rho0 + length)
+        if depth > 0:
+            approach = qx * (vx + u_dot * c) + qy * (vy + u_dot * s)
+            rate = -(approach + (rho0 + u) * omega * (c * sy - s * sx)) / length
+            return k_i * depth * math.sqrt(depth) * max(0.0, 1 + chi * rate), qx, qy, length
+        return 0.0, qx, qy, length
+
+    return inner
+
+
+def compile_path(b):
+    """The rigid path over the spall as machine code: path(theta), P and dP/dψ."""
+    if b.spall is None:
+        return numba.njit(lambda theta: (0.0, 0.0))
+    shape, middle, r, r_o, tau = b.spall.paths["outer"], b.spall.middle, b.r, b.r_o, 2 * math.pi
+    half, depth, roll_in = shape.half_length, shape.depth, shape.roll_in
+
+    @numba.njit
+    def path(theta):
+        psi = -((middle - theta + math.pi) % tau) + math.pi
+        d = half - abs(psi)
+        if d >= roll_in:
+            return depth, 0.0
+        if d > 0:
+            cd, sd = math.cos(d), math.sin(d)
+            root = math.sqrt(r * r - (r_o * sd) ** 2)
+            p = -2 * r_o * math.sin(d / 2) ** 2 + (r_o * sd) ** 2 / (r + root)
+            return p, -math.copysign(1.0, psi) * (-r_o * sd + r_o**2 * sd * cd / root)
+        return 0.0, 0.0
+
+    return path
+
+
+def compile_outer(b):
+    """Contact of an element and the outer ring as machine code: outer(theta, u, u_dot), the force's radial and
+    tangential part."""
+    rho0, k_o, chi, omega, path = b.rho0, b.growth_o.constant, b.chi, b.omega_c, compile_path(b)
+
+    @numba.njit
+    def outer(theta, u, u_dot):
+        p, slope = path(theta)
+        depth = u - p
+        if depth > 0:
+            tan = slope / (rho0 + u)
+            damping = max(0.0, 1 + chi * (u_dot - slope * omega))
+            radial = k_o * depth * math.sqrt(depth) * damping / math.sqrt(1 + tan * tan)
+            return radial, radial * tan
+        return 0.0, 0.0
+
+    return outer
+
+
+def compile_rings(b):
+    """Motion of both rings and of the sensor as machine code: rings(y, shx, shy, hox, hoy, dy) under the contacts'
+    forces on shaft and housing."""
+    m_s, c_s, k_s = b.shaft.mass, b.shaft.damping, b.shaft.stiffness
+    m_h, c_h, k_h = b.housing.mass, b.housing.damping, b.housing.stiffness
+    fsx, fsy, fhx, fhy = *b.shaft.load, *b.housing.load
+    n_r, sensor, (m_r, k_r, c_r) = b.n_rings, bool(b.sensor), b.sensor or (1.0, 0.0, 0.0)
+
+    @numba.njit
+    def rings(y, shx, shy, hox, hoy, dy):
+        dy[0], dy[1], dy[4], dy[5] = y[2], y[3], y[6], y[7]
+        dy[2] = (shx + fsx - c_s * y[2] - k_s * y[0]) / m_s
+        dy[3] = (shy + fsy - c_s * y[3] - k_s * y[1]) / m_s
+        resonator = 0.0
+        if sensor:
+            resonator = k_r * (y[n_r] - y[5]) + c_r * (y[n_r + 1] - y[7])
+            dy[n_r], dy[n_r + 1] = y[n_r + 1], -resonator / m_r
+        dy[6] = (hox + fhx - c_h * y[6] - k_h * y[4]) / m_h
+        dy[7] = (hoy + fhy - c_h * y[7] - k_h * y[5] + resonator) / m_h
+
+    return rings
+
+
 def compile_rhs(b):
-    """The right-hand side of one scene as machine code: rhs(t, y, dy) and jac(t, y, J). Rings internal,
-    Hunt-Crossley."""
+    """The right-hand side of one scene as machine code: rhs(t, y, dy). Rings internal, Hunt-Crossley."""
     assert b.n_rings == 8 and b.law == "hunt-crossley", "both rings internal, Hunt-Crossley damping"
     assert isinstance(b.growth_i, Point), "balls"
     assert b.spall is None or (b.spall.on == "outer" and b.spall.omega == 0), "a spall of a standing outer ring"
-    z, n_r, n_f, m, rho0, r, r_o, clearance = b.z, b.n_rings, b.n_front, b.mass, b.rho0, b.r, b.r_o, b.clearance
-    k_i, k_o, chi, omega, theta0, gx, gy = b.growth_i.constant, b.growth_o.constant, b.chi, b.omega_c, b.theta0, *b.gravity
-    m_s, c_s, k_s, m_h, c_h, k_h = (b.shaft.mass, b.shaft.damping, b.shaft.stiffness,
-                                    b.housing.mass, b.housing.damping, b.housing.stiffness)
-    fsx, fsy, fhx, fhy = *b.shaft.load, *b.housing.load
-    sensor, (m_r, k_r, c_r) = bool(b.sensor), b.sensor or (1.0, 0.0, 0.0)
-    path = b.spall.paths["outer"] if b.spall else None
-    half, spall, depth, roll_in = (
-        (path.half_length, b.spall.middle, path.depth, path.roll_in) if path else (0.0, 0.0, 0.0, 0.0)
-    )
-    tau, n = 2 * math.pi, b.n_front + 2 * b.z
+    z, n_f, m, rho0, omega, theta0, gx, gy = b.z, b.n_front, b.mass, b.rho0, b.omega_c, b.theta0, *b.gravity
+    inner, outer, rings, tau = compile_inner(b), compile_outer(b), compile_rings(b), 2 * math.pi
 
     @numba.njit
     def rhs(t, y, dy):
@@ -59,37 +134,8 @@ def compile_rhs(b):
             c, s = math.cos(theta), math.sin(theta)
             u, w = y[n_f + j], y[n_f + z + j]
             u_dot = w - c * v_ox - s * v_oy
-            sx, sy = y[4] - y[0] + u * c, y[5] - y[1] + u * s
-            qx, qy = rho0 * c + sx, rho0 * s + sy
-            length = math.sqrt(qx * qx + qy * qy)
-            inner = -clearance - (2 * rho0 * (c * sx + s * sy) + sx * sx + sy * sy) / (rho0 + length)
-            q_i = 0.0
-            if inner > 0:
-                approach = qx * (v_ox - y[2] + u_dot * c) + qy * (v_oy - y[3] + u_dot * s)
-                rate = -(approach + (rho0 + u) * omega * (c * sy - s * sx)) / length
-                q_i = k_i * inner * math.sqrt(inner) * max(0.0, 1 + chi * rate)
-            p = slope = 0.0
-            if half > 0:
-                psi = -((spall - theta + math.pi) % tau) + math.pi
-                d = half - abs(psi)
-                if d >= roll_in:
-                    p = depth
-                elif d > 0:
-                    cd, sd = math.cos(d), math.sin(d)
-                    root = math.sqrt(r * r - (r_o * sd) ** 2)
-                    p = -2 * r_o * math.sin(d / 2) ** 2 + (r_o * sd) ** 2 / (r + root)
-                    slope = -math.copysign(1.0, psi) * (-r_o * sd + r_o**2 * sd * cd / root)
-            outer, radial, tangential = u - p, 0.0, 0.0
-            if outer > 0:
-                tan = slope / (rho0 + u)
-                radial = (
-                    k_o
-                    * outer
-                    * math.sqrt(outer)
-                    * max(0.0, 1 + chi * (u_dot - slope * omega))
-                    / math.sqrt(1 + tan * tan)
-                )
-                tangential = radial * tan
+            q_i, qx, qy, length = inner(c, s, u, u_dot, y[4] - y[0], y[5] - y[1], v_ox - y[2], v_oy - y[3])
+            radial, tangential = outer(theta, u, u_dot)
             shx -= q_i * qx / length
             shy -= q_i * qy / length
             hox += c * radial + s * tangential
@@ -97,15 +143,14 @@ def compile_rhs(b):
             push = (q_i * (qx * c + qy * s) / length - radial) / m + gx * c + gy * s
             dy[n_f + j] = u_dot
             dy[n_f + z + j] = push + omega * (c * v_oy - s * v_ox + (rho0 + u) * omega)
-        dy[0], dy[1], dy[4], dy[5] = y[2], y[3], v_ox, v_oy
-        dy[2] = (shx + fsx - c_s * y[2] - k_s * y[0]) / m_s
-        dy[3] = (shy + fsy - c_s * y[3] - k_s * y[1]) / m_s
-        resonator = 0.0
-        if sensor:
-            resonator = k_r * (y[n_r] - y[5]) + c_r * (y[n_r + 1] - v_oy)
-            dy[n_r], dy[n_r + 1] = y[n_r + 1], -resonator / m_r
-        dy[6] = (hox + fhx - c_h * v_ox - k_h * y[4]) / m_h
-        dy[7] = (hoy + fhy - c_h * v_oy - k_h * y[5] + resonator) / m_h
+        rings(y, shx, shy, hox, hoy, dy)
+
+    return rhs
+
+
+def compile_jacobian(b, rhs):
+    """The Jacobian of a compiled right-hand side by one-sided differences, as machine code: jac(t, y, J)."""
+    z, n_r, n_f, n, sensor = b.z, b.n_rings, b.n_front, b.n_front + 2 * b.z, bool(b.sensor)
 
     @numba.njit
     def jac(t, y, j):
@@ -119,7 +164,7 @@ def compile_rhs(b):
             x[k] = y[k]
             j[:, k] = (moved - base) / step
 
-    return rhs, jac
+    return jac
 
 
 class Problem:
@@ -129,7 +174,8 @@ class Problem:
         self.bearing = b = Bearing.load(path)
         self.name, self.stop = pathlib.Path(path).stem, stop
         self.times = np.arange(round(stop / step) + 1) * step
-        self.fill, self.fill_jacobian = compile_rhs(b)
+        self.fill = compile_rhs(b)
+        self.fill_jacobian = compile_jacobian(b, self.fill)
         self.y0 = Reference(b).y
         self.n = len(self.y0)
         self.scale = Reference(b).atol / Reference(b).rtol

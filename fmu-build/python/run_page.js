@@ -7,7 +7,8 @@ const FONT = { family: "system-ui, sans-serif", size: 13 };
 // Points across a window: more than there are pixels.
 const ACROSS = 2000;
 const GRID = { gridcolor: "#e4e4e4", zeroline: false };
-// Above a plot stands its toolbar alone, however narrow the window: what curves are is said below, in three lines at most.
+// Above a plot stands its toolbar alone, however narrow the window: what curves are is said below, in three lines at
+// most.
 const MARGIN = { l: 80, r: 20, t: 40, b: 45 };
 const MARGIN_OF_LEGEND = { ...MARGIN, b: 120 };
 const LEGEND = { orientation: "h", yref: "container", y: 0, yanchor: "bottom" };
@@ -49,7 +50,8 @@ function asked(all) {
   if (!text) {
     // Nothing is asked.
   } else if (!(from < to) || more.length) {
-    said = `The address ends with #${text}: two times in seconds are understood, the earlier first, as #0.1,0.2. All is shown.`;
+    const understood = "two times in seconds are understood, the earlier first, as #0.1,0.2";
+    said = `The address ends with #${text}: ${understood}. All is shown.`;
   } else if (from >= all[1] || to <= all[0]) {
     said = `The address asks for ${from} to ${to} s, but ${run}. All of it is shown.`;
   } else {
@@ -66,31 +68,58 @@ function digits(value) {
   return Number(value.toPrecision(6));
 }
 
+// What Plotly puts behind the "y" or "yaxis" of a row: nothing for the first, 2 for the second.
+function suffix(row) {
+  return row > 0 ? row + 1 : "";
+}
+
+function signalTrace(signal, range) {
+  return {
+    ...shown(signal, ...range),
+    name: signal.name, type: "scatter", mode: "lines", line: { width: 1, color: signal.colour, dash: signal.dash },
+    yaxis: `y${suffix(signal.row)}`, showlegend: false,
+    hovertemplate: `%{y:.5g} ${signal.unit}<extra>${signal.name}</extra>`,
+  };
+}
+
+function panelAxis(panel, top, count) {
+  const domain = [top - 0.88 / count, top - 0.04 / count];
+  return { ...GRID, domain, title: { text: panel.unit }, fixedrange: false };
+}
+
+// What the curves of a panel are, above it.
+function panelNames(panel, top) {
+  const inOrder = [...panel.signals].sort((a, b) => a.name.localeCompare(b.name, "en", { numeric: true }));
+  const names = inOrder.map((signal) => `<span style="color:${signal.colour}">${signal.label}</span>`);
+  return {
+    text: [panel.title, ...names].join("&nbsp; "),
+    x: 0, y: top, xref: "paper", yref: "paper", xanchor: "left", yanchor: "middle",
+    showarrow: false, font: { size: 12 },
+  };
+}
+
+function signalsLayout(range) {
+  const count = DATA.panels.length;
+  const top = (row) => 1 - row / count;
+  const layout = {
+    font: FONT, height: 90 + 150 * count, margin: MARGIN, hovermode: "x", dragmode: "zoom",
+    xaxis: {
+      ...GRID, range, title: { text: "time (s)" }, anchor: `y${suffix(count - 1)}`,
+      showspikes: true, spikemode: "across", spikethickness: 1,
+    },
+    annotations: DATA.panels.map((panel, row) => panelNames(panel, top(row))),
+  };
+  DATA.panels.forEach((panel, row) => (layout[`yaxis${suffix(row)}`] = panelAxis(panel, top(row), count)));
+  return layout;
+}
+
 function drawSignals(place) {
   const signals = DATA.panels.flatMap((panel, row) => panel.signals.map((signal) => ({ ...signal, row })));
   signals.forEach((signal) => (signal.values = numbers(signal.values)));
   const all = [Math.min(...signals.map((s) => s.start)), Math.max(...signals.map((s) => s.end))];
   const range = asked(all);
-  const traces = signals.map((signal) => ({
-    ...shown(signal, ...range),
-    name: signal.name, type: "scatter", mode: "lines", line: { width: 1, color: signal.colour, dash: signal.dash },
-    yaxis: signal.row ? `y${signal.row + 1}` : "y", showlegend: false,
-    hovertemplate: `%{y:.5g} ${signal.unit}<extra>${signal.name}</extra>`,
-  }));
-  const count = DATA.panels.length;
-  const layout = {
-    font: FONT, height: 90 + 150 * count, margin: MARGIN, hovermode: "x", dragmode: "zoom",
-    xaxis: { ...GRID, range, title: { text: "time (s)" }, anchor: count > 1 ? `y${count}` : "y", showspikes: true, spikemode: "across", spikethickness: 1 },
-    annotations: [],
-  };
-  DATA.panels.forEach((panel, row) => {
-    const top = 1 - row / count;
-    layout[row ? `yaxis${row + 1}` : "yaxis"] = { ...GRID, domain: [top - 0.88 / count, top - 0.04 / count], title: { text: panel.unit }, fixedrange: false };
-    const inOrder = [...panel.signals].sort((a, b) => a.name.localeCompare(b.name, "en", { numeric: true }));
-    const names = [panel.title, ...inOrder.map((s) => `<span style="color:${s.colour}">${s.label}</span>`)].join("&nbsp; ");
-    layout.annotations.push({ text: names, x: 0, y: top, xref: "paper", yref: "paper", xanchor: "left", yanchor: "middle", showarrow: false, font: { size: 12 } });
-  });
-  return Plotly.newPlot(place, traces, layout, CONFIG).then(() => {
+  const traces = signals.map((signal) => signalTrace(signal, range));
+  return Plotly.newPlot(place, traces, signalsLayout(range), CONFIG).then(() => {
     place.on("plotly_relayout", (change) => {
       let window = null;
       if (change["xaxis.range[0]"] !== undefined) window = [change["xaxis.range[0]"], change["xaxis.range[1]"]];
@@ -105,38 +134,80 @@ function drawSignals(place) {
   });
 }
 
-function drawPath(place, defect) {
+function surfaceTrace(defect) {
+  return {
+    x: defect.surface.map((p) => p[0]), y: defect.surface.map((p) => p[1]),
+    name: defect.body, mode: "lines", line: { color: "#666666", width: 1.5 },
+    fill: "tozeroy", fillcolor: "rgba(0,0,0,0.06)",
+    hovertemplate: `%{x:.3f} ${defect.along}, %{y:.2f} µm<extra>surface</extra>`,
+  };
+}
+
+function passagesTrace(defect) {
   const x = numbers(defect.x), y = numbers(defect.y), time = numbers(defect.time), element = numbers(defect.element);
   // A gap stands between two passages.
   const gaps = (values) => Array.from(values, (value) => (Number.isNaN(value) ? null : value));
-  const traces = [
-    { x: defect.surface.map((p) => p[0]), y: defect.surface.map((p) => p[1]), name: defect.body, mode: "lines", line: { color: "#666666", width: 1.5 }, fill: "tozeroy", fillcolor: "rgba(0,0,0,0.06)", hovertemplate: "%{x:.3f} " + defect.along + ", %{y:.2f} µm<extra>surface</extra>" },
-    { x: gaps(x), y: gaps(y), name: "an element's centre, passage after passage", mode: "lines", opacity: 0.5, line: { color: "#0072B2", width: 1 }, customdata: Array.from(time, (t, i) => [t, element[i]]), hovertemplate: "element %{customdata[1]} at %{customdata[0]:.5f} s<br>%{x:.3f} " + defect.along + ", %{y:.2f} µm<extra></extra>" },
-  ];
-  const layout = { font: FONT, height: 460, margin: MARGIN_OF_LEGEND, hovermode: "closest", legend: LEGEND, xaxis: { ...GRID, title: { text: defect.axis, standoff: 8 } }, yaxis: { ...GRID, title: { text: "µm" } } };
+  const place = `%{x:.3f} ${defect.along}, %{y:.2f} µm`;
+  return {
+    x: gaps(x), y: gaps(y), name: "an element's centre, passage after passage",
+    mode: "lines", opacity: 0.5, line: { color: "#0072B2", width: 1 },
+    customdata: Array.from(time, (t, i) => [t, element[i]]),
+    hovertemplate: `element %{customdata[1]} at %{customdata[0]:.5f} s<br>${place}<extra></extra>`,
+  };
+}
+
+function drawPath(place, defect) {
+  const traces = [surfaceTrace(defect), passagesTrace(defect)];
+  const layout = {
+    font: FONT, height: 460, margin: MARGIN_OF_LEGEND, hovermode: "closest", legend: LEGEND,
+    xaxis: { ...GRID, title: { text: defect.axis, standoff: 8 } },
+    yaxis: { ...GRID, title: { text: "µm" } },
+  };
   return Plotly.newPlot(place, traces, layout, CONFIG);
 }
 
-function drawSpectrum(place, spectrum) {
+// Heights of the points of a mark from the floor to the top: a line can be hovered over where it has points.
+function heights({ log, floor, top }) {
+  const height = (part) => (log ? floor * Math.pow(top / floor, part / 20) : (top * part) / 20);
+  return Array.from({ length: 21 }, (_, part) => (part ? height(part) : floor));
+}
+
+// A frequency and its multiples: upright lines, with a gap behind each.
+function markTrace(mark, spectrum) {
+  const up = heights(spectrum);
+  const told = (f, k) => `${k ? `${k + 1} × ` : ""}${mark.name} = ${f.toPrecision(5)} ${spectrum.unit}`;
+  return {
+    x: mark.at.flatMap((f) => [...up.map(() => f), null]),
+    y: mark.at.flatMap(() => [...up, null]),
+    text: mark.at.flatMap((f, k) => [...up.map(() => told(f, k)), ""]),
+    name: `${mark.name} ${mark.at[0].toPrecision(4)} ${spectrum.unit}`,
+    mode: "lines", opacity: 0.8, line: { color: mark.colour, width: 1.5, dash: mark.dash },
+    hovertemplate: "%{text}<extra></extra>",
+  };
+}
+
+function spectrumTrace(spectrum) {
   const y = numbers(spectrum.y);
   const x = spectrum.x ? numbers(spectrum.x) : Array.from(y, (_, i) => i * spectrum.step);
-  const top = spectrum.top, floor = spectrum.floor;
-  const traces = spectrum.marks.map((mark) => {
-    const at = [], high = [], said = [];
-    mark.at.forEach((f, k) => {
-      for (let part = 0; part <= 20; part++) {
-        at.push(f);
-        high.push(part ? (spectrum.log ? floor * Math.pow(top / floor, part / 20) : (top * part) / 20) : floor);
-        said.push(`${k ? `${k + 1} × ` : ""}${mark.name} = ${f.toPrecision(5)} ${spectrum.unit}`);
-      }
-      at.push(null); high.push(null); said.push("");
-    });
-    return { x: at, y: high, text: said, name: `${mark.name} ${mark.at[0].toPrecision(4)} ${spectrum.unit}`, mode: "lines", opacity: 0.8, line: { color: mark.colour, width: 1.5, dash: mark.dash }, hovertemplate: "%{text}<extra></extra>" };
-  });
-  traces.push({ x, y, name: spectrum.name, mode: "lines", line: { color: "black", width: 1 }, hovertemplate: `%{x:.5g} ${spectrum.unit}: %{y:.4g}<extra></extra>` });
-  const scale = spectrum.log ? { type: "log", range: [Math.log10(floor), Math.log10(top)] } : { range: [0, top] };
-  const layout = { font: FONT, height: 480, margin: MARGIN_OF_LEGEND, hovermode: "closest", legend: LEGEND, xaxis: { ...GRID, range: [0, spectrum.shown], title: { text: spectrum.axis, standoff: 8 } }, yaxis: { ...GRID, exponentformat: "power", title: { text: spectrum.label }, ...scale } };
-  return Plotly.newPlot(place, traces, layout, CONFIG);
+  return {
+    x, y, name: spectrum.name, mode: "lines", line: { color: "black", width: 1 },
+    hovertemplate: `%{x:.5g} ${spectrum.unit}: %{y:.4g}<extra></extra>`,
+  };
+}
+
+function spectrumLayout(spectrum) {
+  const { log, floor, top } = spectrum;
+  const scale = log ? { type: "log", range: [Math.log10(floor), Math.log10(top)] } : { range: [0, top] };
+  return {
+    font: FONT, height: 480, margin: MARGIN_OF_LEGEND, hovermode: "closest", legend: LEGEND,
+    xaxis: { ...GRID, range: [0, spectrum.shown], title: { text: spectrum.axis, standoff: 8 } },
+    yaxis: { ...GRID, exponentformat: "power", title: { text: spectrum.label }, ...scale },
+  };
+}
+
+function drawSpectrum(place, spectrum) {
+  const traces = [...spectrum.marks.map((mark) => markTrace(mark, spectrum)), spectrumTrace(spectrum)];
+  return Plotly.newPlot(place, traces, spectrumLayout(spectrum), CONFIG);
 }
 
 const drawn = [drawSignals(document.getElementById("signals"))];

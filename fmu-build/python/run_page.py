@@ -135,61 +135,65 @@ def wrapped(angle):
     return (angle + np.pi) % (2 * np.pi) - np.pi
 
 
+def place_and_way(run, about, defect, element, time):
+    """Where an element is along the surface of a defect, from its middle (m, or degrees where the defect is on the
+    element), and how far its centre is beside the path over the smooth surface (m, upwards in the page)."""
+    angle = run.at(f"element[{element}].angle", time)
+    way = np.asarray(run.source("element[1].path")[f"element[{element}].path"])
+    if defect["on"] == "inner":
+        moved = [run.at(f"shaft.{axis}", time) - run.at(f"housing.{axis}", time) for axis in "xy"]
+        # Against the inner ring: 0 where the element just touches its smooth raceway.
+        way = way + (about["clearance"] - moved[0] * np.cos(angle) - moved[1] * np.sin(angle))
+        return defect["radius"] * wrapped(angle - run.at("shaft.angle", time) - defect["angle"]), way
+    # Into the outer raceway is down.
+    if defect["on"] == "outer":
+        along = angle - run.at("housing.angle", time) if about["turns"] else angle
+        return defect["radius"] * wrapped(along - defect["angle"]), -way
+    return np.degrees(wrapped(run.at(f"element[{element}].spin_angle", time))), -way
+
+
+def passages(run, about, defect, room):
+    """Passages of elements with the middle of a defect no further than `room`, the latest first: rows of place, way in
+    µm, time and element."""
+    time = np.asarray(run.source("element[1].path")["time"])
+    found = []
+    for j in [defect["element"]] if defect["on"] == "element" else range(1, about["count"] + 1):
+        along, way = place_and_way(run, about, defect, j, time)
+        near = np.flatnonzero(np.abs(along) <= room)
+        breaks = np.flatnonzero((np.diff(near) > 1) | (np.abs(np.diff(along[near])) > room)) + 1
+        for piece in np.split(near, breaks):
+            if piece.size > 1:
+                found.append(np.column_stack([along[piece], way[piece] * 1e6, time[piece], np.full(piece.size, j)]))
+    return sorted(found, key=lambda rows: -rows[0, 2])
+
+
+def latest(found):
+    """The latest passages, as many as the page has room for."""
+    kept, points = [], 0
+    for rows in found:
+        if kept and (points + len(rows) > MOST_OF_PATH or len(kept) >= MOST_PASSAGES):
+            break
+        kept.append(rows)
+        points += len(rows)
+    return kept
+
+
 def path(run, about, defect, number):
     """The surface of a defect and the ways of elements over it."""
+    element = defect["on"] == "element"
     surface = np.array(defect["surface"])
-    radius, count = defect["radius"], about["count"]
     half = 0.5 * (surface[-1, 0] - surface[0, 0])
-    room = half + max(0.8 * half, 0.4e-3)
-    source = run.source("element[1].path")
-    time = np.asarray(source["time"])
-    pieces = []
-    for j in [defect["element"]] if defect["on"] == "element" else range(1, count + 1):
-        angle = run.at(f"element[{j}].angle", time)
-        way = np.asarray(source[f"element[{j}].path"]).copy()
-        if defect["on"] == "outer":
-            along = angle - run.at("housing.angle", time) if about["turns"] else angle
-            along = radius * wrapped(along - defect["angle"])
-        elif defect["on"] == "inner":
-            along = radius * wrapped(angle - run.at("shaft.angle", time) - defect["angle"])
-            moved = [run.at(f"shaft.{axis}", time) - run.at(f"housing.{axis}", time) for axis in "xy"]
-            # Against the inner ring: 0 where the element just touches its smooth raceway.
-            way += about["clearance"] - moved[0] * np.cos(angle) - moved[1] * np.sin(angle)
-        else:
-            along, room = np.degrees(wrapped(run.at(f"element[{j}].spin_angle", time))), 180.0
-        # Into the outer raceway is down.
-        way *= 1.0 if defect["on"] == "inner" else -1.0
-        near = np.flatnonzero(np.abs(along) <= room)
-        for piece in np.split(near, np.flatnonzero((np.diff(near) > 1) | (np.abs(np.diff(along[near])) > room)) + 1):
-            if piece.size > 1:
-                pieces.append(
-                    (
-                        time[piece[0]],
-                        np.column_stack([along[piece], way[piece] * 1e6, time[piece], np.full(piece.size, j)]),
-                    )
-                )
-    pieces = [piece for _, piece in sorted(pieces, key=lambda piece: -piece[0])]
-    kept, points = [], 0
-    for piece in pieces:
-        if kept and (points + len(piece) > MOST_OF_PATH or len(kept) >= 2 * MOST_PASSAGES):
-            break
-        kept += [piece, np.full((1, 4), np.nan)]
-        points += len(piece)
+    room = 180.0 if element else half + max(0.8 * half, 0.4e-3)
+    found = passages(run, about, defect, room)
+    kept = latest(found)
     if not kept:
         return None
-    rows = np.concatenate(kept)
-    element = defect["on"] == "element"
+    gap = np.full((1, 4), np.nan)
+    rows = np.concatenate([part for passage in kept for part in (passage, gap)])
     scale = 1.0 if element else 1e3
-    outline = (
-        np.vstack([[-room, 0], surface, [room, 0]]) * [scale, -1e6]
-        if not element
-        else np.array([[-180.0, 0.0], [180.0, 0.0]])
-    )
-    told = (
-        f"{len(kept) // 2} passages"
-        if len(kept) // 2 == len(pieces)
-        else f"the last {len(kept) // 2} of {len(pieces)} passages"
-    )
+    ends = [[-room, 0.0], [room, 0.0]]
+    outline = np.array(ends) if element else np.vstack([ends[0], surface, ends[1]]) * [scale, -1e6]
+    told = f"{len(kept)}" if len(kept) == len(found) else f"the last {len(kept)} of {len(found)}"
     body = {"outer": "outer raceway", "inner": "inner raceway", "element": "smooth outer raceway"}[defect["on"]]
     where = (
         "spin of the element (degrees),<br>0: the defect faces the outer raceway"
@@ -197,7 +201,7 @@ def path(run, about, defect, number):
         else "arc from the defect's middle (mm)"
     )
     return {
-        "title": f"Defect {number}: {body if not element else 'element ' + str(defect['element'])}, {told}",
+        "title": f"Defect {number}: {body if not element else 'element ' + str(defect['element'])}, {told} passages",
         "body": body,
         "axis": where,
         "along": "°" if element else "mm",

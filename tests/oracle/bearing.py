@@ -8,7 +8,8 @@ elements that spin as if they rolled on both raceways; no friction, lubricant or
 edge, where Hertz's paraboloids are not what touches.
 
 States: shaft x y vx vy | housing x y vx vy (each only if that ring is `internal`) | resonator y vy (if any) | u[Z] |
-w[Z]. u is how far an element's centre lies outside its path on the smooth outer raceway, w its absolute radial velocity.
+w[Z]. u is how far an element's centre lies outside its path on the smooth outer raceway, w its absolute radial
+velocity.
 """
 
 from dataclasses import dataclass, field
