@@ -75,6 +75,27 @@ use std::f64::consts::TAU;
 impl Scene {
     /// Reads the text of a scene file and checks it.
     ///
+    /// ```
+    /// use brinell::scene::Scene;
+    ///
+    /// let text = r#"
+    ///     name = "6205"
+    ///     [bearing]
+    ///     catalogue = "6205"
+    ///     [shaft]
+    ///     motion = "internal"
+    ///     speed_hz = 25.0
+    ///     load_n = [0.0, -1500.0]
+    ///     [housing]
+    ///     motion = "internal"
+    /// "#;
+    /// assert_eq!(Scene::from_toml(text)?.bearing.element_count, 9);
+    ///
+    /// let fault = Scene::from_toml(&text.replace("25.0", "\"fast\"")).unwrap_err();
+    /// assert!(fault.to_string().contains("speed_hz"));
+    /// # Ok::<(), brinell::scene::SceneError>(())
+    /// ```
+    ///
     /// # Errors
     /// Broken TOML; unknown, missing and contradicting keys and every value that [`Scene::check`] refuses, all of them
     /// at once, as far as one does not hide the other.

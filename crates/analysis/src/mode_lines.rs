@@ -14,6 +14,20 @@ const SAME: f64 = 0.1;
 /// end, and at both sides of each angle between them at which an element begins or ceases to be pressed or to rest.
 /// Angles ascend. Modes with a natural frequency have the number of their line, by ascending mean frequency.
 ///
+/// ```
+/// use brinell::scene::{Bearing, Scene};
+/// use brinell_analysis::assembly::Assembly;
+/// use brinell_analysis::mode_lines::sweep;
+///
+/// let bearing = Bearing::steel_balls(9, 7.94e-3, 39.04e-3);
+/// let scene = Scene::builder(bearing).shaft_load([0.0, -1500.0]).build()?;
+/// let angles = sweep(&Assembly::new(&scene, None, None)?, 0.0, 8)?;
+/// let frequencies = angles[0].modes.iter().filter_map(|mode| mode.undamped_frequency());
+/// // Loaded balls vibrate between their raceways at tens of kilohertz.
+/// assert!(frequencies.fold(0.0, f64::max) > 2e4);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// Those of [`Assembly::modes`].
 pub fn sweep(assembly: &Assembly, first: f64, count: usize) -> Result<Vec<Modes>, ModesError> {

@@ -34,7 +34,7 @@ pub enum Fault {
     Element,
     /// Two kinds stand out by about as much, or recordings of one bearing differ.
     Undecided,
-    /// No comb stands out of chance.
+    /// No comb stands out of chance, or the recording sounds like the scene's bearing without a spall.
     None,
 }
 

@@ -21,7 +21,7 @@ use super::spectrum::{Band, Spectrum};
 use super::statistics;
 use super::synthesis::{CUT, Maps, Rig};
 use super::unresolved::Unresolved;
-use super::waveform_length::{self, WaveformLength};
+use super::waveform_length::{self, Unlike, WaveformLength};
 use brinell::scene::{Bearing, Scene};
 
 /// Coverage factor of the stated interval: 95 % of a normal distribution.
@@ -40,6 +40,27 @@ const AGREEMENT: f64 = 0.1;
 const FLOOR: f64 = 0.02;
 
 /// Sizes the spall in recordings of one bearing. The scene gives bearing, load and rig; its defect is not looked at.
+///
+/// ```
+/// use brinell::scene::{ContactLaw, Scene};
+/// use brinell::simulation::Simulation;
+/// use brinell_analysis::recording::Recording;
+/// use brinell_analysis::report::Verdict;
+/// use brinell_analysis::spall_size::size;
+///
+/// // A healthy bearing, as its sensor hears it for half a second at 25.6 kHz.
+/// let mut scene = Scene::from_toml(include_str!("../../../scenes/6205-spall-5deg.toml"))?;
+/// scene.contact.law = ContactLaw::Hertz;
+/// let mut simulation = Simulation::new(Scene { defects: Vec::new(), ..scene.clone() }, None)?;
+/// simulation.initialize(0.0)?;
+/// let samples = simulation.samples(&["sensor.acceleration"], 1.0 / 25.6e3)?.skip(2560).take(12_800);
+/// let signal = samples.map(|sample| Ok(sample?.values[0])).collect::<Result<Vec<f64>, brinell::Error>>()?;
+///
+/// let report = size(&[Recording::new("healthy", signal, 25.6e3, 10.0)?], &scene)?;
+/// assert_eq!((report.verdict, report.length_deg), (Verdict::Unresolved, None));
+/// println!("{}", report.reason);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 /// Recordings that cannot be sized whatever the bearing's state: too short, or too coarse for their speed.
@@ -134,8 +155,7 @@ struct Length {
 }
 
 impl Sized {
-    fn of(measured: Measured, scene: &Scene, maps: Maps<'_>) -> Self {
-        let events = event_length::estimate(&measured, scene);
+    fn of(mut measured: Measured, scene: &Scene, maps: Maps<'_>) -> Self {
         let rig = Rig::new(scene, measured.bpfo, maps);
         let once = measured.broken.is_none() && measured.times_a_period.is_none();
         let combs = &measured.combs;
@@ -146,8 +166,15 @@ impl Sized {
         };
         let heard = rig.as_ref().filter(|_| outer && once);
         let heard = heard.map(|rig| waveform_length::estimate(&measured, scene, rig));
-        let similarity =
-            heard.as_ref().map(|heard| heard.as_ref().map_or_else(|other| other.similarity, |w| w.similarity));
+        let similarity = heard.as_ref().map(|heard| match heard {
+            Ok(waveform) => waveform.similarity,
+            Err(Unlike::OtherRig(similarity) | Unlike::Healthy(similarity)) => *similarity,
+        });
+        let mut events = event_length::estimate(&measured, scene);
+        if let Some(Err(Unlike::Healthy(similarity))) = heard {
+            measured.fault = Fault::None;
+            events = Err(Unresolved::Healthy(similarity));
+        }
         let waveform = heard.and_then(Result::ok);
         let spacing = measured.spacing;
         let crossing = match (&waveform, &events) {

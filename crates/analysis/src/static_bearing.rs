@@ -117,6 +117,19 @@ impl StaticBearing {
     /// Sets up the bearing of a scene. `profiles` are the texts of the files that its defects name, in the order of
     /// [`Scene::profile_names`].
     ///
+    /// ```
+    /// use brinell::scene::{Bearing, Scene};
+    /// use brinell_analysis::static_bearing::StaticBearing;
+    ///
+    /// let load = [0.0, -1500.0];
+    /// let scene = Scene::builder(Bearing::steel_balls(9, 7.94e-3, 39.04e-3)).shaft_load(load).build()?;
+    /// // With an element right under the load it carries some 5 F/Z (Stribeck).
+    /// let balance = StaticBearing::new(&scene, None)?.balance(-std::f64::consts::FRAC_PI_2, load)?;
+    /// assert!((balance.elements[0].outer_force / (5.0 * 1500.0 / 9.0) - 1.0).abs() < 0.1);
+    /// assert!(balance.stiffness[1][1] > 1e7);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// Whatever is wrong with scene or profile, or a contact law that this defect cannot have.
     pub fn new<'p>(scene: &Scene, profiles: impl IntoIterator<Item = &'p str>) -> Result<Self, StaticError> {

@@ -83,12 +83,26 @@ impl<'a> Rig<'a> {
     /// # Errors
     /// Those of the simulation.
     pub fn passage(&self, trial: Trial, run: Run) -> Result<Vec<f64>, SimulationError> {
+        self.passage_of(self.with_spall(trial), run)
+    }
+
+    /// The same of the rig without a spall.
+    ///
+    /// # Errors
+    /// Those of the simulation.
+    pub fn healthy_passage(&self) -> Result<Vec<f64>, SimulationError> {
+        let mut scene = self.scene.clone();
+        scene.defects.clear();
+        scene.contact.law = ContactLaw::Hertz;
+        self.passage_of(scene, Run::Long)
+    }
+
+    fn passage_of(&self, mut scene: Scene, run: Run) -> Result<Vec<f64>, SimulationError> {
         let count = if run == Run::Short { 1 } else { 4 };
         let decays = if run == Run::Short { 1.0 } else { 2.0 };
         let settling = ((decays * DECAY * self.bpfo).ceil() as usize).max(1);
         let passages = settling..settling + count;
-        let mut scene = self.with_spall(trial);
-        let map = if trial.law == ContactLaw::Map { (self.maps)(&scene) } else { None };
+        let map = if scene.contact.law == ContactLaw::Map { (self.maps)(&scene) } else { None };
         if run == Run::Short {
             scene.tolerance = scene.tolerance.max(ROUGH);
         }

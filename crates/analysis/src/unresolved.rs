@@ -9,6 +9,9 @@ pub enum Unresolved {
          {1:.1}"
     )]
     NoPattern(f64, f64),
+    /// As a bearing without a spall.
+    #[error("it sounds like the scene's bearing without a spall: similarity {0:.2}")]
+    Healthy(f64),
     /// Something else repeats.
     #[error(
         "nothing repeats with the ball pass frequency: its comb stands {0:.1} standard deviations above chance, limit \

@@ -6,13 +6,16 @@
 //! depth; the best of these with other depths and the scene's own law. A parabola through the best three lengths gives
 //! the last digits.
 //!
+//! A healthy bearing is not silent: as elements take up load and lose it again, it makes a passage of its own. One that
+//! explains the recording as well as the best trial says that there is no spall to size.
+//!
 //! [`synthesis`]: super::synthesis
 
 use super::measured::Measured;
 use super::passages;
 use super::raceway::{self, Raceway};
 use super::statistics::{self, Random};
-use super::synthesis::{POINTS, Rig, Run, Trial, below_cut, best_shift};
+use super::synthesis::{POINTS, Rig, Run, Trial, below_cut, best_shift, similarity};
 use super::trial_search::{FINE, Fit, OwnLaw, Peak, Search, lengths, top};
 use brinell::scene::{ContactLaw, Scene};
 
@@ -59,27 +62,48 @@ pub struct WaveformLength {
     pub model: Vec<f64>,
 }
 
-/// A rig that is not the recording's.
+/// Why the scene's rig gives no length.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NotAlike {
-    /// Similarity of the best trial; 0 where none could be simulated.
-    pub similarity: f64,
+pub enum Unlike {
+    /// It is not the recording's: similarity of the best trial, 0 where none could be simulated.
+    OtherRig(f64),
+    /// The recording is as similar to the rig without a spall.
+    Healthy(f64),
 }
 
 /// Sizes the recording by the scene's rig.
 ///
 /// # Errors
 /// A rig that cannot be simulated, or sounds different.
-pub fn estimate(measured: &Measured, scene: &Scene, rig: &Rig<'_>) -> Result<WaveformLength, NotAlike> {
-    let mut heard = NotAlike { similarity: 0.0 };
-    let found = search(measured, scene, rig, &mut heard);
-    found.ok_or(heard)
-}
-
-fn search(measured: &Measured, scene: &Scene, rig: &Rig<'_>, heard: &mut NotAlike) -> Option<WaveformLength> {
+pub fn estimate(measured: &Measured, scene: &Scene, rig: &Rig<'_>) -> Result<WaveformLength, Unlike> {
     let rows = measured.signal_rows(0.0, POINTS);
     let target = below_cut(&passages::average(&rows), measured.bpfo);
-    let search = Search { rig, target: &target };
+    let healthy = rig.healthy_passage().map_or(0.0, |passage| similarity(&target, &passage));
+    // No trial can be better than that.
+    if healthy >= as_good_as(1.0) {
+        return Err(Unlike::Healthy(healthy));
+    }
+    let mut heard = 0.0;
+    let found = search(measured, scene, &Search { rig, target: &target }, &rows, &mut heard);
+    if healthy >= as_good_as(heard).max(LIKE) {
+        return Err(Unlike::Healthy(healthy));
+    }
+    found.ok_or(Unlike::OtherRig(heard))
+}
+
+/// Similarity from which a passage is as good as the best: within half of what the best itself leaves unexplained.
+fn as_good_as(best: f64) -> f64 {
+    best - 0.5 * (1.0 - best).max(1e-3)
+}
+
+/// The length; `heard` is the similarity of the best trial, whether it is enough or not.
+fn search(
+    measured: &Measured,
+    scene: &Scene,
+    search: &Search<'_>,
+    rows: &[Vec<f64>],
+    heard: &mut f64,
+) -> Option<WaveformLength> {
     let spacing = measured.spacing;
     let simple = |length: f64, depth: f64| Trial { length, depth, law: ContactLaw::Hertz };
     let ladder = |depth: f64, step: f64| -> Vec<Trial> {
@@ -87,17 +111,17 @@ fn search(measured: &Measured, scene: &Scene, rig: &Rig<'_>, heard: &mut NotAlik
         all.map(|length| simple(length, depth)).collect()
     };
     let mut found = search.fits(&ladder(DEPTH, STEP), Run::Short);
-    heard.similarity = found.first()?.similarity;
-    let mut climbed = climbs(&search, &found);
+    *heard = found.first()?.similarity;
+    let mut climbed = climbs(search, &found);
     if climbed.first().is_none_or(|best| best.similarity < LIKE)
         && let Some(approach) = raceway::approach(scene)
     {
         let shallow: Vec<Trial> = SHALLOW.iter().flat_map(|times| ladder(times * approach, 0.5 * STEP)).collect();
         found.extend(search.fits(&shallow, Run::Short));
         found.sort_by(|a, b| b.similarity.total_cmp(&a.similarity));
-        climbed = climbs(&search, &found);
+        climbed = climbs(search, &found);
     }
-    heard.similarity = climbed.first().map_or(heard.similarity, |best| best.similarity);
+    *heard = climbed.first().map_or(*heard, |best| best.similarity);
     let Trial { length: around, depth, .. } = climbed.first()?.trial;
     found.extend(climbed);
     // The usual depth once only, where the climb has not left it.
@@ -107,9 +131,7 @@ fn search(measured: &Measured, scene: &Scene, rig: &Rig<'_>, heard: &mut NotAlik
         .filter_map(|depth| search.peak(around, simple(around, depth)))
         .collect();
     let likest = peaks.iter().map(|p| p.similarity).fold(0.0, f64::max);
-    // As good as the best: within half of what the best itself leaves unexplained.
-    let limit = likest - 0.5 * (1.0 - likest).max(1e-3);
-    peaks.retain(|p| p.similarity >= limit);
+    peaks.retain(|p| p.similarity >= as_good_as(likest));
     let range = peaks.iter().fold((f64::MAX, f64::MIN), |(l, h), p| (l.min(p.length), h.max(p.length)));
     // The first is the usual depth, if it is as good: a depth that elements do not reach leaves no trace.
     let cheap = peaks.into_iter().next()?;
@@ -121,7 +143,7 @@ fn search(measured: &Measured, scene: &Scene, rig: &Rig<'_>, heard: &mut NotAlik
         similarity: cheap.similarity,
         passage: cheap.fits[cheap.top].passage.clone(),
     });
-    heard.similarity = best.similarity;
+    *heard = best.similarity;
     if best.similarity < LIKE {
         return None;
     }
@@ -130,16 +152,16 @@ fn search(measured: &Measured, scene: &Scene, rig: &Rig<'_>, heard: &mut NotAlik
         all.map(|f| f.similarity)
             .fold(if (best.length > spacing) == extended { best.similarity } else { 0.0 }, f64::max)
     };
-    let shift = best_shift(&target, &best.passage).shift;
+    let shift = best_shift(search.target, &best.passage).shift;
     Some(WaveformLength {
         length: best.length,
         depth: cheap.depth,
-        statistical: bootstrap(&rows, measured.bpfo, &cheap),
+        statistical: bootstrap(rows, measured.bpfo, &cheap),
         systematic: 0.5 * (range.1 - range.0) / 3f64.sqrt(),
         similarity: best.similarity,
         by_kind: [of_kind(false), of_kind(true)],
         entry: (shift - 0.5 * best.length / spacing).rem_euclid(1.0),
-        model: moved_over(&target, &best.passage, shift),
+        model: moved_over(search.target, &best.passage, shift),
     })
 }
 
