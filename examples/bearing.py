@@ -142,6 +142,13 @@ SAID = collections.deque(maxlen=2)
 HEAR = fmi2CallbackLoggerTYPE(lambda _, __, ___, ____, message: SAID.append(message.decode()))
 
 
+def percent(error):
+    """An error as a cell of a table; above the motion itself it says no more than that."""
+    if not error <= 1.0:
+        return "> 100 %"
+    return "100 %" if error >= 0.995 else f"{100 * error:.2g} %"
+
+
 def what_was_said(error):
     said = "; ".join(SAID) or str(error)
     SAID.clear()

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import step_by_step
-from bearing import Bearing
+from bearing import Bearing, percent
 from ross_bearings import exact, with_ross
 from rotor_ross import fmus_in, shown
 
@@ -107,7 +107,7 @@ def main():
                     continue
                 there = expected[:: round(h / fine)]
                 error = np.sqrt(np.mean((found[: len(there)] - there) ** 2)) / there.std()
-                cells.append(f"{100 * error:.2g} %" if error < 0.995 else "> 100 %")
+                cells.append(percent(error))
                 if error <= 0.01 and len(cells) == steps.index(h) + 1 and "unstable" not in cells:
                     good = f"{h * 1e6:g} µs"
             print(f"| {name} | {host} | " + " | ".join(cells) + f" | {good} |", flush=True)

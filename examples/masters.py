@@ -22,7 +22,7 @@ from ctypes import c_int
 from pathlib import Path
 
 import numpy as np
-from bearing import SCENES, Bearing, Instance, Numbers, build, changed_scene
+from bearing import SCENES, Bearing, Instance, Numbers, build, changed_scene, percent
 
 MASS, LOAD, SPEED = 3.0, 500.0, 2 * np.pi * 30.0  # kg, N, rad/s
 TOLERANCE = 1e-9  # the FMU's own errors stay below those of the coupling
@@ -179,7 +179,7 @@ def main():
                     cells.append("unstable")
                     continue
                 error = np.sqrt(np.mean(np.sum(apart**2, axis=1))) / way
-                cells.append(f"{100 * error:.2g} %" if error < 0.995 else "> 100 %")
+                cells.append(percent(error))
             print(f"| {name} | {kind} | {told} | " + " | ".join(cells) + " |", flush=True)
 
 

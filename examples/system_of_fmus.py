@@ -31,7 +31,7 @@ from xml.etree import ElementTree
 
 import fmpy
 import numpy as np
-from bearing import SCENES, Instance, Numbers, build, changed_scene, unzipped, whole
+from bearing import SCENES, Instance, Numbers, build, changed_scene, percent, unzipped, whole
 from fmpy.fmi1 import FMICallException
 from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import ParameterSet, read_ssd
@@ -315,7 +315,7 @@ def error(run, ssp, exact, h, stop):
         return "unstable"
     apart = np.sqrt(np.mean(np.sum((found - exact) ** 2, axis=1)))
     way = np.sqrt(np.mean(np.sum((exact - exact[0]) ** 2, axis=1)))
-    return f"{100 * apart / way:.2g} %" if apart < 0.995 * way else "> 100 %"
+    return percent(apart / way)
 
 
 def main():

@@ -153,8 +153,8 @@ def place_and_way(run, about, defect, element, time):
 
 
 def passages(run, about, defect, room):
-    """Passages of elements with the middle of a defect no further than `room`, the latest first: rows of place, way in
-    µm, time and element."""
+    """Passages of elements with the middle of a defect no further than `room`, the latest first: rows of place [m],
+    way [µm], time [s] and element."""
     time = np.asarray(run.source("element[1].path")["time"])
     found = []
     for j in [defect["element"]] if defect["on"] == "element" else range(1, about["count"] + 1):
@@ -193,7 +193,7 @@ def path(run, about, defect, number):
     scale = 1.0 if element else 1e3
     ends = [[-room, 0.0], [room, 0.0]]
     outline = np.array(ends) if element else np.vstack([ends[0], surface, ends[1]]) * [scale, -1e6]
-    told = f"{len(kept)}" if len(kept) == len(found) else f"the last {len(kept)} of {len(found)}"
+    told = str(len(kept)) if len(kept) == len(found) else f"the last {len(kept)} of {len(found)}"
     body = {"outer": "outer raceway", "inner": "inner raceway", "element": "smooth outer raceway"}[defect["on"]]
     where = (
         "spin of the element (degrees),<br>0: the defect faces the outer raceway"

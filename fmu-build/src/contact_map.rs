@@ -87,7 +87,7 @@ impl Runner for Cores {
     ) -> Result<Vec<T>, ContactError> {
         self.bar.inc_length(count as u64);
         let job = |index| job(index).inspect(|_| self.bar.inc(1));
-        // All before the first that failed, so that the same one is told every time.
+        // Every job is done, and the error is that of the first by index, whichever thread failed first.
         let results: Vec<_> = self.pool.install(|| (0..count).into_par_iter().with_max_len(1).map(job).collect());
         results.into_iter().collect()
     }

@@ -150,7 +150,7 @@ impl MapPlan {
         // Of an odd number of patches the middle one lies across arc 0.
         let whole = self.patches.len();
         let middle = (!whole.is_multiple_of(2)).then_some(whole / 2);
-        // What follows the last one that is computed is the first one's mirror image.
+        // The others are mirror images of the first ones, in reverse; the depth of the flat before each is kept.
         let beyond: Vec<f64> = self.patches.drain(whole.div_ceil(2)..).map(|patch| patch.before).collect();
         if let Some(middle) = middle {
             self.patches[middle] = self.patches[middle].halved();

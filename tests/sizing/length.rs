@@ -139,6 +139,7 @@ fn the_scenes_own_rig_does_not_resolve_what_is_too_short_for_an_element_to_get_f
     // Its similarity would give the length: the answer says what was seen, and from where on it would count.
     assert!(report.recordings[0].similarity.unwrap() > 0.9);
     assert!(report.reason.contains("not surely above 1.78"), "{}", report.reason);
+    assert_eq!(report.fault, Fault::Outer);
 }
 
 #[test]
@@ -150,7 +151,7 @@ fn the_scenes_own_bearing_without_a_spall_is_healthy_although_its_elements_are_h
     let report = sized(signal, 10.0, &rig);
     assert_eq!((report.verdict, report.fault), (Verdict::Unresolved, Fault::None), "{:?}", report.length_deg);
     assert!(report.recordings[0].combs.outer.significance > 8.0, "nothing was heard");
-    assert!(report.reason.contains("without a spall"), "{}", report.reason);
+    assert!(report.reason.contains("bearing without a spall"), "{}", report.reason);
 }
 
 #[test]

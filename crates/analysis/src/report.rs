@@ -22,7 +22,7 @@ pub enum Standing {
     Provisional,
 }
 
-/// Part of the bearing that a recording's combs say is damaged.
+/// Part of the bearing that seems to be damaged, by a recording's combs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Fault {
@@ -34,7 +34,7 @@ pub enum Fault {
     Element,
     /// Two kinds stand out by about as much, or recordings of one bearing differ.
     Undecided,
-    /// No comb stands out of chance, or the recording sounds like the scene's bearing without a spall.
+    /// No comb stands out of chance, or nothing is more like the recording than the scene's bearing without a spall.
     None,
 }
 
@@ -154,7 +154,8 @@ pub struct RecordingReport {
     pub impacts_deg: Vec<f64>,
     /// Both edges as the length has them, from the first impact, or by similarity from the entry [degrees].
     pub edges_deg: Option<[f64; 2]>,
-    /// Similarity to the scene's rig, 0 to 1, where the scene describes one; below 0.9 it was not used.
+    /// Similarity to the scene's rig, 0 to 1, where the scene describes one: with the best spall, or without a spall where
+    /// that is as good. A length rests on it from 0.9 on.
     pub similarity: Option<f64>,
     /// Frequencies of ringing after entry and after exit [Hz], where they could be measured.
     pub ringing_hz: Option<[f64; 2]>,

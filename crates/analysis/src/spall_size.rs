@@ -29,6 +29,9 @@ const COVERAGE: f64 = 2.0;
 /// Significance of the comb from which similarity is asked: less than the events need, for to be alike is a proof of
 /// its own. Short recordings lose many harmonics to the shaft's.
 const HEARD: f64 = 5.0;
+/// Harmonics of the passage frequency below the cut from which passages have a shape that can be compared: of one or
+/// two harmonics any passage is like any other.
+const HARMONICS: f64 = 5.0;
 /// Scatter between recordings of one spall, as a share of the length, from which they contradict each other.
 const CONTRADICTION: f64 = 0.2;
 /// Ratio of speeds from which they tell time from angle: with 10 % of agreement below, an event at a fixed time would
@@ -164,17 +167,22 @@ impl Sized {
             Fault::None => combs.outer_leads() && combs.outer.significance >= HEARD,
             _ => false,
         };
-        let heard = rig.as_ref().filter(|_| outer && once);
+        let shaped = CUT >= HARMONICS * measured.bpfo;
+        let heard = rig.as_ref().filter(|_| outer && once && shaped);
         let heard = heard.map(|rig| waveform_length::estimate(&measured, scene, rig));
         let similarity = heard.as_ref().map(|heard| match heard {
             Ok(waveform) => waveform.similarity,
-            Err(Unlike::OtherRig(similarity) | Unlike::Healthy(similarity)) => *similarity,
+            Err(Unlike::OtherRig(similarity) | Unlike::Healthy { similarity, .. }) => *similarity,
         });
-        let mut events = event_length::estimate(&measured, scene);
-        if let Some(Err(Unlike::Healthy(similarity))) = heard {
-            measured.fault = Fault::None;
-            events = Err(Unresolved::Healthy(similarity));
-        }
+        let events = match heard {
+            Some(Err(Unlike::Healthy { similarity, surely })) => {
+                if surely {
+                    measured.fault = Fault::None;
+                }
+                Err(Unresolved::Healthy(similarity))
+            }
+            _ => event_length::estimate(&measured, scene),
+        };
         let waveform = heard.and_then(Result::ok);
         let spacing = measured.spacing;
         let crossing = match (&waveform, &events) {
@@ -352,6 +360,9 @@ fn basis(report: &Report, sized: &[Sized], scene: &Scene) -> String {
     let lost = sized.iter().filter(|s| s.length.is_err()).count();
     if lost > 0 {
         text += &format!("; {lost} of {} recordings unresolved", sized.len());
+        for healthy in sized.iter().filter(|s| matches!(s.length, Err(Unresolved::Healthy(_)))) {
+            text += &format!("; WARNING: {} sounds like the scene's bearing without a spall", healthy.measured.name);
+        }
     }
     text
 }

@@ -10,7 +10,7 @@ pub enum Unresolved {
     )]
     NoPattern(f64, f64),
     /// As a bearing without a spall.
-    #[error("it sounds like the scene's bearing without a spall: similarity {0:.2}")]
+    #[error("it sounds as much like the scene's bearing without a spall as like any with one: similarity {0:.3}")]
     Healthy(f64),
     /// Something else repeats.
     #[error(

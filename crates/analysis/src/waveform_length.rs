@@ -67,28 +67,42 @@ pub struct WaveformLength {
 pub enum Unlike {
     /// It is not the recording's: similarity of the best trial, 0 where none could be simulated.
     OtherRig(f64),
-    /// The recording is as similar to the rig without a spall.
-    Healthy(f64),
+    /// The rig without a spall explains the recording as well as the best trial.
+    Healthy {
+        /// Similarity of the rig without a spall.
+        similarity: f64,
+        /// Whether no trial is better, so that nothing speaks for a spall.
+        surely: bool,
+    },
+}
+
+/// What was tried.
+#[derive(Default)]
+struct Tried {
+    /// Largest similarity of all trials.
+    best: f64,
+    /// That of the trial which the answer rests on.
+    decisive: f64,
 }
 
 /// Sizes the recording by the scene's rig.
 ///
 /// # Errors
-/// A rig that cannot be simulated, or sounds different.
+/// A rig that cannot be simulated, or sounds different, or without a spall as similar as with one.
 pub fn estimate(measured: &Measured, scene: &Scene, rig: &Rig<'_>) -> Result<WaveformLength, Unlike> {
     let rows = measured.signal_rows(0.0, POINTS);
     let target = below_cut(&passages::average(&rows), measured.bpfo);
-    let healthy = rig.healthy_passage().map_or(0.0, |passage| similarity(&target, &passage));
-    // No trial can be better than that.
-    if healthy >= as_good_as(1.0) {
-        return Err(Unlike::Healthy(healthy));
+    let similarity = rig.healthy_passage().map_or(0.0, |passage| similarity(&target, &passage));
+    // Whatever a trial leaves unexplained, this is within half of it.
+    if similarity >= as_good_as(1.0) {
+        return Err(Unlike::Healthy { similarity, surely: true });
     }
-    let mut heard = 0.0;
-    let found = search(measured, scene, &Search { rig, target: &target }, &rows, &mut heard);
-    if healthy >= as_good_as(heard).max(LIKE) {
-        return Err(Unlike::Healthy(healthy));
+    let mut tried = Tried::default();
+    let found = search(measured, scene, &Search { rig, target: &target }, &rows, &mut tried);
+    if similarity >= as_good_as(tried.best).max(LIKE) {
+        return Err(Unlike::Healthy { similarity, surely: similarity >= tried.best });
     }
-    found.ok_or(Unlike::OtherRig(heard))
+    found.ok_or(Unlike::OtherRig(tried.decisive))
 }
 
 /// Similarity from which a passage is as good as the best: within half of what the best itself leaves unexplained.
@@ -96,13 +110,13 @@ fn as_good_as(best: f64) -> f64 {
     best - 0.5 * (1.0 - best).max(1e-3)
 }
 
-/// The length; `heard` is the similarity of the best trial, whether it is enough or not.
+/// The length, if the rig is alike; `tried` is said in any case.
 fn search(
     measured: &Measured,
     scene: &Scene,
     search: &Search<'_>,
     rows: &[Vec<f64>],
-    heard: &mut f64,
+    tried: &mut Tried,
 ) -> Option<WaveformLength> {
     let spacing = measured.spacing;
     let simple = |length: f64, depth: f64| Trial { length, depth, law: ContactLaw::Hertz };
@@ -111,7 +125,8 @@ fn search(
         all.map(|length| simple(length, depth)).collect()
     };
     let mut found = search.fits(&ladder(DEPTH, STEP), Run::Short);
-    *heard = found.first()?.similarity;
+    tried.best = found.first()?.similarity;
+    tried.decisive = tried.best;
     let mut climbed = climbs(search, &found);
     if climbed.first().is_none_or(|best| best.similarity < LIKE)
         && let Some(approach) = raceway::approach(scene)
@@ -121,7 +136,8 @@ fn search(
         found.sort_by(|a, b| b.similarity.total_cmp(&a.similarity));
         climbed = climbs(search, &found);
     }
-    *heard = climbed.first().map_or(*heard, |best| best.similarity);
+    tried.best = climbed.first().map_or(tried.best, |best| best.similarity);
+    tried.decisive = tried.best;
     let Trial { length: around, depth, .. } = climbed.first()?.trial;
     found.extend(climbed);
     // The usual depth once only, where the climb has not left it.
@@ -143,7 +159,8 @@ fn search(
         similarity: cheap.similarity,
         passage: cheap.fits[cheap.top].passage.clone(),
     });
-    *heard = best.similarity;
+    tried.best = tried.best.max(likest).max(best.similarity);
+    tried.decisive = best.similarity;
     if best.similarity < LIKE {
         return None;
     }

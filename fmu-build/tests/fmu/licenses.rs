@@ -80,6 +80,12 @@ fn texts(folder: &Path) -> Vec<PathBuf> {
     files.retain(|path| {
         path.is_file() && ["LICENSE", "LICENCE", "COPYING", "NOTICE"].iter().any(|start| name(path).starts_with(start))
     });
+    // Some have the terms among their authors.
+    let authors = folder.join("AUTHORS");
+    if files.is_empty() && fs::read_to_string(&authors).is_ok_and(|text| text.contains("Permission is hereby granted"))
+    {
+        files.push(authors);
+    }
     files.sort();
     if files.iter().any(|path| name(path).contains("MIT")) {
         files.retain(|path| name(path).contains("MIT") || name(path).starts_with("NOTICE"));
@@ -91,7 +97,10 @@ fn texts(folder: &Path) -> Vec<PathBuf> {
 /// without any, the terms of MIT with its authors' names.
 fn texts_of(package: &Value, all: &Value) -> Vec<String> {
     let of = |package: &Value| texts(Path::new(package["manifest_path"].as_str().unwrap()).parent().unwrap());
-    let siblings = all["packages"].as_array().unwrap().iter().filter(|one| one["repository"] == package["repository"]);
+    let is_sibling = |one: &Value| {
+        package["repository"].is_string() && ["repository", "license"].iter().all(|key| one[*key] == package[*key])
+    };
+    let siblings = all["packages"].as_array().unwrap().iter().filter(|one| is_sibling(one));
     if let Some(files) = std::iter::once(package).chain(siblings).map(of).find(|found| !found.is_empty()) {
         return files.iter().map(|file| fs::read_to_string(file).unwrap().replace("\r\n", "\n")).collect();
     }

@@ -73,6 +73,7 @@ pub fn steps_command(project: &Project, folder: &Path) -> Result<()> {
 
 fn steps(python: &Python, extent: Extent, folder: &Path) -> Result<()> {
     let [data, figures] = folders(folder)?;
+    let fastest = steady::fastest_of_healthy()?;
     let choices = choice::measure(extent, &data)?;
     let (elements, hosted) = elements::measure(extent, &data)?;
     print!("{}", python.run("elements.py", [data.as_os_str(), figures.join("elements").as_os_str()])?);
@@ -83,7 +84,7 @@ fn steps(python: &Python, extent: Extent, folder: &Path) -> Result<()> {
     let seconds = steady::measure(extent, &data)?;
     let path = folder.join("cost-of-steps.md");
     let mut text = steps_page::page(&machine::description(), &choices, &elements, &hosted);
-    text += &steps_page::seconds(&seconds, &elements, steady::fastest_of_healthy()?);
+    text += &steps_page::seconds(&seconds, &elements, fastest);
     whole_file::write(&path, text)?;
     println!("{}", path.display());
     Ok(())
