@@ -59,21 +59,19 @@ pub(crate) fn lively_with(
         ring.motion = motion;
     }
     let profile = [(-2.7e-3, 0.0), (-2.6e-3, 1e-4), (2.0e-3, 1e-4), (2.7e-3, 0.0)];
-    let near = |side, on_element| {
-        NearDefect::Hertz(RigidPath::new(&profile, Rolling::of(&scene.bearing, side, on_element)).unwrap())
+    let near = |side, on_element, centre| {
+        let path = RigidPath::new(&profile, Rolling::of(&scene.bearing, side, on_element)).unwrap();
+        Centred { surface: NearDefect::Hertz(path), centre }
     };
     let centre = scene.defects[0].angle;
-    let on = |side| (bearer == Bearer::Ring(side)).then(|| Centred { surface: near(side, false), centre });
-    let rings = [
-        Defects::new(Frame::Shaft, on(RacewaySide::Inner).map(|on| Centred { centre: on.centre - 0.4, ..on })),
-        Defects::new(Frame::Housing, on(RacewaySide::Outer)),
-    ];
+    let on = |side, centre| (bearer == Bearer::Ring(side)).then(|| near(side, false, centre));
+    let [inner, outer] = [on(RacewaySide::Inner, centre - 0.4), on(RacewaySide::Outer, centre)];
+    let rings = [Defects::new(Frame::Shaft, inner), Defects::new(Frame::Housing, outer)];
     let mut own = Vec::new();
     if let Bearer::Element(facing) = bearer {
         let towards = if facing == RacewaySide::Outer { cage_angle } else { cage_angle + std::f64::consts::PI };
-        let defects = [(RacewaySide::Inner, std::f64::consts::PI), (RacewaySide::Outer, 0.0)].map(|(side, back)| {
-            Defects::new(Frame::Spin, [Centred { surface: near(side, true), centre: towards - back - 0.1 }])
-        });
+        let defects = [(RacewaySide::Inner, std::f64::consts::PI), (RacewaySide::Outer, 0.0)]
+            .map(|(side, back)| Defects::new(Frame::Spin, [near(side, true, towards - back - 0.1)]));
         own.push(DefectiveElement { element: 0, defects, mark: 0.0 });
     }
     // Frames are looked at only where the scene says that something turns.
