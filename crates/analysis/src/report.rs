@@ -154,8 +154,8 @@ pub struct RecordingReport {
     pub impacts_deg: Vec<f64>,
     /// Both edges as the length has them, from the first impact, or by similarity from the entry [degrees].
     pub edges_deg: Option<[f64; 2]>,
-    /// Similarity to the scene's rig, 0 to 1, where the scene describes one: with the best spall, or without a spall where
-    /// that is as good. A length rests on it from 0.9 on.
+    /// Similarity to the scene's rig, 0 to 1, where the scene describes one: with the best spall, or without a spall
+    /// where that is as good. A length rests on it from 0.9 on.
     pub similarity: Option<f64>,
     /// Frequencies of ringing after entry and after exit [Hz], where they could be measured.
     pub ringing_hz: Option<[f64; 2]>,

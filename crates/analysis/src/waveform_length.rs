@@ -81,8 +81,8 @@ pub enum Unlike {
 struct Tried {
     /// Largest similarity of all trials.
     best: f64,
-    /// That of the trial which the answer rests on.
-    decisive: f64,
+    /// That of the trial which the answer rests on, if it came so far.
+    decisive: Option<f64>,
 }
 
 /// Sizes the recording by the scene's rig.
@@ -92,17 +92,17 @@ struct Tried {
 pub fn estimate(measured: &Measured, scene: &Scene, rig: &Rig<'_>) -> Result<WaveformLength, Unlike> {
     let rows = measured.signal_rows(0.0, POINTS);
     let target = below_cut(&passages::average(&rows), measured.bpfo);
-    let similarity = rig.healthy_passage().map_or(0.0, |passage| similarity(&target, &passage));
+    let healthy = rig.healthy_passage().map_or(0.0, |passage| similarity(&target, &passage));
     // Whatever a trial leaves unexplained, this is within half of it.
-    if similarity >= as_good_as(1.0) {
-        return Err(Unlike::Healthy { similarity, surely: true });
+    if healthy >= as_good_as(1.0) {
+        return Err(Unlike::Healthy { similarity: healthy, surely: true });
     }
     let mut tried = Tried::default();
     let found = search(measured, scene, &Search { rig, target: &target }, &rows, &mut tried);
-    if similarity >= as_good_as(tried.best).max(LIKE) {
-        return Err(Unlike::Healthy { similarity, surely: similarity >= tried.best });
+    if healthy >= as_good_as(tried.best).max(LIKE) {
+        return Err(Unlike::Healthy { similarity: healthy, surely: healthy >= tried.best });
     }
-    found.ok_or(Unlike::OtherRig(tried.decisive))
+    found.ok_or(Unlike::OtherRig(tried.decisive.unwrap_or(tried.best)))
 }
 
 /// Similarity from which a passage is as good as the best: within half of what the best itself leaves unexplained.
@@ -126,7 +126,6 @@ fn search(
     };
     let mut found = search.fits(&ladder(DEPTH, STEP), Run::Short);
     tried.best = found.first()?.similarity;
-    tried.decisive = tried.best;
     let mut climbed = climbs(search, &found);
     if climbed.first().is_none_or(|best| best.similarity < LIKE)
         && let Some(approach) = raceway::approach(scene)
@@ -137,7 +136,6 @@ fn search(
         climbed = climbs(search, &found);
     }
     tried.best = climbed.first().map_or(tried.best, |best| best.similarity);
-    tried.decisive = tried.best;
     let Trial { length: around, depth, .. } = climbed.first()?.trial;
     found.extend(climbed);
     // The usual depth once only, where the climb has not left it.
@@ -160,7 +158,7 @@ fn search(
         passage: cheap.fits[cheap.top].passage.clone(),
     });
     tried.best = tried.best.max(likest).max(best.similarity);
-    tried.decisive = best.similarity;
+    tried.decisive = Some(best.similarity);
     if best.similarity < LIKE {
         return None;
     }
