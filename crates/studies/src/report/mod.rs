@@ -77,14 +77,15 @@ fn steps(python: &Python, extent: Extent, folder: &Path) -> Result<()> {
     let choices = choice::measure(extent, &data)?;
     let (elements, hosted) = elements::measure(extent, &data)?;
     print!("{}", python.run("elements.py", [data.as_os_str(), figures.join("elements").as_os_str()])?);
-    if let Some(gain) = SideBySide::new(&elements) {
+    let gain = SideBySide::new(&elements);
+    if let Some(gain) = &gain {
         gain.write(&data)?;
         print!("{}", python.run("side_by_side.py", [data.as_os_str(), figures.join("side-by-side").as_os_str()])?);
     }
     let seconds = steady::measure(extent, &data)?;
     let path = folder.join("cost-of-steps.md");
-    let mut text = steps_page::page(&machine::description(), &choices, &elements, &hosted);
-    text += &steps_page::seconds(&seconds, &elements, fastest);
+    let mut text = steps_page::page(&machine::description(), &choices, &elements, gain.as_ref(), &hosted);
+    text += &steps_page::seconds(&seconds, gain.as_ref(), fastest);
     whole_file::write(&path, text)?;
     println!("{}", path.display());
     Ok(())

@@ -8,7 +8,13 @@ use super::side_by_side::SideBySide;
 use super::steady;
 
 /// The whole page.
-pub(super) fn page(machine: &str, choices: &[choice::Row], elements: &[elements::Row], hosted: &[Hosted]) -> String {
+pub(super) fn page(
+    machine: &str,
+    choices: &[choice::Row],
+    elements: &[elements::Row],
+    gain: Option<&SideBySide<'_>>,
+    hosted: &[Hosted],
+) -> String {
     let mut text = format!(
         "# Cost of steps\n\n\
          Written by `cargo fmu report`, and alone by `cargo fmu report --steps`; the numbers behind it are in \
@@ -49,7 +55,7 @@ pub(super) fn page(machine: &str, choices: &[choice::Row], elements: &[elements:
         let cells = row.seconds.map(|s| format!("{:.3} | {:.4}", 1e6 * s, 1e6 * s / row.count as f64));
         let _ = writeln!(text, "| {} | {} |", row.count, cells.join(" | "));
     }
-    if let Some(gain) = SideBySide::new(elements) {
+    if let Some(gain) = gain {
         text += &gain.section();
     }
     text += "\n## A communication step of 10 µs\n\n\
@@ -64,7 +70,7 @@ pub(super) fn page(machine: &str, choices: &[choice::Row], elements: &[elements:
 }
 
 /// What whole seconds cost; elements of `6205-healthy` vibrate at up to `fastest` [Hz].
-pub(super) fn seconds(rows: &[steady::Row], elements: &[elements::Row], fastest: f64) -> String {
+pub(super) fn seconds(rows: &[steady::Row], gain: Option<&SideBySide<'_>>, fastest: f64) -> String {
     let mut text = "\n## A whole second\n\n\
          Shipped scenes after the first 0.3 s, when what hung in the clearance has begun to bounce. *Start*: the first \
          25 ms from rest. *RMS*: that of `housing.ay`, or `shaft.force.y` where the host has the outer ring, over the \
@@ -74,11 +80,10 @@ pub(super) fn seconds(rows: &[steady::Row], elements: &[elements::Row], fastest:
          | scene | tolerance | start, CPU s/s | the second, CPU s/s | steps/s | rejected/s | RMS | side by side |\n\
          |---|---:|---:|---:|---:|---:|---:|---:|\n"
         .to_owned();
-    let gain = SideBySide::new(elements);
     for row in rows {
         let steady::Row { scene, tolerance, cost: [first, cost], steps: [steps, rejected], error, balls } = row;
         let step = cost / steps;
-        let times = gain.as_ref().zip(*balls).map_or_else(
+        let times = gain.zip(*balls).map_or_else(
             || "–".to_owned(),
             |(gain, count)| {
                 let [alone, shared] = [1, 8].map(|beside| gain.step(count, beside));
