@@ -9,17 +9,17 @@
 // What helpers unwrap is the test's own set-up.
 #![allow(clippy::unwrap_used, clippy::expect_used, unreachable_pub)]
 
-mod case;
-mod draw;
 #[path = "../fmi2/host.rs"]
 #[allow(dead_code)]
 mod host;
 mod invariances;
 mod misuse;
-mod oracle;
 mod recordings;
 mod scenes;
 mod subject;
 #[path = "../support/mod.rs"]
 mod support;
 mod units;
+
+use brinell_oracle as oracle;
+use brinell_oracle::{case, draw};

@@ -8,7 +8,10 @@ const RATE: f64 = 51_200.0;
 
 /// Outer force on the first element, sampled.
 fn force(law: ContactLaw) -> Vec<f64> {
-    let mut scene = Scene::from_toml(&std::fs::read_to_string("scenes/er16k-tb1.toml").unwrap()).unwrap();
+    let mut scene = Scene::from_toml(
+        &std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/er16k-tb1.toml")).unwrap(),
+    )
+    .unwrap();
     scene.contact.law = law;
     // Coarse: the test is about events.
     scene.contact.cells = Some([32, 16]);

@@ -145,7 +145,7 @@ fn a_ring_driven_beyond_all_numbers_is_named_with_its_last_place() {
 
 #[test]
 fn a_cage_that_turns_too_fast_for_time_to_pass_between_edges_fails_at_once() {
-    let text = std::fs::read_to_string("scenes/er16k-tb1.toml").unwrap();
+    let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/er16k-tb1.toml")).unwrap();
     let mut scene = Scene::from_toml(&text).unwrap();
     scene.contact.law = ContactLaw::Hertz;
     let mut simulation = Simulation::new(scene, None).unwrap();

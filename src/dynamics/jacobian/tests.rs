@@ -38,8 +38,7 @@ pub(crate) fn lively_with(
     damping: Damping,
     cage_angle: f64,
 ) -> (Model, Drive) {
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/er16k-tb1.toml");
-    let mut scene = Scene::from_toml(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let mut scene = Scene::from_toml(include_str!("../../../scenes/er16k-tb1.toml")).unwrap();
     scene.bearing.element = element.clone();
     scene.bearing.element_inertia = inertia;
     scene.contact.damping = damping;

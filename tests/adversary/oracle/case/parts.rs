@@ -2,9 +2,9 @@
 
 use super::Case;
 use super::random::Scale;
+use crate::Bearing;
 use crate::draw::Draw;
-use crate::oracle::Bearing;
-use crate::oracle::oil::THINNEST;
+use crate::oil::THINNEST;
 use std::f64::consts::PI;
 
 /// What rolls, and in what.

@@ -150,7 +150,7 @@ impl Host {
     pub fn later(&self, time: f64) -> Self {
         Self {
             speeds: self.speeds.map(|[speed, slope]| [speed + time * slope, slope]),
-            rings: self.rings.map(|ring| ring.map(|c| crate::oracle::quadratic(c, time))),
+            rings: self.rings.map(|ring| ring.map(|c| crate::quadratic(c, time))),
         }
     }
 }

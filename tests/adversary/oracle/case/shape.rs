@@ -4,7 +4,7 @@ use super::{Length, On, Shape, Topography};
 use crate::draw::Draw;
 
 /// What a defect is drawn for.
-pub struct Around {
+pub(super) struct Around {
     /// Radius of an element and of the body with the defect [m].
     pub r: f64,
     pub bearer: f64,
@@ -62,7 +62,7 @@ impl Shape {
 }
 
 /// A defect, and what it is called.
-pub fn random(draw: &mut Draw, around: &Around) -> (&'static str, Shape) {
+pub(super) fn random(draw: &mut Draw, around: &Around) -> (&'static str, Shape) {
     type Drawn = fn(&mut Draw, &Around) -> Shape;
     let kinds: [(&str, Drawn); 8] = [
         ("steep spall", steep),
@@ -79,7 +79,7 @@ pub fn random(draw: &mut Draw, around: &Around) -> (&'static str, Shape) {
 }
 
 /// A patch of random depth, which law `hertz` has no answer to.
-pub fn topography(draw: &mut Draw, around: &Around) -> Shape {
+pub(super) fn topography(draw: &mut Draw, around: &Around) -> Shape {
     let length = length(draw, around);
     let (depth, rows, columns) = (depth(draw, around, length), 3 + draw.below(6), 2 + draw.below(4));
     let along = |k: usize, count: usize, length: f64| length * 1e3 * (k as f64 / (count - 1) as f64 - 0.5);

@@ -9,7 +9,12 @@
 //! the distance from that ring's centre. Where the host moves the outer ring by a jump, an element keeps its u and its
 //! velocity in space.
 
+// What helpers unwrap is a test's own set-up, and names say what its numbers are.
+#![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
+
 pub mod balance;
+pub mod case;
+pub mod draw;
 pub mod envelope;
 pub mod growth;
 pub mod half_space;

@@ -9,8 +9,8 @@ use super::parts::{self, Elements};
 use super::shape::{self, Around};
 use super::whole::{self, Space};
 use super::{Case, Damping, Defect, Grooves, Motion, On, Ring, Step};
+use crate::Bearing;
 use crate::draw::Draw;
-use crate::oracle::Bearing;
 use std::f64::consts::{PI, TAU};
 
 /// What is counted.
