@@ -136,8 +136,9 @@ fn null_dead_and_invented_handles_are_errors_not_crashes() {
     // SAFETY: any handle may be passed.
     unsafe { fmi2FreeInstance(dead) };
     let mut invented: Vec<Component> = vec![ptr::null_mut(), dead, ptr::from_mut(&mut host).cast::<c_void>()];
-    invented
-        .extend([1, 8, 24, usize::MAX, dead.addr() + 16, dead.addr() | 1, 1 << 40].map(ptr::without_provenance_mut));
+    // Handles are slots and generations; a slot near by may be that of an instance of another thread's test.
+    let far_slot = dead.addr() ^ (1 << 19);
+    invented.extend([1, 8, 24, usize::MAX, far_slot, dead.addr() | 1, 1 << 40].map(ptr::without_provenance_mut));
     for c in invented {
         host.c = c;
         assert_eq!(host.step(0.0, 1e-3), Status::Error);
