@@ -46,7 +46,7 @@ pub fn pack(model: &Model, library: &Library, version: Version) -> Result<Vec<u8
         };
         for folder in folders {
             let file = format!("binaries/{folder}/{}.{}", model.scene.model_identifier(), platform.extension);
-            archive.add(file, binary.bytes.as_slice())?;
+            archive.add_compressed(file, binary.compressed()?)?;
         }
     }
     archive.add("resources/scene.toml", model.scene_text.as_str())?;

@@ -4,9 +4,11 @@
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use anyhow::{Context, Result, bail};
 
+use crate::archive::{ArchiveError, Compressed};
 use crate::compile;
 use crate::platform::Platform;
 use crate::project::Project;
@@ -36,6 +38,8 @@ pub struct Binary {
     pub platform: Platform,
     /// The file.
     pub bytes: Vec<u8>,
+    /// The same for archives, made when the first of them asks: it takes longer than all else in an FMU.
+    compressed: OnceLock<Compressed>,
 }
 
 impl Library {
@@ -58,7 +62,7 @@ impl Library {
         };
         let platforms = if platforms.is_empty() { vec![Platform::host()?] } else { platforms };
         toolchain::check_installed(source, &platforms)?;
-        let build = |platform: Platform| Ok(Binary { platform, bytes: compile::platform(project, source, platform)? });
+        let build = |platform: Platform| Ok(Binary::new(platform, compile::platform(project, source, platform)?));
         Ok(Self { binaries: platforms.into_iter().map(build).collect::<Result<Vec<_>>>()? })
     }
 
@@ -79,7 +83,7 @@ impl Library {
 
     fn of_host(path: &Path) -> Result<Self> {
         let bytes = fs::read(path).with_context(|| path.display().to_string())?;
-        Ok(Self { binaries: vec![Binary { platform: Platform::host()?, bytes }] })
+        Ok(Self { binaries: vec![Binary::new(Platform::host()?, bytes)] })
     }
 
     /// Those among the files inside the program that were asked for; all of them where nothing was.
@@ -89,7 +93,7 @@ impl Library {
         for (file, bytes) in files {
             let platform = named(file)?;
             if platforms.is_empty() || platforms.contains(&platform) {
-                binaries.push(Binary { platform, bytes: bytes.to_vec() });
+                binaries.push(Binary::new(platform, bytes.to_vec()));
             }
         }
         if let Some(lacking) = platforms.iter().find(|wanted| !binaries.iter().any(|b| b.platform == **wanted)) {
@@ -101,6 +105,20 @@ impl Library {
 }
 
 impl Binary {
+    /// A library for this platform.
+    pub fn new(platform: Platform, bytes: Vec<u8>) -> Self {
+        Self { platform, bytes, compressed: OnceLock::new() }
+    }
+
+    /// The file as archives hold it.
+    pub fn compressed(&self) -> Result<Compressed, ArchiveError> {
+        if let Some(done) = self.compressed.get() {
+            return Ok(done.clone());
+        }
+        let done = Compressed::executable(&self.bytes)?;
+        Ok(self.compressed.get_or_init(|| done).clone())
+    }
+
     fn describe(&self) -> String {
         let size = self.bytes.len() as f64 / 1024.0;
         let needs = match needed_glibc(&self.bytes) {
