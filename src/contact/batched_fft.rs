@@ -105,11 +105,11 @@ impl BatchedFft {
         for stage in &self.stages {
             for block in data.chunks_exact_mut(stage.radix * stage.part) {
                 match stage.radix {
-                    4 if HALF && first => stage.down(simd, block, four_of_half::<S>),
-                    4 => stage.down(simd, block, four::<S, false>),
-                    2 => stage.down(simd, block, two::<S>),
-                    3 => stage.down(simd, block, three::<S, false>),
-                    _ => stage.down(simd, block, five::<S, false>),
+                    4 if HALF && first => stage.down::<S, FourOfHalf, 4>(simd, block),
+                    4 => stage.down::<S, Four<false>, 4>(simd, block),
+                    2 => stage.down::<S, Two, 2>(simd, block),
+                    3 => stage.down::<S, Three<false>, 3>(simd, block),
+                    _ => stage.down::<S, Five<false>, 5>(simd, block),
                 }
             }
             first = false;
@@ -122,11 +122,11 @@ impl BatchedFft {
         for (n, stage) in self.stages.iter().enumerate().rev() {
             for block in data.chunks_exact_mut(stage.radix * stage.part) {
                 match stage.radix {
-                    4 if HALF && n == 0 => stage.up::<S, 4, 2>(simd, block, four::<S, true>),
-                    4 => stage.up::<S, 4, 4>(simd, block, four::<S, true>),
-                    2 => stage.up::<S, 2, 2>(simd, block, two::<S>),
-                    3 => stage.up::<S, 3, 3>(simd, block, three::<S, true>),
-                    _ => stage.up::<S, 5, 5>(simd, block, five::<S, true>),
+                    4 if HALF && n == 0 => stage.up::<S, Four<true>, 4, 2>(simd, block),
+                    4 => stage.up::<S, Four<true>, 4, 4>(simd, block),
+                    2 => stage.up::<S, Two, 2, 2>(simd, block),
+                    3 => stage.up::<S, Three<true>, 3, 3>(simd, block),
+                    _ => stage.up::<S, Five<true>, 5, 5>(simd, block),
                 }
             }
         }
@@ -135,19 +135,14 @@ impl BatchedFft {
 
 impl Stage {
     #[inline(always)]
-    fn down<S: Simd, const R: usize>(
-        &self,
-        simd: S,
-        block: &mut [Eight],
-        butterfly: impl Fn(S, [Z<S>; R]) -> [Z<S>; R],
-    ) {
+    fn down<S: Simd, B: Butterfly<R>, const R: usize>(&self, simd: S, block: &mut [Eight]) {
         for (q, turns) in self.turns.chunks_exact(R - 1).enumerate().take(self.part) {
             for piece in 0..LANES / S::F64_LANES {
                 let mut x = [zero(simd); R];
                 for k in 0..R {
                     x[k] = load::<S>(&block[q + k * self.part], piece);
                 }
-                x = butterfly(simd, x);
+                x = B::of(simd, x);
                 if self.part > 1 {
                     for k in 1..R {
                         x[k] = turned(simd, x[k], turns[k - 1]);
@@ -162,12 +157,7 @@ impl Stage {
 
     /// Only the first `KEPT` parts of the result are stored.
     #[inline(always)]
-    fn up<S: Simd, const R: usize, const KEPT: usize>(
-        &self,
-        simd: S,
-        block: &mut [Eight],
-        butterfly: impl Fn(S, [Z<S>; R]) -> [Z<S>; R],
-    ) {
+    fn up<S: Simd, B: Butterfly<R>, const R: usize, const KEPT: usize>(&self, simd: S, block: &mut [Eight]) {
         for (q, turns) in self.turns.chunks_exact(R - 1).enumerate().take(self.part) {
             for piece in 0..LANES / S::F64_LANES {
                 let mut x = [zero(simd); R];
@@ -179,7 +169,7 @@ impl Stage {
                         x[k] = turned(simd, x[k], [turns[k - 1][0], -turns[k - 1][1]]);
                     }
                 }
-                x = butterfly(simd, x);
+                x = B::of(simd, x);
                 for k in 0..KEPT {
                     store::<S>(&mut block[q + k * self.part], piece, x[k]);
                 }
@@ -248,46 +238,73 @@ fn beside<S: Simd, const BACK: bool>(simd: S, a: Z<S>, b: Z<S>) -> [Z<S>; 2] {
     if BACK { [more, less] } else { [less, more] }
 }
 
-#[inline(always)]
-fn two<S: Simd>(simd: S, [a, b]: [Z<S>; 2]) -> [Z<S>; 2] {
-    [plus(simd, a, b), minus(simd, a, b)]
+/// The transform of `R` numbers. A type and no function that is passed on: called through the latter, each operation on a
+/// register is a call of its own, because what passes it on is not compiled for the processor that has the register.
+trait Butterfly<const R: usize> {
+    fn of<S: Simd>(simd: S, numbers: [Z<S>; R]) -> [Z<S>; R];
 }
 
-#[inline(always)]
-fn three<S: Simd, const BACK: bool>(simd: S, [a, b, c]: [Z<S>; 3]) -> [Z<S>; 3] {
-    // cos 60° and sin 60°.
-    let sum = plus(simd, b, c);
-    let middle = minus(simd, a, times(simd, sum, 0.5));
-    let [x, y] = beside::<S, BACK>(simd, middle, times(simd, minus(simd, b, c), 0.866_025_403_784_438_6));
-    [plus(simd, a, sum), x, y]
+struct Two;
+struct Three<const BACK: bool>;
+struct Four<const BACK: bool>;
+/// [`Four`] with c = d = 0, forward.
+struct FourOfHalf;
+struct Five<const BACK: bool>;
+
+impl Butterfly<2> for Two {
+    #[inline(always)]
+    fn of<S: Simd>(simd: S, [a, b]: [Z<S>; 2]) -> [Z<S>; 2] {
+        [plus(simd, a, b), minus(simd, a, b)]
+    }
 }
 
-#[inline(always)]
-fn four<S: Simd, const BACK: bool>(simd: S, [a, b, c, d]: [Z<S>; 4]) -> [Z<S>; 4] {
-    let (even, odd) = (plus(simd, a, c), plus(simd, b, d));
-    let [x, y] = beside::<S, BACK>(simd, minus(simd, a, c), minus(simd, b, d));
-    [plus(simd, even, odd), x, minus(simd, even, odd), y]
+impl<const BACK: bool> Butterfly<3> for Three<BACK> {
+    #[inline(always)]
+    fn of<S: Simd>(simd: S, [a, b, c]: [Z<S>; 3]) -> [Z<S>; 3] {
+        // cos 60° and sin 60°.
+        let sum = plus(simd, b, c);
+        let middle = minus(simd, a, times(simd, sum, 0.5));
+        let [x, y] = beside::<S, BACK>(simd, middle, times(simd, minus(simd, b, c), 0.866_025_403_784_438_6));
+        [plus(simd, a, sum), x, y]
+    }
 }
 
-/// [`four`] with c = d = 0, forward.
-#[inline(always)]
-fn four_of_half<S: Simd>(simd: S, [a, b, _, _]: [Z<S>; 4]) -> [Z<S>; 4] {
-    let [x, y] = beside::<S, false>(simd, a, b);
-    [plus(simd, a, b), x, minus(simd, a, b), y]
+impl<const BACK: bool> Butterfly<4> for Four<BACK> {
+    #[inline(always)]
+    fn of<S: Simd>(simd: S, [a, b, c, d]: [Z<S>; 4]) -> [Z<S>; 4] {
+        let (even, odd) = (plus(simd, a, c), plus(simd, b, d));
+        let [x, y] = beside::<S, BACK>(simd, minus(simd, a, c), minus(simd, b, d));
+        [plus(simd, even, odd), x, minus(simd, even, odd), y]
+    }
 }
 
+impl Butterfly<4> for FourOfHalf {
+    #[inline(always)]
+    fn of<S: Simd>(simd: S, [a, b, _, _]: [Z<S>; 4]) -> [Z<S>; 4] {
+        let [x, y] = beside::<S, false>(simd, a, b);
+        [plus(simd, a, b), x, minus(simd, a, b), y]
+    }
+}
+
+impl<const BACK: bool> Butterfly<5> for Five<BACK> {
+    #[inline(always)]
+    fn of<S: Simd>(simd: S, [a, b, c, d, e]: [Z<S>; 5]) -> [Z<S>; 5] {
+        // Cosines and sines of 72° and 144°.
+        const COSINES: [f64; 2] = [0.309_016_994_374_947_45, -0.809_016_994_374_947_5];
+        const SINES: [f64; 2] = [0.951_056_516_295_153_5, 0.587_785_252_292_473_1];
+        let (s1, s2, d1, d2) = (plus(simd, b, e), plus(simd, c, d), minus(simd, b, e), minus(simd, c, d));
+        let m1 = plus(simd, a, sum_of(simd, [s1, s2], COSINES));
+        let m2 = plus(simd, a, sum_of(simd, [s1, s2], [COSINES[1], COSINES[0]]));
+        let [x1, x4] = beside::<_, BACK>(simd, m1, sum_of(simd, [d1, d2], SINES));
+        let [x2, x3] = beside::<_, BACK>(simd, m2, sum_of(simd, [d1, d2], [SINES[1], -SINES[0]]));
+        [plus(simd, a, plus(simd, s1, s2)), x1, x2, x3, x4]
+    }
+}
+
+/// f₀ p + f₁ q
 #[inline(always)]
-fn five<S: Simd, const BACK: bool>(simd: S, [a, b, c, d, e]: [Z<S>; 5]) -> [Z<S>; 5] {
-    // Cosines and sines of 72° and 144°.
-    const C: [f64; 2] = [0.309_016_994_374_947_45, -0.809_016_994_374_947_5];
-    const S: [f64; 2] = [0.951_056_516_295_153_5, 0.587_785_252_292_473_1];
-    let of = |f: f64, p, g: f64, q| plus(simd, times(simd, p, f), times(simd, q, g));
-    let (s1, s2, d1, d2) = (plus(simd, b, e), plus(simd, c, d), minus(simd, b, e), minus(simd, c, d));
-    let m1 = plus(simd, a, of(C[0], s1, C[1], s2));
-    let m2 = plus(simd, a, of(C[1], s1, C[0], s2));
-    let [x1, x4] = beside::<S, BACK>(simd, m1, of(S[0], d1, S[1], d2));
-    let [x2, x3] = beside::<S, BACK>(simd, m2, of(S[1], d1, -S[0], d2));
-    [plus(simd, a, plus(simd, s1, s2)), x1, x2, x3, x4]
+fn sum_of<S: Simd>(simd: S, [p, q]: [Z<S>; 2], factors: [f64; 2]) -> Z<S> {
+    plus(simd, times(simd, p, factors[0]), times(simd, q, factors[1]))
 }
 
 #[cfg(test)]
