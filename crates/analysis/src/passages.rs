@@ -289,8 +289,13 @@ fn best_shift(log: &[f64], start: f64, step: f64, template: &[f64], reach: isize
     let width = template.len() + 2 * reach as usize;
     let from = start - reach as f64 * step;
     let row: Vec<f64> = (0..width).map(|i| value_at(log, from + step * i as f64)).collect();
-    let fits: Vec<f64> =
-        row.windows(template.len()).map(|w| w.iter().zip(template).map(|(a, b)| a * b).sum()).collect();
+    // All shifts side by side: the sum of one alone would wait for itself at each point.
+    let mut fits = vec![0.0; width + 1 - template.len()];
+    for (skipped, b) in template.iter().enumerate() {
+        for (fit, a) in fits.iter_mut().zip(&row[skipped..]) {
+            *fit += a * b;
+        }
+    }
     let best = (0..fits.len()).max_by(|&a, &b| fits[a].total_cmp(&fits[b])).unwrap_or(reach as usize);
     if best == 0 || best + 1 == fits.len() {
         // No maximum inside: this passage is lost in noise, let it go with its neighbours.
