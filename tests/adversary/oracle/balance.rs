@@ -21,7 +21,7 @@ struct Search<'a> {
 /// Largest net force [N] that is left on a free ring or an element at the best stable balance found, and the largest
 /// force in play.
 pub fn best(bearing: &Bearing, case: &Case) -> (f64, f64) {
-    let run = Run::new(bearing, vec![0.0; bearing.len()], case.steps[0].host.as_ref(), Pace::STANDING);
+    let run = Run::new(bearing, vec![0.0; bearing.state_count()], case.steps[0].host.as_ref(), Pace::STANDING);
     let free = (0..2).filter(|&which| case.rings[which].motion == Motion::Internal);
     let free = free.flat_map(|which| [4 * which, 4 * which + 1]).collect();
     // At the start the host's derivatives of loads and speed are not at work yet.
@@ -50,7 +50,7 @@ pub fn best(bearing: &Bearing, case: &Case) -> (f64, f64) {
 impl Search<'_> {
     /// Downhill from the shaft in one place.
     fn from(&mut self, shaft: [f64; 2]) -> (f64, f64) {
-        let mut y = vec![0.0; self.bearing.len()];
+        let mut y = vec![0.0; self.bearing.state_count()];
         for (a, place) in shaft.into_iter().enumerate() {
             if self.free.contains(&a) {
                 y[a] = place;

@@ -11,6 +11,8 @@
 
 // What helpers unwrap is a test's own set-up, and names say what its numbers are.
 #![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
+// Units stand in brackets.
+#![allow(rustdoc::broken_intra_doc_links)]
 
 pub mod balance;
 pub mod case;
@@ -193,7 +195,8 @@ impl Bearing {
         }
     }
 
-    pub fn len(&self) -> usize {
+    /// How many numbers a state has.
+    pub fn state_count(&self) -> usize {
         self.first_mode() + 2 * self.modes.len()
     }
 

@@ -61,7 +61,7 @@ impl<'a> Run<'a> {
         let loads = [0, 1].map(|which| bearing.rings[which].load.map(|load| [load, 0.0, 0.0]));
         let speeds = bearing.speeds.map(|speed| [speed, 0.0]);
         let Host { speeds, rings } = *host.unwrap_or(&Host { speeds, rings: loads });
-        let (len, turns) = (bearing.len(), bearing.turning(bearing.starts, speeds));
+        let (len, turns) = (bearing.state_count(), bearing.turning(bearing.starts, speeds));
         let mut run = Self {
             bearing,
             y,
