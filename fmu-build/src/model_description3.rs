@@ -90,9 +90,10 @@ fn variables(xml: &mut Xml, table: &[Variable], arrays: &[ElementArray]) -> io::
     xml.empty("Float64", time)?;
     for row in table {
         match arrays.iter().find(|array| array.rows.contains(&row.reference)) {
-            None => variable(xml, row, (row.name.clone(), row.meaning().to_owned()), None)?,
+            None => variable(xml, row, row.name.clone(), row.meaning().to_owned(), None)?,
             Some(array) if array.rows[0] == row.reference => {
-                variable(xml, row, of_all_elements(row), Some(array.rows.len()))?;
+                let (name, description) = of_all_elements(row);
+                variable(xml, row, name, description, Some(array.rows.len()))?;
             }
             Some(_) => {}
         }
@@ -104,7 +105,8 @@ fn variables(xml: &mut Xml, table: &[Variable], arrays: &[ElementArray]) -> io::
 fn variable(
     xml: &mut Xml,
     row: &Variable,
-    (name, description): (String, String),
+    name: String,
+    description: String,
     elements: Option<usize>,
 ) -> io::Result<()> {
     let mut attributes: Attributes = vec![

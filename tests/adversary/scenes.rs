@@ -130,7 +130,8 @@ fn random_rigid_paths_are_the_envelope() {
             if let Some(surface) = &oracle.surfaces.rings[side] {
                 path_is_the_envelope(
                     draw,
-                    (&oracle, placing),
+                    &oracle,
+                    placing,
                     surface,
                     [&model.inner.defects, &model.outer.defects][side],
                 )?;
@@ -138,7 +139,7 @@ fn random_rigid_paths_are_the_envelope() {
             for (j, own) in oracle.surfaces.own.iter().enumerate() {
                 let Some(own) = own else { continue };
                 let found = model.defective.iter().find(|found| found.element == j).ok_or("no defect")?;
-                path_is_the_envelope(draw, (&oracle, placing), &own[side], &found.defects[side])?;
+                path_is_the_envelope(draw, &oracle, placing, &own[side], &found.defects[side])?;
             }
         }
         Ok(())
@@ -147,7 +148,8 @@ fn random_rigid_paths_are_the_envelope() {
 
 fn path_is_the_envelope(
     draw: &mut Draw,
-    (oracle, placing): (&Bearing, f64),
+    oracle: &Bearing,
+    placing: f64,
     surface: &Surface,
     defects: &Defects,
 ) -> Result<(), String> {

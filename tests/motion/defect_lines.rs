@@ -38,7 +38,7 @@ fn amplitude(signal: &[f64], frequency: f64) -> f64 {
 
 /// Share of the power from 5 to 300 Hz that lies within 0.14 Hz of the lines m·`carrier` + k·`sideband`, |k| no more
 /// than `most`, m as far as the range goes; and the share of that range which these lines take up.
-fn comb_share(signal: &[f64], carrier: f64, (sideband, most): (f64, f64)) -> [f64; 2] {
+fn comb_share(signal: &[f64], carrier: f64, sideband: f64, most: f64) -> [f64; 2] {
     // Three means over 0.5 ms before every 25th is kept: of what is at 1.7 to 2.3 kHz less than 0.6 % comes down to 300
     // Hz.
     let mut signal = signal.to_vec();
@@ -104,11 +104,11 @@ fn lines_of_a_steady_run_are_those_that_an_independent_simulation_found() {
             assert!((found - expected).abs() < 0.02 * expected + 0.004, "{found} for {expected}");
         }
     }
-    let [share, axis] = comb_share(&y, bpfi, (shaft, 8.0));
+    let [share, axis] = comb_share(&y, bpfi, shaft, 8.0);
     println!("{share:.3} of the power on {axis:.3} of the axis");
     assert!(share > 0.95 && axis < 0.15, "{share} {axis}");
     let [_, y] = housing_force(element(1.2e-3), 10.0);
-    let [share, axis] = comb_share(&y, bsf, (cage, 5.0));
+    let [share, axis] = comb_share(&y, bsf, cage, 5.0);
     println!("{share:.3} of the power on {axis:.3} of the axis");
     assert!(share > 0.95 && axis < 0.15, "{share} {axis}");
     let lines =

@@ -132,7 +132,7 @@ impl Search<'_> {
     fn along(&mut self, y: &[f64], along: &mut [f64]) {
         let mut rates = vec![0.0; y.len()];
         self.bearing.stretches(&self.outside, 0.0, y, [true, false], &mut self.stretches);
-        self.bearing.rates(&self.outside, 0.0, (y, &self.stretches), &mut rates, &mut self.acting);
+        self.bearing.rates(&self.outside, 0.0, y, &self.stretches, &mut rates, &mut self.acting);
         let carried = self.acting.accelerations[1];
         for (j, along) in along.iter_mut().enumerate() {
             let (sin, cos) = (self.outside.turns[0][0] + TAU * j as f64 / self.bearing.count as f64).sin_cos();

@@ -289,7 +289,7 @@ impl Bearing {
     }
 
     /// Both contacts of an element.
-    fn pushes(&self, j: usize, seat: &Seat, (turns, films): (&Turns, [f64; 2]), stretches: &Stretches) -> [Push; 2] {
+    fn pushes(&self, j: usize, seat: &Seat, turns: &Turns, films: [f64; 2], stretches: &Stretches) -> [Push; 2] {
         let length = seat.q[0].hypot(seat.q[1]);
         let n = [seat.q[0] / length, seat.q[1] / length];
         let opening = n[0] * seat.q_rate[0] + n[1] * seat.q_rate[1];
@@ -316,7 +316,8 @@ impl Bearing {
         &self,
         outside: &Outside,
         t: f64,
-        (y, stretches): (&[f64], &[Stretches]),
+        y: &[f64],
+        stretches: &[Stretches],
         rates: &mut [f64],
         acting: &mut Acting,
     ) {
@@ -331,7 +332,7 @@ impl Bearing {
         for j in 0..self.count {
             let seat = self.seat(j, turns[0], &places, y);
             let ([cos, sin], rho) = (seat.e_r, seat.rho);
-            let pushes = self.pushes(j, &seat, (&turns, outside.films), &stretches[j]);
+            let pushes = self.pushes(j, &seat, &turns, outside.films, &stretches[j]);
             let mut net = [self.mass * self.gravity[0], self.mass * self.gravity[1]];
             for (side, push) in pushes.iter().enumerate() {
                 for a in 0..2 {
@@ -349,7 +350,7 @@ impl Bearing {
             acting.torque += rho * (around - self.mass * (2.0 * seat.u_rate * omega + rho * alpha));
             acting.contacts.push(pushes.map(|push| push.contact));
         }
-        self.ring_rates(outside, t, (y, &places), rates, acting);
+        self.ring_rates(outside, t, y, &places, rates, acting);
         let a_o = acting.accelerations[1];
         for j in 0..self.count {
             let (sin, cos) = (turns[0][0] + TAU * j as f64 / self.count as f64).sin_cos();

@@ -21,7 +21,8 @@ impl Bearing {
         &self,
         outside: &Outside,
         t: f64,
-        (y, places): (&[f64], &[[[f64; 3]; 2]; 2]),
+        y: &[f64],
+        places: &[[[f64; 3]; 2]; 2],
         rates: &mut [f64],
         acting: &mut Acting,
     ) {

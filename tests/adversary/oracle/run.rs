@@ -87,7 +87,7 @@ impl<'a> Run<'a> {
     /// Derivative of the present state into stage 0, and what acts.
     fn evaluate(&mut self, t: f64) {
         let Self { bearing, y, outside, acting, stretches, stages, .. } = self;
-        bearing.rates(outside, t, (y, stretches), &mut stages[0], acting);
+        bearing.rates(outside, t, y, stretches, &mut stages[0], acting);
         for contacts in &acting.contacts {
             for side in 0..2 {
                 self.largest[side] = self.largest[side].max(contacts[side].approach);
@@ -149,7 +149,7 @@ impl<'a> Run<'a> {
         let mut from = 0.0;
         for to in self.passages(length) {
             self.feel(from, 0.5 * (from + to));
-            self.smooth(length, (from, to))?;
+            self.smooth(length, from, to)?;
             from = to;
         }
         self.outside.turns = self.outside.turns.map(|turn| quadratic(turn, length));
@@ -178,7 +178,7 @@ impl<'a> Run<'a> {
     }
 
     /// Integrates between two passages of a communication step.
-    fn smooth(&mut self, step: f64, (from, to): (f64, f64)) -> Result<(), Stop> {
+    fn smooth(&mut self, step: f64, from: f64, to: f64) -> Result<(), Stop> {
         let Pace { h, fewest, .. } = self.pace;
         let longest = h.min(step / f64::from(8 * fewest)).min((to - from) / f64::from(fewest));
         let (mut t, mut since) = (from, if from == 0.0 { 0.0 } else { f64::INFINITY });
@@ -202,7 +202,7 @@ impl<'a> Run<'a> {
             } else {
                 let corner = after.inner != touching.inner || after.over != touching.over;
                 let halvings = if corner { 40 } else { self.onset_halvings() };
-                let share = self.first_change(&start, &slope, (&touching, halvings), t, h);
+                let share = self.first_change(&start, &slope, &touching, halvings, t, h);
                 self.runge_kutta(&start, &slope, t, share * h);
                 t = if share == 1.0 && count <= 1.0 { to } else { t + share * h };
                 self.bearing.stretches(&self.outside, t, &self.y, [true, false], &mut self.stretches);
@@ -241,7 +241,8 @@ impl<'a> Run<'a> {
         &mut self,
         start: &[f64],
         slope: &[f64],
-        (touching, halvings): (&Touching, u32),
+        touching: &Touching,
+        halvings: u32,
         t: f64,
         h: f64,
     ) -> f64 {
@@ -264,7 +265,7 @@ impl<'a> Run<'a> {
             for (at, (y, k)) in at.iter_mut().zip(start.iter().zip(k)) {
                 *at = y + share * h * k;
             }
-            bearing.rates(outside, t + share * h, (at, stretches), out, acting);
+            bearing.rates(outside, t + share * h, at, stretches, out, acting);
         };
         stage(0.5, slope, k2);
         stage(0.5, k2, k3);

@@ -56,7 +56,7 @@ impl Inputs {
     }
 
     /// Speed of a ring before a step of this length and its slope.
-    fn speed(&mut self, draw: &mut Draw, way: &str, (which, length): (usize, f64)) -> [f64; 2] {
+    fn speed(&mut self, draw: &mut Draw, way: &str, which: usize, length: f64) -> [f64; 2] {
         let (start, speed) = (self.start[which], &mut self.speeds[which]);
         let slope = match way {
             "ramp" => start * draw.between(-0.5, 0.5) / length,
@@ -74,9 +74,9 @@ impl Inputs {
 
     /// What is set before a step of this length.
     pub(super) fn next(&mut self, draw: &mut Draw, way: &str, length: f64) -> Host {
-        let mut speeds = [self.speed(draw, way, (0, length)), [0.0; 2]];
+        let mut speeds = [self.speed(draw, way, 0, length), [0.0; 2]];
         if self.turns {
-            speeds[1] = self.speed(draw, way, (1, length));
+            speeds[1] = self.speed(draw, way, 1, length);
         }
         let angle = self.rate * self.time + self.phase;
         let (sin, cos) = angle.sin_cos();

@@ -77,7 +77,7 @@ fn scene(draw: &mut Draw, space: Space, mut apart: Option<Draw>) -> (Kind, Case)
     let mut kind = Kind { on: "none", defect: "no defect", motion: motion_of, elements: rolls, ..Kind::default() };
     if draw.chance(0.8) {
         let on = space.body(draw, case.count);
-        let (name, defect) = defect(draw, space, &scale, (on, f64::INFINITY));
+        let (name, defect) = defect(draw, space, &scale, on, f64::INFINITY);
         (kind.on, kind.defect) = (whole::body_name(defect.on), name);
         case.defects.push(defect);
         for _ in 0..space.more(draw) {
@@ -89,12 +89,12 @@ fn scene(draw: &mut Draw, space: Space, mut apart: Option<Draw>) -> (Kind, Case)
     let way = space.way(draw, &mut case);
     kind.outer_ring = if case.housing_hz.is_some() { "outer ring turns" } else { "outer ring does not turn" };
     let time = time(&case, &scale) * draw.log(0.03, 1.0);
-    kind.speed = motion(draw, &mut case, &scale, (time, way));
+    kind.speed = motion(draw, &mut case, &scale, time, way);
     (kind, case)
 }
 
 /// A defect of a body that is no longer than so much [m].
-fn defect(draw: &mut Draw, space: Space, scale: &Scale, (on, most): (On, f64)) -> (&'static str, Defect) {
+fn defect(draw: &mut Draw, space: Space, scale: &Scale, on: On, most: f64) -> (&'static str, Defect) {
     let around = Around { r: scale.r, bearer: scale.bearer(on), on, most, approach: scale.approach };
     let (name, shape) = match space.topography(draw) {
         true => ("topography", shape::topography(draw, &around)),
@@ -112,7 +112,7 @@ fn more(draw: &mut Draw, space: Space, scale: &Scale, case: &mut Case) {
     let last = case.defects[case.defects.len() - 1].clone();
     let beside = draw.chance(0.6);
     let on = if beside { last.on } else { space.body(draw, case.count) };
-    let (_, mut defect) = defect(draw, space, scale, (on, scale.r));
+    let (_, mut defect) = defect(draw, space, scale, on, scale.r);
     if beside {
         let bearer = scale.bearer(on);
         let gap = draw.log(1e-3, 2.0) * scale.r;
@@ -300,7 +300,7 @@ fn time(case: &Case, scale: &Scale) -> f64 {
 }
 
 /// Speeds, steps and inputs for a run of so many seconds, in which the rings turn in these proportions.
-fn motion(draw: &mut Draw, case: &mut Case, scale: &Scale, (time, way): (f64, [f64; 2])) -> &'static str {
+fn motion(draw: &mut Draw, case: &mut Case, scale: &Scale, time: f64, way: [f64; 2]) -> &'static str {
     let past = Bearing::smooth(case).past(case.defects.first().map(|defect| defect.on), way);
     // As far as the defect is long, or a part of it.
     let bearer = case.defects.first().map_or(scale.raceway, |defect| scale.bearer(defect.on));
