@@ -215,19 +215,21 @@ fn after_2500_cycles_of_loading_and_unloading_nothing_is_left() {
 
 #[test]
 #[cfg(target_os = "linux")]
-fn further_instances_of_a_scene_take_30_kilobytes_each() {
+fn further_instances_of_a_scene_take_33_kilobytes_each() {
     let _alone = ALONE.lock().unwrap();
     let scene = with_map("further");
     // SAFETY: the library runs no code when it is loaded.
     let library = unsafe { Library::new(library()).unwrap() };
     let api = Api::of(&library);
     let count = 300;
-    let first = api.start(c"first", &scene);
+    let started = |count| -> Vec<_> { (0..count).map(|_| api.start(c"further", &scene)).collect() };
+    // What tests before this one have freed is used first, and would not show.
+    let first = started(count);
     let before = resident();
-    let all: Vec<_> = (0..count).map(|_| api.start(c"further", &scene)).collect();
+    let all = started(count);
     let each = resident().saturating_sub(before) / count;
     // SAFETY: any handle may be passed.
-    all.into_iter().chain([first]).for_each(|c| unsafe { (api.free)(c) });
+    all.into_iter().chain(first).for_each(|c| unsafe { (api.free)(c) });
     // A map alone takes half a megabyte.
-    assert!(each <= 30_000, "{each} bytes");
+    assert!(each <= 33_000, "{each} bytes");
 }

@@ -41,7 +41,7 @@ enum Contents {
 pub struct Compressed(Arc<Vec<u8>>);
 
 impl Compressed {
-    /// An archive of this file alone.
+    /// Compresses a file, as an archive of it alone.
     pub fn executable(contents: &[u8]) -> Result<Self, ArchiveError> {
         let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
         zip.start_file("executable", options(0o755))?;
@@ -56,7 +56,7 @@ impl Archive {
         self.put(name.into(), Contents::Plain(contents.into()))
     }
 
-    /// The same with a file that is compressed.
+    /// The same with a program's file that is compressed; it is executable under any name.
     pub fn add_compressed(&mut self, name: impl Into<String>, file: Compressed) -> Result<(), ArchiveError> {
         self.put(name.into(), Contents::Compressed(file))
     }

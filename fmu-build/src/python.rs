@@ -89,11 +89,17 @@ impl Python {
             eprintln!("making the Python environment {} (once)", environment.display());
             remove(&stamp, |path| fs::remove_file(path))?;
             remove(&environment, |path| fs::remove_dir_all(path))?;
+            remove(&python.bytecode(), |path| fs::remove_dir_all(path))?;
             make(&system, &environment, &python.interpreter, &folder, requirements)?;
             whole_file::write(&stamp, requirements)?;
         }
         python.lay_scripts()?;
         Ok(python)
+    }
+
+    /// What is compiled of all that is imported: beside an environment of this program's own, else in its cache.
+    fn bytecode(&self) -> PathBuf {
+        self.scripts.with_file_name("bytecode")
     }
 
     fn lay_scripts(&self) -> Result<()> {
@@ -126,7 +132,7 @@ impl Python {
         // What a script imports is compiled once for all that follow, and beside nobody's sources.
         let output = Command::new(&self.interpreter)
             .env("PYTHONPATH", &self.scripts)
-            .env("PYTHONPYCACHEPREFIX", self.scripts.with_file_name("bytecode"))
+            .env("PYTHONPYCACHEPREFIX", self.bytecode())
             .env_remove("PYTHONDONTWRITEBYTECODE")
             .env("MPLBACKEND", "Agg")
             .envs(self.variables.iter().map(|(name, value)| (name, value)))

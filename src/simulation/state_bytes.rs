@@ -22,7 +22,7 @@ impl State {
             bytes.extend_from_slice(field);
             Some(())
         });
-        debug_assert!(written.is_some());
+        assert!(written.is_some(), "nothing refuses to be written");
         bytes
     }
 

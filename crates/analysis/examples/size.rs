@@ -1,5 +1,5 @@
 //! Sizes the spall in recordings of one bearing and prints the report as JSON:
-//! `cargo run --release --example size -- SCENE RATE_HZ FILE@SPEED_HZ…`
+//! `cargo run --release -p brinell-analysis --example size -- SCENE RATE_HZ FILE@SPEED_HZ…`
 
 use brinell::scene::Scene;
 use brinell_analysis::recording::{Recording, Source, Speed};

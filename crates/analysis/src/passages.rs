@@ -290,7 +290,7 @@ fn best_shift(log: &[f64], start: f64, step: f64, template: &[f64], reach: isize
     let from = start - reach as f64 * step;
     let row: Vec<f64> = (0..width).map(|i| value_at(log, from + step * i as f64)).collect();
     // All shifts side by side: the sum of one alone would wait for itself at each point.
-    let mut fits = vec![0.0; width + 1 - template.len()];
+    let mut fits = vec![0.0; 2 * reach as usize + 1];
     for (skipped, b) in template.iter().enumerate() {
         for (fit, a) in fits.iter_mut().zip(&row[skipped..]) {
             *fit += a * b;
