@@ -145,10 +145,7 @@ impl Resources {
 fn library() -> PathBuf {
     let name = format!("{}brinell_fmi{}", env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX);
     let given = env::args().skip(1).find(|argument| !argument.starts_with("--"));
-    given.map_or_else(
-        || env::current_exe().unwrap().with_file_name(name),
-        |given| Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join(given),
-    )
+    given.map_or_else(|| env::current_exe().unwrap().with_file_name(name), |given| brinell_tests::root().join(given))
 }
 
 /// References of 20 outputs, and of 20 inputs, some of them several times.

@@ -254,10 +254,8 @@ fn steps(library: &Library, two: *mut c_void, three: Instance, step: f64, what: 
 fn main() {
     let name = format!("{}brinell_fmi{}", env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX);
     let given = env::args().skip(1).find(|argument| !argument.starts_with("--"));
-    let path = given.map_or_else(
-        || env::current_exe().unwrap().with_file_name(name),
-        |given| Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join(given),
-    );
+    let path = given
+        .map_or_else(|| env::current_exe().unwrap().with_file_name(name), |given| brinell_tests::root().join(given));
     println!(
         "{}, FMI {}",
         path.display(),

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 fn root() -> &'static Path {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+    brinell_tests::root()
 }
 
 fn rust_files(folder: &Path, found: &mut Vec<PathBuf>) {

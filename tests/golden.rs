@@ -16,7 +16,7 @@ mod support;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use brinell::scene::{Motion, Scene};
 use brinell::simulation::variables::{Causality, Kind};
@@ -197,7 +197,7 @@ fn line(cells: impl Iterator<Item = String>) -> String {
 }
 
 fn file_of(name: &str) -> PathBuf {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("tests/golden").join(format!("{name}.csv"))
+    brinell_tests::root().join("tests/golden").join(format!("{name}.csv"))
 }
 
 fn compare(name: &str) {
@@ -248,7 +248,7 @@ scenes! {
 
 #[test]
 fn every_shipped_scene_has_a_golden_run() {
-    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("scenes");
+    let folder = brinell_tests::root().join("scenes");
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|extension| extension == "toml") {

@@ -29,7 +29,7 @@ const CRATES: [(&str, &[&str]); 8] = [
 
 #[test]
 fn every_crate_depends_only_on_those_it_may_know() {
-    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
+    let root = brinell_tests::root();
     let read = |folder: &str| -> toml::Table {
         let text = fs::read_to_string(root.join(folder).join("Cargo.toml")).unwrap();
         text.parse().unwrap()
@@ -59,7 +59,7 @@ fn every_crate_depends_only_on_those_it_may_know() {
 
 #[test]
 fn no_layer_imports_backwards() {
-    let source = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("src");
+    let source = brinell_tests::root().join("src");
     let mut backwards = Vec::new();
     for layer in ORDER {
         let files = files_of(&source, layer);
@@ -78,7 +78,7 @@ fn no_layer_imports_backwards() {
 
 #[test]
 fn no_module_imports_one_that_imports_it() {
-    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
+    let root = brinell_tests::root();
     let mut found = Vec::new();
     for (folder, _) in CRATES {
         let source = root.join(folder).join("src");
@@ -141,7 +141,7 @@ fn the_reader_of_cycles_finds_one_that_is_there() {
 
 #[test]
 fn every_module_of_the_crate_has_a_place_in_the_order() {
-    let source = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("src/lib.rs");
+    let source = brinell_tests::root().join("src/lib.rs");
     let text = fs::read_to_string(source).unwrap();
     for line in text.lines() {
         let Some(module) = line.trim_start_matches("pub ").strip_prefix("mod ") else { continue };

@@ -98,7 +98,7 @@ impl Python {
     }
 
     /// What is compiled of all that is imported: beside an environment of this program's own, else in its cache.
-    fn bytecode(&self) -> PathBuf {
+    pub fn bytecode(&self) -> PathBuf {
         self.scripts.with_file_name("bytecode")
     }
 

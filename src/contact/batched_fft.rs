@@ -238,8 +238,9 @@ fn beside<S: Simd, const BACK: bool>(simd: S, a: Z<S>, b: Z<S>) -> [Z<S>; 2] {
     if BACK { [more, less] } else { [less, more] }
 }
 
-/// The transform of `R` numbers. A type and no function that is passed on: called through the latter, each operation on a
-/// register is a call of its own, because what passes it on is not compiled for the processor that has the register.
+/// The transform of `R` numbers. A type and no function that is passed on: called through the latter, each operation
+/// on a register is a call of its own, because what passes it on is not compiled for the processor that has the
+/// register.
 trait Butterfly<const R: usize> {
     fn of<S: Simd>(simd: S, numbers: [Z<S>; R]) -> [Z<S>; R];
 }

@@ -173,8 +173,8 @@ mod tests {
             let depths = depths(laminae);
             let crown = Crown::new(&depths);
             let mut worst = [0.0f64; 2];
-            for i in 0..40_000 {
-                let delta = least * crown.mean_depth() * 10f64.powf(f64::from(i) / 2e4);
+            for i in 0..200_000 {
+                let delta = least * crown.mean_depth() * 10f64.powf(f64::from(i) / 1e5);
                 let [force, stiffness] = sum(&depths, delta);
                 let Carrying { part, slope, .. } = crown.carrying(delta);
                 let straight = delta * ninth_root(delta);

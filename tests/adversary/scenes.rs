@@ -21,7 +21,6 @@ use std::collections::BTreeSet;
 use std::f64::consts::PI;
 use std::fs::{self, OpenOptions};
 use std::io::Write;
-use std::path::Path;
 
 /// Judges the scene of a seed.
 fn judged(seed: u64) -> Entry {
@@ -86,7 +85,7 @@ fn many_random_scenes_agree_with_the_oracle() {
 fn write_the_section_of_random_scenes() {
     let entries = judged_so_far();
     assert!(!entries.is_empty(), "{LINES} holds no scene: run the test above first");
-    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
+    let root = brinell_tests::root();
     let (section, page) = (root.join("tests/adversary/scenes.md"), root.join("docs/stability.md"));
     let head = include_str!("scenes/head.md");
     let new = format!("{head}\n{}\n{}", Tally::new(&entries).markdown(), include_str!("scenes/mended.md"));
@@ -100,8 +99,7 @@ fn write_the_section_of_random_scenes() {
 
 #[test]
 fn the_page_holds_the_section() {
-    let page = std::fs::read_to_string(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("docs/stability.md"))
-        .unwrap();
+    let page = std::fs::read_to_string(brinell_tests::root().join("docs/stability.md")).unwrap();
     assert!(page.contains(include_str!("scenes.md")), "docs/stability.md does not hold tests/adversary/scenes.md");
 }
 

@@ -1,17 +1,15 @@
 //! One entry into a spall and out of it under the three contact laws: the same events.
 #![allow(clippy::unwrap_used)]
 
-use brinell::scene::{ContactLaw, Scene};
+use crate::support::shipped_as_it_is;
+use brinell::scene::ContactLaw;
 use brinell::simulation::Simulation;
 
 const RATE: f64 = 51_200.0;
 
 /// Outer force on the first element, sampled.
 fn force(law: ContactLaw) -> Vec<f64> {
-    let mut scene = Scene::from_toml(
-        &std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/er16k-tb1.toml")).unwrap(),
-    )
-    .unwrap();
+    let mut scene = shipped_as_it_is("er16k-tb1");
     scene.contact.law = law;
     // Coarse: the test is about events.
     scene.contact.cells = Some([32, 16]);

@@ -142,6 +142,6 @@ fn write_the_table_of_stability() {
     let text = predictability::tables().into_iter().fold(text, |text, (mark, table)| text.replace(mark, &table));
     let text = text.replace("<!-- random scenes -->\n", include_str!("../adversary/scenes.md"));
     let text = text.replace("<!-- misuse -->\n", include_str!("../adversary/misuse.md"));
-    let path = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("docs/stability.md");
+    let path = brinell_tests::root().join("docs/stability.md");
     std::fs::write(path, text).unwrap();
 }

@@ -7,7 +7,7 @@ use crate::support::Named;
 use brinell::scene::Scene;
 use brinell::simulation::Method;
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Names of the forces that are compared, in the order of `oracle.csv`.
 const NAMES: [&str; 5] =
@@ -103,7 +103,7 @@ fn host(bearing: &mut Named, case: &toml::Table, time: f64) {
 }
 
 fn folder() -> PathBuf {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("tests/extremes")
+    brinell_tests::root().join("tests/extremes")
 }
 
 fn definition(what: &str) -> toml::Table {
@@ -117,7 +117,7 @@ fn definition(what: &str) -> toml::Table {
 /// The shipped scene with what the case replaces; law `hertz`, which the oracle has.
 fn scene(case: &toml::Table) -> Scene {
     let name = case["scene"].as_str().unwrap();
-    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join(format!("scenes/{name}.toml"));
+    let path = brinell_tests::root().join(format!("scenes/{name}.toml"));
     let mut scene: toml::Table = std::fs::read_to_string(path).unwrap().parse().unwrap();
     let mut change = |key: &str, value: Option<toml::Value>| {
         let (table, name) = match key.split_once('.') {

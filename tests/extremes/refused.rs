@@ -2,7 +2,7 @@
 
 use crate::row::Row;
 use crate::scenes::{BALLS, Kind, loaded, without_inertia};
-use crate::support::Named;
+use crate::support::{Named, shipped};
 use brinell::geometry::hertz_constant::HertzConstants;
 use brinell::scene::{ContactLaw, Damping, Defect, DefectShape, Motion, Scene};
 use brinell::simulation::{Method, Simulation, SimulationError};
@@ -145,10 +145,7 @@ fn a_ring_driven_beyond_all_numbers_is_named_with_its_last_place() {
 
 #[test]
 fn a_cage_that_turns_too_fast_for_time_to_pass_between_edges_fails_at_once() {
-    let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/er16k-tb1.toml")).unwrap();
-    let mut scene = Scene::from_toml(&text).unwrap();
-    scene.contact.law = ContactLaw::Hertz;
-    let mut simulation = Simulation::new(scene, None).unwrap();
+    let mut simulation = Simulation::new(shipped("er16k-tb1"), None).unwrap();
     simulation.initialize(0.0).unwrap();
     let speed = simulation.reference("shaft.speed").unwrap();
     // No host can set such a speed; a state in bytes can hold it. Marks are put in its place and looked for.

@@ -103,7 +103,7 @@ impl Resources {
 
     /// The same with a change to the scene's text.
     pub(crate) fn edited(scene: &str, name: &str, edit: impl FnOnce(String) -> String) -> Self {
-        let scenes = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("scenes");
+        let scenes = brinell_tests::root().join("scenes");
         let text = fs::read_to_string(scenes.join(format!("{scene}.toml"))).unwrap();
         // The interface is tested with the law that needs no contact map; computing one takes seconds.
         let text = edit(text.replace("law = \"map\"", "law = \"hertz\""));

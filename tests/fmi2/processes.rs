@@ -2,7 +2,7 @@
 
 use crate::host::{Host, Resources, bits};
 use brinell_fmi::fmi2::*;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
 use std::{env, fs};
 
@@ -11,8 +11,7 @@ const STEP: f64 = 2e-6;
 const COUNT: u32 = 30;
 
 fn scene(name: &str, law: &str) -> Resources {
-    let text =
-        fs::read_to_string(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("scenes").join(name)).unwrap();
+    let text = fs::read_to_string(brinell_tests::root().join("scenes").join(name)).unwrap();
     assert!(text.contains("law = \"map\""));
     Resources::new(&text.replace("law = \"map\"", &format!("law = \"{law}\"")), None, "resources")
 }
@@ -80,8 +79,7 @@ fn a_state_taken_in_an_impact_continues_in_another_process_with_the_same_bits() 
 fn a_state_taken_with_law_love_continues_in_another_process_with_the_same_bits() {
     // Element 1 enters the spall after 5 ms. The start is beside the edge, or the grid would be solved too often for a
     // test.
-    let text = fs::read_to_string(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("scenes/er16k-tb1.toml"))
-        .unwrap();
+    let text = fs::read_to_string(brinell_tests::root().join("scenes/er16k-tb1.toml")).unwrap();
     let angle = text.lines().find(|line| line.starts_with("initial_angle_deg")).unwrap();
     let text = text.replace(angle, "initial_angle_deg = -98.3").replace("law = \"map\"", "law = \"love\"");
     continues_elsewhere(Resources::new(&text, None, "resources"), 3e-4);

@@ -11,7 +11,7 @@ const FOLDER: &str = "BRINELL_TEST_RECORDINGS";
 
 /// A healthy bearing with a recorder, that is to record into `folder`.
 fn recorder(name: &str, folder: &Path) -> Host {
-    let scene = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("scenes/6205-healthy.toml");
+    let scene = brinell_tests::root().join("scenes/6205-healthy.toml");
     let text = fs::read_to_string(scene).unwrap() + "\n[recorder]\nrate_hz = 51200.0\n";
     let host = Host::with(Resources::new(&text, None, "resources"), name, true);
     assert_eq!(host.set_text(host.reference("recorder.folder"), folder.to_str().unwrap()), Status::Ok);

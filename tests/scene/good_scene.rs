@@ -199,7 +199,7 @@ fn a_bearing_of_the_catalogue_is_the_one_with_its_dimensions_and_a_key_beside_th
 
 #[test]
 fn nothing_is_asked_about_shipped_scenes() {
-    let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("scenes");
+    let folder = brinell_tests::root().join("scenes");
     let mut count = 0;
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();

@@ -29,8 +29,7 @@ pub fn shipped(name: &str) -> Scene {
 
 /// A scene file that ships with the project.
 pub fn shipped_as_it_is(name: &str) -> Scene {
-    let path =
-        std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("scenes").join(format!("{name}.toml"));
+    let path = brinell_tests::root().join("scenes").join(format!("{name}.toml"));
     let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     Scene::from_toml(&text).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
@@ -44,7 +43,7 @@ pub fn fingerprint(bits: impl Iterator<Item = u64>) -> u64 {
 
 /// Texts of the profile files that a shipped scene names.
 pub fn profiles_of(scene: &Scene) -> Vec<String> {
-    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("scenes");
+    let folder = brinell_tests::root().join("scenes");
     scene.profile_names().iter().map(|file| fs::read_to_string(folder.join(file)).unwrap()).collect()
 }
 
@@ -108,7 +107,7 @@ impl Runner for Cores {
 
 /// Fingerprint of the sources on which the bits of a map depend.
 fn map_sources() -> u64 {
-    let source = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("src");
+    let source = brinell_tests::root().join("src");
     let mut files: Vec<PathBuf> = ["numerics", "geometry", "surface", "contact"]
         .iter()
         .flat_map(|layer| files_below(&source.join(layer)))

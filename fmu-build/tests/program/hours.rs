@@ -56,8 +56,7 @@ fn said(command: &str, folder: &Path) -> String {
     let whole = if command.starts_with("python ") { command.to_owned() } else { format!("{{ {command}; }} 2>&1") };
     let mut shell = Command::new("sh");
     shell.current_dir(folder).args(["-c", &whole]).env("PATH", path);
-    let bytecode = python.interpreter().ancestors().nth(3).unwrap().join("bytecode");
-    shell.env("PYTHONPATH", env::join_paths(modules).unwrap()).env("PYTHONPYCACHEPREFIX", bytecode);
+    shell.env("PYTHONPATH", env::join_paths(modules).unwrap()).env("PYTHONPYCACHEPREFIX", python.bytecode());
     shell.env_remove("PYTHONDONTWRITEBYTECODE").env("MPLBACKEND", "Agg").env("BRINELL_FMU", program);
     if let Some(library) = common::built_with_the_tests() {
         shell.env("BRINELL_LIBRARY", library);
