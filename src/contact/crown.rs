@@ -173,8 +173,19 @@ mod tests {
             let depths = depths(laminae);
             let crown = Crown::new(&depths);
             let mut worst = [0.0f64; 2];
-            for i in 0..200_000 {
-                let delta = least * crown.mean_depth() * 10f64.powf(f64::from(i) / 1e5);
+            // Evenly over two decades; and where the stiffness rises steepest, as a lamina begins to carry.
+            let first = least * crown.mean_depth();
+            let even = (0..20_000).map(|i| first * 10f64.powf(f64::from(i) / 1e4));
+            let beside = |&depth: &f64| {
+                let off = (2..80).map(|k| 2f64.powf(-0.25 * f64::from(k)));
+                off.flat_map(move |off| [depth * (1.0 - off), depth * (1.0 + off)])
+            };
+            // The other half is the same in a mirror.
+            let steep = depths[..depths.len() / 2]
+                .iter()
+                .flat_map(beside)
+                .filter(|delta| *delta >= first && *delta < 100.0 * first);
+            for delta in even.chain(steep) {
                 let [force, stiffness] = sum(&depths, delta);
                 let Carrying { part, slope, .. } = crown.carrying(delta);
                 let straight = delta * ninth_root(delta);

@@ -1,19 +1,12 @@
-//! The rigid element's path against brute force: its own geometry, in the plane, over densely sampled profiles of many
+//! The rigid element's path against the oracle, which tries every corner and every straight piece of profiles of many
 //! kinds.
-//!
-//! A point p of the raceway keeps the element's centre, on the ray of angle ψ, below |p| cos d − √(r² − |p|² sin² d)
-//! with d the angle between ray and p. The path is the least of these over all points. Samples may miss it from above
-//! only: a vertex is a sample itself, and beside a touched inside of a straight piece the bound rises with the square
-//! of the distance.
 #![allow(clippy::unwrap_used)]
 
 use brinell::contact::rigid_path::RigidPath;
-use brinell::contact::rolling::Rolling;
+use brinell::contact::rolling::{RacewaySide, Rolling};
+use brinell_oracle::envelope::{Envelope, Pair};
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
-
-/// Distance of samples along the raceway [m].
-const SPACING: f64 = 4e-6;
 
 /// Pseudo-random numbers of [0, 1).
 struct Random(u64);
@@ -70,45 +63,8 @@ impl Case {
         self.path.at(knots.partition_point(|&k| k <= angle) - 1, angle).path
     }
 
-    /// Points of the raceway in the plane, by their angle: vertices, and between them no more than [`SPACING`] apart.
-    fn samples(&self) -> Vec<(f64, [f64; 2])> {
-        let reach = 1.05 * (self.element / self.raceway).asin() * self.raceway;
-        let (first, last) = (self.points[0].0, self.points[self.points.len() - 1].0);
-        let mut line = vec![(first - reach, 0.0), (first, 0.0)];
-        line.extend(&self.points);
-        line.extend([(last, 0.0), (last + reach, 0.0)]);
-        let mut samples = Vec::new();
-        for pair in line.windows(2) {
-            let ((s0, h0), (s1, h1)) = (pair[0], pair[1]);
-            let count = ((s1 - s0).hypot(h1 - h0) / SPACING).ceil().max(1.0);
-            for k in 0..=count as usize {
-                let share = k as f64 / count;
-                let (angle, radius) = ((s0 + (s1 - s0) * share) / self.raceway, self.raceway + h0 + (h1 - h0) * share);
-                samples.push((angle, [radius * angle.cos(), radius * angle.sin()]));
-            }
-        }
-        samples
-    }
-
-    /// The path at `angle` over samples, how much lower it may be between them, and the angle of the one that is
-    /// touched.
-    fn brute(&self, samples: &[(f64, [f64; 2])], angle: f64) -> (f64, f64, f64) {
-        let (ray, r) = ([angle.cos(), angle.sin()], self.element);
-        let reach = 1.01 * (r / (self.raceway - r)).asin();
-        let from = samples.partition_point(|s| s.0 < angle - reach);
-        let to = samples.partition_point(|s| s.0 <= angle + reach);
-        let mut least = (f64::INFINITY, 0.0, 0.0);
-        for &(phi, p) in &samples[from..to] {
-            let (along, aside) = (p[0] * ray[0] + p[1] * ray[1], p[0] * ray[1] - p[1] * ray[0]);
-            let square = r * r - aside * aside;
-            if square > 0.0 && along - square.sqrt() < least.0 {
-                least = (along - square.sqrt(), square.sqrt() / r, phi);
-            }
-        }
-        // Half a spacing from the touched point the circle is t²/2r off the tangent, by 1/cos³ more where it is touched
-        // aside; the raceway itself bends the other way, by less. Half again for the change of cos between the samples.
-        let missed = 1.5 * (0.5 * SPACING).powi(2) / (2.0 * r) / least.1.powi(3);
-        (least.0 - (self.raceway - r), missed, least.2)
+    fn oracle(&self) -> Envelope {
+        Envelope::at_single_angles(&[self.points.clone()], Pair::OuterRing, self.element, self.raceway)
     }
 }
 
@@ -216,12 +172,11 @@ static CASES: LazyLock<Vec<Case>> = LazyLock::new(|| {
 });
 
 #[test]
-fn the_path_is_the_envelope_that_brute_force_finds() {
+fn the_path_is_the_envelope_of_all_corners_and_pieces() {
     let mut random = Random(3);
-    let mut wrong = Vec::new();
+    let mut worst = (0.0, 0);
     for (k, case) in CASES.iter().enumerate() {
-        let (samples, (first, last), knots) = (case.samples(), case.extent(), case.path.knots());
-        let (mut low, mut high) = (0.0_f64, 0.0_f64);
+        let (oracle, (first, last), knots) = (case.oracle(), case.extent(), case.path.knots());
         for i in 0..150 {
             // A little beyond both ends, and close to a knot every third time.
             let near = knots[(random.next() * knots.len() as f64) as usize];
@@ -229,33 +184,64 @@ fn the_path_is_the_envelope_that_brute_force_finds() {
                 0 => near + random.within(-1.0, 1.0) * random.scale(1e-9, 1e-3),
                 _ => random.within(first - 1e-3, last + 1e-3),
             };
-            let (direct, missed, _) = case.brute(&samples, angle);
-            let error = case.at(angle) - direct;
-            // Rounding of radii of up to 0.3 m, and the cubics' own error.
-            (low, high) = (low.min(error + missed + 3e-15), high.max(error - 3e-15));
-        }
-        if low < 0.0 || high > 0.0 {
-            wrong.push((k, format!("{low:.1e} {high:.1e}")));
+            let error = (case.at(angle) - oracle.touched(angle).1).abs();
+            if error > worst.0 {
+                worst = (error, k);
+            }
         }
     }
-    assert!(wrong.is_empty(), "{} of {} profiles, too low or too high by [m]: {wrong:?}", wrong.len(), CASES.len());
+    // Rounding of radii of up to 0.3 m, and the cubics' own error.
+    assert!(worst.0 < 3e-15, "profile {} is off by {:e} m", worst.1, worst.0);
+}
+
+#[test]
+fn each_body_s_path_over_random_profiles_is_the_envelope() {
+    // Radii of the ER16K of `er16k-tb1` [m].
+    const ELEMENT: f64 = 3.97e-3;
+    const OUTER: f64 = 23.6325e-3;
+    const INNER: f64 = 15.6875e-3;
+    let mut random = Random(11);
+    for (pair, raceway, raceway_radius, on_element) in [
+        (Pair::OuterRing, RacewaySide::Outer, OUTER, false),
+        (Pair::ElementOutside, RacewaySide::Outer, OUTER, true),
+        (Pair::InnerRing, RacewaySide::Inner, INNER, false),
+        (Pair::ElementInside, RacewaySide::Inner, INNER, true),
+    ] {
+        let rolling = Rolling { element_radius: ELEMENT, raceway_radius, raceway, on_element };
+        for depth in [5e-6, 80e-6] {
+            for _ in 0..20 {
+                let mut arc = -0.4e-3;
+                let mut point = |i: i32| {
+                    arc += random.within(1e-6, 61e-6);
+                    (arc, if i == 0 || i == 24 { 0.0 } else { depth * random.within(-0.15, 0.85) })
+                };
+                let points: Points = (0..25).map(&mut point).collect();
+                let path = RigidPath::new(&points, rolling).unwrap();
+                let oracle = Envelope::at_single_angles(&[points], pair, ELEMENT, raceway_radius);
+                let (from, to) = (path.knots()[0], path.knots()[path.knots().len() - 1]);
+                for _ in 0..100 {
+                    let angle = random.within(from, to);
+                    let piece = path.knots().partition_point(|&knot| knot <= angle) - 1;
+                    let off = (path.at(piece, angle).path - oracle.touched(angle).1).abs();
+                    assert!(off < 1e-16, "{pair:?} at {angle}: {off:e}");
+                }
+            }
+        }
+    }
 }
 
 /// What the search for the path's pieces rests on.
 #[test]
 fn the_touched_point_moves_in_one_direction_only() {
     for (k, case) in CASES.iter().enumerate() {
-        let (samples, (first, last)) = (case.samples(), case.extent());
+        let (oracle, (first, last)) = (case.oracle(), case.extent());
         let mut before = f64::NEG_INFINITY;
         for i in 0..=1000 {
             let angle = first + (last - first) * f64::from(i) / 1000.0;
-            let (_, _, touched) = case.brute(&samples, angle);
-            // Samples beside each other may be equally good to rounding.
-            assert!(
-                touched >= before - 2.0 * SPACING / case.raceway,
-                "profile {k} at {angle}: back by {}",
-                before - touched
-            );
+            let (feature, _) = oracle.touched(angle);
+            let touched = oracle.point(feature, angle).map_or(angle, |(touched, _)| touched);
+            // Where a straight piece is touched hardly depends on the angle when it is nearly as round as the element.
+            assert!(touched >= before - 1e-9, "profile {k} at {angle}: back by {:e}", before - touched);
             before = before.max(touched);
         }
     }
@@ -266,8 +252,8 @@ fn a_profile_in_a_mirror_has_the_path_in_a_mirror() {
     let mut worst = (0.0, 0);
     for (k, case) in CASES.iter().enumerate() {
         let (mirrored, (first, last)) = (case.mirrored(), case.extent());
-        for i in 0..=2000 {
-            let angle = first + (last - first) * f64::from(i) / 2000.0;
+        for i in 0..=500 {
+            let angle = first + (last - first) * f64::from(i) / 500.0;
             let difference = (case.at(angle) - mirrored.at(-angle)).abs();
             if difference > worst.0 {
                 worst = (difference, k);

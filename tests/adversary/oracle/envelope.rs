@@ -56,6 +56,13 @@ impl Envelope {
     /// `profiles` are arcs and depths [m] around the middle of the first, in order and within one turn, `r` and
     /// `raceway` the radii of element and raceway.
     pub fn new(profiles: &[Vec<(f64, f64)>], pair: Pair, r: f64, raceway: f64) -> Self {
+        let mut envelope = Self::at_single_angles(profiles, pair, r, raceway);
+        envelope.find_changes();
+        envelope
+    }
+
+    /// The same for single angles only: where what is touched changes is not sought.
+    pub fn at_single_angles(profiles: &[Vec<(f64, f64)>], pair: Pair, r: f64, raceway: f64) -> Self {
         let (own, other, apart) = match pair {
             Pair::OuterRing => (raceway, r, raceway - r),
             Pair::InnerRing => (raceway, r, raceway + r),
@@ -77,10 +84,7 @@ impl Envelope {
             }
             ends.push([from, corners.len() - 1]);
         }
-        let mut envelope =
-            Self { pair, own, other, apart, corners, profiles: ends, changes: Vec::new(), between: Vec::new() };
-        envelope.find_changes();
-        envelope
+        Self { pair, own, other, apart, corners, profiles: ends, changes: Vec::new(), between: Vec::new() }
     }
 
     /// Roundings of a path.
@@ -198,8 +202,8 @@ impl Envelope {
         }
     }
 
-    /// The touched point's angle and radius while a feature stays touched.
-    fn point(&self, feature: Feature, psi: f64) -> Option<(f64, f64)> {
+    /// The touched point's angle and radius while a feature stays touched; `None` on the smooth body.
+    pub fn point(&self, feature: Feature, psi: f64) -> Option<(f64, f64)> {
         match feature {
             Feature::Smooth => None,
             Feature::Corner(i) => Some(self.corners[i]),
