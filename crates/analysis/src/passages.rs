@@ -98,7 +98,7 @@ impl Passages {
         for _ in 0..3 {
             shifted = round(&log, &shifted, self.period, CLOSE);
         }
-        let contrast = |starts: &[f64]| statistics::deviation(&average(&cut(&log, starts, self.period, GRID)));
+        let contrast = |starts: &[f64]| statistics::deviation(&mean(&log, starts, self.period, GRID));
         // Shifts that follow noise raise the contrast a little; true ones raise it clearly.
         let kept = power(signal, &shifted, self.period) / power(signal, &self.starts, self.period);
         if kept > 0.98 && contrast(&shifted) > 1.02 * contrast(&self.starts) {
@@ -146,14 +146,14 @@ fn clock(signal: &[f64], index: &[usize], period: f64) -> Vec<f64> {
     let step = 1.0 / (160.0 * count as f64);
     let steps = (0.015 / step) as i32;
     let strength =
-        |period: f64| -> f64 { average(&cut(signal, &even(period), period, 128)).iter().map(|x| x * x).sum() };
+        |period: f64| -> f64 { mean(signal, &even(period), period, 128).iter().map(|x| x * x).sum() };
     let tried = (-steps..=steps).map(|k| period * (1.0 + step * f64::from(k))).map(|p| (p, strength(p)));
     even(tried.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(period, |best| best.0))
 }
 
 /// Power of the signal averaged over the passages: what agrees from passage to passage.
 fn power(signal: &[f64], starts: &[f64], period: f64) -> f64 {
-    average(&cut(signal, starts, period, GRID)).iter().map(|x| x * x).sum()
+    mean(signal, starts, period, GRID).iter().map(|x| x * x).sum()
 }
 
 /// Even passages on the straight line that fits best.
@@ -174,6 +174,19 @@ fn line(starts: &[f64], index: &[usize]) -> Vec<f64> {
 pub fn cut(signal: &[f64], starts: &[f64], period: f64, points: usize) -> Vec<Vec<f64>> {
     let step = period / points as f64;
     starts.iter().map(|start| (0..points).map(|i| value_at(signal, start + step * i as f64)).collect()).collect()
+}
+
+/// Mean of the rows that [`cut`] gives, point by point; without passages nothing.
+pub fn mean(signal: &[f64], starts: &[f64], period: f64, points: usize) -> Vec<f64> {
+    let step = period / points as f64;
+    let mut mean = vec![0.0; if starts.is_empty() { 0 } else { points }];
+    for start in starts {
+        for (i, sum) in mean.iter_mut().enumerate() {
+            *sum += value_at(signal, start + step * i as f64);
+        }
+    }
+    mean.iter_mut().for_each(|sum| *sum /= starts.len() as f64);
+    mean
 }
 
 /// Mean of the rows, point by point.
@@ -272,7 +285,7 @@ fn round(log: &[f64], starts: &[f64], period: f64, reach: isize) -> Vec<f64> {
 }
 
 fn template(log: &[f64], starts: &[f64], period: f64) -> Vec<f64> {
-    let mut template = average(&cut(log, starts, period, GRID));
+    let mut template = mean(log, starts, period, GRID);
     let mean = statistics::mean(&template);
     template.iter_mut().for_each(|x| *x -= mean);
     template

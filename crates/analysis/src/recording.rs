@@ -288,8 +288,13 @@ pub(super) fn value_at(samples: &[f64], at: f64) -> f64 {
     }
     let i = (at as usize).min(samples.len().saturating_sub(2));
     let t = at - i as f64;
-    let x = |k: usize| samples[k.min(samples.len() - 1)];
-    let (a, b, c, d) = (x(i.saturating_sub(1)), x(i), x(i + 1), x(i + 2));
+    let [a, b, c, d] = match i.checked_sub(1).and_then(|first| samples[first..].first_chunk()) {
+        Some(&four) => four,
+        None => {
+            let x = |k: usize| samples[k.min(samples.len() - 1)];
+            [x(i.saturating_sub(1)), x(i), x(i + 1), x(i + 2)]
+        }
+    };
     b + 0.5 * t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a)))
 }
 

@@ -120,7 +120,7 @@ impl<'a> Rig<'a> {
         }
         let period = self.rate / self.bpfo;
         let starts: Vec<f64> = passages.map(|i| i as f64 * period).collect();
-        Ok(below_cut(&passages::average(&passages::cut(&signal, &starts, period, POINTS)), self.bpfo))
+        Ok(below_cut(&passages::mean(&signal, &starts, period, POINTS), self.bpfo))
     }
 
     /// The rig with the trial spall in the middle of the load zone.
