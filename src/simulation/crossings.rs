@@ -67,8 +67,7 @@ pub(super) fn first_crossing(
     progress: &Progress,
 ) -> Option<Crossing> {
     let model = problem.model;
-    let end = if progress.choice.implicit { &workspace.implicit.end } else { &workspace.explicit.end };
-    let [start, end] = [(span.from, &progress.state), (span.end(), end)].map(|(tau, state)| Instant {
+    let [start, end] = [(span.from, &progress.state), (span.end(), &workspace.room.end)].map(|(tau, state)| Instant {
         now: model.kinematics(problem.drive, tau, state),
         tau,
         paths: state,

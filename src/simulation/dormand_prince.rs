@@ -3,7 +3,8 @@
 //! Coefficients: Dormand and Prince (1980); dense output: Hairer, Nørsett and Wanner, *Solving Ordinary Differential
 //! Equations I*, II.6. The last stage of a step is the first of the next.
 
-use super::explicit::{Explicit, LAST, RightHandSide, Weights, combine, row};
+use super::explicit::{LAST, RightHandSide, Weights, combine, row};
+use super::room::Room;
 use crate::numerics::lanes::{Each, Lanes, Wide};
 
 /// Order of a step, and of the one that its error is estimated by.
@@ -39,46 +40,40 @@ const DENSE: [f64; 7] = [
 
 /// Tries a step of length `h` from `state`; the first stage must be there.
 #[inline(always)]
-pub fn try_step<S: Wide>(
-    simd: S,
-    room: &mut Explicit,
-    state: &[f64],
-    h: f64,
-    right_hand_side: &mut impl RightHandSide,
-) {
-    let Explicit { stages, end, trial, positions, partition } = room;
-    let (partition, kinds) = (*partition, &positions[..]);
+pub fn try_step<S: Wide>(simd: S, room: &mut Room, state: &[f64], h: f64, right_hand_side: &mut impl RightHandSide) {
+    let Room { first, last, stages, end, trial, positions, partition, .. } = room;
+    let (partition, kinds, first) = (*partition, &positions[..], &first[..]);
     let rows = (row(STAGES[1]), row(STAGES[2]), row(STAGES[3]), row(STAGES[4]), row(STAGES[5]));
     for stage in 1..LAST {
-        let (done, rest) = stages.split_at_mut(stage);
+        let (done, rest) = stages.split_at_mut(stage - 1);
         match stage {
-            1 => combine(simd, partition, kinds, state, [&done[0]], Weights::alike(h, &rows.0), trial),
-            2 => combine(simd, partition, kinds, state, [&done[0], &done[1]], Weights::alike(h, &rows.1), trial),
+            1 => combine(simd, partition, kinds, state, [first], Weights::alike(h, &rows.0), trial),
+            2 => combine(simd, partition, kinds, state, [first, &done[0]], Weights::alike(h, &rows.1), trial),
             3 => {
-                let stages = [&done[0][..], &done[1], &done[2]];
+                let stages = [first, &done[0], &done[1]];
                 combine(simd, partition, kinds, state, stages, Weights::alike(h, &rows.2), trial);
             }
             4 => {
-                let stages = [&done[0][..], &done[1], &done[2], &done[3]];
+                let stages = [first, &done[0], &done[1], &done[2]];
                 combine(simd, partition, kinds, state, stages, Weights::alike(h, &rows.3), trial);
             }
             _ => {
-                let stages = [&done[0][..], &done[1], &done[2], &done[3], &done[4]];
+                let stages = [first, &done[0], &done[1], &done[2], &done[3]];
                 combine(simd, partition, kinds, state, stages, Weights::alike(h, &rows.4), trial);
             }
         }
         right_hand_side.evaluate(simd, stage, trial, None, &mut rest[0]);
     }
-    let [a, b, c, d, e, f, last] = stages;
+    let [a, b, c, d, e, ..] = stages;
     let weights = STAGES[LAST];
-    combine(simd, partition, kinds, state, [&a[..], b, c, d, e, f], Weights::alike(h, &weights), end);
+    combine(simd, partition, kinds, state, [first, a, b, c, d, e], Weights::alike(h, &weights), end);
     right_hand_side.evaluate(simd, LAST, end, None, last);
 }
 
 /// State at share `share` of the step tried last, whose length was `h`, into `out`.
 #[inline(always)]
-pub fn dense<S: Wide>(simd: S, room: &Explicit, state: &[f64], h: f64, share: f64, out: &mut [f64]) {
-    let [first, _, b, c, d, e, last] = &room.stages;
+pub fn dense<S: Wide>(simd: S, room: &Room, state: &[f64], h: f64, share: f64, out: &mut [f64]) {
+    let Room { first, last, stages: [_, b, c, d, e, ..], .. } = room;
     room.partition.for_each(simd, [state, &room.end, first, b, c, d, e, last], out, &Dense { h, share }, &mut ());
 }
 
@@ -129,19 +124,19 @@ mod tests {
         }
     }
 
-    fn step(method: &mut Explicit, tau: f64, state: &[f64], h: f64) {
+    fn step(method: &mut Room, tau: f64, state: &[f64], h: f64) {
         try_step(Scalar256b, method, state, h, &mut From(tau, h));
     }
 
     fn integrate(count: usize) -> Vec<f64> {
-        let mut method = Explicit::new(Partition { count: 0, rest: 4 }, Row::zeros(4));
+        let mut method = Room::new(Partition { count: 0, rest: 4 }, Row::zeros(4));
         let mut state = vec![1.0, 0.0, 1.0, 0.0];
         let h = 1.0 / count as f64;
         for i in 0..count {
             let tau = i as f64 * h;
             let mut first = vec![0.0; 4];
             right_hand_side(tau, &state, &mut first);
-            method.stages[0].copy_from_slice(&first);
+            method.first.copy_from_slice(&first);
             step(&mut method, tau, &state, h);
             state.copy_from_slice(&method.end);
         }
@@ -192,11 +187,11 @@ mod tests {
     fn dense_output_is_of_order_four() {
         // One step from the exact state: its dense output is wrong by O(h⁵). Largest error over the step's shares.
         let error = |h: f64| {
-            let mut method = Explicit::new(Partition { count: 0, rest: 4 }, Row::zeros(4));
+            let mut method = Room::new(Partition { count: 0, rest: 4 }, Row::zeros(4));
             let state = vec![0.0, 0.0, 1.0, 0.0];
             let mut first = vec![0.0; 4];
             right_hand_side(0.0, &state, &mut first);
-            method.stages[0].copy_from_slice(&first);
+            method.first.copy_from_slice(&first);
             step(&mut method, 0.0, &state, h);
             let mut found = vec![0.0; 4];
             (1..20)

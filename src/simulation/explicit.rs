@@ -1,59 +1,44 @@
-//! What the explicit methods share: room for the stages of a step, error estimates, and what is asked of the equations.
+//! What the explicit methods share: sums of stages, error estimates, and what is asked of the equations.
 
+use super::room::Room;
 use crate::numerics::lanes::{
     Each, Lanes, Partition, QUAD, WIDEST, Wide, blocks, blocks_mut, largest_of, quads, quads_mut,
 };
 use crate::numerics::row::Row;
 
-/// Where the derivative at the end of a step is kept; with either method it is the first stage of the next.
+/// Number of the stage at the end of a step; with either method it is the first of the next.
 pub const LAST: usize = 6;
 
 /// Stages that an error estimate is made of, with their weights.
 pub type ErrorParts = [(usize, f64); 6];
 
-/// Room for the stages of a step, made once. States are parted as [`Partition`] says.
-#[derive(Debug, Clone, Default)]
-pub struct Explicit {
-    /// Stage derivatives; the first is that at the start of the step, that at [`LAST`] at its end.
-    pub stages: [Row; 7],
-    /// State at the end of the step tried last.
-    pub end: Row,
-    pub(super) trial: Row,
-    /// 1 where a state is a position, 0 elsewhere.
-    pub(super) positions: Row,
-    pub(super) partition: Partition,
+/// A stage by its number.
+#[inline(always)]
+fn stage_of(room: &Room, number: usize) -> &Row {
+    match number {
+        0 => &room.first,
+        LAST => &room.last,
+        _ => &room.stages[number - 1],
+    }
 }
 
-impl Explicit {
-    /// Room for states that are cut in this way; 1 in `positions` where a state is a position.
-    pub fn new(partition: Partition, positions: Row) -> Self {
-        let zeros = || Row::zeros(partition.len());
-        Self { stages: std::array::from_fn(|_| zeros()), end: zeros(), trial: zeros(), positions, partition }
-    }
+/// Largest magnitude of the error estimate of the step tried last, each component times its weight; infinite as soon as
+/// one is no finite number.
+#[inline(always)]
+pub fn largest_error<S: Wide>(simd: S, room: &Room, parts: ErrorParts, h: f64, weights: &[f64]) -> f64 {
+    let mut found = Found { largest: [0.0; QUAD], poison: [0.0; WIDEST] };
+    let [a, b, c, d, e, f] = parts.map(|(number, _)| &stage_of(room, number)[..]);
+    room.partition.read(simd, [weights, a, b, c, d, e, f], &Errors(parts.map(|(_, weight)| weight)), &mut found);
+    if found.poison == [0.0; WIDEST] { h * largest_of(found.largest) } else { f64::INFINITY }
+}
 
-    /// Largest magnitude of the error estimate of the step tried last, each component times its weight; infinite as
-    /// soon as one is no finite number.
-    #[inline(always)]
-    pub fn error<S: Wide>(&self, simd: S, parts: ErrorParts, h: f64, weights: &[f64]) -> f64 {
-        let mut found = Found { largest: [0.0; QUAD], poison: [0.0; WIDEST] };
-        let [a, b, c, d, e, f] = parts.map(|(stage, _)| &self.stages[stage][..]);
-        self.partition.read(simd, [weights, a, b, c, d, e, f], &Errors(parts.map(|(_, weight)| weight)), &mut found);
-        if found.poison == [0.0; WIDEST] { h * largest_of(found.largest) } else { f64::INFINITY }
+/// Error estimate of component `i` of the step tried last.
+pub fn error(room: &Room, parts: ErrorParts, i: usize, h: f64) -> f64 {
+    let mut sum = 0.0;
+    for (stage, weight) in parts {
+        sum += weight * stage_of(room, stage)[i];
     }
-
-    /// Error estimate of component `i` of the step tried last.
-    pub fn error_of(&self, parts: ErrorParts, i: usize, h: f64) -> f64 {
-        let mut sum = 0.0;
-        for (stage, weight) in parts {
-            sum += weight * self.stages[stage][i];
-        }
-        h * sum
-    }
-
-    /// Makes the derivative at the end of the step tried last the first stage of the next.
-    pub fn carry_over(&mut self) {
-        self.stages.swap(0, LAST);
-    }
+    h * sum
 }
 
 /// How stages are weighted, the one row for positions and the other for velocities; both times the step's length `h`

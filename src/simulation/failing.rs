@@ -4,8 +4,8 @@
 use super::pair::Pair;
 use super::progress::Progress;
 use super::step_error::{SMALLEST_STEP, StepError};
-
 use super::workspace::{Problem, Span, Workspace};
+use super::{explicit, rodas};
 use crate::dynamics::forces::UnsolvedContact;
 use crate::dynamics::layout::Layout;
 use crate::dynamics::model::Model;
@@ -42,8 +42,8 @@ pub(super) fn check_step(
 /// first cannot be told.
 fn diverging(workspace: &mut Workspace, problem: Problem, span: Span, step: f64, progress: &Progress) -> StepError {
     let (Problem { model, drive }, Span { from: since, length: h }) = (problem, span);
-    let Workspace { explicit, forces, dense, scratch, weights, .. } = workspace;
-    let rates = &mut explicit.stages[0];
+    let Workspace { room, forces, dense, scratch, weights, .. } = workspace;
+    let rates = &mut room.first;
     model.derivative(drive, since, &progress.cells, &progress.state, rates, forces);
     for (i, place) in dense.iter_mut().enumerate() {
         *place = progress.state[i] + h * rates[i];
@@ -60,7 +60,8 @@ fn diverging(workspace: &mut Workspace, problem: Problem, span: Span, step: f64,
 /// or, explicitly, by this pair.
 pub(super) fn worst(workspace: &Workspace, model: &Model, h: f64, implicit: bool, pair: Pair) -> String {
     let error = |i: usize| {
-        if implicit { workspace.implicit.error(i) } else { workspace.explicit.error_of(pair.error_parts(), i, h) }
+        let room = &workspace.room;
+        if implicit { rodas::error(room, i) } else { explicit::error(room, pair.error_parts(), i, h) }
     };
     model.layout.name(first_largest(&model.layout, |i| workspace.weights[i] * error(i)))
 }

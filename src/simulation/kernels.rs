@@ -2,10 +2,11 @@
 
 use super::arrow::Arrow;
 use super::dormand_prince;
-use super::explicit::{LAST, RightHandSide};
+use super::explicit::{LAST, RightHandSide, largest_error};
 use super::pair::Pair;
 use super::progress::Progress;
 use super::rodas;
+use super::room::Room;
 use super::workspace::{Problem, Span, Workspace};
 use crate::dynamics::dense_output::Known;
 use crate::dynamics::drive::Drive;
@@ -48,8 +49,8 @@ impl Kernel for Trial<'_> {
         } else {
             explicit(simd, workspace, problem, span, progress);
         }
-        let Workspace { explicit, forces, .. } = &mut *workspace;
-        forces.settle(problem.model, &mut explicit.end);
+        let Workspace { room, forces, .. } = &mut *workspace;
+        forces.settle(problem.model, &mut room.end);
         workspace.last_force = workspace.forces.rings;
         workspace.largest_approach = workspace.forces.largest_approach_on(simd);
         workspace.changed = workspace.forces.pushing_differs_on(simd, &progress.pushing);
@@ -79,21 +80,21 @@ fn explicit_step<S: Wide>(
     let sum = workspace.first_force.map(|force| weights[0] * force);
     let cages = drive.cage_after(from, pair.nodes().map(|node| node * h));
     let mut stages = Stages { model, drive, cages, weights, forces: &mut workspace.forces, sum };
-    pair.try_step(simd, &mut workspace.explicit, &progress.state, h, &mut stages);
+    pair.try_step(simd, &mut workspace.room, &progress.state, h, &mut stages);
     workspace.weighted_force = stages.sum;
-    workspace.largest_error = workspace.explicit.error(simd, pair.error_parts(), h, &workspace.weights);
+    workspace.largest_error = largest_error(simd, &workspace.room, pair.error_parts(), h, &workspace.weights);
 }
 
 #[inline(always)]
 fn implicit<S: Wide>(simd: S, workspace: &mut Workspace, problem: Problem, span: Span, progress: &Progress) {
     let (Problem { model, drive }, Span { from, length: h }) = (problem, span);
-    let Workspace { explicit, implicit, forces, jacobian, arrow, by_time, largest_error, weights, .. } = workspace;
-    let [first, .., last] = &mut explicit.stages;
+    let Workspace { room, forces, jacobian, arrow, by_time, largest_error, weights, .. } = workspace;
     let cages = drive.cage_after(from, rodas::NODES.map(|node| node * h));
     let mut system = System { model, drive, cages, forces, jacobian, arrow };
-    implicit.try_step(simd, &progress.state, first, by_time, h, &mut system);
-    *largest_error = implicit.largest_error(weights);
-    let stage = Stage { drive, cage: &cages[rodas::NODES.len() - 1], state: &implicit.end, ahead: None };
+    rodas::try_step(simd, room, &progress.state, by_time, h, &mut system);
+    *largest_error = rodas::largest_error(room, weights);
+    let Room { end, last, .. } = room;
+    let stage = Stage { drive, cage: &cages[rodas::NODES.len() - 1], state: end, ahead: None };
     model.derivative_on::<S, true>(simd, &stage, last, forces);
 }
 
@@ -113,16 +114,14 @@ impl Kernel for Probe<'_> {
     fn run<S: Wide>(self, simd: S) {
         let Self { workspace, problem: Problem { model, drive }, span: Span { from, length: h }, share, progress } =
             self;
-        let Workspace { explicit, implicit, forces, dense, scratch, pair, .. } = workspace;
+        let Workspace { room, forces, dense, scratch, pair, .. } = workspace;
         let cage = drive.cage_at(from + share * h);
         match pair {
-            _ if progress.choice.implicit => implicit.dense(simd, &progress.state, share, dense),
-            Pair::DormandPrince => dormand_prince::dense(simd, explicit, &progress.state, h, share, dense),
+            _ if progress.choice.implicit => rodas::dense(simd, room, &progress.state, share, dense),
+            Pair::DormandPrince => dormand_prince::dense(simd, room, &progress.state, h, share, dense),
             Pair::PhaseFitted => {
-                let start =
-                    Known { cage: drive.cage_at(from), state: &progress.state, derivative: &explicit.stages[0] };
-                let end =
-                    Known { cage: drive.cage_at(from + h), state: &explicit.end, derivative: &explicit.stages[LAST] };
+                let start = Known { cage: drive.cage_at(from), state: &progress.state, derivative: &room.first };
+                let end = Known { cage: drive.cage_at(from + h), state: &room.end, derivative: &room.last };
                 model.dense_output(drive, [start, end], h, share, &cage, dense);
             }
         }

@@ -32,6 +32,7 @@ pub mod quantity;
 pub mod recorder;
 mod refresh;
 pub mod rodas;
+pub mod room;
 pub mod samples;
 pub mod setup;
 mod state;

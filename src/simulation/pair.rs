@@ -1,6 +1,7 @@
 //! The two explicit pairs of methods, and what a step asks of whichever one takes it.
 
-use super::explicit::{ErrorParts, Explicit, LAST, RightHandSide};
+use super::explicit::{ErrorParts, LAST, RightHandSide};
+use super::room::Room;
 use super::{dormand_prince, phase_fitted};
 use crate::numerics::lanes::Wide;
 
@@ -45,14 +46,14 @@ impl Pair {
     pub fn try_step<S: Wide>(
         self,
         simd: S,
-        explicit: &mut Explicit,
+        room: &mut Room,
         state: &[f64],
         h: f64,
         right_hand_side: &mut impl RightHandSide,
     ) {
         match self {
-            Self::DormandPrince => dormand_prince::try_step(simd, explicit, state, h, right_hand_side),
-            Self::PhaseFitted => phase_fitted::try_step(simd, explicit, state, h, right_hand_side),
+            Self::DormandPrince => dormand_prince::try_step(simd, room, state, h, right_hand_side),
+            Self::PhaseFitted => phase_fitted::try_step(simd, room, state, h, right_hand_side),
         }
     }
 }

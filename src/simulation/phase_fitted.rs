@@ -18,7 +18,8 @@
 //! conditions were moved until phase, amplitude and reach were as above, with the residuals of order 5 as small as that
 //! leaves them. The tests check all of it.
 
-use super::explicit::{Explicit, LAST, RightHandSide, Weights, combine, row};
+use super::explicit::{LAST, RightHandSide, Weights, combine, row};
+use super::room::Room;
 use crate::numerics::lanes::Wide;
 
 /// Order of a step, and of the one that its error is estimated by.
@@ -64,44 +65,38 @@ pub const ERROR: [f64; 7] = [
 
 /// Tries a step of length `h` from `state`; the first stage must be there.
 #[inline(always)]
-pub fn try_step<S: Wide>(
-    simd: S,
-    room: &mut Explicit,
-    state: &[f64],
-    h: f64,
-    right_hand_side: &mut impl RightHandSide,
-) {
-    let Explicit { stages, end, trial, positions, partition } = room;
-    let (partition, kinds) = (*partition, &positions[..]);
+pub fn try_step<S: Wide>(simd: S, room: &mut Room, state: &[f64], h: f64, right_hand_side: &mut impl RightHandSide) {
+    let Room { first, last, stages, end, trial, positions, partition, .. } = room;
+    let (partition, kinds, first) = (*partition, &positions[..], &first[..]);
     for stage in 1..5 {
-        let (done, rest) = stages.split_at_mut(stage);
+        let (done, rest) = stages.split_at_mut(stage - 1);
         match stage {
             1 => {
-                let stages = [&done[0][..]];
+                let stages = [first];
                 let weights = Weights { h, positions: &row(POSITIONS[1]), velocities: &row(VELOCITIES[1]) };
                 combine(simd, partition, kinds, state, stages, weights, trial);
             }
             2 => {
-                let stages = [&done[0][..], &done[1]];
+                let stages = [first, &done[0]];
                 let weights = Weights { h, positions: &row(POSITIONS[2]), velocities: &row(VELOCITIES[2]) };
                 combine(simd, partition, kinds, state, stages, weights, trial);
             }
             3 => {
-                let stages = [&done[0][..], &done[1], &done[2]];
+                let stages = [first, &done[0], &done[1]];
                 let weights = Weights { h, positions: &row(POSITIONS[3]), velocities: &row(VELOCITIES[3]) };
                 combine(simd, partition, kinds, state, stages, weights, trial);
             }
             _ => {
-                let stages = [&done[0][..], &done[1], &done[2], &done[3]];
+                let stages = [first, &done[0], &done[1], &done[2]];
                 let weights = Weights { h, positions: &row(POSITIONS[4]), velocities: &row(VELOCITIES[4]) };
                 combine(simd, partition, kinds, state, stages, weights, trial);
             }
         }
         right_hand_side.evaluate(simd, stage, trial, Some(h * POSITIONS[stage][stage]), &mut rest[0]);
     }
-    let [a, b, c, d, e, _, last] = stages;
+    let [a, b, c, d, ..] = stages;
     let weights = row(WEIGHTS);
-    combine(simd, partition, kinds, state, [&a[..], b, c, d, e], Weights::alike(h, &weights), end);
+    combine(simd, partition, kinds, state, [first, a, b, c, d], Weights::alike(h, &weights), end);
     right_hand_side.evaluate(simd, LAST, end, None, last);
 }
 
@@ -285,13 +280,13 @@ mod tests {
     /// Both oscillators after `count` steps of length `h`.
     fn integrate(start: [f64; 4], count: usize, h: f64, force: impl Fn(f64, f64, f64) -> f64 + Copy) -> [f64; 4] {
         let kinds = Row::from_fn(4, |i| if i % 2 == 0 { 1.0 } else { 0.0 });
-        let mut room = Explicit::new(Partition { count: 0, rest: 4 }, kinds);
+        let mut room = Room::new(Partition { count: 0, rest: 4 }, kinds);
         let mut state = start;
         for step in 0..count {
             let mut equations = Oscillators(force, step as f64 * h, h);
             let mut first = [0.0; 4];
             equations.evaluate(Scalar256b, 0, &state, None, &mut first);
-            room.stages[0].copy_from_slice(&first);
+            room.first.copy_from_slice(&first);
             try_step(Scalar256b, &mut room, &state, h, &mut equations);
             state.copy_from_slice(&room.end);
         }
@@ -336,7 +331,7 @@ mod tests {
         }
     }
 
-    struct OneStep<'a>(&'a mut Explicit, &'a [f64]);
+    struct OneStep<'a>(&'a mut Room, &'a [f64]);
 
     impl Kernel for OneStep<'_> {
         type Output = Vec<f64>;
@@ -352,13 +347,13 @@ mod tests {
     fn lists_of_any_width_give_equal_bits_and_what_single_oscillators_give() {
         let is_position = |i: usize| i < 9 || i == 32 || i == 34;
         let kinds = Row::from_fn(36, |i| f64::from(u8::from(is_position(i))));
-        let mut room = Explicit::new(Partition { count: 9, rest: 4 }, kinds);
+        let mut room = Room::new(Partition { count: 9, rest: 4 }, kinds);
         let state: Vec<f64> = (0..36)
             .map(|i| if (9..16).contains(&i) || (25..32).contains(&i) { 0.0 } else { (i as f64).sin() })
             .collect();
         let mut first = vec![0.0; 36];
         Lists(3.0).evaluate(Scalar256b, 0, &state, None, &mut first);
-        room.stages[0].copy_from_slice(&first);
+        room.first.copy_from_slice(&first);
         let wide = dispatch(OneStep(&mut room, &state));
         let narrow = OneStep(&mut room, &state).run(Scalar256b);
         assert_eq!(wide, narrow);

@@ -11,7 +11,8 @@
 //!
 //! J and ∂f/∂t must be exact for the order to hold. At the onset of a contact they jump; steps end there.
 
-use crate::numerics::lanes::{Each, Lanes, Partition, Wide};
+use super::room::Room;
+use crate::numerics::lanes::{Each, Lanes, Wide};
 use crate::numerics::row::Row;
 
 /// Order of a step, and of the one that its error is estimated by.
@@ -105,101 +106,74 @@ pub const DENSE: [[f64; 8]; 3] = [
     ],
 ];
 
-/// Room for the stages of a step, made once.
-#[derive(Debug, Clone, Default)]
-pub struct Rodas {
-    stages: [Row; 8],
-    /// State at the end of the step tried last.
-    pub end: Row,
-    trial: Row,
-    slope: Row,
-    partition: Partition,
-}
-
 /// Some lists, and the stages after them.
 #[inline(always)]
 fn lists<'a, const N: usize>(first: &[&'a [f64]], stages: &'a [Row]) -> [&'a [f64]; N] {
     std::array::from_fn(|i| if i < first.len() { first[i] } else { &*stages[i - first.len()] })
 }
 
-impl Rodas {
-    /// Room for states that are cut in this way.
-    pub fn new(partition: Partition) -> Self {
-        let zeros = || Row::zeros(partition.len());
-        Self { stages: std::array::from_fn(|_| zeros()), end: zeros(), trial: zeros(), slope: zeros(), partition }
-    }
-
-    /// Tries a step of length `h` from `state`, where the derivative is `first` and its derivative by time `by_time`.
-    #[inline(always)]
-    pub fn try_step<S: Wide>(
-        &mut self,
-        simd: S,
-        state: &[f64],
-        first: &[f64],
-        by_time: &[f64],
-        h: f64,
-        system: &mut impl System,
-    ) {
-        let Self { stages, end, trial, slope, partition } = self;
-        partition.for_each(simd, [first, by_time], &mut stages[0], &Coupled::<0>(h), &mut ());
-        system.solve(&mut stages[0]);
-        for stage in 1..8 {
-            let (done, rest) = stages.split_at_mut(stage);
-            let k = &mut rest[0];
-            match stage {
-                1 => partition.for_each(simd, lists(&[state], done), trial, &Argument::<1>, &mut ()),
-                2 => partition.for_each(simd, lists(&[state], done), trial, &Argument::<2>, &mut ()),
-                3 => partition.for_each(simd, lists(&[state], done), trial, &Argument::<3>, &mut ()),
-                4 => partition.for_each(simd, lists(&[state], done), trial, &Argument::<4>, &mut ()),
-                5 => partition.for_each(simd, lists(&[state], done), trial, &Argument::<5>, &mut ()),
-                _ => {
-                    slope.copy_from_slice(trial);
-                    partition.for_each(simd, [slope, &done[stage - 1]], trial, &Sum, &mut ());
-                }
+/// Tries a step of length `h` from `state`, whose derivative is [`Room::first`] and its derivative by time `by_time`.
+#[inline(always)]
+pub fn try_step<S: Wide>(simd: S, room: &mut Room, state: &[f64], by_time: &[f64], h: f64, system: &mut impl System) {
+    let Room { first, stages, end, trial, slope, partition, .. } = room;
+    partition.for_each(simd, [first, by_time], &mut stages[0], &Coupled::<0>(h), &mut ());
+    system.solve(&mut stages[0]);
+    for stage in 1..8 {
+        let (done, rest) = stages.split_at_mut(stage);
+        let k = &mut rest[0];
+        match stage {
+            1 => partition.for_each(simd, lists(&[state], done), trial, &Argument::<1>, &mut ()),
+            2 => partition.for_each(simd, lists(&[state], done), trial, &Argument::<2>, &mut ()),
+            3 => partition.for_each(simd, lists(&[state], done), trial, &Argument::<3>, &mut ()),
+            4 => partition.for_each(simd, lists(&[state], done), trial, &Argument::<4>, &mut ()),
+            5 => partition.for_each(simd, lists(&[state], done), trial, &Argument::<5>, &mut ()),
+            _ => {
+                slope.copy_from_slice(trial);
+                partition.for_each(simd, [slope, &done[stage - 1]], trial, &Sum, &mut ());
             }
-            system.evaluate(simd, stage, trial, slope);
-            match stage {
-                1 => partition.for_each(simd, lists(&[slope, by_time], done), k, &Coupled::<1>(h), &mut ()),
-                2 => partition.for_each(simd, lists(&[slope, by_time], done), k, &Coupled::<2>(h), &mut ()),
-                3 => partition.for_each(simd, lists(&[slope, by_time], done), k, &Coupled::<3>(h), &mut ()),
-                4 => partition.for_each(simd, lists(&[slope, by_time], done), k, &Coupled::<4>(h), &mut ()),
-                5 => partition.for_each(simd, lists(&[slope, by_time], done), k, &Coupled::<5>(h), &mut ()),
-                6 => partition.for_each(simd, lists(&[slope, by_time], done), k, &Coupled::<6>(h), &mut ()),
-                _ => partition.for_each(simd, lists(&[slope, by_time], done), k, &Coupled::<7>(h), &mut ()),
-            }
-            system.solve(k);
         }
-        partition.for_each(simd, [trial, &stages[7]], end, &Sum, &mut ());
-    }
-
-    /// Largest magnitude of the error estimate of the step tried last, each component times its weight; infinite as
-    /// soon as one is no finite number.
-    pub fn largest_error(&self, weights: &[f64]) -> f64 {
-        let (mut largest, mut poison) = (0.0f64, 0.0);
-        for (error, weight) in self.stages[7].iter().zip(weights) {
-            largest = largest.max((error * weight).abs());
-            poison += 0.0 * error;
+        system.evaluate(simd, stage, trial, slope);
+        match stage {
+            1 => partition.for_each(simd, lists(&[slope, by_time], done), k, &Coupled::<1>(h), &mut ()),
+            2 => partition.for_each(simd, lists(&[slope, by_time], done), k, &Coupled::<2>(h), &mut ()),
+            3 => partition.for_each(simd, lists(&[slope, by_time], done), k, &Coupled::<3>(h), &mut ()),
+            4 => partition.for_each(simd, lists(&[slope, by_time], done), k, &Coupled::<4>(h), &mut ()),
+            5 => partition.for_each(simd, lists(&[slope, by_time], done), k, &Coupled::<5>(h), &mut ()),
+            6 => partition.for_each(simd, lists(&[slope, by_time], done), k, &Coupled::<6>(h), &mut ()),
+            _ => partition.for_each(simd, lists(&[slope, by_time], done), k, &Coupled::<7>(h), &mut ()),
         }
-        if poison == 0.0 { largest } else { f64::INFINITY }
+        system.solve(k);
     }
+    partition.for_each(simd, [trial, &stages[7]], end, &Sum, &mut ());
+}
 
-    /// Error estimate of component `i` of the step tried last.
-    pub fn error(&self, i: usize) -> f64 {
-        self.stages[7][i]
+/// Largest magnitude of the error estimate of the step tried last, each component times its weight; infinite as
+/// soon as one is no finite number.
+pub fn largest_error(room: &Room, weights: &[f64]) -> f64 {
+    let (mut largest, mut poison) = (0.0f64, 0.0);
+    for (error, weight) in room.stages[7].iter().zip(weights) {
+        largest = largest.max((error * weight).abs());
+        poison += 0.0 * error;
     }
+    if poison == 0.0 { largest } else { f64::INFINITY }
+}
 
-    /// State at share `share` of the step tried last, into `out`.
-    #[inline(always)]
-    pub fn dense<S: Wide>(&self, simd: S, state: &[f64], share: f64, out: &mut [f64]) {
-        let rest = 1.0 - share;
-        let mut weights = [0.0; 8];
-        for (i, weight) in weights.iter_mut().enumerate() {
-            *weight = share * rest * (DENSE[0][i] + share * (DENSE[1][i] + share * DENSE[2][i]));
-        }
-        let [a, b, c, d, e, f, g, last] = &self.stages;
-        let from = [state, &self.end, a, b, c, d, e, f, g, last];
-        self.partition.for_each(simd, from, out, &Dense { share, weights }, &mut ());
+/// Error estimate of component `i` of the step tried last.
+pub fn error(room: &Room, i: usize) -> f64 {
+    room.stages[7][i]
+}
+
+/// State at share `share` of the step tried last, into `out`.
+#[inline(always)]
+pub fn dense<S: Wide>(simd: S, room: &Room, state: &[f64], share: f64, out: &mut [f64]) {
+    let rest = 1.0 - share;
+    let mut weights = [0.0; 8];
+    for (i, weight) in weights.iter_mut().enumerate() {
+        *weight = share * rest * (DENSE[0][i] + share * (DENSE[1][i] + share * DENSE[2][i]));
     }
+    let [a, b, c, d, e, f, g, last] = &room.stages;
+    let from = [state, &room.end, a, b, c, d, e, f, g, last];
+    room.partition.for_each(simd, from, out, &Dense { share, weights }, &mut ());
 }
 
 /// What the method integrates.

@@ -104,7 +104,7 @@ impl Stepper<'_> {
         let taken = self.progress.steps + self.progress.rejected_steps - advance.first_count;
         if taken > self.control.max_steps && !advance.is_done() {
             // The accepted step's stages have been handed on: back for a look.
-            self.workspace.explicit.carry_over();
+            self.workspace.room.carry_over();
             return Err(StepError::TooManySteps {
                 steps: taken,
                 limit: self.control.max_steps,
@@ -305,9 +305,8 @@ impl Stepper<'_> {
             let share = (tau - span.from).max(0.0) / span.length;
             probe(workspace, *problem, span, share, progress);
             workspace.sensor_modes.copy_from_slice(&progress.sensor_modes);
-            let Workspace { explicit, implicit, sensor_modes, .. } = &mut **workspace;
-            let implicit = progress.choice.implicit.then_some(&*implicit);
-            let ends = step_ends(explicit, implicit, &progress.state, span.length);
+            let Workspace { room, sensor_modes, .. } = &mut **workspace;
+            let ends = step_ends(room, &progress.state, span.length);
             problem.model.sensor_modes.advance(ends, share, sensor_modes);
             let Workspace { dense, scratch, sensor_modes, forces, .. } = &**workspace;
             let solution = Solution { drive: problem.drive, tau, state: dense, derivative: scratch, sensor_modes };
@@ -324,20 +323,15 @@ impl Stepper<'_> {
         }
         let Self { problem, workspace, progress, .. } = self;
         if !progress.sensor_modes.is_empty() {
-            let implicit = progress.choice.implicit.then_some(&workspace.implicit);
-            let ends = step_ends(&workspace.explicit, implicit, &progress.state, span.length);
+            let ends = step_ends(&workspace.room, &progress.state, span.length);
             problem.model.sensor_modes.advance(ends, 1.0, &mut progress.sensor_modes);
         }
-        if progress.choice.implicit {
-            progress.implicit_steps += 1;
-            std::mem::swap(&mut progress.state, &mut workspace.implicit.end);
-        } else {
-            std::mem::swap(&mut progress.state, &mut workspace.explicit.end);
-        }
+        std::mem::swap(&mut progress.state, &mut workspace.room.end);
         progress.steps += 1;
+        progress.implicit_steps += u64::from(progress.choice.implicit);
         // Contacts that failed in trials which error control took back are of no account.
         workspace.forces.unsolved = None;
-        workspace.explicit.carry_over();
+        workspace.room.carry_over();
         workspace.first_force = workspace.last_force;
         workspace.linearized = false;
         let (model, since) = (problem.model, span.end());

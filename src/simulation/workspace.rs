@@ -1,13 +1,12 @@
-//! What a step works in: rooms for both kinds of methods, and what the step tried last has left there.
+//! What a step works in, and what the step tried last has left there.
 //!
 //! The error of a step is measured against the largest approach in any contact, because that is what forces follow
 //! from: 1e-5 of a path of 1 mm would be more than a loaded contact's whole approach.
 
 use super::arrow::Arrow;
-use super::explicit::Explicit;
 use super::pair::Pair;
 use super::progress::Progress;
-use super::rodas::Rodas;
+use super::room::Room;
 use crate::dynamics::drive::Drive;
 use crate::dynamics::forces::Forces;
 use crate::dynamics::jacobian::Jacobian;
@@ -64,11 +63,9 @@ impl Span {
 /// Workspaces of the integration; holds nothing that the future depends on.
 #[derive(Debug, Clone)]
 pub struct Workspace {
-    /// Also keeps the derivatives at start (first stage) and end (last stage) of a step, whichever method takes it.
-    pub(super) explicit: Explicit,
+    pub(super) room: Room,
     /// Which explicit method steps.
     pub(super) pair: Pair,
-    pub(super) implicit: Rodas,
     pub(super) jacobian: Jacobian,
     /// ∂f/∂t at the start of the step.
     pub(super) by_time: Row,
@@ -100,9 +97,8 @@ impl Workspace {
         let len = model.layout.len;
         let positions = Row::from_fn(len, |i| f64::from(u8::from(model.layout.is_position(i))));
         Self {
-            explicit: Explicit::new(model.layout.partition(), positions),
+            room: Room::new(model.layout.partition(), positions),
             pair: Pair::default(),
-            implicit: Rodas::new(model.layout.partition()),
             jacobian: Jacobian::new(model),
             by_time: Row::zeros(len),
             linearized: false,
@@ -123,7 +119,7 @@ impl Workspace {
 
     /// Derivative at the start of the next step, at `tau` [s] after the communication point.
     pub(super) fn first_stage(&mut self, problem: Problem, tau: f64, progress: &Progress) {
-        let (first, forces) = (&mut self.explicit.stages[0], &mut self.forces);
+        let (first, forces) = (&mut self.room.first, &mut self.forces);
         problem.model.derivative(problem.drive, tau, &progress.cells, &progress.state, first, forces);
         self.first_force = self.forces.rings;
         self.linearized = false;
@@ -144,16 +140,9 @@ impl Workspace {
     }
 }
 
-/// Both ends of the step of `length` [s] tried last from the state `start`, by the implicit method if that is given.
-pub(super) fn step_ends<'a>(
-    explicit: &'a Explicit,
-    implicit: Option<&'a Rodas>,
-    start: &'a [f64],
-    length: f64,
-) -> StepEnds<'a> {
-    let end = implicit.map_or(&explicit.end, |implicit| &implicit.end);
-    let [first, .., last] = &explicit.stages;
-    StepEnds { states: [start, end], derivatives: [first, last], length }
+/// Both ends of the step of `length` [s] tried last from the state `start`.
+pub(super) fn step_ends<'a>(room: &'a Room, start: &'a [f64], length: f64) -> StepEnds<'a> {
+    StepEnds { states: [start, &room.end], derivatives: [&room.first, &room.last], length }
 }
 
 /// Weight that turns the error of state `i` into a length.

@@ -64,7 +64,7 @@ impl Case {
     }
 
     fn oracle(&self) -> Envelope {
-        Envelope::at_single_angles(&[self.points.clone()], Pair::OuterRing, self.element, self.raceway)
+        Envelope::at_single_angles(std::slice::from_ref(&self.points), Pair::OuterRing, self.element, self.raceway)
     }
 }
 

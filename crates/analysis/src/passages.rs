@@ -145,8 +145,7 @@ fn clock(signal: &[f64], index: &[usize], period: f64) -> Vec<f64> {
     // Steps of a quarter of a degree, at 40° spacing, over all passages; up to 1.5 %, which is 1/(10·8) of the fewest.
     let step = 1.0 / (160.0 * count as f64);
     let steps = (0.015 / step) as i32;
-    let strength =
-        |period: f64| -> f64 { mean(signal, &even(period), period, 128).iter().map(|x| x * x).sum() };
+    let strength = |period: f64| -> f64 { mean(signal, &even(period), period, 128).iter().map(|x| x * x).sum() };
     let tried = (-steps..=steps).map(|k| period * (1.0 + step * f64::from(k))).map(|p| (p, strength(p)));
     even(tried.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(period, |best| best.0))
 }
