@@ -166,11 +166,11 @@ mod tests {
     use super::*;
     use crate::scene::Damping;
     use proptest::prelude::*;
-    use std::sync::Arc;
+    use std::sync::{Arc, LazyLock};
 
-    fn contacts() -> impl Iterator<Item = CompliantContact> {
+    static CONTACTS: LazyLock<Vec<CompliantContact>> = LazyLock::new(|| {
         let dampings = [Damping::HuntCrossley(0.5), Damping::Proportional(1e-6)];
-        dampings.into_iter().flat_map(|damping| {
+        let contacts = dampings.into_iter().flat_map(|damping| {
             let point = ForceLaw { stiffness: 1e10, elasticity: Elasticity::Point, damping };
             let depths: Vec<f64> = (0..40).map(|k| 4e-6 * (f64::from(2 * k - 39) / 40.0).powi(4)).collect();
             let elasticity = Elasticity::Crowned(Arc::new(Crown::new(&depths)));
@@ -180,8 +180,9 @@ mod tests {
             [point, line, crowned]
                 .into_iter()
                 .flat_map(move |law| softness.map(|compliance| CompliantContact { law: law.clone(), compliance }))
-        })
-    }
+        });
+        contacts.collect()
+    });
 
     /// δ by bisection of the defining relation.
     fn bisected(total: f64, stiffness: f64, compliance: f64) -> f64 {
@@ -207,7 +208,7 @@ mod tests {
 
         #[test]
         fn force_is_positive_exactly_where_the_contact_pushes(delta in -1e-4..1e-4f64, rate in -50.0..50.0f64) {
-            for law in contacts() {
+            for law in &*CONTACTS {
                 prop_assert!(law.force(delta, rate) >= 0.0);
                 prop_assert_eq!(law.pushing(delta, rate) > 0.0, law.force(delta, rate) > 0.0);
             }
@@ -215,7 +216,7 @@ mod tests {
 
         #[test]
         fn derivatives_equal_difference_quotients(delta in 1e-7..1e-4f64, rate in -1.5..5.0f64) {
-            for law in contacts() {
+            for law in &*CONTACTS {
                 prop_assume!(law.pushing(delta, rate) > 1e-8);
                 let force = law.with_derivatives(delta, rate);
                 let crowned = matches!(law.law.elasticity, Elasticity::Crowned(_));
@@ -263,7 +264,7 @@ mod tests {
 
     #[test]
     fn without_compliance_no_bit_is_other_than_the_contacts() {
-        for law in contacts().map(|law| CompliantContact { compliance: 0.0, ..law }) {
+        for law in CONTACTS.iter().map(|contact| CompliantContact { compliance: 0.0, ..contact.clone() }) {
             for (delta, rate) in [(3.7e-6, 0.013), (1.1e-5, -0.4), (-2e-6, 1.0), (0.0, 0.0)] {
                 let (alone, bits) = (law.law.clone(), f64::to_bits);
                 assert_eq!(bits(law.force(delta, rate)), bits(alone.force(delta, rate)));

@@ -229,10 +229,10 @@ mod tests {
     use super::super::crown::Crown;
     use super::*;
     use proptest::prelude::*;
-    use std::sync::Arc;
+    use std::sync::{Arc, LazyLock};
 
     /// A ball, a straight roller and a crowned one, each with both dampings.
-    fn laws() -> Vec<ForceLaw> {
+    static LAWS: LazyLock<Vec<ForceLaw>> = LazyLock::new(|| {
         let depths: Vec<f64> = (0..40).map(|k| 4e-6 * (f64::from(2 * k - 39) / 40.0).powi(4)).collect();
         let crowned = Elasticity::Crowned(Arc::new(Crown::new(&depths)));
         let elasticities = [(1e10, Elasticity::Point), (1e9, Elasticity::Line), (1e9, crowned)];
@@ -240,26 +240,26 @@ mod tests {
         let law =
             |damping| elasticities.clone().map(|(stiffness, elasticity)| ForceLaw { stiffness, elasticity, damping });
         dampings.into_iter().flat_map(law).collect()
-    }
+    });
 
     proptest! {
         #[test]
         fn a_contact_never_pulls(delta in -1e-4..1e-4f64, rate in -50.0..50.0f64) {
-            for law in laws() {
+            for law in &*LAWS {
                 prop_assert!(law.force(delta, rate) >= 0.0);
             }
         }
 
         #[test]
         fn force_is_positive_exactly_where_the_contact_pushes(delta in -1e-4..1e-4f64, rate in -50.0..50.0f64) {
-            for law in laws() {
+            for law in &*LAWS {
                 prop_assert_eq!(law.pushing(delta, rate) > 0.0, law.force(delta, rate) > 0.0);
             }
         }
 
         #[test]
         fn derivatives_equal_difference_quotients(delta in 1e-7..1e-4f64, rate in -1.5..5.0f64) {
-            for law in laws() {
+            for law in &*LAWS {
                 prop_assume!(law.pushing(delta, rate) > 1e-8);
                 let force = law.with_derivatives(delta, rate);
                 let crowned = matches!(law.elasticity, Elasticity::Crowned(_));
@@ -279,7 +279,7 @@ mod tests {
 
     #[test]
     fn an_approach_that_is_no_number_gives_no_force_that_is_one() {
-        for law in laws() {
+        for law in &*LAWS {
             assert!(law.force(f64::NAN, 0.0).is_nan() && law.force(1e-6, f64::NAN).is_nan());
             assert!(law.elastic(f64::NAN).is_nan() && law.elastic_stiffness(f64::NAN).is_nan());
         }

@@ -196,6 +196,7 @@ mod tests {
     use crate::dynamics::raceway::{Placed, SMOOTH};
     use crate::scene::{Damping, Motion};
     use proptest::prelude::*;
+    use std::rc::Rc;
 
     /// Speeds, accelerations and angles of every size and sign, zero among them.
     fn number(largest: f64) -> impl Strategy<Value = f64> {
@@ -271,8 +272,9 @@ mod tests {
         }
     }
 
-    fn model() -> Model {
-        lively([Motion::Fixed; 2], Damping::HuntCrossley(0.3), 0.0).0
+    fn model() -> Rc<Model> {
+        thread_local!(static MODEL: Rc<Model> = lively([Motion::Fixed; 2], Damping::HuntCrossley(0.3), 0.0).0.into());
+        MODEL.with(Rc::clone)
     }
 
     proptest! {
@@ -284,25 +286,25 @@ mod tests {
             steps in prop::collection::vec((number(1e6), 1e-6..0.02f64), 1..12),
             on_knot in prop::option::of((0..20usize, 0..9usize)),
         ) {
-            let model = model();
-            let defect = placed(&model);
+            let model = &*model();
+            let defect = placed(model);
             // Perhaps an element begins exactly on a knot.
             let start = on_knot.map_or(start, |(k, j)| {
                 defect.knots()[k % defect.knots().len()] + defect.centre - model.element_offset(j)
             });
             let mut angle = WholeAngle::new(start);
-            let outer: Vec<u32> = (0..9).map(|j| cell_at(&model, j, angle.rest)).collect();
+            let outer: Vec<u32> = (0..9).map(|j| cell_at(model, j, angle.rest)).collect();
             let mut cells = Cells { outer, ..Cells::smooth(9, 0) };
             let mut speed = speed;
             for (acceleration, time) in steps {
                 let cage = Quadratic([0.0, speed, acceleration]);
                 let drive = Drive { cage_start: angle.rest, cage, ..Drive::default() };
-                walk(&model, &drive, time, &mut cells);
+                walk(model, &drive, time, &mut cells);
                 angle = angle.advanced(cage.at(time));
                 for (j, &cell) in cells.outer.iter().enumerate() {
                     // Rounding of the way made, turns included, and of times within the step.
                     let blur = 16.0 * f64::EPSILON * (10.0 + time * (speed.abs() + acceleration.abs() * time));
-                    let outside = outside(&model, j, angle.rest, cell);
+                    let outside = outside(model, j, angle.rest, cell);
                     prop_assert!(outside <= blur, "element {j} is {outside:e} rad outside its cell, allowed {blur:e}");
                 }
                 speed = cage.rate_at(time);
@@ -312,8 +314,8 @@ mod tests {
 
     #[test]
     fn a_knot_on_which_the_cage_turns_is_passed_both_ways_or_not_at_all() {
-        let model = model();
-        let defect = placed(&model);
+        let model = &*model();
+        let defect = placed(model);
         let mut passed = [0; 3];
         for (k, &knot) in defect.knots().iter().enumerate() {
             for way in [1.0, -1.0] {
@@ -322,11 +324,11 @@ mod tests {
                     let (speed, acceleration) = (way * f64::from(n) * 0.013, -way * 1e3 / f64::from(n));
                     let turn = -0.5 * speed * speed / acceleration;
                     let cage_start = knot + defect.centre - turn;
-                    let before = cell_at(&model, 0, cage_start);
+                    let before = cell_at(model, 0, cage_start);
                     let mut cells = Cells { outer: vec![before], ..Cells::default() };
                     let cage = Quadratic([0.0, speed, acceleration]);
                     let drive = Drive { cage_start, cage, ..Drive::default() };
-                    let met = walk(&model, &drive, -2.5 * speed / acceleration, &mut cells);
+                    let met = walk(model, &drive, -2.5 * speed / acceleration, &mut cells);
                     assert!(cells.outer[0] == before || turn.abs() > 1e-3, "knot {k}: {drive:?}");
                     passed[met.min(2)] += usize::from(turn.abs() <= 1e-3);
                 }
