@@ -3,40 +3,41 @@
 use super::super::{Scene, SceneError};
 use super::SceneFile;
 use super::places::{Place, at_mut};
-use toml::{Table, Value};
+use serde::Deserialize;
+use std::borrow::Cow;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue, Deserializer};
 
 /// What stands for a key that cannot be missing.
 #[derive(Clone, Copy)]
 enum StandIn {
-    Text(&'static str),
-    Number(f64),
-    Seed,
-    Table,
+    /// As it would be written.
+    Value(&'static str),
     /// A bearing with the elements that the file asks for.
     Bearing,
 }
-use StandIn::{Bearing, Number, Seed, Text};
+use StandIn::{Bearing, Value};
 
 /// Table, key, what stands for it, and keys that go without it.
 const STAND_INS: [(&str, &str, StandIn, &[&str]); 18] = [
-    ("", "name", Text("scene"), &[]),
-    ("", "bearing", StandIn::Table, &[]),
-    ("", "shaft", StandIn::Table, &[]),
-    ("", "housing", StandIn::Table, &[]),
+    ("", "name", Value("'scene'"), &[]),
+    ("", "bearing", Value("{}"), &[]),
+    ("", "shaft", Value("{}"), &[]),
+    ("", "housing", Value("{}"), &[]),
     ("bearing", "catalogue", Bearing, &[]),
-    ("film", "viscosity_pa_s", Number(0.04), &[]),
-    ("film", "pressure_viscosity_1_pa", Number(2e-8), &[]),
-    ("cage", "seed", Seed, &[]),
-    ("defect", "angle_deg", Number(0.0), &[]),
-    ("defect", "length_mm", Number(1.0), &["length_deg", "profile"]),
-    ("defect", "depth_um", Number(1.0), &["profile"]),
-    ("shaft", "motion", Text("internal"), &[]),
-    ("shaft", "speed_hz", Number(0.0), &[]),
-    ("housing", "motion", Text("internal"), &[]),
-    ("sensor.mode", "frequency_hz", Number(1e3), &[]),
-    ("sensor.mode", "damping_ratio", Number(0.1), &[]),
-    ("sensor.mode", "gain", Number(1.0), &[]),
-    ("recorder", "rate_hz", Number(51_200.0), &[]),
+    ("film", "viscosity_pa_s", Value("0.04"), &[]),
+    ("film", "pressure_viscosity_1_pa", Value("2e-8"), &[]),
+    ("cage", "seed", Value("0"), &[]),
+    ("defect", "angle_deg", Value("0.0"), &[]),
+    ("defect", "length_mm", Value("1.0"), &["length_deg", "profile"]),
+    ("defect", "depth_um", Value("1.0"), &["profile"]),
+    ("shaft", "motion", Value("'internal'"), &[]),
+    ("shaft", "speed_hz", Value("0.0"), &[]),
+    ("housing", "motion", Value("'internal'"), &[]),
+    ("sensor.mode", "frequency_hz", Value("1e3"), &[]),
+    ("sensor.mode", "damping_ratio", Value("0.1"), &[]),
+    ("sensor.mode", "gain", Value("1.0"), &[]),
+    ("recorder", "rate_hz", Value("51200.0"), &[]),
 ];
 
 /// Keys from which a bearing's dimensions are.
@@ -44,15 +45,15 @@ const DIMENSIONS: [&str; 6] =
     ["catalogue", "element", "element_count", "element_diameter_mm", "pitch_diameter_mm", "roller_length_mm"];
 
 /// The file as far as it is right, and what was left out.
-pub(super) struct Mended {
-    file: Table,
+pub(super) struct Mended<'t> {
+    file: Spanned<DeTable<'t>>,
     spoilt: Vec<(Place, String)>,
 }
 
-impl Mended {
-    /// Nothing left out yet; `None` of what is no TOML.
-    pub(super) fn of(text: &str) -> Option<Self> {
-        Some(Self { file: text.parse().ok()?, spoilt: Vec::new() })
+impl<'t> Mended<'t> {
+    /// Nothing left out yet.
+    pub(super) fn of(file: Spanned<DeTable<'t>>) -> Self {
+        Self { file, spoilt: Vec::new() }
     }
 
     /// Leaves a key out. Whether it was not left out before.
@@ -60,7 +61,7 @@ impl Mended {
         if self.is_spoilt(place, key) {
             return false;
         }
-        if let Some(table) = at_mut(&mut self.file, place) {
+        if let Some(table) = at_mut(self.file.get_mut(), place) {
             table.remove(key);
         }
         self.spoilt.push((place, key.to_owned()));
@@ -85,43 +86,46 @@ impl Mended {
     /// What is still wrong; nothing where that cannot be said.
     pub(super) fn errors(&mut self) -> Vec<SceneError> {
         for (name, key, stand_in, instead) in STAND_INS {
-            each(&mut self.file, name, &mut |table| {
-                if !table.contains_key(key) && !instead.iter().any(|other| table.contains_key(*other)) {
-                    table.insert(key.to_owned(), stand_in.value(table));
+            each(self.file.get_mut(), name, &mut |table| {
+                if !table.contains_key(key)
+                    && !instead.iter().any(|other| table.contains_key(*other))
+                    && let Ok(value) = DeValue::parse(stand_in.written(table))
+                {
+                    table.insert(Spanned::new(0..0, Cow::Borrowed(key)), value);
                 }
             });
         }
-        let Ok(file) = Value::Table(self.file.clone()).try_into::<SceneFile>() else { return Vec::new() };
+        let Ok(file) = SceneFile::deserialize(Deserializer::from(self.file.clone())) else { return Vec::new() };
         let checked = file.into_scene().and_then(|scene: Scene| scene.check());
         checked.map_or_else(SceneError::each, |()| Vec::new())
     }
 }
 
 impl StandIn {
-    fn value(self, table: &Table) -> Value {
+    fn written(self, table: &DeTable<'_>) -> &'static str {
+        let element = || table.get("element").and_then(|element| element.get_ref().as_str());
         match self {
-            Self::Text(text) => Value::String(text.to_owned()),
-            Self::Number(number) => Value::Float(number),
-            Self::Seed => Value::Integer(0),
-            Self::Table => Value::Table(Table::new()),
-            Self::Bearing => {
-                let rolls = table.get("element").and_then(Value::as_str) == Some("cylindrical-roller");
-                Value::String(if rolls { "NU205" } else { "6205" }.to_owned())
-            }
+            Value(written) => written,
+            Bearing if element() == Some("cylindrical-roller") => "'NU205'",
+            Bearing => "'6205'",
         }
     }
 }
 
 /// Does something to every table of a name.
-fn each(table: &mut Table, name: &str, act: &mut dyn FnMut(&mut Table)) {
+fn each<'t>(table: &mut DeTable<'t>, name: &str, act: &mut dyn FnMut(&mut DeTable<'t>)) {
     if name.is_empty() {
         return act(table);
     }
     let (first, rest) = name.split_once('.').unwrap_or((name, ""));
-    match table.get_mut(first) {
-        Some(Value::Table(inner)) => each(inner, rest, act),
-        Some(Value::Array(several)) => {
-            several.iter_mut().filter_map(Value::as_table_mut).for_each(|one| each(one, rest, act))
+    match table.get_mut(first).map(Spanned::get_mut) {
+        Some(DeValue::Table(inner)) => each(inner, rest, act),
+        Some(DeValue::Array(several)) => {
+            for one in several.iter_mut() {
+                if let DeValue::Table(inner) = one.get_mut() {
+                    each(inner, rest, act);
+                }
+            }
         }
         _ => {}
     }

@@ -1,8 +1,8 @@
 //! Where tables stand in a scene file, and which keys a message names.
 
 use super::tables::tables;
+use toml::Spanned;
 use toml::de::{DeTable, DeValue};
-use toml::{Table, Value};
 
 /// A table of the file: its name, empty for the file itself, and from 0 its number among those of the name; of a table
 /// within another that of the outer one first.
@@ -53,11 +53,14 @@ pub(super) fn all_of<'a, 'f>(name: &'static str, file: &'a DeTable<'f>) -> Vec<F
 }
 
 /// The table of a file at a place.
-pub(super) fn at_mut(file: &mut Table, place: Place) -> Option<&mut Table> {
+pub(super) fn at_mut<'a, 'f>(file: &'a mut DeTable<'f>, place: Place) -> Option<&'a mut DeTable<'f>> {
     let names = place.table.split('.').filter(|name| !name.is_empty());
-    names.zip(place.number).try_fold(file, |table, (name, number)| match table.get_mut(name)? {
-        Value::Table(table) => Some(table),
-        Value::Array(tables) => tables.get_mut(number)?.as_table_mut(),
+    names.zip(place.number).try_fold(file, |table, (name, number)| match table.get_mut(name)?.get_mut() {
+        DeValue::Table(table) => Some(table),
+        DeValue::Array(tables) => match tables.get_mut(number).map(Spanned::get_mut)? {
+            DeValue::Table(table) => Some(table),
+            _ => None,
+        },
         _ => None,
     })
 }

@@ -19,7 +19,8 @@ const ROUNDS: usize = 20;
 
 /// The error for a file that was refused with `error`: all its faults; of what is no TOML the places where it is none.
 pub(super) fn all_faults(text: &str, error: SceneError) -> SceneError {
-    let (Ok(file), Some(mut mended)) = (DeTable::parse(text), Mended::of(text)) else { return not_toml(text, error) };
+    let Ok(file) = DeTable::parse(text) else { return not_toml(text, error) };
+    let mut mended = Mended::of(file.clone());
     let reading = Reading::new(text, file.get_ref());
     let mut faults = Vec::new();
     for Finding { fault, spoils } in reading.findings() {
