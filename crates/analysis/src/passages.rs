@@ -169,19 +169,24 @@ fn line(starts: &[f64], index: &[usize]) -> Vec<f64> {
     index.iter().map(|&i| mean + (i as f64 - middle) * period).collect()
 }
 
+/// `count` values of a signal, the first at `from`, each `step` after the one before.
+fn spread(signal: &[f64], from: f64, step: f64, count: usize) -> impl Iterator<Item = f64> {
+    (0..count).map(move |i| value_at(signal, from + step * i as f64))
+}
+
 /// One row of `points` values per passage, spread evenly over its period.
 pub fn cut(signal: &[f64], starts: &[f64], period: f64, points: usize) -> Vec<Vec<f64>> {
     let step = period / points as f64;
-    starts.iter().map(|start| (0..points).map(|i| value_at(signal, start + step * i as f64)).collect()).collect()
+    starts.iter().map(|&start| spread(signal, start, step, points).collect()).collect()
 }
 
 /// Mean of the rows that [`cut`] gives, point by point; without passages nothing.
 pub fn mean(signal: &[f64], starts: &[f64], period: f64, points: usize) -> Vec<f64> {
     let step = period / points as f64;
     let mut mean = vec![0.0; if starts.is_empty() { 0 } else { points }];
-    for start in starts {
-        for (i, sum) in mean.iter_mut().enumerate() {
-            *sum += value_at(signal, start + step * i as f64);
+    for &start in starts {
+        for (sum, value) in mean.iter_mut().zip(spread(signal, start, step, points)) {
+            *sum += value;
         }
     }
     mean.iter_mut().for_each(|sum| *sum /= starts.len() as f64);
@@ -300,7 +305,7 @@ fn recentre(shifted: &mut [f64], from: &[f64]) {
 fn best_shift(log: &[f64], start: f64, step: f64, template: &[f64], reach: isize) -> f64 {
     let width = template.len() + 2 * reach as usize;
     let from = start - reach as f64 * step;
-    let row: Vec<f64> = (0..width).map(|i| value_at(log, from + step * i as f64)).collect();
+    let row: Vec<f64> = spread(log, from, step, width).collect();
     // All shifts side by side: the sum of one alone would wait for itself at each point.
     let mut fits = vec![0.0; 2 * reach as usize + 1];
     for (skipped, b) in template.iter().enumerate() {

@@ -5,7 +5,7 @@ use super::{Each, Lists, QUAD, Wide, after, padded};
 /// How a vector of states is made up: two lists of equal length, which are treated with all lanes there are, and a
 /// rest, which is treated by four. Whoever writes and whoever reads a vector soon after must part it in the same way: a
 /// register that was written in parts is read late.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Partition {
     /// Numbers in each list.
     pub count: usize,

@@ -2,7 +2,7 @@
 
 use super::super::{Scene, SceneError};
 use super::SceneFile;
-use super::places::{Place, at_mut};
+use super::places::{Place, at_mut, table_mut};
 use serde::Deserialize;
 use std::borrow::Cow;
 use toml::Spanned;
@@ -121,11 +121,7 @@ fn each<'t>(table: &mut DeTable<'t>, name: &str, act: &mut dyn FnMut(&mut DeTabl
     match table.get_mut(first).map(Spanned::get_mut) {
         Some(DeValue::Table(inner)) => each(inner, rest, act),
         Some(DeValue::Array(several)) => {
-            for one in several.iter_mut() {
-                if let DeValue::Table(inner) = one.get_mut() {
-                    each(inner, rest, act);
-                }
-            }
+            several.iter_mut().filter_map(table_mut).for_each(|one| each(one, rest, act));
         }
         _ => {}
     }

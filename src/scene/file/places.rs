@@ -57,12 +57,14 @@ pub(super) fn at_mut<'a, 'f>(file: &'a mut DeTable<'f>, place: Place) -> Option<
     let names = place.table.split('.').filter(|name| !name.is_empty());
     names.zip(place.number).try_fold(file, |table, (name, number)| match table.get_mut(name)?.get_mut() {
         DeValue::Table(table) => Some(table),
-        DeValue::Array(tables) => match tables.get_mut(number).map(Spanned::get_mut)? {
-            DeValue::Table(table) => Some(table),
-            _ => None,
-        },
+        DeValue::Array(tables) => table_mut(tables.get_mut(number)?),
         _ => None,
     })
+}
+
+/// A value that is a table.
+pub(super) fn table_mut<'a, 'f>(value: &'a mut Spanned<DeValue<'f>>) -> Option<&'a mut DeTable<'f>> {
+    if let DeValue::Table(table) = value.get_mut() { Some(table) } else { None }
 }
 
 /// The keys that a message names with their tables, and the one of the file itself, in its order. The tables of which

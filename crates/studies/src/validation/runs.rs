@@ -147,6 +147,6 @@ impl Case {
         let first = self.entry(length) * rate + (skip as f64 - lead) * period;
         let count = ((signal.len() as f64 - first) / period) as usize;
         let starts: Vec<f64> = (0..count).map(|i| first + i as f64 * period).collect();
-        passages::average(&passages::cut(signal, &starts, period, period.round() as usize))
+        passages::mean(signal, &starts, period, period.round() as usize)
     }
 }
