@@ -13,11 +13,13 @@ use std::path::{Path, PathBuf};
 use cycles::cycles;
 use reader::imports;
 
-/// The order of the layers; each may import those before it.
+/// The order of the layers; each may import those before it. The scene is a crate of its own, which knows no other.
 const ORDER: [&str; 8] = ["numerics", "scene", "geometry", "surface", "contact", "dynamics", "simulation", "recording"];
 /// The crates of the workspace by folder, and those among them that each may depend on.
-const CRATES: [(&str, &[&str]); 8] = [
-    ("", &[]),
+const CRATES: [(&str, &[&str]); 10] = [
+    ("crates/elementary", &[]),
+    ("crates/scene", &["brinell-elementary"]),
+    ("", &["brinell-elementary", "brinell-scene"]),
     ("crates/fmi", &["brinell"]),
     ("crates/eigen", &[]),
     ("crates/spectrum", &[]),
@@ -61,7 +63,7 @@ fn every_crate_depends_only_on_those_it_may_know() {
 fn no_layer_imports_backwards() {
     let source = brinell_tests::root().join("src");
     let mut backwards = Vec::new();
-    for layer in ORDER {
+    for layer in ORDER.into_iter().filter(|layer| *layer != "scene") {
         let files = files_of(&source, layer);
         assert!(!files.is_empty(), "layer {layer} has no file: the order in this test is out of date");
         for file in files {

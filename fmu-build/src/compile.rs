@@ -18,7 +18,8 @@ use crate::universal;
 use crate::whole_file;
 
 /// What the library is compiled of, in the workspace.
-const SOURCES: [&str; 6] = ["Cargo.toml", "Cargo.lock", "src", "crates/fmi/Cargo.toml", "crates/fmi/src", ".cargo"];
+const SOURCES: [&str; 7] =
+    ["Cargo.toml", "Cargo.lock", "src", "crates/elementary", "crates/scene", "crates/fmi", ".cargo"];
 
 /// The library for one platform, compiled for each of its processors.
 pub fn platform(project: &Project, source: &Path, platform: Platform) -> Result<Vec<u8>> {

@@ -77,13 +77,6 @@ fn check(crown: &Crown, half: f64, diameter: f64) -> Result<(), String> {
     Ok(())
 }
 
-impl Crown {
-    /// Whether its file has been read.
-    pub fn is_read(&self) -> bool {
-        !self.points.is_empty()
-    }
-}
-
 /// For a scene whose crown is yet to be read.
 pub(crate) fn unread(scene: &Scene) -> Option<&str> {
     match &scene.bearing.roller()?.profile {

@@ -107,11 +107,9 @@ impl Runner for Cores {
 
 /// Fingerprint of the sources on which the bits of a map depend.
 fn map_sources() -> u64 {
-    let source = brinell_tests::root().join("src");
-    let mut files: Vec<PathBuf> = ["numerics", "geometry", "surface", "contact"]
-        .iter()
-        .flat_map(|layer| files_below(&source.join(layer)))
-        .collect();
+    let layers = ["crates/elementary/src", "src/numerics", "src/geometry", "src/surface", "src/contact"];
+    let mut files: Vec<PathBuf> =
+        layers.iter().flat_map(|layer| files_below(&brinell_tests::root().join(layer))).collect();
     files.sort();
     fingerprint(files.iter().flat_map(|file| fs::read(file).unwrap()).map(u64::from))
 }

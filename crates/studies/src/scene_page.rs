@@ -7,9 +7,9 @@ use std::path::Path;
 use anyhow::{Context, Result};
 
 /// Files of the source with tables and words of the scene; the doc comment of the first says what holds without a key.
-const READER: &str = "src/scene/file.rs";
-const TABLES: &str = "src/scene/file";
-const WORDS: [&str; 2] = ["src/scene/mod.rs", "src/scene/rolling_element.rs"];
+const READER: &str = "crates/scene/src/file.rs";
+const TABLES: &str = "crates/scene/src/file";
+const WORDS: [&str; 2] = ["crates/scene/src/lib.rs", "crates/scene/src/rolling_element.rs"];
 
 /// Every key of a scene file: by table, whether it is needed, and what holds without it.
 pub fn scene_page(source: &Path) -> Result<String> {

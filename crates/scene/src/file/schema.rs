@@ -1,8 +1,8 @@
 //! The limits of values in the JSON schema: those by which the program refuses, from the same table.
 
-use crate::scene::error::LONGEST_NAME;
-use crate::scene::quantity::written;
-use crate::scene::{Bound, MOST_SENSOR_MODES, MOST_SENSORS};
+use crate::error::LONGEST_NAME;
+use crate::quantity::written;
+use crate::{Bound, MOST_SENSOR_MODES, MOST_SENSORS};
 use schemars::Schema;
 
 /// The schema with the limits of all numbers and the form of names.

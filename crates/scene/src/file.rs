@@ -59,6 +59,7 @@ mod rings;
 mod schema;
 mod tables;
 mod values;
+mod written;
 
 use super::error::SceneError;
 use super::faults::Faults;
@@ -71,6 +72,7 @@ use one_or_more::OneOrMore;
 use rings::{HousingTable, ProbeTable, SensorTable, ShaftTable};
 use serde::Deserialize;
 use std::f64::consts::TAU;
+use toml::de::DeTable;
 
 impl Scene {
     /// Reads the text of a scene file and checks it.
@@ -100,7 +102,8 @@ impl Scene {
     /// Broken TOML; unknown, missing and contradicting keys and every value that [`Scene::check`] refuses, all of them
     /// at once, as far as one does not hide the other.
     pub fn from_toml(text: &str) -> Result<Self, SceneError> {
-        let read = toml::from_str(text).map_err(SceneError::Toml).and_then(SceneFile::into_scene);
+        let file = DeTable::parse(text).and_then(|file| written::read::<SceneFile>(file.get_ref()));
+        let read = file.map_err(SceneError::Toml).and_then(SceneFile::into_scene);
         let checked = read.and_then(|scene| scene.check().map(|()| scene));
         checked.map_err(|error| reading::all_faults(text, error))
     }

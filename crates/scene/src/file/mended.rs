@@ -3,10 +3,10 @@
 use super::super::{Scene, SceneError};
 use super::SceneFile;
 use super::places::{Place, at_mut, table_mut};
-use serde::Deserialize;
+use super::written;
 use std::borrow::Cow;
 use toml::Spanned;
-use toml::de::{DeTable, DeValue, Deserializer};
+use toml::de::{DeTable, DeValue};
 
 /// What stands for a key that cannot be missing.
 #[derive(Clone, Copy)]
@@ -95,7 +95,7 @@ impl<'t> Mended<'t> {
                 }
             });
         }
-        let Ok(file) = SceneFile::deserialize(Deserializer::from(self.file.clone())) else { return Vec::new() };
+        let Ok(file) = written::read::<SceneFile>(self.file.get_ref()) else { return Vec::new() };
         let checked = file.into_scene().and_then(|scene: Scene| scene.check());
         checked.map_or_else(SceneError::each, |()| Vec::new())
     }

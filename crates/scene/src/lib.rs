@@ -26,7 +26,7 @@ mod usual;
 
 pub use bearing_error::BearingError;
 pub use builder::SceneBuilder;
-pub(crate) use cage::centred;
+use cage::centred;
 pub use cage::{Cage, CageIrregularity};
 pub use catalogue::{CatalogueBearing, Inside, catalogue, catalogued};
 pub use defect::{Defect, DefectLimit, DefectOn, DefectShape};

@@ -1,6 +1,6 @@
 //! The cage: how fast it turns, and what makes passages uneven.
 
-use crate::numerics::counter_noise::gaussian;
+use brinell_elementary::counter_noise::gaussian;
 
 /// Kinematics of the cage.
 #[derive(Debug, Clone, PartialEq)]

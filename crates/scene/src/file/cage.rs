@@ -1,7 +1,7 @@
 //! The table `[cage]` of the scene file.
 
-use crate::scene::quantity::CAGE_SPACING_RMS;
-use crate::scene::{Cage, CageIrregularity, SceneError, centred};
+use crate::quantity::CAGE_SPACING_RMS;
+use crate::{Cage, CageIrregularity, SceneError, centred};
 use serde::Deserialize;
 use std::f64::consts::TAU;
 

@@ -1,6 +1,6 @@
 //! The table `[film]` of the scene file.
 
-use crate::scene::Film;
+use crate::Film;
 use serde::Deserialize;
 
 /// An oil film.

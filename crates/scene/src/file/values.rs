@@ -3,8 +3,8 @@
 
 use super::kinds::{Kind, TableOf};
 use super::tables::path;
-use crate::scene::quantity::of_key;
-use crate::scene::spelling::nearest;
+use crate::quantity::of_key;
+use crate::spelling::nearest;
 use toml::de::DeValue;
 
 /// Why the value of a key of a table cannot be.

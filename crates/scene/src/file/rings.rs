@@ -2,8 +2,8 @@
 
 use super::one_or_more::OneOrMore;
 use super::pair::optional;
-use crate::scene::faults::Faults;
-use crate::scene::{Motion, Ring, SceneError, Sensor, SensorMode};
+use crate::faults::Faults;
+use crate::{Motion, Ring, SceneError, Sensor, SensorMode};
 use serde::Deserialize;
 
 /// The inner ring.

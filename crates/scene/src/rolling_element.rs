@@ -58,6 +58,11 @@ pub struct Crown {
 }
 
 impl Crown {
+    /// Whether its file has been read.
+    pub fn is_read(&self) -> bool {
+        !self.points.is_empty()
+    }
+
     /// Depth [m] at `x` [m] from the roller's middle; beyond the points that of the last.
     pub fn depth(&self, x: f64) -> f64 {
         let next = self.points.partition_point(|point| point[0] <= x);

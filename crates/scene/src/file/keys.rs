@@ -5,8 +5,8 @@ use super::not_modelled::instead_of;
 use super::places::{Found, Place};
 use super::tables::{path, tables};
 use super::values;
-use crate::scene::key_fault::{Hint, KeyFault};
-use crate::scene::spelling::nearest;
+use crate::key_fault::{Hint, KeyFault};
+use crate::spelling::nearest;
 use toml::de::DeValue;
 
 /// Keys that a table cannot be without. The file itself is the table without a name.
@@ -119,11 +119,11 @@ fn hint(table: &str, keys: Keys, key: &str) -> Hint {
 mod tests {
     use super::super::kinds::Kind;
     use super::*;
-    use crate::scene::file::bearing::BearingTable;
-    use crate::scene::file::cage::CageTable;
-    use crate::scene::file::film::FilmTable;
-    use crate::scene::file::rings::{HousingTable, ProbeTable, SensorModeTable, SensorTable, ShaftTable};
-    use crate::scene::file::{ContactTable, DefectTable, ExperimentTable, RecorderTable, SolverTable};
+    use crate::file::bearing::BearingTable;
+    use crate::file::cage::CageTable;
+    use crate::file::film::FilmTable;
+    use crate::file::rings::{HousingTable, ProbeTable, SensorModeTable, SensorTable, ShaftTable};
+    use crate::file::{ContactTable, DefectTable, ExperimentTable, RecorderTable, SolverTable};
     use serde::Deserialize;
 
     #[test]

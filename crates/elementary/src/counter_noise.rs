@@ -1,6 +1,6 @@
 //! Random numbers that are a function of where they stand: no generator, no state, equal bits on every machine.
 
-use super::sin_cos;
+use crate::sin_cos;
 use std::f64::consts::TAU;
 
 /// A number of the standard normal distribution that depends on nothing but `seed`, `course` and `index` (Box and

@@ -1,8 +1,8 @@
 //! The table `[defect]` of the scene file, or several of them as `[[defect]]`.
 
 use super::one_or_more::OneOrMore;
-use crate::scene::faults::Faults;
-use crate::scene::{Bearing, Defect, DefectError, DefectOn, DefectShape, SceneError};
+use crate::faults::Faults;
+use crate::{Bearing, Defect, DefectError, DefectOn, DefectShape, SceneError};
 use serde::Deserialize;
 
 /// A defect.

@@ -9,9 +9,9 @@ use super::mended::Mended;
 use super::places::{Place, all_of, named};
 use super::tables::{path, tables};
 use super::values::numbers;
-use crate::scene::key_fault::KeyFault;
-use crate::scene::usual::Dimensions;
-use crate::scene::{Remark, SceneError, UnitQuestion};
+use crate::key_fault::KeyFault;
+use crate::usual::Dimensions;
+use crate::{Remark, SceneError, UnitQuestion};
 use toml::de::{DeTable, DeValue};
 
 /// How often the rest is read: each time at least one key more is left out, and few files are as bad.
