@@ -2,6 +2,9 @@
 //!
 //! A [`Scene`] that exists is possible: everything after this module relies on that and checks nothing again.
 
+// Units in brackets, as in `[m]`, are no links.
+#![allow(rustdoc::broken_intra_doc_links)]
+
 mod bearing_error;
 mod builder;
 mod cage;
