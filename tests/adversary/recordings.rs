@@ -18,7 +18,10 @@ use std::fmt::Write;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-const SPEED: f64 = 10.0;
+/// Speed of the shaft [Hz].
+const SPEED: f64 = 20.0;
+/// How long recordings of a whole machine are: 40 turns.
+const SECONDS: f64 = 2.0;
 
 /// Reads a file of these bytes; an error as what the user sees of it.
 fn read_as(ending: &str, bytes: &[u8], rate: Option<f64>) -> Result<Recording, String> {

@@ -1,6 +1,6 @@
 //! Foreign faults: what knocks in a machine and is no spall of an outer raceway has no length.
 
-use super::{RATE, SPEED, sized};
+use super::{RATE, SECONDS, SPEED, sized};
 use brinell_analysis::recording::Recording;
 use brinell_analysis::report::Verdict;
 use brinell_analysis::statistics::Random;
@@ -11,8 +11,8 @@ use std::f64::consts::TAU;
 /// distance.
 fn knocking(order: f64, modulation: f64, scatter: f64) -> Vec<f64> {
     let mut random = Random::new(11);
-    let mut signal: Vec<f64> = (0..(4.0 * RATE) as usize).map(|_| 0.05 * random.normal()).collect();
-    for k in 0..(4.0 * order * SPEED) as usize {
+    let mut signal: Vec<f64> = (0..(SECONDS * RATE) as usize).map(|_| 0.05 * random.normal()).collect();
+    for k in 0..(SECONDS * order * SPEED) as usize {
         let time = (k as f64 + 0.3 + scatter * random.normal()) / (order * SPEED);
         let loud = if modulation > 0.0 { 0.5 + 0.5 * libm::cos(TAU * modulation * SPEED * time) } else { 1.0 };
         let first = (time.max(0.0) * RATE).ceil() as usize;
@@ -44,7 +44,7 @@ fn gears_loose_parts_and_a_second_bearing_have_no_length() {
         let mut random = Random::new(3);
         let tooth = |t: f64, n: f64| libm::sin(TAU * 23.0 * n * SPEED * t) / n;
         let at = |i: usize| i as f64 / RATE;
-        (0..(4.0 * RATE) as usize)
+        (0..(SECONDS * RATE) as usize)
             .map(|i| (1..8).map(|n| tooth(at(i), f64::from(n))).sum::<f64>() + 0.05 * random.normal())
             .collect()
     };
