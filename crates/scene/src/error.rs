@@ -16,8 +16,7 @@ pub(super) const LONGEST_NAME: usize = 64;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SceneError {
-    /// Broken TOML, or a value of the wrong type. The message holds the parser's; it is no source that would be shown
-    /// again.
+    /// Broken TOML. The message holds the parser's; it is no source that would be shown again.
     #[error("scene file: {0}")]
     Toml(toml::de::Error),
     /// Keys that are unknown, missing, or ask for what is not modelled, in the order of their lines.

@@ -1,6 +1,6 @@
 //! What a user describes: one bearing, its surroundings and the run, in SI units and checked.
 //!
-//! A [`Scene`] that exists is possible: everything after this module relies on that and checks nothing again.
+//! A [`Scene`] that exists is possible: all that is made of it relies on that and checks nothing again.
 
 // Units in brackets, as in `[m]`, are no links.
 #![allow(rustdoc::broken_intra_doc_links)]

@@ -6,7 +6,7 @@ use brinell_analysis::report::Verdict;
 use brinell_analysis::statistics::Random;
 use std::f64::consts::TAU;
 
-/// Four seconds of a machine that knocks `order` times a turn, each knock ringing at 9 kHz. A load zone makes the
+/// A recording of a machine that knocks `order` times a turn, each knock ringing at 9 kHz. A load zone makes the
 /// knocks louder and softer `modulation` times a turn, 0 for always alike; `scatter` is that of their times, of their
 /// distance.
 fn knocking(order: f64, modulation: f64, scatter: f64) -> Vec<f64> {

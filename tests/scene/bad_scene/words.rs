@@ -101,7 +101,20 @@ fn what_kind_of_value_a_key_takes_is_said_in_plain_words() {
 
 #[test]
 fn no_message_has_words_of_the_language_that_the_program_is_written_in() {
-    let spoilt = ["true", "\"x\"", "[]", "[1, \"a\"]", "1979-05-27", "{ a = 1 }", "-1.5", "99999999999"];
+    const HUGE: &str = "999999999999999999999999999999999999999999";
+    let spoilt = [
+        "true",
+        "\"x\"",
+        "[]",
+        "[1, \"a\"]",
+        "1979-05-27",
+        "{ a = 1 }",
+        "-1.5",
+        "99999999999",
+        "9223372036854775808",
+        HUGE,
+        "-99999999999999999999",
+    ];
     for line in GOOD.lines().filter(|line| line.contains(" = ")) {
         let (key, _) = line.split_once(" = ").unwrap();
         for value in spoilt {
@@ -125,4 +138,23 @@ fn no_message_has_words_of_the_language_that_the_program_is_written_in() {
             assert!(said.contains("line "), "{key} = {value}: {said}");
         }
     }
+}
+
+#[test]
+fn a_whole_number_has_at_most_64_bits_and_a_seed_may_have_all_of_them() {
+    refused(
+        "load_n = [0.0, -500.0]",
+        "load_n = [0, 99999999999999999999]",
+        &["line 28", "shaft.load_n", "at most 1000000000.0"],
+    );
+    let seed = |seed: &str| GOOD.replace("[cage]", &format!("[cage]\nseed = {seed}"));
+    assert!(brinell::scene::Scene::from_toml(&seed("18446744073709551615")).is_ok());
+    // Beside another fault it is as right as alone.
+    let said = |text: &str| brinell::scene::Scene::from_toml(text).unwrap_err().to_string();
+    let spoilt = seed("18446744073709551615").replace("motion = \"internal\"", "motoin = \"internal\"");
+    assert!(said(&spoilt).contains("motoin") && !said(&spoilt).contains("seed"), "{}", said(&spoilt));
+    let long = said(&seed("18446744073709551616"));
+    assert!(long.contains("cage.seed is 18446744073709551616: a whole number must have at most 64 bits"), "{long}");
+    assert!(long.contains("line "), "{long}");
+    assert!(said(&seed("-1")).contains("cage.seed is -1: it must be a whole number, 0 or more"));
 }

@@ -123,8 +123,10 @@ mod tests {
     use crate::file::cage::CageTable;
     use crate::file::film::FilmTable;
     use crate::file::rings::{HousingTable, ProbeTable, SensorModeTable, SensorTable, ShaftTable};
+    use crate::file::written::read;
     use crate::file::{ContactTable, DefectTable, ExperimentTable, RecorderTable, SolverTable};
     use serde::Deserialize;
+    use toml::de::DeTable;
 
     #[test]
     fn tables_say_themselves_which_keys_they_cannot_be_without() {
@@ -154,13 +156,15 @@ mod tests {
 
     fn refusal(table: &str, text: &str) -> Option<String> {
         fn of<T: for<'a> Deserialize<'a>>(text: &str) -> Option<String> {
-            toml::from_str::<T>(text).err().map(|error| error.message().to_owned())
+            let file = DeTable::parse(text).unwrap();
+            read::<T>(file.get_ref()).err().map(|error| error.message().to_owned())
         }
         match table {
             // What it lacks the catalogue may give, so that its own reader says so.
             "bearing" => {
                 let more = "conformity_inner = 0.52\nconformity_outer = 0.52\ndensity_kg_m3 = 7800\n";
-                let keys: BearingTable = toml::from_str(&(text.to_owned() + more)).unwrap();
+                let text = text.to_owned() + more;
+                let keys: BearingTable = read(DeTable::parse(&text).unwrap().get_ref()).unwrap();
                 keys.into_bearing().err().map(|error| error.to_string())
             }
             "contact" => of::<ContactTable>(text),

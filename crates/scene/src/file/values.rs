@@ -32,6 +32,12 @@ pub(super) fn fault(table: &TableOf, key: &str, value: &DeValue<'_>) -> Option<S
         Kind::Number | Kind::Whole(_) if value.as_str().is_some_and(|text| text.trim().parse::<f64>().is_ok()) => {
             format!("{whole} is {given}: it must be {kind}, without quotes")
         }
+        // One that is below 0 is told like any other value of another kind.
+        Kind::Number | Kind::Whole(_)
+            if value.is_integer() && (kind != Kind::Whole(true) || !given.starts_with('-')) =>
+        {
+            format!("{whole} is {given}: a whole number must have at most 64 bits")
+        }
         _ => format!("{whole} is {given}: it must be {kind}"),
     })
 }
@@ -39,9 +45,16 @@ pub(super) fn fault(table: &TableOf, key: &str, value: &DeValue<'_>) -> Option<S
 fn is_of(kind: &Kind, value: &DeValue<'_>) -> bool {
     let all =
         |kind: &Kind| value.as_array().is_some_and(|values| values.iter().all(|value| is_of(kind, value.get_ref())));
+    // As serde reads them: 64 bits, with a sign or without.
+    let fits = |signed: bool| {
+        value.as_integer().is_some_and(|written| match signed {
+            true => i64::from_str_radix(written.as_str(), written.radix()).is_ok(),
+            false => u64::from_str_radix(written.as_str(), written.radix()).is_ok(),
+        })
+    };
     match kind {
-        Kind::Number => value.is_integer() || value.is_float(),
-        Kind::Whole(positive) => value.is_integer() && (!positive || number(value).is_some_and(|number| number >= 0.0)),
+        Kind::Number => value.is_float() || fits(true) || fits(false),
+        Kind::Whole(positive) => fits(!positive),
         Kind::Text => value.is_str(),
         Kind::Word(words) => value.as_str().is_some_and(|word| words.contains(&word)),
         Kind::Pair(kind) => all(kind) && value.as_array().is_some_and(|values| values.len() == 2),
@@ -81,7 +94,10 @@ pub(super) fn numbers(value: &DeValue<'_>) -> Vec<f64> {
 /// A number as it stands in the file.
 fn number(value: &DeValue<'_>) -> Option<f64> {
     match value {
-        DeValue::Integer(written) => i64::from_str_radix(written.as_str(), written.radix()).ok().map(|n| n as f64),
+        DeValue::Integer(written) => {
+            let whole = i128::from_str_radix(written.as_str(), written.radix()).map(|n| n as f64).ok();
+            whole.or_else(|| written.as_str().parse().ok().filter(|_| written.radix() == 10))
+        }
         DeValue::Float(written) => written.as_str().parse().ok(),
         _ => None,
     }

@@ -165,5 +165,8 @@ mod tests {
             assert!(toml::from_str::<Values>(text).is_err(), "{text}");
         }
         assert!(read_text("[inner]\nunknown = 1").unwrap_err().contains("unknown"));
+        // The one difference: toml takes a table of one empty table for a word.
+        assert!(toml::from_str::<Values>("word = { one = {} }").is_ok());
+        assert!(read_text("word = { one = {} }").unwrap_err().contains("a word in quotes"));
     }
 }
