@@ -188,30 +188,45 @@ fn version(interpreter: &Path) -> Option<(u32, u32)> {
 }
 
 fn make(system: &Path, environment: &Path, interpreter: &Path, folder: &Path, requirements: &str) -> Result<()> {
-    let output = Command::new(system).args(["-m", "venv"]).arg(environment).output()?;
+    let output = Command::new(system).args(["-m", "venv", "--without-pip"]).arg(environment).output()?;
     if !output.status.success() {
-        bail!(
-            "{} cannot make a virtual environment; on Debian or Ubuntu: apt-get install python3-venv. It said: {}",
-            system.display(),
-            said(&output)
-        );
+        bail!("{} cannot make a virtual environment. It said: {}", system.display(), said(&output));
     }
     let list = folder.join("requirements.txt");
     whole_file::write(&list, requirements)?;
+    let pip = pip_for(system, interpreter)?;
     // uv unpacks the same wheels in a tenth of pip's time; where it cannot be had or fails, pip itself says why.
-    if pip(interpreter, &["uv".as_ref()])?.status.success() && uv(interpreter, &list)?.status.success() {
+    if install(&pip, &["uv".as_ref()])?.status.success() && uv(interpreter, &list)?.status.success() {
         return Ok(());
     }
-    let output = pip(interpreter, &["-r".as_ref(), list.as_os_str()])?;
+    let output = install(&pip, &["-r".as_ref(), list.as_os_str()])?;
     if !output.status.success() {
         bail!("pip could not install the Python packages; is the package index reachable? It said: {}", said(&output));
     }
     Ok(())
 }
 
-fn pip(interpreter: &Path, what: &[&OsStr]) -> Result<Output> {
-    let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--only-binary", ":all:"];
-    Ok(Command::new(interpreter).args(install).args(what).output()?)
+/// The command of a pip for an environment: the system's, if it can serve another interpreter (22.3 of 2022 and newer
+/// can); it saves the environment's own, which takes longer to set up than all else.
+fn pip_for(system: &Path, interpreter: &Path) -> Result<Vec<OsString>> {
+    let systems = [system.as_os_str(), "-m".as_ref(), "pip".as_ref(), "--python".as_ref(), interpreter.as_os_str()];
+    if Command::new(system).args(&systems[1..]).arg("--version").output()?.status.success() {
+        return Ok(systems.map(OsStr::to_owned).to_vec());
+    }
+    let output = Command::new(interpreter).args(["-m", "ensurepip"]).output()?;
+    if !output.status.success() {
+        bail!(
+            "{} has no pip for a virtual environment; on Debian or Ubuntu: apt-get install python3-venv. It said: {}",
+            system.display(),
+            said(&output)
+        );
+    }
+    Ok([interpreter.as_os_str(), "-m".as_ref(), "pip".as_ref()].map(OsStr::to_owned).to_vec())
+}
+
+fn install(pip: &[OsString], what: &[&OsStr]) -> Result<Output> {
+    let options = ["install", "--quiet", "--disable-pip-version-check", "--only-binary", ":all:"];
+    Ok(Command::new(&pip[0]).args(&pip[1..]).args(options).args(what).output()?)
 }
 
 fn uv(interpreter: &Path, list: &Path) -> Result<Output> {
