@@ -13,7 +13,8 @@ use std::path::{Path, PathBuf};
 use cycles::cycles;
 use reader::imports;
 
-/// The order of the layers; each may import those before it. The scene is a crate of its own, which knows no other.
+/// The order of the layers; each may import those before it. The scene is a crate of its own: what it may
+/// know is in `CRATES`.
 const ORDER: [&str; 8] = ["numerics", "scene", "geometry", "surface", "contact", "dynamics", "simulation", "recording"];
 /// The crates of the workspace by folder, and those among them that each may depend on.
 const CRATES: [(&str, &[&str]); 10] = [

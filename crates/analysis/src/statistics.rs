@@ -12,13 +12,17 @@ pub fn quantile(values: &[f64], share: f64) -> Option<f64> {
 
 /// A whole number that orders as [`f64::total_cmp`] does, which compares slower.
 fn key(value: f64) -> i64 {
-    let bits = value.to_bits() as i64;
-    bits ^ (((bits >> 63) as u64) >> 1) as i64
+    turned(value.to_bits() as i64)
 }
 
-/// The value of a key: of a negative one all bits but the sign are turned around, there and back.
+/// The value of a key.
 fn of_key(key: i64) -> f64 {
-    f64::from_bits((key ^ (((key >> 63) as u64) >> 1) as i64) as u64)
+    f64::from_bits(turned(key) as u64)
+}
+
+/// All bits but the sign turned around, of a negative number; done twice it changes nothing.
+fn turned(bits: i64) -> i64 {
+    bits ^ (((bits >> 63) as u64) >> 1) as i64
 }
 
 /// Median; 0 of nothing.

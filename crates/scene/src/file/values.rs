@@ -3,6 +3,7 @@
 
 use super::kinds::{Kind, TableOf};
 use super::tables::path;
+use super::written::{Whole, whole};
 use crate::quantity::of_key;
 use crate::spelling::nearest;
 use toml::de::DeValue;
@@ -45,16 +46,14 @@ pub(super) fn fault(table: &TableOf, key: &str, value: &DeValue<'_>) -> Option<S
 fn is_of(kind: &Kind, value: &DeValue<'_>) -> bool {
     let all =
         |kind: &Kind| value.as_array().is_some_and(|values| values.iter().all(|value| is_of(kind, value.get_ref())));
-    // As serde reads them: 64 bits, with a sign or without.
-    let fits = |signed: bool| {
-        value.as_integer().is_some_and(|written| match signed {
-            true => i64::from_str_radix(written.as_str(), written.radix()).is_ok(),
-            false => u64::from_str_radix(written.as_str(), written.radix()).is_ok(),
-        })
-    };
+    let whole = value.as_integer().and_then(whole);
     match kind {
-        Kind::Number => value.is_float() || fits(true) || fits(false),
-        Kind::Whole(positive) => fits(!positive),
+        Kind::Number => value.is_float() || whole.is_some(),
+        Kind::Whole(positive) => match whole {
+            Some(Whole::Signed(number)) => !positive || number >= 0,
+            Some(Whole::Large(_)) => *positive,
+            None => false,
+        },
         Kind::Text => value.is_str(),
         Kind::Word(words) => value.as_str().is_some_and(|word| words.contains(&word)),
         Kind::Pair(kind) => all(kind) && value.as_array().is_some_and(|values| values.len() == 2),

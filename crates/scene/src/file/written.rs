@@ -6,7 +6,7 @@
 use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, MapDeserializer, SeqDeserializer};
 use serde::de::{Deserializer, Error as _, IntoDeserializer, Visitor};
-use toml::de::{DeTable, DeValue, Error};
+use toml::de::{DeInteger, DeTable, DeValue, Error};
 
 /// Reads a structure from a table.
 ///
@@ -39,9 +39,10 @@ impl<'de> Deserializer<'de> for Written<'de> {
     fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
         match self.0 {
             DeValue::String(text) => visitor.visit_str(text),
-            DeValue::Integer(written) => match whole(written.as_str(), written.radix())? {
-                Whole::Signed(number) => visitor.visit_i64(number),
-                Whole::Large(number) => visitor.visit_u64(number),
+            DeValue::Integer(written) => match whole(written) {
+                Some(Whole::Signed(number)) => visitor.visit_i64(number),
+                Some(Whole::Large(number)) => visitor.visit_u64(number),
+                None => Err(Error::custom("a whole number has more than 64 bits")),
             },
             DeValue::Float(written) => visitor.visit_f64(float(written.as_str())?),
             DeValue::Boolean(value) => visitor.visit_bool(*value),
@@ -75,16 +76,18 @@ impl<'de> Deserializer<'de> for Written<'de> {
     }
 }
 
-enum Whole {
+/// A whole number as it can be read.
+pub(super) enum Whole {
     Signed(i64),
     /// Beyond the signed ones: seeds have 64 bits.
     Large(u64),
 }
 
-fn whole(written: &str, radix: u32) -> Result<Whole, Error> {
-    let signed = i64::from_str_radix(written, radix).map(Whole::Signed);
-    let number = signed.or_else(|_| u64::from_str_radix(written, radix).map(Whole::Large));
-    number.map_err(|_| Error::custom("a whole number has more than 64 bits"))
+/// A whole number; `None` of one that has more than 64 bits.
+pub(super) fn whole(written: &DeInteger<'_>) -> Option<Whole> {
+    let (digits, radix) = (written.as_str(), written.radix());
+    let signed = i64::from_str_radix(digits, radix).map(Whole::Signed);
+    signed.or_else(|_| u64::from_str_radix(digits, radix).map(Whole::Large)).ok()
 }
 
 /// A number; one that is beyond all numbers is none, unless it is written as infinite.
