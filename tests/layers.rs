@@ -1,9 +1,12 @@
 //! The layers import in one direction only: a module names, by `crate::…`, none that stands to its right; in no crate
-//! of the workspace do modules import each other; and a crate depends only on those that it may know.
+//! of the workspace do modules import each other; and a crate depends only on those that it may know. Files and
+//! functions are as short as CONTRIBUTING.md asks.
 #![allow(clippy::unwrap_used)]
 
 #[path = "layers/cycles.rs"]
 mod cycles;
+#[path = "layers/lengths.rs"]
+mod lengths;
 #[path = "layers/reader.rs"]
 mod reader;
 
@@ -173,6 +176,32 @@ fn the_reader_of_imports_sees_what_it_should() {
     assert!(allowed("scene", "scene"));
 }
 
+#[test]
+fn no_file_is_longer_than_400_lines_and_no_function_than_70() {
+    let root = brinell_tests::root();
+    let folders = ["src", "crates", "fmu-build", "tests", "examples", "benches", "fuzz/fuzz_targets"];
+    let files: Vec<_> = folders.iter().flat_map(|folder| files_below(&root.join(folder))).collect();
+    assert!(files.len() > 500, "{} files", files.len());
+    let mut long = Vec::new();
+    for file in files {
+        let text = read(&file);
+        let lines = text.lines().count();
+        let functions = lengths::functions(&text).into_iter().filter(|(_, lines)| *lines > 70);
+        long.extend((lines > 400).then(|| format!("{}: {lines} lines", file.display())));
+        long.extend(functions.map(|(name, lines)| format!("{}: {name} has {lines} lines", file.display())));
+    }
+    assert!(long.is_empty(), "\n{}", long.join("\n"));
+}
+
+#[test]
+fn the_reader_of_lengths_sees_what_it_should() {
+    let text = "pub(crate) fn first<T>() {\n    if true {\n    }\n}\nimpl A {\n    pub unsafe extern \"C\" fn \
+                second(\n        a: i32,\n    ) -> i32 {\n        a\n    }\n    fn third(\n        a: i32,\n    \
+                );\n}\n// a fn of\nfn fourth() {}\nfn fifth() {\n}\n";
+    let expected = [("first", 4), ("second", 5), ("third", 3), ("fourth", 1), ("fifth", 2)];
+    assert_eq!(lengths::functions(text), expected.map(|(name, lines)| (name.to_owned(), lines)));
+}
+
 fn allowed(layer: &str, import: &str) -> bool {
     let place = |name: &str| ORDER.iter().position(|other| *other == name);
     match (place(layer), place(import)) {
@@ -195,7 +224,7 @@ fn files_below(folder: &Path) -> Vec<PathBuf> {
     while let Some(folder) = folders.pop() {
         let Ok(entries) = fs::read_dir(&folder) else { continue };
         for path in entries.map(|entry| entry.unwrap().path()) {
-            if path.is_dir() {
+            if path.is_dir() && !path.ends_with("target") {
                 folders.push(path);
             } else if path.extension().is_some_and(|extension| extension == "rs") {
                 files.push(path);
