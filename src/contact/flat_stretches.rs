@@ -2,8 +2,8 @@
 
 use crate::surface::Surface;
 
+use super::element_on_raceway::ElementOnRaceway;
 use super::error::ContactError;
-use super::raceway_grid::ElementOnRaceway;
 use std::f64::consts::TAU;
 
 /// Smooth raceway that must be left between what elements feel of a defect's two ends [rad]: knots closer together than

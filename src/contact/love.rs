@@ -29,10 +29,11 @@ use libm::pow;
 use super::{
     active_set::{ActiveSet, PressedCell, Window},
     edge_softness::{EdgeSoftness, StepImage},
+    element_on_raceway::ElementOnRaceway,
     equivalent::EquivalentApproach,
     error::ContactError,
     half_space::KernelTable,
-    raceway_grid::{ElementOnRaceway, RacewayGrid, Resolution},
+    raceway_grid::{RacewayGrid, Resolution},
     smooth_scale::{Energy, SmoothScale},
     soft_edges::{GridEdge, SoftEdge, WindowSize},
 };

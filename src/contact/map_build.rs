@@ -6,12 +6,11 @@ use crate::numerics::checksum::Checksum;
 use crate::surface::Surface;
 
 use super::{
-    element_on_raceway::Across,
+    element_on_raceway::{Across, ElementOnRaceway},
     error::ContactError,
     map::ContactMap,
     map_plan::MapPlan,
     map_specification::{MapSpecification, Runner},
-    raceway_grid::ElementOnRaceway,
     rolling::RacewaySide,
 };
 

@@ -11,6 +11,7 @@ use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 use super::{
+    element_on_raceway::ElementOnRaceway,
     error::ContactError,
     flat_stretches::{Flat, check_ends, flats, reach, shallowest},
     love::LoveContact,
@@ -19,7 +20,6 @@ use super::{
     map_checks::{Check, Error, summary},
     map_specification::{MapSpecification, Runner},
     patch_plan::{LOWEST, PatchPlan, Reference},
-    raceway_grid::ElementOnRaceway,
 };
 
 /// Coarse cells up to the largest approach.

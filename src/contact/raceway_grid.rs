@@ -22,8 +22,7 @@
 
 use crate::surface::{Corner, Interval, Surface};
 
-pub use super::element_on_raceway::{Across, ElementOnRaceway};
-use super::{active_set::Mirror, error::ContactError, soft_edges::GridEdge};
+use super::{active_set::Mirror, element_on_raceway::ElementOnRaceway, error::ContactError, soft_edges::GridEdge};
 
 /// Number of cells across Hertz's ellipse at the largest approach.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -9,12 +9,13 @@ use super::arrangement::{Spot, arranged, largest_approach, sides, softness_of_ed
 use super::quantity::{Parameter, Quantity, RingName};
 use super::variables::{Kind, Variable};
 use crate::contact::contact_maps::ContactMaps;
+use crate::contact::element_on_raceway::ElementOnRaceway;
 use crate::contact::flat_stretches::check_ends;
 use crate::contact::map::ContactMap;
 use crate::contact::map_plan::MapPlan;
 use crate::contact::map_specification::{MapSpecification, Runner, Sequential};
 use crate::contact::near_defect::{NearDefect, NearLove, NearMap};
-use crate::contact::raceway_grid::{ElementOnRaceway, Resolution};
+use crate::contact::raceway_grid::Resolution;
 use crate::contact::rigid_path::RigidPath;
 use crate::contact::rolling::{RacewaySide, Rolling};
 use crate::dynamics::drive::Frame;

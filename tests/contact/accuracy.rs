@@ -6,10 +6,11 @@ use crate::support;
 use std::fmt::Write;
 
 use crate::er16k::OUTER as ER16K;
+use brinell::contact::element_on_raceway::ElementOnRaceway;
 use brinell::contact::love::LoveContact;
 use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::{MapSpecification, Sequential};
-use brinell::contact::raceway_grid::{ElementOnRaceway, Resolution};
+use brinell::contact::raceway_grid::Resolution;
 use brinell::contact::rolling::RacewaySide;
 use brinell::simulation::setup;
 use brinell::surface::{Surface, Topography};

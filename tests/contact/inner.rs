@@ -3,10 +3,11 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::er16k::{INNER, OUTER};
+use brinell::contact::element_on_raceway::ElementOnRaceway;
 use brinell::contact::love::LoveContact;
 use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::{MapSpecification, Sequential};
-use brinell::contact::raceway_grid::{ElementOnRaceway, Resolution};
+use brinell::contact::raceway_grid::Resolution;
 use brinell::contact::rolling::RacewaySide;
 use brinell::surface::{Profile, Surface};
 use std::f64::consts::FRAC_PI_2;

@@ -5,11 +5,12 @@ use std::f64::consts::FRAC_PI_2;
 use std::sync::OnceLock;
 
 use crate::er16k::OUTER as ER16K;
+use brinell::contact::element_on_raceway::{Across, ElementOnRaceway};
 use brinell::contact::error::ContactError;
 use brinell::contact::love::LoveContact;
 use brinell::contact::map::ContactMap;
 use brinell::contact::map_specification::{MapSpecification, Sequential};
-use brinell::contact::raceway_grid::{Across, ElementOnRaceway, Resolution};
+use brinell::contact::raceway_grid::Resolution;
 use brinell::surface::{Profile, Surface, Topography};
 
 const LENGTH: f64 = 6.517e-3;

@@ -1,7 +1,7 @@
 //! Contacts of an ER16K's ball, test bearing 1's.
 #![allow(dead_code, unreachable_pub)] // each test program uses a part of this
 
-use brinell::contact::raceway_grid::{Across, ElementOnRaceway};
+use brinell::contact::element_on_raceway::{Across, ElementOnRaceway};
 use brinell::contact::rolling::RacewaySide;
 
 pub const OUTER: ElementOnRaceway = ElementOnRaceway {

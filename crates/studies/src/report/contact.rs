@@ -7,11 +7,12 @@ use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
 use anyhow::Result;
+use brinell::contact::element_on_raceway::{Across, ElementOnRaceway};
 use brinell::contact::error::ContactError;
 use brinell::contact::love::LoveContact;
 use brinell::contact::map_plan::MapPlan;
 use brinell::contact::map_specification::{MapSpecification, Sequential};
-use brinell::contact::raceway_grid::{Across, ElementOnRaceway, Resolution};
+use brinell::contact::raceway_grid::Resolution;
 use brinell::contact::rolling::RacewaySide;
 use brinell::surface::{Profile, Surface};
 use cpu_time::ThreadTime;
