@@ -20,7 +20,7 @@ use crate::dynamics::drive::{Drive, WholeAngle};
 /// Speeds of both rings, and position, velocity and acceleration of each along two axes.
 const MOST_INPUTS: usize = 2 + 2 * 6;
 
-/// Inputs with their derivatives; places beyond the last input are not used.
+/// Inputs with their derivatives; slots beyond the last input are not used.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct InputValues {
     values: [f64; MOST_INPUTS],
