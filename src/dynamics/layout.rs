@@ -20,7 +20,7 @@ pub struct Layout {
     pub shaft: Option<usize>,
     /// Start of the outer ring's.
     pub housing: Option<usize>,
-    /// Start of the first sensor's displacement and velocity along its direction; each next one's are [`QUAD`] further on.
+    /// Start of the first sensor's displacement and velocity along its direction; the next one's are [`QUAD`] on.
     pub sensors: usize,
     /// Number of sensors.
     pub sensor_count: usize,
