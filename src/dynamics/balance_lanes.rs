@@ -9,7 +9,7 @@
 //! (|B|/K)^(1/4) metres. Newton's method from the path last known, halving where it would leave the bracket. An element
 //! that has settled stays where it is while others of its register go on, so that the registers' width changes no bit.
 //!
-//! A place without an element, or with one that is looked for alone, has constants 0 and no force.
+//! A lane without an element, or with one that is looked for alone, has constants 0 and no force.
 
 use super::contact_lanes::{Record, Sums};
 use super::element_block::ElementBlock;
@@ -26,8 +26,8 @@ use crate::scene::Damping;
 /// Newton's step [m] after which the next is below rounding: what is left is a quarter of its square over the approach,
 /// 5e-20 m under load; under an element's own weight, where the approach is 1e-8 m, it is 1e-10 N.
 const SETTLED: f64 = 1e-12;
-/// Most looks: halving a millimetre down to the last digit, and some of Newton's.
-const LOOKS: usize = 100;
+/// Most iterations: halving a millimetre down to the last digit, and some of Newton's.
+const MOST_ITERATIONS: usize = 100;
 /// Least stiffness [N/m]: for an element that touches nothing, where Newton's step is then beyond any bracket.
 const NO_STIFFNESS: f64 = 1e-30;
 
@@ -71,7 +71,7 @@ impl<const RECORD: bool> SmoothElements<'_, RECORD> {
                     break;
                 }
                 let of = |numbers: &[f64; WIDEST]| Lanes::part(simd, numbers, part);
-                let at = group.place(simd, block, of);
+                let at = group.element_lanes(simd, block, of);
                 let known = [of(&state[k]), of(&state[start + k])];
                 let element = group.balanced(&at, known, stage.ahead).damped(&group, &at);
                 element.path_rate.put(&mut derivative[k], part);
@@ -97,9 +97,9 @@ struct Group<'a, E> {
     damping: Damping,
 }
 
-/// Where some elements are on their way round, and what their contacts are.
+/// Some elements: where they are on their way round, and what their contacts are.
 #[derive(Clone, Copy)]
-struct Place<S: Wide> {
+struct ElementLanes<S: Wide> {
     simd: S,
     e_r: [Lanes<S>; 2],
     e_t: [Lanes<S>; 2],
@@ -148,7 +148,12 @@ impl<'a, E: Elastic> Group<'a, E> {
     }
 
     #[inline(always)]
-    fn place<S: Wide>(&self, simd: S, block: &ElementBlock, of: impl Fn(&[f64; WIDEST]) -> Lanes<S>) -> Place<S> {
+    fn element_lanes<S: Wide>(
+        &self,
+        simd: S,
+        block: &ElementBlock,
+        of: impl Fn(&[f64; WIDEST]) -> Lanes<S>,
+    ) -> ElementLanes<S> {
         let (model, now) = (self.model, self.now);
         let number = |number: f64| Lanes::splat(simd, number);
         let e_r = radial(simd, now.cage.direction, block, &of);
@@ -160,7 +165,7 @@ impl<'a, E: Elastic> Group<'a, E> {
         let (mass, radius) = (number(model.element_mass), number(model.outer_centre_radius));
         let nominal = number(now.cage.speed);
         let alpha = of(&block.pace) * number(now.cage.acceleration) + of(&block.bend) * (nominal * nominal);
-        Place {
+        ElementLanes {
             simd,
             e_r,
             e_t,
@@ -178,7 +183,7 @@ impl<'a, E: Elastic> Group<'a, E> {
 
     /// The inner contact's gap at a path.
     #[inline(always)]
-    fn gap<S: Wide>(&self, at: &Place<S>, u: Lanes<S>) -> Gap<S> {
+    fn gap<S: Wide>(&self, at: &ElementLanes<S>, u: Lanes<S>) -> Gap<S> {
         let number = |number: f64| Lanes::splat(at.simd, number);
         let [p, t] = at.offset;
         let q_r = number(self.model.outer_centre_radius) + u + p;
@@ -196,15 +201,15 @@ impl<'a, E: Elastic> Group<'a, E> {
 
     /// Paths and elastic forces, looked for from what is known of path and radial velocity.
     #[inline(always)]
-    fn balanced<S: Wide>(&self, at: &Place<S>, [u, w]: [Lanes<S>; 2], ahead: Option<f64>) -> Balanced<S> {
+    fn balanced<S: Wide>(&self, at: &ElementLanes<S>, [u, w]: [Lanes<S>; 2], ahead: Option<f64>) -> Balanced<S> {
         let number = |number: f64| Lanes::splat(at.simd, number);
         let zero = number(0.0);
         let guess = ahead.map_or(u, |ahead| u + number(ahead) * (w - at.along)) * at.on;
         let (mut low, mut high) = self.bracket(at, guess);
         let mut u = guess.at_least(low).at_most(high);
-        let (settled, mut look) = (number(SETTLED), 0);
+        let (settled, mut iteration) = (number(SETTLED), 0);
         loop {
-            look += 1;
+            iteration += 1;
             let gap = self.gap(at, u);
             let n_r = gap.n[0];
             let [inner, k_i] = self.contact(at.constants[0], gap.approach);
@@ -215,7 +220,7 @@ impl<'a, E: Elastic> Group<'a, E> {
             let (step, change) = ((newton - u).abs(), newton - u);
             let mut open = [-1.0; QUAD];
             (step - settled).largest_to(&mut open);
-            if largest_of(open) <= 0.0 || look == LOOKS {
+            if largest_of(open) <= 0.0 || iteration == MOST_ITERATIONS {
                 let unknown = settled.if_less(step, number(f64::NAN), zero);
                 let stiffness = [k_i, k_o];
                 let forces = [(inner - along * change).or_zero() + unknown, (outer + k_o * change).or_zero() + unknown];
@@ -232,7 +237,7 @@ impl<'a, E: Elastic> Group<'a, E> {
 
     /// Between which paths the balance is.
     #[inline(always)]
-    fn bracket<S: Wide>(&self, at: &Place<S>, guess: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
+    fn bracket<S: Wide>(&self, at: &ElementLanes<S>, guess: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
         let number = |number: f64| Lanes::splat(at.simd, number);
         // The path at which the inner contact touches, but for what the offset's direction makes of it on the way.
         let touching = (self.gap(at, guess).approach + guess) * number(1.0 + 1e-5);
@@ -246,7 +251,7 @@ impl<'a, E: Elastic> Group<'a, E> {
 impl<S: Wide> Balanced<S> {
     /// Rates, and what damping changes of the forces.
     #[inline(always)]
-    fn damped<E: Elastic>(self, group: &Group<E>, at: &Place<S>) -> Self {
+    fn damped<E: Elastic>(self, group: &Group<E>, at: &ElementLanes<S>) -> Self {
         let number = |number: f64| Lanes::splat(at.simd, number);
         let Self { path, gap: Gap { n: [n_r, n_t], distance, .. }, forces: [inner, outer], .. } = self;
         let [k_i, k_o] = self.stiffness;
@@ -273,7 +278,7 @@ impl<S: Wide> Balanced<S> {
 
     /// Forces on the element along x and y, of the inner contact and then of the outer.
     #[inline(always)]
-    fn forces(&self, at: &Place<S>) -> [Lanes<S>; 4] {
+    fn forces(&self, at: &ElementLanes<S>) -> [Lanes<S>; 4] {
         let ([inner, outer], [n_r, n_t]) = (self.forces, self.gap.n);
         [
             inner * (n_r * at.e_r[0] + n_t * at.e_t[0]),
@@ -283,9 +288,9 @@ impl<S: Wide> Balanced<S> {
         ]
     }
 
-    /// Puts what is kept into its place.
+    /// Puts what is kept into `contacts`.
     #[inline(always)]
-    fn keep(&self, at: &Place<S>, contacts: &mut Record, block: usize, part: usize) {
+    fn keep(&self, at: &ElementLanes<S>, contacts: &mut Record, block: usize, part: usize) {
         let pushing_length = Lanes::splat(at.simd, PUSHING_LENGTH);
         let Self { path, path_rate, gap, forces: [inner, outer], .. } = *self;
         let [known_path, known_velocity] = &mut contacts.balanced;

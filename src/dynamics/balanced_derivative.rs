@@ -28,7 +28,7 @@ impl Model {
     ) {
         let Stage { drive, cage, .. } = *stage;
         self.begin(drive);
-        self.place_uneven(drive, cage, &mut forces.elements);
+        self.update_uneven(drive, cage, &mut forces.elements);
         let now = self.kinematics_of(stage);
         derivative[self.layout.radial_velocity..2 * self.layout.radial_velocity].fill(0.0);
         let mut rings =
@@ -64,7 +64,8 @@ impl Model {
             let along = now.housing.velocity.dot(&e_r);
             let guess = moved(stage.state[j], stage.state[self.layout.radial_velocity + j] - along, stage.ahead);
             let found = self.in_balance(j, cells, guess, &now);
-            forces.defect_lookups += found.looks * cells.iter().filter(|cells| **cells != [SMOOTH; 2]).count() as u64;
+            forces.defect_lookups +=
+                found.evaluations * cells.iter().filter(|cells| **cells != [SMOOTH; 2]).count() as u64;
             if !found.is_found()
                 && let Some(unsolved) = self.contact_without_answer(j, cells, found.path, &now)
             {

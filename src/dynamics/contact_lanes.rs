@@ -3,7 +3,7 @@
 //! The equations are those of [`super::forces`], in the same grouping. An element near the defect, and every element of
 //! a bearing whose outer raceway yields, has outer stiffness 0 here; its outer contact has been worked out before.
 //!
-//! A place without an element has stiffness 0 and no derivative.
+//! A lane without an element has stiffness 0 and no derivative.
 
 use super::element_block::ElementBlock;
 use super::gap_lanes::{Distance, dot, radial};
@@ -101,9 +101,9 @@ pub struct Record {
 }
 
 impl Record {
-    /// Room for `places` elements.
-    pub(super) fn new(places: usize) -> Self {
-        let zeros = || Row::zeros(places);
+    /// Room for `slots` elements.
+    pub(super) fn new(slots: usize) -> Self {
+        let zeros = || Row::zeros(slots);
         Self {
             inner: zeros(),
             normal_radial: zeros(),
@@ -197,7 +197,7 @@ impl Model {
 }
 
 impl<S: Wide> Found<S> {
-    /// Puts what is kept into its place; the outer contact is that on the smooth raceway, at path `u`.
+    /// Puts what is kept into `contacts`; the outer contact is that on the smooth raceway, at path `u`.
     #[inline(always)]
     fn keep(&self, contacts: &mut Record, u: Lanes<S>, block: usize, part: usize) {
         for (list, value) in [

@@ -40,7 +40,7 @@ impl Model {
         let value = |i: usize| ends.map(|end| end.state[i]);
         let rate = |i: usize| ends.map(|end| end.derivative[i]);
         let rings = [layout.shaft, layout.housing].into_iter().flatten().map(|start| (start, 2));
-        for (start, count) in rings.chain(layout.sensor_places().map(|start| (start, 1))) {
+        for (start, count) in rings.chain(layout.sensor_indices().map(|start| (start, 1))) {
             for i in start..start + count {
                 (out[i], out[i + count]) = basis.at(value(i), rate(i), rate(i + count));
             }

@@ -39,10 +39,10 @@ use crate::numerics::plane::{Vector, turned};
 const SETTLED: f64 = 1e-15;
 /// First step of a search that nothing brackets [m]; each next one is twice as long.
 const FIRST_STRIDE: f64 = 1e-8;
-/// Most looks at the contacts: doubling from the first stride to a metre, and halving back.
-const LOOKS: u64 = 300;
-/// Looks at a contact in balance: one each without and with damping, and four for its second derivatives.
-const LOOKS_AT_BALANCE: u64 = 6;
+/// Most evaluations of the contacts: doubling from the first stride to a metre, and halving back.
+const MOST_EVALUATIONS: u64 = 300;
+/// Evaluations of a contact in balance: one each without and with damping, and four for its second derivatives.
+const EVALUATIONS_AT_BALANCE: u64 = 6;
 /// Share of the forces on an element that may be left of its balance: far above rounding, far below what matters.
 const RESIDUAL: f64 = 1e-9;
 /// Share of an element's distance to which its position is known: some roundings.
@@ -65,8 +65,8 @@ pub(super) struct InBalance {
     pub(super) outer: Vector,
     /// Whether the inner and the outer contact are near a defect.
     near: [bool; 2],
-    /// Looks at the contacts that it took.
-    pub(super) looks: u64,
+    /// Evaluations of the contacts that it took.
+    pub(super) evaluations: u64,
 }
 
 /// What an element in balance exerts on the rest of the bearing.
@@ -83,8 +83,8 @@ pub(super) struct Exerted {
 pub(super) struct FoundPath {
     /// [m]
     pub(super) path: f64,
-    /// How often contacts were looked at.
-    looks: u64,
+    /// How often contacts were evaluated.
+    evaluations: u64,
 }
 
 impl InBalance {
@@ -110,7 +110,7 @@ impl Model {
     /// Element `j` in balance, looked for from path `guess` [m] on. Where there is no balance, or a contact has no
     /// answer, forces are no numbers.
     pub(super) fn in_balance(&self, j: usize, cells: [[u32; 2]; 2], guess: f64, now: &FramedKinematics) -> InBalance {
-        let FoundPath { path, looks } = self.balanced_path(j, cells, guess, now);
+        let FoundPath { path, evaluations } = self.balanced_path(j, cells, guess, now);
         let elastic = self.linearized_at(j, cells, PathMotion::at_rest(path), now, Bends::Wanted);
         let RadialForce { force, slope } = self.radial_balance(&elastic);
         let body = self.element_mass * (self.gravity.norm() + self.outer_centre_radius * elastic.omega * elastic.omega);
@@ -131,7 +131,7 @@ impl Model {
             elastic,
             damped,
             near: cells.map(|cells| cells != [SMOOTH; 2]),
-            looks: looks + LOOKS_AT_BALANCE,
+            evaluations: evaluations + EVALUATIONS_AT_BALANCE,
         }
     }
 
@@ -145,21 +145,21 @@ impl Model {
     ) -> FoundPath {
         let mut search = PathSearch::between(f64::NEG_INFINITY, f64::INFINITY, FIRST_STRIDE);
         let mut u = if guess.is_finite() { guess } else { 0.0 };
-        for look in 1..LOOKS {
+        for evaluations in 1..MOST_EVALUATIONS {
             let element = self.linearized_at(j, cells, PathMotion::at_rest(u), now, Bends::LeftOut);
             let RadialForce { force, slope } = self.radial_push(&element);
             if force == 0.0 && slope == 0.0 {
                 // Nothing pushes and nothing touches.
-                return FoundPath { path: self.touching_path(j, cells[1], now), looks: look };
+                return FoundPath { path: self.touching_path(j, cells[1], now), evaluations };
             }
             let newton = u - force / slope;
             if (newton - u).abs() <= SETTLED {
-                return FoundPath { path: newton, looks: look };
+                return FoundPath { path: newton, evaluations };
             }
-            let Some(next) = search.next(u, force, newton) else { return FoundPath { path: u, looks: look } };
+            let Some(next) = search.next(u, force, newton) else { return FoundPath { path: u, evaluations } };
             u = next;
         }
-        FoundPath { path: u, looks: LOOKS }
+        FoundPath { path: u, evaluations: MOST_EVALUATIONS }
     }
 
     /// u' [m/s] of an element that stays in balance as cage, rings and frames move on.

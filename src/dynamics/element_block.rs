@@ -20,7 +20,7 @@ pub(super) struct ElementBlock {
     pub(super) outer: [f64; WIDEST],
     /// Acceleration of w by an outer contact that is not on it [m/s²].
     pub(super) other: [f64; WIDEST],
-    /// Angle of the element ahead of its place in an even cage [rad].
+    /// Angle of the element ahead of its position in an even cage [rad].
     pub(super) lead: [f64; WIDEST],
     /// Angular speed of the element about the outer ring's centre by that of the nominal cage.
     pub(super) pace: [f64; WIDEST],

@@ -185,7 +185,7 @@ impl Model {
     /// Refuses elements whose balance lies where the contact law near the defect has no answer: their search ends
     /// there.
     fn check_contacts(&self, given: &Given, rings: Rings, u: &[f64]) -> Result<(), EquilibriumError> {
-        let now = given.placed(rings);
+        let now = given.with_rings(rings);
         for (j, &u) in u.iter().enumerate() {
             let cells = self.cells_of(given.cells, j);
             let gap = self.inner_gap(u - FURTHER, now.offset(), self.direction(j, &now.cage));
@@ -210,7 +210,7 @@ impl Model {
 
     /// Refuses a balance of the rings in which an element has none: the search for its path ends wherever it got to.
     fn check_elements(&self, given: &Given, rings: Rings, u: &[f64]) -> Result<(), EquilibriumError> {
-        let now = given.placed(rings);
+        let now = given.with_rings(rings);
         for (j, &path) in u.iter().enumerate() {
             let along = PathMotion::at_rest(path);
             let element = self.linearized_at(j, self.cells_of(given.cells, j), along, &now, Bends::LeftOut);
@@ -229,7 +229,7 @@ impl Model {
     /// Balances all elements for given rings and sums the forces on the rings.
     fn balance(&self, given: &Given, rings: Rings, u: &mut [f64]) -> Balance {
         let Given { drive, cells, .. } = given;
-        let now = given.placed(rings);
+        let now = given.with_rings(rings);
         let (mut force, mut largest, mut contact_sum, mut rounding) = (Rings::zeros(), 0.0f64, 0.0, 0.0);
         let play = now.offset().norm() + self.clearance().abs();
         for j in 0..self.element_count {
@@ -260,7 +260,7 @@ impl Model {
 
     /// A step of the free rings from the condensed tangent: (−J + μ) step = force.
     fn newton_step(&self, given: &Given, rings: Rings, u: &[f64], balance: &Balance, iteration: i32) -> Rings {
-        let now = given.placed(rings);
+        let now = given.with_rings(rings);
         // Where a host draws the rings apart so fast that dampers leave nothing of their contacts' forces, the elastic
         // tangent is far too stiff.
         let jacobian = if iteration > DOUBLING {
@@ -322,8 +322,8 @@ impl Model {
     fn write(&self, drive: &Drive, rings: Rings, u: &[f64], state: &mut [f64]) {
         let w = self.layout.radial_velocity;
         state[..self.element_count].copy_from_slice(u);
-        for (place, first) in [(self.layout.shaft, 0), (self.layout.housing, 2)] {
-            if let Some(i) = place {
+        for (index, first) in [(self.layout.shaft, 0), (self.layout.housing, 2)] {
+            if let Some(i) = index {
                 state[i..i + 2].copy_from_slice(&rings.as_slice()[first..first + 2]);
             }
         }
@@ -332,7 +332,7 @@ impl Model {
         for j in 0..self.element_count {
             state[w + j] = housing.velocity.dot(&self.direction(j, &cage));
         }
-        for (sensor, i) in self.supports.sensors.iter().zip(self.layout.sensor_places()) {
+        for (sensor, i) in self.supports.sensors.iter().zip(self.layout.sensor_indices()) {
             let e = sensor.direction;
             (state[i], state[i + 1]) = (housing.position.dot(&e), housing.velocity.dot(&e));
         }
@@ -353,7 +353,7 @@ struct Given<'a> {
 
 impl Given<'_> {
     /// The instant `still` with the rings there.
-    fn placed(&self, rings: Rings) -> FramedKinematics {
+    fn with_rings(&self, rings: Rings) -> FramedKinematics {
         let mut now = self.still;
         (now.shaft.position, now.housing.position) = (Vector::new(rings[0], rings[1]), Vector::new(rings[2], rings[3]));
         now

@@ -4,8 +4,8 @@
 //! rings moves each path as its [balance](super::tangent) asks, and the internal rings by the solution of what is then
 //! left of theirs, four equations at most.
 //!
-//! An element that nothing touches and nothing moves keeps its place. Rings without any stiffness against them have no
-//! equilibrium of their own; their derivative does not exist.
+//! An element that nothing touches and nothing moves stays where it is. Rings without any stiffness against them have
+//! no equilibrium of their own; their derivative does not exist.
 
 use super::drive::Drive;
 use super::kinematics::FramedKinematics;

@@ -36,7 +36,7 @@ pub struct Forces {
     pub(super) torques: [f64; 3],
     /// Number of approaches near the defect that were asked for.
     pub defect_lookups: u64,
-    /// The last contact near a defect that could not be computed, of an element whose place is a number.
+    /// The last contact near a defect that could not be computed, of an element whose position is a number.
     pub unsolved: Option<UnsolvedContact>,
 }
 
@@ -91,11 +91,11 @@ impl Forces {
 
     /// Room for `count` elements.
     pub fn new(count: usize) -> Self {
-        let places = padded(count);
+        let slots = padded(count);
         Self {
             count,
-            contacts: Record::new(places),
-            elements: vec![ElementBlock::default(); places / WIDEST],
+            contacts: Record::new(slots),
+            elements: vec![ElementBlock::default(); slots / WIDEST],
             other_outer: Vec::with_capacity(count),
             other_inner: Vec::with_capacity(count),
             other_contacts: [(); 2].map(|()| Vec::with_capacity(count)),
@@ -137,19 +137,19 @@ impl Forces {
     }
 
     /// Path [m] of each element in `state`, of which these are the forces: where it is, or where it is in balance.
-    /// There may be more places than elements.
+    /// There may be more slots than elements.
     #[inline]
     pub fn paths<'a>(&'a self, model: &Model, state: &'a [f64]) -> &'a [f64] {
         if model.elements_in_balance() { &self.contacts.balanced[0] } else { state }
     }
 
-    /// Puts where elements in balance are, and how fast they move, into their places of a state; elements with inertia
+    /// Puts where elements in balance are, and how fast they move, into their slots of a state; elements with inertia
     /// have their own.
     #[inline]
     pub(crate) fn settle(&self, model: &Model, state: &mut [f64]) {
         if model.elements_in_balance() {
-            let places = model.layout.radial_velocity;
-            for (to, from) in state.chunks_mut(places.max(1)).zip(&self.contacts.balanced) {
+            let slots = model.layout.radial_velocity;
+            for (to, from) in state.chunks_mut(slots.max(1)).zip(&self.contacts.balanced) {
                 to.copy_from_slice(from);
             }
         }
@@ -203,8 +203,8 @@ impl Forces {
     /// How far the contact that has changed most since `sides` were noted is beyond its change [m]; negative while none
     /// has.
     pub fn beyond_change(&self, sides: &[f64]) -> f64 {
-        let places = self.contacts.inner_pushing.len();
-        let (inner, outer) = sides.split_at(places);
+        let slots = self.contacts.inner_pushing.len();
+        let (inner, outer) = sides.split_at(slots);
         let mut most = f64::NEG_INFINITY;
         for (sides, lengths) in [(inner, &self.contacts.inner_pushing), (outer, &self.contacts.outer_pushing)] {
             for (side, length) in sides.iter().zip(lengths.iter()).take(self.count) {
@@ -217,11 +217,11 @@ impl Forces {
     /// Whether any contact has changed since `sides` were noted, inside a kernel.
     #[inline(always)]
     pub(crate) fn pushing_differs_on<S: Wide>(&self, simd: S, sides: &[f64]) -> bool {
-        let places = self.contacts.inner_pushing.len();
-        let (inner, outer) = sides.split_at(places);
+        let slots = self.contacts.inner_pushing.len();
+        let (inner, outer) = sides.split_at(slots);
         let from = [inner, &self.contacts.inner_pushing, outer, &self.contacts.outer_pushing];
         let mut most = [0.0; QUAD];
-        Lists { from, to: [] }.for_each(simd, places, &BeyondChange, &mut most);
+        Lists { from, to: [] }.for_each(simd, slots, &BeyondChange, &mut most);
         largest_of(most) > 0.0
     }
 

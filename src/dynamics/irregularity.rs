@@ -1,11 +1,11 @@
-//! A cage that is not even: elements off their places in it, and a cage that runs ahead and lags behind.
+//! A cage that is not even: elements off their even positions in it, and a cage that runs ahead and lags behind.
 //!
 //! Everything is a function of the nominal cage angle since the start, θ_n − θ_0, so there is no state but that angle,
 //! and any communication step, a step taken again and a state put back give equal bits:
 //! ```text
 //! θ_j = θ_n + 2πj/Z + ε_j + ξ_j + W,   ω_j = ω_n (1 + ξ_j' + W')
 //! ```
-//! ε_j is constant: an element's place in its pocket, or an eccentric cage. ξ_j is stationary, one course for each
+//! ε_j is constant: an element's position in its pocket, or an eccentric cage. ξ_j is stationary, one course for each
 //! element. W is common to all: the cage's own angle, whose rate makes the slip wander. Both are cubic B-splines with
 //! Gaussian coefficients from a counter hash of (seed, course, index), over knots one element spacing and three turns
 //! of the cage apart. What recordings show of each is told in `docs/guide.md`.
@@ -43,11 +43,11 @@ pub struct Irregularity {
     /// Whole turns of the cage at the communication point. Kept here beside the drive, which has them: with one number
     /// more in the cage's state at an instant, bearings whose outer raceway yields took a fifth longer.
     turns: Cell<i64>,
-    /// The polynomials of the intervals looked at last: nothing but a shortcut.
+    /// The polynomials of the intervals evaluated last: nothing but a shortcut.
     pieces: RefCell<Pieces>,
 }
 
-/// An element's angle ahead of its place in an even cage that turns evenly, and its derivatives by the nominal cage
+/// An element's angle ahead of its position in an even cage that turns evenly, and its derivatives by the nominal cage
 /// angle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Lead {
@@ -72,8 +72,8 @@ struct Pieces {
     of_cage: [f64; 4],
 }
 
-/// A place among evenly spaced knots.
-struct Place {
+/// A position among evenly spaced knots.
+struct KnotPosition {
     /// Number of the interval between two of them.
     interval: i64,
     /// Share of it that is behind.
@@ -148,9 +148,9 @@ impl Irregularity {
         common + evaluated(&pieces.of_elements[j], share, self.count as f64 / TAU)
     }
 
-    /// Puts what all elements are ahead at an instant of the nominal cage, and how fast they go, into their places.
+    /// Puts what all elements are ahead at an instant of the nominal cage, and how fast they go, into `elements`.
     #[inline(always)]
-    pub(super) fn place_all(&self, cage: &CageState, elements: &mut [ElementBlock]) {
+    pub(super) fn update_all(&self, cage: &CageState, elements: &mut [ElementBlock]) {
         let common = self.of_cage(cage);
         if self.jitter == 0.0 {
             for block in elements {
@@ -171,7 +171,7 @@ impl Irregularity {
     /// The polynomials of all elements' jitter at an instant, and the share of their interval that is behind.
     #[inline(always)]
     fn jitters(&self, cage: &CageState) -> (Ref<'_, Pieces>, f64) {
-        let Place { interval, share } = self.place(cage, self.count as f64);
+        let KnotPosition { interval, share } = self.knot_position(cage, self.count as f64);
         if self.pieces.borrow().jitter != Some(interval) {
             self.renew(&mut self.pieces.borrow_mut(), interval);
         }
@@ -216,7 +216,7 @@ impl Irregularity {
             return Lead::default();
         }
         let per_turn = 1.0 / WANDER_TURNS;
-        let Place { interval, share } = self.place(cage, per_turn);
+        let KnotPosition { interval, share } = self.knot_position(cage, per_turn);
         let mut pieces = self.pieces.borrow_mut();
         if pieces.wander != Some(interval) {
             pieces.wander = Some(interval);
@@ -229,12 +229,12 @@ impl Irregularity {
 
     /// Where the cage is among knots of which there are `per_turn` in a turn.
     #[inline(always)]
-    fn place(&self, cage: &CageState, per_turn: f64) -> Place {
+    fn knot_position(&self, cage: &CageState, per_turn: f64) -> KnotPosition {
         // Whole turns first, so that no digits are lost to them.
         let turns = self.turns.get() as f64 * per_turn;
         let (whole, rest) = (turns.floor(), turns - turns.floor());
         let at = rest + (cage.angle - self.start) / TAU * per_turn;
-        Place { interval: whole as i64 + at.floor() as i64, share: at - at.floor() }
+        KnotPosition { interval: whole as i64 + at.floor() as i64, share: at - at.floor() }
     }
 
     /// The spline's polynomial in one interval.
@@ -286,8 +286,8 @@ mod tests {
                     let quotient = (values[1] - values[0]) / (2.0 * step);
                     assert!((quotient - slope).abs() < 1e-5 * size, "{angle} {quotient} {slope}");
                 }
-                if (of.place(&at(&of, 0, angle), 9.0).share - 0.5).abs() < 0.4
-                    && (of.place(&at(&of, 0, angle), 1.0 / 3.0).share - 0.5).abs() < 0.4
+                if (of.knot_position(&at(&of, 0, angle), 9.0).share - 0.5).abs() < 0.4
+                    && (of.knot_position(&at(&of, 0, angle), 1.0 / 3.0).share - 0.5).abs() < 0.4
                 {
                     let quotient = (after.bend - before.bend) / (2.0 * step);
                     assert!((quotient - here.twist).abs() < 1e-5, "{angle} {quotient} {}", here.twist);

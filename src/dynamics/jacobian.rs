@@ -45,9 +45,9 @@ pub struct ElementBlock {
     pub rings_by_velocity: Rings,
 }
 
-/// Where a body's position and velocity along one axis stand in the state.
+/// Indices of a body's position and velocity along one axis in the state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct BodyPlace {
+pub struct BodyIndices {
     /// Of the position.
     pub position: usize,
     /// Of the velocity.
@@ -72,8 +72,8 @@ pub struct Jacobian {
     pub by_position: BodyMatrix,
     /// Accelerations of the bodies by their velocities [1/s].
     pub by_velocity: BodyMatrix,
-    /// Where each body stands in the state; `None` for a body without state, whose rows and columns count for nothing.
-    pub places: [Option<BodyPlace>; BODIES],
+    /// Where each body is in the state; `None` for a body without state, whose rows and columns count for nothing.
+    pub body_indices: [Option<BodyIndices>; BODIES],
     /// Where the elements' velocities begin in the state.
     pub radial_velocity: usize,
 }
@@ -87,7 +87,7 @@ impl Jacobian {
             elements: vec![ElementBlock::default(); elements],
             by_position: BodyMatrix::zeros(size, size),
             by_velocity: BodyMatrix::zeros(size, size),
-            places: places(&model.layout),
+            body_indices: body_indices(&model.layout),
             radial_velocity: model.layout.radial_velocity,
         }
     }
@@ -99,7 +99,7 @@ impl Jacobian {
             elements: vec![ElementBlock { by_velocity: -rate, ..ElementBlock::default() }],
             by_position: BodyMatrix::zeros(0, 0),
             by_velocity: BodyMatrix::zeros(0, 0),
-            places: [None; BODIES],
+            body_indices: [None; BODIES],
             radial_velocity: 1,
         }
     }
@@ -128,7 +128,7 @@ impl Jacobian {
         for block in &self.elements {
             consider(block.by_path, block.by_velocity);
         }
-        for i in (0..BODIES).filter(|&i| self.places[i].is_some()) {
+        for i in (0..BODIES).filter(|&i| self.body_indices[i].is_some()) {
             consider(self.by_own_position(i), self.by_velocity[(i, i)]);
         }
         fastest
@@ -144,7 +144,7 @@ impl Jacobian {
         self.elements.iter().fold(alone, |sum, block| sum - block.rings_by_path[body] * block.e_r[body - 2])
     }
 
-    /// The whole matrix ∂(state')/∂(state), rows by columns, of a state of `len` places; for studies.
+    /// The whole matrix ∂(state')/∂(state), rows by columns, of a state of `len` slots; for studies.
     pub fn matrix(&self, len: usize) -> Vec<Vec<f64>> {
         let start = self.radial_velocity;
         let mut matrix = vec![vec![0.0; len]; len];
@@ -153,19 +153,19 @@ impl Jacobian {
             matrix[j][w] = 1.0;
             (matrix[w][j], matrix[w][w]) = (block.by_path, block.by_velocity);
             for a in 0..2 {
-                if let Some(BodyPlace { position: x, velocity: v }) = self.places[a] {
+                if let Some(BodyIndices { position: x, velocity: v }) = self.body_indices[a] {
                     (matrix[w][x], matrix[w][v]) = (-block.by_offset[a], block.by_shaft_velocity[a]);
                     (matrix[v][j], matrix[v][w]) = (block.rings_by_path[a], block.rings_by_velocity[a]);
                 }
-                if let Some(BodyPlace { position: x, velocity: v }) = self.places[2 + a] {
+                if let Some(BodyIndices { position: x, velocity: v }) = self.body_indices[2 + a] {
                     (matrix[w][x], matrix[w][v]) = (block.by_offset[a], block.by_housing_velocity[a]);
                     (matrix[v][j], matrix[v][w]) = (block.rings_by_path[2 + a], block.rings_by_velocity[2 + a]);
                     matrix[j][v] = -block.e_r[a];
                 }
             }
         }
-        let bodies = || self.places.iter().enumerate().filter_map(|(i, place)| place.map(|place| (i, place)));
-        for (i, BodyPlace { position: x, velocity: v }) in bodies() {
+        let bodies = || self.body_indices.iter().enumerate().filter_map(|(i, body)| body.map(|body| (i, body)));
+        for (i, BodyIndices { position: x, velocity: v }) in bodies() {
             matrix[x][v] = 1.0;
             for (k, by) in bodies() {
                 (matrix[v][by.position], matrix[v][by.velocity]) = (self.by_position[(i, k)], self.by_velocity[(i, k)]);
@@ -214,8 +214,8 @@ impl Model {
         by_time: &mut [f64],
     ) {
         let start = self.layout.radial_velocity;
-        let host = |motion: Motion, place| {
-            if motion == Motion::Host { prescribed_rate(place, tau) } else { RingState::default() }
+        let host = |motion: Motion, prescribed| {
+            if motion == Motion::Host { prescribed_rate(prescribed, tau) } else { RingState::default() }
         };
         let shared = Shared {
             now: self.kinematics(drive, tau, state),
@@ -231,7 +231,7 @@ impl Model {
             let element =
                 self.linearized(j, self.cells_of(cells, j), state[j], state[start + j], &shared.now, Bends::Wanted);
             self.add_element(j, &element, &shared, jacobian);
-            self.add_element_by_time(j, &element, &shared, &jacobian.places, by_time);
+            self.add_element_by_time(j, &element, &shared, &jacobian.body_indices, by_time);
         }
     }
 
@@ -298,7 +298,7 @@ impl Model {
         j: usize,
         element: &Linearized,
         shared: &Shared,
-        places: &[Option<BodyPlace>; BODIES],
+        body_indices: &[Option<BodyIndices>; BODIES],
         by_time: &mut [f64],
     ) {
         let Linearized { e_r, e_t, rho, omega, .. } = *element;
@@ -326,7 +326,7 @@ impl Model {
         let turning = e_r * (omega * element.outer.y) + e_t * (omega * element.outer.x);
         let force = stacked(-with_time.inner, with_time.on_housing(element) + turning);
         for i in 0..4 {
-            if let Some(BodyPlace { velocity, .. }) = places[i] {
+            if let Some(BodyIndices { velocity, .. }) = body_indices[i] {
                 by_time[velocity] += shared.inverse_masses[i] * force[i];
             }
         }
@@ -346,28 +346,28 @@ impl Model {
         let loads = Bodies::from_iterator(loads.chain([0.0; MOST_SENSORS]));
         let forces = self.supports.forces(&velocity, &acceleration) + loads;
         let rates = forces.component_mul(&self.supports.inverse_masses());
-        for (place, rate) in jacobian.places.iter().zip(&rates) {
-            if let Some(BodyPlace { velocity, .. }) = *place {
+        for (body, rate) in jacobian.body_indices.iter().zip(&rates) {
+            if let Some(BodyIndices { velocity, .. }) = *body {
                 by_time[velocity] = *rate;
             }
         }
     }
 }
 
-fn places(layout: &Layout) -> [Option<BodyPlace>; BODIES] {
+fn body_indices(layout: &Layout) -> [Option<BodyIndices>; BODIES] {
     let ring =
-        |start: Option<usize>, axis: usize| start.map(|i| BodyPlace { position: i + axis, velocity: i + 2 + axis });
-    let mut places = [None; BODIES];
-    places[..4].copy_from_slice(&[
+        |start: Option<usize>, axis: usize| start.map(|i| BodyIndices { position: i + axis, velocity: i + 2 + axis });
+    let mut indices = [None; BODIES];
+    indices[..4].copy_from_slice(&[
         ring(layout.shaft, 0),
         ring(layout.shaft, 1),
         ring(layout.housing, 0),
         ring(layout.housing, 1),
     ]);
-    for (place, i) in places.iter_mut().skip(4).zip(layout.sensor_places()) {
-        *place = Some(BodyPlace { position: i, velocity: i + 1 });
+    for (body, i) in indices.iter_mut().skip(4).zip(layout.sensor_indices()) {
+        *body = Some(BodyIndices { position: i, velocity: i + 1 });
     }
-    places
+    indices
 }
 
 #[cfg(test)]

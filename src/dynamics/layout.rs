@@ -1,7 +1,7 @@
 //! The layout of the state vector.
 //!
 //! The state is `[u_1…u_Z, w_1…w_Z, shaft x y vx vy, housing x y vx vy, sensor s vs …]`; a ring that is not internal
-//! and absent sensors take no place. The lists of u and w are filled up with zeros to a multiple of eight places, the
+//! and absent sensors take no slot. The lists of u and w are filled up with zeros to a multiple of eight slots, the
 //! rings' part to a multiple of four, so that they are treated several at a time. u is the roller path (ρ − (R_o − r),
 //! ρ the distance of the element's centre from the *outer ring's* centre), w the radial component of the element's
 //! absolute velocity.
@@ -20,7 +20,7 @@ pub struct Layout {
     pub shaft: Option<usize>,
     /// Start of the outer ring's.
     pub housing: Option<usize>,
-    /// Start of the first sensor's displacement and velocity along its direction; each sensor's are [`QUAD`] places on.
+    /// Start of the first sensor's displacement and velocity along its direction; the next one's are [`QUAD`] on.
     pub sensors: usize,
     /// Number of sensors.
     pub sensor_count: usize,
@@ -67,11 +67,11 @@ impl Layout {
         i < self.radial_velocity
             || within(self.shaft, 2)
             || within(self.housing, 2)
-            || self.sensor_places().any(|place| i == place)
+            || self.sensor_indices().any(|start| i == start)
     }
 
-    /// Where the displacement of each sensor stands; its velocity is the next.
-    pub fn sensor_places(&self) -> impl Iterator<Item = usize> + use<> {
+    /// Index of the displacement of each sensor; its velocity is the next.
+    pub fn sensor_indices(&self) -> impl Iterator<Item = usize> + use<> {
         let start = self.sensors;
         (0..self.sensor_count).map(move |k| start + k * QUAD)
     }
@@ -81,16 +81,16 @@ impl Layout {
         Partition { count: self.element_count, rest: self.len - 2 * self.radial_velocity }
     }
 
-    /// Whether place `i` is a state's, not one that only fills a list up.
+    /// Whether slot `i` is a state's, not one that only fills a list up.
     pub fn is_used(&self, i: usize) -> bool {
         let within = |start: usize, count: usize| i >= start && i < start + count;
         within(0, self.element_count)
             || within(self.radial_velocity, self.element_count)
             || [self.shaft, self.housing].into_iter().flatten().any(|start| within(start, 4))
-            || self.sensor_places().any(|start| within(start, 2))
+            || self.sensor_indices().any(|start| within(start, 2))
     }
 
-    /// Whether place `i` is a state's that is integrated: an element in balance has none.
+    /// Whether slot `i` is a state's that is integrated: an element in balance has none.
     pub fn is_integrated(&self, i: usize) -> bool {
         self.is_used(i) && !(self.elements_in_balance && i < 2 * self.radial_velocity)
     }

@@ -42,11 +42,11 @@ use crate::contact::near_defect::Approach;
 use crate::contact::rolling::RacewaySide;
 use crate::numerics::plane::{Matrix, Vector, turned};
 
-/// How far apart along path and raceway the approach near the defect is looked at for its second derivatives [m].
+/// How far apart along path and raceway the approach near the defect is sampled for its second derivatives [m].
 pub(super) const DIFFERENCE: f64 = 1e-9;
 
-/// Whether second derivatives of the outer approach are wanted, which the change of path or place needs while something
-/// moves; each costs four more looks at the defect.
+/// Whether second derivatives of the outer approach are wanted, which the change of path or position needs while
+/// something moves; each costs four more samples at the defect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Bends {
     /// They are.
@@ -362,7 +362,7 @@ impl Model {
     /// Second derivatives of the approach of a contact near a defect.
     fn bend(&self, side: RacewaySide, at: &Meeting, now: &FramedKinematics) -> Bend {
         let angle = DIFFERENCE / self.outer_centre_radius;
-        let look = |du: f64, turn: f64| {
+        let sample = |du: f64, turn: f64| {
             let u = at.u + du;
             let (direction, distance) = match side {
                 RacewaySide::Inner => (at.direction + turn, at.distance - du),
@@ -373,8 +373,8 @@ impl Model {
             };
             self.approach(side, &Meeting { u, distance, direction, ..*at }, &now.frames).approach
         };
-        let (inside, outside) = (look(-DIFFERENCE, 0.0), look(DIFFERENCE, 0.0));
-        let (behind, ahead) = (look(0.0, -angle), look(0.0, angle));
+        let (inside, outside) = (sample(-DIFFERENCE, 0.0), sample(DIFFERENCE, 0.0));
+        let (behind, ahead) = (sample(0.0, -angle), sample(0.0, angle));
         let by_path = |of: fn(&Approach) -> f64| (of(&outside) - of(&inside)) / (2.0 * DIFFERENCE);
         let by_angle = |of: fn(&Approach) -> f64| (of(&ahead) - of(&behind)) / (2.0 * angle);
         Bend {

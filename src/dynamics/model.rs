@@ -52,7 +52,7 @@ pub struct Model {
     pub sensor_modes: SensorModes,
     /// Speeds of cage and elements per speed of the rings.
     pub ratios: Ratios,
-    /// Places of the state vector.
+    /// Layout of the state vector.
     pub layout: Layout,
     /// Whether the scene has a defect that contacts with the inner raceway meet, be it computed yet or not.
     pub may_have_inner_defects: bool,
@@ -228,7 +228,7 @@ impl Model {
         }
     }
 
-    /// What element `j` is ahead of its place in a cage that turns evenly.
+    /// What element `j` is ahead of its position in a cage that turns evenly.
     #[inline]
     pub fn lead(&self, j: usize, cage: &CageState) -> Lead {
         self.irregularity.as_ref().map_or(Lead::default(), |uneven| uneven.of_element(j, cage))
@@ -286,10 +286,10 @@ impl Model {
     /// Puts where all elements of an uneven cage are at an instant, and how fast they go, into `elements`; nothing in
     /// an even one.
     #[inline(always)]
-    pub(super) fn place_uneven(&self, drive: &Drive, cage: &CageState, elements: &mut [ElementBlock]) {
+    pub(super) fn update_uneven(&self, drive: &Drive, cage: &CageState, elements: &mut [ElementBlock]) {
         let Some(uneven) = &self.irregularity else { return };
         uneven.begin(drive.cage_turns);
-        uneven.place_all(cage, elements);
+        uneven.update_all(cage, elements);
         for (block, offsets) in elements.iter_mut().zip(self.offsets.chunks(WIDEST)) {
             for (i, &offset) in offsets.iter().enumerate() {
                 (block.sin[i], block.cos[i]) = sin_cos(offset + block.lead[i]);

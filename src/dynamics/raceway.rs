@@ -40,7 +40,7 @@ pub struct DefectiveElement {
 /// The defects of one body, as one contact meets them; no two of them are under one contact.
 #[derive(Debug, Clone)]
 pub struct Defects {
-    placed: Vec<Placed>,
+    surfaces: Vec<SurfaceDefect>,
     /// What they turn with.
     pub frame: Frame,
 }
@@ -56,7 +56,7 @@ pub struct Centred {
 
 /// The surface around a defect on its body, among the others there.
 #[derive(Debug, Clone)]
-pub struct Placed {
+pub struct SurfaceDefect {
     /// The surface under the scene's contact law.
     pub surface: NearDefect,
     /// Angle of the defect's centre [rad] in the body's frame.
@@ -141,42 +141,42 @@ impl Cells {
 impl Defects {
     /// Defects of a body that turns with `frame`.
     pub fn new(frame: Frame, surfaces: impl IntoIterator<Item = Centred>) -> Self {
-        let mut defects = Self { placed: Vec::new(), frame };
+        let mut defects = Self { surfaces: Vec::new(), frame };
         surfaces.into_iter().for_each(|one| defects.add(one));
         defects
     }
 
     /// One more.
     pub fn add(&mut self, Centred { surface, centre }: Centred) {
-        let first = self.placed.last().map_or(0, |last| last.first + last.cell_count());
-        self.placed.push(Placed { surface, centre, first });
+        let first = self.surfaces.last().map_or(0, |last| last.first + last.cell_count());
+        self.surfaces.push(SurfaceDefect { surface, centre, first });
     }
 
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
-        self.placed.is_empty()
+        self.surfaces.is_empty()
     }
 
     /// Each of them.
-    pub fn iter(&self) -> impl Iterator<Item = &Placed> {
-        self.placed.iter()
+    pub fn iter(&self) -> impl Iterator<Item = &SurfaceDefect> {
+        self.surfaces.iter()
     }
 
     /// Number of knots of all of them.
     pub fn knot_count(&self) -> usize {
-        self.placed.iter().map(|placed| placed.knots().len()).sum()
+        self.surfaces.iter().map(|defect| defect.knots().len()).sum()
     }
 
     /// Whether there is such a cell.
     pub fn has_cell(&self, cell: u32) -> bool {
-        cell == SMOOTH || self.placed.iter().any(|placed| placed.holds(cell))
+        cell == SMOOTH || self.surfaces.iter().any(|defect| defect.holds(cell))
     }
 
     /// Cell at a direction [rad] in the body's frame.
     pub fn cell_at(&self, direction: f64) -> u32 {
-        self.placed
+        self.surfaces
             .iter()
-            .map(|placed| placed.cell_at(placed.angle(direction)))
+            .map(|defect| defect.cell_at(defect.angle(direction)))
             .find(|&c| c != SMOOTH)
             .unwrap_or(SMOOTH)
     }
@@ -185,10 +185,10 @@ impl Defects {
     /// `forward`. `None` without a defect.
     pub fn ahead(&self, cell: u32, direction: f64, forward: bool) -> Option<Ahead> {
         if cell != SMOOTH {
-            let placed = self.placed.iter().find(|placed| placed.holds(cell))?;
-            return Some(placed.ahead(cell, placed.angle(direction), forward));
+            let defect = self.surfaces.iter().find(|defect| defect.holds(cell))?;
+            return Some(defect.ahead(cell, defect.angle(direction), forward));
         }
-        let ahead = self.placed.iter().map(|placed| placed.ahead(SMOOTH, placed.angle(direction), forward));
+        let ahead = self.surfaces.iter().map(|defect| defect.ahead(SMOOTH, defect.angle(direction), forward));
         ahead.reduce(|near, other| if other.angle < near.angle { other } else { near })
     }
 
@@ -203,37 +203,37 @@ impl Defects {
         frames: &Frames,
         lever: Lever,
     ) -> Result<Approach, ContactError> {
-        let Some(placed) = self.holding(cell) else { return Ok(Approach::smooth(u)) };
-        let angle = placed.angle(direction - frames.of(self.frame).angle);
-        placed.surface.approach((cell - placed.first) as usize, u, angle, lever)
+        let Some(defect) = self.holding(cell) else { return Ok(Approach::smooth(u)) };
+        let angle = defect.angle(direction - frames.of(self.frame).angle);
+        defect.surface.approach((cell - defect.first) as usize, u, angle, lever)
     }
 
     /// The defect that a cell belongs to.
     #[inline(always)]
-    fn holding(&self, cell: u32) -> Option<&Placed> {
-        match &self.placed[..] {
+    fn holding(&self, cell: u32) -> Option<&SurfaceDefect> {
+        match &self.surfaces[..] {
             [one] => Some(one),
-            several => several.iter().find(|placed| placed.holds(cell)),
+            several => several.iter().find(|defect| defect.holds(cell)),
         }
     }
 
     /// Angle [rad] of a direction in the body's frame from the centre of the nearest defect, within half a turn; from
     /// the frame's own axis without one.
     pub fn angle(&self, direction: f64) -> f64 {
-        let angles = self.placed.iter().map(|placed| placed.angle(direction));
+        let angles = self.surfaces.iter().map(|defect| defect.angle(direction));
         let nearest = angles.reduce(|near, other| if other.abs() < near.abs() { other } else { near });
         nearest.unwrap_or_else(|| wrap(direction))
     }
 
     /// Makes contacts independent of what was computed before, rounding included.
     pub fn forget(&self) {
-        for placed in &self.placed {
-            placed.surface.forget();
+        for defect in &self.surfaces {
+            defect.surface.forget();
         }
     }
 }
 
-impl Placed {
+impl SurfaceDefect {
     /// Angle from the centre of a direction [rad] in the body's frame.
     #[inline]
     pub fn angle(&self, direction: f64) -> f64 {

@@ -74,7 +74,7 @@ impl Model {
         let Stage { drive, cage, state, ahead } = *stage;
         if SPECIAL {
             self.begin(drive);
-            self.place_uneven(drive, cage, &mut forces.elements);
+            self.update_uneven(drive, cage, &mut forces.elements);
         }
         let (now, tau) = (self.kinematics_of(stage), cage.tau);
         let [outer, inner] = [forces.other_outer.is_empty(), forces.other_inner.is_empty()].map(|none| !none);
@@ -135,7 +135,7 @@ impl Model {
             supports.shaft.ring_rates(simd, &now.shaft, force).store(derivative, i);
         }
         let mut reaction = Vector::zeros();
-        for (sensor, i) in supports.sensors.iter().zip(self.layout.sensor_places()) {
+        for (sensor, i) in supports.sensors.iter().zip(self.layout.sensor_indices()) {
             let v = state[i + 1];
             let force = sensor.force(moved(state[i], v, ahead), v, &now.housing);
             reaction += sensor.direction * force;

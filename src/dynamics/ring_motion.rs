@@ -42,7 +42,7 @@ impl Model {
     /// rest.
     pub fn ring_rates(&self, drive: &Drive, tau: f64, derivative: &[f64]) -> [RingState; 2] {
         [(self.layout.shaft, &drive.shaft), (self.layout.housing, &drive.housing)].map(
-            |(place, prescribed)| match place {
+            |(index, prescribed)| match index {
                 Some(i) => RingState {
                     position: Vector::new(derivative[i], derivative[i + 1]),
                     velocity: Vector::new(derivative[i + 2], derivative[i + 3]),
@@ -55,14 +55,14 @@ impl Model {
 
 #[inline(always)]
 fn ring_state(
-    place: Option<usize>,
+    index: Option<usize>,
     motion: Motion,
     prescribed: &[Cubic; 2],
     tau: f64,
     state: &[f64],
     ahead: Option<f64>,
 ) -> RingState {
-    match (place, motion) {
+    match (index, motion) {
         (Some(i), _) => {
             let velocity = Vector::new(state[i + 2], state[i + 3]);
             let position = Vector::new(moved(state[i], velocity.x, ahead), moved(state[i + 1], velocity.y, ahead));

@@ -28,8 +28,8 @@ pub struct SensorModes {
     modes: Vec<Mode>,
     /// Share of each sensor's own acceleration that it measures, 1 − Σ Γ.
     direct: [f64; MOST_SENSORS],
-    /// Place of the first sensor's displacement in a state, before its velocity; the next sensor is [`QUAD`] places on.
-    place: usize,
+    /// Index of the first sensor's displacement in a state, before its velocity; the next sensor's is [`QUAD`] more.
+    index: usize,
 }
 
 /// One mode.
@@ -56,8 +56,8 @@ pub(crate) struct StepEnds<'a> {
 }
 
 impl SensorModes {
-    /// Those of a scene, the first sensor being at this place of a state.
-    pub(super) fn new(scene: &Scene, place: usize) -> Self {
+    /// Those of a scene, the first sensor being at `index` of a state.
+    pub(super) fn new(scene: &Scene, index: usize) -> Self {
         let of_sensor = |(sensor, of): (usize, &crate::scene::Sensor)| {
             let modes = of.modes.iter();
             modes
@@ -75,7 +75,7 @@ impl SensorModes {
         for mode in &modes {
             direct[mode.sensor] -= mode.gain;
         }
-        Self { modes, direct, place }
+        Self { modes, direct, index }
     }
 
     /// Length of their state: z [m] and z' [m/s] of each mode.
@@ -87,7 +87,7 @@ impl SensorModes {
     pub(crate) fn advance(&self, ends: StepEnds, share: f64, state: &mut [f64]) {
         let mut states = state.as_chunks_mut::<2>().0.iter_mut();
         for of_sensor in self.modes.chunk_by(|one, next| one.sensor == next.sensor) {
-            let acceleration = acceleration(ends, self.place + of_sensor[0].sensor * QUAD);
+            let acceleration = acceleration(ends, self.index + of_sensor[0].sensor * QUAD);
             for (mode, z) in of_sensor.iter().zip(&mut states) {
                 mode.advance(&acceleration, ends.length, share, z);
             }
@@ -165,13 +165,13 @@ impl Mode {
     }
 }
 
-/// Acceleration over a step of the body whose displacement is at this place.
-fn acceleration(ends: StepEnds, place: usize) -> Cubic {
+/// Acceleration over a step of the body whose displacement is at this index of a state.
+fn acceleration(ends: StepEnds, index: usize) -> Cubic {
     let StepEnds { states, derivatives, length } = ends;
-    let bends = derivatives.map(|rate| rate[place + 1]);
+    let bends = derivatives.map(|rate| rate[index + 1]);
     Quintic::new(length, 0.0).second_derivative(
-        states.map(|state| state[place]),
-        derivatives.map(|rate| rate[place]),
+        states.map(|state| state[index]),
+        derivatives.map(|rate| rate[index]),
         bends,
     )
 }

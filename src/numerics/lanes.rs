@@ -5,7 +5,7 @@
 //! long as sums over lanes have a fixed order: they are sums of eight lanes, to which a machine with four adds its
 //! groups in turn.
 //!
-//! Lists of numbers have a multiple of [`WIDEST`] places. Those beyond the last number are zeros and must stay so: a
+//! Lists of numbers have a multiple of [`WIDEST`] slots. Those beyond the last number are zeros and must stay so: a
 //! machine with fewer lanes leaves out what it need not look at.
 
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -18,7 +18,7 @@ pub const QUAD: usize = 4;
 /// Most lanes that any machine has.
 pub const WIDEST: usize = 8;
 
-/// Places that a list of `count` numbers takes.
+/// Slots that a list of `count` numbers takes.
 pub fn padded(count: usize) -> usize {
     count.next_multiple_of(WIDEST)
 }
@@ -168,12 +168,12 @@ impl<S: Wide, K: Kernel> NullaryFnOnce for On<S, K> {
     }
 }
 
-/// What is done with each place of some lists: `I` lists are read and `O` written.
+/// What is done with each slot of some lists: `I` lists are read and `O` written.
 pub trait Each<const I: usize, const O: usize> {
-    /// What is summed up over the places.
+    /// What is summed up over the slots.
     type Sum;
 
-    /// Several places at a time. To be marked `inline(always)`.
+    /// Several slots at a time. To be marked `inline(always)`.
     fn each<S: Wide>(&self, simd: S, from: [Lanes<S>; I], sum: &mut Self::Sum) -> [Lanes<S>; O];
 }
 
@@ -187,14 +187,14 @@ pub struct Lists<'a, const I: usize, const O: usize> {
 }
 
 impl<const I: usize, const O: usize> Lists<'_, I, O> {
-    /// Treats the first `count` places, and perhaps some of those that fill the lists up.
+    /// Treats the first `count` slots, and perhaps some of those that fill the lists up.
     // Loops instead of `map` over arrays, which the compiler does not always resolve.
     #[inline(always)]
     pub fn for_each<S: Wide, E: Each<I, O>>(self, simd: S, count: usize, each: &E, sum: &mut E::Sum) {
         let groups = count.div_ceil(S::F64_LANES);
         let mut from: [&[S::f64s]; I] = [&[]; I];
         for (registers, list) in from.iter_mut().zip(self.from) {
-            // Equal lengths, seen once, spare the look at every access.
+            // Equal lengths, seen once, spare the check at every access.
             *registers = &S::as_simd_f64s(list).0[..groups];
         }
         let mut to: [&mut [S::f64s]; O] = std::array::from_fn(|_| Default::default());
@@ -214,7 +214,7 @@ impl<const I: usize, const O: usize> Lists<'_, I, O> {
     }
 }
 
-/// What comes after place `start` of each list.
+/// What comes from index `start` of each list.
 #[inline(always)]
 pub fn after<const I: usize>(lists: [&[f64]; I], start: usize) -> [&[f64]; I] {
     let mut rest: [&[f64]; I] = [&[]; I];
@@ -253,7 +253,7 @@ impl<S: Wide> Lanes<S> {
         S::as_mut_simd_f64s(numbers).0[part] = self.1;
     }
 
-    /// Puts the numbers at place `at` of a list.
+    /// Puts the numbers at index `at` of a list.
     #[inline(always)]
     pub fn store(self, to: &mut [f64], at: usize) {
         S::as_mut_simd_f64s(&mut to[at..at + S::F64_LANES]).0[0] = self.1;

@@ -28,8 +28,8 @@ fn claimed() -> MutexGuard<'static, Vec<(PathBuf, String)>> {
 pub(super) struct Claim {
     /// The file, empty when it was claimed.
     pub(super) file: File,
-    /// Where it is, in one spelling.
-    place: PathBuf,
+    /// Its canonical path.
+    canonical: PathBuf,
 }
 
 impl Claim {
@@ -39,22 +39,22 @@ impl Claim {
         let mut claimed = claimed();
         let opened = open(path).map_err(failed)?;
         // Some file systems cannot say where a file really is; names are then found by the path given.
-        let place = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let canonical = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
         let (path, name) = (path.to_owned(), name.to_owned());
-        if let Some((_, other)) = claimed.iter().find(|(other, _)| *other == place) {
+        if let Some((_, other)) = claimed.iter().find(|(other, _)| *other == canonical) {
             return Err(RecordingError::Claimed { path, name, other: other.clone() });
         }
         let Some(file) = opened else { return Err(RecordingError::ClaimedElsewhere { path, name }) };
         file.set_len(0).map_err(|cause| RecordingError::Unwritable { path, cause })?;
-        claimed.push((place.clone(), name));
-        Ok(Self { file, place })
+        claimed.push((canonical.clone(), name));
+        Ok(Self { file, canonical })
     }
 }
 
 impl Drop for Claim {
     fn drop(&mut self) {
         let mut claimed = claimed();
-        claimed.retain(|(place, _)| *place != self.place);
+        claimed.retain(|(canonical, _)| *canonical != self.canonical);
         if claimed.is_empty() {
             // Nothing is left of the list when the library is unloaded.
             *claimed = Vec::new();

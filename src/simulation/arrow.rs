@@ -10,7 +10,7 @@
 
 use nalgebra::{Const, LU, SMatrix};
 
-use crate::dynamics::jacobian::{BodyPlace, Jacobian};
+use crate::dynamics::jacobian::{BodyIndices, Jacobian};
 use crate::dynamics::model::Model;
 use crate::dynamics::supports::{BODIES, Bodies, FEW_BODIES};
 use crate::dynamics::tangent::{Rings, stacked};
@@ -78,7 +78,7 @@ impl Arrow {
             }
         } else {
             let matrix = self.eliminated::<FEW_BODIES>(jacobian);
-            let coupled = jacobian.places.iter().any(Option::is_some);
+            let coupled = jacobian.body_indices.iter().any(Option::is_some);
             self.bodies = if coupled { Factors::Few(matrix.lu()) } else { Factors::None };
         }
     }
@@ -86,7 +86,7 @@ impl Arrow {
     /// The first bodies' matrix, once the elements are eliminated.
     fn eliminated<const N: usize>(&mut self, jacobian: &Jacobian) -> SMatrix<f64, N, N> {
         let (shift, inverse_shift) = (self.shift, 1.0 / self.shift);
-        let free = jacobian.places.map(|place| place.is_some());
+        let free = jacobian.body_indices.map(|body| body.is_some());
         let coupled = free.contains(&true);
         let by_velocity = jacobian.by_velocity.fixed_view::<N, N>(0, 0);
         let by_position = jacobian.by_position.fixed_view::<N, N>(0, 0);
@@ -119,7 +119,7 @@ impl Arrow {
         let start = jacobian.radial_velocity;
         let inverse_shift = 1.0 / self.shift;
         // What the positions' right-hand sides alone would move.
-        let shifted = jacobian.places.map(|place| place.map_or(0.0, |place| b[place.position] * inverse_shift));
+        let shifted = jacobian.body_indices.map(|body| body.map_or(0.0, |body| b[body.position] * inverse_shift));
         let offset = Vector::new(shifted[2] - shifted[0], shifted[3] - shifted[1]);
         let mut rings = Rings::zeros();
         for (j, (block, solved)) in jacobian.elements.iter().zip(&self.elements).enumerate() {
@@ -134,15 +134,15 @@ impl Arrow {
         v.rows_mut(0, size).gemv(1.0, &jacobian.by_position, &Bodies::from(shifted).rows(0, size), 0.0);
         let mut of_rings = v.fixed_rows_mut::<RINGS>(0);
         of_rings += rings;
-        for (v, place) in v.iter_mut().zip(&jacobian.places) {
-            *v = place.map_or(0.0, |place| *v + b[place.velocity]);
+        for (v, body) in v.iter_mut().zip(&jacobian.body_indices) {
+            *v = body.map_or(0.0, |body| *v + b[body.velocity]);
         }
         if !self.bodies.solve(&mut v) {
             // Error control takes a step back whose result is no number.
             v.fill(f64::NAN);
         }
-        for (i, place) in jacobian.places.iter().enumerate() {
-            if let Some(BodyPlace { position, velocity }) = *place {
+        for (i, body) in jacobian.body_indices.iter().enumerate() {
+            if let Some(BodyIndices { position, velocity }) = *body {
                 b[velocity] = v[i];
                 b[position] = (v[i] + b[position]) * inverse_shift;
             }

@@ -13,7 +13,7 @@ const PER_TOLERANCE: f64 = 3.2e-3;
 /// Share of the step at which the first contact changes; leaves the forces there.
 ///
 /// How far the contact that has changed most is beyond its change is continuous and changes its sign there. The
-/// secant's zero is looked at on its far side, so that both ends of the bracket close in; every third look halves it,
+/// secant's zero is probed on its far side, so that both ends of the bracket close in; every third probe halves it,
 /// whatever the secant says.
 pub(super) fn first_change(
     workspace: &mut Workspace,

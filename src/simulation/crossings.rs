@@ -16,7 +16,7 @@ use crate::dynamics::raceway::{Ahead, Defects};
 /// Width of a step, as a share, to which the instant of a crossing is narrowed down: at the speed of an element on its
 /// way a millionth of a nanometre.
 const NARROW: f64 = 1e-11;
-/// Most looks at the dense output: halving alone reaches the width in 37.
+/// Most probes of the dense output: halving alone reaches the width in 37.
 const MOST: usize = 60;
 
 /// A passage into another cell within a step.
@@ -43,7 +43,7 @@ struct Watched<'a> {
 struct Begun<'a> {
     at: Watched<'a>,
     tau: f64,
-    /// Angle by which it is seen ahead of the element's place in an even cage [rad].
+    /// Angle by which it is seen ahead of the element's position in an even cage [rad].
     lead: f64,
 }
 
@@ -101,7 +101,7 @@ fn root(workspace: &mut Workspace, problem: Problem, span: Span, progress: &Prog
     let model = problem.model;
     let (mut low, mut high) = (0.0f64, 1.0f64);
     let mut share = guess;
-    for look in 0..MOST {
+    for trial in 0..MOST {
         if high - low <= NARROW || !(share > 0.0 && share < 1.0) {
             break;
         }
@@ -116,10 +116,10 @@ fn root(workspace: &mut Workspace, problem: Problem, span: Span, progress: &Prog
         } else {
             low = share
         }
-        // Motion over a step is nearly even. A look on either side of the root closes the bracket; every fourth look
+        // Motion over a step is nearly even. A probe on either side of the root closes the bracket; every fourth one
         // halves it, whatever the secant says.
         let secant = share / made.max(f64::MIN_POSITIVE) + if beyond { -0.4 * NARROW } else { 0.4 * NARROW };
-        share = if look % 4 != 3 && secant > low && secant < high { secant } else { 0.5 * (low + high) };
+        share = if trial % 4 != 3 && secant > low && secant < high { secant } else { 0.5 * (low + high) };
     }
     if guess <= 0.0 { 0.0 } else { high }
 }
@@ -155,8 +155,8 @@ fn watched<'a>(problem: Problem<'a>, progress: &'a Progress) -> impl Iterator<It
 }
 
 impl Instant<'_> {
-    /// Angle by which a contact is seen ahead of its element's place in an even cage [rad]: from the inner ring, and in
-    /// an uneven cage.
+    /// Angle by which a contact is seen ahead of its element's position in an even cage [rad]: from the inner ring,
+    /// and in an uneven cage.
     fn lead(&self, problem: Problem, at: &Watched) -> f64 {
         let (model, j) = (problem.model, at.element);
         let of_cage = model.lead(j, &self.now.cage).angle;

@@ -28,7 +28,7 @@ const ATTENUATION: f64 = 102.0;
 pub(super) struct Decimation {
     /// Samples for a row, M.
     factor: u64,
-    /// h, phase after phase: for each place of a sample among those of a row, its weights in the slots from that of the
+    /// h, phase after phase: for each phase of a sample in a row, its weights in the slots from that of the
     /// latest row on, twice over, so that they can be read from any slot on.
     weights: Vec<[f64; 2 * UNDER_WAY]>,
     /// Sum of the weights that the first rows have before the first sample.
@@ -37,7 +37,7 @@ pub(super) struct Decimation {
 
 /// Where a sample is among the rows.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct RowPhase {
     /// Number of the row that it is in the middle of or behind.
     pub(super) row: u64,
     /// How many samples behind.
@@ -67,8 +67,8 @@ impl Decimation {
     }
 
     /// Where sample number `sample` is among the rows.
-    pub(super) fn place(&self, sample: u64) -> Place {
-        Place { row: sample / self.factor, phase: (sample % self.factor) as usize }
+    pub(super) fn row_phase(&self, sample: u64) -> RowPhase {
+        RowPhase { row: sample / self.factor, phase: (sample % self.factor) as usize }
     }
 
     /// Rows that are complete when so many samples have been taken.
@@ -77,9 +77,9 @@ impl Decimation {
         begun.saturating_sub(HALF as u64)
     }
 
-    /// Adds a sample at this place to the sums of all rows that it belongs to. `sums` has all slots of the sample's
+    /// Adds a sample at this phase to the sums of all rows that it belongs to. `sums` has all slots of the sample's
     /// first number, then all of its second, and so on.
-    pub(super) fn add(&self, Place { row, phase }: Place, sample: &[f64], sums: &mut [f64]) {
+    pub(super) fn add(&self, RowPhase { row, phase }: RowPhase, sample: &[f64], sums: &mut [f64]) {
         let latest = slot(row + HALF as u64);
         if phase == 0 {
             self.begin(row, latest, sample, sums);

@@ -35,28 +35,28 @@ pub(super) fn of(table: &[Variable], quantities: &[Q], scene: &Scene) -> Vec<Dep
 /// Whether an output follows an input at the same instant.
 fn follows(output: Q, input: Q, defect: bool, scene: &Scene) -> bool {
     use RingName::{Housing, Shaft};
-    let place = matches!(input, Q::Position(..));
-    let pace = matches!(input, Q::Velocity(..));
+    let position = matches!(input, Q::Position(..));
+    let velocity = matches!(input, Q::Velocity(..));
     let speed = matches!(input, Q::Speed(_));
     if scene.bearing.element_inertia == ElementInertia::None {
         // An element in balance hands on at once what either ring does.
         match output {
-            Q::ElementPath(_) => return place || speed,
-            Q::Force(..) | Q::ElementInnerForce(_) | Q::ElementOuterForce(_) => return place || pace || speed,
-            Q::Acceleration(ring, axis) => return place || pace || speed || input == Q::Load(ring, axis),
+            Q::ElementPath(_) => return position || speed,
+            Q::Force(..) | Q::ElementInnerForce(_) | Q::ElementOuterForce(_) => return position || velocity || speed,
+            Q::Acceleration(ring, axis) => return position || velocity || speed || input == Q::Load(ring, axis),
             _ => {}
         }
     }
     match output {
         // Inner contacts see both rings, and the cage speed through the rate of approach.
-        Q::Force(Shaft, _) | Q::ElementInnerForce(_) => place || pace || speed,
+        Q::Force(Shaft, _) | Q::ElementInnerForce(_) => position || velocity || speed,
         // Outer contacts see the path, which is measured from the outer ring, and its rate.
         Q::Force(Housing, _) | Q::ElementOuterForce(_) => matches!(input, Q::Velocity(Housing, _)) || (defect && speed),
-        Q::Acceleration(Shaft, axis) => place || pace || speed || input == Q::Load(Shaft, axis),
+        Q::Acceleration(Shaft, axis) => position || velocity || speed || input == Q::Load(Shaft, axis),
         Q::Acceleration(Housing, axis) => {
             matches!(input, Q::Velocity(Housing, _)) || (defect && speed) || input == Q::Load(Housing, axis)
         }
-        Q::Stiffness(..) => place,
+        Q::Stiffness(..) => position,
         // Through its spring and damper, along its direction.
         Q::SensorAcceleration(k) => match input {
             Q::Position(Housing, axis) | Q::Velocity(Housing, axis) => {
@@ -68,7 +68,9 @@ fn follows(output: Q, input: Q, defect: bool, scene: &Scene) -> bool {
         Q::Probe(axis) => matches!(input, Q::Position(_, along) if along == axis),
         Q::CageSpeed => speed,
         // Tangential parts of the inner contacts, and the elements' inertia as the outer ring accelerates.
-        Q::CageTorque => place || pace || speed || matches!(input, Q::Acceleration(Housing, _) | Q::Load(Housing, _)),
+        Q::CageTorque => {
+            position || velocity || speed || matches!(input, Q::Acceleration(Housing, _) | Q::Load(Housing, _))
+        }
         // States follow no input at once, and a mean is of the step before.
         Q::Position(..)
         | Q::Velocity(..)
@@ -78,7 +80,7 @@ fn follows(output: Q, input: Q, defect: bool, scene: &Scene) -> bool {
         | Q::RingAngle(_)
         | Q::ElementSpinAngle(_)
         | Q::ElementPath(_) => false,
-        Q::ShaftTorque => place || pace || speed,
+        Q::ShaftTorque => position || velocity || speed,
         Q::Speed(_) | Q::Load(..) | Q::Count(_) | Q::Parameter(_) => false,
     }
 }

@@ -182,10 +182,10 @@ impl Simulation {
         variation.path.copy_from_slice(&self.derivative[..z]);
         variation.radial_velocity.copy_from_slice(&self.derivative[layout.radial_velocity..][..z]);
         [variation.shaft, variation.housing] = self.model.ring_rates(drive, 0.0, &self.derivative);
-        for (sensor, i) in change.sensors.iter_mut().zip(layout.sensor_places()) {
+        for (sensor, i) in change.sensors.iter_mut().zip(layout.sensor_indices()) {
             *sensor = [self.derivative[i], self.derivative[i + 1]];
         }
-        for (k, i) in layout.sensor_places().enumerate() {
+        for (k, i) in layout.sensor_indices().enumerate() {
             change.by_sensor_modes[k] =
                 self.model.sensor_modes.rate(k, self.derivative[i + 1], &self.state.progress.sensor_modes);
         }

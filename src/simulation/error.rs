@@ -37,7 +37,7 @@ pub enum SimulationError {
     /// Rings that nothing holds: how the equilibrium moves with the inputs is not defined.
     #[error("the initial equilibrium has no derivative: an internal ring touches nothing and has no support stiffness")]
     NoDerivative,
-    /// A state that names places on the raceway which this model does not have.
+    /// A state that names cells of a raceway which this model does not have.
     #[error("the state is none of this model's: it has an element in a part of the defect that is not there")]
     ForeignState,
     /// Oil films so thick that they press the contacts beyond the elastic range.

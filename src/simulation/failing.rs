@@ -45,8 +45,8 @@ fn diverging(workspace: &mut Workspace, problem: Problem, span: Span, step: f64,
     let Workspace { room, forces, dense, scratch, weights, .. } = workspace;
     let rates = &mut room.first;
     model.derivative(drive, since, &progress.cells, &progress.state, rates, forces);
-    for (i, place) in dense.iter_mut().enumerate() {
-        *place = progress.state[i] + h * rates[i];
+    for (i, value) in dense.iter_mut().enumerate() {
+        *value = progress.state[i] + h * rates[i];
     }
     model.derivative(drive, since + h, &progress.cells, dense, scratch, forces);
     let finite = |i: usize| scratch[i].is_finite();

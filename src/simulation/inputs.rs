@@ -34,7 +34,7 @@ impl Inputs {
             ..Self::default()
         };
         for (index, &quantity) in quantities.iter().take(input_count).enumerate() {
-            let place = match quantity {
+            let slot = match quantity {
                 Quantity::Speed(ring) => &mut inputs.speeds[ring.index()],
                 Quantity::Load(ring, axis) => &mut inputs.ring(ring).load[axis],
                 Quantity::Position(ring, axis) => &mut inputs.ring(ring).position[axis],
@@ -42,7 +42,7 @@ impl Inputs {
                 Quantity::Acceleration(ring, axis) => &mut inputs.ring(ring).acceleration[axis],
                 _ => continue,
             };
-            *place = Some(index);
+            *slot = Some(index);
         }
         inputs
     }

@@ -206,7 +206,7 @@ impl Simulation {
     /// Chooses the integration method, for studies; automatic unless this is called. No part of the state.
     pub fn set_method(&mut self, method: Method) {
         self.method = method;
-        // What is stable is to be looked at anew: it was for another method.
+        // What is stable is to be checked anew: it was for another method.
         self.state.progress.choice.stable_step = 0.0;
     }
 

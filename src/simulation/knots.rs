@@ -193,7 +193,7 @@ mod tests {
     use super::*;
     use crate::dynamics::drive::WholeAngle;
     use crate::dynamics::jacobian::tests::lively;
-    use crate::dynamics::raceway::{Placed, SMOOTH};
+    use crate::dynamics::raceway::{SMOOTH, SurfaceDefect};
     use crate::scene::{Damping, Motion};
     use proptest::prelude::*;
     use std::rc::Rc;
@@ -254,7 +254,7 @@ mod tests {
         count
     }
 
-    fn placed(model: &Model) -> &Placed {
+    fn defect(model: &Model) -> &SurfaceDefect {
         model.outer.defects.iter().next().unwrap()
     }
 
@@ -265,7 +265,7 @@ mod tests {
 
     /// How far the angle of element `j` is outside its cell [rad]; negative inside.
     fn outside(model: &Model, j: usize, cage_angle: f64, cell: u32) -> f64 {
-        let (knots, angle) = (placed(model).knots(), placed(model).angle(cage_angle + model.element_offset(j)));
+        let (knots, angle) = (defect(model).knots(), defect(model).angle(cage_angle + model.element_offset(j)));
         match cell {
             SMOOTH => (angle - knots[0]).min(knots[knots.len() - 1] - angle),
             cell => (knots[cell as usize] - angle).max(angle - knots[cell as usize + 1]),
@@ -287,7 +287,7 @@ mod tests {
             on_knot in prop::option::of((0..20usize, 0..9usize)),
         ) {
             let model = &*model();
-            let defect = placed(model);
+            let defect = defect(model);
             // Perhaps an element begins exactly on a knot.
             let start = on_knot.map_or(start, |(k, j)| {
                 defect.knots()[k % defect.knots().len()] + defect.centre - model.element_offset(j)
@@ -315,7 +315,7 @@ mod tests {
     #[test]
     fn a_knot_on_which_the_cage_turns_is_passed_both_ways_or_not_at_all() {
         let model = &*model();
-        let defect = placed(model);
+        let defect = defect(model);
         let mut passed = [0; 3];
         for (k, &knot) in defect.knots().iter().enumerate() {
             for way in [1.0, -1.0] {

@@ -51,5 +51,5 @@ pub mod workspace;
 pub use error::{SimulationError, VariableError};
 pub use instance::Simulation;
 pub use state::State;
-pub use stepping::{Look, StepUnderWay};
+pub use stepping::{Inspection, StepUnderWay};
 pub use switching::Method;

@@ -60,8 +60,8 @@ impl<'a> Outputs<'a> {
         let Solution { drive, tau, state, derivative, sensor_modes } = solution;
         model.begin(drive);
         let mut sensors = [0.0; MOST_SENSORS];
-        for (k, place) in model.layout.sensor_places().enumerate() {
-            sensors[k] = model.sensor_modes.measured(k, derivative[place + 1], sensor_modes);
+        for (k, i) in model.layout.sensor_indices().enumerate() {
+            sensors[k] = model.sensor_modes.measured(k, derivative[i + 1], sensor_modes);
         }
         Self {
             state,

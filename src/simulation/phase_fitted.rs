@@ -323,8 +323,8 @@ mod tests {
 
     impl RightHandSide for Lists {
         fn evaluate<S: Wide>(&mut self, _: S, _: usize, state: &[f64], ahead: Option<f64>, out: &mut [f64]) {
-            let places = (0..9).map(|j| (j, 16 + j)).chain([(32, 33), (34, 35)]);
-            for (x, v) in places {
+            let indices = (0..9).map(|j| (j, 16 + j)).chain([(32, 33), (34, 35)]);
+            for (x, v) in indices {
                 let moved = state[x] + ahead.unwrap_or(0.0) * state[v];
                 (out[x], out[v]) = (state[v], -self.0 * moved * (1.0 + x as f64));
             }

@@ -46,7 +46,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// A model's state at rest, with so many places for rows of the recorder.
+    /// A model's state at rest, with so many slots for rows of the recorder.
     pub fn new(model: &Model, under_way: usize) -> Self {
         let count = model.element_count;
         Self {

@@ -10,7 +10,7 @@
 
 use std::f64::consts::TAU;
 
-use super::decimation::{Decimation, HALF, Place, RATE_PER_PASS, UNDER_WAY, slot};
+use super::decimation::{Decimation, HALF, RATE_PER_PASS, RowPhase, UNDER_WAY, slot};
 use super::outputs::{Angles, Outputs};
 use super::quantity::Quantity;
 use super::setup::largest_force;
@@ -205,13 +205,13 @@ impl Recorder {
     pub(super) fn take(&mut self, due: &mut Due, under_way: &mut [f64], outputs: &Outputs) {
         let time = self.start_time + due.delay;
         if let Some(decimation) = &self.decimation {
-            let place = decimation.place(due.taken);
+            let at = decimation.row_phase(due.taken);
             let (vibrations, others) = self.signals.split_at(self.sample.len());
             fill(&mut self.sample, vibrations, outputs);
             // First the sums of what is filtered, then the time and the rest.
             let (sums, plain) = under_way.split_at_mut(UNDER_WAY * self.sample.len());
-            decimation.add(place, &self.sample, sums);
-            if let Place { row, phase: 0 } = place {
+            decimation.add(at, &self.sample, sums);
+            if let RowPhase { row, phase: 0 } = at {
                 let width = 1 + others.len();
                 let middle = &mut plain[slot(row) * width..][..width];
                 middle[0] = time;
@@ -233,10 +233,10 @@ impl Recorder {
     }
 }
 
-/// Puts the values of signals at an instant into as many places.
-fn fill(places: &mut [f64], signals: &[(u32, Quantity)], outputs: &Outputs) {
-    for (place, (_, quantity)) in places.iter_mut().zip(signals) {
-        *place = outputs.value(*quantity).unwrap_or(f64::NAN);
+/// Puts the values of signals at an instant into as many slots.
+fn fill(slots: &mut [f64], signals: &[(u32, Quantity)], outputs: &Outputs) {
+    for (slot, (_, quantity)) in slots.iter_mut().zip(signals) {
+        *slot = outputs.value(*quantity).unwrap_or(f64::NAN);
     }
 }
 

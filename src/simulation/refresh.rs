@@ -54,11 +54,11 @@ impl Simulation {
     /// The start is a static equilibrium: what rounding leaves of accelerations is none.
     fn rest(&mut self) {
         let layout = &self.model.layout;
-        for place in [layout.shaft, layout.housing].into_iter().flatten() {
-            self.derivative[place + 2..place + 4].fill(0.0);
+        for start in [layout.shaft, layout.housing].into_iter().flatten() {
+            self.derivative[start + 2..start + 4].fill(0.0);
         }
-        for place in layout.sensor_places() {
-            self.derivative[place + 1] = 0.0;
+        for i in layout.sensor_indices() {
+            self.derivative[i + 1] = 0.0;
         }
     }
 

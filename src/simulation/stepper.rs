@@ -103,7 +103,7 @@ impl Stepper<'_> {
         advance.tau = if h == target - tau { target } else { tau + h };
         let taken = self.progress.steps + self.progress.rejected_steps - advance.first_count;
         if taken > self.control.max_steps && !advance.is_done() {
-            // The accepted step's stages have been handed on: back for a look.
+            // The accepted step's stages have been handed on: back for an inspection.
             self.workspace.room.carry_over();
             return Err(StepError::TooManySteps {
                 steps: taken,
@@ -159,7 +159,7 @@ impl Stepper<'_> {
         workspace.first_stage(*problem, 0.0, progress);
         if progress.choice.stable_step == 0.0 && control.method != Method::Rodas {
             workspace.linearize(*problem, 0.0, progress);
-            progress.choice.look_first(&workspace.jacobian, control.method, control.tolerance);
+            progress.choice.check_first(&workspace.jacobian, control.method, control.tolerance);
         }
         workspace.pair = control.method.pair(control.tolerance, progress.choice.damped);
         Ok(())
@@ -354,7 +354,7 @@ impl Stepper<'_> {
             progress.choice.implicit_step(span.length, taken.tried, &workspace.jacobian, *method, *tolerance);
         } else if progress.choice.explicit_step(span.length, taken.tried, taken.short) {
             workspace.linearize(*problem, span.end(), progress);
-            progress.choice.look_explicit(&workspace.jacobian, *method, *tolerance);
+            progress.choice.check_explicit(&workspace.jacobian, *method, *tolerance);
         }
         workspace.pair = method.pair(*tolerance, progress.choice.damped);
     }

@@ -1,8 +1,8 @@
 //! A communication step, at once or one integration step after the other.
 //!
-//! Between two integration steps one may *look*: the simulation then stands where the step has come to, as if it ended
-//! there, and shows its outputs. Looking changes no bit of what follows, but for law `love`, whose contacts are solved
-//! anew from there on: equal within what the solver leaves. Whoever sets an input while looking ends the part of the
+//! Between two integration steps one may *inspect* it: the simulation then stands where the step has come to, as if it
+//! ended there, and shows its outputs. That changes no bit of what follows, but for law `love`, whose contacts are
+//! solved anew from there on: equal within what the solver leaves. Whoever sets an input meanwhile ends the part of the
 //! step before, and begins another with the inputs as they are.
 
 use super::advance::Advance;
@@ -20,7 +20,7 @@ use crate::dynamics::drive::{Drive, WholeAngle};
 /// Speeds of both rings, and position, velocity and acceleration of each along two axes.
 const MOST_INPUTS: usize = 2 + 2 * 6;
 
-/// Inputs with their derivatives; places beyond the last input are not used.
+/// Inputs with their derivatives; slots beyond the last input are not used.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct InputValues {
     values: [f64; MOST_INPUTS],
@@ -35,10 +35,10 @@ pub struct StepUnderWay {
     advance: Advance,
 }
 
-/// A look at where a step has come to: what the simulation has to forget of it.
+/// An inspection of where a step has come to: what the simulation has to forget of it.
 #[derive(Debug)]
 #[must_use = "the step goes on from `resume`"]
-pub struct Look {
+pub struct Inspection {
     time: f64,
     cage: WholeAngle,
     frames: [WholeAngle; 3],
@@ -109,21 +109,22 @@ impl Simulation {
     /// Stands where a step has come to, as it would if it ended there, except for what belongs to the step as a whole:
     /// mean forces and counts. Until [`resume`](Self::resume) outputs and their derivatives may be read and inputs be
     /// set, no more.
-    pub fn look(&mut self, under_way: &StepUnderWay) -> Look {
+    pub fn inspect(&mut self, under_way: &StepUnderWay) -> Inspection {
         let state = &self.state;
         let (time, cage, frames, ended) = (state.time, state.cage, state.frames, state.ended);
         let inputs = self.input_values();
         self.arrive(&under_way.drive, under_way.advance.tau);
-        Look { time, cage, frames, ended, inputs, arrived: self.input_values() }
+        Inspection { time, cage, frames, ended, inputs, arrived: self.input_values() }
     }
 
-    /// Ends a look. If inputs have been set to other values than the step had brought them to, they act from here on.
+    /// Ends an inspection. If inputs have been set to other values than the step had brought them to, they act from
+    /// here on.
     ///
     /// # Errors
     /// What cannot be integrated from here on.
-    pub fn resume(&mut self, under_way: &mut StepUnderWay, look: Look) -> Result<(), SimulationError> {
+    pub fn resume(&mut self, under_way: &mut StepUnderWay, inspection: Inspection) -> Result<(), SimulationError> {
         self.fresh = Fresh::State;
-        if self.input_values() != look.arrived && !under_way.is_done() {
+        if self.input_values() != inspection.arrived && !under_way.is_done() {
             let StepUnderWay { drive, control, advance } = &*under_way;
             self.stepper(drive, *control).finish_part(advance);
             let mut next = self.begin_step(advance.end - advance.tau)?;
@@ -133,9 +134,10 @@ impl Simulation {
         }
         let count = self.inputs.count;
         let state = &mut self.state;
-        (state.time, state.cage, state.frames, state.ended) = (look.time, look.cage, look.frames, look.ended);
-        state.reals[..count].copy_from_slice(&look.inputs.values[..count]);
-        state.input_rates.copy_from_slice(&look.inputs.rates[..count]);
+        (state.time, state.cage, state.frames, state.ended) =
+            (inspection.time, inspection.cage, inspection.frames, inspection.ended);
+        state.reals[..count].copy_from_slice(&inspection.inputs.values[..count]);
+        state.input_rates.copy_from_slice(&inspection.inputs.rates[..count]);
         // Whether anybody has read anything makes no difference.
         self.model.forget_contacts();
         Ok(())

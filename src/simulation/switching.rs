@@ -2,7 +2,7 @@
 //!
 //! All cost a known number of right-hand sides a step, so the best one is known as soon as the steps are. An explicit
 //! method can be *stable* up to h|λ| = r only, λ the fastest eigenvalue ([`Jacobian::fastest`]) and r the reach of its
-//! stability region in that direction. While it steps, its mean h|λ|/r is looked at now and then: near 1 it is
+//! stability region in that direction. While it steps, its mean h|λ|/r is checked now and then: near 1 it is
 //! stability that limits the step, and the implicit method is tried. While that steps, each of its steps stands for
 //! max(1, h|λ|/r) explicit ones; when these would be cheaper, or have not become dearer within the first few steps, the
 //! explicit method comes back and the next trial waits twice as long.
@@ -10,7 +10,7 @@
 //! Of the two explicit methods it is the phase-fitted one that steps where the tolerance is loose enough for its order
 //! and the fastest motion is not so strongly damped that Dormand–Prince's reaches as far.
 //!
-//! Explicit steps stay within h|λ| = r of the last look. Error control alone lets them swing across it, and what grows
+//! Explicit steps stay within h|λ| = r of the last check. Error control alone lets them swing across it, and what grows
 //! there before it is noticed is noise as large as the tolerance: in a healthy bearing several times all other errors.
 
 use super::pair::Pair;
@@ -53,7 +53,7 @@ impl Method {
         )
     }
 
-    /// The explicit method for a tolerance; `damped`: the last look found the fastest motion strongly damped.
+    /// The explicit method for a tolerance; `damped`: the last check found the fastest motion strongly damped.
     pub(super) fn pair(self, tolerance: f64, damped: bool) -> Pair {
         match self {
             Self::DormandPrince => Pair::DormandPrince,
@@ -69,41 +69,41 @@ impl Method {
 pub struct Choice {
     /// The implicit method steps.
     pub implicit: bool,
-    /// Steps tried since the last look.
+    /// Steps tried since the last check.
     pub tried: u32,
     /// Steps among them that error control ended; the others landed somewhere.
     pub limited: u32,
-    /// Time gained since the last look [s]; for the implicit method, explicit steps that this would have taken.
+    /// Time gained since the last check [s]; for the implicit method, explicit steps that this would have taken.
     pub gained: f64,
-    /// Looks that found stiffness but are still to be passed over.
+    /// Checks that found stiffness but are still to be passed over.
     pub wait: u32,
-    /// Looks that will be passed over after the next trial that fails.
+    /// Checks that will be passed over after the next trial that fails.
     pub patience: u32,
-    /// Longest explicit step that is stable by the fastest eigenvalue of the last look [s]; 0 before the first.
+    /// Longest explicit step that is stable by the fastest eigenvalue of the last check [s]; 0 before the first.
     pub stable_step: f64,
     /// The fastest motion was then so strongly damped that the phase-fitted method does not pay.
     pub damped: bool,
 }
 
-/// Steps between two looks of the explicit method: one Jacobian in 200 right-hand sides.
-const LOOK: u32 = 32;
+/// Steps between two checks of the explicit method: one Jacobian in 200 right-hand sides.
+const CHECK_INTERVAL: u32 = 32;
 /// Steps of a trial of the implicit method: they grow two- to fivefold each, so six show what it can do.
 const TRIAL: u32 = 6;
-/// Steps between two looks of the implicit method.
-const IMPLICIT_LOOK: u32 = 16;
+/// Steps between two checks of the implicit method.
+const IMPLICIT_CHECK_INTERVAL: u32 = 16;
 /// Explicit steps that cost as much as one implicit step; measured with nine elements: 4 in instructions with AVX2, 5.5
 /// in time with AVX-512.
 const COST: f64 = 5.0;
 /// Share of the stable step above which it is stability that limits. Error control lets the step swing below the limit.
 const NEAR_LIMIT: f64 = 0.5;
-/// Longest row of looks to be passed over.
+/// Longest row of checks to be passed over.
 const MOST_PATIENCE: u32 = 64;
 
 impl Choice {
-    /// Whether counting and deciding can have led here. What is tried beyond the next look is one step's trials, a
+    /// Whether counting and deciding can have led here. What is tried beyond the next check is one step's trials, a
     /// thousand at most: each shortens it by a tenth or more.
     pub(super) fn is_possible(&self) -> bool {
-        self.tried < LOOK + 1000
+        self.tried < CHECK_INTERVAL + 1000
             && self.limited <= self.tried.max(1)
             && self.gained >= 0.0
             && self.wait <= MOST_PATIENCE
@@ -112,23 +112,23 @@ impl Choice {
     }
 
     /// Notes a finished explicit step of length `h` [s] and how often it was tried. `landed`: something else than error
-    /// control ended it. Says whether it is time to look at the Jacobian.
+    /// control ended it. Says whether it is time to check the Jacobian.
     pub fn explicit_step(&mut self, h: f64, tried: u32, landed: bool) -> bool {
         self.tried += tried;
         self.limited += u32::from(!landed);
         self.gained += h;
-        self.tried >= LOOK
+        self.tried >= CHECK_INTERVAL
     }
 
-    /// Looks before the first step: a start at rest excites nothing, and error control alone would let steps grow far
+    /// Checks before the first step: a start at rest excites nothing, and error control alone would let steps grow far
     /// beyond what is stable before it notices.
-    pub fn look_first(&mut self, jacobian: &Jacobian, method: Method, tolerance: f64) {
+    pub fn check_first(&mut self, jacobian: &Jacobian, method: Method, tolerance: f64) {
         self.damped = is_damped(jacobian);
         self.stable_step = stable_step(jacobian, method.pair(tolerance, self.damped));
     }
 
     /// Decides after a row of explicit steps, between what there is to choose from.
-    pub fn look_explicit(&mut self, jacobian: &Jacobian, method: Method, tolerance: f64) {
+    pub fn check_explicit(&mut self, jacobian: &Jacobian, method: Method, tolerance: f64) {
         let mean = self.gained / f64::from(self.tried);
         let stiff = mean * rate_of_steps(jacobian, method.pair(tolerance, self.damped)) > NEAR_LIMIT;
         // Where most steps land on something, longer ones are of no use.
@@ -157,7 +157,7 @@ impl Choice {
         let pair = method.pair(tolerance, damped);
         self.tried += tried;
         self.gained += (h * rate_of_steps(jacobian, pair)).max(1.0);
-        if self.tried < if trial { TRIAL } else { IMPLICIT_LOOK } {
+        if self.tried < if trial { TRIAL } else { IMPLICIT_CHECK_INTERVAL } {
             return;
         }
         let pays = self.gained > COST * f64::from(self.tried);
@@ -289,7 +289,7 @@ mod tests {
     #[test]
     fn where_nothing_moves_by_itself_the_stable_step_is_a_number() {
         let mut choice = Choice::default();
-        choice.look_first(&Jacobian::with_fastest(0.0), Method::Automatic, 1e-5);
+        choice.check_first(&Jacobian::with_fastest(0.0), Method::Automatic, 1e-5);
         assert!(choice.stable_step.is_finite() && choice.is_possible());
         assert_eq!(choice.limited(1e-3), 1e-3);
     }
@@ -320,7 +320,7 @@ mod tests {
         let fast = Jacobian::with_fastest(1e8);
         let mut choice = Choice::default();
         while !choice.explicit_step(3e-8, 1, false) {}
-        choice.look_explicit(&fast, Method::Automatic, 1e-9);
+        choice.check_explicit(&fast, Method::Automatic, 1e-9);
         assert!(choice.implicit);
         for _ in 0..100 {
             choice.implicit_step(1e-6, 1, &fast, Method::Automatic, 1e-9);
@@ -334,7 +334,7 @@ mod tests {
         let mut choice = Choice::default();
         assert_eq!(choice.limited(1.0), 1.0);
         while !choice.explicit_step(1e-9, 1, false) {}
-        choice.look_explicit(&fast, Method::Automatic, 1e-9);
+        choice.check_explicit(&fast, Method::Automatic, 1e-9);
         let limit = 1.0 / rate_of_steps(&fast, Pair::DormandPrince);
         assert_eq!((choice.limited(1.0), choice.limited(0.5 * limit)), (limit, 0.5 * limit));
         assert_eq!(Choice { implicit: true, ..choice }.limited(1.0), 1.0);
@@ -345,7 +345,7 @@ mod tests {
         let fast = Jacobian::with_fastest(1e8);
         let mut choice = Choice::default();
         while !choice.explicit_step(3e-8, 1, true) {}
-        choice.look_explicit(&fast, Method::Automatic, 1e-9);
+        choice.check_explicit(&fast, Method::Automatic, 1e-9);
         assert!(!choice.implicit);
     }
 }

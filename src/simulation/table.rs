@@ -295,9 +295,9 @@ impl Builder<'_> {
         let motion = self.motion(ring);
         let mut pair = |suffix: &str, text: [&str; 2], quantity: fn(RingName, usize) -> Q, unit: Unit, nominal: f64| {
             for (axis, letter) in AXES.iter().enumerate() {
-                let place = suffix.replace('*', letter);
+                let suffix = suffix.replace('*', letter);
                 self.output(
-                    &[name, ".", &place].concat(),
+                    &[name, ".", &suffix].concat(),
                     &[text[0], " the ", what, " along ", letter, text[1]].concat(),
                     quantity(ring, axis),
                     unit,

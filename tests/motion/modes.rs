@@ -69,7 +69,7 @@ fn disturb(bearing: &mut Named, mode: &Mode, size: f64) {
             (moved[start + axis], moved[start + 2 + axis]) = (here[start + axis] + x, v);
         }
     }
-    for start in layout.sensor_places() {
+    for start in layout.sensor_indices() {
         let (y, v) = parts.next().unwrap();
         (moved[start], moved[start + 1]) = (here[start] + y, v);
     }

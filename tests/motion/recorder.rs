@@ -259,12 +259,12 @@ fn a_step_that_is_looked_at_and_parted_records_what_a_plain_one_does() {
                 let mut under_way = run.0.begin_step(1e-3).unwrap();
                 while !under_way.is_done() {
                     run.0.go_on(&mut under_way).unwrap();
-                    let look = run.0.look(&under_way);
+                    let inspection = run.0.inspect(&under_way);
                     let mut value = [0.0];
                     run.0.reals(&[speed], &mut value).unwrap();
                     run.0.get("sensor.acceleration").unwrap();
                     run.0.set_reals(&[speed], &[value[0] + nudge]).unwrap();
-                    run.0.resume(&mut under_way, look).unwrap();
+                    run.0.resume(&mut under_way, inspection).unwrap();
                 }
                 run.0.end_step(under_way);
             }

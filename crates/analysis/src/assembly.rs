@@ -203,7 +203,7 @@ impl Assembly {
             }
         }
         let sensors = &model.supports.sensors;
-        for (k, (sensor, start)) in sensors.iter().zip(layout.sensor_places()).enumerate() {
+        for (k, (sensor, start)) in sensors.iter().zip(layout.sensor_indices()).enumerate() {
             let name = match (sensors.len(), sensor.direction.x == 0.0) {
                 (1, true) => "sensor.y".to_owned(),
                 (1, false) => "sensor".to_owned(),

@@ -1,7 +1,7 @@
 //! A step that tells its host how far it has come: FMI 3.0's intermediate update, and the early return it may ask for.
 //!
 //! The host is called after each accepted integration step. It may read outputs as they are there and set inputs, which
-//! then act from there on. A run that is looked at so has the bits of one that is not, unless inputs are set (and but
+//! then act from there on. A run that is inspected so has the bits of one that is not, unless inputs are set (and but
 //! for law `love`, see `brinell::simulation::stepping`). An early return ends the step where the host was told, or at a
 //! later instant that it names, and that exactly.
 
@@ -33,12 +33,12 @@ pub(super) fn take_step(instance: &mut Borrowed, point: f64, step: f64) -> Resul
     let mut early = false;
     while !under_way.is_done() {
         instance.simulation.go_on(&mut under_way)?;
-        let look = instance.simulation.look(&under_way);
+        let inspection = instance.simulation.inspect(&under_way);
         let time = if under_way.is_done() && !early { whole.time } else { point + under_way.elapsed() };
         // Rounding may not lead beyond the step.
         let time = time.clamp(point, whole.time);
         let wanted = update(instance, Instants { from: point, time, to: whole.time }, under_way.is_done())?;
-        instance.simulation.resume(&mut under_way, look)?;
+        instance.simulation.resume(&mut under_way, inspection)?;
         if let Some(at) = wanted {
             under_way.bring_forward(at - point);
             early |= at < whole.time;

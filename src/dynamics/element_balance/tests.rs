@@ -136,8 +136,8 @@ fn the_rate_of_a_path_is_what_the_balance_moves_by() {
         let h = 2e-10;
         let moved = |sign: f64| {
             let mut state = state.clone();
-            for (place, rate) in state.iter_mut().zip(&rates).skip(2 * model.layout.radial_velocity) {
-                *place += sign * h * rate;
+            for (value, rate) in state.iter_mut().zip(&rates).skip(2 * model.layout.radial_velocity) {
+                *value += sign * h * rate;
             }
             case.at(sign * h, &state).1
         };
@@ -215,7 +215,7 @@ fn registers_of_every_width_give_the_same_bits() {
         let mut found = [false, true].map(|widest| {
             let (mut rates, mut forces) = (vec![0.0; state.len()], Forces::of(model));
             forces.enter(model, cells);
-            model.place_uneven(drive, &cage, &mut forces.elements);
+            model.update_uneven(drive, &cage, &mut forces.elements);
             let kernel =
                 SmoothElements::<true> { model, now: &now, stage: &stage, derivative: &mut rates, forces: &mut forces };
             let rings = if widest { dispatch(kernel) } else { kernel.run(Scalar256b) };

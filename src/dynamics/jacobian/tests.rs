@@ -73,14 +73,14 @@ pub(crate) fn lively_with(
             .map(|(side, back)| Defects::new(Frame::Spin, [near(side, true, towards - back - 0.1)]));
         own.push(DefectiveElement { element: 0, defects, mark: 0.0 });
     }
-    // Frames are looked at only where the scene says that something turns.
+    // Frames count only where the scene says that something turns.
     scene.defects[0].on = match bearer {
         Bearer::Ring(RacewaySide::Outer) => DefectOn::Outer,
         Bearer::Ring(RacewaySide::Inner) => DefectOn::Inner,
         Bearer::Element(_) => DefectOn::Element { element: 0, tilt: 0.0 },
     };
     let model = Model::new(&scene, rings, own);
-    let place = |start: f64| [Cubic([start, 2e-3, -3.0, 4e4]), Cubic([-start, -1e-3, 5.0, -7e4])];
+    let position = |start: f64| [Cubic([start, 2e-3, -3.0, 4e4]), Cubic([-start, -1e-3, 5.0, -7e4])];
     let load = |start: f64| [Quadratic([start, 2e4, 1e6]), Quadratic([-900.0, -4e4, 2e6])];
     let drive = Drive {
         cage_start: cage_angle,
@@ -91,8 +91,8 @@ pub(crate) fn lively_with(
             Turning::default(),
             Turning { start: 0.1, since: Quadratic([0.0, -1200.0, -9e4]) },
         ],
-        shaft: place(-1e-6),
-        housing: place(12e-6),
+        shaft: position(-1e-6),
+        housing: position(12e-6),
         shaft_load: load(100.0),
         housing_load: load(-30.0),
         film_speed: 700.0,

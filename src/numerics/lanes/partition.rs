@@ -34,7 +34,7 @@ impl Partition {
         self.len() == 0
     }
 
-    /// Treats all places.
+    /// Treats all slots.
     #[inline(always)]
     pub fn for_each<S: Wide, E: Each<I, 1>, const I: usize>(
         self,
@@ -52,7 +52,7 @@ impl Partition {
         Lists { from: after(from, self.third()), to: [rest] }.for_each(simd.quad(), self.rest, each, sum);
     }
 
-    /// Treats all places of lists that are only read.
+    /// Treats all slots of lists that are only read.
     #[inline(always)]
     pub fn read<S: Wide, E: Each<I, 0>, const I: usize>(self, simd: S, from: [&[f64]; I], each: &E, sum: &mut E::Sum) {
         Lists { from, to: [] }.for_each(simd, self.third(), each, sum);
