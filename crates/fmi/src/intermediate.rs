@@ -1,7 +1,7 @@
 //! A step that tells its host how far it has come: FMI 3.0's intermediate update, and the early return it may ask for.
 //!
 //! The host is called after each accepted integration step. It may read outputs as they are there and set inputs, which
-//! then act from there on. A run that is looked at so has the bits of one that is not, unless inputs are set (and but
+//! then act from there on. A run that is observed so has the bits of one that is not, unless inputs are set (and but
 //! for law `love`, see `brinell::simulation::stepping`). An early return ends the step where the host was told, or at a
 //! later instant that it names, and that exactly.
 
@@ -78,7 +78,7 @@ fn update(instance: &mut Borrowed, at: Instants, is_done: bool) -> Result<Option
         instance.lend(|| {
             let (wanted, at) = (&raw mut wanted, &raw mut at);
             // SAFETY: the host promises a callable function for as long as the instance lives (FMI 3.0,
-            // fmi3InstantiateCoSimulation); the places are ours and outlive the call.
+            // fmi3InstantiateCoSimulation); the variables are ours and outlive the call.
             unsafe { callback(environment, time, may_set.into(), 1, 1, can_return.into(), wanted, at) };
         });
     });
