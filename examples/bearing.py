@@ -239,27 +239,27 @@ class Bearing(Instance):
         self.state = fmi2FMUstate()
         self.enter(start)
 
-    def force_at(self, place):
+    def force_at(self, position):
         """During initialization: the static force on the shaft, elements and housing in balance."""
-        self.write(["shaft.x", "shaft.y"], place)
+        self.write(["shaft.x", "shaft.y"], position)
         return self.read(["shaft.force.x", "shaft.force.y"])
 
     def rest(self, load):
-        """During initialization: moves the shaft to where the bearing carries `load` and gives that place.
+        """During initialization: moves the shaft to where the bearing carries `load` and gives that position.
 
         Newton with differences of 1 nm: the force is convex in the approach, so that from deep in contact the
         way goes downhill. A housing on springs may yield a lot: 0.1 mm of approach are enough for some 1000 N.
         """
-        place = 1e-4 * np.asarray(load) / np.linalg.norm(load)
+        position = 1e-4 * np.asarray(load) / np.linalg.norm(load)
         for _ in range(100):
-            force = self.force_at(place)
-            slope = np.column_stack([(self.force_at(place + d) - force) / 1e-9 for d in 1e-9 * np.eye(2)])
+            force = self.force_at(position)
+            slope = np.column_stack([(self.force_at(position + d) - force) / 1e-9 for d in 1e-9 * np.eye(2)])
             change = np.linalg.solve(slope, -(force + load))
-            place = place + change
+            position = position + change
             if np.linalg.norm(change) < 1e-12:
-                self.force_at(place)
-                return place
-        raise RuntimeError(f"no place found where the bearing carries {load} N")
+                self.force_at(position)
+                return position
+        raise RuntimeError(f"no position found where the bearing carries {load} N")
 
     def linear(self):
         """Stiffness and damping matrices for small motion about the present state.
@@ -277,12 +277,12 @@ class Bearing(Instance):
             damping += 0.5 * chi * force * np.outer(normal, normal)
         return stiffness, damping
 
-    def advance(self, place, velocity, acceleration, length):
-        """One step of `length` [s]; within it the shaft goes on from `place` with `velocity` and `acceleration`.
+    def advance(self, position, velocity, acceleration, length):
+        """One step of `length` [s]; within it the shaft goes on from `position` with `velocity` and `acceleration`.
 
         Gives the force on the shaft: its mean over the step, and at the end, where the shaft is then.
         """
-        self.motion.array[:] = *place, *velocity, *acceleration
+        self.motion.array[:] = *position, *velocity, *acceleration
         slave = self.slave
         try:
             slave.fmi2SetReal(*self.motion.arguments)

@@ -4,8 +4,8 @@
     python examples/coupling_error.py [--short]
 
 Hosts: a mass of 3 kg on one bearing, the rigid rotor of step_by_step.py, the ROSS rotor. The error is that of the
-shaft's place in the bearing, rms over rms of its motion, against the same host with two passes and a fine step. A spall
-magnifies small differences: the FMU's tolerance is 1e-8 here, so that the coupling's error is seen alone.
+shaft's position in the bearing, rms over rms of its motion, against the same host with two passes and a fine step. A
+spall magnifies small differences: the FMU's tolerance is 1e-8 here, so that the coupling's error is seen alone.
 """
 
 import argparse
@@ -35,7 +35,7 @@ def plain(fmu, h, stop, passes=1, hold=False):
         rise = np.clip(t * SPEED / (2 * np.pi), 0.0, 1.0)
         return 50.0 * rise**2 * (3 - 2 * rise) * np.array([np.cos(SPEED * t), np.sin(SPEED * t)]) - [0.0, LOAD]
 
-    places = [q[1]]
+    positions = [q[1]]
     for count in range(round(stop / h)):
         t = count * h
         if hold:
@@ -46,9 +46,9 @@ def plain(fmu, h, stop, passes=1, hold=False):
             loads = load(t), load(t + 0.5 * h), load(t + h)
             q, v, force = step_by_step.one_step([bearing], masses, resist, loads, (q, v, force), h, passes)
         check(q, t)
-        places.append(q[1])
+        positions.append(q[1])
     bearing.close()
-    return np.array(places)
+    return np.array(positions)
 
 
 def rigid(fmus, h, stop, passes):
@@ -66,7 +66,7 @@ def check(q, t):
 
 
 def hosts(healthy, fmu):
-    """Names, and functions of step and end that give the shaft's place in the bearing `fmu`."""
+    """Names, and functions of step and end that give the shaft's position in the bearing `fmu`."""
     return {
         "3 kg, all held": lambda h, stop: plain(fmu, h, stop, hold=True),
         "3 kg, 1 pass": lambda h, stop: plain(fmu, h, stop, 1),

@@ -154,7 +154,7 @@ class Lateral:
         self.size = len(rows)
 
     def nodes(self, nodes):
-        """Places of x and y of nodes, one after the other."""
+        """Indices of x and y of nodes, one after the other."""
         return np.array([4 * n + axis for n in nodes for axis in (0, 1)], dtype=int)
 
 
@@ -187,9 +187,9 @@ class Coupled:
             self.fmus.append(Bearing(fmu, f"bearing at node {node}", told))
         self.load = self.carried(machine, speed)
         loads = self.load.reshape(-1, 2)
-        places = [fmu.rest(load) for fmu, load in zip(self.fmus, loads)]
-        self.place = np.concatenate(places)
-        self.rest_force = np.concatenate([fmu.force_at(place) for fmu, place in zip(self.fmus, places)])
+        positions = [fmu.rest(load) for fmu, load in zip(self.fmus, loads)]
+        self.position = np.concatenate(positions)
+        self.rest_force = np.concatenate([fmu.force_at(position) for fmu, position in zip(self.fmus, positions)])
         self.coefficients = [fmu.linear() for fmu in self.fmus]
         self.stand_in(True)
         for fmu in self.fmus:
@@ -215,17 +215,17 @@ class Coupled:
             self.stiffness[2 * i : 2 * i + 2, 2 * i : 2 * i + 2] = k
             self.damping[2 * i : 2 * i + 2, 2 * i : 2 * i + 2] = c
 
-    def tell(self, place, velocity, acceleration, h):
+    def tell(self, position, velocity, acceleration, h):
         """Steps the FMUs; their forces beyond the stand-ins': mean over the step, and at the end."""
-        there, mean, end = self.place + place, np.empty_like(place), np.empty_like(place)
+        there, mean, end = self.position + position, np.empty_like(position), np.empty_like(position)
         for i, fmu in enumerate(self.fmus):
             own = slice(2 * i, 2 * i + 2)
             mean[own], end[own] = fmu.advance(there[own], velocity[own], acceleration[own], h)
-        mean_place = place + h * (velocity / 2 + h * acceleration / 6)
+        mean_position = position + h * (velocity / 2 + h * acceleration / 6)
         mean_velocity = velocity + h * acceleration / 2
-        end_place, end_velocity = place + h * (velocity + h * acceleration / 2), velocity + h * acceleration
-        mean += self.stiffness @ mean_place + self.damping @ mean_velocity - self.rest_force
-        end += self.stiffness @ end_place + self.damping @ end_velocity - self.rest_force
+        end_position, end_velocity = position + h * (velocity + h * acceleration / 2), velocity + h * acceleration
+        mean += self.stiffness @ mean_position + self.damping @ mean_velocity - self.rest_force
+        end += self.stiffness @ end_position + self.damping @ end_velocity - self.rest_force
         return mean, end
 
     def see(self, names):
@@ -244,10 +244,10 @@ def with_ross(machine, fmus, speed, h, stop, seen=(), tolerance=1e-5, stand_in=T
     rotor = with_bearings(machine.rotor, machine.nodes, coupled.coefficients if stand_in else ())
     t = h * np.arange(round(stop / h) + 1)
     force = np.zeros((len(t), rotor.ndof))
-    places = lambda n: [rotor.number_dof * n, rotor.number_dof * n + 1]  # noqa: E731
+    indices = lambda n: [rotor.number_dof * n, rotor.number_dof * n + 1]  # noqa: E731
     for n, drive in machine.forces.items():
-        force[:, places(n)] += drive(t, speed).T
-    node = np.concatenate([places(n) for n in machine.nodes])
+        force[:, indices(n)] += drive(t, speed).T
+    node = np.concatenate([indices(n) for n in machine.nodes])
     rows, given = [coupled.see(seen)], []
 
     def beyond(step, time_step, disp_resp, velc_resp, accl_resp):

@@ -162,7 +162,7 @@ def main():
         took[name] = round(time.perf_counter() - begin, 2)
         if asked:
             written.append(signal_table.write(f"{stem}-{name}", options.format, columns_of(runs[name], asked)))
-    # Of an element over a place on the outer ring, per shaft turn.
+    # Of an element over a point on the outer ring, per shaft turn.
     passage = 9 * runs["spalled"].outputs[0]["cage.speed"][0] / speed
     draw(bearing, disk, runs, passage, h, options.speed, settle, stem)
     found = summary(bearing, runs, passage, h, options.speed, settle)

@@ -8,8 +8,8 @@ spall of 15.8 degrees. It carries 1000 N, and from 0.2 s on 600 N more. Each bea
 takes the shaft's motion and gives the force on the shaft; its housing stands on springs and carries a sensor.
 
 One communication step of length h, bearings first:
-  1. each FMU goes on with the shaft's place, velocity and acceleration a₀, and gives the force's mean over the step and
-     its value at the end, and the tangent stiffness K;
+  1. each FMU goes on with the shaft's position, velocity and acceleration a₀, and gives the force's mean over the step
+     and its value at the end, and the tangent stiffness K;
   2. the mean acceleration A: the shaft goes elsewhere than it told the FMU, by (A − a₀)h²/12 on average if the
      acceleration changes linearly, and K says what force that makes: (M + h²/12 K) A = mean forces + h²/12 K a₀;
   3. the force at the end is corrected likewise, and from a₀, A and the acceleration at the end a₁ follow
@@ -17,7 +17,7 @@ One communication step of length h, bearings first:
 With --passes 2 the FMUs go back to the step's start and repeat it on the way just found.
 For constant K this conserves energy, its error is of fourth order, and it is stable to ωh = 2 with one pass.
 
-Coordinates: the shaft's places q = (x, y) of the left and (x, y) of the right bearing.
+Coordinates: the shaft's positions q = (x, y) of the left and (x, y) of the right bearing.
 """
 
 import argparse
@@ -36,7 +36,7 @@ LOAD, MORE, LATER = 1000.0, 600.0, 0.2  # N, N, s; down, at the centre of mass
 DAMPING = 1376.8  # N s/m on the shaft at each bearing: what published models of such rigs assume
 GRAVITY = 9.81
 
-# Weights of left and right bearing in the place of the centre of mass; the rotor's tilt is (right − left)/LENGTH.
+# Weights of left and right bearing in the position of the centre of mass; the rotor's tilt is (right − left)/LENGTH.
 AT_CENTRE = np.array([1 - CENTRE / LENGTH, CENTRE / LENGTH])
 TILT = np.array([-1.0, 1.0]) / LENGTH
 PLANE = MASS * np.outer(AT_CENTRE, AT_CENTRE) + INERTIA * np.outer(TILT, TILT)
@@ -79,7 +79,7 @@ def one_step(bearings, masses, resist, loads, state, h, passes):
 
 
 def simulate(fmus, step, passes, stop, seen=(), tolerance=1e-5):
-    """Runs the rotor. Gives time, places, forces of both bearings, and the right bearing's outputs named in `seen`."""
+    """Runs the rotor. Gives time, positions, forces of both bearings, and the right bearing's outputs in `seen`."""
     start = {"shaft.speed": SPEED, "housing.load.x": 0.0, "housing.load.y": 0.0, "solver.tolerance": tolerance}
     bearings = [Bearing(fmu, name, start) for fmu, name in zip(fmus, ("left", "right"))]
     load = outer_load(0.0)
@@ -112,7 +112,7 @@ def fmus_in(folder):
 def draw(rows, seen, step, passes, stem):
     from figures import BLACK, BLUE, GREEN, ORANGE, legend, plots, save
 
-    t, places, forces = rows[:, 0], rows[:, 1:5], rows[:, 5:9]
+    t, positions, forces = rows[:, 0], rows[:, 1:5], rows[:, 5:9]
     spalled = dict(zip(seen, rows[:, 9:].T))
     figure, axes = plots(4, 9, sharex=True)
     axes[0].plot(t, [-outer_load(when)[1::2].sum() for when in t], color=BLACK)
@@ -123,8 +123,8 @@ def draw(rows, seen, step, passes, stem):
     axes[1].plot(t, forces[:, 1], color=BLUE, label="left, healthy", linewidth=0.8)
     axes[1].plot(t, forces[:, 3], color=ORANGE, label="right, spalled", linewidth=0.8)
     axes[1].set_ylabel("bearing's force on\nthe shaft, y (N)")
-    axes[2].plot(t, places[:, 1] * 1e6, color=BLUE, label="left, healthy")
-    axes[2].plot(t, places[:, 3] * 1e6, color=ORANGE, label="right, spalled")
+    axes[2].plot(t, positions[:, 1] * 1e6, color=BLUE, label="left, healthy")
+    axes[2].plot(t, positions[:, 3] * 1e6, color=ORANGE, label="right, spalled")
     axes[2].set_ylabel("place of the\nshaft, y (µm)")
     axes[3].plot(t, spalled["sensor.acceleration"], color=GREEN, linewidth=0.7)
     axes[3].set_ylabel("sensor on the\nright, y (m/s²)")
@@ -148,9 +148,9 @@ def main():
     rows = simulate(fmus, options.step, options.passes, options.stop, seen)
     took = time.perf_counter() - begin
     stem = options.output / "step_by_step"
-    places = [f"{side}.{axis} [m]" for side in ("left", "right") for axis in "xy"]
+    positions = [f"{side}.{axis} [m]" for side in ("left", "right") for axis in "xy"]
     forces = [f"{side}.force.{axis} [N]" for side in ("left", "right") for axis in "xy"]
-    header = ",".join(["time [s]", *places, *forces, *(f"right.{name} [m/s2]" for name in seen)])
+    header = ",".join(["time [s]", *positions, *forces, *(f"right.{name} [m/s2]" for name in seen)])
     with whole(stem.with_suffix(".csv")) as part:
         np.savetxt(part, rows, delimiter=",", header=header, comments="", fmt="%.9g")
     draw(rows, seen, options.step, options.passes, stem)

@@ -171,11 +171,11 @@ class Unit(Instance):
 
     def tell(self, values, slopes=None):
         self.inputs.array[:] = values
-        component, references, count, place = self.inputs.arguments
-        self.call(self.slave.fmi2SetReal, component, references, count, place)
+        component, references, count, pointer = self.inputs.arguments
+        self.call(self.slave.fmi2SetReal, component, references, count, pointer)
         if slopes is not None:
             self.inputs.array[:] = slopes
-            self.call(self.slave.fmi2SetRealInputDerivatives, component, references, count, self.orders, place)
+            self.call(self.slave.fmi2SetRealInputDerivatives, component, references, count, self.orders, pointer)
 
 
 def ours(kind, told):

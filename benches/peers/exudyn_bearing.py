@@ -56,14 +56,14 @@ def bearing():
     CreateBallBearing(mbs, data, inner, outer, DENSITY, DENSITY, cageInitialAngularVelocity=[0, 0, cage],
                       ballsInitialAngularVelocity=[0, 0, spin], gravity=gravity, springStiffnessCage=1e5,
                       springDampingCage=1e2, contactParametersRingBalls=contact)
-    place = mbs.AddSensor(SensorBody(bodyNumber=shaft, storeInternal=True,
-                                     outputVariableType=exu.OutputVariableType.Position))
+    position = mbs.AddSensor(SensorBody(bodyNumber=shaft, storeInternal=True,
+                                        outputVariableType=exu.OutputVariableType.Position))
     mbs.Assemble()
-    return mbs, place
+    return mbs, position
 
 
 def run(step, stop):
-    mbs, place = bearing()
+    mbs, position = bearing()
     settings = exu.SimulationSettings()
     settings.solution.file.write = False
     settings.solution.sensors.writePeriod = step
@@ -76,7 +76,7 @@ def run(step, stop):
     start = time.process_time()
     mbs.SolveDynamic(settings)
     seconds = time.process_time() - start
-    rows = mbs.GetSensorStoredData(place)
+    rows = mbs.GetSensorStoredData(position)
     late = rows[len(rows) // 2:, 2]
     return seconds / stop, late.mean(), late.std()
 

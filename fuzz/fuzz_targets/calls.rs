@@ -63,7 +63,7 @@ impl Run<'_> {
     fn make(&mut self, call: &Call) {
         match *call {
             Call::Save | Call::SaveOver(_) | Call::Restore(_) | Call::Free(_) => self.keep(call),
-            Call::Bytes(number, place, flip) => self.serialize(number, place, flip),
+            Call::Bytes(number, offset, flip) => self.serialize(number, offset, flip),
             Call::Derivatives(..) | Call::Directional(..) => self.differentiate(call),
             Call::Status(which, kind) => self.ask(which, kind),
             Call::Null(which) => self.null(which),
@@ -193,7 +193,7 @@ impl Run<'_> {
         }
     }
 
-    fn serialize(&mut self, number: u8, place: u16, flip: u8) {
+    fn serialize(&mut self, number: u8, offset: u16, flip: u8) {
         let (c, picked) = (self.c, self.pick(number));
         unsafe {
             let mut size = 0;
@@ -202,7 +202,7 @@ impl Run<'_> {
             }
             let mut bytes = vec![0u8; size];
             assert_eq!(fmi2SerializeFMUstate(c, picked, bytes.as_mut_ptr().cast(), size), Status::Ok);
-            bytes[usize::from(place) % size] ^= flip;
+            bytes[usize::from(offset) % size] ^= flip;
             let mut state = ptr::null_mut();
             let status = fmi2DeSerializeFMUstate(c, bytes.as_ptr().cast(), size, &mut state);
             assert_eq!(status == Status::Ok, flip == 0);

@@ -12,16 +12,16 @@ const RACEWAY: f64 = 23.6e-3;
 
 fuzz_target!(|data: &[u8]| {
     if ContactMap::from_bytes(data, 0).is_ok() {
-        look(data);
+        check(data);
     }
     let mut bytes = b"BRNL-MAP\x01\0\0\0".to_vec();
     bytes.extend_from_slice(&[0; 8]);
     bytes.extend_from_slice(data);
     bytes.extend_from_slice(&brinell_fuzz::checksum(&bytes).to_le_bytes());
-    look(&bytes);
+    check(&bytes);
 });
 
-fn look(bytes: &[u8]) {
+fn check(bytes: &[u8]) {
     let Ok(map) = ContactMap::from_bytes(bytes, 0) else { return };
     let near = NearDefect::Map(NearMap::new(Arc::new(map), RACEWAY));
     let knots = near.knots().to_vec();

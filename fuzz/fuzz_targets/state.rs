@@ -42,7 +42,7 @@ impl Fixture {
         }
     }
 
-    fn look(&self, bytes: &[u8]) {
+    fn check(&self, bytes: &[u8]) {
         let mut state = ptr::null_mut();
         unsafe {
             if fmi2DeSerializeFMUstate(self.c, bytes.as_ptr().cast(), bytes.len(), &mut state) == Status::Ok {
@@ -64,17 +64,17 @@ fuzz_target!(|data: &[u8]| {
     FIXTURES.with(|fixtures| {
         // One spall of the outer raceway; defects of all bodies, an outer ring that turns, an irregular cage.
         for fixture in fixtures.get_or_init(|| [0, 3].map(Fixture::new)) {
-            fixture.look(data);
+            fixture.check(data);
             let mut bytes = fixture.good.clone();
             let length = bytes.len();
-            // Eight bytes over a field, at the place that the two before them name.
+            // Eight bytes over a field, at the offset that the two before them name.
             for change in data.chunks_exact(10) {
-                let place = usize::from(u16::from_le_bytes([change[0], change[1]])) % (length - CHECKED_FROM - 8);
-                bytes[CHECKED_FROM + place..][..8].copy_from_slice(&change[2..]);
+                let offset = usize::from(u16::from_le_bytes([change[0], change[1]])) % (length - CHECKED_FROM - 8);
+                bytes[CHECKED_FROM + offset..][..8].copy_from_slice(&change[2..]);
             }
             let sum = checksum(&bytes[CHECKED_FROM..]);
             bytes[CHECKSUM..CHECKED_FROM].copy_from_slice(&sum.to_le_bytes());
-            fixture.look(&bytes);
+            fixture.check(&bytes);
         }
     });
 });

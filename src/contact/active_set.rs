@@ -17,7 +17,7 @@ use super::{
     cholesky::Cholesky,
     error::ContactError,
     half_space::KernelTable,
-    row_pairs::{CellPlace, Image, Loaded, RowPairs, SEGMENT},
+    row_pairs::{CellIndex, Image, Loaded, RowPairs, SEGMENT},
     soft_edges::{SoftEdge, WindowEdge},
 };
 
@@ -64,7 +64,7 @@ pub struct ActiveSet {
     edges: Vec<WindowEdge>,
     factor: Cholesky,
     factored: Vec<Run>,
-    /// The factor holds for this place only.
+    /// The factor holds for this position only.
     factored_there: bool,
     runs: Vec<Run>,
     state: Vec<State>,
@@ -258,8 +258,8 @@ impl ActiveSet {
         }
     }
 
-    /// The factor of another place serves as well: only differences of columns matter, unless there is a left and a
-    /// right, or an edge is felt.
+    /// The factor of another position serves as well: only differences of columns matter, unless there is a left and
+    /// a right, or an edge is felt.
     fn same_set(&self) -> bool {
         let shift = match (self.runs.first(), self.factored.first()) {
             (Some(a), Some(b)) => a.first - b.first,
@@ -303,8 +303,8 @@ impl ActiveSet {
                         }
                     }
                     for edge in felt(&self.edges).filter(|edge| edge.bears(from)) {
-                        let place = |row: usize, column: i32| CellPlace { row, column };
-                        let image = edge.on(place(target.row, to), length, place(source.row, from));
+                        let cell = |row: usize, column: i32| CellIndex { row, column };
+                        let image = edge.on(cell(target.row, to), length, cell(source.row, from));
                         for (out, image) in out[image.skip..].iter_mut().zip(image.values) {
                             *out += image;
                         }

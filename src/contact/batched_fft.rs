@@ -41,7 +41,8 @@ struct Stage {
 pub(super) struct BatchedFft {
     length: usize,
     stages: Vec<Stage>,
-    place: Vec<usize>,
+    /// Where the forward transform leaves each frequency.
+    slots: Vec<usize>,
 }
 
 /// The smallest length that is at least `least`, a multiple of four, and a product of twos, threes and fives.
@@ -65,7 +66,7 @@ impl BatchedFft {
     /// Plan for a length from [`good_length`].
     pub(super) fn new(length: usize) -> Self {
         let mut stages = Vec::new();
-        let mut place = vec![0; length];
+        let mut slots = vec![0; length];
         let (mut block, mut weight) = (length, 1);
         while block > 1 {
             let radix = [4, 2, 3, 5].into_iter().find(|r| block.is_multiple_of(*r)).unwrap_or(block);
@@ -79,13 +80,13 @@ impl BatchedFft {
                 part,
                 turns: (0..part).flat_map(|q| (1..radix).map(move |k| turn(q, k))).collect(),
             });
-            for (frequency, place) in place.iter_mut().enumerate() {
-                *place += frequency / weight % radix * part;
+            for (frequency, slot) in slots.iter_mut().enumerate() {
+                *slot += frequency / weight % radix * part;
             }
             weight *= radix;
             block = part;
         }
-        Self { length, stages, place }
+        Self { length, stages, slots }
     }
 
     /// Length of the sequences.
@@ -94,8 +95,8 @@ impl BatchedFft {
     }
 
     /// Where the forward transform leaves each frequency.
-    pub(super) fn place(&self) -> &[usize] {
-        &self.place
+    pub(super) fn slots(&self) -> &[usize] {
+        &self.slots
     }
 
     /// Forward transform in place; with `HALF` the second half of `data` is not read.
@@ -332,7 +333,7 @@ mod tests {
             let mut data = input.clone();
             plan.forward::<_, false>(Scalar::new(), &mut data);
             for frequency in 0..length {
-                let found = data[plan.place()[frequency]];
+                let found = data[plan.slots()[frequency]];
                 let [mut re, mut im] = [0.0; 2];
                 for (i, x) in input.iter().enumerate() {
                     let (s, c) = (-TAU * ((i * frequency) % length) as f64 / length as f64).sin_cos();

@@ -26,12 +26,12 @@ struct Filter {
     rows: usize,
     along: BatchedFft,
     across: BatchedFft,
-    /// Places of each frequency along the rows and of its negative, in the order of the places: neighbours in memory
+    /// Slots of each frequency along the rows and of its negative, in the order of the slots: neighbours in memory
     /// are worked on together.
     pairs: Vec<[(usize, usize); LANES]>,
-    /// Over the normalisation: `[eight pairs x × length y + place y]`.
+    /// Over the normalisation: `[eight pairs x × length y + slot y]`.
     spectrum: Vec<[f64; LANES]>,
-    /// `[(sixteen rows) × length x + place x]`.
+    /// `[(sixteen rows) × length x + slot x]`.
     by_rows: Vec<Eight>,
     /// Eight frequencies x over all rows.
     by_columns: Vec<Eight>,
@@ -41,9 +41,9 @@ impl Filter {
     /// A filter of yet empty spectrum on `columns` × `rows` values, of the periods `along` × `across`.
     fn new(columns: usize, rows: usize, along: usize, across: usize) -> Self {
         let along = BatchedFft::new(along);
-        let (length, place) = (along.length(), along.place());
+        let (length, slots) = (along.length(), along.slots());
         let mut list: Vec<_> = (0..=length / 2)
-            .map(|f| (place[f], place[(length - f) % length]))
+            .map(|f| (slots[f], slots[(length - f) % length]))
             .map(|(a, b)| (a.min(b), a.max(b)))
             .collect();
         list.sort_unstable();

@@ -159,8 +159,8 @@ impl GridProblem {
         Ok(Self { columns, rows, cell, effective_modulus, gap, border })
     }
 
-    /// A problem from its gap h(x, y) [m], a function of the place relative to the grid's middle [m]; the rest as for
-    /// [`GridProblem::new`].
+    /// A problem from its gap h(x, y) [m], a function of the position relative to the grid's middle [m]; the rest as
+    /// for [`GridProblem::new`].
     ///
     /// A cell's gap is halfway between that at its centre and its mean over the cell (four points of Gauss's rule).
     /// With the centre's, the force on a paraboloid of contact radius a is 0.06 (cell/a)² too high, with the mean 0.065

@@ -16,7 +16,7 @@ use super::{
     flat_stretches::{Flat, check_ends, flats, reach, shallowest},
     love::LoveContact,
     map::{Accuracy, ContactMap, Patch, Stretch, Strip},
-    map_cells::{Cells, FINEST, Key, LEVELS, Node, Place},
+    map_cells::{Cells, FINEST, Key, LEVELS, Node, NodeIndex},
     map_checks::{Check, Error, summary},
     map_specification::{MapSpecification, Runner},
     patch_plan::{LOWEST, PatchPlan, Reference},
@@ -178,27 +178,27 @@ impl MapPlan {
                 stale.extend(patch.cells.assemble().into_iter().map(|key| (p, key)));
             }
             let map = self.map();
-            let fresh: Vec<(usize, Key)> = stale.iter().copied().filter(|place| !checks.contains_key(place)).collect();
+            let fresh: Vec<(usize, Key)> = stale.iter().copied().filter(|cell| !checks.contains_key(cell)).collect();
             let jobs: Vec<&[(usize, Key)]> = fresh.chunks(JOB).collect();
             let found = runner.run(jobs.len(), &|job| self.checks(jobs[job]))?;
             checks.extend(fresh.iter().copied().zip(found.into_iter().flatten()));
-            for place in stale {
-                let found = checks.get(&place).map_or(&[][..], Vec::as_slice);
+            for cell in stale {
+                let found = checks.get(&cell).map_or(&[][..], Vec::as_slice);
                 let largest = self.specification.largest_approach;
                 let found = found.iter().map(|check| check.error(&map, largest, &|approach| self.grown(approach)));
                 let found = found.collect::<Result<Vec<_>, _>>()?;
-                errors.insert(place, found.into_iter().flatten().collect());
+                errors.insert(cell, found.into_iter().flatten().collect());
             }
             let is_leaf = |(p, key): &(usize, Key)| self.patches[*p].cells.leaves.contains(key);
-            errors.retain(|place, _| is_leaf(place));
-            checks.retain(|place, _| is_leaf(place));
-            // Better than asked for: the checks do not hit the worst place, least of all in large cells.
+            errors.retain(|cell, _| is_leaf(cell));
+            checks.retain(|cell, _| is_leaf(cell));
+            // Better than asked for: the checks do not hit the worst point, least of all in large cells.
             let limit = |key: &Key| if key.level < 2 { 0.5 } else { 0.8 } * self.specification.accuracy;
             let far = |found: &[Error], limit: f64| found.iter().flatten().any(|e| e.abs() > limit);
             let mut poor: Vec<(usize, Key)> = errors
                 .iter()
                 .filter(|((_, key), found)| key.level < LEVELS && far(found, limit(key)))
-                .map(|(&place, _)| place)
+                .map(|(&cell, _)| cell)
                 .collect();
             let accuracy = summary(&errors);
             let mean = MEAN * self.specification.accuracy;
@@ -208,7 +208,7 @@ impl MapPlan {
                 poor = errors
                     .iter()
                     .filter(|((_, key), found)| key.level < LEVELS && far(found, share(key)))
-                    .map(|(&place, _)| place)
+                    .map(|(&cell, _)| cell)
                     .collect();
             }
             if poor.is_empty() {
@@ -250,7 +250,7 @@ impl MapPlan {
         Ok(())
     }
 
-    /// Coarse nodes above one place, up to the largest approach.
+    /// Coarse nodes above one arc, up to the largest approach.
     fn column(&self, patch: &PatchPlan, k: usize) -> Result<Vec<Node>, ContactError> {
         self.with_contact(|contact| {
             let mut nodes = Vec::new();
@@ -275,7 +275,7 @@ impl MapPlan {
         done
     }
 
-    fn node(&self, patch: &PatchPlan, contact: &mut LoveContact, (i, j): Place) -> Result<Node, ContactError> {
+    fn node(&self, patch: &PatchPlan, contact: &mut LoveContact, (i, j): NodeIndex) -> Result<Node, ContactError> {
         let height = patch.height(j as f64);
         if patch.flat(i).is_some() {
             return Ok([height, 0.0, 1.0, 0.0]);
@@ -286,18 +286,18 @@ impl MapPlan {
     }
 
     fn solve_missing(&mut self, runner: &mut impl Runner) -> Result<(), ContactError> {
-        let missing: Vec<(usize, Place)> = (0..self.patches.len())
-            .flat_map(|p| self.patches[p].cells.missing().into_iter().map(move |place| (p, place)))
+        let missing: Vec<(usize, NodeIndex)> = (0..self.patches.len())
+            .flat_map(|p| self.patches[p].cells.missing().into_iter().map(move |index| (p, index)))
             .collect();
-        let jobs: Vec<&[(usize, Place)]> = missing.chunks(JOB).collect();
+        let jobs: Vec<&[(usize, NodeIndex)]> = missing.chunks(JOB).collect();
         let solved = runner.run(jobs.len(), &|job| {
             let node =
-                |contact: &mut LoveContact, (p, place): (usize, Place)| self.node(&self.patches[p], contact, place);
+                |contact: &mut LoveContact, (p, index): (usize, NodeIndex)| self.node(&self.patches[p], contact, index);
             self.with_contact(|contact| jobs[job].iter().map(|&one| node(contact, one)).collect())
         })?;
         let solved: Vec<Node> = solved.into_iter().flat_map(|nodes: Vec<Node>| nodes).collect();
-        for ((p, place), node) in missing.into_iter().zip(solved) {
-            self.patches[p].cells.nodes.insert(place, node);
+        for ((p, index), node) in missing.into_iter().zip(solved) {
+            self.patches[p].cells.nodes.insert(index, node);
         }
         Ok(())
     }
@@ -338,7 +338,7 @@ impl MapPlan {
             let patch = &self.patches[p];
             let side = (FINEST >> level) as f64;
             let mut found = Vec::new();
-            // Places by additive recurrence: they fill the cells evenly as these go by.
+            // Points by additive recurrence: they fill the cells evenly as these go by.
             let n = (i * 31 + j * 17) as f64;
             let (q, t) = ((n * 0.754_877_666).fract(), (n * 0.569_840_291).fract());
             let shifts = [(0.0, 0.0), (0.5, 0.5), (0.0, 0.5), (0.5, 0.0)];

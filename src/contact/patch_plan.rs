@@ -34,7 +34,7 @@ impl PatchPlan {
         self.start + self.cells.size[0] * self.cells.rows.len() as f64
     }
 
-    /// The reference at a place along the lattice.
+    /// The reference at a lattice index along the raceway.
     pub(super) fn reference(&self, i: usize) -> Reference {
         let strip = (i / FINEST).min(self.references.len() - 1);
         let q = (i - strip * FINEST) as f64 / FINEST as f64;
@@ -54,7 +54,7 @@ impl PatchPlan {
         c0 + q * (c1 + q * (c2 + q * c3))
     }
 
-    /// Height [m] above the reference path at a place along the lattice.
+    /// Height [m] above the reference path at a lattice index along the path.
     pub(super) fn height(&self, j: f64) -> f64 {
         (LOWEST + j / FINEST as f64) * self.cells.size[1]
     }
@@ -68,7 +68,7 @@ impl PatchPlan {
         }
     }
 
-    /// Depth [m] of the flat stretch that begins or ends at a place along the lattice.
+    /// Depth [m] of the flat stretch that begins or ends at a lattice index along the raceway.
     pub(super) fn flat(&self, i: usize) -> Option<f64> {
         self.flat_of(i, self.references.len() * FINEST)
     }

@@ -30,7 +30,7 @@ pub struct RigidPath {
     pieces: Vec<Piece>,
 }
 
-/// Place of the path at one angle.
+/// The path and its derivatives at one angle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PathPoint {
     /// P [m], positive outwards.

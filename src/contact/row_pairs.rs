@@ -34,9 +34,9 @@ impl Mirror {
     }
 }
 
-/// A cell of a window.
+/// Row and column of a cell in a window.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct CellPlace {
+pub(super) struct CellIndex {
     pub(super) row: usize,
     pub(super) column: i32,
 }
@@ -63,7 +63,7 @@ pub(super) trait Image {
     fn bears(&self, column: i32) -> bool;
 
     /// Influence of the cell `source`, which is of that raceway, on `length` cells of a row from `first` on.
-    fn on(&self, first: CellPlace, length: usize, source: CellPlace) -> Influence<'_>;
+    fn on(&self, first: CellIndex, length: usize, source: CellIndex) -> Influence<'_>;
 }
 
 /// Influence of rows of cells on each other, the mirrored half added.
@@ -128,7 +128,7 @@ impl RowPairs {
         Arch::new().dispatch(Deflect { pairs: self, mirror_x, edges, runs, pressure, row, firsts, out });
     }
 
-    /// Line of the kernel between two rows; difference 0 is at place `reach` − 1.
+    /// Line of the kernel between two rows; difference 0 is at index `reach` − 1.
     #[inline(always)]
     pub(super) fn pair(&self, j: usize, k: usize) -> &[f64] {
         let index = if self.mirrored { j * self.rows + k } else { j.abs_diff(k) };
@@ -209,9 +209,9 @@ impl<'e, I: Image + 'e, E: Iterator<Item = &'e I> + Clone> Deflect<'_, E> {
                     }
                 }
                 for edge in self.edges.clone().filter(|edge| edge.bears(from)) {
-                    let source = CellPlace { row: run.row, column: from };
+                    let source = CellIndex { row: run.row, column: from };
                     for (sum, first) in sums.iter_mut().zip(firsts) {
-                        let image = edge.on(CellPlace { row: self.row, column: first }, SEGMENT, source);
+                        let image = edge.on(CellIndex { row: self.row, column: first }, SEGMENT, source);
                         for (sum, image) in sum[image.skip..].iter_mut().zip(image.values) {
                             *sum = image.mul_add(p, *sum);
                         }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::edge_softness::StepImage;
 use super::half_space::KernelTable;
-use super::row_pairs::{CellPlace, Image, Influence, Mirror, RowPairs};
+use super::row_pairs::{CellIndex, Image, Influence, Mirror, RowPairs};
 
 /// An edge of the raceway on a grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -90,7 +90,7 @@ impl Image for SoftEdge {
     }
 
     #[inline(always)]
-    fn on(&self, first: CellPlace, length: usize, source: CellPlace) -> Influence<'_> {
+    fn on(&self, first: CellIndex, length: usize, source: CellIndex) -> Influence<'_> {
         let (border, to, from) = (self.edge.border, first.column, source.column);
         let inside = (border - to).clamp(0, length as i32) as usize;
         let (skip, end) = if self.edge.below { (0, inside) } else { (inside, length) };

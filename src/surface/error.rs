@@ -1,4 +1,4 @@
-//! What can be wrong with a measured surface. Each message gives the line or place, the value and the limit.
+//! What can be wrong with a measured surface. Each message gives the line or position, the value and the limit.
 
 /// A measured surface that cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -117,9 +117,9 @@ pub enum SurfaceError {
         /// What is wrong with it.
         why: &'static str,
     },
-    /// A topography that gives one place twice.
+    /// A topography that gives one point twice.
     #[error("defect profile, line {line}: the point arc_mm = {arc_mm}, axial_mm = {axial_mm} is given a second time")]
-    RepeatedPlace {
+    RepeatedPoint {
         /// The line.
         line: usize,
         /// Arc [mm].

@@ -2,7 +2,7 @@
 //! grid.
 //!
 //! With the hat functions N of the grid lines, h(s, y) = Σ_ij N_i(s) N_j(y) h_ij. The mean over a cell is a sum of
-//! products of the hats' integrals, so it is exact, whatever the cell's place and size. Outside the grid h = 0, by a
+//! products of the hats' integrals, so it is exact, whatever the cell's position and size. Outside the grid h = 0, by a
 //! vertical edge where the border is not at depth 0: a patch must be at least as wide as the contact, or end on smooth
 //! raceway.
 //!
@@ -32,7 +32,7 @@ impl Topography {
     /// line, lines in any order; `#` begins a comment line.
     ///
     /// # Errors
-    /// An empty file, missing or unknown columns, values that are no finite numbers, fewer than two grid lines, a place
+    /// An empty file, missing or unknown columns, values that are no finite numbers, fewer than two grid lines, a point
     /// that is missing or given twice.
     pub fn from_csv(text: &str) -> Result<Self, SurfaceError> {
         let rows = csv::read(text, [ARC, AXIAL, DEPTH])?;
@@ -41,16 +41,15 @@ impl Topography {
         let needed = arcs.len() * axials.len();
         // A file of scattered points has almost as many grid lines as points: no grid is laid out for it.
         let mut depths = vec![f64::NAN; if rows.len() < needed { 0 } else { needed }];
-        let place = |arc: f64, axial: f64| {
+        let index = |arc: f64, axial: f64| {
             let row = arcs.partition_point(|&value| value < arc);
             row * axials.len() + axials.partition_point(|&value| value < axial)
         };
         if depths.is_empty() {
-            let mut taken: Vec<usize> = rows.iter().map(|row| place(row.values[0], row.values[1])).collect();
+            let mut taken: Vec<usize> = rows.iter().map(|row| index(row.values[0], row.values[1])).collect();
             taken.sort_unstable();
             taken.dedup();
-            let hole =
-                taken.iter().enumerate().find(|(index, place)| index != *place).map_or(taken.len(), |(index, _)| index);
+            let hole = taken.iter().enumerate().find(|(k, index)| k != *index).map_or(taken.len(), |(k, _)| k);
             return Err(SurfaceError::Hole {
                 arc_mm: arcs[hole / axials.len()],
                 axial_mm: axials[hole % axials.len()],
@@ -62,9 +61,9 @@ impl Topography {
         }
         for row in &rows {
             let [arc_mm, axial_mm, depth_um] = row.values;
-            let depth = &mut depths[place(arc_mm, axial_mm)];
+            let depth = &mut depths[index(arc_mm, axial_mm)];
             if !depth.is_nan() {
-                return Err(SurfaceError::RepeatedPlace { line: row.line, arc_mm, axial_mm });
+                return Err(SurfaceError::RepeatedPoint { line: row.line, arc_mm, axial_mm });
             }
             *depth = depth_um / 1e6;
         }
@@ -179,7 +178,7 @@ fn grid_lines(values: impl Iterator<Item = f64>, column: &'static str) -> Result
     Ok(lines)
 }
 
-/// The grid interval that holds a coordinate and the place within it, from 0 to 1.
+/// The grid interval that holds a coordinate and the position within it, from 0 to 1.
 fn locate(lines: &[f64], value: f64) -> Option<(usize, f64)> {
     let last = lines.len() - 1;
     if !(lines[0]..=lines[last]).contains(&value) {

@@ -91,12 +91,12 @@ pub(super) unsafe fn store_all<T: Copy>(name: &'static str, pointer: *mut T, val
     Ok(())
 }
 
-/// A place for the handle of a state, which holds NULL or an earlier one. A state itself is no place.
+/// The handle of a state at a host's address, NULL or an earlier one. A state itself is no address.
 ///
 /// # Safety
 /// If `pointer` is neither null, misaligned nor a state, it points to a handle, which may have any value and which
 /// nobody else touches during the call.
-pub(super) unsafe fn place_of_state<'a>(pointer: *mut FmuState) -> Result<&'a mut FmuState, Failure> {
+pub(super) unsafe fn state_handle<'a>(pointer: *mut FmuState) -> Result<&'a mut FmuState, Failure> {
     const NAME: &str = "FMUstate";
     if snapshots::is_handle(pointer.addr()) {
         return Err(Failure::NotAnAddress(NAME));
@@ -162,7 +162,7 @@ mod tests {
             assert!(matches!(array_mut::<f64>("value", ptr::null_mut(), 1), Err(Failure::NullPointer("value"))));
             assert!(matches!(store_all("value", ptr::null_mut(), &[1.0]), Err(Failure::NullPointer("value"))));
             assert!(matches!(store("value", ptr::null_mut(), 1.0), Err(Failure::NullPointer("value"))));
-            assert!(matches!(place_of_state(ptr::null_mut()), Err(Failure::NullPointer("FMUstate"))));
+            assert!(matches!(state_handle(ptr::null_mut()), Err(Failure::NullPointer("FMUstate"))));
             assert!(matches!(string("name", ptr::null()), Err(Failure::NullPointer("name"))));
         }
     }

@@ -58,8 +58,8 @@ pub type Bool = u8;
 pub type LogMessageCallback = unsafe extern "C-unwind" fn(ComponentEnvironment, Status, FmiString, FmiString);
 
 /// `fmi3IntermediateUpdateCallback`: environment, time, whether inputs are asked for, whether outputs may be read,
-/// whether the integration step is accepted, whether an early return is possible; then the places for whether one is
-/// wanted, and at which time.
+/// whether the integration step is accepted, whether an early return is possible; then where to write whether one
+/// is wanted, and at which time.
 pub type IntermediateUpdateCallback =
     unsafe extern "C-unwind" fn(ComponentEnvironment, f64, Bool, Bool, Bool, Bool, *mut Bool, *mut f64);
 

@@ -70,7 +70,7 @@ pub(super) enum Failure {
         /// Number needed.
         needed: usize,
     },
-    /// Another number of places than there are dependencies.
+    /// Arrays of another length than there are dependencies.
     #[error("{name} = {given}: the variable has {needed} dependencies now")]
     DependencyCount {
         /// The argument.

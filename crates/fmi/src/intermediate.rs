@@ -78,7 +78,7 @@ fn update(instance: &mut Borrowed, at: Instants, is_done: bool) -> Result<Option
         instance.lend(|| {
             let (wanted, at) = (&raw mut wanted, &raw mut at);
             // SAFETY: the host promises a callable function for as long as the instance lives (FMI 3.0,
-            // fmi3InstantiateCoSimulation); the places are ours and outlive the call.
+            // fmi3InstantiateCoSimulation); the variables are ours and outlive the call.
             unsafe { callback(environment, time, may_set.into(), 1, 1, can_return.into(), wanted, at) };
         });
     });

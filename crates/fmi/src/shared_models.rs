@@ -5,7 +5,7 @@
 //!
 //! Models are the same if their GUIDs are, a hash of scene and profile, and the labels of their maps. What is told
 //! apart so cheaply is checked as a whole only when it is read first: a copy of a map that is damaged in its middle is
-//! not looked at while an instance that uses a sound one lives.
+//! not checked while an instance that uses a sound one lives.
 //!
 //! A model goes with its last user, and the list with the last model, so nothing is left when the library is unloaded.
 

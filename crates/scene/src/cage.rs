@@ -9,8 +9,8 @@ pub struct Cage {
     pub slip: f64,
     /// The elements' lag behind the spin of pure rolling.
     pub spin_slip: f64,
-    /// Angle of element 1 at the start [rad], counter-clockwise from +x; in an irregular cage that of its place in an
-    /// even one.
+    /// Angle of element 1 at the start [rad], counter-clockwise from +x; in an irregular cage that of its position
+    /// in an even one.
     pub initial_angle: f64,
     /// What makes passages uneven; `None` for an even cage that turns evenly.
     pub irregularity: Option<CageIrregularity>,
@@ -21,7 +21,7 @@ pub struct Cage {
 pub struct CageIrregularity {
     /// Angle of each element ahead of even spacing [rad], their sum 0.
     pub offsets: Vec<f64>,
-    /// Root mean square of each element's stationary motion about its place [rad].
+    /// Root mean square of each element's stationary motion about its position [rad].
     pub jitter: f64,
     /// Root mean square of the slow part of slip, as a share of the cage's speed.
     pub wander: f64,

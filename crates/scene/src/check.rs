@@ -26,15 +26,15 @@ use std::f64::consts::{PI, TAU};
 /// Smallest clearance over element diameter; see the head of this file.
 const SMALLEST_RELATIVE_CLEARANCE: f64 = -0.0075;
 
-/// Offset and jitter of an element from its place in an even cage, as a share of the spacing, at most: what is farther
-/// off is no place in a pocket.
+/// Offset and jitter of an element from its position in an even cage, as a share of the spacing, at most: what is
+/// farther off is not in its pocket.
 const FARTHEST: f64 = 0.25;
 
 impl Scene {
     /// Checks every physical quantity.
     ///
     /// # Errors
-    /// All quantities that are outside their limits. What follows from one that is wrong is not looked at.
+    /// All quantities that are outside their limits. What follows from one that is wrong is not checked.
     pub fn check(&self) -> Result<(), SceneError> {
         let mut faults = Faults::default();
         faults.passes(check_name(&self.name));

@@ -58,7 +58,7 @@ pub struct DefectLimit {
     pub what: &'static str,
 }
 
-/// Part of the way around its body beyond which a defect of the inner ring or of an element is none of one place.
+/// Part of the way around its body beyond which a defect of the inner ring or of an element is not local.
 const LONGEST: f64 = 0.9;
 /// Part of an element's radius beyond which a hole in it leaves no half-space.
 const DEEPEST: f64 = 0.2;

@@ -48,11 +48,11 @@ mod defects;
 mod film;
 mod keys;
 mod kinds;
+mod locations;
 mod mended;
 mod not_modelled;
 mod one_or_more;
 mod pair;
-mod places;
 mod reading;
 mod rings;
 #[cfg(feature = "schema")]

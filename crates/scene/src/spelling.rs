@@ -20,7 +20,7 @@ pub fn nearest<'k>(known: impl IntoIterator<Item = &'k str>, word: &str) -> Opti
     (far <= LETTER * (wanted.chars().count() / 3).max(1)).then_some(nearest)
 }
 
-/// What a letter counts that is put in, left out or exchanged for another; two that have changed places count less.
+/// What a letter counts that is put in, left out or exchanged for another; two that are swapped count less.
 const LETTER: usize = 2;
 const SWAP: usize = 1;
 

@@ -17,7 +17,7 @@ macro_rules! not_provided {
         /// A function of model exchange: always an error.
         ///
         /// # Safety
-        /// `c` may be any value; the other arguments are not looked at.
+        /// `c` may be any value; the other arguments are not read.
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $name(c: Component, $(_: $argument),*) -> Status {
             const FUNCTION: &Function = &Function { name: stringify!($name), version: Version::Fmi2, allowed: ALWAYS };

@@ -6,7 +6,7 @@ use std::ptr;
 
 use super::functions;
 use super::types::{Byte, Component, FmuState, Status};
-use crate::arguments::{array, disjoint, place_of_state, store, store_all};
+use crate::arguments::{array, disjoint, state_handle, store, store_all};
 use crate::blob;
 use crate::boundary;
 use crate::failure::Failure;
@@ -21,7 +21,7 @@ pub unsafe extern "C" fn fmi2GetFMUstate(c: Component, FMUstate: *mut FmuState) 
     boundary::call(c, &functions::GET_FMU_STATE, |instance| {
         // SAFETY: this function's contract; null and misaligned pointers are refused. The handle itself may be any
         // value.
-        let handle = unsafe { place_of_state(FMUstate)? };
+        let handle = unsafe { state_handle(FMUstate)? };
         *handle = instance.save(*handle)?;
         Ok(())
     })
@@ -52,7 +52,7 @@ pub unsafe extern "C" fn fmi2FreeFMUstate(c: Component, FMUstate: *mut FmuState)
             return Err(Failure::FreedByValue);
         }
         // SAFETY: this function's contract; misaligned pointers are refused. The handle itself may be any value.
-        let handle = unsafe { place_of_state(FMUstate)? };
+        let handle = unsafe { state_handle(FMUstate)? };
         if !handle.is_null() {
             instance.snapshots.free(*handle)?;
             *handle = ptr::null_mut();
@@ -110,7 +110,7 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
         disjoint(serializedState, size, FMUstate, 1)?;
         // SAFETY: this function's contract; null, misaligned and overlapping pointers are refused. The handle itself
         // may be any value.
-        let handle = unsafe { place_of_state(FMUstate)? };
+        let handle = unsafe { state_handle(FMUstate)? };
         // SAFETY: as above.
         let bytes = unsafe { array("serializedState", serializedState.cast::<u8>(), size)? };
         let snapshot = blob::decode(bytes, instance.model.guid(), &instance.simulation)?;

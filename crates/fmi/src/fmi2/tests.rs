@@ -106,7 +106,7 @@ fn an_instance_lives_through_raw_pointers_and_memory_that_is_not_initialised() {
     let c = resources.instance("life");
     start(c);
     let mut state = ptr::null_mut();
-    // SAFETY: the arrays are as long as said, places are for one value.
+    // SAFETY: the arrays are as long as said, the pointers are to one value each.
     unsafe {
         assert_eq!(fmi2GetFMUstate(c, &raw mut state), Status::Ok);
         assert_eq!(fmi2DoStep(c, 0.0, 1e-6, TRUE), Status::Ok);

@@ -25,7 +25,7 @@ macro_rules! absent {
         /// There are no variables of this type.
         ///
         /// # Safety
-        /// `valueReferences` is null, or points to `nValueReferences` elements; the rest is not looked at.
+        /// `valueReferences` is null, or points to `nValueReferences` elements; the rest is not read.
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $get(
             instance: Instance,
@@ -45,7 +45,7 @@ macro_rules! absent {
         /// There are no variables of this type.
         ///
         /// # Safety
-        /// `valueReferences` is null, or points to `nValueReferences` elements; the rest is not looked at.
+        /// `valueReferences` is null, or points to `nValueReferences` elements; the rest is not read.
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $set(
             instance: Instance,

@@ -27,10 +27,10 @@ fn dependencies(instance: &instance::Instance, reference: ValueReference) -> Res
     let initial = matches!(instance.mode, Mode::Instantiated | Mode::Initialization);
     let all = instance.simulation.dependencies();
     let of_row = |row: &u32| {
-        let element = addressing.place_of(*row).element;
+        let element = addressing.element_index(*row).element;
         let found = all.iter().find(|of| of.output == *row);
         let known = found.map_or(&[][..], |of| if initial { &of.initial } else { &of.direct });
-        let on = move |&known: &u32| Dependency { element, independent: addressing.place_of(known).reference };
+        let on = move |&known: &u32| Dependency { element, independent: addressing.element_index(known).reference };
         known.iter().map(on).collect::<Vec<_>>()
     };
     Ok(rows.iter().flat_map(of_row).collect())
@@ -56,7 +56,7 @@ pub unsafe extern "C" fn fmi3GetNumberOfVariableDependencies(
 /// `fmi3GetVariableDependencies`.
 ///
 /// # Safety
-/// The arrays are null, or have `nDependencies` places.
+/// The arrays are null, or have `nDependencies` elements.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetVariableDependencies(
     instance: Instance,
@@ -73,10 +73,10 @@ pub unsafe extern "C" fn fmi3GetVariableDependencies(
             let (name, given, needed) = ("nDependencies", nDependencies, found.len());
             return Err(Failure::DependencyCount { name, given, needed });
         }
-        let (places, references): (Vec<_>, Vec<_>) = found.iter().map(|of| (of.element, of.independent)).unzip();
+        let (elements, references): (Vec<_>, Vec<_>) = found.iter().map(|of| (of.element, of.independent)).unzip();
         // SAFETY: this function's contract; null and misaligned arrays are refused.
         unsafe {
-            store_all("elementIndicesOfDependent", elementIndicesOfDependent, &places)?;
+            store_all("elementIndicesOfDependent", elementIndicesOfDependent, &elements)?;
             store_all("independents", independents, &references)?;
             store_all("elementIndicesOfIndependents", elementIndicesOfIndependents, &vec![0; nDependencies])?;
             store_all("dependencyKinds", dependencyKinds, &vec![DEPENDENT; nDependencies])

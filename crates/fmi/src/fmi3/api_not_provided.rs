@@ -19,7 +19,7 @@ macro_rules! not_provided {
         /// A function that is not provided: always an error.
         ///
         /// # Safety
-        /// `instance` may be any value; the other arguments are not looked at.
+        /// `instance` may be any value; the other arguments are not read.
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $name(instance: Instance, $(_: $argument),*) -> Status {
             const FUNCTION: &Function =

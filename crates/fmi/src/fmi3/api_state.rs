@@ -6,7 +6,7 @@ use std::ptr;
 
 use super::functions;
 use super::types::{FmuState, Instance, Status};
-use crate::arguments::{array, disjoint, place_of_state, store, store_all};
+use crate::arguments::{array, disjoint, state_handle, store, store_all};
 use crate::blob;
 use crate::boundary;
 use crate::failure::Failure;
@@ -21,7 +21,7 @@ pub unsafe extern "C" fn fmi3GetFMUState(instance: Instance, FMUState: *mut FmuS
     boundary::call(instance, &functions::GET_FMU_STATE, |instance| {
         // SAFETY: this function's contract; null and misaligned pointers are refused. The handle itself may be any
         // value.
-        let handle = unsafe { place_of_state(FMUState)? };
+        let handle = unsafe { state_handle(FMUState)? };
         *handle = instance.save(*handle)?;
         Ok(())
     })
@@ -52,7 +52,7 @@ pub unsafe extern "C" fn fmi3FreeFMUState(instance: Instance, FMUState: *mut Fmu
             return Err(Failure::FreedByValue);
         }
         // SAFETY: this function's contract; misaligned pointers are refused. The handle itself may be any value.
-        let handle = unsafe { place_of_state(FMUState)? };
+        let handle = unsafe { state_handle(FMUState)? };
         if !handle.is_null() {
             instance.snapshots.free(*handle)?;
             *handle = ptr::null_mut();
@@ -114,7 +114,7 @@ pub unsafe extern "C" fn fmi3DeserializeFMUState(
         disjoint(serializedState, size, FMUState, 1)?;
         // SAFETY: this function's contract; null, misaligned and overlapping pointers are refused. The handle itself
         // may be any value.
-        let handle = unsafe { place_of_state(FMUState)? };
+        let handle = unsafe { state_handle(FMUState)? };
         // SAFETY: as above.
         let bytes = unsafe { array("serializedState", serializedState, size)? };
         let snapshot = blob::decode(bytes, instance.model.guid(), &instance.simulation)?;

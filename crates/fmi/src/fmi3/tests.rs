@@ -89,12 +89,12 @@ fn reference(name: &str) -> u32 {
     table.iter().find(|(row, _)| row.name == name).unwrap().0.reference
 }
 
-/// A step into places that nobody has written; whether it returned early, and when.
+/// A step into memory that nobody has written; whether it returned early, and when.
 fn step(c: Instance, point: f64, size: f64) -> (bool, f64) {
     let mut flags = [MaybeUninit::<Bool>::uninit(); 3];
     let mut time = MaybeUninit::<f64>::uninit();
     let [event, end, early] = flags.each_mut().map(MaybeUninit::as_mut_ptr);
-    // SAFETY: places for one value each, written under OK.
+    // SAFETY: memory for one value each, written under OK.
     unsafe {
         assert_eq!(fmi3DoStep(c, point, size, TRUE, event, end, early, time.as_mut_ptr()), Status::Ok);
         (flags[2].assume_init() != FALSE, time.assume_init())
@@ -114,9 +114,9 @@ fn arrays_states_and_derivatives_go_into_memory_that_is_not_initialised() {
         assert!(values.iter().all(|value| value.assume_init().is_finite()));
         let (force, speed, seed) = (reference("element[1].force.inner"), 0, 1.0);
         let mut changes = [MaybeUninit::<f64>::uninit(); 3];
-        let place = changes.as_mut_ptr().cast();
+        let values = changes.as_mut_ptr().cast();
         let status =
-            fmi3GetDirectionalDerivative(c, &raw const force, 1, &raw const speed, 1, &raw const seed, 1, place, 3);
+            fmi3GetDirectionalDerivative(c, &raw const force, 1, &raw const speed, 1, &raw const seed, 1, values, 3);
         assert_eq!(status, Status::Ok);
         assert!(changes.iter().all(|change| change.assume_init().is_finite()));
         let mut state = ptr::null_mut();
@@ -155,8 +155,8 @@ fn a_host_calls_back_into_its_instance_while_a_step_is_under_way() {
         wanted: *mut Bool,
         at: *mut f64,
     ) {
-        // SAFETY: the environment is the host below, which is not used while a step is under way; the places are the
-        // FMU's.
+        // SAFETY: the environment is the host below, which is not used while a step is under way; the pointers are
+        // the FMU's.
         unsafe {
             let host = &mut *environment.cast::<Host>();
             let mut values = [0.0; 3];

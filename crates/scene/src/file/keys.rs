@@ -1,8 +1,8 @@
 //! What is wrong with the keys of a scene file. Asked only of a file that was refused.
 
 use super::kinds::{Keys, TableOf};
+use super::locations::{Found, Location};
 use super::not_modelled::instead_of;
-use super::places::{Found, Place};
 use super::tables::{path, tables};
 use super::values;
 use crate::key_fault::{Hint, KeyFault};
@@ -38,16 +38,16 @@ const ROLLER_LENGTH: &str = "roller_length_mm";
 /// A fault, and the keys that cannot be relied on because of it.
 pub(super) struct Finding {
     pub(super) fault: KeyFault,
-    pub(super) spoils: Vec<(Place, String)>,
+    pub(super) spoils: Vec<(Location, String)>,
 }
 
-/// Faults of a table's keys and of its values by themselves; `line` is that of a place in the text.
+/// Faults of a table's keys and of its values by themselves; `line` is that of an offset in the text.
 pub(super) fn of_table(of: &TableOf, found: &Found<'_, '_>, line: &dyn Fn(usize) -> usize) -> Vec<Finding> {
-    let (name, keys, table, place) = (of.name, of.keys, found.table, found.place);
+    let (name, keys, table, location) = (of.name, of.keys, found.table, found.location);
     let head = found.at.map_or(0, line);
     let mut findings = Vec::new();
     let mut tell = |fault: KeyFault, spoilt: &[&str]| {
-        let spoils = spoilt.iter().map(|key| (place, (*key).to_owned())).collect();
+        let spoils = spoilt.iter().map(|key| (location, (*key).to_owned())).collect();
         findings.push(Finding { fault, spoils });
     };
     // What is there under another spelling is not missing as well.
@@ -190,7 +190,7 @@ mod tests {
             assert!(!keys.is_empty() || ["", "probe"].contains(name), "[{name}]");
         }
         for key in tables[0].keys.iter().filter(|key| !["name", "description", "gravity_m_s2"].contains(key)) {
-            assert!(tables.iter().any(|table| table.name == *key), "[{key}] is not looked at");
+            assert!(tables.iter().any(|table| table.name == *key), "[{key}] is not checked");
         }
         for table in &tables {
             for key in table.keys {

@@ -1,8 +1,8 @@
-//! A scene file without what is wrong with it: what was left out is looked away from, and the rest can be checked.
+//! A scene file without what is wrong with it: what was left out is ignored, and the rest can be checked.
 
 use super::super::{Scene, SceneError};
 use super::SceneFile;
-use super::places::{Place, at_mut, table_mut};
+use super::locations::{Location, at_mut, table_mut};
 use super::written;
 use std::borrow::Cow;
 use toml::Spanned;
@@ -47,7 +47,7 @@ const DIMENSIONS: [&str; 6] =
 /// The file as far as it is right, and what was left out.
 pub(super) struct Mended<'t> {
     file: Spanned<DeTable<'t>>,
-    spoilt: Vec<(Place, String)>,
+    spoilt: Vec<(Location, String)>,
 }
 
 impl<'t> Mended<'t> {
@@ -57,29 +57,29 @@ impl<'t> Mended<'t> {
     }
 
     /// Leaves a key out. Whether it was not left out before.
-    pub(super) fn spoil(&mut self, place: Place, key: &str) -> bool {
-        if self.is_spoilt(place, key) {
+    pub(super) fn spoil(&mut self, location: Location, key: &str) -> bool {
+        if self.is_spoilt(location, key) {
             return false;
         }
-        if let Some(table) = at_mut(self.file.get_mut(), place) {
+        if let Some(table) = at_mut(self.file.get_mut(), location) {
             table.remove(key);
         }
-        self.spoilt.push((place, key.to_owned()));
+        self.spoilt.push((location, key.to_owned()));
         true
     }
 
     /// Whether a key was left out, or all of its table.
-    pub(super) fn is_spoilt(&self, place: Place, key: &str) -> bool {
-        let outer = place.table.split('.').next().unwrap_or_default();
-        let is_it = |(at, left_out): &(Place, String)| {
-            (*at == place && left_out == key) || (at.table.is_empty() && !outer.is_empty() && left_out == outer)
+    pub(super) fn is_spoilt(&self, location: Location, key: &str) -> bool {
+        let outer = location.table.split('.').next().unwrap_or_default();
+        let is_it = |(at, left_out): &(Location, String)| {
+            (*at == location && left_out == key) || (at.table.is_empty() && !outer.is_empty() && left_out == outer)
         };
         self.spoilt.iter().any(is_it)
     }
 
     /// Whether something was left out that the bearing's dimensions are from.
     pub(super) fn lacks_dimensions(&self) -> bool {
-        let bearing = Place { table: "bearing", number: [0; 2] };
+        let bearing = Location { table: "bearing", number: [0; 2] };
         DIMENSIONS.iter().any(|key| self.is_spoilt(bearing, key))
     }
 

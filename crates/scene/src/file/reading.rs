@@ -5,8 +5,8 @@
 //! fault that speaks of what was left out follows from it and is not told.
 
 use super::keys::{Finding, of_table};
+use super::locations::{Location, all_of, named};
 use super::mended::Mended;
-use super::places::{Place, all_of, named};
 use super::tables::{path, tables};
 use super::values::numbers;
 use crate::key_fault::KeyFault;
@@ -17,15 +17,15 @@ use toml::de::{DeTable, DeValue};
 /// How often the rest is read: each time at least one key more is left out, and few files are as bad.
 const ROUNDS: usize = 20;
 
-/// The error for a file that was refused with `error`: all its faults; of what is no TOML the places where it is none.
+/// The error for a file that was refused with `error`: all its faults; of what is no TOML the lines where it is none.
 pub(super) fn all_faults(text: &str, error: SceneError) -> SceneError {
     let Ok(file) = DeTable::parse(text) else { return not_toml(text, error) };
     let mut mended = Mended::of(file.clone());
     let reading = Reading::new(text, file.get_ref());
     let mut faults = Vec::new();
     for Finding { fault, spoils } in reading.findings() {
-        spoils.iter().for_each(|(place, key)| {
-            mended.spoil(*place, key);
+        spoils.iter().for_each(|(location, key)| {
+            mended.spoil(*location, key);
         });
         faults.push(fault);
     }
@@ -33,13 +33,13 @@ pub(super) fn all_faults(text: &str, error: SceneError) -> SceneError {
         let errors: Vec<_> = mended.errors().into_iter().map(|error| (concerned(&error), error)).collect();
         for (keys, error) in &errors {
             let of_dimensions = error.is_of_dimensions() && mended.lacks_dimensions();
-            let follows = of_dimensions || keys.iter().any(|(place, key)| mended.is_spoilt(*place, key));
+            let follows = of_dimensions || keys.iter().any(|(location, key)| mended.is_spoilt(*location, key));
             if !follows {
                 faults.push(reading.told(keys, error));
             }
         }
         let keys = errors.iter().flat_map(|(keys, _)| keys);
-        if keys.filter(|(place, key)| mended.spoil(*place, key)).count() == 0 {
+        if keys.filter(|(location, key)| mended.spoil(*location, key)).count() == 0 {
             break;
         }
     }
@@ -47,7 +47,7 @@ pub(super) fn all_faults(text: &str, error: SceneError) -> SceneError {
     if faults.is_empty() { error } else { SceneError::Keys(faults) }
 }
 
-/// All places at which a text is no TOML, the first of each line; `error` where there is one.
+/// The faults of a text that is no TOML, the first of each line; `error` where there is one.
 fn not_toml(text: &str, error: SceneError) -> SceneError {
     let breaks = breaks(text);
     let (_, errors) = DeTable::parse_recoverable(text);
@@ -68,7 +68,7 @@ fn breaks(text: &str) -> Vec<usize> {
     text.match_indices('\n').map(|(at, _)| at).collect()
 }
 
-/// Line of a place in a text with these line breaks, from 1.
+/// Line of an offset in a text with these line breaks, from 1.
 fn line_of(breaks: &[usize], at: usize) -> usize {
     1 + breaks.partition_point(|&end| end < at)
 }
@@ -79,7 +79,7 @@ pub(super) fn questions(text: &str) -> Vec<Remark> {
 }
 
 /// The keys that an error speaks of.
-fn concerned(error: &SceneError) -> Vec<(Place, &'static str)> {
+fn concerned(error: &SceneError) -> Vec<(Location, &'static str)> {
     let mut number = [0; 2];
     let mut of = error;
     while let SceneError::InTable { table, number: k, of: inner } = of {
@@ -87,7 +87,7 @@ fn concerned(error: &SceneError) -> Vec<(Place, &'static str)> {
         of = inner;
     }
     match of {
-        SceneError::Name(_) => vec![(Place { table: "", number }, "name")],
+        SceneError::Name(_) => vec![(Location { table: "", number }, "name")],
         _ => named(&of.to_string(), number),
     }
 }
@@ -108,7 +108,7 @@ impl<'a, 'f> Reading<'a, 'f> {
         Self { file, breaks: breaks(text), dimensions }
     }
 
-    /// Line of a place in the text, from 1.
+    /// Line of an offset in the text, from 1.
     fn line(&self, at: usize) -> usize {
         line_of(&self.breaks, at)
     }
@@ -123,36 +123,36 @@ impl<'a, 'f> Reading<'a, 'f> {
         }
         for Finding { fault, spoils } in &mut findings {
             if let KeyFault::Value { said, .. } = fault {
-                said.push_str(&self.asked(spoils.iter().map(|(place, key)| (*place, key.as_str()))));
+                said.push_str(&self.asked(spoils.iter().map(|(location, key)| (*location, key.as_str()))));
             }
         }
         findings
     }
 
     /// An error with its line.
-    fn told(&self, keys: &[(Place, &'static str)], error: &SceneError) -> KeyFault {
-        let of_key = keys.iter().find_map(|(place, key)| self.find(*place, key).map(|(line, _)| line));
+    fn told(&self, keys: &[(Location, &'static str)], error: &SceneError) -> KeyFault {
+        let of_key = keys.iter().find_map(|(location, key)| self.find(*location, key).map(|(line, _)| line));
         let of_table = || {
-            let (place, _) = keys.first()?;
-            let found = all_of(place.table, self.file).into_iter().find(|found| found.place == *place)?;
+            let (location, _) = keys.first()?;
+            let found = all_of(location.table, self.file).into_iter().find(|found| found.location == *location)?;
             found.at.map(|at| self.line(at))
         };
-        let asked = self.asked(keys.iter().map(|(place, key)| (*place, *key)));
+        let asked = self.asked(keys.iter().map(|(location, key)| (*location, *key)));
         KeyFault::Value { line: of_key.or_else(of_table).unwrap_or(0), said: error.in_list() + &asked }
     }
 
     /// Line and value of a key.
-    fn find(&self, place: Place, key: &str) -> Option<(usize, &'a DeValue<'f>)> {
-        let found = all_of(place.table, self.file).into_iter().find(|found| found.place == place)?;
+    fn find(&self, location: Location, key: &str) -> Option<(usize, &'a DeValue<'f>)> {
+        let found = all_of(location.table, self.file).into_iter().find(|found| found.location == location)?;
         let (key, value) = found.table.get_key_value(key)?;
         Some((self.line(key.span().start), value.get_ref()))
     }
 
     /// The first question about the value of one of these keys, as the end of a message.
-    fn asked<'k>(&self, keys: impl Iterator<Item = (Place, &'k str)>) -> String {
-        let question = |(place, key): (Place, &str)| {
-            let (_, value) = self.find(place, key)?;
-            self.question(place.table, key, value)
+    fn asked<'k>(&self, keys: impl Iterator<Item = (Location, &'k str)>) -> String {
+        let question = |(location, key): (Location, &str)| {
+            let (_, value) = self.find(location, key)?;
+            self.question(location.table, key, value)
         };
         keys.filter_map(question).next().map_or_else(String::new, |question| format!("; {question}"))
     }

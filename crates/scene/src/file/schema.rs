@@ -20,8 +20,8 @@ pub(super) fn with_limits(mut schema: Schema) -> Schema {
         let Some(property) = pointer(&schema, key) else { continue };
         // The list itself, or the second of what one table or several of them may be.
         let second = referred(&schema, &property).map(|either| format!("{either}/anyOf/1"));
-        for place in [Some(property), second].into_iter().flatten() {
-            let list = schema.pointer_mut(&place).and_then(|value| value.as_object_mut());
+        for pointer in [Some(property), second].into_iter().flatten() {
+            let list = schema.pointer_mut(&pointer).and_then(|value| value.as_object_mut());
             if let Some(list) = list.filter(|list| list.contains_key("items")) {
                 list.insert("maxItems".to_owned(), most.into());
             }
@@ -38,8 +38,8 @@ fn named(bound: Bound, [inclusive, exclusive]: [&'static str; 2]) -> (&'static s
 }
 
 fn put(schema: &mut Schema, key: &str, bounds: &[(&str, f64)]) {
-    let Some(place) = pointer(schema, key) else { return };
-    let Some(property) = schema.pointer_mut(&place).and_then(|value| value.as_object_mut()) else { return };
+    let Some(pointer) = pointer(schema, key) else { return };
+    let Some(property) = schema.pointer_mut(&pointer).and_then(|value| value.as_object_mut()) else { return };
     let numbers = if property.contains_key("items") {
         property.get_mut("items").and_then(|items| items.as_object_mut())
     } else {
@@ -77,7 +77,7 @@ fn table_of(schema: &Schema, property: &str) -> Option<String> {
 /// What a property refers to: by itself, as the first of several, or as the items of a list.
 fn referred(schema: &Schema, property: &str) -> Option<String> {
     let own = schema.pointer(property)?;
-    let places = [Some(own), own.get("anyOf").and_then(|any| any.get(0)), own.get("items")];
-    let name = places.into_iter().flatten().find_map(|place| place.get("$ref"))?.as_str()?;
+    let holders = [Some(own), own.get("anyOf").and_then(|any| any.get(0)), own.get("items")];
+    let name = holders.into_iter().flatten().find_map(|holder| holder.get("$ref"))?.as_str()?;
     name.strip_prefix('#').map(str::to_owned)
 }

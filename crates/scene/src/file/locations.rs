@@ -7,14 +7,14 @@ use toml::de::{DeTable, DeValue};
 /// A table of the file: its name, empty for the file itself, and from 0 its number among those of the name; of a table
 /// within another that of the outer one first.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Place {
+pub(super) struct Location {
     pub(super) table: &'static str,
     pub(super) number: [usize; 2],
 }
 
 /// A table that there is, and where in the text it begins; the file itself at its beginning.
 pub(super) struct Found<'a, 'f> {
-    pub(super) place: Place,
+    pub(super) location: Location,
     pub(super) at: Option<usize>,
     pub(super) table: &'a DeTable<'f>,
 }
@@ -25,7 +25,7 @@ const SEVERAL: [&str; 3] = ["defect", "sensor", "sensor.mode"];
 /// All tables of a name. What is of the wrong type is none.
 pub(super) fn all_of<'a, 'f>(name: &'static str, file: &'a DeTable<'f>) -> Vec<Found<'a, 'f>> {
     if name.is_empty() {
-        return vec![Found { place: Place { table: "", number: [0; 2] }, at: None, table: file }];
+        return vec![Found { location: Location { table: "", number: [0; 2] }, at: None, table: file }];
     }
     let (outer, last) = name.rsplit_once('.').unwrap_or(("", name));
     let depth = usize::from(!outer.is_empty());
@@ -33,9 +33,9 @@ pub(super) fn all_of<'a, 'f>(name: &'static str, file: &'a DeTable<'f>) -> Vec<F
     for outer in all_of(outer, file) {
         let Some(value) = outer.table.get(last) else { continue };
         let mut keep = |k: usize, at: usize, table: &'a DeTable<'f>| {
-            let mut number = outer.place.number;
+            let mut number = outer.location.number;
             number[depth] = k;
-            found.push(Found { place: Place { table: name, number }, at: Some(at), table });
+            found.push(Found { location: Location { table: name, number }, at: Some(at), table });
         };
         match value.get_ref() {
             DeValue::Table(table) => keep(0, value.span().start, table),
@@ -52,10 +52,10 @@ pub(super) fn all_of<'a, 'f>(name: &'static str, file: &'a DeTable<'f>) -> Vec<F
     found
 }
 
-/// The table of a file at a place.
-pub(super) fn at_mut<'a, 'f>(file: &'a mut DeTable<'f>, place: Place) -> Option<&'a mut DeTable<'f>> {
-    let names = place.table.split('.').filter(|name| !name.is_empty());
-    names.zip(place.number).try_fold(file, |table, (name, number)| match table.get_mut(name)?.get_mut() {
+/// The table of a file at a location.
+pub(super) fn at_mut<'a, 'f>(file: &'a mut DeTable<'f>, location: Location) -> Option<&'a mut DeTable<'f>> {
+    let names = location.table.split('.').filter(|name| !name.is_empty());
+    names.zip(location.number).try_fold(file, |table, (name, number)| match table.get_mut(name)?.get_mut() {
         DeValue::Table(table) => Some(table),
         DeValue::Array(tables) => table_mut(tables.get_mut(number)?),
         _ => None,
@@ -69,8 +69,8 @@ pub(super) fn table_mut<'a, 'f>(value: &'a mut Spanned<DeValue<'f>>) -> Option<&
 
 /// The keys that a message names with their tables, and the one of the file itself, in its order. The tables of which
 /// there are several are those of this number.
-pub(super) fn named(said: &str, number: [usize; 2]) -> Vec<(Place, &'static str)> {
-    let mut named: Vec<(Place, &'static str)> = Vec::new();
+pub(super) fn named(said: &str, number: [usize; 2]) -> Vec<(Location, &'static str)> {
+    let mut named: Vec<(Location, &'static str)> = Vec::new();
     let tables = tables();
     for word in said.split(|c: char| !c.is_ascii_alphanumeric() && c != '_' && c != '.') {
         let word = word.trim_end_matches('.');
@@ -86,7 +86,7 @@ pub(super) fn named(said: &str, number: [usize; 2]) -> Vec<(Place, &'static str)
             name if SEVERAL.contains(&name) => [number[0], 0],
             _ => [0; 2],
         };
-        let one = (Place { table: known.name, number }, key);
+        let one = (Location { table: known.name, number }, key);
         if !named.contains(&one) {
             named.push(one);
         }
