@@ -51,8 +51,8 @@ fn setting_stepping_updating_reading_saving_and_restoring_allocate_nothing_under
                 assert!(host.do_step(f64::from(n) * 1e-4, 1e-4).is_ok());
                 // SAFETY: the arrays are as long as said; `state` is a handle of this instance.
                 unsafe {
-                    let place = values.as_mut_ptr();
-                    assert_eq!(fmi3GetFloat64(host.c, all.as_ptr(), all.len(), place, count), Status::Ok);
+                    let pointer = values.as_mut_ptr();
+                    assert_eq!(fmi3GetFloat64(host.c, all.as_ptr(), all.len(), pointer, count), Status::Ok);
                     assert_eq!(fmi3GetFMUState(host.c, &raw mut state), Status::Ok);
                     assert_eq!(fmi3SetFMUState(host.c, state), Status::Ok);
                 }

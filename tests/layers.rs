@@ -132,8 +132,8 @@ fn the_reader_of_cycles_finds_one_that_is_there() {
     ];
     let found = |top: &[&str], more: &[(usize, &str)]| {
         let mut files = good.clone();
-        for (place, text) in more {
-            files[*place].1.insert_str(0, &format!("{text}\n"));
+        for (index, text) in more {
+            files[*index].1.insert_str(0, &format!("{text}\n"));
         }
         cycles(&top.iter().map(|name| name.to_string()).collect::<Vec<_>>(), &reader::without_tests(files.to_vec()))
     };
@@ -203,8 +203,8 @@ fn the_reader_of_lengths_sees_what_it_should() {
 }
 
 fn allowed(layer: &str, import: &str) -> bool {
-    let place = |name: &str| ORDER.iter().position(|other| *other == name);
-    match (place(layer), place(import)) {
+    let index = |name: &str| ORDER.iter().position(|other| *other == name);
+    match (index(layer), index(import)) {
         _ if layer == import => true,
         (Some(layer), Some(import)) => import < layer,
         // What is no layer is an item of the crate's root: there should be none to import.

@@ -46,7 +46,7 @@ for axis, (scene, methods) in zip(axes.flat, scenes.items()):
 handles, labels = axes[0, 0].get_legend_handles_labels()
 for axis in axes.flat[len(scenes):]:
     axis.set_axis_off()
-# Beside the panels where a place is left, or it would cover points.
+# Beside the panels where there is room, or it would cover points.
 (axes[-1, -1] if len(scenes) < rows * columns else axes[0, -1]).legend(handles, labels, loc="center")
 for axis in axes[:, 0]:
     axis.set_ylabel("acceleration error (rms / rms)")
@@ -79,7 +79,7 @@ for axis, ((scene, mass), ways) in zip(axes.flat, panels.items()):
     axis.set_ylim(1e-8, 3.0)
     axis.axhline(1.0, color="black", linewidth=0.7)
 for axis in axes[:, 0]:
-    axis.set_ylabel("error of the ring's place")
+    axis.set_ylabel("error of the ring's position")
 for axis in axes[-1]:
     axis.set_xlabel("communication step (s), × unstable")
 axes[0, 0].legend(loc="lower right")

@@ -113,23 +113,23 @@ function signalsLayout(range) {
   return layout;
 }
 
-function drawSignals(place) {
+function drawSignals(graph) {
   const signals = DATA.panels.flatMap((panel, row) => panel.signals.map((signal) => ({ ...signal, row })));
   signals.forEach((signal) => (signal.values = numbers(signal.values)));
   const all = [Math.min(...signals.map((s) => s.start)), Math.max(...signals.map((s) => s.end))];
   const range = asked(all);
   const traces = signals.map((signal) => signalTrace(signal, range));
-  return Plotly.newPlot(place, traces, signalsLayout(range), CONFIG).then(() => {
-    place.on("plotly_relayout", (change) => {
+  return Plotly.newPlot(graph, traces, signalsLayout(range), CONFIG).then(() => {
+    graph.on("plotly_relayout", (change) => {
       let window = null;
       if (change["xaxis.range[0]"] !== undefined) window = [change["xaxis.range[0]"], change["xaxis.range[1]"]];
       if (change["xaxis.range"]) window = change["xaxis.range"];
       if (change["xaxis.autorange"]) window = all;
       if (!window) return;
       const drawn = signals.map((signal) => shown(signal, Number(window[0]), Number(window[1])));
-      Plotly.restyle(place, { x: drawn.map((d) => d.x), y: drawn.map((d) => d.y) });
+      Plotly.restyle(graph, { x: drawn.map((d) => d.x), y: drawn.map((d) => d.y) });
     });
-    addEventListener("hashchange", () => Plotly.relayout(place, { "xaxis.range": asked(all) }));
+    addEventListener("hashchange", () => Plotly.relayout(graph, { "xaxis.range": asked(all) }));
     document.body.dataset.points = traces.reduce((sum, trace) => sum + trace.x.length, 0);
   });
 }
@@ -147,23 +147,23 @@ function passagesTrace(defect) {
   const x = numbers(defect.x), y = numbers(defect.y), time = numbers(defect.time), element = numbers(defect.element);
   // A gap stands between two passages.
   const gaps = (values) => Array.from(values, (value) => (Number.isNaN(value) ? null : value));
-  const place = `%{x:.3f} ${defect.along}, %{y:.2f} µm`;
+  const point = `%{x:.3f} ${defect.along}, %{y:.2f} µm`;
   return {
     x: gaps(x), y: gaps(y), name: "an element's centre, passage after passage",
     mode: "lines", opacity: 0.5, line: { color: "#0072B2", width: 1 },
     customdata: Array.from(time, (t, i) => [t, element[i]]),
-    hovertemplate: `element %{customdata[1]} at %{customdata[0]:.5f} s<br>${place}<extra></extra>`,
+    hovertemplate: `element %{customdata[1]} at %{customdata[0]:.5f} s<br>${point}<extra></extra>`,
   };
 }
 
-function drawPath(place, defect) {
+function drawPath(graph, defect) {
   const traces = [surfaceTrace(defect), passagesTrace(defect)];
   const layout = {
     font: FONT, height: 460, margin: MARGIN_OF_LEGEND, hovermode: "closest", legend: LEGEND,
     xaxis: { ...GRID, title: { text: defect.axis, standoff: 8 } },
     yaxis: { ...GRID, title: { text: "µm" } },
   };
-  return Plotly.newPlot(place, traces, layout, CONFIG);
+  return Plotly.newPlot(graph, traces, layout, CONFIG);
 }
 
 // Heights of the points of a mark from the floor to the top: a line can be hovered over where it has points.
@@ -205,9 +205,9 @@ function spectrumLayout(spectrum) {
   };
 }
 
-function drawSpectrum(place, spectrum) {
+function drawSpectrum(graph, spectrum) {
   const traces = [...spectrum.marks.map((mark) => markTrace(mark, spectrum)), spectrumTrace(spectrum)];
-  return Plotly.newPlot(place, traces, spectrumLayout(spectrum), CONFIG);
+  return Plotly.newPlot(graph, traces, spectrumLayout(spectrum), CONFIG);
 }
 
 const drawn = [drawSignals(document.getElementById("signals"))];

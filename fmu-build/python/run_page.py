@@ -36,8 +36,8 @@ def extremes(values, every):
     count = len(values) // every * every
     blocks = values[:count].reshape(-1, every)
     low, high = np.argmin(blocks, axis=1), np.argmax(blocks, axis=1)
-    places = np.sort(np.column_stack([low, high]), axis=1)
-    pairs = blocks[np.arange(len(blocks))[:, None], places].ravel()
+    indices = np.sort(np.column_stack([low, high]), axis=1)
+    pairs = blocks[np.arange(len(blocks))[:, None], indices].ravel()
     rest = values[count:]
     return np.append(pairs, [rest.min(), rest.max()]) if rest.size else pairs
 
@@ -135,35 +135,35 @@ def wrapped(angle):
     return (angle + np.pi) % (2 * np.pi) - np.pi
 
 
-def place_and_way(run, about, defect, element, time):
+def position_and_height(run, about, defect, element, time):
     """Where an element is along the surface of a defect, from its middle (m, or degrees where the defect is on the
     element), and how far its centre is beside the path over the smooth surface (m, upwards in the page)."""
     angle = run.at(f"element[{element}].angle", time)
-    way = np.asarray(run.source("element[1].path")[f"element[{element}].path"])
+    height = np.asarray(run.source("element[1].path")[f"element[{element}].path"])
     if defect["on"] == "inner":
         moved = [run.at(f"shaft.{axis}", time) - run.at(f"housing.{axis}", time) for axis in "xy"]
         # Against the inner ring: 0 where the element just touches its smooth raceway.
-        way = way + (about["clearance"] - moved[0] * np.cos(angle) - moved[1] * np.sin(angle))
-        return defect["radius"] * wrapped(angle - run.at("shaft.angle", time) - defect["angle"]), way
+        height = height + (about["clearance"] - moved[0] * np.cos(angle) - moved[1] * np.sin(angle))
+        return defect["radius"] * wrapped(angle - run.at("shaft.angle", time) - defect["angle"]), height
     # Into the outer raceway is down.
     if defect["on"] == "outer":
         along = angle - run.at("housing.angle", time) if about["turns"] else angle
-        return defect["radius"] * wrapped(along - defect["angle"]), -way
-    return np.degrees(wrapped(run.at(f"element[{element}].spin_angle", time))), -way
+        return defect["radius"] * wrapped(along - defect["angle"]), -height
+    return np.degrees(wrapped(run.at(f"element[{element}].spin_angle", time))), -height
 
 
 def passages(run, about, defect, room):
-    """Passages of elements with the middle of a defect no further than `room`, the latest first: rows of place [m],
-    way [µm], time [s] and element."""
+    """Passages of elements with the middle of a defect no further than `room`, the latest first: rows of position [m],
+    height [µm], time [s] and element."""
     time = np.asarray(run.source("element[1].path")["time"])
     found = []
     for j in [defect["element"]] if defect["on"] == "element" else range(1, about["count"] + 1):
-        along, way = place_and_way(run, about, defect, j, time)
+        along, height = position_and_height(run, about, defect, j, time)
         near = np.flatnonzero(np.abs(along) <= room)
         breaks = np.flatnonzero((np.diff(near) > 1) | (np.abs(np.diff(along[near])) > room)) + 1
         for piece in np.split(near, breaks):
             if piece.size > 1:
-                found.append(np.column_stack([along[piece], way[piece] * 1e6, time[piece], np.full(piece.size, j)]))
+                found.append(np.column_stack([along[piece], height[piece] * 1e6, time[piece], np.full(piece.size, j)]))
     return sorted(found, key=lambda rows: -rows[0, 2])
 
 

@@ -76,8 +76,8 @@ def distribution(axis):
             lower, 0, 1, where=upper, transform=axis.get_xaxis_transform(), color="#eeeeee", zorder=0, label="defect"
         )
     axis.plot(angles.ravel()[order], forces.ravel()[order], color=GREY, linewidth=0.9, label="one element on its way")
-    for place, colour, marker in ((0.5, BLUE, "o"), (0.75, GREEN, "s"), (1.0, VERMILION, "^")):
-        k = int(np.argmin(np.abs(cage - (cage[0] + place * (cage[-1] - cage[0])))))
+    for share, colour, marker in ((0.5, BLUE, "o"), (0.75, GREEN, "s"), (1.0, VERMILION, "^")):
+        k = int(np.argmin(np.abs(cage - (cage[0] + share * (cage[-1] - cage[0])))))
         axis.plot(
             angles[:, k],
             forces[:, k],

@@ -120,13 +120,13 @@ fn write_surface(out: &mut impl Write, pressed: &Pressed) -> Result<()> {
 
 /// Stresses at points, and beside them, where there are any, von Mises' of Hertz's contact.
 fn write_stresses(out: &mut impl Write, points: &[([f64; 3], Stress)], hertz: &[f64]) -> Result<()> {
-    let place = [("x", "m"), ("y", "m"), ("depth", "m")];
+    let position = [("x", "m"), ("y", "m"), ("depth", "m")];
     let mut stresses: Vec<_> =
         ["xx", "yy", "zz", "xy", "xz", "yz", "von_mises"].map(|name| format!("stress.{name}")).into();
     if !hertz.is_empty() {
         stresses.push("hertz.von_mises".to_owned());
     }
-    csv::header(out, place.into_iter().chain(stresses.iter().map(|name| (name.as_str(), "Pa"))))?;
+    csv::header(out, position.into_iter().chain(stresses.iter().map(|name| (name.as_str(), "Pa"))))?;
     for (i, (at, stress)) in points.iter().enumerate() {
         let values = at.iter().chain(&stress.normal).chain(&stress.shear).copied();
         csv::row(out, values.chain([stress.von_mises()]).chain(hertz.get(i).copied()))?;

@@ -70,7 +70,7 @@ pub fn command(project: &Project, model: Model, options: &Options, folder: &Path
     let columns = if options.figure || options.page { Columns::all(model.simulation.table()) } else { chosen.clone() };
     let course = Course { grid: options.grid, profile: options.profile.as_ref() };
     let done = course.simulate(&model.scene, &mut model.simulation, columns, growing.path(), &path)?;
-    let sensors = |signals: &Signals| signals.places(|name| shows_a_sensor(&model.scene, name));
+    let sensors = |signals: &Signals| signals.indices(|name| shows_a_sensor(&model.scene, name));
     if let Some(noise) = &options.noise {
         noise.add(&done.signals, &sensors(&done.signals), 0)?;
         if let Some(recording) = &done.recording {
@@ -80,7 +80,7 @@ pub fn command(project: &Project, model: Model, options: &Options, folder: &Path
     let columns: Vec<(usize, &str)> = std::iter::once("time")
         .chain(chosen.names().map(|(name, _)| name))
         .filter_map(|name| done.units.iter().position(|(known, _)| known == name))
-        .map(|place| (place, done.units[place].1))
+        .map(|index| (index, done.units[index].1))
         .collect();
     options.format.write(&done.signals, &columns, &path)?;
     println!("{}", path.display());
@@ -161,11 +161,11 @@ fn draw(project: &Project, model: &Model, options: &Options, done: &Done, folder
         Some((recording, recorder)) => (recording, recorder.rate),
         None => (&done.signals, 1.0 / options.grid.step),
     };
-    let place = match scene.sensors.is_empty() {
-        true => source.places(|name| name == "housing.ay"),
-        false => source.places(|name| name == scene.sensor_variable(0)),
+    let indices = match scene.sensors.is_empty() {
+        true => source.indices(|name| name == "housing.ay"),
+        false => source.indices(|name| name == scene.sensor_variable(0)),
     };
-    let samples = place.first().map_or(Ok(Vec::new()), |&place| source.column(place))?;
+    let samples = indices.first().map_or(Ok(Vec::new()), |&index| source.column(index))?;
     let acceleration = Acceleration { samples, rate };
     let spectra = Spectra::new(scene, options.profile.as_ref(), acceleration);
     let envelope = spectra.write_envelope(folder)?;

@@ -206,8 +206,8 @@ impl Slave3 {
         let (c, mut size) = (self.instance, 0);
         call!(self, "fmi3SerializedFMUStateSize", (Handle, Handle, *mut usize), (c, state.0, &mut size))?;
         let mut bytes = vec![0u8; size];
-        let place = bytes.as_mut_ptr();
-        call!(self, "fmi3SerializeFMUState", (Handle, Handle, *mut u8, usize), (c, state.0, place, size))?;
+        let pointer = bytes.as_mut_ptr();
+        call!(self, "fmi3SerializeFMUState", (Handle, Handle, *mut u8, usize), (c, state.0, pointer, size))?;
         Ok(bytes)
     }
 

@@ -21,7 +21,7 @@ pub const OLDEST_GLIBC: (u32, u32) = (2, 17);
 /// The package, exact, so that equal source gives equal bytes.
 const REQUIREMENTS: &str = "ziglang==0.15.1\n";
 
-/// Puts the date in the header of `$out` to zero: the four bytes 8 places after the offset at 60.
+/// Puts the date in the header of `$out` to zero: the four bytes 8 after the offset that stands at 60.
 const UNDATED: &str = "\
     at=$(od -An -tu4 -j60 -N4 \"$out\")\n\
     printf '\\0\\0\\0\\0' | dd of=\"$out\" bs=1 seek=$((at + 8)) conv=notrunc 2>/dev/null\n";
@@ -159,8 +159,8 @@ pub fn needed_glibc(library: &[u8]) -> Option<(u32, u32)> {
         let mut parts = std::str::from_utf8(&text[..end]).ok()?.split('.');
         Some((parts.next()?.parse().ok()?, parts.next()?.parse().ok()?))
     };
-    let places = library.windows(NAME.len()).enumerate().filter(|(_, window)| *window == NAME);
-    places.filter_map(|(at, _)| version(&library[at + NAME.len()..])).max()
+    let found = library.windows(NAME.len()).enumerate().filter(|(_, window)| *window == NAME);
+    found.filter_map(|(at, _)| version(&library[at + NAME.len()..])).max()
 }
 
 #[cfg(test)]

@@ -199,13 +199,13 @@ fn one_element_between_prescribed_rings_moves_as_the_oracle_says() {
     let [x0, y0, ax, ay, hz] = MOTION;
     let reference = Reference::stored("one-element");
     let mut simulation = Simulation::new(Scene::from_toml(ONE_ELEMENT).unwrap(), None).unwrap();
-    let place = ["shaft.x", "shaft.y", "shaft.vx", "shaft.vy", "shaft.ax", "shaft.ay"]
+    let inputs = ["shaft.x", "shaft.y", "shaft.vx", "shaft.vy", "shaft.ax", "shaft.ay"]
         .map(|name| reference_of(&simulation, name));
     let set = |simulation: &mut Simulation, time: f64| {
         let (w, phase) = (TAU * hz, TAU * hz * time);
         let (sin, cos) = phase.sin_cos();
         let values = [x0 + ax * sin, y0 + ay * sin, ax * w * cos, ay * w * cos, -ax * w * w * sin, -ay * w * w * sin];
-        simulation.set_reals(&place, &values).unwrap();
+        simulation.set_reals(&inputs, &values).unwrap();
     };
     set(&mut simulation, 0.0);
     simulation.initialize(0.0).unwrap();

@@ -73,8 +73,8 @@ mod all_platforms {
     fn no_library_tells_where_it_was_built() {
         let home = std::env::home_dir().unwrap();
         for binary in libraries().binaries() {
-            for place in [common::root().to_str().unwrap(), &format!("{}/.cargo", home.display()), "/target/"] {
-                assert!(!holds(&binary.bytes, place), "{}: {place}", binary.platform.name);
+            for path in [common::root().to_str().unwrap(), &format!("{}/.cargo", home.display()), "/target/"] {
+                assert!(!holds(&binary.bytes, path), "{}: {path}", binary.platform.name);
             }
         }
     }

@@ -282,14 +282,15 @@ fn moving_both_rings_together_changes_no_force() {
             *ring = crate::case::Ring { motion: Motion::Host, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
         }
         let size = (0.5 * case.clearance_um.max(0.0) * 1e-6 + 1e-3 * case.diameter_mm * 1e-3).min(5e-3);
-        let (mut at, places) = (0.0, [draw.vector(size), draw.vector(0.0)]);
+        let (mut at, positions) = (0.0, [draw.vector(size), draw.vector(0.0)]);
         // Far, and as fast as is not yet far after the run.
         let (away, velocity) = (draw.vector(1e-3), draw.vector(1e-3 / case.duration()));
         let mut moved = case.clone();
         for i in 0..case.steps.len() {
             let host = case.steps[i].host.or(case.steps[0].host).unwrap();
-            let still = places.map(|place| place.map(|x| [x, 0.0, 0.0]));
-            let going = places.map(|place| [0, 1].map(|a| [place[a] + away[a] + velocity[a] * at, velocity[a], 0.0]));
+            let still = positions.map(|position| position.map(|x| [x, 0.0, 0.0]));
+            let going =
+                positions.map(|position| [0, 1].map(|a| [position[a] + away[a] + velocity[a] * at, velocity[a], 0.0]));
             case.steps[i].host = Some(crate::case::Host { rings: still, ..host });
             moved.steps[i].host = Some(crate::case::Host { rings: going, ..host });
             at += case.steps[i].length;

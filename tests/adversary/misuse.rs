@@ -32,7 +32,7 @@ mod walker;
 use crate::host::FORBIDDEN_CALLS;
 use brinell_fmi::fmi2::Status;
 use chance::Chance;
-use stage::{FullDisk, Places, Stage, stages};
+use stage::{Folders, FullDisk, Stage, stages};
 use standard::TABLE;
 use std::env;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -147,7 +147,7 @@ fn round(walkers: &mut [Walker], seed: u64, others: &Strangers) {
         call(w, &mut chance, patience, others);
         // One that it has freed is replaced.
         if w.gone {
-            let next = Walker::new(w.stage, w.places, w.number + 1000, w.seed, &mut chance);
+            let next = Walker::new(w.stage, w.folders, w.number + 1000, w.seed, &mut chance);
             let old = std::mem::replace(w, next);
             w.tally.add(&old.tally);
         }
@@ -156,9 +156,9 @@ fn round(walkers: &mut [Walker], seed: u64, others: &Strangers) {
 
 fn walk(stages: &[Stage], seed: u64, full: FullDisk) -> Tally {
     let mut chance = Chance::new(seed);
-    let places = Places::new(seed, full);
+    let folders = Folders::new(seed, full);
     let mut others = Strangers::default();
-    let new = |number| Walker::new(&stages[number as usize % stages.len()], &places, number, seed, &mut chance);
+    let new = |number| Walker::new(&stages[number as usize % stages.len()], &folders, number, seed, &mut chance);
     let mut walkers: Vec<Walker> = (0..INSTANCES as u64).map(new).collect();
     for _ in 0..ROUNDS {
         others.blobs = walkers.iter().filter_map(|w| states::publish(w, &mut chance)).collect();
@@ -167,8 +167,8 @@ fn walk(stages: &[Stage], seed: u64, full: FullDisk) -> Tally {
         // Those that share names stay together, or it would be a matter of time which of them has a recording.
         let sharers = SHARERS as usize;
         walkers.sort_by_key(|w| w.number % 1000);
-        for place in (sharers + 1..walkers.len()).rev() {
-            walkers.swap(place, sharers + chance.below(place + 1 - sharers));
+        for i in (sharers + 1..walkers.len()).rev() {
+            walkers.swap(i, sharers + chance.below(i + 1 - sharers));
         }
         let around = &others;
         let seeds: Vec<u64> = (0..THREADS).map(|_| chance.number()).collect();
@@ -183,7 +183,7 @@ fn walk(stages: &[Stage], seed: u64, full: FullDisk) -> Tally {
         let gone = |c: &usize| walkers.iter().all(|w| w.subject.c.addr() != *c);
         others.dead.extend(components.into_iter().filter(gone));
     }
-    let full_disks = u64::from(places.full().is_some());
+    let full_disks = u64::from(folders.full().is_some());
     let mut sum = Tally { walks: 1, full_disks, threads: (ROUNDS * THREADS) as u64, ..Tally::default() };
     for walker in &mut walkers {
         finish(walker, &mut chance);

@@ -1,4 +1,4 @@
-//! Hostile recordings: holes of any length in any place, clocks that stutter, numbers that can be read in two ways,
+//! Hostile recordings: holes of any length anywhere, clocks that stutter, numbers that can be read in two ways,
 //! signals that saturate, files cut short. `size` refuses them, says that nothing is resolved, or gives the length of
 //! the whole recording.
 

@@ -123,13 +123,13 @@ fn random_rigid_paths_are_the_envelope() {
         if oracle.leaps() {
             return Err("an element that only its side holds is not refused".to_owned());
         }
-        let (model, placing) = (simulation.equations().0, crate::units::placing(&case));
+        let (model, position_error) = (simulation.equations().0, crate::units::position_error(&case));
         for side in 0..2 {
             if let Some(surface) = &oracle.surfaces.rings[side] {
                 path_is_the_envelope(
                     draw,
                     &oracle,
-                    placing,
+                    position_error,
                     surface,
                     [&model.inner.defects, &model.outer.defects][side],
                 )?;
@@ -137,7 +137,7 @@ fn random_rigid_paths_are_the_envelope() {
             for (j, own) in oracle.surfaces.own.iter().enumerate() {
                 let Some(own) = own else { continue };
                 let found = model.defective.iter().find(|found| found.element == j).ok_or("no defect")?;
-                path_is_the_envelope(draw, &oracle, placing, &own[side], &found.defects[side])?;
+                path_is_the_envelope(draw, &oracle, position_error, &own[side], &found.defects[side])?;
             }
         }
         Ok(())
@@ -147,15 +147,15 @@ fn random_rigid_paths_are_the_envelope() {
 fn path_is_the_envelope(
     draw: &mut Draw,
     oracle: &Bearing,
-    placing: f64,
+    position_error: f64,
     surface: &Surface,
     defects: &Defects,
 ) -> Result<(), String> {
     let envelope = &surface.envelope;
     // Around each knot and change, along the defect, and anywhere.
     let mut angles: Vec<f64> = (0..500).map(|_| draw.between(-PI, PI)).collect();
-    for placed in defects.iter() {
-        let (knots, shift) = (placed.knots(), placed.centre - surface.centre);
+    for defect in defects.iter() {
+        let (knots, shift) = (defect.knots(), defect.centre - surface.centre);
         let [first, last] = [knots[0], knots[knots.len() - 1]];
         angles.extend(knots.iter().flat_map(|at| [at - 1e-9, at + 1e-9]).map(|at| at + shift));
         angles.extend((0..1000).map(|i| first + (last - first) * (f64::from(i) + 0.5) / 1000.0 + shift));
@@ -172,8 +172,8 @@ fn path_is_the_envelope(
         let expected = envelope.touched(psi).1;
         // Roundings of the radii, and the polynomials that the path is kept as.
         let (kept, slope) = envelope.path(envelope.feature(envelope.stretch(psi)), psi);
-        let (off, placed) = (found - expected, placing * (slope / envelope.own).abs());
-        let limit = crate::units::rounding(oracle) + crate::units::path_error(surface, psi) + placed;
+        let (off, shifted) = (found - expected, position_error * (slope / envelope.own).abs());
+        let limit = crate::units::rounding(oracle) + crate::units::path_error(surface, psi) + shifted;
         if !((kept - expected).abs() <= limit && off.abs() <= limit) {
             return Err(format!("path at {psi} is {found:e}, not {expected:e} (kept as {kept:e}): {off:e} off"));
         }

@@ -22,9 +22,9 @@ pub fn rounding(bearing: &Bearing) -> f64 {
     4e-15 * bearing.rho_0 + path
 }
 
-/// How exactly the place of a defect beside another one is known, along its body and out of it [m]: both may become one
-/// profile, whose arcs are rounded to a picometre.
-pub fn placing(case: &Case) -> f64 {
+/// How exactly the position of a defect beside another one is known, along its body and out of it [m]: both may become
+/// one profile, whose arcs are rounded to a picometre.
+pub fn position_error(case: &Case) -> f64 {
     let beside = |(k, defect): (usize, &Defect)| case.defects[..k].iter().any(|other| other.on.is_body_of(defect.on));
     if case.defects.iter().enumerate().any(beside) { 0.5e-12 } else { 0.0 }
 }
@@ -71,7 +71,7 @@ pub fn path_error(surface: &Surface, psi: f64) -> f64 {
 /// One unit of each kind of signal, for the largest approaches [m].
 pub fn units(bearing: &Bearing, case: &Case, largest: [f64; 2]) -> BTreeMap<Kind, f64> {
     let approach = largest[0].max(largest[1]).max(0.0);
-    let length = case.tolerance * (approach + 1e-7) + rounding(bearing) + placing(case) / LIMIT;
+    let length = case.tolerance * (approach + 1e-7) + rounding(bearing) + position_error(case) / LIMIT;
     let velocity = 1e3 * case.tolerance * (approach + 1e-7);
     let (mut k, mut c) = (0.0f64, 0.0f64);
     for side in 0..2 {

@@ -89,10 +89,10 @@ pub(crate) const RULES: &[Rule] = &[
     ),
     (
         "Steps",
-        "A step gives the time reached; a place that is missing is refused before anything is done.",
+        "A step gives the time reached; a NULL pointer for a result is refused before anything is done.",
         &[
             Test("a_step_gives_no_event_no_end_no_early_return_and_its_end"),
-            Test("a_step_without_a_place_for_its_results_is_refused_before_anything_is_done"),
+            Test("a_step_with_a_null_pointer_for_a_result_is_refused_before_anything_is_done"),
         ],
     ),
     (

@@ -74,20 +74,20 @@ const WIDTH: f64 = 2.6 / CELLS as f64;
 /// Distance in half-widths at which nothing moves: the finite elements' boundary.
 const BOUNDARY: f64 = 10.0;
 
-fn place(i: usize) -> f64 {
+fn position(i: usize) -> f64 {
     (i as f64 + 0.5) * WIDTH
 }
 
 /// Influence in plane strain: half-space, and for a step of some depth its image. Arbitrary units.
 fn influence(i: usize, k: usize, step: f64) -> f64 {
     let antiderivative = |z: f64| if z == 0.0 { 0.0 } else { z * z.abs().ln() - z };
-    let away = place(i) - place(k);
+    let away = position(i) - position(k);
     let own = WIDTH * BOUNDARY.ln() - (antiderivative(away + 0.5 * WIDTH) - antiderivative(away - 0.5 * WIDTH));
     if step == 0.0 {
         return own;
     }
     // As `src/contact/edge_softness.rs` has it; a test there holds the cells' sum along the edge against this.
-    let s = place(i) + place(k);
+    let s = position(i) + position(k);
     let image = (-s / (4.0 * step)).exp() * 0.5 * (1.0 + (1.6 * step / s).powi(2)).ln();
     own + 0.5 * image_factor(0.3) * WIDTH * image
 }
@@ -127,13 +127,13 @@ fn pressed(step: f64, interference: &[f64]) -> Vec<f64> {
 #[test]
 fn a_cylinder_over_the_edge_of_a_step_is_pressed_as_finite_elements_say() {
     let gap = |approach: f64, inside: f64| -> Vec<f64> {
-        (0..CELLS).map(|i| approach - 0.5 * (place(i) - inside).powi(2)).collect()
+        (0..CELLS).map(|i| approach - 0.5 * (position(i) - inside).powi(2)).collect()
     };
     // The approach at which the contact over the edge is one half-width wide.
     let (mut low, mut high) = (0.01, 5.0);
     for _ in 0..30 {
         let middle = 0.5 * (low + high);
-        let wide = pressed(0.0, &gap(middle, 0.0)).iter().rposition(|&p| p > 0.0).map_or(0.0, place);
+        let wide = pressed(0.0, &gap(middle, 0.0)).iter().rposition(|&p| p > 0.0).map_or(0.0, position);
         if wide > 1.0 { high = middle } else { low = middle }
     }
     let mut worst = 0.0_f64;

@@ -180,9 +180,9 @@ fn damaged_and_foreign_maps_are_refused() {
         other => panic!("{other:?}"),
     };
     assert!(refused(&bytes, foreign).contains("another defect"));
-    for place in [0, 9, 30, bytes.len() / 2, bytes.len() - 1] {
+    for index in [0, 9, 30, bytes.len() / 2, bytes.len() - 1] {
         let mut damaged = bytes.clone();
-        damaged[place] ^= 1;
+        damaged[index] ^= 1;
         refused(&damaged, own);
     }
     for length in [0, 7, 40, bytes.len() - 8] {

@@ -214,7 +214,7 @@ fn a_measured_crown_of_the_standards_shape_gives_the_standards_bearing() {
     assert!(missing.contains("crown.csv"), "{missing}");
 }
 
-/// The sweep of `brinell stiffness` over a spall of 1.2 mm comes to such a place: it ended with a load of nothing.
+/// The sweep of `brinell stiffness` over a spall of 1.2 mm comes to such a position: it ended with a load of nothing.
 #[test]
 fn a_crowned_roller_just_past_an_edge_has_its_critical_load() {
     let mut scene = Scene::from_toml(include_str!("../../scenes/nu205-inner.toml")).unwrap();

@@ -237,7 +237,7 @@ fn the_map_is_the_grid_at_a_spalls_edge_under_a_roller() {
             (worst, squares, count) = (worst.max(error), squares + error * error, count + 1.0);
         }
         let rms = f64::sqrt(squares / count);
-        println!("worst {worst:e}, root mean square {rms:e} of full scale at {count} places");
+        println!("worst {worst:e}, root mean square {rms:e} of full scale at {count} points");
         // A row that comes into contact is a step of the stiffness, and rows are few and long here.
         let limits = if crowned { [1.5e-2, 2e-3] } else { [4e-3, 4e-4] };
         assert!(count > 200.0 && worst < limits[0] && rms < limits[1], "{crowned}: {worst:e} {rms:e}");

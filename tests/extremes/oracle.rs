@@ -15,7 +15,7 @@ const NAMES: [&str; 5] =
 
 struct Oracle {
     /// Number of the communication step, and the forces at its end.
-    looks: Vec<(usize, [f64; 5])>,
+    samples: Vec<(usize, [f64; 5])>,
     /// Its own error over the largest force.
     own_error: f64,
 }
@@ -27,13 +27,13 @@ pub fn case(kind: Kind, name: &'static str) -> Row {
     let limit = case["limit"].as_float().unwrap();
     let tight = case.get("reference").is_some();
     let oracle = if tight { other_method(&case) } else { oracle(what) };
-    let largest = oracle.looks.iter().flat_map(|(_, forces)| forces).fold(0.0f64, |m, f| m.max(f.abs()));
+    let largest = oracle.samples.iter().flat_map(|(_, forces)| forces).fold(0.0f64, |m, f| m.max(f.abs()));
 
     let mut bearing = Named::new(scene(&case));
     let (mut worst, mut shown) = (0.0f64, (0.0f64, 0.0, ""));
-    let found = looks(&mut bearing, &case, &oracle.looks.iter().map(|(step, _)| *step).collect::<Vec<_>>());
-    assert_eq!(found.len(), oracle.looks.len(), "{what}: not all of the oracle's instants were reached");
-    for (found, (_, expected)) in found.iter().zip(&oracle.looks) {
+    let found = samples(&mut bearing, &case, &oracle.samples.iter().map(|(step, _)| *step).collect::<Vec<_>>());
+    assert_eq!(found.len(), oracle.samples.len(), "{what}: not all of the oracle's instants were reached");
+    for (found, (_, expected)) in found.iter().zip(&oracle.samples) {
         for ((name, &expected), &got) in NAMES.iter().zip(expected).zip(found) {
             worst = worst.max((got - expected).abs());
             if expected.abs() > shown.0.abs() {
@@ -50,7 +50,7 @@ pub fn case(kind: Kind, name: &'static str) -> Row {
 }
 
 /// The compared forces after so many communication steps each, the host doing what the case says.
-fn looks(bearing: &mut Named, case: &toml::Table, at: &[usize]) -> Vec<[f64; 5]> {
+fn samples(bearing: &mut Named, case: &toml::Table, at: &[usize]) -> Vec<[f64; 5]> {
     let (step, count) = (case["step_s"].as_float().unwrap(), case["steps"].as_integer().unwrap() as usize);
     for (name, value) in case.get("start").and_then(|start| start.as_table()).into_iter().flatten() {
         bearing.set(name, value.as_float().unwrap());
@@ -74,9 +74,9 @@ fn other_method(case: &toml::Table) -> Oracle {
     let mut bearing = Named::new(scene);
     bearing.0.set_method(Method::Rodas);
     let count = case["steps"].as_integer().unwrap() as usize;
-    let at: Vec<usize> = (1..=10).map(|look| look * count / 10).collect();
-    let found = looks(&mut bearing, case, &at);
-    Oracle { looks: at.into_iter().zip(found).collect(), own_error: 0.0 }
+    let at: Vec<usize> = (1..=10).map(|k| k * count / 10).collect();
+    let found = samples(&mut bearing, case, &at);
+    Oracle { samples: at.into_iter().zip(found).collect(), own_error: 0.0 }
 }
 
 /// What the host does before the communication step that begins at `time`.
@@ -147,7 +147,7 @@ fn oracle(what: &str) -> Oracle {
         write!(head, ",{name}").unwrap();
     }
     assert_eq!(lines.next(), Some(format!("{head},own_error").as_str()));
-    let mut found = Oracle { looks: Vec::new(), own_error: 0.0 };
+    let mut found = Oracle { samples: Vec::new(), own_error: 0.0 };
     for line in lines {
         // A name with a comma in it stands in quotation marks.
         let (name, rest) = match line.strip_prefix('"') {
@@ -156,10 +156,10 @@ fn oracle(what: &str) -> Oracle {
         };
         if name == what {
             let values: Vec<f64> = rest.split(',').map(|value| value.parse().unwrap()).collect();
-            found.looks.push((values[0] as usize, [1, 2, 3, 4, 5].map(|i| values[i])));
+            found.samples.push((values[0] as usize, [1, 2, 3, 4, 5].map(|i| values[i])));
             found.own_error = values[6];
         }
     }
-    assert!(!found.looks.is_empty(), "oracle.csv lacks {what}: run tests/oracle/extremes.py");
+    assert!(!found.samples.is_empty(), "oracle.csv lacks {what}: run tests/oracle/extremes.py");
     found
 }

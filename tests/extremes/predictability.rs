@@ -108,8 +108,8 @@ fn window(from: f64, to: f64) -> Range<usize> {
 fn move_element(bearing: &mut Named, element: usize, by: f64) {
     let path = bearing.0.state_vector()[element - 1];
     let mut bytes = bearing.0.save().to_bytes();
-    let place = bytes.windows(8).position(|eight| eight == path.to_le_bytes()).unwrap();
-    bytes[place..place + 8].copy_from_slice(&(path + by).to_le_bytes());
+    let offset = bytes.windows(8).position(|eight| eight == path.to_le_bytes()).unwrap();
+    bytes[offset..offset + 8].copy_from_slice(&(path + by).to_le_bytes());
     let state = bearing.0.state_from_bytes(&bytes).unwrap();
     bearing.0.restore(&state).unwrap();
     assert_eq!(bearing.0.state_vector()[element - 1], path + by);

@@ -116,7 +116,7 @@ fn an_equilibrium_beyond_the_contact_map_is_refused() {
 
 /// What runs away is named with its last value, and not what follows from it.
 #[test]
-fn a_ring_driven_beyond_all_numbers_is_named_with_its_last_place() {
+fn a_ring_driven_beyond_all_numbers_is_named_with_its_last_position() {
     // Near a defect under law `map`, where the contacts are no numbers then.
     let mut scene = BALLS.spalled();
     (scene.contact.law, scene.contact.largest_force) = (ContactLaw::Map, Some(1000.0));
@@ -153,9 +153,9 @@ fn a_cage_that_turns_too_fast_for_time_to_pass_between_edges_fails_at_once() {
     simulation.set_input_derivatives(&[speed], &[1], &[6.54321]).unwrap();
     let mut bytes = simulation.save().to_bytes();
     for (mark, value) in [(12.3456_f64, 1e200_f64), (6.54321, 1.0)] {
-        let places: Vec<usize> = (0..bytes.len() - 7).filter(|&i| bytes[i..i + 8] == mark.to_le_bytes()).collect();
-        assert_eq!(places.len(), 1);
-        bytes[places[0]..places[0] + 8].copy_from_slice(&value.to_le_bytes());
+        let offsets: Vec<usize> = (0..bytes.len() - 7).filter(|&i| bytes[i..i + 8] == mark.to_le_bytes()).collect();
+        assert_eq!(offsets.len(), 1);
+        bytes[offsets[0]..offsets[0] + 8].copy_from_slice(&value.to_le_bytes());
     }
     let state = simulation.state_from_bytes(&bytes).unwrap();
     simulation.restore(&state).unwrap();

@@ -102,11 +102,11 @@ fn is_force(host: &Host, reference: u32) -> bool {
     host.table()[reference as usize].name.contains("force")
 }
 
-/// Motion of the inner ring along y: its place and the first three derivatives in SI units.
+/// Motion of the inner ring along y: its position and the first three derivatives in SI units.
 const MOTION: [f64; 4] = [-20e-6, 3e-3, -8.0, 4e4];
 const STEP: f64 = 5e-4;
 
-/// The inner ring's place along y and the forces on it, means and now, after one step of [`STEP`] with what `tell`
+/// The inner ring's position along y and the forces on it, means and now, after one step of [`STEP`] with what `tell`
 /// says.
 fn told(tell: impl Fn(&Host, &dyn Fn(&str) -> u32)) -> Vec<f64> {
     let host = pressed("er16k-tb1-hosted-shaft");
@@ -135,7 +135,7 @@ fn a_motion_is_the_same_in_whichever_variables_it_is_told() {
             rate(host, by("shaft.vy"), 1, a);
             rate(host, by("shaft.vy"), 2, j);
         }),
-        ("the place's derivatives, the acceleration's last", &|host, by| {
+        ("the position's derivatives, the acceleration's last", &|host, by| {
             rate(host, by("shaft.y"), 1, v);
             rate(host, by("shaft.y"), 2, a);
             rate(host, by("shaft.ay"), 1, j);
@@ -169,9 +169,9 @@ fn a_motion_is_the_same_in_whichever_variables_it_is_told() {
         assert_eq!(bits(&told(way)), bits(&plainly), "{what}");
     }
     let [y, v, a, j] = MOTION;
-    let place = y + STEP * (v + STEP * (a / 2.0 + STEP * j / 6.0));
+    let position = y + STEP * (v + STEP * (a / 2.0 + STEP * j / 6.0));
     // Rounding of some operations on 20 µm and 5 mm/s.
-    assert!((plainly[0] - place).abs() < 1e-19, "{} {place}", plainly[0]);
+    assert!((plainly[0] - position).abs() < 1e-19, "{} {position}", plainly[0]);
     assert!((plainly[1] - (v + STEP * (a + STEP * j / 2.0))).abs() < 1e-17);
 }
 

@@ -9,7 +9,7 @@ type Probe = (&'static str, &'static str, fn(&Host) -> Status);
 /// Calls every function that takes an instance, in a way that succeeds or is at most discarded where the function is
 /// allowed. The letters are the modes of the table in section 4.2.4 of the standard: Instantiated, initialiZation,
 /// step Complete, Terminated, Error; written down here a second time, from the standard.
-// SAFETY of all the blocks: nothing but the handle, NULL with a count of 0, and places for one value are passed.
+// SAFETY of all the blocks: nothing but the handle, NULL with a count of 0, and pointers to one value are passed.
 const PROBES: &[Probe] = &[
     ("fmi2SetDebugLogging", "IZCTE", |h| unsafe { fmi2SetDebugLogging(h.c, TRUE, 0, ptr::null()) }),
     ("fmi2SetupExperiment", "I", |h| h.setup(None, 0.0, None)),

@@ -40,7 +40,7 @@ fn child() {
     let state = host.deserialize(&fs::read(folder.join("state")).unwrap()).unwrap();
     assert_eq!(host.restore(state), Status::Ok, "{:?}", host.lines());
     let mut time = 0.0;
-    // SAFETY: a place for one value.
+    // SAFETY: a pointer to one value.
     assert_eq!(unsafe { fmi2GetRealStatus(host.c, LAST_SUCCESSFUL_TIME, &raw mut time) }, Status::Ok);
     fs::write(folder.join("result"), run(&host, time)).unwrap();
 }

@@ -191,7 +191,7 @@ fn null_invented_and_foreign_states_are_errors() {
         assert_eq!(host.restore(state), Status::Error);
         let mut size = 0;
         let mut handle = state;
-        // SAFETY: any handle may be passed; places for one value.
+        // SAFETY: any handle may be passed; pointers to one value.
         unsafe {
             assert_eq!(fmi2SerializedFMUstateSize(host.c, state, &raw mut size), Status::Error);
             assert_eq!(fmi2SerializeFMUstate(host.c, state, ptr::null_mut(), 0), Status::Error);
@@ -246,11 +246,11 @@ fn damaged_short_long_and_foreign_bytes_are_refused() {
     }
     refused(&[&good[..], &[0]].concat(), "bytes");
     refused(b"something else entirely, and long enough to be read", "not a serialized state");
-    for place in 0..good.len() {
+    for index in 0..good.len() {
         for bit in 0..8 {
             let mut bytes = good.clone();
-            bytes[place] ^= 1 << bit;
-            assert_eq!(host.deserialize(&bytes), Err(Status::Error), "byte {place}, bit {bit}");
+            bytes[index] ^= 1 << bit;
+            assert_eq!(host.deserialize(&bytes), Err(Status::Error), "byte {index}, bit {bit}");
         }
     }
     host.lines();
@@ -279,7 +279,7 @@ fn contents_that_no_run_leaves_behind_are_refused_with_the_reason_even_if_the_ch
     let gained = next_step + 3 * 8 + 1 + 4 * 4;
     let path = gained + 2 * 8 + 1 + 4 * 8;
     let velocity = path + 16 * 8;
-    for (place, value, reason) in [
+    for (offset, value, reason) in [
         (film_speed, f64::NAN, "not finite"),
         (next_step, 1e-300, "integration step is shorter"),
         (next_step, -1e-6, "integration step is shorter"),
@@ -296,10 +296,10 @@ fn contents_that_no_run_leaves_behind_are_refused_with_the_reason_even_if_the_ch
         (path - 8, f64::NEG_INFINITY, "not finite"),
     ] {
         let mut bytes = good.clone();
-        bytes[place..place + 8].copy_from_slice(&f64::to_le_bytes(value));
+        bytes[offset..offset + 8].copy_from_slice(&f64::to_le_bytes(value));
         let sum = brinell::numerics::checksum::checksum(&bytes[checked..]);
         bytes[checked - 8..checked].copy_from_slice(&sum.to_le_bytes());
-        assert_eq!(host.deserialize(&bytes), Err(Status::Error), "{value} at {place}");
+        assert_eq!(host.deserialize(&bytes), Err(Status::Error), "{value} at {offset}");
         let message = host.lines().pop().unwrap().message;
         assert!(message.contains(reason), "{reason}: {message}");
     }

@@ -80,7 +80,7 @@ fn a_step_ends_exactly_where_the_host_computes_it() {
         assert_eq!(host.step(time, step), Status::Ok);
         time += step;
         let mut last = f64::NAN;
-        // SAFETY: a place for one value.
+        // SAFETY: a pointer to one value.
         let status = unsafe { fmi2GetRealStatus(host.c, LAST_SUCCESSFUL_TIME, &raw mut last) };
         assert_eq!((status, last.to_bits()), (Status::Ok, time.to_bits()));
     }
@@ -212,7 +212,7 @@ fn status_queries_answer_and_unknown_kinds_are_discarded() {
     assert_eq!(host.step(0.0, 1e-4), Status::Ok);
     let (mut status, mut time, mut integer, mut flag) = (Status::Fatal, f64::NAN, 77, 77);
     let mut text: FmiString = ptr::null();
-    // SAFETY: places for one value each.
+    // SAFETY: pointers to one value each.
     unsafe {
         assert_eq!(fmi2GetStatus(host.c, DO_STEP_STATUS, &raw mut status), Status::Ok);
         assert_eq!(fmi2GetRealStatus(host.c, LAST_SUCCESSFUL_TIME, &raw mut time), Status::Ok);

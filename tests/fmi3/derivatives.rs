@@ -161,7 +161,7 @@ fn wrong_unknowns_knowns_orders_and_counts_of_derivatives_are_errors_with_the_re
             assert_eq!(host.restore(state), Status::Ok);
         }
     }
-    // SAFETY: one reference, one order, one place.
+    // SAFETY: one reference, one order, one value.
     assert_eq!(unsafe { fmi3GetOutputDerivatives(host.c, &force[0], 1, &2, &mut 0.0, 1) }, Status::Error);
     assert!(host.last_message().contains("only order 1"));
 }
@@ -169,12 +169,12 @@ fn wrong_unknowns_knowns_orders_and_counts_of_derivatives_are_errors_with_the_re
 /// Element of the dependent, reference and element of the independent, kind.
 fn dependencies(host: &Host, reference: u32) -> Vec<(usize, u32, usize, i32)> {
     let mut count = 0;
-    // SAFETY: the places are as many as said.
+    // SAFETY: the arrays are as long as said.
     unsafe {
         assert_eq!(fmi3GetNumberOfVariableDependencies(host.c, reference, &raw mut count), Status::Ok);
         let (mut of, mut on, mut at, mut kind) = (vec![9; count], vec![9; count], vec![9; count], vec![9; count]);
-        let places = (of.as_mut_ptr(), on.as_mut_ptr(), at.as_mut_ptr(), kind.as_mut_ptr());
-        let status = fmi3GetVariableDependencies(host.c, reference, places.0, places.1, places.2, places.3, count);
+        let arrays = (of.as_mut_ptr(), on.as_mut_ptr(), at.as_mut_ptr(), kind.as_mut_ptr());
+        let status = fmi3GetVariableDependencies(host.c, reference, arrays.0, arrays.1, arrays.2, arrays.3, count);
         assert_eq!(status, Status::Ok);
         (0..count).map(|i| (of[i], on[i], at[i], kind[i])).collect()
     }
@@ -203,7 +203,7 @@ fn dependencies_are_those_of_every_element_before_and_after_initialization() {
         let given = product(&host, fmi3GetDirectionalDerivative, [&[force], &[input.reference]], &[1.0], 9).unwrap();
         assert_eq!(given, [0.0; 9], "{}", input.name);
     }
-    // SAFETY: a wrong count, with no places.
+    // SAFETY: a wrong count, with no arrays.
     let nothing = std::ptr::null_mut;
     let status = unsafe {
         fmi3GetVariableDependencies(host.c, force, nothing(), std::ptr::null_mut(), nothing(), std::ptr::null_mut(), 3)

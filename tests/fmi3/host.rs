@@ -73,7 +73,7 @@ unsafe extern "C-unwind" fn update(
     let instance = environment.instance.get().unwrap();
     let told = Update { instance, time, set_requested, get_allowed, finished, can_return };
     if let Some(at) = environment.on_update.borrow_mut().as_mut().and_then(|on_update| on_update(told)) {
-        // SAFETY: the places are the FMU's.
+        // SAFETY: the pointers are the FMU's.
         unsafe {
             *early_return_requested = TRUE;
             *early_return_time = at;
@@ -225,10 +225,10 @@ impl Host {
 
     pub(crate) fn do_step(&self, point: f64, size: f64) -> Result<Stepped, Status> {
         let (mut event, mut terminate, mut early, mut time) = (9, 9, 9, f64::NAN);
-        // SAFETY: places for one value each.
+        // SAFETY: pointers to one value each.
         let status = unsafe {
-            let places = (&raw mut event, &raw mut terminate, &raw mut early, &raw mut time);
-            fmi3DoStep(self.c, point, size, TRUE, places.0, places.1, places.2, places.3)
+            let pointers = (&raw mut event, &raw mut terminate, &raw mut early, &raw mut time);
+            fmi3DoStep(self.c, point, size, TRUE, pointers.0, pointers.1, pointers.2, pointers.3)
         };
         match status {
             Status::Ok => Ok((event != FALSE, terminate != FALSE, early != FALSE, time)),

@@ -14,7 +14,7 @@ macro_rules! plain {
     };
 }
 
-/// Calls of no variables, and of functions that need no places. The letters are the modes of sections 2.3 and 4.2 of
+/// Calls of no variables, and of functions that need no pointers. The letters are the modes of sections 2.3 and 4.2 of
 /// the standard: Instantiated, initialiZation, step (C), Terminated, Error; written down here a second time.
 fn probes() -> Vec<Probe> {
     let plain: Vec<Probe> = plain! {
@@ -64,12 +64,12 @@ fn probes() -> Vec<Probe> {
         ("fmi3DoStep", "C", |h| h.do_step(0.0, 1e-5).map_or_else(|status| status, |_| Status::Ok)),
         ("fmi3GetFMUState", "IZCTE", |h| {
             let mut state = ptr::null_mut();
-            // SAFETY: a place for a state.
+            // SAFETY: a pointer to a state.
             unsafe { fmi3GetFMUState(h.c, &raw mut state) }
         }),
         ("fmi3GetNumberOfVariableDependencies", "IZCTE", |h| {
             let mut count = 0;
-            // SAFETY: a place for a number.
+            // SAFETY: a pointer to a number.
             unsafe { fmi3GetNumberOfVariableDependencies(h.c, 0, &raw mut count) }
         }),
     ];
@@ -203,7 +203,7 @@ fn a_reset_instance_of_fmi_3_runs_like_a_new_one_to_the_bit() {
 #[test]
 fn an_instance_of_one_version_is_none_of_the_other() {
     let two = crate::two::Host::of("6205-healthy");
-    // SAFETY: one reference, one place.
+    // SAFETY: one reference, one value.
     let status = unsafe { fmi3GetFloat64(two.c, &0, 1, &mut 0.0, 1) };
     assert_eq!(status, Status::Error);
 }

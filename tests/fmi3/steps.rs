@@ -79,15 +79,15 @@ fn start_and_stop_must_be_finite_and_a_tolerance_can_only_tighten() {
 }
 
 #[test]
-fn a_step_without_a_place_for_its_results_is_refused_before_anything_is_done() {
+fn a_step_with_a_null_pointer_for_a_result_is_refused_before_anything_is_done() {
     for missing in 0..4 {
         let host = Host::started("6205-healthy");
         let state = host.save();
         let (mut flags, mut time) = ([0; 3], 0.0);
-        let place = |index: usize, pointer| if index == missing { ptr::null_mut() } else { pointer };
-        let [event, end, early] = std::array::from_fn(|i| place(i, &raw mut flags[i]));
+        let pointer_or_null = |index: usize, pointer| if index == missing { ptr::null_mut() } else { pointer };
+        let [event, end, early] = std::array::from_fn(|i| pointer_or_null(i, &raw mut flags[i]));
         let reached = if missing == 3 { ptr::null_mut() } else { &raw mut time };
-        // SAFETY: NULL, or places for one value each.
+        // SAFETY: NULL, or pointers to one value each.
         assert_eq!(unsafe { fmi3DoStep(host.c, 0.0, 1e-4, TRUE, event, end, early, reached) }, Status::Error);
         assert!(host.last_message().contains("is NULL"));
         assert_eq!(host.restore(state), Status::Ok);

@@ -340,7 +340,7 @@ fn a_host_that_cannot_handle_an_early_return_gets_none() {
     let (c, _environment) = call.make();
     let (mut flags, mut time) = ([9; 3], 0.0);
     let [event, end, early] = std::array::from_fn(|i| &raw mut flags[i]);
-    // SAFETY: a living handle, and places for one value each.
+    // SAFETY: a living handle, and pointers to one value each.
     unsafe {
         assert_eq!(fmi3EnterInitializationMode(c, FALSE, 0.0, 0.0, FALSE, 0.0), Status::Ok);
         assert_eq!(fmi3ExitInitializationMode(c), Status::Ok);

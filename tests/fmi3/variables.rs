@@ -89,7 +89,7 @@ fn unknown_references_wrong_types_and_what_cannot_be_set_are_errors_that_say_so(
     for wrong in [steps, law] {
         refused(&host, state, Status::Error, &["is not of type Real"], |h| status_of(h.get(&[wrong])));
     }
-    // SAFETY of all the blocks: one reference and one place each.
+    // SAFETY of all the blocks: one reference and one value each.
     refused(&host, state, Status::Error, &["shaft.y", "Int64"], |h| unsafe { fmi3GetInt64(h.c, &y, 1, &mut 0, 1) });
     refused(&host, state, Status::Error, &["shaft.y", "UInt64"], |h| unsafe { fmi3GetUInt64(h.c, &y, 1, &mut 0, 1) });
     refused(&host, state, Status::Error, &["shaft.y", "Boolean"], |h| unsafe { fmi3GetBoolean(h.c, &y, 1, &mut 0, 1) });
@@ -139,7 +139,7 @@ fn counters_enumerations_and_strings_have_their_types() {
     );
     let law = host.reference("contact.law");
     let mut value = 0;
-    // SAFETY of all the blocks: one reference and one place each; strings end in NUL.
+    // SAFETY of all the blocks: one reference and one value each; strings end in NUL.
     unsafe {
         assert_eq!(fmi3GetInt64(host.c, &law, 1, &mut value, 1), Status::Ok);
         let other = if value == 1 { 2 } else { 1 };
@@ -162,7 +162,7 @@ fn counters_enumerations_and_strings_have_their_types() {
     let steps = host.reference("solver.steps");
     let count = || {
         let mut count = 77;
-        // SAFETY: one reference and one place.
+        // SAFETY: one reference and one value.
         assert_eq!(unsafe { fmi3GetUInt64(host.c, &steps, 1, &mut count, 1) }, Status::Ok);
         count
     };
@@ -203,8 +203,8 @@ fn misaligned_and_overlapping_arrays_and_null_are_refused_under_fmi_3() {
         fmi3GetFloat64(h.c, ptr::null(), 1, memory.as_mut_ptr(), 1)
     });
     refused(&host, state, Status::Error, &["overlap"], |h| unsafe {
-        let place = memory.as_mut_ptr();
-        fmi3GetFloat64(h.c, place.cast(), 1, place, 1)
+        let pointer = memory.as_mut_ptr();
+        fmi3GetFloat64(h.c, pointer.cast(), 1, pointer, 1)
     });
 }
 

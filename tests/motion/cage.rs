@@ -18,7 +18,7 @@ fn uneven(scene: Scene) -> Scene {
 }
 
 /// Both rings held with their centres apart, so that elements go their ways each for itself over a shallow dent.
-fn apart() -> Scene {
+fn eccentric() -> Scene {
     let mut scene = held(Defect::outer(-FRAC_PI_2, spall(0.5e-3, 2e-6)));
     (scene.shaft, scene.gravity) = (Ring::hosted(), [0.0; 2]);
     scene.tolerance = 1e-7;
@@ -56,8 +56,8 @@ fn lines(scene: Scene, orders: &[usize]) -> Vec<f64> {
 fn lines_of_uneven_spacing_are_those_of_even_spacing_times_the_mean_of_their_phases() {
     let offsets = [0.02, -0.015, 0.005, 0.011, -0.02, 0.004, 0.009, -0.019, 0.005];
     let orders = [9, 18, 27, 36];
-    let even = lines(apart(), &orders);
-    let found = lines(irregular(apart(), offsets.to_vec(), 0.0, 0.0), &orders);
+    let even = lines(eccentric(), &orders);
+    let found = lines(irregular(eccentric(), offsets.to_vec(), 0.0, 0.0), &orders);
     for ((order, even), found) in orders.into_iter().zip(even).zip(found) {
         let phases = offsets.iter().enumerate().map(|(j, offset)| order as f64 * (TAU * j as f64 / 9.0 + offset));
         let sums = phases.fold([0.0; 2], |[re, im], phase| [re + phase.cos(), im + phase.sin()]);
@@ -70,9 +70,9 @@ fn lines_of_uneven_spacing_are_those_of_even_spacing_times_the_mean_of_their_pha
 
 #[test]
 fn a_cage_whose_speed_wanders_is_an_even_one_driven_at_that_speed() {
-    let scene = irregular(apart(), vec![0.0; 9], 0.0, 0.03);
+    let scene = irregular(eccentric(), vec![0.0; 9], 0.0, 0.03);
     let mut wandering = Named::new(scene);
-    let mut driven = Named::new(apart());
+    let mut driven = Named::new(eccentric());
     for bearing in [&mut wandering, &mut driven] {
         bearing.0.set("shaft.y", -12e-6).unwrap();
         bearing.0.initialize(0.0).unwrap();
@@ -110,8 +110,8 @@ fn one_element_that_jitters_is_a_cage_driven_unevenly() {
         scene.bearing.element_count = 1;
         scene
     };
-    let mut jittering = Named::new(alone(irregular(apart(), vec![0.0], 0.1, 0.0)));
-    let mut driven = Named::new(alone(apart()));
+    let mut jittering = Named::new(alone(irregular(eccentric(), vec![0.0], 0.1, 0.0)));
+    let mut driven = Named::new(alone(eccentric()));
     for bearing in [&mut jittering, &mut driven] {
         bearing.0.set("shaft.y", -12e-6).unwrap();
     }

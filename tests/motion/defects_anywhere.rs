@@ -241,19 +241,19 @@ fn turning_the_frame_changes_nothing_but_centrifugal_forces() {
     let about =
         ["shaft.x", "shaft.y", "shaft.vx", "shaft.vy", "shaft.ax", "shaft.ay"].map(|name| turning.reference(name));
     let (step, speed, eccentric) = (2e-5, -scene.shaft_speed, 14e-6);
-    let place = |time: f64| {
+    let motion = |time: f64| {
         let (sin, cos) = (speed * time - FRAC_PI_2).sin_cos();
         let (v, a) = (eccentric * speed, eccentric * speed * speed);
         [eccentric * cos, eccentric * sin, -v * sin, v * cos, -a * cos, -a * sin]
     };
     still.0.set_reals(&inputs, &[0.0, -eccentric, 0.0, 0.0, 0.0, 0.0]).unwrap();
-    turning.0.set_reals(&about, &place(0.0)).unwrap();
+    turning.0.set_reals(&about, &motion(0.0)).unwrap();
     for bearing in [&mut still, &mut turning] {
         bearing.0.initialize(0.0).unwrap();
     }
     let mut largest = 0.0f64;
     for k in 0..500 {
-        turning.0.set_reals(&about, &place(f64::from(k) * step)).unwrap();
+        turning.0.set_reals(&about, &motion(f64::from(k) * step)).unwrap();
         still.0.step(step).unwrap();
         turning.0.step(step).unwrap();
         for j in 1..=9 {

@@ -228,18 +228,18 @@ fn a_ring_that_a_host_lifts_feels_the_film_give_back_no_work() {
     let work = |film: Option<Film>| {
         let mut bearing = Named::new(Scene { film, ..scene.clone() });
         let (step, pace) = (1e-5, TAU * 200.0);
-        let place = |t: f64| (-3.5e-6 + 3e-6 * (pace * t).cos(), -3e-6 * pace * (pace * t).sin());
-        let (y, vy) = place(0.0);
+        let motion = |t: f64| (-3.5e-6 + 3e-6 * (pace * t).cos(), -3e-6 * pace * (pace * t).sin());
+        let (y, vy) = motion(0.0);
         bearing.set("shaft.y", y);
         bearing.set("shaft.vy", vy);
         bearing.0.initialize(0.0).unwrap();
         let mut work = 0.0;
         for k in 0..500 {
-            let (y, vy) = place(f64::from(k) * step);
+            let (y, vy) = motion(f64::from(k) * step);
             bearing.set("shaft.y", y);
             bearing.set("shaft.vy", vy);
             bearing.run(step, 1);
-            work -= bearing.get("shaft.mean_force.y") * (place(f64::from(k + 1) * step).0 - y);
+            work -= bearing.get("shaft.mean_force.y") * (motion(f64::from(k + 1) * step).0 - y);
         }
         work
     };

@@ -83,8 +83,8 @@ fn disturb(bearing: &mut Named, mode: &Mode, size: f64) {
     let bits = |state: &[f64]| state.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
     let mut bytes = bearing.0.save().to_bytes();
     let old = bits(&here);
-    let place = bytes.windows(old.len()).position(|window| window == old).unwrap();
-    bytes[place..place + old.len()].copy_from_slice(&bits(&moved));
+    let offset = bytes.windows(old.len()).position(|window| window == old).unwrap();
+    bytes[offset..offset + old.len()].copy_from_slice(&bits(&moved));
     let state = bearing.0.state_from_bytes(&bytes).unwrap();
     bearing.0.restore(&state).unwrap();
 }

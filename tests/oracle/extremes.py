@@ -21,7 +21,7 @@ from reference import Reference, row
 HERE = pathlib.Path(__file__).resolve().parent
 TABLE = HERE.parent / "extremes" / "oracle.csv"
 NAMES = ["shaft.force.x", "shaft.force.y", "housing.force.y", "element[1].force.outer", "element[2].force.inner"]
-LOOKS = 10  # instants of a case
+SAMPLES = 10  # instants of a case
 
 
 class Ramping(Bearing):
@@ -105,8 +105,8 @@ def start(bearing):
 def forces(case, rtol):
     bearing, later = bearing_of(case), case.get("later")
     run, found = Reference(bearing, rtol=rtol, state=start(bearing)), []
-    for look in range(1, LOOKS + 1):
-        step = look * case["steps"] // LOOKS
+    for k in range(1, SAMPLES + 1):
+        step = k * case["steps"] // SAMPLES
         t = step * case["step_s"]
         if later and t > later["time_s"]:
             run.advance(later["time_s"])

@@ -1,4 +1,4 @@
-//! Every measured surface that cannot be used is refused with the line or place, the value and the limit.
+//! Every measured surface that cannot be used is refused with the line or position, the value and the limit.
 
 use brinell::scene::{Bearing, Defect, DefectShape, Scene};
 use brinell::surface::{Profile, Surface};
@@ -106,7 +106,7 @@ fn a_trace_whose_rims_rise_by_an_elements_radius_above_its_floor_is_refused() {
 }
 
 #[test]
-fn a_topography_with_a_hole_is_refused_with_its_place() {
+fn a_topography_with_a_hole_is_refused_with_its_position() {
     let text = "arc_mm,axial_mm,depth_um\n0,0,1\n0,1,1\n0.5,0,1\n";
     refused(text, &["no depth at arc_mm = 0.5, axial_mm = 1", "3 points", "2 by 2", "needs 4"]);
 }
@@ -118,7 +118,7 @@ fn a_topography_that_is_not_a_rectangle_is_refused() {
 }
 
 #[test]
-fn a_topography_that_gives_a_place_twice_is_refused() {
+fn a_topography_that_gives_a_point_twice_is_refused() {
     let text = "arc_mm,axial_mm,depth_um\n0,0,1\n0,1,1\n0.5,0,1\n0.5,1,1\n0,1,2\n";
     refused(text, &["line 6", "arc_mm = 0, axial_mm = 1", "second time"]);
 }

@@ -29,12 +29,12 @@ pub struct Assembly {
     /// Angles of cage, inner and outer ring at the start of the scene [rad].
     angles: [f64; 3],
     /// Of the first defect.
-    defect: Option<DefectPlace>,
+    defect: Option<DefectPosition>,
 }
 
 /// Where a defect is on its body.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DefectPlace {
+pub struct DefectPosition {
     /// Length along the body [rad].
     pub length: f64,
     /// Angle of the centre [rad].
@@ -143,7 +143,7 @@ impl Assembly {
         });
         let of_first = scene.defects.first().zip(surfaces.first()).map(|(defect, surface)| {
             let (first, last) = surface.extent();
-            DefectPlace { length: (last - first) / defect.on.radius(&scene.bearing), centre: defect.angle }
+            DefectPosition { length: (last - first) / defect.on.radius(&scene.bearing), centre: defect.angle }
         });
         Ok(Self {
             model,
@@ -160,8 +160,8 @@ impl Assembly {
     }
 
     /// Cage angle with which everything repeats [rad]: the spacing of the elements, which are alike, their numbers
-    /// exchanged; or a whole turn of a cage that has them off even places. A defect of a ring changes nothing in that,
-    /// however long it is.
+    /// exchanged; or a whole turn of an irregular cage. A defect of a ring changes nothing in that, however
+    /// long it is.
     pub fn period(&self) -> f64 {
         if self.model.is_even() { TAU / self.model.element_count as f64 } else { TAU }
     }
@@ -172,7 +172,7 @@ impl Assembly {
     }
 
     /// Where the scene's first defect is; `None` without one.
-    pub fn defect(&self) -> Option<DefectPlace> {
+    pub fn defect(&self) -> Option<DefectPosition> {
         self.defect
     }
 

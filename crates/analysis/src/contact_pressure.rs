@@ -53,7 +53,7 @@ pub enum PressureError {
     /// The contact is not small against the ball.
     #[error(
         "contact force {force} N: the contact reaches {percent:.0} % of the radius of ball or groove, beyond which the \
-         bodies are no half-spaces; give a smaller force, or a place where the ball lies on the raceway"
+         bodies are no half-spaces; give a smaller force, or a position where the ball lies on the raceway"
     )]
     TooWide {
         /// Force [N].
@@ -69,7 +69,7 @@ pub enum PressureError {
     Contact(#[from] ContactError),
 }
 
-/// A ball at one place of a raceway.
+/// A ball at one position on a raceway.
 #[derive(Debug, Clone)]
 pub struct BallOnRaceway {
     /// The two bodies.
@@ -219,7 +219,7 @@ impl BallOnRaceway {
         Err(too_wide())
     }
 
-    /// All that can be looked at.
+    /// The largest window.
     fn farthest(&self) -> [[f64; 2]; 2] {
         let radius = self.bodies.element_radius;
         let groove = match self.bodies.across {

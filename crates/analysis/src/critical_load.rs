@@ -54,8 +54,8 @@ pub struct Bottom {
 
 /// Share of the greatest path that counts as the bottom.
 const BOTTOM: f64 = 0.99;
-/// Number of intervals of the defect at whose ends its path is looked at.
-const LOOKS: usize = 500;
+/// Number of intervals of the defect at whose ends its path is sampled.
+const INTERVALS: usize = 500;
 /// Approach beyond which the search for a load is given up, in depths.
 const ENDLESS: f64 = 1e3;
 
@@ -67,21 +67,21 @@ impl StaticBearing {
     pub fn bottom(&self) -> Result<Bottom, StaticError> {
         let of_rings = [DefectOn::Outer, DefectOn::Inner].into_iter().find_map(|on| self.extents(on).next());
         let ([first, last], centre) = of_rings.ok_or(StaticError::NoDefect)?;
-        let angle = |i: usize| centre + first + (last - first) * (i as f64 / LOOKS as f64);
+        let angle = |i: usize| centre + first + (last - first) * (i as f64 / INTERVALS as f64);
         // Element 1 is at the cage angle.
-        let paths: Vec<f64> = (0..=LOOKS).map(|i| self.sunk(0, angle(i))).collect();
+        let paths: Vec<f64> = (0..=INTERVALS).map(|i| self.sunk(0, angle(i))).collect();
         let path = paths.iter().copied().fold(0.0, f64::max);
         if path <= 0.0 {
             return Err(StaticError::NoDepth { depth_um: path * 1e6 });
         }
         let deep = |&i: &usize| paths[i] >= BOTTOM * path;
-        let [first, last] = [(0..=LOOKS).find(deep), (0..=LOOKS).rev().find(deep)].map(|i| i.unwrap_or(0));
+        let [first, last] = [(0..=INTERVALS).find(deep), (0..=INTERVALS).rev().find(deep)].map(|i| i.unwrap_or(0));
         let middle = 0.5 * (angle(first) + angle(last));
         if self.sunk(0, middle) >= BOTTOM * path {
             return Ok(Bottom { path, middle });
         }
-        // Several deep places: the deepest.
-        let deepest = (0..=LOOKS).find(|&i| paths[i] == path).unwrap_or(0);
+        // Several deep positions: the deepest.
+        let deepest = (0..=INTERVALS).find(|&i| paths[i] == path).unwrap_or(0);
         Ok(Bottom { path, middle: angle(deepest) })
     }
 

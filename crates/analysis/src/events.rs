@@ -6,7 +6,7 @@
 use super::statistics;
 
 /// An impact brings at least this share of the strongest impact's energy; below are echoes and noise.
-const WEAKEST_BLOW: f64 = 0.12;
+const WEAKEST_IMPACT: f64 = 0.12;
 /// On a raceway that turns through the load zone one edge may be struck much harder than the other: then this share is
 /// enough, if the jump is steep.
 const WEAKEST_STEEP: f64 = 0.03;
@@ -56,7 +56,7 @@ pub fn impacts(level: &[f64], width: usize, smallest: f64, turns: bool) -> Vec<I
         .collect();
     let strongest = found.iter().map(|b| b.energy).fold(0.0, f64::max);
     let steepest = found.iter().map(|b| b.jump).fold(0.0, f64::max);
-    let weakest = |b: &Impact| if turns && b.jump >= STEEP { WEAKEST_STEEP } else { WEAKEST_BLOW };
+    let weakest = |b: &Impact| if turns && b.jump >= STEEP { WEAKEST_STEEP } else { WEAKEST_IMPACT };
     found.retain(|b| b.energy >= weakest(b) * strongest && b.jump >= LOWEST_JUMP * steepest);
     found.iter_mut().for_each(|b| b.energy /= strongest);
     after_the_longest_silence(found, n)

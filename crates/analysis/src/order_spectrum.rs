@@ -24,7 +24,7 @@ const PER_ORDER: f64 = 2.56;
 /// Where equal shaft angles lie among the samples of a signal.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EvenAngles {
-    /// Places among the samples.
+    /// Indices among the samples, with fractions.
     at: Vec<f64>,
     per_turn: f64,
     mean_speed: f64,

@@ -51,10 +51,10 @@ impl Passages {
         Self { starts: evenly(&index, period), period, jitter: 0.0, index }
     }
 
-    /// Those chosen by their place among these.
-    pub fn chosen(&self, places: &[usize]) -> Self {
+    /// Those at these indices.
+    pub fn chosen(&self, indices: &[usize]) -> Self {
         let of = |k: &usize| (self.starts[*k], self.index[*k]);
-        let (starts, index) = places.iter().map(of).unzip();
+        let (starts, index) = indices.iter().map(of).unzip();
         Self { starts, index, ..*self }
     }
 
@@ -227,9 +227,9 @@ fn rises(squared: &[f64], period: f64) -> Vec<f64> {
 /// Aligns from several beginnings and keeps the result with the most contrast: from the blurred mean alone, the
 /// passages can settle in two groups, an impact's echo of one lying on the impact of the other.
 fn align(log: &[f64], even: &[f64], period: f64, follow: bool) -> Vec<f64> {
-    let places = (1..=BEGINNINGS).map(|k| k * even.len() / (BEGINNINGS + 1)).filter(|&k| k < even.len());
+    let beginnings = (1..=BEGINNINGS).map(|k| k * even.len() / (BEGINNINGS + 1)).filter(|&k| k < even.len());
     let mut aligned = vec![align_from(log, even, period, template(log, even, period), None)];
-    for k in places {
+    for k in beginnings {
         let single = template(log, &[even[k]], period);
         if follow {
             aligned.push(align_from(log, even, period, single.clone(), Some(k)));
@@ -265,9 +265,9 @@ fn align_from(log: &[f64], even: &[f64], period: f64, beginning: Vec<f64>, from:
 /// Passages found one after the other, forwards and backwards from one of them, each near the last few.
 fn followed(log: &[f64], even: &[f64], step: f64, template: &[f64], from: usize) -> Vec<f64> {
     let mut shifts = vec![0.0; even.len()];
-    let mut follow = |places: &mut dyn Iterator<Item = usize>| {
+    let mut follow = |passages: &mut dyn Iterator<Item = usize>| {
         let mut last = [0.0; 5];
-        for (count, k) in places.enumerate() {
+        for (count, k) in passages.enumerate() {
             let near = statistics::median(&last);
             let at = even[k] + near * step;
             shifts[k] = near + best_shift(log, at, step, template, NEAR);

@@ -36,8 +36,8 @@ pub struct Ringing {
 impl Ringing {
     /// Largest relative distance from another.
     pub fn distance(&self, other: &Self) -> f64 {
-        let apart = |a: f64, b: f64| libm::log(a / b).abs();
-        apart(self.after_entry, other.after_entry).max(apart(self.after_exit, other.after_exit))
+        let log_ratio = |a: f64, b: f64| libm::log(a / b).abs();
+        log_ratio(self.after_entry, other.after_entry).max(log_ratio(self.after_exit, other.after_exit))
     }
 
     /// After entry, after exit [Hz].

@@ -17,7 +17,7 @@ const STRIDE: usize = 64;
 const JITTER: f64 = 0.02;
 /// Difference that digits explain at most [share of the period]: a lost sample makes it 1, a repeated one −1.
 const EXPLAINED: f64 = 0.9;
-/// Stretches in which the rate is looked at, and largest difference of one from the mean of all: what a given rate
+/// Stretches in which the rate is checked, and largest difference of one from the mean of all: what a given rate
 /// may differ from the file's.
 const STRETCHES: usize = 16;
 const DRIFT: f64 = 0.01;
@@ -25,7 +25,7 @@ const DRIFT: f64 = 0.01;
 const RULE: f64 = 0.1;
 /// Share of uneven steps up to which a column of any other name is taken to count samples.
 const COUNTER: f64 = 0.01;
-/// Times on each side of a step whose digits are looked at: zeros at the end of one may not be printed.
+/// Times on each side of a step whose digits are examined: zeros at the end of one may not be printed.
 const SIDE: usize = 8;
 
 /// What is wrong with the times. Times and lengths are in the column's own unit, samples are counted from 0.

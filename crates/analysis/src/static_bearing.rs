@@ -60,7 +60,7 @@ pub enum StaticError {
     /// A healthy bearing was asked for its defect.
     #[error("the scene has no defect of a ring: a critical load belongs to one")]
     NoDefect,
-    /// The defect has no place into which an element sinks.
+    /// No element sinks into the defect.
     #[error("elements sink {depth_um} um into this defect: it must be above 0 to have a critical load")]
     NoDepth {
         /// Greatest depth of their path [µm].
@@ -191,7 +191,7 @@ impl StaticBearing {
     }
 
     /// Cage angle with which everything repeats [rad]: the spacing of the elements, which are alike, or a whole turn of
-    /// a cage that has them off even places.
+    /// an irregular cage.
     pub fn period(&self) -> f64 {
         if self.model.is_even() { self.spacing() } else { TAU }
     }

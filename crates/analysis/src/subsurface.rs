@@ -66,7 +66,7 @@ impl Corners {
             let inside = i >= 1 && j >= 1 && i <= blocks[0] && j <= blocks[1];
             if inside { mean[(j - 1) * blocks[0] + i - 1] } else { 0.0 }
         };
-        let place = |k: usize, i: usize| {
+        let position = |k: usize, i: usize| {
             pressed.middle[k] + ((i * block) as f64 - 0.5 * pressed.cells[k] as f64) * pressed.cell[k]
         };
         let mut corners = Vec::new();
@@ -75,7 +75,7 @@ impl Corners {
                 // The distance counts from the corner to the point: the cell beyond it is met with its lower side.
                 let weight = (at(i, j) + at(i + 1, j + 1)) - (at(i + 1, j) + at(i, j + 1));
                 if weight != 0.0 {
-                    corners.push([place(0, i), place(1, j), weight]);
+                    corners.push([position(0, i), position(1, j), weight]);
                 }
             }
         }

@@ -73,12 +73,12 @@ impl Columns {
         self.names.iter().map(|(name, unit)| (name.as_str(), *unit))
     }
 
-    /// Puts the present values into `row`, which has a place for each column.
+    /// Puts the present values into `row`, which has a slot for each column.
     pub fn read(&mut self, simulation: &mut Simulation, row: &mut [f64]) -> Result<(), SimulationError> {
         let (reals, counts) = row.split_at_mut(self.reals.len());
         simulation.reals(&self.reals, reals)?;
         simulation.integers(&self.integers, &mut self.counts)?;
-        counts.iter_mut().zip(&self.counts).for_each(|(place, &count)| *place = f64::from(count));
+        counts.iter_mut().zip(&self.counts).for_each(|(slot, &count)| *slot = f64::from(count));
         Ok(())
     }
 

@@ -38,36 +38,36 @@ impl Noise {
         Ok(Self { ratio, seed })
     }
 
-    /// Adds it to the signals at these places. `course` tells apart files that are measured with different noise.
+    /// Adds it to the signals at these indices. `course` tells apart files that are measured with different noise.
     ///
     /// # Errors
     /// A signal that does not move: no noise has a ratio to it.
-    pub fn add(&self, signals: &Signals, places: &[usize], course: u64) -> Result<()> {
-        let mut sums = vec![[0.0; 2]; places.len()];
+    pub fn add(&self, signals: &Signals, indices: &[usize], course: u64) -> Result<()> {
+        let mut sums = vec![[0.0; 2]; indices.len()];
         // About the first value: accelerations have no large mean, but others may.
         let mut first = Vec::new();
         signals.each_row(|row| {
             if first.is_empty() {
-                first = places.iter().map(|&place| row[place]).collect();
+                first = indices.iter().map(|&index| row[index]).collect();
             }
-            for ((sum, &place), first) in sums.iter_mut().zip(places).zip(&first) {
-                let value = row[place] - first;
+            for ((sum, &index), first) in sums.iter_mut().zip(indices).zip(&first) {
+                let value = row[index] - first;
                 *sum = [sum[0] + value, sum[1] + value * value];
             }
             Ok(())
         })?;
         let count = signals.rows() as f64;
-        let mut levels = Vec::with_capacity(places.len());
-        for (&place, [sum, squares]) in places.iter().zip(sums) {
+        let mut levels = Vec::with_capacity(indices.len());
+        for (&index, [sum, squares]) in indices.iter().zip(sums) {
             let rms = (squares / count - (sum / count) * (sum / count)).max(0.0).sqrt();
             if !(rms > 0.0) {
-                bail!("{} does not move: noise of {} dB to it is none", signals.names()[place], self.ratio);
+                bail!("{} does not move: noise of {} dB to it is none", signals.names()[index], self.ratio);
             }
             levels.push(rms * libm::pow(10.0, -self.ratio / 20.0));
         }
         signals.change(|row, values| {
-            for (k, (&place, level)) in places.iter().zip(&levels).enumerate() {
-                values[place] += level * gaussian(self.seed, (course << 32) + k as u64, row as i64);
+            for (k, (&index, level)) in indices.iter().zip(&levels).enumerate() {
+                values[index] += level * gaussian(self.seed, (course << 32) + k as u64, row as i64);
             }
         })
     }

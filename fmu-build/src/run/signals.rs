@@ -74,9 +74,9 @@ impl Signals {
         self.rows
     }
 
-    /// Places of the names that `wanted` says.
-    pub fn places(&self, wanted: impl Fn(&str) -> bool) -> Vec<usize> {
-        (0..self.names.len()).filter(|&place| wanted(&self.names[place])).collect()
+    /// Indices of the names that `wanted` says.
+    pub fn indices(&self, wanted: impl Fn(&str) -> bool) -> Vec<usize> {
+        (0..self.names.len()).filter(|&index| wanted(&self.names[index])).collect()
     }
 
     /// Hands over row after row.
@@ -93,19 +93,19 @@ impl Signals {
     }
 
     /// One signal.
-    pub fn column(&self, place: usize) -> Result<Vec<f64>> {
-        Ok(self.columns(&[place])?.pop().unwrap_or_default())
+    pub fn column(&self, index: usize) -> Result<Vec<f64>> {
+        Ok(self.columns(&[index])?.pop().unwrap_or_default())
     }
 
     /// Several signals, read at once.
-    pub fn columns(&self, places: &[usize]) -> Result<Vec<Vec<f64>>> {
-        if self.rows.saturating_mul(places.len() as u64) > 1 << 27 {
-            let names: Vec<&str> = places.iter().map(|&place| self.names[place].as_str()).collect();
+    pub fn columns(&self, indices: &[usize]) -> Result<Vec<Vec<f64>>> {
+        if self.rows.saturating_mul(indices.len() as u64) > 1 << 27 {
+            let names: Vec<&str> = indices.iter().map(|&index| self.names[index].as_str()).collect();
             bail!("{} samples of {}: at most {} go into memory", self.rows, names.join(", "), 1 << 27);
         }
-        let mut columns = vec![Vec::with_capacity(self.rows as usize); places.len()];
+        let mut columns = vec![Vec::with_capacity(self.rows as usize); indices.len()];
         self.each_row(|row| {
-            columns.iter_mut().zip(places).for_each(|(column, &place)| column.push(row[place]));
+            columns.iter_mut().zip(indices).for_each(|(column, &index)| column.push(row[index]));
             Ok(())
         })?;
         Ok(columns)

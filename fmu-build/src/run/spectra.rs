@@ -33,7 +33,7 @@ pub(super) struct Spectra<'a> {
     scene: &'a Scene,
     /// Speed of its shaft where that changes.
     profile: Option<&'a SpeedProfile>,
-    /// What is looked at.
+    /// What the spectra are of.
     acceleration: Acceleration,
     /// Where the shaft has turned by equal angles, once somebody has asked.
     angles: OnceCell<Option<EvenAngles>>,

@@ -47,7 +47,7 @@ impl Format {
         folder.join(format!("{scene}{ending}"))
     }
 
-    /// Writes the columns at these places, whose units are given.
+    /// Writes the columns at these indices, whose units are given.
     pub fn write(self, signals: &Signals, columns: &[(usize, &str)], path: &Path) -> Result<()> {
         whole_file::write_with(path, |out| match self {
             Self::Csv => as_csv(signals, columns, out),
@@ -58,27 +58,27 @@ impl Format {
 }
 
 fn as_csv(signals: &Signals, columns: &[(usize, &str)], mut out: &mut (dyn Write + Send)) -> Result<()> {
-    csv::header(&mut out, columns.iter().map(|&(place, unit)| (signals.names()[place].as_str(), unit)))?;
-    signals.each_row(|row| Ok(csv::row(&mut out, columns.iter().map(|&(place, _)| row[place]))?))
+    csv::header(&mut out, columns.iter().map(|&(index, unit)| (signals.names()[index].as_str(), unit)))?;
+    signals.each_row(|row| Ok(csv::row(&mut out, columns.iter().map(|&(index, _)| row[index]))?))
 }
 
 fn as_npy(signals: &Signals, columns: &[(usize, &str)], out: &mut (dyn Write + Send)) -> Result<()> {
-    let names: Vec<String> = columns.iter().map(|&(place, _)| signals.names()[place].clone()).collect();
+    let names: Vec<String> = columns.iter().map(|&(index, _)| signals.names()[index].clone()).collect();
     out.write_all(&npy_header(&names, signals.rows()))?;
-    signals.each_row(|row| Ok(columns.iter().try_for_each(|&(place, _)| out.write_all(&row[place].to_le_bytes()))?))
+    signals.each_row(|row| Ok(columns.iter().try_for_each(|&(index, _)| out.write_all(&row[index].to_le_bytes()))?))
 }
 
 /// Doubles with their bytes sorted by significance, which then pack well; each column's unit stands in the file's own
 /// metadata as `unit:<name>`.
 fn as_parquet(signals: &Signals, columns: &[(usize, &str)], out: &mut (dyn Write + Send)) -> Result<()> {
-    let field = |&(place, _): &(usize, &str)| {
-        let built = Type::primitive_type_builder(&signals.names()[place], Physical::DOUBLE);
+    let field = |&(index, _): &(usize, &str)| {
+        let built = Type::primitive_type_builder(&signals.names()[index], Physical::DOUBLE);
         Ok(Arc::new(built.with_repetition(Repetition::REQUIRED).build()?))
     };
     let fields = columns.iter().map(field).collect::<Result<Vec<_>>>()?;
     let schema = Arc::new(Type::group_type_builder("run").with_fields(fields).build()?);
-    let unit = |&(place, unit): &(usize, &str)| {
-        KeyValue::new(format!("unit:{}", signals.names()[place]), Some(unit.to_owned()))
+    let unit = |&(index, unit): &(usize, &str)| {
+        KeyValue::new(format!("unit:{}", signals.names()[index]), Some(unit.to_owned()))
     };
     let properties = WriterProperties::builder()
         .set_dictionary_enabled(false)
@@ -89,8 +89,8 @@ fn as_parquet(signals: &Signals, columns: &[(usize, &str)], out: &mut (dyn Write
     let mut writer = SerializedFileWriter::new(out, schema, Arc::new(properties))?;
     let mut group = vec![Vec::with_capacity(GROUP); columns.len()];
     signals.each_row(|row| {
-        for (column, &(place, _)) in group.iter_mut().zip(columns) {
-            column.push(row[place]);
+        for (column, &(index, _)) in group.iter_mut().zip(columns) {
+            column.push(row[index]);
         }
         if group[0].len() == GROUP { put(&mut group, &mut writer) } else { Ok(()) }
     })?;
@@ -106,9 +106,9 @@ fn put<W: Write + Send>(group: &mut [Vec<f64>], writer: &mut SerializedFileWrite
     }
     let mut rows = writer.next_row_group()?;
     for column in group {
-        if let Some(mut place) = rows.next_column()? {
-            place.typed::<DoubleType>().write_batch(column, None, None)?;
-            place.close()?;
+        if let Some(mut chunk) = rows.next_column()? {
+            chunk.typed::<DoubleType>().write_batch(column, None, None)?;
+            chunk.close()?;
         }
         column.clear();
     }

@@ -32,14 +32,14 @@ impl Wav {
         Ok(())
     }
 
-    /// Writes the signals at these places, sampled at `rate` [Hz]. Gives the largest sample.
-    pub fn write(&self, signals: &Signals, places: &[usize], rate: f64, path: &Path) -> Result<f64> {
-        let length = 4 * signals.rows() * places.len() as u64;
+    /// Writes the signals at these indices, sampled at `rate` [Hz]. Gives the largest sample.
+    pub fn write(&self, signals: &Signals, indices: &[usize], rate: f64, path: &Path) -> Result<f64> {
+        let length = 4 * signals.rows() * indices.len() as u64;
         if length > LARGEST {
             bail!("{length} bytes of samples: a WAV file holds at most {LARGEST}; take a shorter run or a lower rate");
         }
         let spec = hound::WavSpec {
-            channels: u16::try_from(places.len()).context("channels")?,
+            channels: u16::try_from(indices.len()).context("channels")?,
             sample_rate: whole_rate(rate)?,
             bits_per_sample: 32,
             sample_format: hound::SampleFormat::Float,
@@ -48,8 +48,8 @@ impl Wav {
         let mut bytes = Cursor::new(Vec::with_capacity(length as usize + 128));
         let mut writer = hound::WavWriter::new(&mut bytes, spec)?;
         signals.each_row(|row| {
-            for &place in places {
-                let sample = row[place] / self.scale;
+            for &index in indices {
+                let sample = row[index] / self.scale;
                 largest = largest.max(sample.abs());
                 writer.write_sample(sample as f32)?;
             }

@@ -149,7 +149,7 @@ impl Bench<'_> {
         Ok(std::fs::remove_dir_all(&own).map_err(|error| NotWritten::new(&own, error))?)
     }
 
-    /// What is looked at in each step.
+    /// The signals that are kept of each step.
     fn wanted(&self, scene: &Scene, simulation: &Simulation) -> Result<Columns> {
         let mut names = vec!["cage.speed".to_owned(), "solver.steps".to_owned(), "solver.rejected_steps".to_owned()];
         names.extend((0..scene.sensors.len()).map(|number| scene.sensor_variable(number)));
@@ -163,8 +163,8 @@ impl Bench<'_> {
     fn kept(&self, scene: &Scene, done: &Done, file: &Path) -> Result<Signals> {
         let source = done.recording.as_ref().unwrap_or(&done.signals);
         let is_sensor = |name: &str| (0..scene.sensors.len()).any(|number| scene.sensor_variable(number) == name);
-        let positions = source.places(|name| name == "time" || is_sensor(name));
-        let names: Vec<String> = positions.iter().map(|&position| source.names()[position].clone()).collect();
+        let indices = source.indices(|name| name == "time" || is_sensor(name));
+        let names: Vec<String> = indices.iter().map(|&index| source.names()[index].clone()).collect();
         // Without the instant at which settling ends, however it was rounded.
         let late = self.sweep.settle + 1e-9 / self.sweep.rate;
         let mut count = 0;
@@ -177,10 +177,10 @@ impl Bench<'_> {
         }
         let full = |error| NotWritten::new(file, error);
         let mut kept = Growing::create(file, names, count).map_err(full)?;
-        let mut values = vec![0.0; positions.len()];
+        let mut values = vec![0.0; indices.len()];
         source.each_row(|row| {
             if row[0] > late {
-                values.iter_mut().zip(&positions).for_each(|(value, &position)| *value = row[position]);
+                values.iter_mut().zip(&indices).for_each(|(value, &index)| *value = row[index]);
                 kept.push(&values).map_err(full)?;
             }
             Ok(())
@@ -224,8 +224,8 @@ impl Bench<'_> {
         let names = done.signals.names();
         let columns = done.signals.columns(&(0..names.len()).collect::<Vec<_>>())?;
         let column = |name: &str| {
-            let position = names.iter().position(|known| known == name).with_context(|| format!("no column {name}"))?;
-            anyhow::Ok(columns[position].as_slice())
+            let index = names.iter().position(|known| known == name).with_context(|| format!("no column {name}"))?;
+            anyhow::Ok(columns[index].as_slice())
         };
         let (time, cage) = (column("time")?, column("cage.speed")?);
         let count = scene.bearing.element_count;

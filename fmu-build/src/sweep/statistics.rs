@@ -7,7 +7,7 @@ use brinell::numerics::{sin_cos, wrap};
 use brinell_analysis::spectrum::{Band, Spectrum};
 use brinell_analysis::statistics::{mean, median, rms};
 
-/// Multiples of the passage frequency at which the envelope is looked at.
+/// Multiples of the passage frequency at which the envelope is evaluated.
 pub(super) const HARMONICS: usize = 5;
 
 /// Figures of a signal.

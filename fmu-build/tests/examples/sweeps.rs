@@ -36,7 +36,7 @@ fn a_labelled_sweep_says_beside_each_signal_what_it_is_a_run_of() {
 #[ignore = "needs the environment of the examples, half a gigabyte"]
 fn a_sweep_measures_with_noise_a_filter_and_a_speed_that_changes() {
     let folder = common::folder("example-measured");
-    // In the place of the guide's.
+    // In place of the guide's.
     let profile = folder.join("up.csv");
     fs::write(&profile, "time_s,speed_hz\n0,10\n0.1,30\n0.2,30\n").unwrap();
     let said =

@@ -49,8 +49,8 @@ fn said(command: &str, folder: &Path) -> String {
     let program = Path::new(env!("CARGO_BIN_EXE_brinell"));
     // A page that runs no example needs not their half gigabyte.
     let python = if command.contains("python") { python() } else { common::python() };
-    let places = [program.parent().unwrap(), python.interpreter().parent().unwrap()].map(Path::to_path_buf);
-    let path = env::join_paths(places.into_iter().chain(env::split_paths(&env::var_os("PATH").unwrap()))).unwrap();
+    let folders = [program.parent().unwrap(), python.interpreter().parent().unwrap()].map(Path::to_path_buf);
+    let path = env::join_paths(folders.into_iter().chain(env::split_paths(&env::var_os("PATH").unwrap()))).unwrap();
     let modules = [common::root().join("examples"), Path::new(env!("CARGO_MANIFEST_DIR")).join("module")];
     // Around a redirection of its own.
     let whole = if command.starts_with("python ") { command.to_owned() } else { format!("{{ {command}; }} 2>&1") };

@@ -20,8 +20,8 @@ fn run_in(python: Python, name: &str, check: &str) -> String {
     let notebook: Value = serde_json::from_str(&text).unwrap();
     let folder = common::folder(name);
     let mut code = format!("import os, sys\nos.chdir({:?})\n", folder.to_str().unwrap());
-    for place in [Path::new(env!("CARGO_MANIFEST_DIR")).join("module"), common::root().join("examples")] {
-        code += &format!("sys.path.append({place:?})\n");
+    for path in [Path::new(env!("CARGO_MANIFEST_DIR")).join("module"), common::root().join("examples")] {
+        code += &format!("sys.path.append({path:?})\n");
     }
     for cell in notebook["cells"].as_array().unwrap() {
         assert!(cell["outputs"].as_array().is_none_or(Vec::is_empty), "{name}: committed with outputs");

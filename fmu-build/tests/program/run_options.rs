@@ -60,8 +60,8 @@ fn csv(path: &Path) -> (Vec<String>, Vec<Vec<f64>>) {
 }
 
 fn column(table: &(Vec<String>, Vec<Vec<f64>>), name: &str) -> Vec<f64> {
-    let place = table.0.iter().position(|known| known == name).unwrap_or_else(|| panic!("no {name} in {:?}", table.0));
-    table.1.iter().map(|row| row[place]).collect()
+    let index = table.0.iter().position(|known| known == name).unwrap_or_else(|| panic!("no {name} in {:?}", table.0));
+    table.1.iter().map(|row| row[index]).collect()
 }
 
 /// Header and rows of a NumPy file of doubles.
@@ -113,7 +113,7 @@ fn the_columns_that_are_asked_for_have_the_same_bits_in_every_format() {
     let read: Vec<Vec<f64>> = reader
         .get_row_iter(None)
         .unwrap()
-        .map(|row| (0..13).map(|place| row.as_ref().unwrap().get_double(place).unwrap()).collect())
+        .map(|row| (0..13).map(|index| row.as_ref().unwrap().get_double(index).unwrap()).collect())
         .collect();
     assert_eq!(read, some.1);
 }
@@ -219,8 +219,8 @@ fn sound_is_what_the_recorder_filters_at_the_rate_and_scale_that_are_asked_for()
     let path = folder.join("own/6205-healthy.npy");
     let fields = String::from_utf8_lossy(&fs::read(&path).unwrap()[12..2000]).matches("'<f8'").count();
     let (header, rows) = npy(&path, fields);
-    let place = header.split("'<f8'").position(|field| field.contains("'sensor.acceleration'")).unwrap();
-    let expected: Vec<f32> = rows.iter().map(|row| (row[place] / 20.0) as f32).collect();
+    let index = header.split("'<f8'").position(|field| field.contains("'sensor.acceleration'")).unwrap();
+    let expected: Vec<f32> = rows.iter().map(|row| (row[index] / 20.0) as f32).collect();
     // The filter's reach is taken off the end.
     assert_eq!((rate, samples.len()), (12_800, 640 - 15));
     assert_eq!(samples, expected);

@@ -200,14 +200,15 @@ fn every_bound_of_the_schema_is_refused_just_outside_by_the_program() {
     // Lists of tables have a longest.
     let mode = "[[sensor.mode]]\nfrequency_hz = 1000.0\ndamping_ratio = 0.1\ngain = 1.0\n";
     let lists = [("OneOrMoreSensorTable/anyOf/1", "[[sensor]]\n"), ("SensorTable/properties/mode", mode)];
-    for (place, table) in lists {
-        let most = schema.pointer(&format!("/$defs/{place}/maxItems")).and_then(|most| most.as_u64()).unwrap() as usize;
+    for (definition, table) in lists {
+        let most =
+            schema.pointer(&format!("/$defs/{definition}/maxItems")).and_then(|most| most.as_u64()).unwrap() as usize;
         let whole = WHOLE.replace(mode, "").replace("[[sensor]]\n", "");
-        let text = |count: usize| match place.starts_with("OneOr") {
+        let text = |count: usize| match definition.starts_with("OneOr") {
             true => whole.clone() + &table.repeat(count),
             false => format!("{whole}[[sensor]]\n{}", table.repeat(count)),
         };
-        assert!(Scene::from_toml(&text(most)).is_ok() && Scene::from_toml(&text(most + 1)).is_err(), "{place}");
+        assert!(Scene::from_toml(&text(most)).is_ok() && Scene::from_toml(&text(most + 1)).is_err(), "{definition}");
     }
 }
 

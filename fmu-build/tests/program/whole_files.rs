@@ -47,7 +47,7 @@ fn scene(name: &str) -> String {
     common::root().join("scenes").join(name).with_extension("toml").display().to_string()
 }
 
-/// Bytes that do not get shorter by packing, in the place of a library.
+/// Bytes that do not get shorter by packing, in place of a library.
 fn library(folder: &Path) -> PathBuf {
     let mut state = 1u64;
     let bytes: Vec<u8> = (0..1 << 20)

@@ -14,12 +14,12 @@ for two, three in zip(sys.argv[2::2], sys.argv[3::2]):
     reals = [v.name for v in old.description.modelVariables if v.causality == "output"]
     # `element[3].path` is the third element of `element.path`.
     outputs = new.names("output")
-    places = {}
+    columns = {}
     for name in outputs:
         for index in range(new.size(name)):
             head, dot, tail = name.partition(".")
-            places[name if name in old.reference else f"{head}[{index + 1}].{tail}"] = len(places)
-    assert sorted(places) == sorted(reals), set(places) ^ set(reals)
+            columns[name if name in old.reference else f"{head}[{index + 1}].{tail}"] = len(columns)
+    assert sorted(columns) == sorted(reals), set(columns) ^ set(reals)
     counters = new.names("local", "UInt64")
     step = float(new.description.defaultExperiment.stepSize)
     for n in range(count):
@@ -30,7 +30,8 @@ for two, three in zip(sys.argv[2::2], sys.argv[3::2]):
             host.step(step)
         before, after = old.read(reals), new.read(outputs)
         for name, value in zip(reals, before):
-            assert after[places[name]] == value, f"{three}, step {n}: {name} is {after[places[name]]!r}, not {value!r}"
+            now = after[columns[name]]
+            assert now == value, f"{three}, step {n}: {name} is {now!r}, not {value!r}"
         numbers = old.slave.getInteger([old.reference[name] for name in counters])
         assert numbers == new.slave.getUInt64([new.variables[name].valueReference for name in counters])
     old.close()

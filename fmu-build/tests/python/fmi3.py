@@ -90,9 +90,9 @@ def derivatives(fmu):
     for name in outputs:
         listed = host.dependencies(name)
         for element in range(host.size(name)):
-            place = element + 1 if host.variables[name].shape else 0
+            number = element + 1 if host.variables[name].shape else 0
             for k, known in enumerate(knowns):
-                assert (place, known) in listed or jacobian[row, k] == 0.0, f"{fmu}: {name} by {inputs[k]}"
+                assert (number, known) in listed or jacobian[row, k] == 0.0, f"{fmu}: {name} by {inputs[k]}"
             row += 1
     host.close()
 

@@ -32,7 +32,7 @@ seen = [hosted.read(SEEN)]
 for count in range(COUNT):
     hosted.write(MOTION, motion[count])
     hosted.step(STEP)
-    # The force now follows from the place now, which the host knows after its own step.
+    # The force now follows from the position now, which the host knows after its own step.
     hosted.write(MOTION, motion[count + 1])
     seen.append(hosted.read(SEEN))
 hosted.close()

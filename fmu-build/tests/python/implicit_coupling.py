@@ -22,7 +22,7 @@ from host import Host
 
 MASS, DAMPING, LOAD = 0.1, 200.0, np.array([0.0, -500.0])
 STOP = 0.012  # the element enters the spall at 5 ms and leaves it at 11 ms
-PLACE, PACE, PUSH = ["shaft.x", "shaft.y"], ["shaft.vx", "shaft.vy"], ["shaft.ax", "shaft.ay"]
+POSITION, VELOCITY, ACCELERATION = ["shaft.x", "shaft.y"], ["shaft.vx", "shaft.vy"], ["shaft.ax", "shaft.ay"]
 MEAN = ["shaft.mean_force.x", "shaft.mean_force.y"]
 FORCE = ["shaft.force.x", "shaft.force.y"]
 AGREED = 1e-6  # N, a few millionths of a per cent of the load
@@ -30,13 +30,13 @@ MOST = 50
 
 
 def monolithic(fmu, step):
-    """Place and force of the shaft at the communication points, and the largest force on an element."""
+    """Position and force of the shaft at the communication points, and the largest force on an element."""
     start = {"shaft.mass": MASS, "shaft.damping": DAMPING, "solver.tolerance": 1e-9}
     own = Host(fmu, start=start)
-    rows = [own.read(PLACE + PACE + FORCE)]
+    rows = [own.read(POSITION + VELOCITY + FORCE)]
     for _ in range(round(STOP / step)):
         own.step(step)
-        rows.append(own.read(PLACE + PACE + FORCE))
+        rows.append(own.read(POSITION + VELOCITY + FORCE))
     own.close()
     return np.array(rows)
 
@@ -51,7 +51,7 @@ def slope(hosted, known):
 def coupled(fmu, step, begin, scheme):
     """Rows as above, and how often each step was taken."""
     x, v = np.array(begin[:2]), np.zeros(2)
-    start = dict(zip(PLACE, x))
+    start = dict(zip(POSITION, x))
     start.update({"housing.load.x": 0.0, "housing.load.y": 0.0, "solver.tolerance": 1e-9})
     hosted = Host(fmu, start=start)
     rows, passes = [np.concatenate([x, v, hosted.read(FORCE)])], []
@@ -63,12 +63,12 @@ def coupled(fmu, step, begin, scheme):
             if count > 1:
                 hosted.slave.setFMUState(state)
                 hosted.time = time
-            hosted.write(PLACE + PACE + PUSH, np.concatenate([x, v, a]))
+            hosted.write(POSITION + VELOCITY + ACCELERATION, np.concatenate([x, v, a]))
             hosted.step(step)
             push = np.array(hosted.read(MEAN)) + LOAD - DAMPING * v
             left = inertia * a - push
             if scheme == "newton":
-                by_a = slope(hosted, PLACE) * step**2 / 6 + slope(hosted, PACE) * step / 2
+                by_a = slope(hosted, POSITION) * step**2 / 6 + slope(hosted, VELOCITY) * step / 2
                 better = a - np.linalg.solve(inertia * np.eye(2) - by_a, left)
             else:
                 better = push / inertia
@@ -83,7 +83,7 @@ def coupled(fmu, step, begin, scheme):
         x, v = x + step * v + 0.5 * step**2 * a, v + step * a
         if not np.abs(x).max() < 1e-3:
             break
-        hosted.write(PLACE + PACE + PUSH, np.concatenate([x, v, a]))
+        hosted.write(POSITION + VELOCITY + ACCELERATION, np.concatenate([x, v, a]))
         rows.append(np.concatenate([x, v, hosted.read(FORCE)]))
     hosted.close()
     return np.array(rows), np.array(passes)
@@ -130,12 +130,12 @@ def draw(found, table, stem):
 
     rows, expected, _, _ = found["newton", 5e-5]
     time = 1e3 * 5e-5 * np.arange(len(expected))
-    figure, (place, passes) = plt.subplots(2, 1, figsize=(plotting.WIDTH, 5.0), sharex=True)
-    place.plot(time, 1e6 * expected[:, 1], color="black", label="one FMU")
-    place.plot(time, 1e6 * rows[:, 1], ".", color=plotting.VERMILION, ms=3, label="host and FMU, iterated, H = 50 µs")
-    place.set_ylabel("shaft.y [µm]")
-    place.set_title("A shaft of 0.1 kg moved by the host, over a spall")
-    place.legend()
+    figure, (motion, passes) = plt.subplots(2, 1, figsize=(plotting.WIDTH, 5.0), sharex=True)
+    motion.plot(time, 1e6 * expected[:, 1], color="black", label="one FMU")
+    motion.plot(time, 1e6 * rows[:, 1], ".", color=plotting.VERMILION, ms=3, label="host and FMU, iterated, H = 50 µs")
+    motion.set_ylabel("shaft.y [µm]")
+    motion.set_title("A shaft of 0.1 kg moved by the host, over a spall")
+    motion.legend()
     for scheme, colour in [("fixed point", plotting.ORANGE), ("newton", plotting.BLUE)]:
         count = found[scheme, 5e-5][3]
         passes.step(time[1 : len(count) + 1], count, color=colour, label=scheme)

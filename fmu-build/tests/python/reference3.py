@@ -13,14 +13,14 @@ from fmpy.util import read_ref_opt_file
 from fmpy.validation import validate_fmu
 from lxml import etree
 
-PLACE = "extra/org.fmi-standard.fmi-ls-ref/"
+PREFIX = "extra/org.fmi-standard.fmi-ls-ref/"
 NAMESPACE = "{http://fmi-standard.org/fmi-ls-manifest}"
 ROLES = re.compile("document|requirement|specification|model|parameter|system|testcase|experiment|result|configuration")
 
 for path in map(Path, sys.argv[1:]):
     assert not validate_fmu(str(path)), validate_fmu(str(path))
     with ZipFile(path) as fmu, tempfile.TemporaryDirectory() as folder:
-        root = etree.fromstring(fmu.read(PLACE + "fmi-ls-manifest.xml"))
+        root = etree.fromstring(fmu.read(PREFIX + "fmi-ls-manifest.xml"))
         assert root.tag == "fmiReferences" and root.get(NAMESPACE + "fmi-ls-name") == "org.fmi-standard.fmi-ls-ref"
         assert re.fullmatch(r"\d+\.\d+\.\d+(-.+)?", root.get(NAMESPACE + "fmi-ls-version"))
         # The schema allows this text alone.
@@ -29,14 +29,14 @@ for path in map(Path, sys.argv[1:]):
         related = root.findall("Related")
         assert len(related) == len(root) and all(ROLES.fullmatch(file.get("role")) for file in related)
         named = {file.get("source") for file in related}
-        held = {name.removeprefix(PLACE) for name in fmu.namelist() if name.startswith(PLACE)}
+        held = {name.removeprefix(PREFIX) for name in fmu.namelist() if name.startswith(PREFIX)}
         assert named == held - {"fmi-ls-manifest.xml"}, (named, held)
         for name in named:
-            fmu.extract(PLACE + name, folder)
+            fmu.extract(PREFIX + name, folder)
             beside = path.with_name(name)
-            assert fmu.read(PLACE + name) == beside.read_bytes(), f"{name} differs from the file beside the FMU"
+            assert fmu.read(PREFIX + name) == beside.read_bytes(), f"{name} differs from the file beside the FMU"
         (results,) = (file.get("source") for file in related if file.get("role") == "result")
-        stem = str(Path(folder) / PLACE / results.removesuffix("_ref.csv"))
+        stem = str(Path(folder) / PREFIX / results.removesuffix("_ref.csv"))
         options, reference = read_ref_opt_file(stem + "_ref.opt"), read_csv(stem + "_ref.csv")
         step = options["StepSize"]
         result = simulate_fmu(

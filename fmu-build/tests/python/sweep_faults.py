@@ -47,8 +47,8 @@ def main():
     assert len(paths) == 2
 
     broken, whole = folder / "broken", folder / "whole"
-    for place in (broken, whole):
-        place.mkdir()
+    for made in (broken, whole):
+        made.mkdir()
     with LocalCluster(n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address=None) as cluster:
         with Client(cluster) as client:
             client.register_plugin(sweep.Bearings(paths, bearing.__file__))

@@ -38,7 +38,7 @@ pub(super) fn patch(draw: &mut Draw, step: f64, half: f64, depth: f64) -> Topogr
     Topography { arcs, axials, depths }
 }
 
-/// Depth [m] at a place of a shape [m]; bilinear, and 0 outside.
+/// Depth [m] at a point of a shape [m]; bilinear, and 0 outside.
 pub(super) fn depth_at(shape: &Shape, arc: f64, axial: f64) -> f64 {
     let between = |lines: &[f64], at: f64| -> Option<(usize, f64)> {
         let k = lines.windows(2).position(|pair| pair[0] <= at && at <= pair[1])?;
@@ -59,8 +59,8 @@ pub(super) fn depth_at(shape: &Shape, arc: f64, axial: f64) -> f64 {
         }
         Shape::Topography(Topography { arcs, axials, depths }) => {
             let middle = 0.5 * (arcs[0] + arcs[arcs.len() - 1]);
-            let places = (between(arcs, arc * 1e3 + middle), between(axials, axial * 1e3));
-            let (Some((i, p)), Some((j, q))) = places else { return 0.0 };
+            let intervals = (between(arcs, arc * 1e3 + middle), between(axials, axial * 1e3));
+            let (Some((i, p)), Some((j, q))) = intervals else { return 0.0 };
             let at = |i: usize, j: usize| depths[i * axials.len() + j];
             let along = |j: usize| at(i, j) + p * (at(i + 1, j) - at(i, j));
             1e-6 * (along(j) + q * (along(j + 1) - along(j)))
@@ -78,7 +78,7 @@ struct Meeting {
 
 /// Approach to the smooth raceway, arc from the defect's middle, distance of the centres; and the directions away from
 /// the raceway and counter-clockwise along it.
-struct Place {
+struct ContactPoint {
     u: f64,
     arc: f64,
     distance: f64,
@@ -111,7 +111,7 @@ impl Meeting {
     }
 
     /// Where the contact is by the signals of a run.
-    fn place(&self, case: &Case, value: &dyn Fn(&str) -> f64) -> Place {
+    fn point(&self, case: &Case, value: &dyn Fn(&str) -> f64) -> ContactPoint {
         let host = case.steps[0].host.unwrap();
         let (theta, rho) = (value("cage.angle"), self.bearing.rho_0 + value("element[1].path"));
         let q = [0, 1].map(|a| host.rings[1][a][0] - host.rings[0][a][0] + rho * [theta.cos(), theta.sin()][a]);
@@ -126,15 +126,20 @@ impl Meeting {
         };
         let arc = self.own() * crate::oracle::envelope::within_half_a_turn(turned);
         if outside(self.pair) {
-            return Place { u: value("element[1].path"), arc, distance: rho, away: [-theta.cos(), -theta.sin()] };
+            return ContactPoint {
+                u: value("element[1].path"),
+                arc,
+                distance: rho,
+                away: [-theta.cos(), -theta.sin()],
+            };
         }
         let distance = q[0].hypot(q[1]);
         let u = self.bearing.rho_0 - self.bearing.clearance - distance;
-        Place { u, arc, distance, away: [phi.cos(), phi.sin()] }
+        ContactPoint { u, arc, distance, away: [phi.cos(), phi.sin()] }
     }
 
     /// Force away from the raceway and along it on a grid of so many cells.
-    fn on_grid(&self, place: &Place, cells: [usize; 2], shift: f64) -> [f64; 2] {
+    fn on_grid(&self, point: &ContactPoint, cells: [usize; 2], shift: f64) -> [f64; 2] {
         let solver = HalfSpace { cells, shift, ..self.solver };
         let high = match &self.shape {
             Shape::Topography(topography) => -1e-6 * topography.depths.iter().fold(0.0f64, |m, depth| m.min(*depth)),
@@ -142,26 +147,26 @@ impl Meeting {
         };
         let mean = |s: [f64; 2], y: [f64; 2]| {
             let part = |range: [f64; 2], k: i32| range[0] + (range[1] - range[0]) * (f64::from(k) + 0.5) / 8.0;
-            let sum: f64 = (0..64).map(|k| depth_at(&self.shape, place.arc + part(s, k / 8), part(y, k % 8))).sum();
+            let sum: f64 = (0..64).map(|k| depth_at(&self.shape, point.arc + part(s, k / 8), part(y, k % 8))).sum();
             sum / 64.0
         };
-        let [normal, tangential] = solver.forces(place.u, high, mean);
+        let [normal, tangential] = solver.forces(point.u, high, mean);
         // As the laws do: what the grid makes of the smooth raceway at this force is Hertz's.
         let stiffness = self.bearing.growth[usize::from(outside(self.pair))].constant();
         let own = (normal.max(1e-12) / stiffness).cbrt().powi(2);
-        let smooth = solver.forces(own, high + place.u - own, |_, _| 0.0)[0];
+        let smooth = solver.forces(own, high + point.u - own, |_, _| 0.0)[0];
         let hertz = stiffness * own.powf(1.5) / smooth;
         // The energy changes by the arc on the body with the defect, the force acts at the other ends of the centres'
         // line.
-        [normal * hertz, tangential * hertz * self.own() / place.distance]
+        [normal * hertz, tangential * hertz * self.own() / point.distance]
     }
 
     /// Force away from the raceway and along it, the mean of three grids beside each other, and how well it is known:
     /// refined until that is a hundredth of `scale`, as far as can be afforded.
-    fn forces(&self, place: &Place, scale: f64) -> [(f64, f64); 2] {
+    fn forces(&self, point: &ContactPoint, scale: f64) -> [(f64, f64); 2] {
         let mut coarse = [f64::INFINITY; 2];
         for cells in [[14, 10], [20, 14], [28, 20], [40, 28]] {
-            let grids = [-1.0 / 3.0, 0.0, 1.0 / 3.0].map(|shift| self.on_grid(place, cells, shift));
+            let grids = [-1.0 / 3.0, 0.0, 1.0 / 3.0].map(|shift| self.on_grid(point, cells, shift));
             let found = [0, 1].map(|i| {
                 let mean = grids.iter().map(|grid| grid[i]).sum::<f64>() / 3.0;
                 let spread = grids.iter().map(|grid| (grid[i] - mean).abs()).fold(0.0, f64::max);
@@ -207,13 +212,13 @@ fn over(case: &Case, meeting: &Meeting, at: f64) -> Case {
 }
 
 /// Force of a contact on its element, away from the raceway and along it, by the force on the ring.
-fn found(pair: Pair, place: &Place, value: &dyn Fn(&str) -> f64) -> [f64; 2] {
+fn found(pair: Pair, point: &ContactPoint, value: &dyn Fn(&str) -> f64) -> [f64; 2] {
     let ring = if outside(pair) { "housing" } else { "shaft" };
     let [x, y] = ["x", "y"].map(|axis| -value(&format!("{ring}.force.{axis}")));
     // Counter-clockwise as seen from the rings' centres, whichever way it is pushed.
     let out = if outside(pair) { -1.0 } else { 1.0 };
-    let [ex, ey] = place.away.map(|part| out * part);
-    [x * place.away[0] + y * place.away[1], y * ex - x * ey]
+    let [ex, ey] = point.away.map(|part| out * part);
+    [x * point.away[0] + y * point.away[1], y * ex - x * ey]
 }
 
 /// Compares a law with the half-space at the start and, where the shaft turns, after each of some steps.
@@ -225,9 +230,9 @@ fn agrees(case: &Case, meeting: &Meeting, scale: f64) -> Result<(), String> {
         let sample = if i == 0 { subject.start(case) } else { subject.step(case, i - 1) };
         let sample = sample.map_err(|error| error.to_string())?;
         let value = |name: &str| sample[names[name]];
-        let place = meeting.place(case, &value);
-        let both = found(meeting.pair, &place, &value);
-        for (which, (found, (oracle, error))) in both.into_iter().zip(meeting.forces(&place, scale)).enumerate() {
+        let point = meeting.point(case, &value);
+        let both = found(meeting.pair, &point, &value);
+        for (which, (found, (oracle, error))) in both.into_iter().zip(meeting.forces(&point, scale)).enumerate() {
             // The program's grid, coarse for the sake of time, the oracle's, and what a map may miss of its largest
             // force.
             let map = case.grid.filter(|_| case.law == "map").map_or(0.0, |(largest, _, accuracy)| largest * accuracy);

@@ -55,8 +55,8 @@ pub(super) fn pressed(case: &Case, approach: f64) -> Case {
     let inner = approach * (bearing.growth[1].constant() / bearing.growth[0].constant()).cbrt().powi(2);
     let (sin, cos) = case.cage_deg.to_radians().sin_cos();
     let way = bearing.clearance + inner + approach;
-    let place = [[way * cos, 0.0, 0.0], [way * sin, 0.0, 0.0]];
-    let host = Host { speeds: [[0.0; 2]; 2], rings: [place, [[0.0; 3]; 2]] };
+    let position = [[way * cos, 0.0, 0.0], [way * sin, 0.0, 0.0]];
+    let host = Host { speeds: [[0.0; 2]; 2], rings: [position, [[0.0; 3]; 2]] };
     Case { steps: vec![Step { length: 1e-6, host: Some(host) }], ..case.clone() }
 }
 
@@ -129,9 +129,9 @@ fn over_a_shallow_and_long_hollow_love_agrees_with_the_rigid_path() {
         let depth = approach * draw.between(0.2, 0.6) * draw.sign();
         let cells = [16, 10];
         let shape = trace(length, 0.03 * half, |share| depth * bowl(share));
-        let place = draw.between(-0.5, 0.5) * length;
+        let offset = draw.between(-0.5, 0.5) * length;
         let at = |law| {
-            let mut case = over(&pressed(&case, approach), shape.clone(), place);
+            let mut case = over(&pressed(&case, approach), shape.clone(), offset);
             (case.law, case.grid) = (law, (law != "hertz").then(|| grid(&case, approach, cells)));
             force(&case)
         };
@@ -164,9 +164,9 @@ fn the_map_agrees_with_the_grid_that_it_was_made_of() {
             trace(length, 0.03 * half, |share| depth * bowl(share))
         };
         for _ in 0..2 {
-            let place = draw.between(-1.0, 1.0) * length;
+            let offset = draw.between(-1.0, 1.0) * length;
             let at = |law| {
-                let mut case = over(&pressed(&case, approach), shape.clone(), place);
+                let mut case = over(&pressed(&case, approach), shape.clone(), offset);
                 let (largest, cells, _) = grid(&case, approach, [12, 8]);
                 (case.law, case.grid) = (law, Some((largest, cells, 0.005)));
                 force(&case).map(|force| (force, largest))

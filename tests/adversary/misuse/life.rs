@@ -97,7 +97,7 @@ pub(super) fn free(w: &mut Walker, chance: &mut Chance, _: bool, others: &Strang
 fn no_instance(w: &mut Walker, c: *mut c_void, chance: &mut Chance) {
     let (mut number, mut state, mut size) = (0.0, ptr::null_mut(), 0);
     let reference = 0;
-    // SAFETY: any handle may be passed; places for one value each.
+    // SAFETY: any handle may be passed; pointers to one value each.
     let status = unsafe {
         match chance.below(12) {
             0 => fmi2GetReal(c, &raw const reference, 1, &raw mut number),

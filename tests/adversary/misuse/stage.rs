@@ -160,12 +160,12 @@ pub(super) enum FullDisk {
 }
 
 /// Where recordings may go.
-pub(super) struct Places {
+pub(super) struct Folders {
     root: PathBuf,
     full: FullDisk,
 }
 
-impl Places {
+impl Folders {
     /// Folders of the walk of this number.
     pub(super) fn new(walk: u64, full: FullDisk) -> Self {
         let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("misuse-{}-{walk}", std::process::id()));
@@ -207,7 +207,7 @@ impl Places {
     }
 }
 
-impl Drop for Places {
+impl Drop for Folders {
     fn drop(&mut self) {
         let _ = fs::remove_dir_all(&self.root);
     }

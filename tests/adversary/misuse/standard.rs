@@ -61,7 +61,7 @@ pub(super) const TABLE: [(&str, &str); 34] = [
     ("fmi2GetStringStatus", "CT"),
 ];
 
-/// Place of a function in the table.
+/// Index of a function in the table.
 pub(super) fn row(function: &str) -> usize {
     TABLE.iter().position(|(name, _)| *name == function).unwrap()
 }

@@ -31,9 +31,9 @@ pub(super) fn get_state(w: &mut Walker, chance: &mut Chance, kind: bool, others:
         let expected = w.expect("fmi2GetFMUstate", ERROR);
         let wrong = not_ours(w, chance, others);
         let mut handle = wrong;
-        let place = if chance.one_in(3) { ptr::null_mut() } else { &raw mut handle };
-        // SAFETY: a place for one value, or NULL. The handle in it may have any value.
-        let status = unsafe { fmi2GetFMUstate(w.subject.c, place) };
+        let pointer = if chance.one_in(3) { ptr::null_mut() } else { &raw mut handle };
+        // SAFETY: a pointer to one value, or NULL. The handle in it may have any value.
+        let status = unsafe { fmi2GetFMUstate(w.subject.c, pointer) };
         w.judge("fmi2GetFMUstate", expected, status, || format!("{wrong:?}"));
         w.require(handle == wrong, || "the handle changed".to_owned());
         return;
@@ -126,16 +126,16 @@ pub(super) fn free_state(w: &mut Walker, chance: &mut Chance, kind: bool, others
     if w.saved.is_empty() || !kind && chance.one_in(2) {
         let wrong = not_ours(w, chance, others);
         let (mut handle, mut verdict) = (wrong, ERROR);
-        let mut place = &raw mut handle;
+        let mut pointer = &raw mut handle;
         match chance.below(4) {
-            0 => (place, verdict) = (ptr::null_mut(), OK),
+            0 => (pointer, verdict) = (ptr::null_mut(), OK),
             1 => (handle, verdict) = (ptr::null_mut(), OK),
             _ => {}
         }
         let before = handle;
         let expected = w.expect("fmi2FreeFMUstate", verdict);
-        // SAFETY: a place for one value, or NULL. The handle in it may have any value.
-        let status = unsafe { fmi2FreeFMUstate(w.subject.c, place) };
+        // SAFETY: a pointer to one value, or NULL. The handle in it may have any value.
+        let status = unsafe { fmi2FreeFMUstate(w.subject.c, pointer) };
         w.judge("fmi2FreeFMUstate", expected, status, || format!("{before:?}"));
         w.require(handle == before, || "the handle changed".to_owned());
         return;
@@ -157,10 +157,10 @@ pub(super) fn state_size(w: &mut Walker, chance: &mut Chance, kind: bool, others
     let handle = if good { chance.pick(&w.saved).handle } else { not_ours(w, chance, others) };
     let null = !kind && chance.one_in(4);
     let mut size = 0;
-    let place = if null { ptr::null_mut() } else { &raw mut size };
+    let pointer = if null { ptr::null_mut() } else { &raw mut size };
     let expected = w.expect("fmi2SerializedFMUstateSize", if good && !null { OK } else { ERROR });
-    // SAFETY: any handle may be passed; a place for one value, or NULL.
-    let status = unsafe { fmi2SerializedFMUstateSize(w.subject.c, handle, place) };
+    // SAFETY: any handle may be passed; a pointer to one value, or NULL.
+    let status = unsafe { fmi2SerializedFMUstateSize(w.subject.c, handle, pointer) };
     let done = w.judge("fmi2SerializedFMUstateSize", expected, status, || format!("{handle:?}, NULL {null}"));
     w.require(done == (size > 0), || format!("size {size}"));
 }
@@ -170,7 +170,7 @@ pub(super) fn serialize(w: &mut Walker, chance: &mut Chance, kind: bool, others:
     let handle = if good { chance.pick(&w.saved).handle } else { not_ours(w, chance, others) };
     let mut size = 0;
     if good {
-        // SAFETY: a handle of this instance; a place for one value.
+        // SAFETY: a handle of this instance; a pointer to one value.
         assert_eq!(unsafe { fmi2SerializedFMUstateSize(w.subject.c, handle, &raw mut size) }, Status::Ok);
     }
     let mut bytes = vec![0xa5u8; size + 2];
@@ -182,9 +182,9 @@ pub(super) fn serialize(w: &mut Walker, chance: &mut Chance, kind: bool, others:
     }
     let right = good && said == size && !null;
     let expected = w.expect("fmi2SerializeFMUstate", if right { OK } else { ERROR });
-    let place = if null { ptr::null_mut() } else { bytes.as_mut_ptr().cast() };
+    let pointer = if null { ptr::null_mut() } else { bytes.as_mut_ptr().cast() };
     // SAFETY: any handle may be passed; the buffer has at least the size said, or is NULL.
-    let status = unsafe { fmi2SerializeFMUstate(w.subject.c, handle, place, said) };
+    let status = unsafe { fmi2SerializeFMUstate(w.subject.c, handle, pointer, said) };
     let done = w.judge("fmi2SerializeFMUstate", expected, status, || format!("{handle:?}, {said} of {size}"));
     let untouched = if done { &bytes[size..] } else { &bytes[..] };
     w.require(untouched.iter().all(|byte| *byte == 0xa5), || "written where nothing was wanted".to_owned());
@@ -212,8 +212,8 @@ pub(super) fn deserialize(w: &mut Walker, chance: &mut Chance, kind: bool, other
     let mut right = blob.scene == w.stage.name;
     match if kind { 9 } else { chance.below(8) } {
         0 | 1 => {
-            let place = chance.below(bytes.len());
-            bytes[place] ^= 1 << chance.below(8);
+            let index = chance.below(bytes.len());
+            bytes[index] ^= 1 << chance.below(8);
             right = false;
         }
         2 => {
@@ -230,14 +230,14 @@ pub(super) fn deserialize(w: &mut Walker, chance: &mut Chance, kind: bool, other
         }
         _ => {}
     }
-    let place_is_null = !kind && chance.one_in(8);
+    let pointer_is_null = !kind && chance.one_in(8);
     let mut handle = if !kind && chance.one_in(8) { not_ours(w, chance, others) } else { ptr::null_mut() };
     let before = handle;
-    let place = if place_is_null { ptr::null_mut() } else { &raw mut handle };
-    right &= !place_is_null && before.is_null();
+    let pointer = if pointer_is_null { ptr::null_mut() } else { &raw mut handle };
+    right &= !pointer_is_null && before.is_null();
     let expected = w.expect("fmi2DeSerializeFMUstate", if right { OK } else { ERROR });
-    // SAFETY: as many bytes as said; a place for one value, or NULL.
-    let status = unsafe { fmi2DeSerializeFMUstate(w.subject.c, bytes.as_ptr().cast(), bytes.len(), place) };
+    // SAFETY: as many bytes as said; a pointer to one value, or NULL.
+    let status = unsafe { fmi2DeSerializeFMUstate(w.subject.c, bytes.as_ptr().cast(), bytes.len(), pointer) };
     let call = || format!("{} bytes of {}, over {before:?}, in {:?}", bytes.len(), blob.scene, blob.model.state);
     let done = w.judge("fmi2DeSerializeFMUstate", expected, status, call);
     w.require(done || handle == before, || "the handle changed".to_owned());

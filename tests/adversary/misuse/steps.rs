@@ -250,7 +250,7 @@ pub(super) fn status(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Strang
     let asked = status_kind(chance, kind, DO_STEP_STATUS);
     let mut value = Status::Fatal;
     let null = !kind && chance.one_in(4);
-    let place = if null { ptr::null_mut() } else { &raw mut value };
+    let pointer = if null { ptr::null_mut() } else { &raw mut value };
     let verdict = if asked != DO_STEP_STATUS {
         DISCARD
     } else if null {
@@ -259,8 +259,8 @@ pub(super) fn status(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Strang
         OK
     };
     let expected = w.expect("fmi2GetStatus", verdict);
-    // SAFETY: a place for one value, or NULL.
-    let status = unsafe { fmi2GetStatus(w.subject.c, asked, place) };
+    // SAFETY: a pointer to one value, or NULL.
+    let status = unsafe { fmi2GetStatus(w.subject.c, asked, pointer) };
     let done = w.judge("fmi2GetStatus", expected, status, || format!("{asked}, NULL {null}"));
     w.require(!done || value == w.model.last_step, || format!("{value:?}"));
 }
@@ -269,7 +269,7 @@ pub(super) fn real_status(w: &mut Walker, chance: &mut Chance, kind: bool, _: &S
     let asked = status_kind(chance, kind, LAST_SUCCESSFUL_TIME);
     let mut value = f64::NAN;
     let null = !kind && chance.one_in(4);
-    let place = if null { ptr::null_mut() } else { &raw mut value };
+    let pointer = if null { ptr::null_mut() } else { &raw mut value };
     let verdict = if asked != LAST_SUCCESSFUL_TIME {
         DISCARD
     } else if null {
@@ -278,8 +278,8 @@ pub(super) fn real_status(w: &mut Walker, chance: &mut Chance, kind: bool, _: &S
         OK
     };
     let expected = w.expect("fmi2GetRealStatus", verdict);
-    // SAFETY: a place for one value, or NULL.
-    let status = unsafe { fmi2GetRealStatus(w.subject.c, asked, place) };
+    // SAFETY: a pointer to one value, or NULL.
+    let status = unsafe { fmi2GetRealStatus(w.subject.c, asked, pointer) };
     let done = w.judge("fmi2GetRealStatus", expected, status, || format!("{asked}, NULL {null}"));
     // The step has landed exactly where the host computes its end.
     let time = w.model.clock.map(|(time, _)| time);
@@ -290,7 +290,7 @@ pub(super) fn integer_status(w: &mut Walker, chance: &mut Chance, kind: bool, _:
     let asked = status_kind(chance, kind, DO_STEP_STATUS);
     let mut value = 77;
     let expected = w.expect("fmi2GetIntegerStatus", DISCARD);
-    // SAFETY: a place for one value.
+    // SAFETY: a pointer to one value.
     let status = unsafe { fmi2GetIntegerStatus(w.subject.c, asked, &raw mut value) };
     w.judge("fmi2GetIntegerStatus", expected, status, || format!("{asked}"));
     w.require(value == 77, || format!("{value}"));
@@ -300,7 +300,7 @@ pub(super) fn boolean_status(w: &mut Walker, chance: &mut Chance, kind: bool, _:
     let asked = status_kind(chance, kind, TERMINATED);
     let mut value = 77;
     let expected = w.expect("fmi2GetBooleanStatus", if asked == TERMINATED { OK } else { DISCARD });
-    // SAFETY: a place for one value.
+    // SAFETY: a pointer to one value.
     let status = unsafe { fmi2GetBooleanStatus(w.subject.c, asked, &raw mut value) };
     let done = w.judge("fmi2GetBooleanStatus", expected, status, || format!("{asked}"));
     w.require(value == if done { FALSE } else { 77 }, || format!("{value}"));
@@ -310,7 +310,7 @@ pub(super) fn string_status(w: &mut Walker, chance: &mut Chance, kind: bool, _: 
     let asked = status_kind(chance, kind, PENDING_STATUS);
     let mut value: FmiString = ptr::null();
     let expected = w.expect("fmi2GetStringStatus", if asked == PENDING_STATUS { OK } else { DISCARD });
-    // SAFETY: a place for one value.
+    // SAFETY: a pointer to one value.
     let status = unsafe { fmi2GetStringStatus(w.subject.c, asked, &raw mut value) };
     let done = w.judge("fmi2GetStringStatus", expected, status, || format!("{asked}"));
     // SAFETY: what is given under OK is a string that ends in NUL.

@@ -103,9 +103,9 @@ pub(super) fn get_string(w: &mut Walker, chance: &mut Chance, kind: bool, _: &St
 fn path(w: &Walker, folder: Folder) -> String {
     let path = match folder {
         Folder::None => return String::new(),
-        Folder::Shared => w.places.shared(),
-        Folder::Full => w.places.full().unwrap(),
-        Folder::Blocked => w.places.blocked(),
+        Folder::Shared => w.folders.shared(),
+        Folder::Full => w.folders.full().unwrap(),
+        Folder::Blocked => w.folders.blocked(),
     };
     path.to_str().unwrap().to_owned()
 }
@@ -117,23 +117,23 @@ pub(super) fn set_real(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Stra
     let mut values: Vec<f64> = list.iter().map(|&r| gentle(w.stage.variable(r), chance)).collect();
     let (mut verdict, mut turns_wild) = (OK, false);
     let reference = *chance.pick(&right);
-    let place = chance.below(list.len() + 1);
+    let index = chance.below(list.len() + 1);
     match if kind { 9 } else { chance.below(8) } {
         0 => {
-            list.insert(place, reference);
-            values.insert(place, wild(w.stage.variable(reference), chance));
+            list.insert(index, reference);
+            values.insert(index, wild(w.stage.variable(reference), chance));
             turns_wild = true;
         }
         1 | 2 => {
-            list.insert(place, reference);
-            values.insert(place, impossible(w.stage.variable(reference), chance));
+            list.insert(index, reference);
+            values.insert(index, impossible(w.stage.variable(reference), chance));
             verdict = DISCARD;
         }
         3 | 4 => {
             let others: Vec<u32> = w.stage.references(|v| !settable.contains(&v.reference));
             let wrong = if chance.one_in(3) { w.stage.unknown(chance) } else { *chance.pick(&others) };
-            list.insert(place, wrong);
-            values.insert(place, 1.0);
+            list.insert(index, wrong);
+            values.insert(index, 1.0);
             verdict = ERROR;
         }
         5 => {
@@ -205,7 +205,7 @@ pub(super) fn set_string(w: &mut Walker, chance: &mut Chance, kind: bool, _: &St
         return;
     };
     let mut verdict = if w.model.state == State::StepComplete { ERROR } else { OK };
-    let full = w.places.full().is_some();
+    let full = w.folders.full().is_some();
     let folder = match chance.below(if kind { 6 } else { 8 }) {
         0 => Folder::None,
         1..=3 if full => Folder::Full,
@@ -227,7 +227,7 @@ pub(super) fn set_string(w: &mut Walker, chance: &mut Chance, kind: bool, _: &St
     if w.judge("fmi2SetString", expected, status, || format!("{list:?}, {text:?}")) {
         let own = match folder {
             Folder::None => String::new(),
-            _ => w.places.own(w.number).to_str().unwrap().to_owned(),
+            _ => w.folders.own(w.number).to_str().unwrap().to_owned(),
         };
         let own = CString::new(own).unwrap();
         // SAFETY: one element each.

@@ -2,7 +2,7 @@
 //! standard says about it.
 
 use super::chance::Chance;
-use super::stage::{Places, Stage};
+use super::stage::{Folders, Stage};
 use super::standard::{self, ERROR, OK, Statuses};
 use super::tally::Tally;
 use crate::host::{Host, Line, bits};
@@ -81,7 +81,7 @@ pub(super) enum Folder {
 
 pub(super) struct Walker<'w> {
     pub(super) stage: &'w Stage,
-    pub(super) places: &'w Places,
+    pub(super) folders: &'w Folders,
     pub(super) number: u64,
     name: String,
     pub(super) subject: Host,
@@ -113,15 +113,15 @@ pub(super) struct Walker<'w> {
 // SAFETY: each walker, and with it the two instances and their logs, is used by one thread at a time.
 unsafe impl Send for Walker<'_> {}
 
-/// So many places are for instances whose names others have, too.
+/// So many walkers have names that others have, too.
 pub(super) const SHARERS: u64 = 2;
 
 /// Bits of all categories in [`Walker::categories`].
 pub(super) const ALL_CATEGORIES: u8 = 0b1111;
 
 impl<'w> Walker<'w> {
-    /// An instance of its own name, or of one that others may have; its place says which.
-    pub(super) fn new(stage: &'w Stage, places: &'w Places, number: u64, seed: u64, chance: &mut Chance) -> Self {
+    /// An instance of its own name, or of one that others may have; its number says which.
+    pub(super) fn new(stage: &'w Stage, folders: &'w Folders, number: u64, seed: u64, chance: &mut Chance) -> Self {
         let name_is_shared = number % 1000 < SHARERS;
         let name = match (name_is_shared, chance.below(3)) {
             (true, 0) => "left bearing".to_owned(),
@@ -129,13 +129,13 @@ impl<'w> Walker<'w> {
             (true, _) => "100 %s %n".to_owned(),
             (false, _) => format!("walker {number}"),
         };
-        places.prepare(&name);
+        folders.prepare(&name);
         let logging = !chance.one_in(4);
         let subject = Host::with(Arc::clone(&stage.resources), &name, logging);
         subject.lines();
         Self {
             stage,
-            places,
+            folders,
             number,
             subject,
             twin: Host::with(Arc::clone(&stage.resources), "twin", false),
@@ -296,8 +296,8 @@ impl<'w> Walker<'w> {
             bytes
         };
         let (ours, twins) = (bytes(&self.subject), bytes(&self.twin));
-        let place = ours.iter().zip(&twins).position(|(a, b)| a != b);
-        self.require(ours == twins, || format!("the twin's state differs at byte {place:?} of {}", ours.len()));
+        let offset = ours.iter().zip(&twins).position(|(a, b)| a != b);
+        self.require(ours == twins, || format!("the twin's state differs at byte {offset:?} of {}", ours.len()));
         self.tally.comparisons += 1;
     }
 
@@ -310,7 +310,7 @@ impl<'w> Walker<'w> {
             let entries = fs::read_dir(folder).map(|entries| entries.flatten().collect()).unwrap_or_else(|_| vec![]);
             entries.iter().filter_map(|entry| fs::read(entry.path()).ok()).collect()
         };
-        let (ours, twins) = (files(self.places.shared()), files(self.places.own(self.number)));
+        let (ours, twins) = (files(self.folders.shared()), files(self.folders.own(self.number)));
         self.require(!twins.is_empty(), || "the twin has recorded nothing".to_owned());
         for twin in &twins {
             self.require(ours.contains(twin), || format!("no recording is the twin's, of {} bytes", twin.len()));

@@ -1,7 +1,7 @@
 //! A static balance, looked for from many sides: whether a scene that the simulation refuses to start has one.
 //!
-//! For rings in given places each element is balanced by halving; then the free rings go downhill in the square of the
-//! force on them (Levenberg and Marquardt, with difference quotients).
+//! For rings at given positions each element is balanced by halving; then the free rings go downhill in the square of
+//! the force on them (Levenberg and Marquardt, with difference quotients).
 
 use super::run::{Pace, Run};
 use super::surfaces::Stretches;
@@ -13,7 +13,7 @@ struct Search<'a> {
     bearing: &'a Bearing,
     outside: Outside,
     stretches: Vec<Stretches>,
-    /// Places in the state vector of what is free.
+    /// Indices in the state vector of what is free.
     free: Vec<usize>,
     acting: Acting,
 }
@@ -48,12 +48,12 @@ pub fn best(bearing: &Bearing, case: &Case) -> (f64, f64) {
 }
 
 impl Search<'_> {
-    /// Downhill from the shaft in one place.
+    /// Downhill from one position of the shaft.
     fn from(&mut self, shaft: [f64; 2]) -> (f64, f64) {
         let mut y = vec![0.0; self.bearing.state_count()];
-        for (a, place) in shaft.into_iter().enumerate() {
+        for (a, position) in shaft.into_iter().enumerate() {
             if self.free.contains(&a) {
-                y[a] = place;
+                y[a] = position;
             }
         }
         let (mut force, mut largest) = self.force(&mut y);

@@ -149,7 +149,7 @@ pub struct Step {
 pub struct Host {
     /// Speeds of shaft and housing [rad/s] with their derivatives.
     pub speeds: [[f64; 2]; 2],
-    /// Of shaft and housing, along x and y: load, or place, with its first and second derivative [N or m, s].
+    /// Of shaft and housing, along x and y: load, or position, with its first and second derivative [N or m, s].
     pub rings: [[[f64; 3]; 2]; 2],
 }
 

@@ -13,7 +13,7 @@ impl Draw {
     }
 
     /// Other numbers from the same seed, whatever is drawn here before or after.
-    pub fn apart(&self) -> Self {
+    pub fn independent(&self) -> Self {
         Self::new(self.0 ^ 0x5851_F42D_4C95_7F2D)
     }
 

@@ -37,7 +37,7 @@ fn love(x: f64, y: f64, a: f64, b: f64) -> f64 {
 
 impl HalfSpace {
     /// Normal and tangential force [N] on an element that is pressed by `u` [m] against a raceway whose mean depth [m]
-    /// in a cell, between two places along and two across, is `depth`. `high` is how far the highest rim rises [m].
+    /// in a cell, between two positions along and two across, is `depth`. `high` is how far the highest rim rises [m].
     pub fn forces(&self, u: f64, high: f64, depth: impl Fn([f64; 2], [f64; 2]) -> f64) -> [f64; 2] {
         if u + high <= 0.0 {
             return [0.0; 2];

@@ -200,7 +200,7 @@ impl Bearing {
         self.first_mode() + 2 * self.modes.len()
     }
 
-    /// Place of the first mode's displacement.
+    /// Index of the first mode's displacement.
     fn first_mode(&self) -> usize {
         ELEMENTS + 2 * self.count + 4
     }
@@ -260,7 +260,7 @@ impl Bearing {
         Contact { force: force + oil.force, by_rate: damper + oil.by_rate, pushes, steep, ..film }
     }
 
-    /// Place, velocity and acceleration of a ring; the acceleration only if it is prescribed.
+    /// Position, velocity and acceleration of a ring; the acceleration only if it is prescribed.
     fn ring(&self, which: usize, outside: &Outside, t: f64, y: &[f64]) -> [[f64; 3]; 2] {
         match self.rings[which].motion {
             Motion::Internal => [0, 1].map(|a| [y[4 * which + a], y[4 * which + 2 + a], 0.0]),
@@ -269,8 +269,8 @@ impl Bearing {
         }
     }
 
-    /// Places, velocities and prescribed accelerations of both rings.
-    pub fn places(&self, outside: &Outside, t: f64, y: &[f64]) -> [[[f64; 3]; 2]; 2] {
+    /// Positions, velocities and prescribed accelerations of both rings.
+    pub fn motions(&self, outside: &Outside, t: f64, y: &[f64]) -> [[[f64; 3]; 2]; 2] {
         [0, 1].map(|which| self.ring(which, outside, t, y))
     }
 
@@ -323,14 +323,14 @@ impl Bearing {
     ) {
         let turns: Turns = outside.turns.map(|turn| quadratic(turn, t));
         let [_, omega, alpha] = turns[0];
-        let places = self.places(outside, t, y);
+        let motions = self.motions(outside, t, y);
         acting.contacts.clear();
         acting.rings = [[0.0; 2]; 2];
         // Pushes along e_r without the rings' acceleration, then the tangential ones.
         let mut along = [0.0; 128];
         (acting.torque, acting.shaft_torque) = (0.0, 0.0);
         for j in 0..self.count {
-            let seat = self.seat(j, turns[0], &places, y);
+            let seat = self.seat(j, turns[0], &motions, y);
             let ([cos, sin], rho) = (seat.e_r, seat.rho);
             let pushes = self.pushes(j, &seat, &turns, outside.films, &stretches[j]);
             let mut net = [self.mass * self.gravity[0], self.mass * self.gravity[1]];
@@ -350,7 +350,7 @@ impl Bearing {
             acting.torque += rho * (around - self.mass * (2.0 * seat.u_rate * omega + rho * alpha));
             acting.contacts.push(pushes.map(|push| push.contact));
         }
-        self.ring_rates(outside, t, y, &places, rates, acting);
+        self.ring_rates(outside, t, y, &motions, rates, acting);
         let a_o = acting.accelerations[1];
         for j in 0..self.count {
             let (sin, cos) = (turns[0][0] + TAU * j as f64 / self.count as f64).sin_cos();

@@ -22,7 +22,7 @@ impl Bearing {
         outside: &Outside,
         t: f64,
         y: &[f64],
-        places: &[[[f64; 3]; 2]; 2],
+        motions: &[[[f64; 3]; 2]; 2],
         rates: &mut [f64],
         acting: &mut Acting,
     ) {
@@ -30,7 +30,7 @@ impl Bearing {
         (rates[SENSOR], rates[SENSOR + 1]) = (0.0, 0.0);
         acting.sensor = 0.0;
         if let Some([mass, stiffness, damping]) = self.sensor {
-            reaction = stiffness * (y[SENSOR] - places[1][1][0]) + damping * (y[SENSOR + 1] - places[1][1][1]);
+            reaction = stiffness * (y[SENSOR] - motions[1][1][0]) + damping * (y[SENSOR + 1] - motions[1][1][1]);
             acting.sensor = -reaction / mass;
             (rates[SENSOR], rates[SENSOR + 1]) = (y[SENSOR + 1], acting.sensor);
         }
@@ -38,7 +38,7 @@ impl Bearing {
         for which in 0..2 {
             let ring = &self.rings[which];
             for a in 0..2 {
-                let [x, v, prescribed] = places[which][a];
+                let [x, v, prescribed] = motions[which][a];
                 acting.accelerations[which][a] = prescribed;
                 (rates[4 * which + a], rates[4 * which + 2 + a]) = (0.0, 0.0);
                 if ring.motion == Motion::Internal {

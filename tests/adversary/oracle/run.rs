@@ -160,11 +160,11 @@ impl<'a> Run<'a> {
     /// Times within a step at which an outer contact comes to touch another feature, ascending, and its end.
     fn passages(&self, length: f64) -> Vec<f64> {
         let mut times = vec![length];
-        let places = self.bearing.places(&self.outside, 0.0, &self.y);
+        let motions = self.bearing.motions(&self.outside, 0.0, &self.y);
         let cage = self.outside.turns[0];
         for j in 0..self.bearing.count {
             for surface in self.bearing.surfaces(1, j).into_iter().flatten() {
-                let seat = self.bearing.seat(j, cage, &places, &self.y);
+                let seat = self.bearing.seat(j, cage, &motions, &self.y);
                 let start = surface.psi(seat.turning(1, &self.outside.turns)[0], &self.outside.turns);
                 let frame = self.outside.turns[surface.frame];
                 let past = [0.0, cage[1] - frame[1], cage[2] - frame[2]];
@@ -277,12 +277,12 @@ impl<'a> Run<'a> {
 
     /// The limits beyond which the simulation is to give up.
     fn check(&self, t: f64) -> Result<(), Stop> {
-        let place = |which: usize, a: usize| match self.bearing.rings[which].motion {
+        let position = |which: usize, a: usize| match self.bearing.rings[which].motion {
             Motion::Internal => self.y[4 * which + a],
             Motion::Host => quadratic(self.outside.rings[which][a], t)[0],
             Motion::Fixed => 0.0,
         };
-        let offset = (place(1, 0) - place(0, 0)).hypot(place(1, 1) - place(0, 1));
+        let offset = (position(1, 0) - position(0, 0)).hypot(position(1, 1) - position(0, 1));
         let far = (0..self.bearing.count).any(|j| self.y[ELEMENTS + 2 * j].abs() > self.bearing.r);
         if !self.y.iter().all(|y| y.is_finite()) {
             return Err(Stop::Lost);

@@ -79,12 +79,12 @@ impl Bearing {
     /// The stretches that the inner contacts are in where `sides[0]`, and the outer ones where `sides[1]`.
     pub fn stretches(&self, outside: &Outside, t: f64, y: &[f64], sides: [bool; 2], into: &mut [Stretches]) {
         let turns: Turns = outside.turns.map(|turn| quadratic(turn, t));
-        let places = self.places(outside, t, y);
+        let motions = self.motions(outside, t, y);
         for side in (0..2).filter(|&side| sides[side] && self.meets(side)) {
             for (j, stretches) in into.iter_mut().enumerate() {
                 for (which, surface) in self.surfaces(side, j).into_iter().enumerate() {
                     if let Some(surface) = surface {
-                        let direction = self.seat(j, turns[0], &places, y).turning(side, &turns)[0];
+                        let direction = self.seat(j, turns[0], &motions, y).turning(side, &turns)[0];
                         stretches[side][which] = surface.envelope.stretch(surface.psi(direction, &turns));
                     }
                 }
@@ -166,7 +166,7 @@ pub fn of(bearing: &Bearing, case: &Case) -> Option<Surfaces> {
 fn profiles(body: &[&Defect], own: f64, r: f64) -> Option<Vec<Vec<(f64, f64)>>> {
     let all: Vec<Vec<(f64, f64)>> = body.iter().map(|defect| points(defect, own, r)).collect::<Option<_>>()?;
     let begins = all[0][0].0;
-    let mut placed: Vec<Vec<(f64, f64)>> = all
+    let mut shifted: Vec<Vec<(f64, f64)>> = all
         .into_iter()
         .zip(body)
         .map(|(points, defect)| {
@@ -175,8 +175,8 @@ fn profiles(body: &[&Defect], own: f64, r: f64) -> Option<Vec<Vec<(f64, f64)>>> 
             points.into_iter().map(|(arc, depth)| (arc + away - turns * TAU * own, depth)).collect()
         })
         .collect();
-    placed.sort_by(|a, b| a[0].0.total_cmp(&b[0].0));
-    Some(placed)
+    shifted.sort_by(|a, b| a[0].0.total_cmp(&b[0].0));
+    Some(shifted)
 }
 
 /// Smallest distance between two defects of one body [m], negative where they overlap; infinite without.

@@ -11,7 +11,7 @@ use crate::oracle::signals::{Kind, signals};
 use crate::oracle::surfaces::closest;
 use crate::oracle::{Bearing, ELEMENTS, SENSOR};
 use crate::subject::Subject;
-use crate::units::{HORIZON, LIMIT, differences, largest_force, placing, rounding, slope_error, units};
+use crate::units::{HORIZON, LIMIT, differences, largest_force, position_error, rounding, slope_error, units};
 use brinell::contact::error::ContactError;
 use brinell::simulation::SimulationError;
 use brinell::surface::SurfaceError;
@@ -123,11 +123,11 @@ pub fn start(bearing: &Bearing, case: &Case, first: &[f64], names: &[(String, Ki
         bearing.mass * (bearing.gravity[0].hypot(bearing.gravity[1]) + bearing.rho_0 * run.outside.turns[0][1].powi(2));
     let largest = contacts.fold(loads, |m, contact| m.max(contact.force));
     // The search for a balance counts 1e-12 N as none.
-    let limit = 1e-9 * (largest + body) + (rounding(bearing) + placing(case)) * stiffest + 1e-12;
+    let limit = 1e-9 * (largest + body) + (rounding(bearing) + position_error(case)) * stiffest + 1e-12;
     // The slope of the path turns the damper's rate with the speed past the defect, and directs the force.
     let leaning = |j: usize, side: usize| {
         let (turns, contact) = (&run.outside.turns, run.acting.contacts[j][side]);
-        let seat = bearing.seat(j, turns[0], &bearing.places(&run.outside, 0.0, &run.y), &run.y);
+        let seat = bearing.seat(j, turns[0], &bearing.motions(&run.outside, 0.0, &run.y), &run.y);
         let Some(over) = bearing.over(side, j, &seat, turns, &run.stretches[j]) else { return 0.0 };
         let distance = over.surface.envelope.distance(over.path);
         let kappa = (over.slope / distance).atan();

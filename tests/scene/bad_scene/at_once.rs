@@ -135,7 +135,7 @@ fn tables_of_the_wrong_kind_and_missing_ones_hide_nothing() {
 }
 
 #[test]
-fn all_places_at_which_a_file_is_no_toml_are_told() {
+fn all_lines_at_which_a_file_is_no_toml_are_told() {
     let text = GOOD
         .replace("name = \"er16k-tb1\"", "name = \"er16k-tb1")
         .replace("poissons_ratio = 0.3", "poissons_ratio = 0,3")

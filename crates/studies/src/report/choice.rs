@@ -90,7 +90,7 @@ pub(super) fn measure(extent: Extent, data: &Path) -> Result<Vec<Row>> {
         let map = contact_map::of(&model.scene, model.profile_texts(), &Project::find())?;
         let mut simulation = Simulation::with_map(model.scene.clone(), model.profile_texts(), map.as_deref())?;
         if model.scene.shaft.motion == Motion::Host {
-            // 12 µm beyond the concentric place: some hundred newtons on the lowest elements.
+            // 12 µm beyond the concentric position: some hundred newtons on the lowest elements.
             simulation.set_reals(&[simulation.reference("shaft.y")?], &[-12e-6])?;
         }
         rows.push(compare(what, &simulation, stop)?);

@@ -60,10 +60,10 @@ pub(super) fn measure(extent: Extent, data: &Path) -> Result<Vec<Row>> {
         Extent::Short => &[(16, 8), (32, 16)],
     };
     let accuracies: &[f64] = if extent == Extent::Full { &[1e-2, 3e-3, 1e-3] } else { &[1e-2] };
-    let (places, exact) = reference(&surface)?;
+    let (points, exact) = reference(&surface)?;
     let mut rows = Vec::new();
     for &(columns, cells_across) in sizes {
-        rows.push(of_grid(&surface, Resolution { columns, rows: cells_across }, &places, &exact)?);
+        rows.push(of_grid(&surface, Resolution { columns, rows: cells_across }, &points, &exact)?);
     }
     for &accuracy in accuracies {
         rows.push(of_map(&surface, accuracy)?);
@@ -72,38 +72,38 @@ pub(super) fn measure(extent: Extent, data: &Path) -> Result<Vec<Row>> {
     Ok(rows)
 }
 
-/// Path and place along the raceway of each contact compared.
-type Places = Vec<[f64; 2]>;
+/// Path and position along the raceway of each contact compared.
+type Points = Vec<[f64; 2]>;
 /// Forces, normal and tangential, over the smooth contact's largest.
 type Forces = Vec<[f64; 2]>;
 
 /// From just before the edge to the floor's first touch, 0.5 to 7 µm above the first touch, with the forces there.
-fn reference(surface: &Surface) -> Result<(Places, Forces)> {
+fn reference(surface: &Surface) -> Result<(Points, Forces)> {
     let mut finest = LoveContact::new(ELEMENT, surface, 1.6 * LARGEST, Resolution { columns: 128, rows: 48 })?;
-    let mut places = Vec::new();
+    let mut points = Vec::new();
     for k in 0..24 {
         let s = -0.5 * LENGTH - 0.15e-3 + 1.15e-3 * (f64::from(k) + 0.37) / 24.0;
         let touch = finest.first_touch(s);
-        places.extend([0.5e-6, 1.5e-6, 3e-6, 5e-6, 7e-6].map(|height| [touch + height, s]));
+        points.extend([0.5e-6, 1.5e-6, 3e-6, 5e-6, 7e-6].map(|height| [touch + height, s]));
     }
-    let exact = forces(&mut finest, &places)?;
-    Ok((places, exact))
+    let exact = forces(&mut finest, &points)?;
+    Ok((points, exact))
 }
 
-fn forces(contact: &mut LoveContact, places: &Places) -> Result<Forces, ContactError> {
+fn forces(contact: &mut LoveContact, points: &Points) -> Result<Forces, ContactError> {
     let scale = LARGEST * LARGEST.sqrt();
-    places.iter().map(|&[u, s]| Ok(contact.solve(u, s)?.forces(1.0).map(|force| force / scale))).collect()
+    points.iter().map(|&[u, s]| Ok(contact.solve(u, s)?.forces(1.0).map(|force| force / scale))).collect()
 }
 
-fn of_grid(surface: &Surface, cells: Resolution, places: &Places, exact: &Forces) -> Result<Row> {
+fn of_grid(surface: &Surface, cells: Resolution, points: &Points, exact: &Forces) -> Result<Row> {
     let start = ThreadTime::now();
     let mut contact = LoveContact::new(ELEMENT, surface, 1.6 * LARGEST, cells)?;
     let prepare = start.elapsed().as_secs_f64();
     let mut error = [0.0_f64; 4];
-    for (a, b) in forces(&mut contact, places)?.iter().zip(exact) {
+    for (a, b) in forces(&mut contact, points)?.iter().zip(exact) {
         for k in 0..2 {
             error[2 * k] = error[2 * k].max((a[k] - b[k]).abs());
-            error[2 * k + 1] += (a[k] - b[k]).powi(2) / places.len() as f64;
+            error[2 * k + 1] += (a[k] - b[k]).powi(2) / points.len() as f64;
         }
     }
     // Warm: an element that passes the edge, 50 nm a step.

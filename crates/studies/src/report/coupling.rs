@@ -61,8 +61,8 @@ pub struct Row {
     pub coupling: Coupling,
     /// Communication step H [s].
     pub step: f64,
-    /// Root mean square of the error of the ring's place over that of its distance from the start; `None` if the run
-    /// was unstable: the ring was further beside its place than twice the largest distance, or out of the bearing.
+    /// Root mean square of the error of the ring's position over that of its distance from the start; `None` if the run
+    /// was unstable: the ring was further from its position than twice the largest distance, or out of the bearing.
     pub error: Option<f64>,
 }
 
@@ -130,10 +130,10 @@ pub fn limits(rows: &[Row]) -> Vec<Limit> {
 /// The motion of the ring with the mass inside one simulation.
 struct Exact {
     host_mass: f64,
-    /// Time between places [s].
+    /// Time between positions [s].
     step: f64,
-    /// Places x, y [m].
-    places: Vec<[f64; 2]>,
+    /// Positions x, y [m].
+    positions: Vec<[f64; 2]>,
     /// Largest distance from the start [m].
     travel: f64,
 }
@@ -163,21 +163,21 @@ impl Exact {
         let ring = Ring { motion: Motion::Internal, load: half, mass: host_mass, damping, stiffness: 0.0 };
         let mut inside = bearing(scene, ring)?;
         inside.initialize(0.0)?;
-        let (load, place) =
+        let (load, position) =
             (references(&inside, ["shaft.load.x", "shaft.load.y"])?, references(&inside, ["shaft.x", "shaft.y"])?);
         inside.set_reals(&load, &scene.shaft.load).map_err(SimulationError::from)?;
-        let mut places = Vec::new();
+        let mut positions = Vec::new();
         for i in 0..=(STOP / step).round() as usize {
             if i > 0 {
                 inside.step(step)?;
             }
             let mut now = [0.0; 2];
-            inside.reals(&place, &mut now)?;
-            places.push(now);
+            inside.reals(&position, &mut now)?;
+            positions.push(now);
         }
-        let start = places[0];
-        let travel = places.iter().map(|p| (p[0] - start[0]).hypot(p[1] - start[1])).fold(0.0, f64::max);
-        Ok(Self { host_mass, step, places, travel })
+        let start = positions[0];
+        let travel = positions.iter().map(|p| (p[0] - start[0]).hypot(p[1] - start[1])).fold(0.0, f64::max);
+        Ok(Self { host_mass, step, positions, travel })
     }
 
     /// As [`Row::error`].
@@ -185,17 +185,17 @@ impl Exact {
         let mut host = Host::new(scene, self)?;
         let (mut errors, mut distances) = (0.0, 0.0);
         let stride = (step / self.step).round() as usize;
-        for place in self.places.iter().step_by(stride).skip(1) {
+        for position in self.positions.iter().step_by(stride).skip(1) {
             // A ring that leaves the bearing ends the run with an error of the bearing.
             if host.advance(coupling, step).is_err() {
                 return Ok(None);
             }
-            let error = (host.x[0] - place[0]).hypot(host.x[1] - place[1]);
+            let error = (host.x[0] - position[0]).hypot(host.x[1] - position[1]);
             if !(error <= 2.0 * self.travel) {
                 return Ok(None);
             }
             errors += error * error;
-            distances += (place[0] - self.places[0][0]).powi(2) + (place[1] - self.places[0][1]).powi(2);
+            distances += (position[0] - self.positions[0][0]).powi(2) + (position[1] - self.positions[0][1]).powi(2);
         }
         Ok(Some(f64::sqrt(errors / distances)))
     }
@@ -233,7 +233,7 @@ impl Host {
             mass: exact.host_mass,
             damping: scene.shaft.damping,
             load: scene.shaft.load,
-            x: exact.places[0],
+            x: exact.positions[0],
             v: [0.0; 2],
             now: [0.0; 2],
         };
@@ -275,16 +275,16 @@ impl Host {
         }
         let before = self.bearing.save();
         let first = self.bearing_step(self.v, a, step)?;
-        let [mean_place, ..] = self.corrected(first, a, step)?;
+        let [mean_position, ..] = self.corrected(first, a, step)?;
         self.bearing.restore(&before)?;
-        let a = [0, 1].map(|a| 6.0 * (mean_place[a] - self.x[a] - 0.5 * step * self.v[a]) / (step * step));
+        let a = [0, 1].map(|a| 6.0 * (mean_position[a] - self.x[a] - 0.5 * step * self.v[a]) / (step * step));
         let second = self.bearing_step(self.v, a, step)?;
         let [_, x, v] = self.corrected(second, a, step)?;
         (self.x, self.v) = (x, v);
         Ok(())
     }
 
-    /// Place and velocity after a step under the bearing's force.
+    /// Position and velocity after a step under the bearing's force.
     fn moved(&self, mean: [f64; 2], end: [f64; 2], step: f64) -> ([f64; 2], [f64; 2]) {
         let (h, c) = (step, self.damping / self.mass);
         let (mut x, mut v) = (self.x, self.v);
@@ -300,9 +300,9 @@ impl Host {
         (x, v)
     }
 
-    /// Mean place, end place and end velocity after a step in which the ring moved with `a`, the forces brought to
-    /// where the ring comes by the tangent stiffness K: F̄ falls by K times the distance of the mean places, F₁ by K
-    /// times that of the end places.
+    /// Mean position, end position and end velocity after a step in which the ring moved with `a`, the forces brought
+    /// to where the ring comes by the tangent stiffness K: F̄ falls by K times the distance of the mean positions, F₁
+    /// by K times that of the end positions.
     fn corrected(&mut self, [mean, end]: [[f64; 2]; 2], a: [f64; 2], h: f64) -> Result<[[f64; 2]; 3], SimulationError> {
         let mut k = [0.0; 4];
         self.bearing.reals(&self.stiffness, &mut k)?;

@@ -100,17 +100,17 @@ fn hosted(tolerance: f64) -> Result<Hosted> {
     }
     (scene.sensors, scene.tolerance) = (Vec::new(), tolerance);
     let mut simulation = Simulation::new(scene, None)?;
-    let place = [simulation.reference("shaft.y")?, simulation.reference("shaft.vy")?];
-    // 20 µm beyond the concentric place, some hundred newtons on the lowest elements.
+    let references = [simulation.reference("shaft.y")?, simulation.reference("shaft.vy")?];
+    // 20 µm beyond the concentric position, some hundred newtons on the lowest elements.
     let motion = [-20e-6, 0.0];
-    simulation.set_reals(&place, &motion)?;
+    simulation.set_reals(&references, &motion)?;
     simulation.initialize(0.0)?;
     let (count, mut steps) = (10_000, 0);
     let seconds = fastest(
         || simulation.clone(),
         |run: &mut Simulation| {
             for _ in 0..count {
-                run.set_reals(&place, &motion)?;
+                run.set_reals(&references, &motion)?;
                 run.step(1e-5)?;
             }
             steps = run.step_counts().0;

@@ -145,7 +145,7 @@ fn coupled_part(coupled: &[Coupled]) -> String {
          inside; the housing stands. *held*: motion and force stay what they are during a step. *extrapolated*: the \
          FMU goes on with velocity and acceleration, and the host uses the mean and the end force. *rolled back once*: \
          as before, then the state is put back and the step repeated with the motion that came out. Error: rms of the \
-         ring's place over that of its distance from the start, 20 ms after the load has doubled.\n\n\
+         ring's position over that of its distance from the start, 20 ms after the load has doubled.\n\n\
          ![Error against communication step](figures/error-vs-run-time-co-simulation.svg)\n\n"
         .to_owned();
     for Coupled { scene, rows, steps } in coupled {

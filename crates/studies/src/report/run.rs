@@ -51,7 +51,7 @@ impl Subject {
         scene.recorder = Some(Recorder { rate: RATE, filter: RecorderFilter::None });
         let profiles = model.profile_texts();
         let mut simulation = Simulation::with_map(scene, profiles, model.map.as_deref())?;
-        // 12 µm beyond the concentric place: some hundred newtons on the lowest elements.
+        // 12 µm beyond the concentric position: some hundred newtons on the lowest elements.
         if model.scene.shaft.motion == brinell::scene::Motion::Host {
             simulation.set_reals(&[simulation.reference("shaft.y")?], &[-12e-6])?;
         }

@@ -79,7 +79,7 @@ impl<'a> SideBySide<'a> {
     }
 }
 
-/// Registers of eight places that so many elements fill.
+/// Registers of eight lanes that so many elements fill.
 fn registers(count: usize) -> f64 {
     count.div_ceil(8) as f64
 }

@@ -27,7 +27,7 @@ const REFERENCE: f64 = 1e-7;
 const START: f64 = 0.3;
 const FIRST: f64 = 0.025;
 
-/// Cage angles within one element spacing at which modes are looked at, as many as `brinell modes` takes.
+/// Cage angles within one element spacing at which modes are computed, as many as `brinell modes` takes.
 const CAGE_ANGLES: usize = 200;
 
 /// One scene at one tolerance.

@@ -45,8 +45,8 @@ pub(super) struct Scale {
 
 /// A random scene of the whole space.
 pub fn random(draw: &mut Draw) -> (Kind, Case) {
-    let apart = draw.apart();
-    scene(draw, Space::Whole, Some(apart))
+    let parts_draw = draw.independent();
+    scene(draw, Space::Whole, Some(parts_draw))
 }
 
 /// One of dry balls and plain sensors, as all were once; what failed then has its seed there.
@@ -59,19 +59,19 @@ pub fn on_the_outer_raceway(draw: &mut Draw) -> (Kind, Case) {
     scene(draw, Space::OuterRaceway, None)
 }
 
-/// What rolls and what lies between is drawn `apart`; dry balls without.
-fn scene(draw: &mut Draw, space: Space, mut apart: Option<Draw>) -> (Kind, Case) {
+/// What rolls and what lies between is drawn from `parts_draw`; dry balls without.
+fn scene(draw: &mut Draw, space: Space, mut parts_draw: Option<Draw>) -> (Kind, Case) {
     let mut case = bearing(draw);
-    let elements = apart.as_mut().map_or(Elements::Balls, Elements::random);
-    if let Some(apart) = &mut apart
+    let elements = parts_draw.as_mut().map_or(Elements::Balls, Elements::random);
+    if let Some(parts_draw) = &mut parts_draw
         && elements == Elements::Rollers
     {
-        parts::rollers(apart, &mut case);
+        parts::rollers(parts_draw, &mut case);
     }
     let scale = loads_and_damping(draw, &mut case);
     rings(draw, &mut case, &scale);
-    if let Some(apart) = &mut apart {
-        parts::add(apart, &mut case, elements, &scale);
+    if let Some(parts_draw) = &mut parts_draw {
+        parts::add(parts_draw, &mut case, elements, &scale);
     }
     let (motion_of, rolls) = (motion_name(&case), parts::name(&case));
     let mut kind = Kind { on: "none", defect: "no defect", motion: motion_of, elements: rolls, ..Kind::default() };

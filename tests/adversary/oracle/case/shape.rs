@@ -41,9 +41,9 @@ impl Shape {
                 Some(format!("arc_mm,depth_um\n{lines}"))
             }
             Self::Topography(Topography { arcs, axials, depths }) => {
-                let place = |k: usize| format!("{},{}", arcs[k / axials.len()], axials[k % axials.len()]);
+                let coordinates = |k: usize| format!("{},{}", arcs[k / axials.len()], axials[k % axials.len()]);
                 let lines: String =
-                    depths.iter().enumerate().map(|(k, depth)| format!("{},{depth}\n", place(k))).collect();
+                    depths.iter().enumerate().map(|(k, depth)| format!("{},{depth}\n", coordinates(k))).collect();
                 Some(format!("arc_mm,axial_mm,depth_um\n{lines}"))
             }
         }
