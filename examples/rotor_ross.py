@@ -63,7 +63,7 @@ def summary(bearing, runs, passage, h, turns, settle):
         order, amplitude = spectrum(run.at(bearing)[run.time >= settle, 1] * 1e6, h, turns)
         lines = [1.0, *(k * passage + side for k in (1, 2) for side in (-1, 0, 1))]
         near = max(0.06, order[1])
-        found[f"place_um_{name}"] = {f"{x:.3f}": float(amplitude[np.abs(order - x) <= near].max()) for x in lines}
+        found[f"position_um_{name}"] = {f"{x:.3f}": float(amplitude[np.abs(order - x) <= near].max()) for x in lines}
         # What lies between the lines n BPFO + m shaft speed.
         apart = [np.abs((order - n * passage + 0.5) % 1 - 0.5) > 0.1 for n in (0, 1, 2)]
         found[f"floor_um_{name}"] = float(np.median(amplitude[np.all(apart, axis=0) & (order < 2 * passage)]))

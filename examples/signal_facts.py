@@ -9,7 +9,7 @@ passages per turn of the shaft (BPFO over shaft speed; 3.5848 is a 6205). Prints
 Definitions, the mean taken off beforehand:
   growth    slope of ln RMS over ln speed through all files, and the same in bands; all bands are shares of the spectrum
   passages  windows of one BPFO period, each shifted by up to 3 % of it to where its envelope (1 to 20 kHz) agrees best
-            with the mean of all; they begin 30 % of a period before the loudest place of the mean envelope
+            with the mean of all; they begin 30 % of a period before the loudest part of the mean envelope
   scatter   standard deviation over mean of the passages' RMS; what of its variance repeats with the cage's turn (four
             harmonics), with the shaft's (three), and with both
   crest     largest magnitude over RMS of the whole file; kurtosis is the excess entry     first extreme of the mean

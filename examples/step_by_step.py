@@ -125,7 +125,7 @@ def draw(rows, seen, step, passes, stem):
     axes[1].set_ylabel("bearing's force on\nthe shaft, y (N)")
     axes[2].plot(t, positions[:, 1] * 1e6, color=BLUE, label="left, healthy")
     axes[2].plot(t, positions[:, 3] * 1e6, color=ORANGE, label="right, spalled")
-    axes[2].set_ylabel("place of the\nshaft, y (µm)")
+    axes[2].set_ylabel("position of the\nshaft, y (µm)")
     axes[3].plot(t, spalled["sensor.acceleration"], color=GREEN, linewidth=0.7)
     axes[3].set_ylabel("sensor on the\nright, y (m/s²)")
     axes[3].set_xlabel("time (s)")

@@ -87,7 +87,7 @@ def parser():
     add("--signals", action="store_true", help="keep the sensor's signal of each run in its row")
     add("--write", type=lambda text: text.split(","), default=[], metavar="wav,npy", help="and write it as such files")
     add("--size", action="store_true", help="size the spall from each signal: some 15 s of a core per run; "
-        "`cargo fmu` as built here must be at the same place on each worker")
+        "`cargo fmu` as built here must be at the same path on each worker")
     add("--workers", type=int, default=os.cpu_count())
     add("--scheduler", help="address of a dask scheduler; default: workers of our own")
     add("-o", "--output", type=Path, default=Path("target/sweep"))

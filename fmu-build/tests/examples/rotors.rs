@@ -32,7 +32,8 @@ fn a_ross_rotor_shows_the_passage_frequency_of_a_spalled_bearing_with_sidebands_
     let order = said["bpfo_order"].as_f64().unwrap();
     // 9/2 (1 − 7.94/39.32)
     assert!((order - 3.591_302_1).abs() < 1e-6, "{order}");
-    let at = |bearing: &str, order: f64| said[format!("place_um_{bearing}")][format!("{order:.3}")].as_f64().unwrap();
+    let at =
+        |bearing: &str, order: f64| said[format!("position_um_{bearing}")][format!("{order:.3}")].as_f64().unwrap();
     // A healthy bearing has the frequency too, by its varying compliance; the full case has a ratio of 34.
     assert!(at("spalled", order) > 10.0 * at("healthy", order), "{said}");
     // Impacts differ from one another, which makes a floor; the full case has sidebands of 11 and 17 times the floor.
@@ -64,7 +65,7 @@ fn ross_integrates_the_rotor_itself_and_asks_as_assumed() {
     let folder = common::folder("example-ross-itself");
     let said = last(&run_in(with_all_packages(), ROSS_ITSELF, &folder));
     has_figure(folder.join("rotor_ross"));
-    assert!(said["place_um_spalled"]["3.591"].as_f64().unwrap() > 0.5, "{said}");
+    assert!(said["position_um_spalled"]["3.591"].as_f64().unwrap() > 0.5, "{said}");
 }
 
 #[test]

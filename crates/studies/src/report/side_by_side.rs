@@ -57,7 +57,7 @@ impl<'a> SideBySide<'a> {
     pub(super) fn section(&self) -> String {
         let mut text = format!(
             "\n### Bearings side by side\n\n\
-             Two, four or eight bearings could share registers of eight places. A register of elements costs {:.3} µs \
+             Two, four or eight bearings could share registers of eight lanes. A register of elements costs {:.3} µs \
              of a step, whosever elements they are, and all else {:.3} µs: both fitted to the table above. If nothing \
              of all else had to be done one by one (control of steps, knots, contact changes), a step would cost at \
              best what this table says, and the last column how many times less that is with eight. With more elements \
