@@ -154,11 +154,11 @@ fn compare(library: &Library, name: &str, text: &str) {
     let rows: Vec<u32> = arrays.iter().flat_map(|array| array.rows.clone()).collect();
     let firsts: Vec<u32> = arrays.iter().map(|array| array.rows[0]).collect();
     let mut values = vec![0.0; rows.len().max(20)];
-    let into = values.as_mut_ptr();
+    let array = values.as_mut_ptr();
     // SAFETY of all the calls: living instances, arrays as long as said.
     show("get, 20 scalars", {
         let of = scalars.as_ptr();
-        beside(20_000, || _ = unsafe { get2(two, of, 20, into) }, || _ = unsafe { get3(three, of, 20, into, 20) })
+        beside(20_000, || _ = unsafe { get2(two, of, 20, array) }, || _ = unsafe { get3(three, of, 20, array, 20) })
     });
     let what = format!("get, {} values of elements", rows.len());
     show(&what, {
@@ -166,8 +166,8 @@ fn compare(library: &Library, name: &str, text: &str) {
         let arrays = firsts.len();
         beside(
             20_000,
-            || _ = unsafe { get2(two, by_row, count, into) },
-            || _ = unsafe { get3(three, by_array, arrays, into, count) },
+            || _ = unsafe { get2(two, by_row, count, array) },
+            || _ = unsafe { get3(three, by_array, arrays, array, count) },
         )
     });
     let inputs: Vec<u32> = table
@@ -178,9 +178,9 @@ fn compare(library: &Library, name: &str, text: &str) {
         .take(20)
         .collect();
     let of = inputs.as_ptr();
-    unsafe { assert_eq!(get2(two, of, 20, into), Status::Ok) };
+    unsafe { assert_eq!(get2(two, of, 20, array), Status::Ok) };
     show("set, 20 inputs", {
-        beside(20_000, || _ = unsafe { set2(two, of, 20, into) }, || _ = unsafe { set3(three, of, 20, into, 20) })
+        beside(20_000, || _ = unsafe { set2(two, of, 20, array) }, || _ = unsafe { set3(three, of, 20, array, 20) })
     });
     for step in [1e-12, 1e-5, 1e-3] {
         steps(library, two, three, step, "doStep of");

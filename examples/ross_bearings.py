@@ -188,7 +188,7 @@ class Coupled:
         self.load = self.carried(machine, speed)
         loads = self.load.reshape(-1, 2)
         positions = [fmu.rest(load) for fmu, load in zip(self.fmus, loads)]
-        self.position = np.concatenate(positions)
+        self.rest_position = np.concatenate(positions)
         self.rest_force = np.concatenate([fmu.force_at(position) for fmu, position in zip(self.fmus, positions)])
         self.coefficients = [fmu.linear() for fmu in self.fmus]
         self.stand_in(True)
@@ -215,17 +215,18 @@ class Coupled:
             self.stiffness[2 * i : 2 * i + 2, 2 * i : 2 * i + 2] = k
             self.damping[2 * i : 2 * i + 2, 2 * i : 2 * i + 2] = c
 
-    def tell(self, position, velocity, acceleration, h):
+    def tell(self, displacement, velocity, acceleration, h):
         """Steps the FMUs; their forces beyond the stand-ins': mean over the step, and at the end."""
-        there, mean, end = self.position + position, np.empty_like(position), np.empty_like(position)
+        there, mean, end = self.rest_position + displacement, np.empty_like(displacement), np.empty_like(displacement)
         for i, fmu in enumerate(self.fmus):
             own = slice(2 * i, 2 * i + 2)
             mean[own], end[own] = fmu.advance(there[own], velocity[own], acceleration[own], h)
-        mean_position = position + h * (velocity / 2 + h * acceleration / 6)
+        mean_displacement = displacement + h * (velocity / 2 + h * acceleration / 6)
         mean_velocity = velocity + h * acceleration / 2
-        end_position, end_velocity = position + h * (velocity + h * acceleration / 2), velocity + h * acceleration
-        mean += self.stiffness @ mean_position + self.damping @ mean_velocity - self.rest_force
-        end += self.stiffness @ end_position + self.damping @ end_velocity - self.rest_force
+        end_displacement = displacement + h * (velocity + h * acceleration / 2)
+        end_velocity = velocity + h * acceleration
+        mean += self.stiffness @ mean_displacement + self.damping @ mean_velocity - self.rest_force
+        end += self.stiffness @ end_displacement + self.damping @ end_velocity - self.rest_force
         return mean, end
 
     def see(self, names):

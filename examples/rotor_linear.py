@@ -3,7 +3,7 @@
 
     python examples/rotor_linear.py [--short] [-o target/examples]
 
-Healthy bearing. The linear one has `shaft.stiffness` and the contacts' damping at rest, mean over the cage's positions
+Healthy bearing. The linear one has `shaft.stiffness` and the contacts' damping at rest, mean over cage angles
 within one element spacing, and the housing's mass on its springs behind it.
 
 Response to a small unbalance around the first critical speed: ROSS's own run_unbalance_response against the component
@@ -37,7 +37,7 @@ def nothing(t, speed):
 
 
 def mean_coefficients(machine, fmu, speed):
-    """Stiffness and damping at rest, mean over the cage's positions within one element spacing."""
+    """Stiffness and damping at rest, mean over cage angles within one element spacing."""
     found = []
     for angle in -np.pi / 2 + 2 * np.pi / 9 * np.arange(16) / 16:
         coupled = Coupled(machine, [fmu], speed, initial_angle=angle)

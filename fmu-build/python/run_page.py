@@ -137,19 +137,19 @@ def wrapped(angle):
 
 def position_and_height(run, about, defect, element, time):
     """Where an element is along the surface of a defect, from its middle (m, or degrees where the defect is on the
-    element), and how far its centre is beside the path over the smooth surface (m, upwards in the page)."""
+    element), and how far its centre is above the path over the smooth surface (m, upwards in the page)."""
     angle = run.at(f"element[{element}].angle", time)
-    height = np.asarray(run.source("element[1].path")[f"element[{element}].path"])
+    path = np.asarray(run.source("element[1].path")[f"element[{element}].path"])
     if defect["on"] == "inner":
         moved = [run.at(f"shaft.{axis}", time) - run.at(f"housing.{axis}", time) for axis in "xy"]
         # Against the inner ring: 0 where the element just touches its smooth raceway.
-        height = height + (about["clearance"] - moved[0] * np.cos(angle) - moved[1] * np.sin(angle))
-        return defect["radius"] * wrapped(angle - run.at("shaft.angle", time) - defect["angle"]), height
+        path = path + (about["clearance"] - moved[0] * np.cos(angle) - moved[1] * np.sin(angle))
+        return defect["radius"] * wrapped(angle - run.at("shaft.angle", time) - defect["angle"]), path
     # Into the outer raceway is down.
     if defect["on"] == "outer":
         along = angle - run.at("housing.angle", time) if about["turns"] else angle
-        return defect["radius"] * wrapped(along - defect["angle"]), -height
-    return np.degrees(wrapped(run.at(f"element[{element}].spin_angle", time))), -height
+        return defect["radius"] * wrapped(along - defect["angle"]), -path
+    return np.degrees(wrapped(run.at(f"element[{element}].spin_angle", time))), -path
 
 
 def passages(run, about, defect, room):

@@ -17,8 +17,8 @@ pub(super) const FINEST: usize = 1 << LEVELS;
 /// Value, slopes and twist of f at a node: f, f_s, f_h, f_sh [m, –, –, 1/m].
 pub(super) type Node = [f64; 4];
 
-/// Lattice index of a node: along the raceway, along the path.
-pub(super) type NodeIndex = (usize, usize);
+/// Index on the lattice: along the raceway, along the path.
+pub(super) type LatticeIndex = (usize, usize);
 
 /// A cell, in the order of coarse ones first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -52,7 +52,7 @@ pub(super) struct Cells {
     /// Coarse cells in each strip.
     pub(super) rows: Vec<usize>,
     pub(super) leaves: BTreeSet<Key>,
-    pub(super) nodes: BTreeMap<NodeIndex, Node>,
+    pub(super) nodes: BTreeMap<LatticeIndex, Node>,
     pub(super) cubics: BTreeMap<Key, Cubic>,
 }
 
@@ -63,7 +63,7 @@ impl Cells {
     }
 
     /// Corners of a cell: left low, right low, left high, right high.
-    pub(super) fn corners(Key { level, i, j }: Key) -> [NodeIndex; 4] {
+    pub(super) fn corners(Key { level, i, j }: Key) -> [LatticeIndex; 4] {
         let side = FINEST >> level;
         [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)].map(|(i, j)| (i * side, j * side))
     }
@@ -79,7 +79,7 @@ impl Cells {
     }
 
     /// The coarsest leaf in whose side a corner lies.
-    fn hangs_on(&self, (i, j): NodeIndex) -> Option<Key> {
+    fn hangs_on(&self, (i, j): LatticeIndex) -> Option<Key> {
         let mut coarsest: Option<Key> = None;
         for (di, dj) in [(1, 1), (0, 1), (1, 0), (0, 0)] {
             let (Some(left), Some(low)) = ((i + di).checked_sub(1), (j + dj).checked_sub(1)) else { continue };
@@ -120,15 +120,18 @@ impl Cells {
     }
 
     /// Corners that are nodes and not yet known, strip by strip upwards.
-    pub(super) fn missing(&self) -> Vec<NodeIndex> {
-        let corners: BTreeSet<NodeIndex> = self.leaves.iter().flat_map(|&key| Self::corners(key)).collect();
-        corners.into_iter().filter(|node| !self.nodes.contains_key(node) && self.hangs_on(*node).is_none()).collect()
+    pub(super) fn missing(&self) -> Vec<LatticeIndex> {
+        let corners: BTreeSet<LatticeIndex> = self.leaves.iter().flat_map(|&key| Self::corners(key)).collect();
+        corners
+            .into_iter()
+            .filter(|corner| !self.nodes.contains_key(corner) && self.hangs_on(*corner).is_none())
+            .collect()
     }
 
     /// Number of nodes in use.
     pub(super) fn node_count(&self) -> usize {
-        let corners: BTreeSet<NodeIndex> = self.leaves.iter().flat_map(|&key| Self::corners(key)).collect();
-        corners.into_iter().filter(|node| self.hangs_on(*node).is_none()).count()
+        let corners: BTreeSet<LatticeIndex> = self.leaves.iter().flat_map(|&key| Self::corners(key)).collect();
+        corners.into_iter().filter(|corner| self.hangs_on(*corner).is_none()).count()
     }
 
     /// Makes the cubics of all leaves, coarse ones first; returns those that changed.
@@ -136,9 +139,9 @@ impl Cells {
         let before = std::mem::take(&mut self.cubics);
         let mut changed = Vec::new();
         for &key in &self.leaves {
-            let corners = Self::corners(key).map(|node| match self.hangs_on(node) {
-                Some(coarse) => self.hanging(coarse, node),
-                None => self.nodes.get(&node).copied().unwrap_or_default(),
+            let corners = Self::corners(key).map(|corner| match self.hangs_on(corner) {
+                Some(coarse) => self.hanging(coarse, corner),
+                None => self.nodes.get(&corner).copied().unwrap_or_default(),
             });
             let part = 1.0 / f64::from(1_u32 << key.level);
             let cubic = cubic(&corners, self.size[0] * part, self.size[1] * part);
@@ -150,7 +153,7 @@ impl Cells {
         changed
     }
 
-    fn hanging(&self, coarse: Key, (i, j): NodeIndex) -> Node {
+    fn hanging(&self, coarse: Key, (i, j): LatticeIndex) -> Node {
         let side = FINEST >> coarse.level;
         let (q, t) = ((i - coarse.i * side) as f64 / side as f64, (j - coarse.j * side) as f64 / side as f64);
         let cells = f64::from(1_u32 << coarse.level);

@@ -16,7 +16,7 @@ use super::{
     flat_stretches::{Flat, check_ends, flats, reach, shallowest},
     love::LoveContact,
     map::{Accuracy, ContactMap, Patch, Stretch, Strip},
-    map_cells::{Cells, FINEST, Key, LEVELS, Node, NodeIndex},
+    map_cells::{Cells, FINEST, Key, LEVELS, LatticeIndex, Node},
     map_checks::{Check, Error, summary},
     map_specification::{MapSpecification, Runner},
     patch_plan::{LOWEST, PatchPlan, Reference},
@@ -250,7 +250,7 @@ impl MapPlan {
         Ok(())
     }
 
-    /// Coarse nodes above one arc, up to the largest approach.
+    /// Coarse nodes above the coarse lattice line `k`, up to the largest approach.
     fn column(&self, patch: &PatchPlan, k: usize) -> Result<Vec<Node>, ContactError> {
         self.with_contact(|contact| {
             let mut nodes = Vec::new();
@@ -275,7 +275,7 @@ impl MapPlan {
         done
     }
 
-    fn node(&self, patch: &PatchPlan, contact: &mut LoveContact, (i, j): NodeIndex) -> Result<Node, ContactError> {
+    fn node(&self, patch: &PatchPlan, contact: &mut LoveContact, (i, j): LatticeIndex) -> Result<Node, ContactError> {
         let height = patch.height(j as f64);
         if patch.flat(i).is_some() {
             return Ok([height, 0.0, 1.0, 0.0]);
@@ -286,13 +286,14 @@ impl MapPlan {
     }
 
     fn solve_missing(&mut self, runner: &mut impl Runner) -> Result<(), ContactError> {
-        let missing: Vec<(usize, NodeIndex)> = (0..self.patches.len())
+        let missing: Vec<(usize, LatticeIndex)> = (0..self.patches.len())
             .flat_map(|p| self.patches[p].cells.missing().into_iter().map(move |index| (p, index)))
             .collect();
-        let jobs: Vec<&[(usize, NodeIndex)]> = missing.chunks(JOB).collect();
+        let jobs: Vec<&[(usize, LatticeIndex)]> = missing.chunks(JOB).collect();
         let solved = runner.run(jobs.len(), &|job| {
-            let node =
-                |contact: &mut LoveContact, (p, index): (usize, NodeIndex)| self.node(&self.patches[p], contact, index);
+            let node = |contact: &mut LoveContact, (p, index): (usize, LatticeIndex)| {
+                self.node(&self.patches[p], contact, index)
+            };
             self.with_contact(|contact| jobs[job].iter().map(|&one| node(contact, one)).collect())
         })?;
         let solved: Vec<Node> = solved.into_iter().flat_map(|nodes: Vec<Node>| nodes).collect();

@@ -1,4 +1,5 @@
-//! Contact of one rolling element with a raceway. Knows no time, no cage and no ring: position and approach in, force out.
+//! Contact of one rolling element with a raceway. Knows no time, no cage and no ring: position and approach in, force
+//! out.
 
 pub mod active_set;
 mod batched_fft;

@@ -40,7 +40,7 @@ pub struct DefectiveElement {
 /// The defects of one body, as one contact meets them; no two of them are under one contact.
 #[derive(Debug, Clone)]
 pub struct Defects {
-    surfaces: Vec<SurfaceDefect>,
+    defects: Vec<SurfaceDefect>,
     /// What they turn with.
     pub frame: Frame,
 }
@@ -141,40 +141,40 @@ impl Cells {
 impl Defects {
     /// Defects of a body that turns with `frame`.
     pub fn new(frame: Frame, surfaces: impl IntoIterator<Item = Centred>) -> Self {
-        let mut defects = Self { surfaces: Vec::new(), frame };
+        let mut defects = Self { defects: Vec::new(), frame };
         surfaces.into_iter().for_each(|one| defects.add(one));
         defects
     }
 
     /// One more.
     pub fn add(&mut self, Centred { surface, centre }: Centred) {
-        let first = self.surfaces.last().map_or(0, |last| last.first + last.cell_count());
-        self.surfaces.push(SurfaceDefect { surface, centre, first });
+        let first = self.defects.last().map_or(0, |last| last.first + last.cell_count());
+        self.defects.push(SurfaceDefect { surface, centre, first });
     }
 
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
-        self.surfaces.is_empty()
+        self.defects.is_empty()
     }
 
     /// Each of them.
     pub fn iter(&self) -> impl Iterator<Item = &SurfaceDefect> {
-        self.surfaces.iter()
+        self.defects.iter()
     }
 
     /// Number of knots of all of them.
     pub fn knot_count(&self) -> usize {
-        self.surfaces.iter().map(|defect| defect.knots().len()).sum()
+        self.defects.iter().map(|defect| defect.knots().len()).sum()
     }
 
     /// Whether there is such a cell.
     pub fn has_cell(&self, cell: u32) -> bool {
-        cell == SMOOTH || self.surfaces.iter().any(|defect| defect.holds(cell))
+        cell == SMOOTH || self.defects.iter().any(|defect| defect.holds(cell))
     }
 
     /// Cell at a direction [rad] in the body's frame.
     pub fn cell_at(&self, direction: f64) -> u32 {
-        self.surfaces
+        self.defects
             .iter()
             .map(|defect| defect.cell_at(defect.angle(direction)))
             .find(|&c| c != SMOOTH)
@@ -185,10 +185,10 @@ impl Defects {
     /// `forward`. `None` without a defect.
     pub fn ahead(&self, cell: u32, direction: f64, forward: bool) -> Option<Ahead> {
         if cell != SMOOTH {
-            let defect = self.surfaces.iter().find(|defect| defect.holds(cell))?;
+            let defect = self.defects.iter().find(|defect| defect.holds(cell))?;
             return Some(defect.ahead(cell, defect.angle(direction), forward));
         }
-        let ahead = self.surfaces.iter().map(|defect| defect.ahead(SMOOTH, defect.angle(direction), forward));
+        let ahead = self.defects.iter().map(|defect| defect.ahead(SMOOTH, defect.angle(direction), forward));
         ahead.reduce(|near, other| if other.angle < near.angle { other } else { near })
     }
 
@@ -211,7 +211,7 @@ impl Defects {
     /// The defect that a cell belongs to.
     #[inline(always)]
     fn holding(&self, cell: u32) -> Option<&SurfaceDefect> {
-        match &self.surfaces[..] {
+        match &self.defects[..] {
             [one] => Some(one),
             several => several.iter().find(|defect| defect.holds(cell)),
         }
@@ -220,14 +220,14 @@ impl Defects {
     /// Angle [rad] of a direction in the body's frame from the centre of the nearest defect, within half a turn; from
     /// the frame's own axis without one.
     pub fn angle(&self, direction: f64) -> f64 {
-        let angles = self.surfaces.iter().map(|defect| defect.angle(direction));
+        let angles = self.defects.iter().map(|defect| defect.angle(direction));
         let nearest = angles.reduce(|near, other| if other.abs() < near.abs() { other } else { near });
         nearest.unwrap_or_else(|| wrap(direction))
     }
 
     /// Makes contacts independent of what was computed before, rounding included.
     pub fn forget(&self) {
-        for defect in &self.surfaces {
+        for defect in &self.defects {
             defect.surface.forget();
         }
     }

@@ -214,7 +214,7 @@ impl<const I: usize, const O: usize> Lists<'_, I, O> {
     }
 }
 
-/// What comes from index `start` of each list.
+/// Each list from index `start` on.
 #[inline(always)]
 pub fn after<const I: usize>(lists: [&[f64]; I], start: usize) -> [&[f64]; I] {
     let mut rest: [&[f64]; I] = [&[]; I];

@@ -28,7 +28,7 @@ fn claimed() -> MutexGuard<'static, Vec<(PathBuf, String)>> {
 pub(super) struct Claim {
     /// The file, empty when it was claimed.
     pub(super) file: File,
-    /// Its canonical path.
+    /// Its canonical path, or the one given where the file system cannot say.
     canonical: PathBuf,
 }
 

@@ -101,7 +101,7 @@ fn root(workspace: &mut Workspace, problem: Problem, span: Span, progress: &Prog
     let model = problem.model;
     let (mut low, mut high) = (0.0f64, 1.0f64);
     let mut share = guess;
-    for trial in 0..MOST {
+    for number in 0..MOST {
         if high - low <= NARROW || !(share > 0.0 && share < 1.0) {
             break;
         }
@@ -119,7 +119,7 @@ fn root(workspace: &mut Workspace, problem: Problem, span: Span, progress: &Prog
         // Motion over a step is nearly even. A probe on either side of the root closes the bracket; every fourth one
         // halves it, whatever the secant says.
         let secant = share / made.max(f64::MIN_POSITIVE) + if beyond { -0.4 * NARROW } else { 0.4 * NARROW };
-        share = if trial % 4 != 3 && secant > low && secant < high { secant } else { 0.5 * (low + high) };
+        share = if number % 4 != 3 && secant > low && secant < high { secant } else { 0.5 * (low + high) };
     }
     if guess <= 0.0 { 0.0 } else { high }
 }

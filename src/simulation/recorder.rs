@@ -233,10 +233,10 @@ impl Recorder {
     }
 }
 
-/// Puts the values of signals at an instant into as many slots.
-fn fill(slots: &mut [f64], signals: &[(u32, Quantity)], outputs: &Outputs) {
-    for (slot, (_, quantity)) in slots.iter_mut().zip(signals) {
-        *slot = outputs.value(*quantity).unwrap_or(f64::NAN);
+/// Puts the values of signals at an instant into as many values.
+fn fill(values: &mut [f64], signals: &[(u32, Quantity)], outputs: &Outputs) {
+    for (value, (_, quantity)) in values.iter_mut().zip(signals) {
+        *value = outputs.value(*quantity).unwrap_or(f64::NAN);
     }
 }
 
@@ -256,7 +256,7 @@ fn is_vibration(quantity: Quantity) -> bool {
     matches!(quantity, Quantity::SensorAcceleration(_) | Quantity::Acceleration(..) | Quantity::Force(..))
 }
 
-/// What is looked at instant by instant. Positions and velocities of rings and angles of elements follow from the
+/// What is sampled instant by instant. Positions and velocities of rings and angles of elements follow from the
 /// vibrations or from the cage angle.
 fn is_of_an_instant(quantity: Quantity) -> bool {
     matches!(

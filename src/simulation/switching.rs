@@ -112,7 +112,7 @@ impl Choice {
     }
 
     /// Notes a finished explicit step of length `h` [s] and how often it was tried. `landed`: something else than error
-    /// control ended it. Says whether it is time to check the Jacobian.
+    /// control ended it. Says whether it is time to evaluate the Jacobian.
     pub fn explicit_step(&mut self, h: f64, tried: u32, landed: bool) -> bool {
         self.tried += tried;
         self.limited += u32::from(!landed);

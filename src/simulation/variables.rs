@@ -89,7 +89,7 @@ pub enum Causality {
     Input,
     /// Computed: a signal that can be connected.
     Output,
-    /// Computed: to be read only.
+    /// Computed: only to be read.
     Local,
 }
 

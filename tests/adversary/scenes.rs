@@ -172,8 +172,8 @@ fn path_is_the_envelope(
         let expected = envelope.touched(psi).1;
         // Roundings of the radii, and the polynomials that the path is kept as.
         let (kept, slope) = envelope.path(envelope.feature(envelope.stretch(psi)), psi);
-        let (off, shifted) = (found - expected, position_error * (slope / envelope.own).abs());
-        let limit = crate::units::rounding(oracle) + crate::units::path_error(surface, psi) + shifted;
+        let (off, by_position) = (found - expected, position_error * (slope / envelope.own).abs());
+        let limit = crate::units::rounding(oracle) + crate::units::path_error(surface, psi) + by_position;
         if !((kept - expected).abs() <= limit && off.abs() <= limit) {
             return Err(format!("path at {psi} is {found:e}, not {expected:e} (kept as {kept:e}): {off:e} off"));
         }

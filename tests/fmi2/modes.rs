@@ -162,7 +162,7 @@ fn cancelling_a_step_is_an_error_that_says_why() {
 
 #[test]
 fn the_functions_of_model_exchange_are_errors_that_name_the_right_one() {
-    // SAFETY of all the blocks: the arguments are not looked at.
+    // SAFETY of all the blocks: the arguments are not read.
     let probes: [Probe; 10] = [
         ("fmi2EnterEventMode", "", |h| unsafe { fmi2EnterEventMode(h.c) }),
         ("fmi2NewDiscreteStates", "", |h| unsafe { fmi2NewDiscreteStates(h.c, ptr::null_mut()) }),

@@ -8,13 +8,13 @@ type Probe = (&'static str, &'static str, fn(&Host) -> Status);
 
 macro_rules! plain {
     ($($name:ident $allowed:literal ($($argument:expr),*);)*) => {
-        // SAFETY of all the blocks: nothing but the handle, NULL with a count of 0, and arguments that are not looked
-        // at.
+        // SAFETY of all the blocks: nothing but the handle, NULL with a count of 0, and arguments that are not
+        // read.
         [$((stringify!($name), $allowed, (|h| unsafe { $name(h.c, $($argument),*) }) as fn(&Host) -> Status)),*]
     };
 }
 
-/// Calls of no variables, and of functions that need no pointers. The letters are the modes of sections 2.3 and 4.2 of
+/// Calls with no variables. The letters are the modes of sections 2.3 and 4.2 of
 /// the standard: Instantiated, initialiZation, step (C), Terminated, Error; written down here a second time.
 fn probes() -> Vec<Probe> {
     let plain: Vec<Probe> = plain! {

@@ -72,7 +72,7 @@ fn a_run_that_is_watched_has_the_bits_of_one_that_is_not() {
 }
 
 #[test]
-fn law_love_which_starts_anew_after_each_look_agrees_within_what_its_solver_leaves() {
+fn law_love_which_starts_anew_after_each_inspection_agrees_within_what_its_solver_leaves() {
     let love = |text: String| text.replace("law = \"hertz\"", "law = \"love\"");
     let resources = || crate::host::Resources::edited("er16k-tb1", "resources", love);
     let watched = Host::with(resources(), "instance 1", &[], Some(Box::new(|_| None)));

@@ -248,14 +248,14 @@ fn no_folder_means_no_recording_and_a_scene_without_recorder_has_no_such_variabl
 }
 
 #[test]
-fn a_step_that_is_looked_at_and_parted_records_what_a_plain_one_does() {
+fn a_step_that_is_inspected_and_parted_records_what_a_plain_one_does() {
     for filter in FILTERS {
-        let (mut plain, mut looked, mut parted) =
+        let (mut plain, mut inspected, mut parted) =
             (recorded(scene(filter)), recorded(scene(filter)), recorded(scene(filter)));
         let speed = plain.reference("shaft.speed");
         for _ in 0..8 {
             plain.0.step(1e-3).unwrap();
-            for (run, nudge) in [(&mut looked, 0.0), (&mut parted, 1e-9)] {
+            for (run, nudge) in [(&mut inspected, 0.0), (&mut parted, 1e-9)] {
                 let mut under_way = run.0.begin_step(1e-3).unwrap();
                 while !under_way.is_done() {
                     run.0.go_on(&mut under_way).unwrap();
@@ -270,7 +270,7 @@ fn a_step_that_is_looked_at_and_parted_records_what_a_plain_one_does() {
             }
         }
         let (width, expected) = samples(&plain);
-        assert_eq!(samples(&looked), (width, expected.clone()), "looking changes no bit");
+        assert_eq!(samples(&inspected), (width, expected.clone()), "inspecting changes no bit");
         // A speed that has been nudged some hundred times is another run, but its samples are as many, and at the
         // same instants but for the roundings of the parts.
         let (_, found) = samples(&parted);

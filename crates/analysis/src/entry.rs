@@ -112,9 +112,9 @@ fn predicted(smooth: &[f64], impact: f64, span: f64, degree: f64, count: usize) 
     let noise = statistics::rms(&missed);
     let rings = ringing.ahead(&past, ahead + 1);
     let at = |i: usize| {
-        let position = (i as f64 / step).min(ahead as f64);
-        let k = (position as usize).min(ahead - 1);
-        rings[k] + (position - k as f64) * (rings[k + 1] - rings[k])
+        let sample = (i as f64 / step).min(ahead as f64);
+        let k = (sample as usize).min(ahead - 1);
+        rings[k] + (sample - k as f64) * (rings[k + 1] - rings[k])
     };
     (!missed.is_empty() && noise.is_finite()).then(|| Silence { base, noise, rings: (0..count).map(at).collect() })
 }

@@ -54,11 +54,11 @@ pub fn impacts(level: &[f64], width: usize, smallest: f64, turns: bool) -> Vec<I
             Impact { at: i as f64 + vertex(&jumps, i), jump: jumps[i], energy: peak - power[(i + n - width) % n] }
         })
         .collect();
-    let strongest = found.iter().map(|b| b.energy).fold(0.0, f64::max);
-    let steepest = found.iter().map(|b| b.jump).fold(0.0, f64::max);
-    let weakest = |b: &Impact| if turns && b.jump >= STEEP { WEAKEST_STEEP } else { WEAKEST_IMPACT };
-    found.retain(|b| b.energy >= weakest(b) * strongest && b.jump >= LOWEST_JUMP * steepest);
-    found.iter_mut().for_each(|b| b.energy /= strongest);
+    let strongest = found.iter().map(|impact| impact.energy).fold(0.0, f64::max);
+    let steepest = found.iter().map(|impact| impact.jump).fold(0.0, f64::max);
+    let weakest = |impact: &Impact| if turns && impact.jump >= STEEP { WEAKEST_STEEP } else { WEAKEST_IMPACT };
+    found.retain(|impact| impact.energy >= weakest(impact) * strongest && impact.jump >= LOWEST_JUMP * steepest);
+    found.iter_mut().for_each(|impact| impact.energy /= strongest);
     after_the_longest_silence(found, n)
 }
 

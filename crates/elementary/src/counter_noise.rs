@@ -23,7 +23,7 @@ pub fn bits(seed: u64, course: u64, index: i64) -> u64 {
     mixed(mixed(mixed(seed) ^ course) ^ index as u64)
 }
 
-/// Any number that is not 0: it makes a second number of the same index.
+/// Any number that is not 0: it makes a second number for the same index.
 const OTHER: u64 = 0x5851_f42d_4c95_7f2d;
 
 /// Every bit of the result depends on every bit of `x`, and no two give the same: the finalizer of SplitMix64 (Steele,

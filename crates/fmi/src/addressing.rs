@@ -20,7 +20,7 @@ enum Kind {
 }
 
 /// Where a row is in its variable.
-pub(super) struct ElementIndex {
+pub(super) struct RowAddress {
     /// Reference of the variable.
     pub(super) reference: u32,
     /// Element, counted from 1; 0 in a scalar.
@@ -100,13 +100,13 @@ impl Addressing {
     }
 
     /// Where a row is in its variable.
-    pub(super) fn element_index(&self, row: u32) -> ElementIndex {
+    pub(super) fn address_of(&self, row: u32) -> RowAddress {
         for array in &self.arrays {
             if let Some(index) = array.rows.iter().position(|&one| one == row) {
-                return ElementIndex { reference: array.rows[0], element: index + 1 };
+                return RowAddress { reference: array.rows[0], element: index + 1 };
             }
         }
-        ElementIndex { reference: row, element: 0 }
+        RowAddress { reference: row, element: 0 }
     }
 
     /// Whether an intermediate update can touch a variable: inputs and outputs. modelDescription.xml names those that

@@ -27,7 +27,7 @@ use std::f64::consts::{PI, TAU};
 const SMALLEST_RELATIVE_CLEARANCE: f64 = -0.0075;
 
 /// Offset and jitter of an element from its position in an even cage, as a share of the spacing, at most: what is
-/// farther off is not in its pocket.
+/// farther off cannot be in its pocket.
 const FARTHEST: f64 = 0.25;
 
 impl Scene {

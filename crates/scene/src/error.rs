@@ -130,7 +130,7 @@ pub enum SceneError {
         /// Number of elements.
         count: usize,
     },
-    /// Elements so far off their positions that they would leave their pockets.
+    /// Elements so far off even spacing that they would leave their pockets.
     #[error(
         "element {element} of the cage (cage.spacing_deg, cage.spacing_rms_deg, cage.jitter_rms_deg) is {offset_deg} \
          degrees off even spacing with a jitter of {jitter_deg} degrees: together they must be at most {limit_deg} \

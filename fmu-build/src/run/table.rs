@@ -106,9 +106,9 @@ fn put<W: Write + Send>(group: &mut [Vec<f64>], writer: &mut SerializedFileWrite
     }
     let mut rows = writer.next_row_group()?;
     for column in group {
-        if let Some(mut chunk) = rows.next_column()? {
-            chunk.typed::<DoubleType>().write_batch(column, None, None)?;
-            chunk.close()?;
+        if let Some(mut writer) = rows.next_column()? {
+            writer.typed::<DoubleType>().write_batch(column, None, None)?;
+            writer.close()?;
         }
         column.clear();
     }

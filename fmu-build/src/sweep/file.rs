@@ -295,12 +295,12 @@ impl Reading<'_, '_> {
     /// The keys of a scene in one of the three tables, in their order in the file.
     fn entries(&mut self, table: &'static str) -> Vec<Entry<Value>> {
         let (Some(spanned), Some(value)) = (self.file.get(table), self.values.get(table)) else { return Vec::new() };
-        let (DeValue::Table(spanned), Value::Table(values)) = (spanned.get_ref(), value) else {
+        let (DeValue::Table(written), Value::Table(values)) = (spanned.get_ref(), value) else {
             self.wrong(table, value, &format!("a table [{table}] of keys of the scene"));
             return Vec::new();
         };
         let mut found = Vec::new();
-        leaves(spanned, values, "", &mut found);
+        leaves(written, values, "", &mut found);
         found.sort_by_key(|leaf| leaf.at);
         found.into_iter().map(|Leaf { at, key, of }| Entry { key, of, line: (self.line)(at) }).collect()
     }

@@ -73,8 +73,8 @@ fn table(out: &Path) -> (Vec<String>, Vec<Vec<Field>>) {
 
 fn column(out: &Path, name: &str) -> Vec<Field> {
     let (names, rows) = table(out);
-    let position = names.iter().position(|known| known == name).unwrap_or_else(|| panic!("no {name} in {names:?}"));
-    rows.into_iter().map(|row| row[position].clone()).collect()
+    let index = names.iter().position(|known| known == name).unwrap_or_else(|| panic!("no {name} in {names:?}"));
+    rows.into_iter().map(|row| row[index].clone()).collect()
 }
 
 /// Every file of a sweep that is to have the same bits, by its name.

@@ -80,7 +80,7 @@ pub(crate) fn lively_with(
         Bearer::Element(_) => DefectOn::Element { element: 0, tilt: 0.0 },
     };
     let model = Model::new(&scene, rings, own);
-    let position = |start: f64| [Cubic([start, 2e-3, -3.0, 4e4]), Cubic([-start, -1e-3, 5.0, -7e4])];
+    let motion = |start: f64| [Cubic([start, 2e-3, -3.0, 4e4]), Cubic([-start, -1e-3, 5.0, -7e4])];
     let load = |start: f64| [Quadratic([start, 2e4, 1e6]), Quadratic([-900.0, -4e4, 2e6])];
     let drive = Drive {
         cage_start: cage_angle,
@@ -91,8 +91,8 @@ pub(crate) fn lively_with(
             Turning::default(),
             Turning { start: 0.1, since: Quadratic([0.0, -1200.0, -9e4]) },
         ],
-        shaft: position(-1e-6),
-        housing: position(12e-6),
+        shaft: motion(-1e-6),
+        housing: motion(12e-6),
         shaft_load: load(100.0),
         housing_load: load(-30.0),
         film_speed: 700.0,

@@ -55,8 +55,8 @@ pub(super) fn pressed(case: &Case, approach: f64) -> Case {
     let inner = approach * (bearing.growth[1].constant() / bearing.growth[0].constant()).cbrt().powi(2);
     let (sin, cos) = case.cage_deg.to_radians().sin_cos();
     let way = bearing.clearance + inner + approach;
-    let position = [[way * cos, 0.0, 0.0], [way * sin, 0.0, 0.0]];
-    let host = Host { speeds: [[0.0; 2]; 2], rings: [position, [[0.0; 3]; 2]] };
+    let motion = [[way * cos, 0.0, 0.0], [way * sin, 0.0, 0.0]];
+    let host = Host { speeds: [[0.0; 2]; 2], rings: [motion, [[0.0; 3]; 2]] };
     Case { steps: vec![Step { length: 1e-6, host: Some(host) }], ..case.clone() }
 }
 

@@ -27,10 +27,10 @@ fn dependencies(instance: &instance::Instance, reference: ValueReference) -> Res
     let initial = matches!(instance.mode, Mode::Instantiated | Mode::Initialization);
     let all = instance.simulation.dependencies();
     let of_row = |row: &u32| {
-        let element = addressing.element_index(*row).element;
+        let element = addressing.address_of(*row).element;
         let found = all.iter().find(|of| of.output == *row);
         let known = found.map_or(&[][..], |of| if initial { &of.initial } else { &of.direct });
-        let on = move |&known: &u32| Dependency { element, independent: addressing.element_index(known).reference };
+        let on = move |&known: &u32| Dependency { element, independent: addressing.address_of(known).reference };
         known.iter().map(on).collect::<Vec<_>>()
     };
     Ok(rows.iter().flat_map(of_row).collect())

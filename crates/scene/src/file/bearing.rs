@@ -177,7 +177,7 @@ const DEFAULT_CLEARANCE_UM: f64 = 5.0;
 impl WholeBearing {
     // 1e3 is exact and 1e-3 is not, so a division rounds once and a product twice.
     fn into_bearing(self) -> Result<Bearing, SceneError> {
-        // Lists are as long: no memory is taken for what no bearing has.
+        // Lists get that length: no memory is taken for what no bearing has.
         ELEMENT_COUNT.check(self.element_count as f64)?;
         let clearance = self.clearance()?;
         let element = self.rolling_element()?;

@@ -41,7 +41,7 @@ pub(super) struct Finding {
     pub(super) spoils: Vec<(Location, String)>,
 }
 
-/// Faults of a table's keys and of its values by themselves; `line` is that of an offset in the text.
+/// Faults of a table's keys and of its values by themselves; `line` gives the line of an offset in the text.
 pub(super) fn of_table(of: &TableOf, found: &Found<'_, '_>, line: &dyn Fn(usize) -> usize) -> Vec<Finding> {
     let (name, keys, table, location) = (of.name, of.keys, found.table, found.location);
     let head = found.at.map_or(0, line);

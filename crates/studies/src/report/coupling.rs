@@ -62,7 +62,8 @@ pub struct Row {
     /// Communication step H [s].
     pub step: f64,
     /// Root mean square of the error of the ring's position over that of its distance from the start; `None` if the run
-    /// was unstable: the ring was further from its position than twice the largest distance, or out of the bearing.
+    /// was unstable: the ring was further from its exact position than twice the largest distance, or out of the
+    /// bearing.
     pub error: Option<f64>,
 }
 

@@ -1,8 +1,8 @@
 //! Fixed-step methods, for comparison: what a program does that has no error control.
 //!
 //! Classical Runge–Kutta of order 4, and velocity Verlet in the form for forces that depend on the velocity (half a
-//! kick with the force at the start, drift, half a kick with the force at the new position and the half velocity), order
-//! 1 in the damping. Neither lands on contact changes or on the edges of the defect.
+//! kick with the force at the start, drift, half a kick with the force at the new position and the half velocity), of
+//! order 1 in the damping. Neither lands on contact changes or on the edges of the defect.
 
 use brinell::dynamics::drive::Drive;
 use brinell::dynamics::forces::Forces;
