@@ -3,7 +3,7 @@
 //! A file holds exact counters, one fingerprint of all bits, and for each real output a fingerprint of its own, a
 //! tolerance and a sample a millisecond. The fingerprints say whether anything moved, the tolerances whether a signal
 //! did: bits may differ in the last places where arithmetic is written in another order, and such a run still agrees
-//! within them. Outputs that a file does not name are not looked at, so a new variable changes no file.
+//! within them. Outputs that a file does not name are not compared, so a new variable changes no file.
 //!
 //! `BLESS=1 cargo test --workspace --test golden` writes the files anew. Read the difference before it is committed:
 //! a slower solver (more steps, more rejected ones) is a regression too.

@@ -75,7 +75,8 @@ impl Model {
             jacobian.set_column(axis, &-by_offset);
             jacobian.set_column(2 + axis, &by_offset);
         }
-        self.move_free_rings(&jacobian, force, by)
+        by.move_rings(&self.balancing_motion(&jacobian, force)?);
+        Some(())
     }
 
     /// The change by central differences.

@@ -1,10 +1,10 @@
 //! Where an element stands to the two raceways: its gap to the inner one, its approach to either near a defect, and
 //! what oil films resist with.
 
-use super::drive::{Frame, Frames};
-use super::kinematics::{CageState, Kinematics};
+use super::drive::{Drive, Frame, Frames};
+use super::kinematics::{CageState, FramedKinematics, Kinematics};
 use super::model::Model;
-use super::raceway::{Cells, Near, Raceway, SMOOTH};
+use super::raceway::{Cells, Defects, Near, Raceway, SMOOTH};
 use crate::contact::error::ContactError;
 use crate::contact::force_law::Force;
 use crate::contact::near_defect::{Approach, Lever};
@@ -193,5 +193,38 @@ impl Model {
         let own = self.defective.iter().position(|defective| defective.element == j);
         let own = own.map_or([SMOOTH; 2], |k| cells.own[k]);
         [[cells.inner[j], own[0]], [cells.outer[j], own[1]]]
+    }
+
+    /// Cells of all contacts at `tau` for a state.
+    pub fn cells_at(&self, drive: &Drive, tau: f64, state: &[f64]) -> Cells {
+        let (now, mut cells) =
+            (self.kinematics(drive, tau, state), Cells::smooth(self.element_count, self.defective.len()));
+        for j in 0..self.element_count {
+            let theta = self.element_angle(j, &now.cage);
+            let directions = [self.inner_direction_of(j, state[j], &now), theta];
+            let cell =
+                |defects: &Defects, direction: f64| defects.cell_at(direction - now.frames.of(defects.frame).angle);
+            cells.inner[j] = cell(&self.inner.defects, directions[0]);
+            cells.outer[j] = cell(&self.outer.defects, directions[1]);
+            for (k, defective) in self.defective.iter().enumerate().filter(|(_, own)| own.element == j) {
+                cells.own[k] = [0, 1].map(|side| cell(&defective.defects[side], directions[side]));
+            }
+        }
+        cells
+    }
+
+    /// Over a defect the path of an element without force is where the approach vanishes.
+    pub(super) fn touching_path(&self, j: usize, cells: [u32; 2], now: &FramedKinematics) -> f64 {
+        let mut u = 0.0;
+        for _ in 0..20 {
+            let near =
+                self.approach(RacewaySide::Outer, &self.outer_meeting(j, cells, u, &now.cage), &now.frames).approach;
+            let step = near.value / near.by_path;
+            u -= step;
+            if step.abs() < 1e-15 {
+                break;
+            }
+        }
+        u
     }
 }

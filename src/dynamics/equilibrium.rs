@@ -130,21 +130,6 @@ impl Model {
         at.u
     }
 
-    /// Over a defect the path of an element without force is where the approach vanishes.
-    pub(super) fn touching_path(&self, j: usize, cells: [u32; 2], now: &FramedKinematics) -> f64 {
-        let mut u = 0.0;
-        for _ in 0..20 {
-            let near =
-                self.approach(RacewaySide::Outer, &self.outer_meeting(j, cells, u, &now.cage), &now.frames).approach;
-            let step = near.value / near.by_path;
-            u -= step;
-            if step.abs() < 1e-15 {
-                break;
-            }
-        }
-        u
-    }
-
     /// Element `j` in radial balance, and its path, looked for from `guess` on.
     fn balanced_element(
         &self,

@@ -14,7 +14,6 @@ use super::model::Model;
 use super::raceway::Cells;
 use super::tangent::{RingJacobian, Rings};
 use super::variation::Variation;
-use crate::numerics::plane::Vector;
 
 impl Model {
     /// Completes a change of inputs at the equilibrium `state` by what it does to rings and elements. `by` comes with
@@ -46,25 +45,13 @@ impl Model {
             self.add_balanced(&element, &mut jacobian);
             force += self.balanced(&element, &given).rings;
         }
-        self.move_free_rings(&jacobian, force, by)?;
+        by.move_rings(&self.balancing_motion(&jacobian, force)?);
         let whole = ElementVariation { offset: by.offset(), ..given };
         for j in 0..self.element_count {
             let element = self.at_start(j, cells, state, &now);
             by.path[j] = self.balanced(&element, &whole).path;
             by.radial_velocity[j] = by.housing.velocity.dot(&element.e_r);
         }
-        Some(())
-    }
-
-    /// Moves the free rings to where the bearing balances a change of force [N] on them. `None` if they have no
-    /// stiffness against it.
-    pub(super) fn move_free_rings(&self, jacobian: &RingJacobian, force: Rings, by: &mut Variation) -> Option<()> {
-        let moved = self.free_rings_matrix(jacobian, 0.0).lu().solve(&self.free_rings(force))?;
-        if moved.iter().any(|value| !value.is_finite()) {
-            return None;
-        }
-        by.shaft.position += Vector::new(moved[0], moved[1]);
-        by.housing.position += Vector::new(moved[2], moved[3]);
         Some(())
     }
 

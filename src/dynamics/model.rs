@@ -170,24 +170,6 @@ impl Model {
         self.has_inner_defects() || (self.is_uneven() && !self.outer.defects.is_empty())
     }
 
-    /// Cells of all contacts at `tau` for a state.
-    pub fn cells_at(&self, drive: &Drive, tau: f64, state: &[f64]) -> Cells {
-        let (now, mut cells) =
-            (self.kinematics(drive, tau, state), Cells::smooth(self.element_count, self.defective.len()));
-        for j in 0..self.element_count {
-            let theta = self.element_angle(j, &now.cage);
-            let directions = [self.inner_direction_of(j, state[j], &now), theta];
-            let cell =
-                |defects: &Defects, direction: f64| defects.cell_at(direction - now.frames.of(defects.frame).angle);
-            cells.inner[j] = cell(&self.inner.defects, directions[0]);
-            cells.outer[j] = cell(&self.outer.defects, directions[1]);
-            for (k, defective) in self.defective.iter().enumerate().filter(|(_, own)| own.element == j) {
-                cells.own[k] = [0, 1].map(|side| cell(&defective.defects[side], directions[side]));
-            }
-        }
-        cells
-    }
-
     /// Angle of element `j` (from 0) ahead of the cage [rad], but for what moves in it ([`lead`](Self::lead)).
     pub fn element_offset(&self, j: usize) -> f64 {
         self.offsets[j]

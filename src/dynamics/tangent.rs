@@ -126,6 +126,13 @@ impl Model {
         Rings::from_fn(|i, _| if free[i] { forces[i] } else { 0.0 })
     }
 
+    /// Where the free rings go until the bearing balances a change of `force` [N] on them [m]. `None` if they have no
+    /// stiffness against it.
+    pub(super) fn balancing_motion(&self, jacobian: &RingJacobian, force: Rings) -> Option<Rings> {
+        let motion = self.free_rings_matrix(jacobian, 0.0).lu().solve(&self.free_rings(force))?;
+        motion.iter().all(|value| value.is_finite()).then_some(motion)
+    }
+
     /// Which of the rings' coordinates forces move.
     fn free(&self) -> [bool; 4] {
         let [shaft, housing] = [&self.shaft, &self.housing].map(|ring| ring.motion == Motion::Internal);

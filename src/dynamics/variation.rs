@@ -14,6 +14,7 @@ use super::kinematics::{CageState, FramedKinematics, PathMotion, RingState};
 use super::linearized::{Bends, DIFFERENCE, ElementChange, ElementVariation, Linearized};
 use super::model::Model;
 use super::raceway::{Cells, SMOOTH};
+use super::tangent::Rings;
 use crate::contact::rolling::RacewaySide;
 use crate::numerics::plane::{Matrix, Vector, turned};
 
@@ -75,6 +76,12 @@ impl Variation {
     /// Of the outer ring's position less that of the inner [m].
     pub(super) fn offset(&self) -> Vector {
         self.housing.position - self.shaft.position
+    }
+
+    /// Moves both rings further [m].
+    pub(super) fn move_rings(&mut self, motion: &Rings) {
+        self.shaft.position += Vector::new(motion[0], motion[1]);
+        self.housing.position += Vector::new(motion[2], motion[3]);
     }
 
     /// Of the outer ring's velocity less that of the inner [m/s].

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::methods::Methods;
 use super::reader::{File, Path, Use, named, uses};
 
 /// Modules by name, those of one folder; the module of the folder itself has none.
@@ -11,8 +12,9 @@ type Graph = BTreeMap<String, BTreeSet<String>>;
 pub(super) fn cycles(top: &[String], files: &[File]) -> Vec<String> {
     let inside = files.iter().filter(|(path, _)| path.starts_with(top)).map(|(path, _)| path);
     let folders = inside.flat_map(|path| (top.len()..=path.len()).map(|depth| &path[..depth]));
+    let methods = Methods::of(files);
     let found = folders.collect::<BTreeSet<_>>().into_iter().filter_map(|folder| {
-        let cycle = cycle(&graph(folder, folder == top, files))?;
+        let cycle = cycle(&graph(folder, folder == top, files, &methods))?;
         let name = [&["crate".to_owned()], folder].concat().join("::");
         let shown = cycle.iter().chain(cycle.first()).map(|module| if module.is_empty() { &name } else { module });
         Some(format!("in {name}: {}", shown.map(String::as_str).collect::<Vec<_>>().join(" -> ")))
@@ -20,11 +22,11 @@ pub(super) fn cycles(top: &[String], files: &[File]) -> Vec<String> {
     found.collect()
 }
 
-/// Which modules of a folder each of them names.
+/// Which modules of a folder each of them names, or calls by a method of a type that both have a part of.
 ///
 /// A module and those in its folder may name each other; not so at the top, whose own file counts as one of its modules
 /// if `counts_own`.
-fn graph(folder: &[String], counts_own: bool, files: &[File]) -> Graph {
+fn graph(folder: &[String], counts_own: bool, files: &[File], methods: &Methods) -> Graph {
     let below = |path: &Path| path.strip_prefix(folder).map(|path| path.first().cloned().unwrap_or_default());
     let known: BTreeSet<String> = files.iter().filter_map(|(path, _)| below(path)).collect();
     let own_uses: Vec<Use> = files.iter().filter(|(path, _)| path == folder).flat_map(|(_, text)| uses(text)).collect();
@@ -42,7 +44,8 @@ fn graph(folder: &[String], counts_own: bool, files: &[File]) -> Graph {
     let mut graph = Graph::new();
     for (path, text) in files {
         let Some(from) = below(path).filter(|from| counts_own || !from.is_empty()) else { continue };
-        let mut named: Vec<String> = named(path, text).iter().filter_map(below).map(home).collect();
+        let all = [named(path, text), methods.called(text)].concat();
+        let mut named: Vec<String> = all.iter().filter_map(below).map(home).collect();
         if from.is_empty() {
             named.extend(own_uses.iter().filter(|brought| !brought.is_public).filter_map(source));
         }

@@ -16,7 +16,7 @@ pub(super) fn functions(text: &str) -> Vec<(String, usize)> {
 }
 
 /// Name of the function that begins on a line.
-fn name(line: &str) -> Option<String> {
+pub(super) fn name(line: &str) -> Option<String> {
     let (before, after) = line.trim_start().split_once("fn ")?;
     let words = ["pub", "pub(crate)", "pub(super)", "const", "unsafe", "extern", "\"C\"", "\"C-unwind\""];
     if !before.split_whitespace().all(|word| words.contains(&word)) {

@@ -124,7 +124,8 @@ fn name_at(text: &str) -> String {
     text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
 }
 
-fn without_comments(text: &str) -> String {
+/// A file's code.
+pub(super) fn without_comments(text: &str) -> String {
     text.lines().map(|line| without_comment(line) + "\n").collect()
 }
 

@@ -36,25 +36,27 @@ pub(super) struct Ringing {
 }
 
 impl Ringing {
-    /// Least squares over a stretch; `None` where it is too short for `order` unknowns.
+    /// Least squares over a stretch; `None` where it is too short for `order` unknowns, or not finite.
     pub(super) fn of(stretch: &[f64], order: usize) -> Option<Self> {
         if stretch.len() < 3 * order {
             return None;
         }
         let power = stretch.iter().map(|x| x * x).sum::<f64>();
-        let mut normal = vec![vec![0.0; order + 1]; order];
+        let (mut normal, mut known) = (vec![vec![0.0; order]; order], vec![0.0; order]);
         for i in order..stretch.len() {
             for k in 0..order {
                 for l in 0..order {
                     normal[k][l] += stretch[i - 1 - k] * stretch[i - 1 - l];
                 }
-                normal[k][order] += stretch[i - 1 - k] * stretch[i];
+                known[k] += stretch[i - 1 - k] * stretch[i];
             }
         }
         for (k, row) in normal.iter_mut().enumerate() {
             row[k] += RIDGE * power + f64::MIN_POSITIVE;
         }
-        Some(Self { weights: solve(normal) })
+        // The normal equations, solved with orthogonal transformations: their matrix is nearly singular but for the
+        // ridge.
+        Some(Self { weights: brinell_eigen::least_squares(&normal, &known).ok()? })
     }
 
     /// What follows `past`, if nothing happens.
@@ -67,26 +69,6 @@ impl Ringing {
         }
         all.split_off(known)
     }
-}
-
-/// Solves a symmetric positive system, its right side the last column, by elimination.
-fn solve(mut rows: Vec<Vec<f64>>) -> Vec<f64> {
-    let n = rows.len();
-    for k in 0..n {
-        let pivot = rows[k].clone();
-        for row in rows.iter_mut().skip(k + 1) {
-            let factor = row[k] / pivot[k];
-            for (x, y) in row.iter_mut().zip(&pivot).skip(k) {
-                *x -= factor * y;
-            }
-        }
-    }
-    let mut solution = vec![0.0; n];
-    for k in (0..n).rev() {
-        let known: f64 = (k + 1..n).map(|l| rows[k][l] * solution[l]).sum();
-        solution[k] = (rows[k][n] - known) / rows[k][k];
-    }
-    solution
 }
 
 /// 1, a(1) … a(p) of an autocorrelation at lags 0 … p.

@@ -30,6 +30,7 @@ const SIDE: usize = 8;
 
 /// What is wrong with the times. Times and lengths are in the column's own unit, samples are counted from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Uneven {
     /// A time is no number.
     #[error("the time of sample {index} is {value}: times must be finite")]

@@ -2,6 +2,7 @@
 
 /// Why there is no length. Angles in degrees.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Unresolved {
     /// Nothing repeats with the ball pass frequency.
     #[error(

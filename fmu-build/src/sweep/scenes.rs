@@ -48,7 +48,7 @@ impl Base {
     /// The file of a run's scene, without what follows from it.
     ///
     /// # Errors
-    /// A key that has no position in the scene.
+    /// A key that the scene cannot have.
     pub(super) fn changed(&self, sweep: &Sweep, run: &Run) -> Result<Table, String> {
         let mut table = self.table.clone();
         table.insert("name".to_owned(), Value::String(run_name(run.index)));

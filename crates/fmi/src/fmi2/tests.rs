@@ -2,7 +2,8 @@
 //! several threads.
 //!
 //! These tests are small enough for Miri, which knows whether a pointer may be used as it is:
-//! `MIRIFLAGS=-Zmiri-disable-isolation cargo +nightly miri test -p brinell-fmi --lib`
+//! `MIRIFLAGS=-Zmiri-disable-isolation cargo +nightly miri test -p brinell-fmi --lib --target
+//! riscv64gc-unknown-linux-gnu`, for it knows no inline assembly of x86.
 //! Logging is off, for a logger takes variable arguments, which stable Rust cannot define.
 
 use std::ffi::{CString, c_void};

@@ -72,7 +72,8 @@ impl Job {
     }
 }
 
-/// FNV-1a with 64 bits, of numbers from the lowest byte on.
+/// FNV-1a with 64 bits, of numbers from the lowest byte on. Written here again: the host shares no code with what it
+/// drives.
 fn checksum(numbers: impl Iterator<Item = f64>) -> u64 {
     let bytes = numbers.flat_map(|number| number.to_bits().to_le_bytes());
     bytes.fold(0xcbf2_9ce4_8422_2325, |sum: u64, byte| (sum ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))

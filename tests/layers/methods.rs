@@ -1,0 +1,80 @@
+//! Finds where the methods stand that a type calls on itself: with its `impl` blocks in several files, one calls another
+//! without naming its module.
+
+use std::collections::BTreeMap;
+
+use super::lengths::name;
+use super::reader::{File, Path, without_comments};
+
+/// Modules of methods, by type and method.
+pub(super) struct Methods(BTreeMap<(String, String), Path>);
+
+/// An `impl` block of a formatted file.
+struct Block<'t> {
+    of: String,
+    is_inherent: bool,
+    lines: Vec<&'t str>,
+}
+
+impl Methods {
+    /// Those of some files, which are without tests.
+    pub(super) fn of(files: &[File]) -> Self {
+        let mut methods = BTreeMap::new();
+        for (path, text) in files {
+            for block in blocks(&without_comments(text)).into_iter().filter(|block| block.is_inherent) {
+                let of_block = block.lines.iter().filter(|line| line.starts_with("    ") && !line.starts_with("     "));
+                methods.extend(of_block.filter_map(|line| Some(((block.of.clone(), name(line)?), path.clone()))));
+            }
+        }
+        Self(methods)
+    }
+
+    /// The modules of the methods that a file's types call on themselves.
+    pub(super) fn called(&self, text: &str) -> Vec<Path> {
+        let mut found = Vec::new();
+        for block in blocks(&without_comments(text)) {
+            let code = block.lines.join("\n");
+            for keyword in ["self.", "Self::"] {
+                let after = code.split(keyword).skip(1);
+                let names = after.map(|rest| rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect());
+                found.extend(names.filter_map(|name: String| self.0.get(&(block.of.clone(), name)).cloned()));
+            }
+        }
+        found
+    }
+}
+
+fn blocks(text: &str) -> Vec<Block<'_>> {
+    let mut blocks = Vec::new();
+    let mut lines = text.lines();
+    while let Some(first) = lines.next() {
+        let Some(mut head) = first.strip_prefix("impl").map(str::to_owned) else { continue };
+        while !head.contains('{')
+            && let Some(more) = lines.next()
+        {
+            head.push_str(more);
+        }
+        let head = after_parameters(head.split('{').next().unwrap_or_default().trim());
+        let (is_inherent, of) = head.split_once(" for ").map_or((true, head), |(_, of)| (false, of));
+        let of = of.trim().split(['<', ' ']).next().unwrap_or_default().rsplit("::").next().unwrap_or_default();
+        let own =
+            if first.ends_with('}') { Vec::new() } else { lines.by_ref().take_while(|line| *line != "}").collect() };
+        blocks.push(Block { of: of.to_owned(), is_inherent, lines: own });
+    }
+    blocks
+}
+
+/// What follows the parameters `<…>` with which an `impl` may begin.
+fn after_parameters(head: &str) -> &str {
+    let mut depth = 0;
+    let closed = head.char_indices().find(|(at, letter)| {
+        depth += match letter {
+            '<' => 1,
+            // Not that of an arrow.
+            '>' if !head[..*at].ends_with(['-', '=']) => -1,
+            _ => 0,
+        };
+        depth == 0
+    });
+    if head.starts_with('<') { closed.map_or(head, |(at, _)| &head[at + 1..]).trim() } else { head }
+}
