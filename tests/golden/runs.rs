@@ -4,9 +4,10 @@
 /// Communication step [s]. The recorded events of the shipped scenes lie within the first 20 ms: entry, flight, impact.
 pub(crate) const STEP: f64 = 1e-4;
 pub(crate) const STEPS: usize = 200;
-/// Scenes that run under law `hertz`: their maps take minutes and are compared with the grid elsewhere.
+/// Scenes of which two runs are kept: one under law `hertz`, and one as shipped, with [`AS_SHIPPED`] behind its name.
 pub(crate) const BY_PATH: [&str; 5] =
     ["6205-inner-5deg", "6205-two-defects", "er16k-inner", "er16k-element", "nu205-inner"];
+pub(crate) const AS_SHIPPED: &str = "-map";
 
 /// A host's motion of a ring, smooth and exactly repeatable: it presses the rings together by 12 µm and swings.
 pub(crate) fn ring_motion(ring: &str, t: f64) -> [(&'static str, f64); 4] {
