@@ -31,13 +31,7 @@ impl EquivalentApproach {
         Self { value: u - depth, du: 1.0, ..Self::default() }
     }
 
-    /// Energy W [J] for Hertz's constant `k` [N/m^1.5].
-    pub fn energy(&self, k: f64) -> f64 {
-        let approach = self.value.max(0.0);
-        0.4 * k * approach * approach * approach.sqrt()
-    }
-
-    /// F_n and F_t [N] for Hertz's constant `k` [N/m^1.5].
+    /// F_n and F_t [N] of a ball for Hertz's constant `k` [N/m^1.5].
     pub fn forces(&self, k: f64) -> [f64; 2] {
         let approach = self.value.max(0.0);
         let smooth = k * approach * approach.sqrt();

@@ -57,7 +57,7 @@ impl<const RECORD: bool> SmoothElements<'_, RECORD> {
     #[inline(always)]
     fn elements<S: Wide, E: Elastic>(self, simd: S, elastic: E) -> [f64; 4] {
         let Self { model, now, stage, derivative, forces } = self;
-        let group = Group::new(model, now, elastic);
+        let shared = Shared::new(model, now, elastic);
         let mut sums = Sums::default();
         let Forces { elements, contacts, .. } = forces;
         if RECORD {
@@ -71,9 +71,9 @@ impl<const RECORD: bool> SmoothElements<'_, RECORD> {
                     break;
                 }
                 let of = |numbers: &[f64; WIDEST]| Lanes::part(simd, numbers, part);
-                let at = group.element_lanes(simd, block, of);
+                let at = shared.element_lanes(simd, block, of);
                 let known = [of(&state[k]), of(&state[start + k])];
-                let element = group.balanced(&at, known, stage.ahead).damped(&group, &at);
+                let element = shared.balanced(&at, known, stage.ahead).damped(&shared, &at);
                 element.path_rate.put(&mut derivative[k], part);
                 sums.add(element.forces(&at));
                 if RECORD {
@@ -86,7 +86,7 @@ impl<const RECORD: bool> SmoothElements<'_, RECORD> {
 }
 
 /// What all elements share at one instant.
-struct Group<'a, E> {
+struct Shared<'a, E> {
     model: &'a Model,
     now: &'a Kinematics,
     elastic: E,
@@ -138,7 +138,7 @@ struct Balanced<S: Wide> {
     stiffness: [Lanes<S>; 2],
 }
 
-impl<'a, E: Elastic> Group<'a, E> {
+impl<'a, E: Elastic> Shared<'a, E> {
     #[inline(always)]
     fn new(model: &'a Model, now: &'a Kinematics, elastic: E) -> Self {
         let offset = now.offset();
@@ -251,13 +251,13 @@ impl<'a, E: Elastic> Group<'a, E> {
 impl<S: Wide> Balanced<S> {
     /// Rates, and what damping changes of the forces.
     #[inline(always)]
-    fn damped<E: Elastic>(self, group: &Group<E>, at: &ElementLanes<S>) -> Self {
+    fn damped<E: Elastic>(self, shared: &Shared<E>, at: &ElementLanes<S>) -> Self {
         let number = |number: f64| Lanes::splat(at.simd, number);
         let Self { path, gap: Gap { n: [n_r, n_t], distance, .. }, forces: [inner, outer], .. } = self;
         let [k_i, k_o] = self.stiffness;
         let none = number(NO_STIFFNESS);
         let [drift, across] = at.drift;
-        let around = across + (number(group.model.outer_centre_radius) + path) * at.speed;
+        let around = across + (number(shared.model.outer_centre_radius) + path) * at.speed;
         let opening = n_r * drift + n_t * around;
         let turning = n_t * (at.speed - (n_r * around - n_t * drift) / distance);
         let push = inner * turning - k_i * (n_r * opening) + at.body_rate;
@@ -266,7 +266,7 @@ impl<S: Wide> Balanced<S> {
         // Where nothing touches there is no rate.
         let path_rate = none.if_less(contacts, path_rate, number(0.0));
 
-        let law = DampedLaw::new(group.damping, group.elastic, number);
+        let law = DampedLaw::new(shared.damping, shared.elastic, number);
         let closing = -(opening + n_r * path_rate);
         let d_i = law.damping_of(inner, k_i, closing).at_least(-inner);
         let d_o = law.damping_of(outer, k_o, path_rate).at_least(-outer);

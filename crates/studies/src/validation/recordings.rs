@@ -95,7 +95,7 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
         "| recording | nominal (°) | looks like | found (°) | 95 % (°) | error | onset (°) | impacts (°) \
          |\n|---|---:|---|---:|---:|---:|---:|---|\n",
     );
-    let mut groups: Vec<Group> = Vec::new();
+    let mut groups: Vec<OneFault> = Vec::new();
     let mut beside: Vec<Beside> = Vec::new();
     let mut inside: Vec<Inside> = Vec::new();
     for one in known {
@@ -115,11 +115,11 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
         }
         match groups.iter_mut().find(|group| group.nominal == one.nominal && group.fault == one.fault) {
             Some(group) => group.recordings.push(recording),
-            None => groups.push(Group { nominal: one.nominal, fault: one.fault, recordings: vec![recording] }),
+            None => groups.push(OneFault { nominal: one.nominal, fault: one.fault, recordings: vec![recording] }),
         }
     }
     let several = groups.iter().filter(|group| group.recordings.len() > 1 && group.nominal > 0.0);
-    for Group { nominal, fault, recordings } in several {
+    for OneFault { nominal, fault, recordings } in several {
         let report = spall_size::size_with(recordings, &scene, &maps, &mut |_| ())?;
         let per_degree = report.length_mm.zip(report.length_deg).map_or(1.0, |(mm, deg)| mm / deg);
         let error = |deg: f64| format!("{:+.1} %", 100.0 * (deg / nominal - 1.0));
@@ -141,7 +141,7 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
 }
 
 /// Recordings of one fault and one nominal length [degrees].
-struct Group {
+struct OneFault {
     nominal: f64,
     fault: Fault,
     recordings: Vec<Recording>,
