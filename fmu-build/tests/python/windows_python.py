@@ -6,6 +6,7 @@ the compiled half of the standard library; the other half is that of the Python 
 Arguments: folder, file with a list of packages.
 """
 
+import importlib.util
 import shutil
 import subprocess
 import sys
@@ -14,7 +15,10 @@ import zipfile
 from pathlib import Path
 
 folder, packages = Path(sys.argv[1]), sys.argv[2]
-pip = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check"]
+# The environment may have been made by a pip that is not in it: that of the Python beneath.
+has_pip = importlib.util.find_spec("pip") is not None
+python = sys.executable if has_pip else Path(sys.base_prefix) / "bin" / "python3"
+pip = [python, "-m", "pip", "--quiet", "--disable-pip-version-check"]
 of_windows = ["--no-deps", "--only-binary", ":all:", "--platform", "win_amd64"]
 
 subprocess.run([*pip, "download", *of_windows, "--dest", folder, "panda3d==1.10.16"], check=True)
