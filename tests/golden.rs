@@ -20,7 +20,7 @@ use std::path::PathBuf;
 
 use brinell::scene::{Motion, Scene};
 use brinell::simulation::variables::{Causality, Kind};
-use runs::{AS_SHIPPED, BY_PATH, STEP, STEPS, ring_motion};
+use runs::{AS_SHIPPED, BY_PATH, STEP, STEPS, ring_motion, scene_of};
 use support::{Named, fingerprint};
 
 /// Samples of the file are so many communication steps apart.
@@ -62,11 +62,8 @@ fn move_rings(bearing: &mut Named, scene: &Scene, t: f64) {
 }
 
 fn run(name: &str) -> Run {
-    let scene = if BY_PATH.contains(&name) {
-        support::shipped(name)
-    } else {
-        support::shipped_as_it_is(name.strip_suffix(AS_SHIPPED).unwrap_or(name))
-    };
+    let scene =
+        if BY_PATH.contains(&name) { support::shipped(name) } else { support::shipped_as_it_is(scene_of(name)) };
     let mut bearing = Named::new(scene.clone());
     let outputs: Vec<(String, u32)> = bearing
         .0

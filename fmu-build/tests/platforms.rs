@@ -22,7 +22,7 @@ use fmu_build::library::{Choice, Library};
 use fmu_build::model::Model;
 use fmu_build::platform::Platform;
 use fmu_build::project::Project;
-use runs::{AS_SHIPPED, BY_PATH, STEP, STEPS, ring_motion};
+use runs::{AS_SHIPPED, BY_PATH, STEP, STEPS, ring_motion, scene_of};
 
 /// A kind of machine, on which a library and a host run.
 struct Machine {
@@ -157,7 +157,7 @@ fn is_real_output(variable: &Variable) -> bool {
 /// The shipped scene, under law `hertz` where that golden run is.
 fn golden_model(name: &str) -> Model {
     if !BY_PATH.contains(&name) {
-        return common::model(name.strip_suffix(AS_SHIPPED).unwrap_or(name));
+        return common::model(scene_of(name));
     }
     let text = fs::read_to_string(common::root().join(format!("scenes/{name}.toml"))).unwrap();
     assert_eq!(text.matches("law = \"map\"").count(), 1, "{name}");

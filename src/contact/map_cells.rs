@@ -17,8 +17,14 @@ pub(super) const FINEST: usize = 1 << LEVELS;
 /// Value, slopes and twist of f at a node: f, f_s, f_h, f_sh [m, –, –, 1/m].
 pub(super) type Node = [f64; 4];
 
-/// Index on the lattice: along the raceway, along the path.
-pub(super) type LatticeIndex = (usize, usize);
+/// Where a corner is on the lattice, in the order of strips.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct LatticeIndex {
+    /// Along the raceway.
+    pub(super) i: usize,
+    /// Along the path.
+    pub(super) j: usize,
+}
 
 /// A cell, in the order of coarse ones first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -65,7 +71,7 @@ impl Cells {
     /// Corners of a cell: left low, right low, left high, right high.
     pub(super) fn corners(Key { level, i, j }: Key) -> [LatticeIndex; 4] {
         let side = FINEST >> level;
-        [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)].map(|(i, j)| (i * side, j * side))
+        [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)].map(|(i, j)| LatticeIndex { i: i * side, j: j * side })
     }
 
     /// Leaf over one lattice step, given by its lower left corner.
@@ -79,7 +85,7 @@ impl Cells {
     }
 
     /// The coarsest leaf in whose side a corner lies.
-    fn hangs_on(&self, (i, j): LatticeIndex) -> Option<Key> {
+    fn hangs_on(&self, LatticeIndex { i, j }: LatticeIndex) -> Option<Key> {
         let mut coarsest: Option<Key> = None;
         for (di, dj) in [(1, 1), (0, 1), (1, 0), (0, 0)] {
             let (Some(left), Some(low)) = ((i + di).checked_sub(1), (j + dj).checked_sub(1)) else { continue };
@@ -153,7 +159,7 @@ impl Cells {
         changed
     }
 
-    fn hanging(&self, coarse: Key, (i, j): LatticeIndex) -> Node {
+    fn hanging(&self, coarse: Key, LatticeIndex { i, j }: LatticeIndex) -> Node {
         let side = FINEST >> coarse.level;
         let (q, t) = ((i - coarse.i * side) as f64 / side as f64, (j - coarse.j * side) as f64 / side as f64);
         let cells = f64::from(1_u32 << coarse.level);
@@ -165,8 +171,10 @@ impl Cells {
     /// The cells of a raceway that is this one's mirror image.
     pub(super) fn mirrored(&self) -> Self {
         let strips = self.rows.len();
-        let nodes =
-            self.nodes.iter().map(|(&(i, j), &[f, ds, dh, dsh])| ((strips * FINEST - i, j), [f, -ds, dh, -dsh]));
+        let nodes = self
+            .nodes
+            .iter()
+            .map(|(&at, &[f, ds, dh, dsh])| (LatticeIndex { i: strips * FINEST - at.i, ..at }, [f, -ds, dh, -dsh]));
         let mut mirrored = Self {
             size: self.size,
             rows: self.rows.iter().rev().copied().collect(),
@@ -184,9 +192,11 @@ impl Cells {
         let mut whole = self.clone();
         whole.rows.extend(&mirrored.rows);
         whole.leaves.extend(mirrored.leaves.iter().map(|&key| Key { i: (strips << key.level) + key.i, ..key }));
-        whole.nodes.extend(mirrored.nodes.iter().map(|(&(i, j), &node)| ((strips * FINEST + i, j), node)));
+        whole
+            .nodes
+            .extend(mirrored.nodes.iter().map(|(&at, &node)| (LatticeIndex { i: strips * FINEST + at.i, ..at }, node)));
         // Where they meet, nothing changes along the raceway.
-        for (_, node) in whole.nodes.iter_mut().filter(|((i, _), _)| *i == strips * FINEST) {
+        for (_, node) in whole.nodes.iter_mut().filter(|(at, _)| at.i == strips * FINEST) {
             (node[1], node[3]) = (0.0, 0.0);
         }
         whole.assemble();

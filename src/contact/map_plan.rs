@@ -243,7 +243,7 @@ impl MapPlan {
             let rows = columns.windows(2).map(|pair| pair[0].len().max(pair[1].len()) - 1).collect();
             let mut cells = Cells::new(self.patches[p].cells.size, rows);
             for (k, column) in columns.into_iter().enumerate() {
-                cells.nodes.extend((0..).map(|j| (k * FINEST, j * FINEST)).zip(column));
+                cells.nodes.extend((0..).map(|j| LatticeIndex { i: k * FINEST, j: j * FINEST }).zip(column));
             }
             self.patches[p].cells = cells;
         }
@@ -255,7 +255,7 @@ impl MapPlan {
         self.with_contact(|contact| {
             let mut nodes = Vec::new();
             loop {
-                let node = self.node(patch, contact, (k * FINEST, nodes.len() * FINEST))?;
+                let node = self.node(patch, contact, LatticeIndex { i: k * FINEST, j: nodes.len() * FINEST })?;
                 nodes.push(node);
                 if node[0] >= self.specification.largest_approach {
                     return Ok(nodes);
@@ -275,12 +275,12 @@ impl MapPlan {
         done
     }
 
-    fn node(&self, patch: &PatchPlan, contact: &mut LoveContact, (i, j): LatticeIndex) -> Result<Node, ContactError> {
-        let height = patch.height(j as f64);
-        if patch.flat(i).is_some() {
+    fn node(&self, patch: &PatchPlan, contact: &mut LoveContact, at: LatticeIndex) -> Result<Node, ContactError> {
+        let height = patch.height(at.j as f64);
+        if patch.flat(at.i).is_some() {
             return Ok([height, 0.0, 1.0, 0.0]);
         }
-        let Reference { arc, path, slope } = patch.reference(i);
+        let Reference { arc, path, slope } = patch.reference(at.i);
         let a = contact.continued(path + height, arc)?;
         Ok([a.value, a.ds + a.du * slope, a.du, a.dus + a.duu * slope])
     }

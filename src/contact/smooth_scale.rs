@@ -88,7 +88,8 @@ impl SmoothScale {
         let width = v1 - v0;
         let t = (v - v0) / width;
         let secant = (d1 - d0) / width;
-        // That of `numerics::hermite` adds its terms in another order, and every run over a defect would have other bits.
+        // The cubic of `numerics::hermite` adds its terms in another order: every run over a defect would have other
+        // bits.
         let (c2, c3) = (3.0 * secant - 2.0 * m0 - m1, m0 + m1 - 2.0 * secant);
         [
             d0 + width * t * (m0 + t * (c2 + t * c3)),

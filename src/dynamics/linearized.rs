@@ -24,8 +24,8 @@
 //! f = Q(Δ, Δ̇) (R n + T t),   Δ(δ, ψ),   dδ = −n·dq,   dψ = t·dq/|q| − dα,   dn = t (t·dq)/|q|,   dt = −n (t·dq)/|q|
 //! dδ̇ = −n·dq̇ − v_t (t·dq)/|q|,   dψ̇ = t·dq̇/|q| − v_t (n·dq)/|q|² − v_n (t·dq)/|q|² − dω_f
 //! ```
-//! Where Δ is not u itself, its second derivatives and derivatives of the direction by the angle are central differences
-//! over [`DIFFERENCE`], wrong by less than 1e-6 of themselves.
+//! Where Δ is not u itself, its second derivatives and derivatives of the direction by the angle are central
+//! differences over [`DIFFERENCE`], wrong by less than 1e-6 of themselves.
 //!
 //! Oil films add what resists to Q. Derivatives are those of the branch that each contact is in; at the onset of a
 //! contact there are two, and where a film's gap ceases to close. At rest all of it is elastic: G is symmetric, and no

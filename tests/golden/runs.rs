@@ -9,6 +9,11 @@ pub(crate) const BY_PATH: [&str; 5] =
     ["6205-inner-5deg", "6205-two-defects", "er16k-inner", "er16k-element", "nu205-inner"];
 pub(crate) const AS_SHIPPED: &str = "-map";
 
+/// The scene of a golden run.
+pub(crate) fn scene_of(run: &str) -> &str {
+    run.strip_suffix(AS_SHIPPED).unwrap_or(run)
+}
+
 /// A host's motion of a ring, smooth and exactly repeatable: it presses the rings together by 12 µm and swings.
 pub(crate) fn ring_motion(ring: &str, t: f64) -> [(&'static str, f64); 4] {
     let depth = if ring == "shaft" { -12e-6 } else { 0.0 };

@@ -1,5 +1,5 @@
-//! Finds where the methods stand that a type calls on itself: with its `impl` blocks in several files, one calls another
-//! without naming its module.
+//! Finds where the methods stand that a type calls on itself: with its `impl` blocks in several files, one calls
+//! another without naming its module.
 
 use std::collections::BTreeMap;
 

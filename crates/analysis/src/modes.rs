@@ -138,7 +138,7 @@ impl Assembly {
     ///
     /// let scene = Scene::builder(Bearing::steel_balls(9, 7.94e-3, 39.04e-3)).shaft_load([0.0, -1500.0]).build()?;
     /// let modes = Assembly::new(&scene, None, None)?.modes(-std::f64::consts::FRAC_PI_2)?.modes;
-    /// // The ball under the load swings between its raceways: ω² = (k_i + k_o)/m with k = 1.5 Q/δ of some 1e8 N/m each.
+    /// // The ball under the load swings between its raceways: ω² = (k_i + k_o)/m, k = 1.5 Q/δ of some 1e8 N/m each.
     /// let fastest = modes.iter().filter_map(Mode::undamped_frequency).fold(0.0, f64::max);
     /// assert!((3e4..6e4).contains(&fastest));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
