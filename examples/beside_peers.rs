@@ -11,7 +11,7 @@ use brinell::simulation::Simulation;
 use std::error::Error;
 use std::time::Instant;
 
-/// End and communication step [s].
+/// End and communication step (s).
 const STOP: f64 = 0.02;
 const STEP: f64 = 1e-4;
 

@@ -25,9 +25,6 @@
 //! Data flows one way through the modules, and a module imports only from those above it:
 //! `numerics → scene → geometry → surface → contact → dynamics → simulation → recording`.
 
-// Units in brackets, as in `[m]`, are no links.
-#![allow(rustdoc::broken_intra_doc_links)]
-
 pub mod contact;
 pub mod dynamics;
 pub mod geometry;

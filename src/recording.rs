@@ -25,9 +25,9 @@ use claim::Claim;
 pub struct Unstored {
     /// How many.
     pub count: usize,
-    /// Time of the first [s].
+    /// Time of the first (s).
     pub from: f64,
-    /// Time of the last [s].
+    /// Time of the last (s).
     pub to: f64,
 }
 
@@ -37,7 +37,7 @@ pub struct Recording {
     path: PathBuf,
     claim: Claim,
     names: Vec<String>,
-    /// Length of the header [bytes].
+    /// Length of the header (bytes).
     header: u64,
     /// Number of the first row in the file.
     first: u64,
@@ -145,7 +145,7 @@ impl Recording {
         self.claim.file.set_len(end)
     }
 
-    /// Length of a file of so many rows [bytes].
+    /// Length of a file of so many rows (bytes).
     fn end(&self, rows: u64) -> u64 {
         self.header + 8 * self.names.len() as u64 * rows
     }

@@ -17,7 +17,7 @@ use host::{Host, Line, Resources};
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
-/// Sets the longest that a file may become [bytes].
+/// Sets the longest that a file may become (bytes).
 fn room(bytes: libc::rlim_t) {
     // SAFETY: plain numbers; the signal that would end the program is ignored, so that writing fails instead.
     unsafe {

@@ -33,9 +33,9 @@ pub enum On {
 pub struct Options {
     /// The raceway.
     pub on: On,
-    /// Angle of the ball from the middle of the raceway's first defect, counter-clockwise [°].
+    /// Angle of the ball from the middle of the raceway's first defect, counter-clockwise (°).
     pub angle_deg: f64,
-    /// Force [N].
+    /// Force (N).
     pub force: f64,
     /// Cells in each direction.
     pub resolution: usize,

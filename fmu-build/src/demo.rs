@@ -18,7 +18,7 @@ use crate::whole_file;
 
 /// A shipped scene.
 const SCENE: &str = "6205-epps";
-/// Spacing of the profile that is drawn, and how far it goes beyond the defect [m].
+/// Spacing of the profile that is drawn, and how far it goes beyond the defect (m).
 const SPACING: f64 = 1e-6;
 const MARGIN: f64 = 0.5e-3;
 

@@ -6,7 +6,7 @@ use brinell::scene::Experiment;
 /// Equal communication steps from 0 on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grid {
-    /// Communication step [s].
+    /// Communication step (s).
     pub step: f64,
     /// Number of steps.
     pub count: u64,
@@ -30,7 +30,7 @@ impl Grid {
         Ok(Self { step, count: count as u64 })
     }
 
-    /// Time of the last communication point [s].
+    /// Time of the last communication point (s).
     pub fn end(&self) -> f64 {
         self.step * self.count as f64
     }

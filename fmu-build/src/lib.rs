@@ -4,9 +4,6 @@
 //! [`model_description`] and [`documentation`] write that table down, [`archive`] zips them together with the
 //! one compiled [`library`] that serves every scene. No compiler is needed for a new bearing.
 
-// Units in brackets, as in `[m]`, are no links.
-#![allow(rustdoc::broken_intra_doc_links)]
-
 pub mod archive;
 mod catalogue;
 pub mod check;

@@ -177,7 +177,7 @@ struct Stimuli {
     start: Vec<f64>,
     /// Of a hosted shaft: columns of y, vy and ay.
     down: Option<[usize; 3]>,
-    /// How far the shaft goes down [m], and how long it takes [s].
+    /// How far the shaft goes down (m), and how long it takes (s).
     depth: f64,
     period: f64,
 }

@@ -33,7 +33,7 @@ use speed_profile::SpeedProfile;
 use table::Format;
 use wav::Wav;
 
-/// Rate of a recorder that a sound or a page needs and the scene does not have [Hz].
+/// Rate of a recorder that a sound or a page needs and the scene does not have (Hz).
 const USUAL_RATE: f64 = 51_200.0;
 
 /// What the user says.

@@ -24,7 +24,7 @@ use crate::whole_file;
 /// What the user says.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
-    /// Sampling rate [Hz]; `None` where the files state it.
+    /// Sampling rate (Hz); `None` where the files state it.
     pub rate: Option<f64>,
     /// Shaft speed of all recordings, or of each.
     pub speeds: Vec<Speed>,

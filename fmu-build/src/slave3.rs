@@ -97,7 +97,7 @@ type Logger = unsafe extern "C" fn(*mut c_void, c_int, *const c_char, *const c_c
 /// What `fmi3DoStep` says.
 #[derive(Debug, Clone, Copy)]
 pub struct Stepped {
-    /// The time reached [s].
+    /// The time reached (s).
     pub time: f64,
     /// Whether the FMU wants the run to end.
     pub terminate: bool,

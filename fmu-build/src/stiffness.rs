@@ -22,7 +22,7 @@ use crate::whole_file;
 /// What the user says.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
-    /// Amount of the load [N], along the scene's; `None` for the scene's own.
+    /// Amount of the load (N), along the scene's; `None` for the scene's own.
     pub load: Option<f64>,
     /// Evenly spaced cage angles within one element spacing; `None` for as many as the defect needs to be seen.
     pub points: Option<usize>,

@@ -75,7 +75,7 @@ fn with_defect(cage_deg: f64, defect: &str) -> String {
 
 /// Element 1 meets them under the load: a short spall of the inner raceway after 5 ms, one of 10° from 5.7 to 10.3 ms,
 /// and spalls of its own that face the outer raceway after 5 ms and the inner one after 26 ms. Name, scene, what of it
-/// each test looks at [s].
+/// each test looks at (s).
 fn defects() -> [(&'static str, String, f64, f64); 4] {
     let on_element = |length: f64| {
         with_defect(-112.1826, &format!("on = \"element\"\nelement = 1\nangle_deg = 42.7519\nlength_mm = {length}"))
@@ -89,7 +89,7 @@ fn defects() -> [(&'static str, String, f64, f64); 4] {
     ]
 }
 
-/// Motion of the rings about one element: start [m], amplitudes [m], frequency [Hz].
+/// Motion of the rings about one element: start (m), amplitudes (m), frequency (Hz).
 const MOTION: [f64; 5] = [0.0, -20e-6, 3e-6, 5e-6, 300.0];
 
 /// What the oracle found: names of the columns and its rows.
@@ -172,7 +172,7 @@ struct Compared<'n> {
     rings: &'n [&'n str],
 }
 
-/// Largest differences from the oracle over a run: element path, ring position [m].
+/// Largest differences from the oracle over a run: element path, ring position (m).
 fn compare(
     simulation: &mut Simulation,
     reference: &Reference,
@@ -257,7 +257,7 @@ fn follows(name: &str, scene: &str, reference: &Reference) {
     assert!(ring < 1e-12, "{name}: ring differs by {ring:e} m");
 }
 
-/// The oracle's run of a scene with a defect over so long [s].
+/// The oracle's run of a scene with a defect over so long (s).
 fn over(name: &str, scene: &str, stop: f64) -> Reference {
     Reference::run(name, scene, &["--stop", &stop.to_string(), "--step", "1e-4", "--rtol", "1e-12"])
 }

@@ -26,7 +26,7 @@ pub use super::row_pairs::{Mirror, PressedCell, Run};
 /// Interpenetration below this part of the largest interference counts as touching; rounding of K p is far below.
 const TOUCHING: f64 = 1e-13;
 
-/// Interference g = δ − h of the undeformed bodies [m] in a window of the grid.
+/// Interference g = δ − h of the undeformed bodies (m) in a window of the grid.
 #[derive(Debug, Clone, Copy)]
 pub struct Window<'a> {
     /// Column of the window's first cell.
@@ -133,7 +133,7 @@ impl ActiveSet {
         self.runs.iter().flat_map(move |run| (0..run.length).map(move |k| cell(run, k)))
     }
 
-    /// Largest |gap| where pressed and penetration where not, over the window just solved [m].
+    /// Largest |gap| where pressed and penetration where not, over the window just solved (m).
     pub fn residual(&mut self, window: Window<'_>) -> f64 {
         let mut worst = 0.0_f64;
         let mut deflection = vec![0.0; window.columns.next_multiple_of(SEGMENT)];

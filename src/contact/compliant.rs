@@ -35,12 +35,12 @@ const ITERATIONS: u32 = 50;
 pub struct CompliantContact {
     /// The contact.
     pub law: ForceLaw,
-    /// Compliance c [m/N]; 0 for none, which leaves every bit the contact's own.
+    /// Compliance c (m/N); 0 for none, which leaves every bit the contact's own.
     pub compliance: f64,
 }
 
 impl CompliantContact {
-    /// The contact's own approach [m] and the rate [m/s] at which its damper acts, of those of the whole.
+    /// The contact's own approach (m) and the rate (m/s) at which its damper acts, of those of the whole.
     #[inline(always)]
     pub fn of_contact(&self, delta: f64, rate: f64) -> (f64, f64) {
         if self.compliance == 0.0 || delta <= 0.0 {
@@ -50,12 +50,12 @@ impl CompliantContact {
         (part.approach, part.share * part.share * rate)
     }
 
-    /// Elastic force [N] at approach `delta` [m].
+    /// Elastic force (N) at approach `delta` (m).
     pub fn elastic(&self, delta: f64) -> f64 {
         self.law.elastic(self.of_contact(delta, 0.0).0)
     }
 
-    /// Elastic tangent stiffness [N/m] at approach `delta` [m].
+    /// Elastic tangent stiffness (N/m) at approach `delta` (m).
     pub fn elastic_stiffness(&self, delta: f64) -> f64 {
         if self.compliance == 0.0 || delta <= 0.0 {
             return self.law.elastic_stiffness(delta);
@@ -64,7 +64,7 @@ impl CompliantContact {
         self.law.elastic_stiffness(part.approach) * part.share
     }
 
-    /// Force [N] at approach `delta` [m] and its rate [m/s].
+    /// Force (N) at approach `delta` (m) and its rate (m/s).
     pub fn force(&self, delta: f64, rate: f64) -> f64 {
         let (delta, rate) = self.of_contact(delta, rate);
         self.law.force(delta, rate)
@@ -95,7 +95,7 @@ impl CompliantContact {
 }
 
 impl CompliantContact {
-    /// The part of the approach `total` > 0 [m] that the contact takes.
+    /// The part of the approach `total` > 0 (m) that the contact takes.
     #[inline(always)]
     fn part(&self, total: f64) -> Part {
         match self.law.elasticity {
@@ -127,14 +127,14 @@ impl CompliantContact {
 /// The contact's part of an approach.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Part {
-    /// δ [m].
+    /// δ (m).
     approach: f64,
     /// s = dδ/dΔ, between 0 and 1.
     share: f64,
 }
 
-/// The part of the approach `total` ≥ 0 [m] that a contact of Hertz constant `stiffness` [N/m^1.5] takes in series with
-/// `compliance` [m/N].
+/// The part of the approach `total` ≥ 0 (m) that a contact of Hertz constant `stiffness` (N/m^1.5) takes in series with
+/// `compliance` (m/N).
 #[inline(always)]
 fn part(total: f64, stiffness: f64, compliance: f64) -> Part {
     let beta = compliance * stiffness * total.sqrt();

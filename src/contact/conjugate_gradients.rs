@@ -121,7 +121,7 @@ struct Coarse {
 /// What an iteration has reached.
 #[derive(Debug, Clone, Copy, Default)]
 struct Reached {
-    /// [m]
+    /// (m)
     residual: f64,
     iterations: usize,
 }

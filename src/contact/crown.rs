@@ -22,9 +22,9 @@ const NODES: usize = 2048;
 /// The part of a crowned roller that carries, as a table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Crown {
-    /// Of the laminae [m].
+    /// Of the laminae (m).
     depths: Vec<f64>,
-    /// P̄ [m].
+    /// P̄ (m).
     mean_depth: f64,
     /// Coefficients of c over the distance from the step's beginning, in steps.
     cubics: Vec<[f64; 4]>,
@@ -66,7 +66,7 @@ impl Crown {
         crown
     }
 
-    /// The crown of these depths [m] of a roller's laminae, not all of them 0.
+    /// The crown of these depths (m) of a roller's laminae, not all of them 0.
     pub fn new(depths: &[f64]) -> Self {
         let mean_depth = depths.iter().sum::<f64>() / depths.len() as f64;
         let node = |i: usize| {
@@ -80,19 +80,19 @@ impl Crown {
         Self { depths: depths.to_vec(), mean_depth, cubics }
     }
 
-    /// P̄ [m].
+    /// P̄ (m).
     pub fn mean_depth(&self) -> f64 {
         self.mean_depth
     }
 
-    /// c and the order n = δ Q′/Q of the force at an approach [m], 10/9 where nothing carries.
+    /// c and the order n = δ Q′/Q of the force at an approach (m), 10/9 where nothing carries.
     #[inline(always)]
     pub fn part_and_order(&self, delta: f64) -> [f64; 2] {
         let Carrying { part, slope, .. } = self.carrying(delta);
         [part, if part > 0.0 { slope / part } else { 10.0 / 9.0 }]
     }
 
-    /// What carries at an approach [m] that is not negative.
+    /// What carries at an approach (m) that is not negative.
     #[inline(always)]
     pub fn carrying(&self, delta: f64) -> Carrying {
         let square = delta / (delta + self.mean_depth);

@@ -47,7 +47,7 @@ impl EdgeSoftness {
         Self { factor: 0.5 * image_factor(poissons_ratio), deepest: 4.0 }
     }
 
-    /// Distance [m] from a step of this depth [m] within which it is felt by contacts of up to this half-axis [m] along
+    /// Distance (m) from a step of this depth (m) within which it is felt by contacts of up to this half-axis (m) along
     /// the raceway.
     pub fn reach(&self, depth: f64, half_axis: f64) -> f64 {
         StepImage::reach(depth.min(self.deepest * half_axis))
@@ -62,21 +62,21 @@ pub fn image_factor(poissons_ratio: f64) -> f64 {
 /// The image of a step's edge on cells of a grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct StepImage {
-    /// Depth of the step [m].
+    /// Depth of the step (m).
     pub(super) depth: f64,
     /// ½ψ.
     pub(super) factor: f64,
-    /// Full sides of a cell [m].
+    /// Full sides of a cell (m).
     pub(super) cell: [f64; 2],
 }
 
 impl StepImage {
-    /// Distance from the edge within which it is felt [m].
+    /// Distance from the edge within which it is felt (m).
     pub(super) fn reach(depth: f64) -> f64 {
         FELT * depth
     }
 
-    /// Integral of ½ψ I over a cell at s and y [m].
+    /// Integral of ½ψ I over a cell at s and y (m).
     pub(super) fn influence(&self, s: f64, y: f64) -> f64 {
         let [a, b] = self.cell.map(|side| 0.5 * side);
         let buried = BURIED * self.depth;

@@ -18,7 +18,7 @@ pub const LINE_ORDER: f64 = 10.0 / 9.0;
 
 /// Growth of a contact's force, chosen where code is compiled.
 pub trait Elastic: Copy {
-    /// Secant stiffness Q/δ [N/m] and order δ Q′/Q of a contact of this constant K at an approach [m] that is not
+    /// Secant stiffness Q/δ (N/m) and order δ Q′/Q of a contact of this constant K at an approach (m) that is not
     /// negative.
     fn secant_and_order<T: Number>(&self, stiffness: T, delta: T) -> [T; 2];
 }
@@ -74,7 +74,7 @@ impl Elasticity {
         }
     }
 
-    /// Secant stiffness [N/m] and order, as [`Elastic::secant_and_order`].
+    /// Secant stiffness (N/m) and order, as [`Elastic::secant_and_order`].
     #[inline(always)]
     pub fn secant_and_order(&self, stiffness: f64, delta: f64) -> [f64; 2] {
         match self.line() {
@@ -83,7 +83,7 @@ impl Elasticity {
         }
     }
 
-    /// Q″ [N/m²] of a contact of this constant at an approach [m] above 0.
+    /// Q″ (N/m²) of a contact of this constant at an approach (m) above 0.
     #[inline]
     pub fn second_derivative(&self, stiffness: f64, delta: f64) -> f64 {
         let straight = || stiffness * ninth_root(delta) / delta;

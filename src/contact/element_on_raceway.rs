@@ -17,9 +17,9 @@ use crate::scene::{Bearing, RollerProfile};
 /// Radii of an element and of the raceway it runs on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ElementOnRaceway {
-    /// Radius of the element r [m].
+    /// Radius of the element r (m).
     pub element_radius: f64,
-    /// Radius of the raceway at the groove's bottom, R_o or R_i [m].
+    /// Radius of the raceway at the groove's bottom, R_o or R_i (m).
     pub raceway_radius: f64,
     /// What the contact is across the raceway.
     pub across: Across,
@@ -30,11 +30,11 @@ pub struct ElementOnRaceway {
 /// What a contact is across the raceway.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Across {
-    /// A ball in a groove of this radius r_g [m].
+    /// A ball in a groove of this radius r_g (m).
     Groove(f64),
     /// A roller on a straight raceway.
     Roller {
-        /// Its effective length [m].
+        /// Its effective length (m).
         length: f64,
         /// Whether it has the logarithmic crown.
         crowned: bool,
@@ -86,7 +86,7 @@ impl ElementOnRaceway {
         Ok(self)
     }
 
-    /// Curvatures of the gap along and across the raceway [1/m].
+    /// Curvatures of the gap along and across the raceway (1/m).
     pub fn curvatures(&self) -> [f64; 2] {
         let r = 1.0 / self.element_radius;
         let along = match self.raceway {
@@ -100,7 +100,7 @@ impl ElementOnRaceway {
         [along, across]
     }
 
-    /// Half-axes of the contact along and across the raceway [m] at the approach δ [m]. Of a ball those of Hertz's
+    /// Half-axes of the contact along and across the raceway (m) at the approach δ (m). Of a ball those of Hertz's
     /// ellipse: with A ≤ B half the curvatures, a² = δ (K − E)/(A e² K) and b = a √(1 − e²). Of a roller half the width
     /// of the line and half its length.
     pub fn contact_half_axes(&self, approach: f64) -> [f64; 2] {
@@ -117,12 +117,12 @@ impl ElementOnRaceway {
         if along < across { [major, minor] } else { [minor, major] }
     }
 
-    /// Gap [m] for zero approach on the smooth raceway, x along and y across [m] from where the two bodies touch.
+    /// Gap (m) for zero approach on the smooth raceway, x along and y across (m) from where the two bodies touch.
     pub fn gap(&self, x: f64, y: f64) -> f64 {
         self.along(x)[0] + self.across(y)
     }
 
-    /// Part of the gap along the raceway with its slope, at distance t [m] from the element.
+    /// Part of the gap along the raceway with its slope, at distance t (m) from the element.
     #[inline]
     pub(super) fn along(&self, t: f64) -> [f64; 2] {
         let (element, raceway) = (circle(self.element_radius, t), circle(self.raceway_radius, t));
@@ -132,7 +132,7 @@ impl ElementOnRaceway {
         }
     }
 
-    /// Part of the gap across the raceway, at distance t [m] from the element's middle.
+    /// Part of the gap across the raceway, at distance t (m) from the element's middle.
     pub(super) fn across(&self, t: f64) -> f64 {
         match self.across {
             Across::Groove(radius) => circle(self.element_radius, t)[0] - circle(radius, t)[0],
@@ -141,7 +141,7 @@ impl ElementOnRaceway {
         }
     }
 
-    /// Length [m] on which the contact ends by itself; `None` of a ball.
+    /// Length (m) on which the contact ends by itself; `None` of a ball.
     pub(super) fn length(&self) -> Option<f64> {
         match self.across {
             Across::Groove(_) => None,

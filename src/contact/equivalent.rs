@@ -13,25 +13,25 @@
 /// there is no contact; the value then only tells how far off the contact is.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct EquivalentApproach {
-    /// Δ [m].
+    /// Δ (m).
     pub value: f64,
     /// ∂Δ/∂u.
     pub du: f64,
     /// ∂Δ/∂s.
     pub ds: f64,
-    /// ∂²Δ/∂u² [1/m].
+    /// ∂²Δ/∂u² (1/m).
     pub duu: f64,
-    /// ∂²Δ/∂u∂s [1/m].
+    /// ∂²Δ/∂u∂s (1/m).
     pub dus: f64,
 }
 
 impl EquivalentApproach {
-    /// Smooth raceway lowered by a constant `depth` [m]: Δ = u − depth.
+    /// Smooth raceway lowered by a constant `depth` (m): Δ = u − depth.
     pub fn flat(u: f64, depth: f64) -> Self {
         Self { value: u - depth, du: 1.0, ..Self::default() }
     }
 
-    /// F_n and F_t [N] of a ball for Hertz's constant `k` [N/m^1.5].
+    /// F_n and F_t (N) of a ball for Hertz's constant `k` (N/m^1.5).
     pub fn forces(&self, k: f64) -> [f64; 2] {
         let approach = self.value.max(0.0);
         let smooth = k * approach * approach.sqrt();

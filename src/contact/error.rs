@@ -1,6 +1,6 @@
 //! What can go wrong in a contact.
 
-/// A range [m] that may have no lower end.
+/// A range (m) that may have no lower end.
 fn prepared(lower: f64, upper: f64) -> String {
     if lower.is_finite() { format!("{lower:.6e} to {upper:.6e} m") } else { format!("up to {upper:.6e} m") }
 }
@@ -30,11 +30,11 @@ pub enum ContactError {
     TooCoarse {
         /// "along" or "across".
         direction: &'static str,
-        /// Distance of the points [µm].
+        /// Distance of the points (µm).
         step_um: f64,
-        /// Arc or axial coordinate between them, from the middle [mm].
+        /// Arc or axial coordinate between them, from the middle (mm).
         at_mm: f64,
-        /// Length or width of a cell [µm].
+        /// Length or width of a cell (µm).
         cell_um: f64,
     },
     /// Softness of edges is asked for, and there is none.
@@ -49,15 +49,15 @@ pub enum ContactError {
          beyond either end, {why}, and the outer raceway is only {circumference_mm:.4} mm around"
     )]
     EndsMeet {
-        /// Length along the raceway [mm].
+        /// Length along the raceway (mm).
         length_mm: f64,
-        /// Length from which on the two ends are felt at once [mm].
+        /// Length from which on the two ends are felt at once (mm).
         limit_mm: f64,
-        /// Distance beyond its ends within which elements feel the defect, the larger of both [mm].
+        /// Distance beyond its ends within which elements feel the defect, the larger of both (mm).
         reach_mm: f64,
         /// What makes them feel it there.
         why: &'static str,
-        /// Circumference of the outer raceway [mm].
+        /// Circumference of the outer raceway (mm).
         circumference_mm: f64,
     },
     /// A rigid element that lies so deep beside a wall that only its side meets the edge: its path leaps there.
@@ -67,13 +67,13 @@ pub enum ContactError {
          rolls out: make the defect shallower or its flank gentler"
     )]
     NoWayOut {
-        /// Where the element's centre is, along the raceway from the defect's middle [mm].
+        /// Where the element's centre is, along the raceway from the defect's middle (mm).
         at_mm: f64,
-        /// Depth to which the element's centre sinks there [mm].
+        /// Depth to which the element's centre sinks there (mm).
         depth_mm: f64,
-        /// Depth up to which the edge still carries it [mm].
+        /// Depth up to which the edge still carries it (mm).
         limit_mm: f64,
-        /// Radius of the element [mm].
+        /// Radius of the element (mm).
         radius_mm: f64,
     },
     /// An array has the wrong length.
@@ -96,7 +96,7 @@ pub enum ContactError {
         column: usize,
         /// Row of the offending cell.
         row: usize,
-        /// Approach [m].
+        /// Approach (m).
         approach: f64,
     },
     /// The iteration did not come to an end.
@@ -118,11 +118,11 @@ pub enum ContactError {
     OutOfRange {
         /// What.
         quantity: &'static str,
-        /// Its value [m].
+        /// Its value (m).
         value: f64,
-        /// Smallest value covered [m].
+        /// Smallest value covered (m).
         lower: f64,
-        /// Largest value covered [m].
+        /// Largest value covered (m).
         upper: f64,
     },
     /// Stored map that cannot be trusted.

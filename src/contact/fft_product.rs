@@ -194,7 +194,7 @@ pub struct FftProduct {
 }
 
 impl FftProduct {
-    /// Product on `columns` × `rows` cells of the full sides `cell` [m].
+    /// Product on `columns` × `rows` cells of the full sides `cell` (m).
     pub fn new(columns: usize, rows: usize, cell: [f64; 2]) -> Self {
         let (along, across) = (good_length(2 * columns), good_length(2 * rows));
         let (near, far) = (good_length(columns), good_length(rows));

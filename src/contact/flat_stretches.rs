@@ -6,11 +6,11 @@ use super::element_on_raceway::ElementOnRaceway;
 use super::error::ContactError;
 use std::f64::consts::TAU;
 
-/// Smooth raceway that must be left between what elements feel of a defect's two ends [rad]: knots closer together than
+/// Smooth raceway that must be left between what elements feel of a defect's two ends (rad): knots closer together than
 /// 1e-9 rad are one.
 const SMALLEST_GAP: f64 = 1e-8;
 
-/// Refuses a defect of this `extent` (first and last arc [m]) that elements feel between the arcs `felt` [m], for the
+/// Refuses a defect of this `extent` (first and last arc (m)) that elements feel between the arcs `felt` (m), for the
 /// reason `why`, if that is the whole raceway: laws near the defect know what is beyond one of its ends, not what is
 /// beyond both.
 pub(crate) fn check_ends(
@@ -33,7 +33,7 @@ pub(crate) fn check_ends(
     })
 }
 
-/// Distance [m] along the raceway within which the element comes lower than `depth` [m]; a little more than the
+/// Distance (m) along the raceway within which the element comes lower than `depth` (m); a little more than the
 /// circles'.
 pub(super) fn reach(element: ElementOnRaceway, depth: f64) -> f64 {
     (2.0 * depth.max(0.0) / element.curvatures()[0]).sqrt()
@@ -42,11 +42,11 @@ pub(super) fn reach(element: ElementOnRaceway, depth: f64) -> f64 {
 /// A stretch of constant depth.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Flat {
-    /// First arc [m].
+    /// First arc (m).
     pub(super) start: f64,
-    /// Last arc [m].
+    /// Last arc (m).
     pub(super) end: f64,
-    /// Depth [m].
+    /// Depth (m).
     pub(super) depth: f64,
 }
 
@@ -66,7 +66,7 @@ pub(super) fn flats(surface: &Surface) -> Vec<Flat> {
     flats
 }
 
-/// Smallest depth [m], of the highest rim; 0 without one.
+/// Smallest depth (m), of the highest rim; 0 without one.
 pub(super) fn shallowest(surface: &Surface) -> f64 {
     surface.depths().fold(0.0, f64::min)
 }

@@ -17,7 +17,7 @@ use super::elasticity::{Elastic, Elasticity, Line, Point};
 use crate::numerics::number::Number;
 use crate::scene::Damping;
 
-/// Turns the dimensionless factor of Hunt and Crossley's damping into a length of an approach's magnitude [m].
+/// Turns the dimensionless factor of Hunt and Crossley's damping into a length of an approach's magnitude (m).
 pub(crate) const PUSHING_LENGTH: f64 = 1e-6;
 
 /// How contacts of one elasticity are damped, whatever their stiffness; for single numbers or for lanes.
@@ -25,7 +25,7 @@ pub(crate) const PUSHING_LENGTH: f64 = 1e-6;
 pub struct DampedLaw<T, E = Point> {
     elastic: E,
     damping: Damping,
-    /// χ [s/m] and τ [s].
+    /// χ (s/m) and τ (s).
     chi: T,
     tau: T,
     one: T,
@@ -45,7 +45,7 @@ impl<T: Number, E: Elastic> DampedLaw<T, E> {
         Self { elastic, damping, chi, tau, one, zero, pushing_length }
     }
 
-    /// Force [N] of a contact of constant `stiffness` [N/m^n] at approach `delta` [m] and its rate [m/s].
+    /// Force (N) of a contact of constant `stiffness` (N/m^n) at approach `delta` (m) and its rate (m/s).
     #[inline(always)]
     pub fn force(&self, stiffness: T, delta: T, rate: T) -> T {
         let delta = delta.or_zero();
@@ -53,13 +53,13 @@ impl<T: Number, E: Elastic> DampedLaw<T, E> {
         secant * (delta + (self.chi * delta + order * self.tau) * rate).or_zero()
     }
 
-    /// What damping adds [N] to an elastic force [N] of this tangent stiffness [N/m] at a rate of approach [m/s].
+    /// What damping adds (N) to an elastic force (N) of this tangent stiffness (N/m) at a rate of approach (m/s).
     #[inline(always)]
     pub fn damping_of(&self, force: T, stiffness: T, rate: T) -> T {
         (self.chi * force + self.tau * stiffness) * rate
     }
 
-    /// A length [m] that is positive while the contact pushes and negative while it does not.
+    /// A length (m) that is positive while the contact pushes and negative while it does not.
     ///
     /// It is continuous in both arguments, so that the moment of change can be located as its root.
     #[inline(always)]
@@ -77,18 +77,18 @@ impl<T: Number, E: Elastic> DampedLaw<T, E> {
 /// Force and its derivatives with respect to approach and rate of approach.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Force {
-    /// Q [N]
+    /// Q (N)
     pub value: f64,
-    /// ∂Q/∂δ [N/m]
+    /// ∂Q/∂δ (N/m)
     pub by_approach: f64,
-    /// ∂Q/∂δ̇ [N s/m]
+    /// ∂Q/∂δ̇ (N s/m)
     pub by_rate: f64,
 }
 
 /// An elastic contact with damping.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ForceLaw {
-    /// Constant K of the contact [N/m^n]: Hertz's of a point [N/m^1.5], the lamina law's of a line [N/m^(10/9)].
+    /// Constant K of the contact (N/m^n): Hertz's of a point (N/m^1.5), the lamina law's of a line (N/m^(10/9)).
     pub stiffness: f64,
     /// How the force grows with the approach.
     pub elasticity: Elasticity,
@@ -97,7 +97,7 @@ pub struct ForceLaw {
 }
 
 impl ForceLaw {
-    /// Elastic force [N] at approach `delta` [m].
+    /// Elastic force (N) at approach `delta` (m).
     #[inline]
     pub fn elastic(&self, delta: f64) -> f64 {
         let delta = delta.or_zero();
@@ -108,7 +108,7 @@ impl ForceLaw {
         }
     }
 
-    /// Elastic tangent stiffness [N/m] at approach `delta` [m].
+    /// Elastic tangent stiffness (N/m) at approach `delta` (m).
     #[inline]
     pub fn elastic_stiffness(&self, delta: f64) -> f64 {
         let delta = delta.or_zero();
@@ -121,13 +121,13 @@ impl ForceLaw {
         }
     }
 
-    /// Change of the elastic tangent stiffness with the approach [N/m²], at approach `delta` [m] above 0.
+    /// Change of the elastic tangent stiffness with the approach (N/m²), at approach `delta` (m) above 0.
     #[inline]
     pub fn hardening(&self, delta: f64) -> f64 {
         self.elasticity.second_derivative(self.stiffness, delta)
     }
 
-    /// The approach [m] at which the elastic force is `force` [N], by Newton's method from above: the force is convex.
+    /// The approach (m) at which the elastic force is `force` (N), by Newton's method from above: the force is convex.
     pub fn approach_under(&self, force: f64) -> f64 {
         // A straight roller's approach and the crown's mean depth together are too much, as a convex force's mean over
         // the laminae is above the force at their mean.
@@ -147,7 +147,7 @@ impl ForceLaw {
         delta
     }
 
-    /// Force [N] at approach `delta` [m] and its rate [m/s].
+    /// Force (N) at approach `delta` (m) and its rate (m/s).
     #[inline(always)]
     pub fn force(&self, delta: f64, rate: f64) -> f64 {
         match self.elasticity.line() {

@@ -39,11 +39,11 @@ pub struct GridProblem {
 /// A solved contact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GridContact {
-    /// Approach δ [m].
+    /// Approach δ (m).
     pub approach: f64,
-    /// Pressure [Pa], `[row × columns + column]`.
+    /// Pressure (Pa), `[row × columns + column]`.
     pub pressure: Vec<f64>,
-    /// Total force [N].
+    /// Total force (N).
     pub force: f64,
     /// Largest of: |gap| where pressed, penetration where not; over the approach.
     pub residual: f64,
@@ -52,7 +52,7 @@ pub struct GridContact {
 }
 
 impl GridContact {
-    /// Largest pressure [Pa].
+    /// Largest pressure (Pa).
     pub fn max_pressure(&self) -> f64 {
         self.pressure.iter().fold(0.0, |m, &p| m.max(p))
     }
@@ -74,16 +74,16 @@ impl GridContact {
 
 /// Anything that solves a [`GridProblem`] at a prescribed approach.
 pub trait GridSolver {
-    /// Solves at the approach δ [m].
+    /// Solves at the approach δ (m).
     ///
     /// # Errors
     /// When the contact reaches the border of a [`Border::Window`] or the iteration does not end.
     fn at_approach(&mut self, approach: f64) -> Result<GridContact, ContactError>;
 
-    /// Smallest gap [m], the approach at which the contact begins.
+    /// Smallest gap (m), the approach at which the contact begins.
     fn first_touch(&self) -> f64;
 
-    /// Solves at the force `force` [N], to a relative 1e-11, by the secant rule on F^(2/3), which Hertz makes a
+    /// Solves at the force `force` (N), to a relative 1e-11, by the secant rule on F^(2/3), which Hertz makes a
     /// straight line.
     ///
     /// # Errors
@@ -124,7 +124,7 @@ pub trait GridSolver {
 }
 
 impl GridProblem {
-    /// A problem from its gap h [m], `gap[row × columns + column]`, cells of the full sides `cell` [m] and E* [Pa].
+    /// A problem from its gap h (m), `gap[row × columns + column]`, cells of the full sides `cell` (m) and E* (Pa).
     ///
     /// # Errors
     /// For a gap of the wrong length and numbers that are not finite or not positive.
@@ -159,7 +159,7 @@ impl GridProblem {
         Ok(Self { columns, rows, cell, effective_modulus, gap, border })
     }
 
-    /// A problem from its gap h(x, y) [m], a function of the position relative to the grid's middle [m]; the rest as
+    /// A problem from its gap h(x, y) (m), a function of the position relative to the grid's middle (m); the rest as
     /// for [`GridProblem::new`].
     ///
     /// A cell's gap is halfway between that at its centre and its mean over the cell (four points of Gauss's rule).
@@ -199,22 +199,22 @@ impl GridProblem {
         self.rows
     }
 
-    /// Full sides of a cell [m].
+    /// Full sides of a cell (m).
     pub fn cell(&self) -> [f64; 2] {
         self.cell
     }
 
-    /// Gap h [m], row by row.
+    /// Gap h (m), row by row.
     pub fn gap(&self) -> &[f64] {
         &self.gap
     }
 
-    /// Smallest gap [m].
+    /// Smallest gap (m).
     pub fn first_touch(&self) -> f64 {
         self.gap.iter().fold(f64::INFINITY, |m, &h| m.min(h))
     }
 
-    /// About how many unknowns the direct solver meets at the approach δ [m]: on paraboloids the contact is where the
+    /// About how many unknowns the direct solver meets at the approach δ (m): on paraboloids the contact is where the
     /// interference exceeds half its largest value; mirrored cells count once. The direct solver is the faster one
     /// below some two hundred, by measurement.
     pub fn expected_unknowns(&self, approach: f64) -> f64 {

@@ -25,9 +25,9 @@ const GAUSS_6: [(f64, f64); 3] = [
     (0.932_469_514_203_152, 0.171_324_492_379_170_36),
 ];
 
-/// Integral of 1/r over the rectangle 2a × 2b, seen from the point (x, y) relative to its centre [m].
+/// Integral of 1/r over the rectangle 2a × 2b, seen from the point (x, y) relative to its centre (m).
 ///
-/// `half_x` = a and `half_y` = b are half the cell's sides [m]. Relative error below 1e-12 for sides up to 1:100.
+/// `half_x` = a and `half_y` = b are half the cell's sides (m). Relative error below 1e-12 for sides up to 1:100.
 pub fn rectangle_kernel(x: f64, y: f64, half_x: f64, half_y: f64) -> f64 {
     let (x, y, a, b) = (x.abs(), y.abs(), half_x, half_y);
     let reach = 20.0 * a.max(b);
@@ -85,7 +85,7 @@ impl KernelTable {
         Self::from_function(columns, rows, cell, |x, y| rectangle_kernel(x, y, half[0], half[1]))
     }
 
-    /// Table of another influence, even along x, at the offsets (x, y) [m] for x and y not below 0.
+    /// Table of another influence, even along x, at the offsets (x, y) (m) for x and y not below 0.
     pub(super) fn from_function(
         columns: usize,
         rows: usize,
@@ -115,7 +115,7 @@ impl KernelTable {
         self.rows
     }
 
-    /// Full sides of a cell [m].
+    /// Full sides of a cell (m).
     pub fn cell(&self) -> [f64; 2] {
         self.cell
     }

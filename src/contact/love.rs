@@ -54,7 +54,7 @@ pub struct LoveContact {
     largest_approach: f64,
     /// n of a force that grows as δ^n.
     order: f64,
-    /// Distance from edges within which they make the raceway softer [m].
+    /// Distance from edges within which they make the raceway softer (m).
     soft_reach: f64,
     smooth: SmoothScale,
     solves: u64,
@@ -75,7 +75,7 @@ struct Layer {
 #[derive(Debug, Clone, Copy)]
 struct Softness {
     of: EdgeSoftness,
-    /// Half-axis of the largest contact along the raceway [m].
+    /// Half-axis of the largest contact along the raceway (m).
     half_axis: f64,
 }
 
@@ -87,7 +87,7 @@ impl Softness {
 }
 
 impl LoveContact {
-    /// Prepares grid, kernel and the smooth raceway's energy for Δ up to `largest_approach` [m].
+    /// Prepares grid, kernel and the smooth raceway's energy for Δ up to `largest_approach` (m).
     ///
     /// # Errors
     /// [`ContactError::BadInput`] for impossible radii or approaches.
@@ -143,17 +143,17 @@ impl LoveContact {
         self.solves
     }
 
-    /// Distance from edges within which they make the raceway softer [m]; 0 where they do not.
+    /// Distance from edges within which they make the raceway softer (m); 0 where they do not.
     pub(super) fn soft_reach(&self) -> f64 {
         self.soft_reach
     }
 
-    /// Largest Δ [m] that is answered.
+    /// Largest Δ (m) that is answered.
     pub fn largest_approach(&self) -> f64 {
         self.largest_approach
     }
 
-    /// Radial path [m] at which an element at arc `s` [m] begins to touch.
+    /// Radial path (m) at which an element at arc `s` (m) begins to touch.
     pub fn first_touch(&self, s: f64) -> f64 {
         // A groove is lowest in its middle, along the first grid's row; a topography may be so anywhere.
         let grids = if self.grid().mirrored() { 1 } else { self.layers.len() };
@@ -167,7 +167,7 @@ impl LoveContact {
         }
     }
 
-    /// Equivalent approach at radial path `u` and arc `s` [m].
+    /// Equivalent approach at radial path `u` and arc `s` (m).
     ///
     /// # Errors
     /// [`ContactError::OutOfRange`] beyond the largest approach, [`ContactError::NotConverged`] when the grid cannot be

@@ -19,7 +19,7 @@ use super::{equivalent::EquivalentApproach, error::ContactError};
 /// A map answers up to so many times its largest approach; above it by continuation.
 pub const CONTINUED: f64 = 1.5;
 
-/// Coefficients c[j][i] of q^i t^j, with q along the raceway and t along the path from 0 to 1.
+/// Coefficients `c[j][i]` of q^i t^j, with q along the raceway and t along the path from 0 to 1.
 pub(super) type Cubic = [[f64; 4]; 4];
 
 /// Error of a map between its nodes, relative to the smooth contact's force at the largest approach.
@@ -47,7 +47,7 @@ impl Accuracy {
 /// A stretch of raceway one coarse cell long.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Strip {
-    /// Reference path T(s): coefficients of q⁰ … q³ [m].
+    /// Reference path T(s): coefficients of q⁰ … q³ (m).
     pub(super) reference: [f64; 4],
     /// Index of the lowest coarse cell.
     pub(super) first: usize,
@@ -65,9 +65,9 @@ pub(super) enum Cell {
 /// A stretch of raceway with nodes.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Patch {
-    /// First arc [m].
+    /// First arc (m).
     pub(super) start: f64,
-    /// Length and height of a coarse cell [m], and how many make a metre.
+    /// Length and height of a coarse cell (m), and how many make a metre.
     pub(super) size: [f64; 2],
     pub(super) per_metre: [f64; 2],
     /// Coarse cells begin so many of their heights above the reference path.
@@ -82,7 +82,7 @@ pub(super) struct Patch {
 /// What lies between the patches.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Stretch {
-    /// Raceway lowered by a constant depth [m].
+    /// Raceway lowered by a constant depth (m).
     Flat(f64),
     /// Nodes.
     Patch(Patch),
@@ -102,12 +102,12 @@ pub struct ContactMap {
 }
 
 impl ContactMap {
-    /// Arcs [m] from the defect's centre at which the pieces of the map meet, ascending. Outside the raceway is smooth.
+    /// Arcs (m) from the defect's centre at which the pieces of the map meet, ascending. Outside the raceway is smooth.
     pub fn knots(&self) -> &[f64] {
         &self.knots
     }
 
-    /// Largest Δ [m] the map was made for.
+    /// Largest Δ (m) the map was made for.
     pub fn largest_approach(&self) -> f64 {
         self.largest_approach
     }
@@ -127,7 +127,7 @@ impl ContactMap {
         self.fingerprint
     }
 
-    /// Equivalent approach at radial path `u` and arc `s` [m].
+    /// Equivalent approach at radial path `u` and arc `s` (m).
     ///
     /// # Errors
     /// [`ContactError::OutOfRange`] where the approach is much larger than the map was made for.

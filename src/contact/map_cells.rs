@@ -53,7 +53,7 @@ impl Key {
 /// The cells of one patch.
 #[derive(Debug, Clone)]
 pub(super) struct Cells {
-    /// Length and height of a coarse cell [m].
+    /// Length and height of a coarse cell (m).
     pub(super) size: [f64; 2],
     /// Coarse cells in each strip.
     pub(super) rows: Vec<usize>,
@@ -222,7 +222,7 @@ impl Cells {
 }
 
 /// The bicubic Hermite surface of a cell's four corners (left low, right low, left high, right high), `length` ×
-/// `height` [m].
+/// `height` (m).
 fn cubic(corners: &[Node; 4], length: f64, height: f64) -> Cubic {
     // Along the raceway first: coefficients in q of value and path slope at both ends of the path.
     let along = |left: &Node, right: &Node, v: usize, scale: f64| {

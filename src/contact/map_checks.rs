@@ -15,7 +15,7 @@ pub(super) type Error = [f64; 2];
 /// A point of a cell at which the map is compared with the grid.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Check {
-    /// Radial path and arc [m].
+    /// Radial path and arc (m).
     pub(super) u: f64,
     pub(super) s: f64,
     /// What the grid says.
@@ -23,7 +23,7 @@ pub(super) struct Check {
 }
 
 impl Check {
-    /// Error of a map for approaches up to `largest` [m]; `None` without contact. `grown` is the smooth contact's force
+    /// Error of a map for approaches up to `largest` (m); `None` without contact. `grown` is the smooth contact's force
     /// at an approach, but for a factor.
     pub(super) fn error(
         &self,

@@ -49,9 +49,9 @@ pub struct MapPlan {
 #[derive(Debug)]
 pub struct Unmapped {
     pub(super) contact: LoveContact,
-    /// Ascending arcs [m] at which cells meet.
+    /// Ascending arcs (m) at which cells meet.
     pub(super) knots: Vec<f64>,
-    /// Depth [m] of each cell that is flat.
+    /// Depth (m) of each cell that is flat.
     pub(super) flats: Vec<Option<f64>>,
 }
 
@@ -363,7 +363,7 @@ impl MapPlan {
 }
 
 impl MapPlan {
-    /// The smooth contact's force at an approach [m], but for a factor; of a roller as if it were straight.
+    /// The smooth contact's force at an approach (m), but for a factor; of a roller as if it were straight.
     fn grown(&self, approach: f64) -> f64 {
         approach * if self.line { ninth_root(approach) } else { approach.sqrt() }
     }

@@ -10,7 +10,7 @@ use super::raceway_grid::Resolution;
 /// What a map is to be.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MapSpecification {
-    /// Largest equivalent approach Δ [m] that may be asked for.
+    /// Largest equivalent approach Δ (m) that may be asked for.
     pub largest_approach: f64,
     /// Largest error of either force between nodes, relative to the smooth contact's force at the largest approach.
     pub accuracy: f64,

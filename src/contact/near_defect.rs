@@ -19,24 +19,24 @@ use super::rigid_path::RigidPath;
 /// Equivalent approach of one element to a raceway, and the direction of the contact force on the element.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Approach {
-    /// Δ [m]; negative when there is a gap.
+    /// Δ (m); negative when there is a gap.
     pub value: f64,
     /// ∂Δ/∂u
     pub by_path: f64,
-    /// ∂Δ/∂ψ [m/rad]
+    /// ∂Δ/∂ψ (m/rad)
     pub by_angle: f64,
     /// Part of the direction away from the raceway: inwards from the outer one, outwards from the inner one.
     pub radial: f64,
     /// Tangential part of the direction, counter-clockwise.
     pub tangential: f64,
-    /// ∂(radial)/∂u [1/m]
+    /// ∂(radial)/∂u (1/m)
     pub radial_by_path: f64,
-    /// ∂(tangential)/∂u [1/m]
+    /// ∂(tangential)/∂u (1/m)
     pub tangential_by_path: f64,
 }
 
 impl Approach {
-    /// That of the smooth raceway at approach `u` [m].
+    /// That of the smooth raceway at approach `u` (m).
     pub fn smooth(u: f64) -> Self {
         Self {
             value: u,
@@ -73,7 +73,7 @@ impl Approach {
 /// Distance of an element's centre from that of a ring.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lever {
-    /// Distance [m].
+    /// Distance (m).
     pub distance: f64,
     /// Its change with the approach: 1 outside, where it grows, and −1 inside.
     pub by_approach: f64,
@@ -99,7 +99,7 @@ pub struct NearMap {
 }
 
 impl NearMap {
-    /// A map for a defect on a body of this radius [m].
+    /// A map for a defect on a body of this radius (m).
     pub fn new(map: Arc<ContactMap>, bearer_radius: f64) -> Self {
         let knots = map.knots().iter().map(|arc| arc / bearer_radius).collect();
         Self { map, bearer_radius, knots }
@@ -118,7 +118,7 @@ pub struct NearLove {
 }
 
 impl NearLove {
-    /// A grid for a defect on a body of this radius [m].
+    /// A grid for a defect on a body of this radius (m).
     pub fn new(Unmapped { contact, knots, flats }: Unmapped, bearer_radius: f64) -> Self {
         let knots = knots.into_iter().map(|arc| arc / bearer_radius).collect();
         Self { contact: RefCell::new(contact), bearer_radius, knots, flats }
@@ -133,7 +133,7 @@ impl NearLove {
 }
 
 impl NearDefect {
-    /// Ascending angles [rad] from the defect's centre at which the approach is not smooth. Cell `i` lies between knots
+    /// Ascending angles (rad) from the defect's centre at which the approach is not smooth. Cell `i` lies between knots
     /// `i` and `i + 1`; outside the first and last the raceway is smooth.
     pub fn knots(&self) -> &[f64] {
         match self {
@@ -143,7 +143,7 @@ impl NearDefect {
         }
     }
 
-    /// Approach in `cell` at the approach `u` [m] to the smooth raceway and at `angle` [rad] from the defect's centre,
+    /// Approach in `cell` at the approach `u` (m) to the smooth raceway and at `angle` (rad) from the defect's centre,
     /// which may lie slightly beyond the cell's ends; `lever` is that of the element about the ring's centre.
     ///
     /// # Errors

@@ -7,7 +7,7 @@ use super::map_cells::{Cells, FINEST};
 /// Coarse cells begin so many of their heights above the reference path.
 pub(super) const LOWEST: f64 = -1.0;
 
-/// A point of the reference path: arc [m], path [m] and its slope by the arc.
+/// A point of the reference path: arc (m), path (m) and its slope by the arc.
 pub(super) struct Reference {
     pub(super) arc: f64,
     pub(super) path: f64,
@@ -17,19 +17,19 @@ pub(super) struct Reference {
 /// One stretch of nodes to be computed: its ends, what is beyond them, and its cells.
 #[derive(Debug, Clone)]
 pub(super) struct PatchPlan {
-    /// First arc [m].
+    /// First arc (m).
     pub(super) start: f64,
-    /// Depth of the flat stretch before [m].
+    /// Depth of the flat stretch before (m).
     pub(super) before: f64,
-    /// Depth of the flat stretch after [m]; `None` where the mirror image of this one follows.
+    /// Depth of the flat stretch after (m); `None` where the mirror image of this one follows.
     pub(super) after: Option<f64>,
-    /// Reference path of each strip, coefficients of q⁰ … q³ [m].
+    /// Reference path of each strip, coefficients of q⁰ … q³ (m).
     pub(super) references: Vec<[f64; 4]>,
     pub(super) cells: Cells,
 }
 
 impl PatchPlan {
-    /// Last arc [m].
+    /// Last arc (m).
     pub(super) fn end(&self) -> f64 {
         self.start + self.cells.size[0] * self.cells.rows.len() as f64
     }
@@ -45,7 +45,7 @@ impl PatchPlan {
         Reference { arc: self.start + i as f64 / FINEST as f64 * width, path, slope }
     }
 
-    /// Reference path at an arc [m].
+    /// Reference path at an arc (m).
     pub(super) fn reference_at(&self, s: f64) -> f64 {
         let along = (s - self.start) / self.cells.size[0];
         let strip = (along.max(0.0) as usize).min(self.references.len() - 1);
@@ -54,12 +54,12 @@ impl PatchPlan {
         c0 + q * (c1 + q * (c2 + q * c3))
     }
 
-    /// Height [m] above the reference path at a lattice index along the path.
+    /// Height (m) above the reference path at a lattice index along the path.
     pub(super) fn height(&self, j: f64) -> f64 {
         (LOWEST + j / FINEST as f64) * self.cells.size[1]
     }
 
-    /// Depth [m] of the flat stretch that begins or ends with strip `k` of `strips`.
+    /// Depth (m) of the flat stretch that begins or ends with strip `k` of `strips`.
     pub(super) fn flat_of(&self, k: usize, strips: usize) -> Option<f64> {
         match k {
             0 => Some(self.before),
@@ -68,7 +68,7 @@ impl PatchPlan {
         }
     }
 
-    /// Depth [m] of the flat stretch that begins or ends at a lattice index along the raceway.
+    /// Depth (m) of the flat stretch that begins or ends at a lattice index along the raceway.
     pub(super) fn flat(&self, i: usize) -> Option<f64> {
         self.flat_of(i, self.references.len() * FINEST)
     }

@@ -74,15 +74,15 @@ struct SharpBorder {
 
 /// Where columns lie.
 struct Columns {
-    /// First border of column 0 [m].
+    /// First border of column 0 (m).
     origin: f64,
-    /// Length of a column [m].
+    /// Length of a column (m).
     length: f64,
     edges: Vec<SharpBorder>,
 }
 
 /// Continues the raceway a little beyond its edges, and finds the grid's origin and its cells' length, some
-/// `length` [m], for which the first and the last continued edge lie on cell borders.
+/// `length` (m), for which the first and the last continued edge lie on cell borders.
 fn columns_at_edges(surface: &mut Surface, length: f64) -> Columns {
     let drop = BEYOND_EDGE * length;
     let corners = match surface {
@@ -127,7 +127,7 @@ pub struct RacewayGrid {
 }
 
 impl RacewayGrid {
-    /// Grid for approaches up to `largest_approach` [m] on `surface`; `None` is the smooth raceway.
+    /// Grid for approaches up to `largest_approach` (m) on `surface`; `None` is the smooth raceway.
     pub fn new(
         element: ElementOnRaceway,
         surface: Option<&Surface>,
@@ -223,7 +223,7 @@ impl RacewayGrid {
         grid
     }
 
-    /// Sharp edges, each with the depth that the surface reaches within a distance [m] beyond it, or `deepest` [m] if
+    /// Sharp edges, each with the depth that the surface reaches within a distance (m) beyond it, or `deepest` (m) if
     /// that is less.
     pub(super) fn edges(&self, distance: f64, deepest: f64) -> impl Iterator<Item = GridEdge> {
         let columns = (distance / self.cell[0]).ceil() as i32;
@@ -263,7 +263,7 @@ impl RacewayGrid {
         if row == 0 && self.mirrored && self.middle_row { 0.5 } else { 1.0 }
     }
 
-    /// Full sides of a cell [m].
+    /// Full sides of a cell (m).
     pub fn cell(&self) -> [f64; 2] {
         self.cell
     }
@@ -278,29 +278,29 @@ impl RacewayGrid {
         self.mirrored
     }
 
-    /// Deepest cell [m].
+    /// Deepest cell (m).
     pub fn deepest(&self) -> f64 {
         self.deepest
     }
 
-    /// Arc [m] of the centre of a column.
+    /// Arc (m) of the centre of a column.
     pub fn centre(&self, column: i32) -> f64 {
         self.origin + (f64::from(column) + 0.5) * self.cell[0]
     }
 
-    /// The column whose centre is nearest to arc `s` [m].
+    /// The column whose centre is nearest to arc `s` (m).
     pub fn column_at(&self, s: f64) -> i32 {
         ((s - self.origin) / self.cell[0]).floor() as i32
     }
 
-    /// Columns that can touch at radial path `u` [m]: a superset, since circles bend away faster than paraboloids.
+    /// Columns that can touch at radial path `u` (m): a superset, since circles bend away faster than paraboloids.
     pub fn window(&self, u: f64, s: f64) -> ColumnSpan {
         let reach = (2.0 * (u + self.raised).max(0.0) / self.element.curvatures()[0]).sqrt();
         let (from, to) = (self.column_at(s - reach), self.column_at(s + reach));
         ColumnSpan { first: from, count: (to - from + 1) as usize }
     }
 
-    /// Widest window for paths up to `u` [m].
+    /// Widest window for paths up to `u` (m).
     pub fn widest(&self, u: f64) -> usize {
         let reach = (2.0 * (u + self.raised).max(0.0) / self.element.curvatures()[0]).sqrt();
         (2.0 * reach / self.cell[0]).ceil() as usize + 2
@@ -311,7 +311,7 @@ impl RacewayGrid {
         &self.depth[row * self.depth_columns..(row + 1) * self.depth_columns]
     }
 
-    /// Smallest gap for zero path [m]: the path at which the element at `s` begins to touch.
+    /// Smallest gap for zero path (m): the path at which the element at `s` begins to touch.
     pub fn first_touch(&self, s: f64) -> f64 {
         let middle = self.column_at(s);
         let mut least = f64::INFINITY;

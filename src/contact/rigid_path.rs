@@ -25,7 +25,7 @@ use crate::numerics::hermite;
 /// Path of a rigid element over a profile, as pieces between knots.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigidPath {
-    /// Ascending angles [rad] from the defect's centre; piece `i` lies between knots `i` and `i + 1`.
+    /// Ascending angles (rad) from the defect's centre; piece `i` lies between knots `i` and `i + 1`.
     knots: Vec<f64>,
     pieces: Vec<Piece>,
 }
@@ -33,11 +33,11 @@ pub struct RigidPath {
 /// The path and its derivatives at one angle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PathPoint {
-    /// P [m], positive outwards.
+    /// P (m), positive outwards.
     pub path: f64,
-    /// dP/dψ [m/rad].
+    /// dP/dψ (m/rad).
     pub slope: f64,
-    /// d²P/dψ² [m/rad²].
+    /// d²P/dψ² (m/rad²).
     pub curvature: f64,
 }
 
@@ -49,7 +49,7 @@ struct Piece {
     cubics: Vec<[f64; 4]>,
 }
 
-/// Widest interval of a cubic along the raceway [m], of which elements of more than 8 mm have a wider one. Its error is
+/// Widest interval of a cubic along the raceway (m), of which elements of more than 8 mm have a wider one. Its error is
 /// width⁴ P⁗/384, about 1e-16 m for an element of 8 mm; narrower ones are made where that is above [`ACCURACY`].
 const INTERVAL: f64 = 5e-6;
 /// The same over the element's radius. The path's roundings, some of the raceway's radius, come into the slope divided
@@ -67,7 +67,7 @@ const STEEPEST: f64 = 1e4;
 const MOST: usize = 1 << 16;
 
 impl RigidPath {
-    /// Rolls two bodies over each other of which one bears the profile `points`, (arc, depth) [m] with non-decreasing
+    /// Rolls two bodies over each other of which one bears the profile `points`, (arc, depth) (m) with non-decreasing
     /// arc; its depth is 0 elsewhere.
     ///
     /// Depths must be below the element's radius; the surface layer sees to that.
@@ -91,12 +91,12 @@ impl RigidPath {
         Ok(Self { knots, pieces })
     }
 
-    /// Ascending knots [rad] from the defect's centre. Outside the first and last the path is 0.
+    /// Ascending knots (rad) from the defect's centre. Outside the first and last the path is 0.
     pub fn knots(&self) -> &[f64] {
         &self.knots
     }
 
-    /// The path at `angle` [rad] by the polynomials of `piece`, which may be asked slightly beyond its ends.
+    /// The path at `angle` (rad) by the polynomials of `piece`, which may be asked slightly beyond its ends.
     #[inline(always)]
     pub fn at(&self, piece: usize, angle: f64) -> PathPoint {
         self.pieces[piece].at(angle)
@@ -156,7 +156,7 @@ impl Piece {
         Self { start, per_width: 1.0 / width, cubics }
     }
 
-    /// Error [m] in the middle of intervals, where it is largest; of every sixteenth and the last, as it changes slowly
+    /// Error (m) in the middle of intervals, where it is largest; of every sixteenth and the last, as it changes slowly
     /// along them.
     fn error(&self, roller: &Roller, feature: Feature) -> f64 {
         let off = |i: usize| {

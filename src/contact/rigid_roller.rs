@@ -21,13 +21,13 @@ pub(super) enum Feature {
 /// A point of the profile in polar form.
 #[derive(Debug, Clone, Copy)]
 struct Vertex {
-    /// φ [rad].
+    /// φ (rad).
     phi: f64,
-    /// B [m].
+    /// B (m).
     radius: f64,
 }
 
-/// The feature that is touched at an angle [rad].
+/// The feature that is touched at an angle (rad).
 #[derive(Debug, Clone, Copy)]
 struct Touched {
     angle: f64,
@@ -37,14 +37,14 @@ struct Touched {
 /// A stretch of the path over one feature.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stretch {
-    /// Angle at which it ends [rad].
+    /// Angle at which it ends (rad).
     pub(super) end: f64,
     pub(super) feature: Feature,
 }
 
 /// All stretches of the path.
 pub(super) struct Stretches {
-    /// Angle at which the first one begins [rad].
+    /// Angle at which the first one begins (rad).
     pub(super) begin: f64,
     /// Each begins where the one before ends.
     pub(super) list: Vec<Stretch>,
@@ -60,7 +60,7 @@ pub(super) struct Roller {
 }
 
 impl Roller {
-    /// `points` as (arc, depth) [m].
+    /// `points` as (arc, depth) (m).
     pub(super) fn new(points: &[(f64, f64)], rolling: Rolling) -> Self {
         let radius = rolling.bearer_radius();
         let vertex = |&(arc, depth): &(f64, f64)| Vertex { phi: arc / radius, radius: rolling.radius_at(depth) };

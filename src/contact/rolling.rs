@@ -18,9 +18,9 @@ use crate::scene::Bearing;
 /// The body that bears a defect, and the one that rolls over it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rolling {
-    /// Radius of the element r [m].
+    /// Radius of the element r (m).
     pub element_radius: f64,
-    /// Radius of the raceway at the groove's bottom, R_o or R_i [m].
+    /// Radius of the raceway at the groove's bottom, R_o or R_i (m).
     pub raceway_radius: f64,
     /// Which of the two raceways.
     pub raceway: RacewaySide,
@@ -38,7 +38,7 @@ pub enum RacewaySide {
 }
 
 impl RacewaySide {
-    /// Its radius at the groove's bottom [m].
+    /// Its radius at the groove's bottom (m).
     pub fn radius(self, bearing: &Bearing) -> f64 {
         match self {
             Self::Inner => bearing.inner_raceway_radius(),
@@ -50,9 +50,9 @@ impl RacewaySide {
 /// Where the bodies touch, as the path sees it.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Touch {
-    /// Path P [m].
+    /// Path P (m).
     pub(super) path: f64,
-    /// Its derivative by the angle ψ at which the bodies touch [m/rad].
+    /// Its derivative by the angle ψ at which the bodies touch (m/rad).
     pub(super) slope: f64,
 }
 
@@ -60,12 +60,12 @@ pub(super) struct Touch {
 struct Triangle {
     sin: f64,
     cos: f64,
-    /// √(C² − B² sin² d) [m].
+    /// √(C² − B² sin² d) (m).
     root: f64,
 }
 
 impl Rolling {
-    /// An element of radius `element_radius` on a defect of the outer ring, whose radius is `raceway_radius` [m].
+    /// An element of radius `element_radius` on a defect of the outer ring, whose radius is `raceway_radius` (m).
     pub fn outer_ring(element_radius: f64, raceway_radius: f64) -> Self {
         Self { element_radius, raceway_radius, raceway: RacewaySide::Outer, on_element: false }
     }
@@ -76,17 +76,17 @@ impl Rolling {
         Self { element_radius: bearing.element_radius(), raceway_radius, raceway, on_element }
     }
 
-    /// Radius B₀ of the body that bears the defect [m].
+    /// Radius B₀ of the body that bears the defect (m).
     pub fn bearer_radius(&self) -> f64 {
         if self.on_element { self.element_radius } else { self.raceway_radius }
     }
 
-    /// Radius C of the other body [m].
+    /// Radius C of the other body (m).
     fn other_radius(&self) -> f64 {
         if self.on_element { self.raceway_radius } else { self.element_radius }
     }
 
-    /// Distance of the two centres over the smooth body [m].
+    /// Distance of the two centres over the smooth body (m).
     pub(super) fn smooth_distance(&self) -> f64 {
         match self.raceway {
             RacewaySide::Outer => self.raceway_radius - self.element_radius,
@@ -94,7 +94,7 @@ impl Rolling {
         }
     }
 
-    /// Distance of the two centres at a path [m].
+    /// Distance of the two centres at a path (m).
     pub(super) fn distance(&self, path: f64) -> f64 {
         match self.raceway {
             RacewaySide::Outer => self.smooth_distance() + path,
@@ -102,12 +102,12 @@ impl Rolling {
         }
     }
 
-    /// Radius B at a depth [m].
+    /// Radius B at a depth (m).
     pub(super) fn radius_at(&self, depth: f64) -> f64 {
         if self.concave() { self.raceway_radius + depth } else { self.bearer_radius() - depth }
     }
 
-    /// Depth at a radius B [m].
+    /// Depth at a radius B (m).
     pub(super) fn depth_of(&self, radius: f64) -> f64 {
         if self.concave() { radius - self.raceway_radius } else { self.bearer_radius() - radius }
     }
@@ -134,7 +134,7 @@ impl Rolling {
         }
     }
 
-    /// Path [m] over a point at radius B = `radius` and angle `d`; `None` beyond reach.
+    /// Path (m) over a point at radius B = `radius` and angle `d`; `None` beyond reach.
     pub(super) fn path_over(&self, radius: f64, d: f64) -> Option<f64> {
         self.triangle(radius, d).map(|Triangle { cos, root, .. }| self.path(radius * cos, root))
     }
@@ -153,7 +153,7 @@ impl Rolling {
         Touch { path: self.path(radius * cos, root), slope }
     }
 
-    /// Derivative of the path [m/rad] by the touched point's angle φ where the radius grows by `slope` [m/rad]; `None`
+    /// Derivative of the path (m/rad) by the touched point's angle φ where the radius grows by `slope` (m/rad); `None`
     /// beyond reach.
     pub(super) fn change_along(&self, radius: f64, slope: f64, d: f64) -> Option<f64> {
         let Triangle { sin, cos, root } = self.triangle(radius, d)?;
@@ -166,7 +166,7 @@ impl Rolling {
     }
 
     /// A bound from below of how much the path over a point at angle `d` is above the point's depth; depths lie between
-    /// `shallowest` and `deepest` [m]. It grows with |d| up to half a turn.
+    /// `shallowest` and `deepest` (m). It grows with |d| up to half a turn.
     pub(super) fn least_rise(&self, d: f64, shallowest: f64, deepest: f64) -> f64 {
         let (r, other) = (self.element_radius, self.other_radius());
         if self.concave() {
@@ -192,7 +192,7 @@ mod tests {
     use super::super::rigid_path::RigidPath;
     use super::*;
 
-    /// Radii of the ER16K of `er16k-tb1` [m].
+    /// Radii of the ER16K of `er16k-tb1` (m).
     const ELEMENT: f64 = 3.97e-3;
     const OUTER: f64 = 23.6325e-3;
     const INNER: f64 = 15.6875e-3;
@@ -226,7 +226,7 @@ mod tests {
 
     #[test]
     fn paths_over_a_sharp_edge_are_those_of_the_closed_forms() {
-        // Arc past the edge [mm] and the path of each kind [µm], to printed digits.
+        // Arc past the edge (mm) and the path of each kind (µm), to printed digits.
         let table = [
             (0.2, [4.19458, 4.19113, 6.31559, 6.31059]),
             (0.4, [16.81551, 16.76012, 25.29747, 25.21728]),

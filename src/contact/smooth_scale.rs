@@ -39,7 +39,7 @@ impl SmoothScale {
         Self { nodes, power }
     }
 
-    /// Smallest Δ [m] that the grid resolves.
+    /// Smallest Δ (m) that the grid resolves.
     pub(super) fn onset(&self) -> f64 {
         self.nodes.first().map_or(0.0, |node| node[1])
     }

@@ -16,7 +16,7 @@ pub(super) struct GridEdge {
     pub(super) border: i32,
     /// Whether the raceway that ends there has the lower columns.
     pub(super) below: bool,
-    /// Depth of the step [m].
+    /// Depth of the step (m).
     pub(super) depth: f64,
 }
 

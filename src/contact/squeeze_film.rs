@@ -23,28 +23,28 @@ use super::force_law::Force;
 use crate::numerics::number::Number;
 use std::ops::Div;
 
-/// Height of asperities [m]: gaps are no smaller.
+/// Height of asperities (m): gaps are no smaller.
 pub const ROUGHNESS: f64 = 0.02e-6;
 
 /// The film between elements and one raceway.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SqueezeFilm {
-    /// c [N s].
+    /// c (N s).
     pub coefficient: f64,
-    /// h [m].
+    /// h (m).
     pub thickness: f64,
-    /// 1/H [1/m]; 0 where oil fills every gap.
+    /// 1/H (1/m); 0 where oil fills every gap.
     pub per_layer: f64,
 }
 
 impl SqueezeFilm {
-    /// A film of squeeze constant c [N s] and thickness [m], with oil up to a height of `layer` [m].
+    /// A film of squeeze constant c (N s) and thickness (m), with oil up to a height of `layer` (m).
     pub fn new(coefficient: f64, thickness: f64, layer: Option<f64>) -> Self {
         let per_layer = layer.map_or(0.0, |layer| 1.0 / layer);
         Self { coefficient, thickness: thickness.max(ROUGHNESS), per_layer }
     }
 
-    /// Force [N] at approach `delta` [m] and its rate [m/s]; `splat` makes a `T` of a number.
+    /// Force (N) at approach `delta` (m) and its rate (m/s); `splat` makes a `T` of a number.
     #[inline(always)]
     pub fn force<T: Number + Div<Output = T>>(&self, splat: impl Fn(f64) -> T, delta: T, rate: T) -> T {
         let [zero, one, thickness] = [0.0, 1.0, self.thickness].map(&splat);

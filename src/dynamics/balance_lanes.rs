@@ -23,12 +23,12 @@ use crate::numerics::lanes::{Kernel, Lanes, QUAD, WIDEST, Wide, blocks, blocks_m
 use crate::numerics::plane::Vector;
 use crate::scene::Damping;
 
-/// Newton's step [m] after which the next is below rounding: what is left is a quarter of its square over the approach,
+/// Newton's step (m) after which the next is below rounding: what is left is a quarter of its square over the approach,
 /// 5e-20 m under load; under an element's own weight, where the approach is 1e-8 m, it is 1e-10 N.
 const SETTLED: f64 = 1e-12;
 /// Most iterations: halving a millimetre down to the last digit, and some of Newton's.
 const MOST_ITERATIONS: usize = 100;
-/// Least stiffness [N/m]: for an element that touches nothing, where Newton's step is then beyond any bracket.
+/// Least stiffness (N/m): for an element that touches nothing, where Newton's step is then beyond any bracket.
 const NO_STIFFNESS: f64 = 1e-30;
 
 /// All smooth elements of a bearing; gives their force on the inner and on the outer ring. Each contact is kept if
@@ -112,7 +112,7 @@ struct ElementLanes<S: Wide> {
     offset: [Lanes<S>; 2],
     drift: [Lanes<S>; 2],
     speed: Lanes<S>,
-    /// Weight and centrifugal force [N], and its rate [N/s].
+    /// Weight and centrifugal force (N), and its rate (N/s).
     body: Lanes<S>,
     body_rate: Lanes<S>,
     /// Velocity of the outer ring along e_r.

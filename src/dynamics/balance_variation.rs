@@ -15,9 +15,9 @@ use super::tangent::{RingJacobian, Rings, stacked};
 use super::variation::{ForceChange, Variation};
 use crate::numerics::plane::{Vector, turned};
 
-/// Farthest that rings are moved apart [m], and the way along the raceway by which cage and frames are turned [m].
+/// Farthest that rings are moved apart (m), and the way along the raceway by which cage and frames are turned (m).
 const WAY: f64 = 1e-9;
-/// Largest change of velocities [m/s], of rings and along the raceway.
+/// Largest change of velocities (m/s), of rings and along the raceway.
 const VELOCITY: f64 = 1e-4;
 
 /// What is exerted at one instant, and where elements are.

@@ -87,7 +87,7 @@ impl Model {
         [shaft.x, shaft.y, housing.x, housing.y]
     }
 
-    /// Keeps an element's contacts; `along` is the outer ring's velocity in its radial direction [m/s].
+    /// Keeps an element's contacts; `along` is the outer ring's velocity in its radial direction (m/s).
     fn record_balanced(&self, j: usize, found: &InBalance, along: f64, record: &mut Record) {
         let Linearized { e_r, e_t, n, approaches, .. } = found.elastic;
         let (inner, outer) = (found.inner.norm(), found.outer.norm());

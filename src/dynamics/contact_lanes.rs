@@ -23,11 +23,11 @@ struct Smooth<'a, E> {
     now: &'a Kinematics,
     offset: Vector,
     drift: Vector,
-    /// Acceleration of an element by gravity, and that of its w as the outer ring moves along the raceway [m/s²].
+    /// Acceleration of an element by gravity, and that of its w as the outer ring moves along the raceway (m/s²).
     body: Vector,
     /// As [`Model::nearly_concentric`] has it.
     series: bool,
-    /// Time [s] by which paths are still to be moved on along their rates.
+    /// Time (s) by which paths are still to be moved on along their rates.
     ahead: Option<f64>,
     /// The oil films of the inner and of the outer raceway.
     films: Option<[SqueezeFilm; 2]>,
@@ -73,29 +73,29 @@ impl Sums {
 /// What is kept of each contact, for whoever wants to know more than the sums. Its lists are made once.
 #[derive(Debug, Clone, Default)]
 pub struct Record {
-    /// Force of the inner contact Q_i of each element [N].
+    /// Force of the inner contact Q_i of each element (N).
     pub inner: Row,
     /// Direction of q of each element, its radial part.
     pub normal_radial: Row,
     /// Direction of q of each element, its tangential part.
     pub normal_tangential: Row,
-    /// Force of the outer contact of each element [N].
+    /// Force of the outer contact of each element (N).
     pub outer: Row,
-    /// Outer contact force on each element, inwards [N].
+    /// Outer contact force on each element, inwards (N).
     pub outer_radial: Row,
-    /// Outer contact force on each element, counter-clockwise [N].
+    /// Outer contact force on each element, counter-clockwise (N).
     pub outer_tangential: Row,
-    /// Approach of the inner contact [m]: negative when there is a gap.
+    /// Approach of the inner contact (m): negative when there is a gap.
     pub inner_approach: Row,
-    /// Equivalent approach of the outer contact [m].
+    /// Equivalent approach of the outer contact (m).
     pub outer_approach: Row,
-    /// How clearly the inner contact pushes ([`crate::contact::force_law::ForceLaw::pushing`]) [m].
+    /// How clearly the inner contact pushes ([`crate::contact::force_law::ForceLaw::pushing`]) (m).
     pub inner_pushing: Row,
-    /// How clearly the outer contact pushes [m].
+    /// How clearly the outer contact pushes (m).
     pub outer_pushing: Row,
-    /// u' of each element [m/s].
+    /// u' of each element (m/s).
     pub path_rate: Row,
-    /// Path u [m] and absolute radial velocity w [m/s] of each element that is in balance at every instant; empty for
+    /// Path u (m) and absolute radial velocity w (m/s) of each element that is in balance at every instant; empty for
     /// others, whose state has them.
     pub balanced: [Row; 2],
 }
@@ -218,7 +218,7 @@ impl<S: Wide> Found<S> {
 }
 
 impl<E: Elastic> Smooth<'_, E> {
-    /// Of elements at the paths `u` [m] and absolute radial velocities `w` [m/s].
+    /// Of elements at the paths `u` (m) and absolute radial velocities `w` (m/s).
     #[inline(always)]
     fn contacts<S: Wide, const SPECIAL: bool>(
         &self,

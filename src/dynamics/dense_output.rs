@@ -22,7 +22,7 @@ pub(crate) struct Known<'a> {
 }
 
 impl Model {
-    /// State at `share` of the time `h` [s] from the first to the second instant, where the cage is as `cage` says,
+    /// State at `share` of the time `h` (s) from the first to the second instant, where the cage is as `cage` says,
     /// into `out`.
     #[inline(always)]
     pub(crate) fn dense_output(

@@ -66,9 +66,9 @@ pub enum Frame {
 /// Angle and speed of a frame at one instant.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Turn {
-    /// Angle [rad].
+    /// Angle (rad).
     pub angle: f64,
-    /// Speed [rad/s].
+    /// Speed (rad/s).
     pub speed: f64,
 }
 
@@ -92,9 +92,9 @@ impl Frames {
 /// How a frame turns during one communication step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Turning {
-    /// Its angle at the start [rad], within one turn.
+    /// Its angle at the start (rad), within one turn.
     pub start: f64,
-    /// Its angle since the start [rad], with its value 0, its speed and its acceleration.
+    /// Its angle since the start (rad), with its value 0, its speed and its acceleration.
     pub since: Quadratic,
 }
 
@@ -103,24 +103,24 @@ pub struct Turning {
 pub struct WholeAngle {
     /// Whole turns.
     pub turns: i64,
-    /// The rest [rad], in [−π, π].
+    /// The rest (rad), in [−π, π].
     pub rest: f64,
 }
 
 impl WholeAngle {
-    /// From an angle [rad].
+    /// From an angle (rad).
     pub fn new(angle: f64) -> Self {
         Self::default().advanced(angle)
     }
 
-    /// This angle further by `angle` [rad].
+    /// This angle further by `angle` (rad).
     pub fn advanced(self, angle: f64) -> Self {
         let sum = self.rest + angle;
         let rest = wrap(sum);
         Self { turns: self.turns + ((sum - rest) / std::f64::consts::TAU).round() as i64, rest }
     }
 
-    /// The whole angle [rad].
+    /// The whole angle (rad).
     pub fn total(self) -> f64 {
         self.turns as f64 * std::f64::consts::TAU + self.rest
     }
@@ -129,35 +129,35 @@ impl WholeAngle {
 /// What acts from outside during one communication step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Drive {
-    /// Cage angle at the start [rad], within one turn.
+    /// Cage angle at the start (rad), within one turn.
     pub cage_start: f64,
     /// Whole turns of the cage at the start.
     pub cage_turns: i64,
-    /// Cage angle since the start [rad], with its value 0, its speed and its acceleration.
+    /// Cage angle since the start (rad), with its value 0, its speed and its acceleration.
     pub cage: Quadratic,
     /// How the frames of defects turn, in the order of [`Frame`].
     pub frames: [Turning; 3],
-    /// Prescribed position of the inner ring [m], x and y; zero when it is not prescribed.
+    /// Prescribed position of the inner ring (m), x and y; zero when it is not prescribed.
     pub shaft: [Cubic; 2],
-    /// Prescribed position of the outer ring [m].
+    /// Prescribed position of the outer ring (m).
     pub housing: [Cubic; 2],
-    /// External load on the inner ring [N].
+    /// External load on the inner ring (N).
     pub shaft_load: [Quadratic; 2],
-    /// External load on the outer ring [N].
+    /// External load on the outer ring (N).
     pub housing_load: [Quadratic; 2],
-    /// Speed of the inner ring against the outer [rad/s] that oil films follow: that at the start of the communication
+    /// Speed of the inner ring against the outer (rad/s) that oil films follow: that at the start of the communication
     /// step under way, or else of the last.
     pub film_speed: f64,
 }
 
 impl Drive {
-    /// Nothing moves: element 1 is at `cage_angle` and the frames of defects are at `frames` [rad].
+    /// Nothing moves: element 1 is at `cage_angle` and the frames of defects are at `frames` (rad).
     pub fn standing(cage_angle: f64, frames: [f64; 3]) -> Self {
         let frames = frames.map(|start| Turning { start, ..Turning::default() });
         Self { cage_start: cage_angle, frames, ..Self::default() }
     }
 
-    /// Cage angle at `tau` [rad].
+    /// Cage angle at `tau` (rad).
     #[inline]
     pub fn cage_angle(&self, tau: f64) -> f64 {
         self.cage_start + self.cage.at(tau)
@@ -170,7 +170,7 @@ impl Drive {
         Frames([turn(shaft), turn(housing), turn(spin)])
     }
 
-    /// Speed [rad/s] and acceleration [rad/s²] of each frame at `tau`.
+    /// Speed (rad/s) and acceleration (rad/s²) of each frame at `tau`.
     pub fn frame_rates(&self, tau: f64) -> [[f64; 2]; 3] {
         self.frames.map(|frame| [frame.since.rate_at(tau), frame.since.0[2]])
     }

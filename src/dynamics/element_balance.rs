@@ -34,10 +34,10 @@ use super::tangent::{RadialForce, Rings, stacked};
 use crate::contact::rolling::RacewaySide;
 use crate::numerics::plane::{Vector, turned};
 
-/// Change of a path below which Newton's next step is exact to rounding [m]: what is left is 0.25 (this)²/δ, with the
+/// Change of a path below which Newton's next step is exact to rounding (m): what is left is 0.25 (this)²/δ, with the
 /// lightest contact's δ of 1e-9 m below 1e-21 m.
 const SETTLED: f64 = 1e-15;
-/// First step of a search that nothing brackets [m]; each next one is twice as long.
+/// First step of a search that nothing brackets (m); each next one is twice as long.
 const FIRST_STRIDE: f64 = 1e-8;
 /// Most evaluations of the contacts: doubling from the first stride to a metre, and halving back.
 const MOST_EVALUATIONS: u64 = 300;
@@ -55,13 +55,13 @@ pub(super) struct InBalance {
     pub(super) elastic: Linearized,
     /// Its contacts damped at the rates of the balance.
     pub(super) damped: Linearized,
-    /// u [m]
+    /// u (m)
     pub(super) path: f64,
-    /// u' [m/s]
+    /// u' (m/s)
     pub(super) path_rate: f64,
-    /// Force of the inner contact on the element [N].
+    /// Force of the inner contact on the element (N).
     pub(super) inner: Vector,
-    /// Force of the outer contact on the element, inwards and counter-clockwise [N].
+    /// Force of the outer contact on the element, inwards and counter-clockwise (N).
     pub(super) outer: Vector,
     /// Whether the inner and the outer contact are near a defect.
     near: [bool; 2],
@@ -72,16 +72,16 @@ pub(super) struct InBalance {
 /// What an element in balance exerts on the rest of the bearing.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Exerted {
-    /// Force on the inner and on the outer ring [N].
+    /// Force on the inner and on the outer ring (N).
     pub(super) rings: [Vector; 2],
-    /// Torque [N m] on the bodies with the defects under its inner and its outer contact, each about its own centre.
+    /// Torque (N m) on the bodies with the defects under its inner and its outer contact, each about its own centre.
     pub(super) torques: [(Frame, f64); 2],
 }
 
 /// A path that was searched for.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FoundPath {
-    /// [m]
+    /// (m)
     pub(super) path: f64,
     /// How often contacts were evaluated.
     evaluations: u64,
@@ -107,7 +107,7 @@ impl InBalance {
 }
 
 impl Model {
-    /// Element `j` in balance, looked for from path `guess` [m] on. Where there is no balance, or a contact has no
+    /// Element `j` in balance, looked for from path `guess` (m) on. Where there is no balance, or a contact has no
     /// answer, forces are no numbers.
     pub(super) fn in_balance(&self, j: usize, cells: [[u32; 2]; 2], guess: f64, now: &FramedKinematics) -> InBalance {
         let FoundPath { path, evaluations } = self.balanced_path(j, cells, guess, now);
@@ -135,7 +135,7 @@ impl Model {
         }
     }
 
-    /// Path of the balance, looked for from `guess` [m] on.
+    /// Path of the balance, looked for from `guess` (m) on.
     pub(super) fn balanced_path(
         &self,
         j: usize,
@@ -162,7 +162,7 @@ impl Model {
         FoundPath { path: u, evaluations: MOST_EVALUATIONS }
     }
 
-    /// u' [m/s] of an element that stays in balance as cage, rings and frames move on.
+    /// u' (m/s) of an element that stays in balance as cage, rings and frames move on.
     fn balance_rate(&self, j: usize, elastic: &Linearized, now: &FramedKinematics) -> f64 {
         let Linearized { e_t, omega, .. } = *elastic;
         let [_, alpha] = self.element_speed(j, &now.cage);
@@ -179,7 +179,7 @@ impl Model {
     }
 
     /// Derivative of an element's forces on the rings by the outer ring's velocity less the inner's along one axis, as
-    /// long as its contacts push [N s/m].
+    /// long as its contacts push (N s/m).
     pub(super) fn damped_by_drift(&self, found: &InBalance, axis: usize) -> Rings {
         let InBalance { elastic, damped, .. } = found;
         let along = elastic.change(&ElementVariation::of_path());

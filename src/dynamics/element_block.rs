@@ -12,24 +12,24 @@ pub(super) struct ElementBlock {
     pub(super) sin: [f64; WIDEST],
     /// 1 where there is an element.
     pub(super) present: [f64; WIDEST],
-    /// 1/mass [1/kg].
+    /// 1/mass (1/kg).
     pub(super) per_mass: [f64; WIDEST],
-    /// Constant K of the inner contact [N/m^n], n = 3/2 of balls and 10/9 of rollers.
+    /// Constant K of the inner contact (N/m^n), n = 3/2 of balls and 10/9 of rollers.
     pub(super) inner: [f64; WIDEST],
     /// That of the outer contact on the smooth rigid raceway; 0 for an element that is not on it.
     pub(super) outer: [f64; WIDEST],
-    /// Acceleration of w by an outer contact that is not on it [m/s²].
+    /// Acceleration of w by an outer contact that is not on it (m/s²).
     pub(super) other: [f64; WIDEST],
-    /// Angle of the element ahead of its position in an even cage [rad].
+    /// Angle of the element ahead of its position in an even cage (rad).
     pub(super) lead: [f64; WIDEST],
     /// Angular speed of the element about the outer ring's centre by that of the nominal cage.
     pub(super) pace: [f64; WIDEST],
-    /// How that changes with the nominal cage's angle [1/rad].
+    /// How that changes with the nominal cage's angle (1/rad).
     pub(super) bend: [f64; WIDEST],
 }
 
-/// All elements of a bearing at these angles [rad] ahead of the cage, of mass 1/`per_mass` [kg]
-/// and with these constants of the inner and the outer contact [N/m^n].
+/// All elements of a bearing at these angles (rad) ahead of the cage, of mass 1/`per_mass` (kg)
+/// and with these constants of the inner and the outer contact (N/m^n).
 pub(super) fn blocks(offsets: &[f64], per_mass: f64, [inner, outer]: [f64; 2]) -> Vec<ElementBlock> {
     let count = offsets.len();
     let mut blocks = vec![ElementBlock::default(); padded(count) / WIDEST];

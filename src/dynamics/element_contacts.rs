@@ -14,11 +14,11 @@ use crate::numerics::plane::{Vector, turned};
 /// An element seen from the inner ring's centre.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct InnerGap {
-    /// δ_i [m]
+    /// δ_i (m)
     pub(super) approach: f64,
     /// n = q/|q|, radial and tangential.
     pub(super) n: Vector,
-    /// |q| [m]
+    /// |q| (m)
     pub(super) distance: f64,
 }
 
@@ -29,16 +29,16 @@ pub(super) struct Meeting {
     pub(super) element: usize,
     /// Cell of the raceway, and cell of the element's own defect.
     pub(super) cells: [u32; 2],
-    /// Approach to the smooth raceway [m].
+    /// Approach to the smooth raceway (m).
     pub(super) u: f64,
-    /// Direction of the element from the ring's centre [rad].
+    /// Direction of the element from the ring's centre (rad).
     pub(super) direction: f64,
-    /// Distance of the element from the ring's centre [m].
+    /// Distance of the element from the ring's centre (m).
     pub(super) distance: f64,
 }
 
 impl InnerGap {
-    /// Angle φ − θ [rad] between the element's directions from the inner ring's centre and from the outer's.
+    /// Angle φ − θ (rad) between the element's directions from the inner ring's centre and from the outer's.
     #[inline]
     pub(super) fn lead(&self) -> f64 {
         libm::atan2(self.n.y, self.n.x)
@@ -58,7 +58,7 @@ impl Model {
         InnerGap { approach, n: Vector::new(q_r / distance, t / distance), distance }
     }
 
-    /// What separates a raceway from an element pressed to the other [m], films included.
+    /// What separates a raceway from an element pressed to the other (m), films included.
     #[inline(always)]
     pub fn clearance(&self) -> f64 {
         match &self.films {
@@ -67,7 +67,7 @@ impl Model {
         }
     }
 
-    /// Force of the film of one raceway [N] at an approach [m] and its rate [m/s].
+    /// Force of the film of one raceway (N) at an approach (m) and its rate (m/s).
     #[inline(always)]
     pub(super) fn film_force(&self, side: RacewaySide, approach: f64, rate: f64) -> f64 {
         self.films.as_ref().map_or(0.0, |films| films.squeeze()[side as usize].force(|x| x, approach, rate))
@@ -79,12 +79,12 @@ impl Model {
         films.map_or(Force::default(), |films| films.squeeze()[side as usize].with_derivatives(approach, rate))
     }
 
-    /// Direction φ [rad] of element `j` at path `u` from the inner ring's centre.
+    /// Direction φ (rad) of element `j` at path `u` from the inner ring's centre.
     pub fn inner_direction_of(&self, j: usize, u: f64, now: &Kinematics) -> f64 {
         self.element_angle(j, &now.cage) + self.inner_lead(j, u, now)
     }
 
-    /// What that direction is ahead of the element's angle θ about the outer ring's centre [rad].
+    /// What that direction is ahead of the element's angle θ about the outer ring's centre (rad).
     pub fn inner_lead(&self, j: usize, u: f64, now: &Kinematics) -> f64 {
         self.inner_gap(u, now.offset(), self.direction(j, &now.cage)).lead()
     }
@@ -95,13 +95,13 @@ impl Model {
         self.outer_meeting_at(self.element_angle(j, cage), j, cells, u)
     }
 
-    /// As [`Self::outer_meeting`], for an element at this `angle` [rad].
+    /// As [`Self::outer_meeting`], for an element at this `angle` (rad).
     #[inline(always)]
     pub(super) fn outer_meeting_at(&self, angle: f64, j: usize, cells: [u32; 2], u: f64) -> Meeting {
         Meeting { element: j, cells, u, direction: angle, distance: self.outer_centre_radius + u }
     }
 
-    /// Element `j` at this angle [rad] and with this gap where it meets the inner raceway.
+    /// Element `j` at this angle (rad) and with this gap where it meets the inner raceway.
     #[inline]
     pub(super) fn inner_meeting(&self, j: usize, cells: [u32; 2], gap: &InnerGap, angle: f64) -> Meeting {
         Meeting { element: j, cells, u: gap.approach, direction: angle + gap.lead(), distance: gap.distance }
@@ -180,7 +180,7 @@ impl Model {
         near.map_or_else(|_| Near::unsolved(), |approach| Near::new(approach, frame, frames))
     }
 
-    /// Angle [rad] of a contact from the centre of the defect that it is at, or else of the raceway's nearest.
+    /// Angle (rad) of a contact from the centre of the defect that it is at, or else of the raceway's nearest.
     pub(super) fn angle_from_defect(&self, side: RacewaySide, at: &Meeting, frames: &Frames) -> f64 {
         let (raceway, _) = self.raceway(side);
         let own = self.defective.iter().find(|defective| defective.element == at.element && at.cells[1] != SMOOTH);

@@ -23,19 +23,19 @@ use crate::numerics::plane::Vector;
 
 /// Share of the largest force in play that may remain as residual: a few roundings of a sum of Z forces.
 const RESIDUAL: f64 = 1e-12;
-/// Residual that counts as none [N], for bearings without load: rounding of positions times contact stiffness.
+/// Residual that counts as none (N), for bearings without load: rounding of positions times contact stiffness.
 const SMALLEST_RESIDUAL: f64 = 1e-12;
 /// Share of the largest force beyond which an element is not in balance: its own search ends a thousand times below.
 const UNBALANCED: f64 = 1e-6;
-/// How far from where a search ended a contact law is asked for an answer [m]: far above the rounding of paths.
+/// How far from where a search ended a contact law is asked for an answer (m): far above the rounding of paths.
 const FURTHER: f64 = 1e-15;
 /// Share of the forces on an element that may remain as residual: far above rounding, far below what matters.
 const ELEMENT_RESIDUAL: f64 = 1e-9;
 /// Share of an element's distance to which its position is known: some roundings.
 const ROUNDING: f64 = 1e-14;
-/// First step of an element's search that its last path does not begin [m].
+/// First step of an element's search that its last path does not begin (m).
 const FIRST_STRIDE: f64 = 1e-6;
-/// Longest step of a ring between two iterations at first [m]; a soft support may have a long way to go.
+/// Longest step of a ring between two iterations at first (m); a soft support may have a long way to go.
 const LONGEST_STEP: f64 = 50e-6;
 /// Iterations after which the longest step doubles, rings may go together as far as their supports let them, and the
 /// tangent is that of the damped contacts.
@@ -99,16 +99,16 @@ impl Model {
         Ok(cells)
     }
 
-    /// The path [m] of element `j` (from 0) where it rests against the outer raceway without force, with element 1 at
-    /// `cage_angle` [rad] and all else as at the start.
+    /// The path (m) of element `j` (from 0) where it rests against the outer raceway without force, with element 1 at
+    /// `cage_angle` (rad) and all else as at the start.
     pub fn resting_path(&self, j: usize, cage_angle: f64) -> f64 {
         let now = FramedKinematics::at_rest(cage_angle, Vector::zeros());
         let cell = self.outer.defects.cell_at(self.element_angle(j, &now.cage));
         self.touching_path(j, [cell, SMOOTH], &now)
     }
 
-    /// How much farther [m] element `j` (from 0) comes inwards than on the smooth inner raceway before it touches a
-    /// defect of that, with element 1 at `cage_angle` and the inner ring at `shaft_angle` [rad], rings concentric.
+    /// How much farther (m) element `j` (from 0) comes inwards than on the smooth inner raceway before it touches a
+    /// defect of that, with element 1 at `cage_angle` and the inner ring at `shaft_angle` (rad), rings concentric.
     pub fn resting_opening(&self, j: usize, cage_angle: f64, shaft_angle: f64) -> f64 {
         let mut now = FramedKinematics::at_rest(cage_angle, Vector::zeros());
         now.frames.0[Frame::Shaft as usize].angle = shaft_angle;
@@ -324,7 +324,7 @@ impl Model {
     }
 }
 
-/// Longest step of a ring in an iteration [m]: after all of them it may have moved by metres.
+/// Longest step of a ring in an iteration (m): after all of them it may have moved by metres.
 fn longest_step(iteration: i32) -> f64 {
     LONGEST_STEP * f64::from(1 << (iteration / DOUBLING).min(16))
 }
@@ -348,10 +348,10 @@ impl Given<'_> {
 /// Net force on the free rings.
 struct Balance {
     force: Rings,
-    /// Σ|Q_i| [N]
+    /// Σ|Q_i| (N)
     contact_sum: f64,
     limit: f64,
-    /// What roundings of the positions make of the forces [N]; more than the limit where a damper is steep.
+    /// What roundings of the positions make of the forces (N); more than the limit where a damper is steep.
     rounding: f64,
 }
 

@@ -12,9 +12,9 @@ pub enum EquilibriumError {
          give the internal rings a support stiffness that can carry their load"
     )]
     NotFound {
-        /// Force left [N].
+        /// Force left (N).
         residual: f64,
-        /// Largest force allowed [N].
+        /// Largest force allowed (N).
         limit: f64,
     },
     /// An element ends where the contact law near the defect has no answer any more.
@@ -25,9 +25,9 @@ pub enum EquilibriumError {
     Contact {
         /// Number of the element, from 1.
         element: usize,
-        /// Its angle from the defect's centre [°].
+        /// Its angle from the defect's centre (°).
         angle_deg: f64,
-        /// Force left on it [N].
+        /// Force left on it (N).
         residual: f64,
         /// Why there is no answer.
         cause: ContactError,
@@ -42,9 +42,9 @@ pub enum EquilibriumError {
     Element {
         /// Number of the element, from 1.
         element: usize,
-        /// Where the search ended, its path u [m].
+        /// Where the search ended, its path u (m).
         path: f64,
-        /// Radial force left there [N].
+        /// Radial force left there (N).
         force: f64,
     },
 }

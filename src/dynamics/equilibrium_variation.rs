@@ -18,7 +18,7 @@ use super::variation::Variation;
 impl Model {
     /// Completes a change of inputs at the equilibrium `state` by what it does to rings and elements. `by` comes with
     /// the changes of prescribed rings and of the cage speed; `loads` are those of the external loads on both rings
-    /// [N]. `None` if the rings have no stiffness against them.
+    /// (N). `None` if the rings have no stiffness against them.
     pub fn vary_equilibrium(
         &self,
         drive: &Drive,

@@ -38,9 +38,9 @@ pub struct Films {
 /// Films at one speed.
 #[derive(Debug, Clone, Copy)]
 struct Now {
-    /// Speed of the inner ring against the outer [rad/s].
+    /// Speed of the inner ring against the outer (rad/s).
     speed: f64,
-    /// Thickness of both films together [m].
+    /// Thickness of both films together (m).
     together: f64,
     squeeze: [SqueezeFilm; 2],
 }
@@ -56,7 +56,7 @@ impl Films {
         Some(Self { contacts, layer: film.layer, ratio: rolling_speed_ratio(&scene.bearing), now })
     }
 
-    /// Tells them how fast the inner ring turned against the outer [rad/s] where the communication step began.
+    /// Tells them how fast the inner ring turned against the outer (rad/s) where the communication step began.
     #[inline(always)]
     pub fn begin(&self, speed: f64) {
         if self.now.get().speed.to_bits() != speed.to_bits() {
@@ -64,12 +64,12 @@ impl Films {
         }
     }
 
-    /// Thickness of both films together [m].
+    /// Thickness of both films together (m).
     pub fn together(&self) -> f64 {
         self.now.get().together
     }
 
-    /// Its change with the speed of the inner ring against the outer [m s/rad]; 0 where nothing turns.
+    /// Its change with the speed of the inner ring against the outer (m s/rad); 0 where nothing turns.
     pub fn together_by_speed(&self) -> f64 {
         let Now { speed, together, .. } = self.now.get();
         if speed == 0.0 { 0.0 } else { SPEED_EXPONENT * together / speed }

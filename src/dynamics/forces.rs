@@ -27,11 +27,11 @@ pub struct Forces {
     pub(super) searched: Vec<Searched>,
     /// Number of elements.
     count: usize,
-    /// The bearing's force on the inner ring, then on the outer [N].
+    /// The bearing's force on the inner ring, then on the outer (N).
     pub rings: [f64; 4],
     /// The frames of defects, where any contact asks for them.
     pub(super) frames: Frames,
-    /// Torques of contacts near defects on the bodies that bear them [N m]: on the inner ring, on the outer ring, each
+    /// Torques of contacts near defects on the bodies that bear them (N m): on the inner ring, on the outer ring, each
     /// about its centre, and on elements about their own axes.
     pub(super) torques: [f64; 3],
     /// Number of approaches near the defect that were asked for.
@@ -45,9 +45,9 @@ pub struct Forces {
 pub struct UnsolvedContact {
     /// The element, from 0.
     pub element: usize,
-    /// Its angle from the defect's centre [rad].
+    /// Its angle from the defect's centre (rad).
     pub angle: f64,
-    /// Position of the outer ring's centre seen from the inner's [m].
+    /// Position of the outer ring's centre seen from the inner's (m).
     pub offset: [f64; 2],
     /// Why.
     pub cause: ContactError,
@@ -136,7 +136,7 @@ impl Forces {
         }
     }
 
-    /// Path [m] of each element in `state`, of which these are the forces: where it is, or where it is in balance.
+    /// Path (m) of each element in `state`, of which these are the forces: where it is, or where it is in balance.
     /// There may be more slots than elements.
     #[inline]
     pub fn paths<'a>(&'a self, model: &Model, state: &'a [f64]) -> &'a [f64] {
@@ -155,7 +155,7 @@ impl Forces {
         }
     }
 
-    /// Puts what [`Model::other_contacts`] found among the contacts that are kept.
+    /// Puts what [`other_contacts`](super::other_contacts) found among the contacts that are kept.
     pub(super) fn record_others(&mut self) {
         let record = &mut self.contacts;
         let [inner, outer] = &self.other_contacts;
@@ -177,17 +177,17 @@ impl Forces {
         }
     }
 
-    /// The bearing's force on the inner ring [N].
+    /// The bearing's force on the inner ring (N).
     pub fn shaft(&self) -> Vector {
         Vector::new(self.rings[0], self.rings[1])
     }
 
-    /// The bearing's force on the outer ring [N].
+    /// The bearing's force on the outer ring (N).
     pub fn housing(&self) -> Vector {
         Vector::new(self.rings[2], self.rings[3])
     }
 
-    /// Torque of contacts near defects on the bodies that turn with a frame and bear them [N m].
+    /// Torque of contacts near defects on the bodies that turn with a frame and bear them (N m).
     pub fn torque_on(&self, frame: Frame) -> f64 {
         self.torques[frame as usize]
     }
@@ -200,7 +200,7 @@ impl Forces {
         }
     }
 
-    /// How far the contact that has changed most since `sides` were noted is beyond its change [m]; negative while none
+    /// How far the contact that has changed most since `sides` were noted is beyond its change (m); negative while none
     /// has.
     pub fn beyond_change(&self, sides: &[f64]) -> f64 {
         let slots = self.contacts.inner_pushing.len();
@@ -225,7 +225,7 @@ impl Forces {
         largest_of(most) > 0.0
     }
 
-    /// Largest approach of any contact [m], 0 if there is none, inside a kernel.
+    /// Largest approach of any contact (m), 0 if there is none, inside a kernel.
     #[inline(always)]
     pub(crate) fn largest_approach_on<S: Wide>(&self, simd: S) -> f64 {
         let (mut most, approach) = ([0.0; QUAD], [&self.contacts.inner_approach[..], &self.contacts.outer_approach]);
@@ -256,10 +256,10 @@ pub(super) struct OtherContact {
     pub(super) element: usize,
     pub(super) approach: f64,
     pub(super) pushing: f64,
-    /// Magnitude [N]; then the parts on the element: of an inner contact outwards and counter-clockwise, as seen from
+    /// Magnitude (N); then the parts on the element: of an inner contact outwards and counter-clockwise, as seen from
     /// the outer ring's centre, of an outer contact inwards and counter-clockwise.
     pub(super) force: [f64; 3],
-    /// Torque [N m] on the body that bears the defect, about its own centre.
+    /// Torque (N m) on the body that bears the defect, about its own centre.
     pub(super) torque: f64,
     /// The frame of that body.
     pub(super) frame: Frame,

@@ -21,14 +21,14 @@ impl Model {
 /// Distance and direction of elements from the inner ring's centre: of the vector q.
 #[derive(Clone, Copy)]
 pub(super) struct Distance<S: Wide> {
-    /// |q| − q_r [m]
+    /// |q| − q_r (m)
     pub(super) longer: Lanes<S>,
     /// q/|q|, its radial and its tangential part.
     pub(super) n: [Lanes<S>; 2],
 }
 
 impl<S: Wide> Distance<S> {
-    /// Of elements with q_r [m] along e_r and t [m] across it: |q| = √(q_r² + t²), written so that δ_i loses no digits
+    /// Of elements with q_r (m) along e_r and t (m) across it: |q| = √(q_r² + t²), written so that δ_i loses no digits
     /// to the radii's 20 mm. `series`: |q| − q_r = t (t/q_r)/2 − … and the direction of q are series in t/q_r.
     #[inline(always)]
     pub(super) fn of(simd: S, q_r: Lanes<S>, t: Lanes<S>, series: bool) -> Self {

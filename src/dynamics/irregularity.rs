@@ -33,11 +33,11 @@ const MEAN_SQUARE_OF_RATE: f64 = 2.0 / 3.0;
 #[derive(Debug, Clone)]
 pub struct Irregularity {
     seed: u64,
-    /// Nominal cage angle at the start [rad].
+    /// Nominal cage angle at the start (rad).
     start: f64,
-    /// Standard deviation of the jitter's coefficients [rad]; 0 for none.
+    /// Standard deviation of the jitter's coefficients (rad); 0 for none.
     jitter: f64,
-    /// That of the wander's [rad]; 0 for none.
+    /// That of the wander's (rad); 0 for none.
     wander: f64,
     count: usize,
     /// Whole turns of the cage at the communication point. Kept here beside the drive, which has them: with one number
@@ -51,13 +51,13 @@ pub struct Irregularity {
 /// angle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Lead {
-    /// Value [rad].
+    /// Value (rad).
     pub angle: f64,
     /// First derivative.
     pub rate: f64,
-    /// Second derivative [1/rad].
+    /// Second derivative (1/rad).
     pub bend: f64,
-    /// Third derivative [1/rad²].
+    /// Third derivative (1/rad²).
     pub twist: f64,
 }
 
@@ -112,7 +112,7 @@ impl std::ops::Add for Lead {
 }
 
 impl Irregularity {
-    /// The moving part of a scene's irregularity for `count` elements, the cage being at `start` [rad] at the start;
+    /// The moving part of a scene's irregularity for `count` elements, the cage being at `start` (rad) at the start;
     /// `None` where nothing moves.
     pub fn new(cage: &CageIrregularity, count: usize, start: f64) -> Option<Self> {
         if cage.jitter == 0.0 && cage.wander == 0.0 {
@@ -187,7 +187,7 @@ impl Irregularity {
         }
     }
 
-    /// Speed [rad/s] and acceleration [rad/s²] of element `j`.
+    /// Speed (rad/s) and acceleration (rad/s²) of element `j`.
     #[cold]
     #[inline(never)]
     pub fn speed_of_element(&self, j: usize, cage: CageState) -> [f64; 2] {
@@ -202,7 +202,7 @@ impl Irregularity {
         sin_cos(offset + self.of_element(j, &cage).angle)
     }
 
-    /// Angle [rad] by which element `j` is ahead.
+    /// Angle (rad) by which element `j` is ahead.
     #[cold]
     #[inline(never)]
     pub fn angle_of_element(&self, j: usize, cage: CageState) -> f64 {

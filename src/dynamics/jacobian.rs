@@ -29,19 +29,19 @@ use crate::scene::{MOST_SENSORS, Motion};
 pub struct ElementBlock {
     /// Radial direction; ∂u'/∂v_o is its negative, ∂u'/∂w is 1.
     pub e_r: Vector,
-    /// ∂w'/∂u [1/s²]
+    /// ∂w'/∂u (1/s²)
     pub by_path: f64,
-    /// ∂w'/∂w [1/s]
+    /// ∂w'/∂w (1/s)
     pub by_velocity: f64,
-    /// ∂w'/∂x_o = −∂w'/∂x_i [1/s²]
+    /// ∂w'/∂x_o = −∂w'/∂x_i (1/s²)
     pub by_offset: Vector,
-    /// ∂w'/∂v_i [1/s]
+    /// ∂w'/∂v_i (1/s)
     pub by_shaft_velocity: Vector,
-    /// ∂w'/∂v_o [1/s]
+    /// ∂w'/∂v_o (1/s)
     pub by_housing_velocity: Vector,
-    /// ∂(v_i', v_o')/∂u [1/s²]
+    /// ∂(v_i', v_o')/∂u (1/s²)
     pub rings_by_path: Rings,
-    /// ∂(v_i', v_o')/∂w [1/s]
+    /// ∂(v_i', v_o')/∂w (1/s)
     pub rings_by_velocity: Rings,
 }
 
@@ -57,7 +57,7 @@ pub struct BodyIndices {
 /// What moves fastest.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Fastest {
-    /// Magnitude of its eigenvalue [1/s].
+    /// Magnitude of its eigenvalue (1/s).
     pub eigenvalue: f64,
     /// Its damping ratio, 0 to 1.
     pub damping: f64,
@@ -68,9 +68,9 @@ pub struct Fastest {
 pub struct Jacobian {
     /// The elements' blocks.
     pub elements: Vec<ElementBlock>,
-    /// Accelerations of the bodies by their positions [1/s²].
+    /// Accelerations of the bodies by their positions (1/s²).
     pub by_position: BodyMatrix,
-    /// Accelerations of the bodies by their velocities [1/s].
+    /// Accelerations of the bodies by their velocities (1/s).
     pub by_velocity: BodyMatrix,
     /// Where each body is in the state; `None` for a body without state, whose rows and columns count for nothing.
     pub body_indices: [Option<BodyIndices>; BODIES],
@@ -92,7 +92,7 @@ impl Jacobian {
         }
     }
 
-    /// One element alone that is damped with `rate` [1/s].
+    /// One element alone that is damped with `rate` (1/s).
     #[cfg(test)]
     pub fn with_fastest(rate: f64) -> Self {
         Self {
@@ -134,7 +134,7 @@ impl Jacobian {
         fastest
     }
 
-    /// Acceleration of a body by its own position, all else standing still [1/s²]. Paths are seen from the outer ring:
+    /// Acceleration of a body by its own position, all else standing still (1/s²). Paths are seen from the outer ring:
     /// when that moves and an element does not, the element's path changes.
     fn by_own_position(&self, body: usize) -> f64 {
         let alone = self.by_position[(body, body)];
@@ -196,7 +196,7 @@ struct Shared {
     now: FramedKinematics,
     /// Prescribed velocity and acceleration of each ring, the inner first; zero where the state has them.
     prescribed: [RingState; 2],
-    /// 1/mass of the rings' coordinates [1/kg].
+    /// 1/mass of the rings' coordinates (1/kg).
     inverse_masses: Rings,
     /// Speed and acceleration of the frames of defects.
     frames: [[f64; 2]; 3],

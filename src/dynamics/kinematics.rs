@@ -11,38 +11,38 @@ use std::ops::{Deref, DerefMut};
 /// The cage at one instant; one that is uneven as it would turn without that: the *nominal* cage.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CageState {
-    /// Time τ since the communication point [s].
+    /// Time τ since the communication point (s).
     pub tau: f64,
     /// Direction of element 1: cosine and sine of the cage angle.
     pub direction: Vector,
-    /// Cage angle [rad], within one turn at the communication point.
+    /// Cage angle (rad), within one turn at the communication point.
     pub angle: f64,
-    /// Cage speed [rad/s].
+    /// Cage speed (rad/s).
     pub speed: f64,
-    /// Cage acceleration [rad/s²].
+    /// Cage acceleration (rad/s²).
     pub acceleration: f64,
 }
 
 /// Position and velocity of a ring.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RingState {
-    /// Position [m].
+    /// Position (m).
     pub position: Vector,
-    /// Velocity [m/s].
+    /// Velocity (m/s).
     pub velocity: Vector,
 }
 
 /// An element on its path.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PathMotion {
-    /// u [m].
+    /// u (m).
     pub(super) path: f64,
-    /// u' [m/s].
+    /// u' (m/s).
     pub(super) rate: f64,
 }
 
 impl PathMotion {
-    /// At rest at a path [m].
+    /// At rest at a path (m).
     #[inline]
     pub(super) fn at_rest(path: f64) -> Self {
         Self { path, rate: 0.0 }
@@ -92,7 +92,7 @@ pub(crate) struct Stage<'a> {
     pub(crate) cage: &'a CageState,
     /// State vector.
     pub(crate) state: &'a [f64],
-    /// Time [s] by which the positions in `state` are still to be moved on along the velocities in it.
+    /// Time (s) by which the positions in `state` are still to be moved on along the velocities in it.
     pub(crate) ahead: Option<f64>,
 }
 
@@ -103,14 +103,14 @@ impl Default for RingState {
 }
 
 impl CageState {
-    /// A cage that stands still at an angle [rad].
+    /// A cage that stands still at an angle (rad).
     pub fn at_rest(angle: f64) -> Self {
         Self { tau: 0.0, direction: direction(angle), angle, speed: 0.0, acceleration: 0.0 }
     }
 }
 
 impl FramedKinematics {
-    /// Nothing moves; the outer ring's centre is `offset` [m] from the inner's, frames are at their angles of the
+    /// Nothing moves; the outer ring's centre is `offset` (m) from the inner's, frames are at their angles of the
     /// start.
     pub fn at_rest(cage_angle: f64, offset: Vector) -> Self {
         let housing = RingState { position: offset, ..RingState::default() };
@@ -128,13 +128,13 @@ impl FramedKinematics {
 }
 
 impl Kinematics {
-    /// Position of the outer ring's centre seen from the inner's [m].
+    /// Position of the outer ring's centre seen from the inner's (m).
     #[inline(always)]
     pub fn offset(&self) -> Vector {
         self.housing.position - self.shaft.position
     }
 
-    /// Its velocity [m/s].
+    /// Its velocity (m/s).
     #[inline(always)]
     pub fn drift(&self) -> Vector {
         self.housing.velocity - self.shaft.velocity
@@ -181,7 +181,7 @@ impl Drive {
     }
 }
 
-/// Angle up to which the series of [`Drive::cage_after`] hold to rounding [rad]: 0.03¹⁰/10! is 2e-22.
+/// Angle up to which the series of [`Drive::cage_after`] hold to rounding (rad): 0.03¹⁰/10! is 2e-22.
 const SMALL_ANGLE: f64 = 0.03;
 
 #[inline(always)]

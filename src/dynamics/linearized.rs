@@ -42,7 +42,7 @@ use crate::contact::near_defect::Approach;
 use crate::contact::rolling::RacewaySide;
 use crate::numerics::plane::{Matrix, Vector, turned};
 
-/// How far apart along path and raceway the approach near the defect is sampled for its second derivatives [m].
+/// How far apart along path and raceway the approach near the defect is sampled for its second derivatives (m).
 pub(super) const DIFFERENCE: f64 = 1e-9;
 
 /// Whether second derivatives of the outer approach are wanted, which the change of path or position needs while
@@ -63,7 +63,7 @@ pub(super) struct Linearized {
     pub(super) rho: f64,
     pub(super) omega: f64,
     pub(super) path_rate: f64,
-    /// Force of the inner contact on the element [N], and its derivatives G, D.
+    /// Force of the inner contact on the element (N), and its derivatives G, D.
     pub(super) inner: Vector,
     pub(super) by_q: Matrix,
     pub(super) by_q_rate: Matrix,
@@ -71,10 +71,10 @@ pub(super) struct Linearized {
     by_inner_frame: [Vector; 2],
     /// The frames of the bodies that bear the defects under the inner and the outer contact.
     pub(super) frames: [Frame; 2],
-    /// Direction and length of q [m].
+    /// Direction and length of q (m).
     pub(super) n: Vector,
     pub(super) distance: f64,
-    /// Force of the outer contact on the element, inwards and counter-clockwise [N].
+    /// Force of the outer contact on the element, inwards and counter-clockwise (N).
     pub(super) outer: Vector,
     /// Direction of the outer force, inwards and counter-clockwise, and its derivatives by path and angle.
     direction: Vector,
@@ -82,7 +82,7 @@ pub(super) struct Linearized {
     direction_by_angle: Vector,
     /// Outer force per unit of direction, and its derivatives by u, u', cage angle and cage speed.
     amount: f64,
-    /// Equivalent approach of the inner and of the outer contact [m].
+    /// Equivalent approach of the inner and of the outer contact (m).
     pub(super) approaches: [f64; 2],
     by_path: f64,
     by_path_rate: f64,
@@ -129,7 +129,7 @@ impl ElementChange {
         element.e_r * self.outer.x - element.e_t * self.outer.y
     }
 
-    /// Change of the radial force of both contacts on the element [N].
+    /// Change of the radial force of both contacts on the element (N).
     #[inline]
     pub(super) fn radial(&self, element: &Linearized) -> f64 {
         self.inner.dot(&element.e_r) - self.outer.x
@@ -176,12 +176,12 @@ impl Linearized {
         }
     }
 
-    /// Force on the outer ring [N].
+    /// Force on the outer ring (N).
     pub(super) fn on_housing(&self) -> Vector {
         self.e_r * self.outer.x - self.e_t * self.outer.y
     }
 
-    /// The change of the outer force's magnitude [N].
+    /// The change of the outer force's magnitude (N).
     pub(super) fn outer_amount(&self, by: &ElementVariation) -> f64 {
         let (amount, turn) = self.outer_change(by);
         let length = self.direction.norm().max(f64::MIN_POSITIVE);

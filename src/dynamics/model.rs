@@ -24,15 +24,15 @@ use std::sync::Arc;
 pub struct Model {
     /// Number of elements Z.
     pub element_count: usize,
-    /// Mass of one element [kg].
+    /// Mass of one element (kg).
     pub element_mass: f64,
-    /// 1/mass of one element [1/kg].
+    /// 1/mass of one element (1/kg).
     pub(super) inverse_element_mass: f64,
-    /// Radius of one element [m].
+    /// Radius of one element (m).
     pub element_radius: f64,
-    /// R_o − r [m], the distance ρ of an element that touches the smooth outer raceway.
+    /// R_o − r (m), the distance ρ of an element that touches the smooth outer raceway.
     pub outer_centre_radius: f64,
-    /// Radial clearance G_r [m] without oil films, which take some of it ([`Self::clearance`]).
+    /// Radial clearance G_r (m) without oil films, which take some of it ([`Self::clearance`]).
     pub radial_clearance: f64,
     /// The inner raceway.
     pub inner: Raceway,
@@ -40,7 +40,7 @@ pub struct Model {
     pub outer: Raceway,
     /// Elements with defects.
     pub defective: Vec<DefectiveElement>,
-    /// Gravity on the elements [m/s²].
+    /// Gravity on the elements (m/s²).
     pub gravity: Vector,
     /// The inner ring.
     pub shaft: Ring,
@@ -56,7 +56,7 @@ pub struct Model {
     pub layout: Layout,
     /// Whether the scene has a defect that contacts with the inner raceway meet, be it computed yet or not.
     pub may_have_inner_defects: bool,
-    /// Angle of each element ahead of the cage [rad].
+    /// Angle of each element ahead of the cage (rad).
     offsets: Vec<f64>,
     /// How elements and cage run ahead and lag behind; `None` where each keeps its angle ahead of a cage that turns
     /// evenly.
@@ -170,7 +170,7 @@ impl Model {
         self.has_inner_defects() || (self.is_uneven() && !self.outer.defects.is_empty())
     }
 
-    /// Angle of element `j` (from 0) ahead of the cage [rad], but for what moves in it ([`lead`](Self::lead)).
+    /// Angle of element `j` (from 0) ahead of the cage (rad), but for what moves in it ([`lead`](Self::lead)).
     pub fn element_offset(&self, j: usize) -> f64 {
         self.offsets[j]
     }
@@ -221,7 +221,7 @@ impl Model {
         self.irregularity.as_ref().map_or(Lead::default(), |uneven| uneven.of_cage(cage))
     }
 
-    /// Angle of element `j` about the outer ring's centre [rad].
+    /// Angle of element `j` about the outer ring's centre (rad).
     #[inline(always)]
     pub fn element_angle(&self, j: usize, cage: &CageState) -> f64 {
         let angle = cage.angle + self.element_offset(j);
@@ -231,7 +231,7 @@ impl Model {
         }
     }
 
-    /// Speed [rad/s] and acceleration [rad/s²] of element `j` about the outer ring's centre.
+    /// Speed (rad/s) and acceleration (rad/s²) of element `j` about the outer ring's centre.
     #[inline(always)]
     pub fn element_speed(&self, j: usize, cage: &CageState) -> [f64; 2] {
         match &self.irregularity {
@@ -240,14 +240,14 @@ impl Model {
         }
     }
 
-    /// Angle [rad] by which elements spin while the cage turns by `cage` [rad] and the rings as they must for it, the
+    /// Angle (rad) by which elements spin while the cage turns by `cage` (rad) and the rings as they must for it, the
     /// outer one standing.
     pub fn spin_with_cage(&self, cage: f64) -> f64 {
         let Ratios { cage: [by_shaft, _], spin: [spin, _] } = self.ratios;
         if by_shaft == 0.0 { 0.0 } else { cage / by_shaft * spin }
     }
 
-    /// Angle χ [rad] by which the first defect of element `j` has turned from the direction of the element's centre,
+    /// Angle χ (rad) by which the first defect of element `j` has turned from the direction of the element's centre,
     /// for the angles of frames and that of the element; 0 where it faces the outer raceway, the turns since then
     /// counted.
     pub fn spin_angle(&self, j: usize, frames: &[f64; 3], element: f64) -> f64 {

@@ -77,7 +77,7 @@ impl Model {
         OnPath { element: j, e_r, u: moved(state[j], path_rate, ahead), path_rate }
     }
 
-    /// Angle [rad] of element `j` about the outer ring's centre, and its speed [rad/s].
+    /// Angle (rad) of element `j` about the outer ring's centre, and its speed (rad/s).
     #[inline(always)]
     fn turning(&self, j: usize, now: &Kinematics, elements: &[ElementBlock]) -> [f64; 2] {
         let (block, i, cage) = (&elements[j / WIDEST], j % WIDEST, &now.cage);
@@ -254,7 +254,7 @@ pub(super) struct OtherOuter<'a, const RECORD: bool> {
     pub(super) model: &'a Model,
     pub(super) now: &'a Kinematics,
     pub(super) state: &'a [f64],
-    /// Time [s] by which paths are still to be moved on along their rates.
+    /// Time (s) by which paths are still to be moved on along their rates.
     pub(super) ahead: Option<f64>,
     pub(super) forces: &'a mut Forces,
 }

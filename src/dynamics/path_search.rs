@@ -4,9 +4,9 @@ use super::linearized::Linearized;
 use super::model::Model;
 use super::tangent::RadialForce;
 
-/// Longest of Newton's steps [m].
+/// Longest of Newton's steps (m).
 const LONGEST_STEP: f64 = 50e-6;
-/// Longest way at once where nothing brackets the balance [m].
+/// Longest way at once where nothing brackets the balance (m).
 const LONGEST_STRIDE: f64 = 1.0;
 
 /// Newton's method within the bracket that the signs of the force give, which falls as the path grows; where it would
@@ -14,18 +14,18 @@ const LONGEST_STRIDE: f64 = 1.0;
 pub(super) struct PathSearch {
     low: f64,
     high: f64,
-    /// Length of the last step of a walk [m]; each next one is twice as long.
+    /// Length of the last step of a walk (m); each next one is twice as long.
     stride: f64,
 }
 
 impl PathSearch {
-    /// A search between these paths [m]; `stride`: half the first step of a walk [m].
+    /// A search between these paths (m); `stride`: half the first step of a walk (m).
     pub(super) fn between(low: f64, high: f64, stride: f64) -> Self {
         Self { low, high, stride }
     }
 
-    /// Where to look after path `u` [m], at which the element is pushed outwards with `force` [N] and Newton's method
-    /// goes to `newton` [m]; nowhere if no number is left between the brackets, or none within a metre.
+    /// Where to look after path `u` (m), at which the element is pushed outwards with `force` (N) and Newton's method
+    /// goes to `newton` (m); nowhere if no number is left between the brackets, or none within a metre.
     pub(super) fn next(&mut self, u: f64, force: f64, newton: f64) -> Option<f64> {
         if force > 0.0 {
             self.low = u

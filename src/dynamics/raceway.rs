@@ -32,7 +32,7 @@ pub struct DefectiveElement {
     pub element: usize,
     /// Its defects in contact with the inner and with the outer raceway.
     pub defects: [Defects; 2],
-    /// Angle of the centre of the first of them in contact with the outer raceway [rad], from which its spin is
+    /// Angle of the centre of the first of them in contact with the outer raceway (rad), from which its spin is
     /// counted.
     pub mark: f64,
 }
@@ -50,7 +50,7 @@ pub struct Defects {
 pub struct Centred {
     /// The surface under the scene's contact law.
     pub surface: NearDefect,
-    /// Angle of the defect's centre [rad] in the body's frame.
+    /// Angle of the defect's centre (rad) in the body's frame.
     pub centre: f64,
 }
 
@@ -59,7 +59,7 @@ pub struct Centred {
 pub struct SurfaceDefect {
     /// The surface under the scene's contact law.
     pub surface: NearDefect,
-    /// Angle of the defect's centre [rad] in the body's frame.
+    /// Angle of the defect's centre (rad) in the body's frame.
     pub centre: f64,
     /// Number of its first cell.
     first: u32,
@@ -68,18 +68,18 @@ pub struct SurfaceDefect {
 /// The next knot on the way of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ahead {
-    /// Angle to it [rad]; by rounding it may be a little below 0.
+    /// Angle to it (rad); by rounding it may be a little below 0.
     pub angle: f64,
     /// The cell beyond it.
     pub beyond: u32,
 }
 
-/// Approach near a defect, and the speed [rad/s] of the body that bears the defect.
+/// Approach near a defect, and the speed (rad/s) of the body that bears the defect.
 #[derive(Debug, Clone, Copy)]
 pub struct Near {
     /// The approach; its angle is that of the contact against the body.
     pub approach: Approach,
-    /// Speed of the body's frame [rad/s].
+    /// Speed of the body's frame (rad/s).
     pub frame_speed: f64,
     /// Which frame that is.
     pub frame: Frame,
@@ -103,7 +103,7 @@ impl Near {
         Self { approach, frame_speed: frames.of(frame).speed, frame }
     }
 
-    /// That of the smooth raceway at approach `u` [m].
+    /// That of the smooth raceway at approach `u` (m).
     pub fn smooth(u: f64) -> Self {
         Self { approach: Approach::smooth(u), frame_speed: 0.0, frame: Frame::Housing }
     }
@@ -172,7 +172,7 @@ impl Defects {
         cell == SMOOTH || self.defects.iter().any(|defect| defect.holds(cell))
     }
 
-    /// Cell at a direction [rad] in the body's frame.
+    /// Cell at a direction (rad) in the body's frame.
     pub fn cell_at(&self, direction: f64) -> u32 {
         self.defects
             .iter()
@@ -181,7 +181,7 @@ impl Defects {
             .unwrap_or(SMOOTH)
     }
 
-    /// The knot that a contact in `cell` at a direction [rad] in the body's frame meets next, counter-clockwise if
+    /// The knot that a contact in `cell` at a direction (rad) in the body's frame meets next, counter-clockwise if
     /// `forward`. `None` without a defect.
     pub fn ahead(&self, cell: u32, direction: f64, forward: bool) -> Option<Ahead> {
         if cell != SMOOTH {
@@ -192,7 +192,7 @@ impl Defects {
         ahead.reduce(|near, other| if other.angle < near.angle { other } else { near })
     }
 
-    /// Approach in `cell`, which is not the smooth one, at the smooth approach `u` [m] and a direction [rad] against
+    /// Approach in `cell`, which is not the smooth one, at the smooth approach `u` (m) and a direction (rad) against
     /// the axes.
     #[inline(always)]
     pub fn approach(
@@ -217,7 +217,7 @@ impl Defects {
         }
     }
 
-    /// Angle [rad] of a direction in the body's frame from the centre of the nearest defect, within half a turn; from
+    /// Angle (rad) of a direction in the body's frame from the centre of the nearest defect, within half a turn; from
     /// the frame's own axis without one.
     pub fn angle(&self, direction: f64) -> f64 {
         let angles = self.defects.iter().map(|defect| defect.angle(direction));
@@ -234,7 +234,7 @@ impl Defects {
 }
 
 impl SurfaceDefect {
-    /// Angle from the centre of a direction [rad] in the body's frame.
+    /// Angle from the centre of a direction (rad) in the body's frame.
     #[inline]
     pub fn angle(&self, direction: f64) -> f64 {
         wrap(direction - self.centre)
@@ -283,7 +283,7 @@ impl SurfaceDefect {
     }
 }
 
-/// An angle [rad] brought into [0, 2π); one that falls short of 0 by rounding is 0.
+/// An angle (rad) brought into [0, 2π); one that falls short of 0 by rounding is 0.
 fn around(angle: f64) -> f64 {
     let within = angle.rem_euclid(TAU);
     if within > TAU - 1e-9 { 0.0 } else { within }

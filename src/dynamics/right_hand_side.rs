@@ -149,11 +149,11 @@ impl Model {
         }
     }
 
-    /// Torque of the elements on the cage about the outer ring's centre [N m], counter-clockwise.
+    /// Torque of the elements on the cage about the outer ring's centre (N m), counter-clockwise.
     ///
     /// The kinematic cage forces each element to the tangential acceleration a_o·e_t + 2 u' ω + ρ ω'; what contacts and
     /// gravity do not supply, it does. It also takes up the torque of an element's defect on that element, whose spin
-    /// is forced as well. `acceleration` is the outer ring's [m/s²].
+    /// is forced as well. `acceleration` is the outer ring's (m/s²).
     pub fn cage_torque(&self, drive: &Drive, tau: f64, state: &[f64], acceleration: Vector, forces: &Forces) -> f64 {
         self.begin(drive);
         let cage = drive.cage_at(tau);

@@ -37,7 +37,7 @@ pub struct SensorModes {
 struct Mode {
     /// Number of the sensor, from 0.
     sensor: usize,
-    /// ω [rad/s].
+    /// ω (rad/s).
     frequency: f64,
     /// ζ.
     damping_ratio: f64,
@@ -47,7 +47,7 @@ struct Mode {
     quadrature_gain: f64,
 }
 
-/// State and derivative of the equations of motion at both ends of a step of `length` [s].
+/// State and derivative of the equations of motion at both ends of a step of `length` (s).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StepEnds<'a> {
     pub(crate) states: [&'a [f64]; 2],
@@ -78,7 +78,7 @@ impl SensorModes {
         Self { modes, direct, index }
     }
 
-    /// Length of their state: z [m] and z' [m/s] of each mode.
+    /// Length of their state: z (m) and z' (m/s) of each mode.
     pub fn state_len(&self) -> usize {
         2 * self.modes.len()
     }
@@ -94,7 +94,7 @@ impl SensorModes {
         }
     }
 
-    /// What sensor `k` measures [m/s²] while its body accelerates by `acceleration` [m/s²].
+    /// What sensor `k` measures (m/s²) while its body accelerates by `acceleration` (m/s²).
     pub fn measured(&self, k: usize, acceleration: f64, state: &[f64]) -> f64 {
         let by_mode = |(mode, z): (&Mode, [f64; 2])| mode.shown([mode.returning(z), z[1]]);
         let own = self.of(k, state).map(by_mode);
@@ -106,7 +106,7 @@ impl SensorModes {
         self.direct[k]
     }
 
-    /// Change per second [m/s³] of what sensor `k` measures, but for that of its body's acceleration.
+    /// Change per second (m/s³) of what sensor `k` measures, but for that of its body's acceleration.
     pub fn rate(&self, k: usize, acceleration: f64, state: &[f64]) -> f64 {
         let by_mode = |(mode, z): (&Mode, [f64; 2])| {
             let bend = mode.returning(z) - acceleration;
@@ -126,12 +126,12 @@ impl Mode {
         -self.frequency * (2.0 * self.damping_ratio * rate + self.frequency * z)
     }
 
-    /// What a sensor sees [m/s²] of z'' and z'.
+    /// What a sensor sees (m/s²) of z'' and z'.
     fn shown(&self, [bend, rate]: [f64; 2]) -> f64 {
         self.gain * bend + self.quadrature_gain * self.frequency * rate
     }
 
-    /// Moves z and z' on to a `share` of a step of `length` [s], in pieces of a radian at most.
+    /// Moves z and z' on to a `share` of a step of `length` (s), in pieces of a radian at most.
     fn advance(&self, acceleration: &Cubic, length: f64, share: f64, z: &mut [f64; 2]) {
         // A sample at the very start of a step: the series gives z' as a quotient of what is 0 then.
         if share == 0.0 {
@@ -144,7 +144,7 @@ impl Mode {
         }
     }
 
-    /// Moves z and z' on by `h` [s] under an acceleration that is a cubic in the share of that time.
+    /// Moves z and z' on by `h` (s) under an acceleration that is a cubic in the share of that time.
     fn follow(&self, acceleration: &Cubic, h: f64, z: &mut [f64; 2]) {
         let turn = self.frequency * h;
         let (damping, spring) = (2.0 * self.damping_ratio * turn, turn * turn);

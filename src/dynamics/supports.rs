@@ -26,11 +26,11 @@ pub type BodyMatrix = nalgebra::DMatrix<f64>;
 /// A body's spring and damper, and how easily forces accelerate it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Support {
-    /// Stiffness k [N/m].
+    /// Stiffness k (N/m).
     pub stiffness: f64,
-    /// Damping c [N s/m].
+    /// Damping c (N s/m).
     pub damping: f64,
-    /// 1/mass [1/kg]; 0 for a ring that forces do not move.
+    /// 1/mass (1/kg); 0 for a ring that forces do not move.
     pub inverse_mass: f64,
 }
 
@@ -52,7 +52,7 @@ pub struct Supports {
     pub housing: Support,
     /// The sensors', to the outer ring.
     pub sensors: Vec<SensorSupport>,
-    /// Accelerations of the bodies by their positions [1/s²] and by their velocities [1/s].
+    /// Accelerations of the bodies by their positions (1/s²) and by their velocities (1/s).
     accelerations: Arc<[BodyMatrix; 2]>,
 }
 
@@ -62,7 +62,7 @@ impl Support {
         Self { stiffness: ring.stiffness, damping: ring.damping, inverse_mass }
     }
 
-    /// Force [N] for a displacement [m] and a velocity [m/s].
+    /// Force (N) for a displacement (m) and a velocity (m/s).
     #[inline(always)]
     fn force(&self, x: f64, v: f64) -> f64 {
         self.stiffness * x + self.damping * v
@@ -96,7 +96,7 @@ impl Supports {
         [&self.shaft, &self.housing]
     }
 
-    /// 1/mass of each coordinate [1/kg]; 0 where forces move nothing.
+    /// 1/mass of each coordinate (1/kg); 0 where forces move nothing.
     pub fn inverse_masses(&self) -> Bodies {
         let [shaft, housing] = self.rings().map(|ring| ring.inverse_mass);
         let mut masses = Bodies::zeros();
@@ -107,7 +107,7 @@ impl Supports {
         masses
     }
 
-    /// Forces on the bodies [N] for their displacements [m] and velocities [m/s].
+    /// Forces on the bodies (N) for their displacements (m) and velocities (m/s).
     pub fn forces(&self, x: &Bodies, v: &Bodies) -> Bodies {
         let housing = RingState { position: Vector::new(x[2], x[3]), velocity: Vector::new(v[2], v[3]) };
         let ground = |i: usize, support: &Support| -support.force(x[i], v[i]);
@@ -128,7 +128,7 @@ impl Supports {
         forces
     }
 
-    /// Accelerations of the bodies by their positions [1/s²] and by their velocities [1/s].
+    /// Accelerations of the bodies by their positions (1/s²) and by their velocities (1/s).
     pub fn accelerations_by_motion(&self) -> &[BodyMatrix; 2] {
         &self.accelerations
     }
@@ -148,7 +148,7 @@ impl Supports {
 }
 
 impl SensorSupport {
-    /// Force f_s of the sensor on the outer ring along its direction [N], for its displacement [m] and velocity [m/s]
+    /// Force f_s of the sensor on the outer ring along its direction (N), for its displacement (m) and velocity (m/s)
     /// along it.
     #[inline(always)]
     pub fn force(&self, s: f64, v: f64, housing: &RingState) -> f64 {
@@ -164,7 +164,7 @@ impl SensorSupport {
 }
 
 impl Support {
-    /// Velocity and acceleration of a ring, `force` [N] being all that acts on it beside its support.
+    /// Velocity and acceleration of a ring, `force` (N) being all that acts on it beside its support.
     #[inline(always)]
     pub(super) fn ring_rates<S: Wide>(&self, simd: S, at: &RingState, force: Vector) -> Lanes<S::Quad> {
         let (x, v) = (at.position, at.velocity);

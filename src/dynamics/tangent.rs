@@ -13,12 +13,12 @@ use super::raceway::Cells;
 use crate::numerics::plane::Vector;
 use crate::scene::Motion;
 
-/// ∂(force on inner ring, force on outer ring)/∂(position of inner ring, position of outer ring) [N/m].
+/// ∂(force on inner ring, force on outer ring)/∂(position of inner ring, position of outer ring) (N/m).
 pub type RingJacobian = nalgebra::Matrix4<f64>;
 /// x and y of the inner ring, then of the outer.
 pub type Rings = nalgebra::Vector4<f64>;
 
-/// Change of one element's path [m] and of the forces on the rings [N], its balance kept.
+/// Change of one element's path (m) and of the forces on the rings (N), its balance kept.
 pub(super) struct Balanced {
     pub(super) path: f64,
     pub(super) rings: Rings,
@@ -27,9 +27,9 @@ pub(super) struct Balanced {
 /// Radial force R on an element, inertia of the turning cage and gravity included.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RadialForce {
-    /// R [N].
+    /// R (N).
     pub(super) force: f64,
-    /// Its derivative by u [N/m].
+    /// Its derivative by u (N/m).
     pub(super) slope: f64,
 }
 
@@ -48,7 +48,7 @@ impl Model {
         }
     }
 
-    /// Radius [m] at which an element at distance `rho` [m] feels its centrifugal force, and its derivative by the
+    /// Radius (m) at which an element at distance `rho` (m) feels its centrifugal force, and its derivative by the
     /// path.
     ///
     /// In balance at every instant an element feels that on the smooth outer raceway, different by 1e-3 of itself, over
@@ -126,7 +126,7 @@ impl Model {
         Rings::from_fn(|i, _| if free[i] { forces[i] } else { 0.0 })
     }
 
-    /// Where the free rings go until the bearing balances a change of `force` [N] on them [m]. `None` if they have no
+    /// Where the free rings go until the bearing balances a change of `force` (N) on them (m). `None` if they have no
     /// stiffness against it.
     pub(super) fn balancing_motion(&self, jacobian: &RingJacobian, force: Rings) -> Option<Rings> {
         let motion = self.free_rings_matrix(jacobian, 0.0).lu().solve(&self.free_rings(force))?;

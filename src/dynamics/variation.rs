@@ -21,40 +21,40 @@ use crate::numerics::plane::{Matrix, Vector, turned};
 /// A small change of state and inputs.
 #[derive(Debug, Clone, Default)]
 pub struct Variation {
-    /// Of the nominal cage angle [rad].
+    /// Of the nominal cage angle (rad).
     pub cage_angle: f64,
-    /// Of the nominal cage speed [rad/s].
+    /// Of the nominal cage speed (rad/s).
     pub cage_speed: f64,
-    /// Of the clearance, by oil films [m].
+    /// Of the clearance, by oil films (m).
     pub clearance: f64,
-    /// Of angle [rad] and speed [rad/s] of the frames of defects, in the order of [`super::drive::Frame`].
+    /// Of angle (rad) and speed (rad/s) of the frames of defects, in the order of [`super::drive::Frame`].
     pub frames: [[f64; 2]; 3],
     /// Of the inner ring.
     pub shaft: RingState,
     /// Of the outer ring.
     pub housing: RingState,
-    /// Of the element paths u [m].
+    /// Of the element paths u (m).
     pub path: Vec<f64>,
-    /// Of the elements' absolute radial velocities w [m/s].
+    /// Of the elements' absolute radial velocities w (m/s).
     pub radial_velocity: Vec<f64>,
 }
 
 /// What contact forces make of a [`Variation`].
 #[derive(Debug, Clone, Default)]
 pub struct ForceChange {
-    /// Of each inner contact's force [N].
+    /// Of each inner contact's force (N).
     pub inner: Vec<f64>,
-    /// Of each outer contact's force [N].
+    /// Of each outer contact's force (N).
     pub outer: Vec<f64>,
-    /// Of the force on the inner ring [N].
+    /// Of the force on the inner ring (N).
     pub shaft: Vector,
-    /// Of the force on the outer ring [N].
+    /// Of the force on the outer ring (N).
     pub housing: Vector,
-    /// Of the cage torque [N m] while the outer ring's acceleration does not change.
+    /// Of the cage torque (N m) while the outer ring's acceleration does not change.
     pub cage_torque: f64,
-    /// Of the torque of contacts near its defects on the inner ring [N m].
+    /// Of the torque of contacts near its defects on the inner ring (N m).
     pub shaft_torque: f64,
-    /// Cage torque by the outer ring's acceleration [kg m].
+    /// Cage torque by the outer ring's acceleration (kg m).
     pub torque_by_acceleration: Vector,
 }
 
@@ -73,18 +73,18 @@ impl Variation {
         self.radial_velocity.fill(0.0);
     }
 
-    /// Of the outer ring's position less that of the inner [m].
+    /// Of the outer ring's position less that of the inner (m).
     pub(super) fn offset(&self) -> Vector {
         self.housing.position - self.shaft.position
     }
 
-    /// Moves both rings further [m].
+    /// Moves both rings further (m).
     pub(super) fn move_rings(&mut self, motion: &Rings) {
         self.shaft.position += Vector::new(motion[0], motion[1]);
         self.housing.position += Vector::new(motion[2], motion[3]);
     }
 
-    /// Of the outer ring's velocity less that of the inner [m/s].
+    /// Of the outer ring's velocity less that of the inner (m/s).
     pub(super) fn drift(&self) -> Vector {
         self.housing.velocity - self.shaft.velocity
     }
@@ -99,13 +99,13 @@ impl ForceChange {
 
 /// How an element goes round with the cage, to first order.
 struct Going {
-    /// Change of its angle [rad].
+    /// Change of its angle (rad).
     turn: f64,
-    /// Change of its speed [rad/s].
+    /// Change of its speed (rad/s).
     speed: f64,
-    /// Its acceleration [rad/s²].
+    /// Its acceleration (rad/s²).
     alpha: f64,
-    /// Change of its acceleration [rad/s²].
+    /// Change of its acceleration (rad/s²).
     alpha_change: f64,
 }
 
@@ -198,7 +198,7 @@ impl Model {
         }
     }
 
-    /// Change of the inner ring's elastic force by its own position, [`Model::ring_jacobian`]'s first block [N/m], for
+    /// Change of the inner ring's elastic force by its own position, [`Model::ring_jacobian`]'s first block (N/m), for
     /// a small change at the instant τ = 0 of `drive`.
     pub fn vary_stiffness(&self, drive: &Drive, cells: &Cells, state: &[f64], by: &Variation) -> Matrix {
         let now = self.kinematics(drive, 0.0, state);
@@ -281,7 +281,7 @@ impl Model {
     }
 
     /// Change of an outer contact's radial tangent stiffness by path and frames of a variation and as the element's
-    /// angle changes by `turn` [rad]; near a defect and where the raceway yields by central differences, like the
+    /// angle changes by `turn` (rad); near a defect and where the raceway yields by central differences, like the
     /// second derivatives of the approach.
     fn vary_outer_stiffness(
         &self,

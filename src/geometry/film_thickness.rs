@@ -31,14 +31,14 @@ const SMALLEST_LOAD: f64 = 1e-5;
 /// The film of one raceway's contacts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LubricatedContact {
-    /// c: what a closing gap [m] resists with, times its rate and over its height [N s].
+    /// c: what a closing gap (m) resists with, times its rate and over its height (N s).
     pub squeeze: f64,
-    /// h_c per ū^0.67 [m/(m/s)^0.67].
+    /// h_c per ū^0.67 (m/(m/s)^0.67).
     thickness: f64,
 }
 
 impl LubricatedContact {
-    /// Of equivalent radii along and across the rolling direction [m] under the force [N] of the most loaded contact.
+    /// Of equivalent radii along and across the rolling direction (m) under the force (N) of the most loaded contact.
     pub fn new([along, across]: [f64; 2], effective_modulus: f64, film: &Film, force: f64) -> Self {
         let modulus = 2.0 * effective_modulus;
         let ellipticity = 1.03 * libm::pow(across / along, 0.64);
@@ -53,7 +53,7 @@ impl LubricatedContact {
         }
     }
 
-    /// Those of a bearing's inner and outer raceway under the force [N] of the most loaded contact.
+    /// Those of a bearing's inner and outer raceway under the force (N) of the most loaded contact.
     pub fn of(bearing: &Bearing, film: &Film, force: f64) -> [Self; 2] {
         let r = bearing.element_radius();
         let across = |conformity: f64| 1.0 / (1.0 / r - 1.0 / (conformity * bearing.element_diameter));
@@ -62,13 +62,13 @@ impl LubricatedContact {
         [inner, outer].map(|radii| Self::new(radii, effective_modulus(bearing), film, force))
     }
 
-    /// h_c [m] at the speed ū [m/s].
+    /// h_c (m) at the speed ū (m/s).
     pub fn thickness(&self, speed: f64) -> f64 {
         if speed == 0.0 { 0.0 } else { self.thickness * libm::pow(speed, SPEED_EXPONENT) }
     }
 }
 
-/// ū [m/s] of both raceways per speed of one ring against the other [rad/s]: D_pw (1−γ²)/4.
+/// ū (m/s) of both raceways per speed of one ring against the other (rad/s): D_pw (1−γ²)/4.
 pub fn rolling_speed_ratio(bearing: &Bearing) -> f64 {
     let gamma = bearing.element_diameter / bearing.pitch_diameter;
     0.25 * bearing.pitch_diameter * (1.0 - gamma * gamma)

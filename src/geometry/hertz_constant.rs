@@ -13,7 +13,7 @@
 use crate::numerics::elliptic;
 use crate::scene::Bearing;
 
-/// Hertz constants of one element's contacts with the two smooth raceways [N/m^1.5].
+/// Hertz constants of one element's contacts with the two smooth raceways (N/m^1.5).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HertzConstants {
     /// Element on inner raceway.
@@ -46,12 +46,12 @@ impl HertzConstants {
     }
 }
 
-/// E* of two bodies of the bearing's material [Pa]: 1/E* = 2(1−ν²)/E.
+/// E* of two bodies of the bearing's material (Pa): 1/E* = 2(1−ν²)/E.
 pub fn effective_modulus(bearing: &Bearing) -> f64 {
     bearing.youngs_modulus / (2.0 * (1.0 - bearing.poissons_ratio * bearing.poissons_ratio))
 }
 
-/// K of Q = K δ^1.5 for two positive relative principal curvatures [1/m] and E* [Pa].
+/// K of Q = K δ^1.5 for two positive relative principal curvatures (1/m) and E* (Pa).
 pub fn point_contact(curvature_1: f64, curvature_2: f64, effective_modulus: f64) -> f64 {
     let two_a = curvature_1.min(curvature_2);
     let m = squared_eccentricity(curvature_1.max(curvature_2) / two_a);

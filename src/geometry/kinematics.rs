@@ -32,7 +32,7 @@ impl Ratios {
     }
 }
 
-/// Characteristic frequencies [Hz] for an outer ring that stands.
+/// Characteristic frequencies (Hz) for an outer ring that stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frequencies {
     /// Ball pass frequency of the outer ring: Z f_c.
@@ -50,7 +50,7 @@ pub fn cage_ratio(bearing: &Bearing, slip: f64) -> f64 {
     0.5 * (1.0 - bearing.element_diameter / bearing.pitch_diameter) * (1.0 - slip)
 }
 
-/// Characteristic frequencies at shaft frequency `speed_hz` [Hz].
+/// Characteristic frequencies at shaft frequency `speed_hz` (Hz).
 pub fn frequencies(bearing: &Bearing, slip: f64, speed_hz: f64) -> Frequencies {
     let gamma = bearing.element_diameter / bearing.pitch_diameter;
     let z = bearing.element_count as f64;

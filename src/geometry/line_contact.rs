@@ -13,20 +13,20 @@
 use crate::numerics::ninth_root;
 use crate::scene::{Roller, RollerProfile};
 
-/// K_L over L^(8/9) [N/m²]: 35948 in N and mm.
+/// K_L over L^(8/9) (N/m²): 35948 in N and mm.
 const BOTH_CONTACTS: f64 = 35948e6;
 /// Lengths over diameter from which on the logarithmic crown leaves the roller's middle straight.
 const LONG: f64 = 2.5;
 
-/// K_1 [N/m^(10/9)] of one contact of a straight roller of this effective length [m].
+/// K_1 (N/m^(10/9)) of one contact of a straight roller of this effective length (m).
 pub fn line_constant(length: f64) -> f64 {
     let two = ninth_root(2.0);
     let ninth = ninth_root(length);
     2.0 * two * BOTH_CONTACTS * (length / ninth)
 }
 
-/// Depth [m] of the standard's logarithmic crown at `x` [m] from the middle of a roller of this diameter and effective
-/// length [m], |x| < length/2: equations 43 and 44.
+/// Depth (m) of the standard's logarithmic crown at `x` (m) from the middle of a roller of this diameter and effective
+/// length (m), |x| < length/2: equations 43 and 44.
 pub fn logarithmic_depth(diameter: f64, length: f64, x: f64) -> f64 {
     let straight = (length - LONG * diameter).max(0.0);
     let beyond = (2.0 * x.abs() - straight).max(0.0) / (length - straight);
@@ -34,7 +34,7 @@ pub fn logarithmic_depth(diameter: f64, length: f64, x: f64) -> f64 {
     -factor * diameter * libm::log1p(-beyond * beyond)
 }
 
-/// Depth [m] of a roller's crown at the middle of each lamina.
+/// Depth (m) of a roller's crown at the middle of each lamina.
 pub fn lamina_depths(roller: &Roller, diameter: f64) -> Vec<f64> {
     let length = roller.length;
     let middle = |k: u32| length * ((f64::from(k) + 0.5) / f64::from(roller.laminae) - 0.5);
@@ -46,8 +46,8 @@ pub fn lamina_depths(roller: &Roller, diameter: f64) -> Vec<f64> {
     (0..roller.laminae).map(depth).collect()
 }
 
-/// Half the width b [m] of Hertz's line contact along the raceway at an approach δ [m], for a length L [m] and the
-/// relative curvature κ [1/m]: on the half-space the line's middle yields by
+/// Half the width b (m) of Hertz's line contact along the raceway at an approach δ (m), for a length L (m) and the
+/// relative curvature κ (1/m): on the half-space the line's middle yields by
 /// ```text
 /// δ = q/(π E*) [2 ln(2L/b) + 1],   b² = 4 q/(π E* κ),   q the force per length
 /// ```

@@ -11,7 +11,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::sin_cos;
 
-/// Coefficients h(−K) … h(K) for K = `half`, cut-off `cutoff` [cycles per sample] and attenuation `attenuation` [dB].
+/// Coefficients h(−K) … h(K) for K = `half`, cut-off `cutoff` [cycles per sample] and attenuation `attenuation` (dB).
 /// Their sum is 1.
 pub fn low_pass(half: usize, cutoff: f64, attenuation: f64) -> Vec<f64> {
     let beta = 0.1102 * (attenuation - 8.7);

@@ -8,7 +8,7 @@ pub(crate) struct Quintic {
 }
 
 impl Quintic {
-    /// For a step of `h` [s], and a share of it.
+    /// For a step of `h` (s), and a share of it.
     #[inline(always)]
     pub(crate) fn new(h: f64, share: f64) -> Self {
         Self { h, share }

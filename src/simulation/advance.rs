@@ -5,14 +5,14 @@ use super::knots::Knot;
 /// How far a communication step has come.
 #[derive(Debug, Clone, Copy)]
 pub struct Advance {
-    /// Where it ends [s] after the communication point. May be brought forward.
+    /// Where it ends (s) after the communication point. May be brought forward.
     pub(super) end: f64,
-    /// Where it is [s] after the communication point.
+    /// Where it is (s) after the communication point.
     pub(super) tau: f64,
     /// Impulse of the forces on both rings since the communication point, and before it as far as `before` goes back
-    /// [N s].
+    /// (N s).
     pub(super) impulse: [f64; 4],
-    /// Time before the communication point that the impulse covers [s].
+    /// Time before the communication point that the impulse covers (s).
     pub(super) before: f64,
     /// The next knot to land on.
     pub(super) knot: Option<Knot>,
@@ -23,7 +23,7 @@ pub struct Advance {
 }
 
 impl Advance {
-    /// At the communication point, with `end` [s] to come, after so many integration steps.
+    /// At the communication point, with `end` (s) to come, after so many integration steps.
     pub(super) fn new(end: f64, knot: Option<Knot>, first_count: u64) -> Self {
         Self { end, tau: 0.0, impulse: [0.0; 4], before: 0.0, knot, at_once: 0, first_count }
     }
@@ -33,12 +33,12 @@ impl Advance {
         !(self.tau < self.end)
     }
 
-    /// Where it is [s] after the communication point that the impulse goes back to.
+    /// Where it is (s) after the communication point that the impulse goes back to.
     pub(super) fn elapsed(&self) -> f64 {
         self.before + self.tau
     }
 
-    /// Ends `elapsed` [s] after that point if it would not end before, but no earlier than where it is.
+    /// Ends `elapsed` (s) after that point if it would not end before, but no earlier than where it is.
     pub(super) fn bring_forward(&mut self, elapsed: f64) {
         self.end = self.end.min((elapsed - self.before).max(self.tau));
     }

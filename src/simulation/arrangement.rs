@@ -15,7 +15,7 @@ use crate::surface::{Surface, SurfaceError};
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-/// Smallest distance between two defects of one body [m].
+/// Smallest distance between two defects of one body (m).
 const CLOSEST: f64 = 1e-6;
 /// Half-lengths of the contact at the largest force within which a defect is felt; a contact map ends after 1.2 of them
 /// and three cells.
@@ -31,7 +31,7 @@ pub(super) struct Spot<'a> {
     pub(super) on: DefectOn,
     /// The surface; its arcs count from `centre`.
     pub(super) surface: Cow<'a, Surface>,
-    /// Angle of arc 0 [rad], as the angle of a defect.
+    /// Angle of arc 0 (rad), as the angle of a defect.
     pub(super) centre: f64,
 }
 
@@ -40,9 +40,9 @@ pub(super) struct Spot<'a> {
 struct Covered {
     /// Number of the defect in the scene, from 0.
     index: usize,
-    /// Angle of its centre in [0, 2π) [rad].
+    /// Angle of its centre in [0, 2π) (rad).
     centre: f64,
-    /// First and last angle [rad].
+    /// First and last angle (rad).
     ends: [f64; 2],
 }
 
@@ -158,12 +158,12 @@ fn joined<'a>(
     Ok(Spot { on: defect.on, surface, centre: defect.angle + middle / radius })
 }
 
-/// An arc [m] to a picometre.
+/// An arc (m) to a picometre.
 fn finest(arc: f64) -> f64 {
     (arc * FINEST).round() / FINEST
 }
 
-/// Distance [m] between two defects from which on no contact meets both.
+/// Distance (m) between two defects from which on no contact meets both.
 fn needed(scene: &Scene, pair: [&Surface; 2], on: DefectOn) -> f64 {
     let depth = pair.iter().flat_map(|surface| surface.depths()).fold(0.0_f64, |most, depth| most.max(depth.abs()));
     let of = |side: &RacewaySide| {
@@ -186,13 +186,13 @@ pub(super) fn softness_of_edges(scene: &Scene) -> Option<EdgeSoftness> {
     }
 }
 
-/// Least force that the contact map of a scene reaches [N].
+/// Least force that the contact map of a scene reaches (N).
 const LEAST_FORCE: f64 = 1000.0;
 /// Steps of the largest forces within a decade: preferred numbers R10 (ISO 3), so that scenes of similar loads share
 /// their maps.
 const PREFERRED: [f64; 10] = [1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0];
 
-/// Force [N] up to which the contact map of a scene reaches: what the scene asks for, or else four times the static
+/// Force (N) up to which the contact map of a scene reaches: what the scene asks for, or else four times the static
 /// force on the most loaded element, 5 F/Z (Stribeck), at least 1000 N, rounded up to a preferred number.
 pub fn largest_force(scene: &Scene) -> f64 {
     if let Some(force) = scene.contact.largest_force {
@@ -207,7 +207,7 @@ pub fn largest_force(scene: &Scene) -> f64 {
     PREFERRED.iter().map(|step| step * decade).find(|force| *force >= needed).unwrap_or(10.0 * decade)
 }
 
-/// Approach [m] of an element to a raceway under a force [N], what the ring yields outside included.
+/// Approach (m) of an element to a raceway under a force (N), what the ring yields outside included.
 pub(super) fn largest_approach(bearing: &Bearing, side: RacewaySide, force: f64) -> f64 {
     let compliance = match side {
         RacewaySide::Inner => 0.0,
@@ -222,7 +222,7 @@ mod tests {
 
     use super::*;
 
-    /// The largest force of a bearing of ten balls whose shaft carries `load` [N].
+    /// The largest force of a bearing of ten balls whose shaft carries `load` (N).
     fn of_load(load: f64) -> f64 {
         let mut scene = Scene::from_toml(include_str!("../../scenes/er16k-tb1.toml")).unwrap();
         (scene.bearing.element_count, scene.shaft.load) = (10, [0.6 * load, -0.8 * load]);

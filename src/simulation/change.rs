@@ -12,11 +12,11 @@ use crate::scene::MOST_SENSORS;
 pub(super) struct Change {
     pub(super) variation: Variation,
     pub(super) forces: ForceChange,
-    /// Of the external loads on inner and outer ring [N].
+    /// Of the external loads on inner and outer ring (N).
     pub(super) loads: Rings,
     /// Of the sensors' positions and velocities.
     pub(super) sensors: [[f64; 2]; MOST_SENSORS],
-    /// Of the accelerations of inner and outer ring [m/s²].
+    /// Of the accelerations of inner and outer ring (m/s²).
     pub(super) accelerations: [Vector; 2],
     pub(super) sensor_accelerations: [f64; MOST_SENSORS],
     /// Of what they measure, by the motion of the modes under them.

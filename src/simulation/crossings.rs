@@ -43,7 +43,7 @@ struct Watched<'a> {
 struct Begun<'a> {
     at: Watched<'a>,
     tau: f64,
-    /// Angle by which it is seen ahead of the element's position in an even cage [rad].
+    /// Angle by which it is seen ahead of the element's position in an even cage (rad).
     lead: f64,
 }
 
@@ -53,7 +53,7 @@ struct Candidate<'a> {
     begun: Begun<'a>,
     /// Share of the step at which it happens if motion is even.
     share: f64,
-    /// Angle to go until then [rad], with its sign.
+    /// Angle to go until then (rad), with its sign.
     way: f64,
     /// The cell beyond.
     cell: u32,
@@ -155,7 +155,7 @@ fn watched<'a>(problem: Problem<'a>, progress: &'a Progress) -> impl Iterator<It
 }
 
 impl Instant<'_> {
-    /// Angle by which a contact is seen ahead of its element's position in an even cage [rad]: from the inner ring,
+    /// Angle by which a contact is seen ahead of its element's position in an even cage (rad): from the inner ring,
     /// and in an uneven cage.
     fn lead(&self, problem: Problem, at: &Watched) -> f64 {
         let (model, j) = (problem.model, at.element);
@@ -168,7 +168,7 @@ impl Instant<'_> {
 }
 
 impl Begun<'_> {
-    /// Angle that the contact has gone since [rad], against what bears its defect.
+    /// Angle that the contact has gone since (rad), against what bears its defect.
     fn travel(&self, problem: Problem, to: &Instant) -> f64 {
         // Of the whole angles only the change, so that no turns are to be counted and no digits are lost.
         let (cage, frame) = (&problem.drive.cage, &problem.drive.frames[self.at.defects.frame as usize].since);

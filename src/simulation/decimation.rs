@@ -20,7 +20,7 @@ pub(super) const HALF: usize = 15;
 pub(super) const UNDER_WAY: usize = 32;
 /// Row rate over the end of the pass band.
 pub(super) const RATE_PER_PASS: f64 = 2.56;
-/// Attenuation of the stop band [dB].
+/// Attenuation of the stop band (dB).
 const ATTENUATION: f64 = 102.0;
 
 /// A filter that makes a row of many samples.

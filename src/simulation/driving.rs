@@ -92,7 +92,7 @@ pub(super) fn follow(state: &mut State, inputs: &Inputs, ratios: &Ratios, ended:
     }
 }
 
-/// Speed of the inner ring against the outer [rad/s] at the communication point.
+/// Speed of the inner ring against the outer (rad/s) at the communication point.
 pub(super) fn relative_speed(state: &State, inputs: &Inputs) -> f64 {
     let [shaft, housing] = inputs.speeds.map(|index| index.map_or(0.0, |i| state.reals[i]));
     shaft - housing

@@ -46,13 +46,13 @@ pub enum SimulationError {
          at least {limit_um:.3} um"
     )]
     ThickFilms {
-        /// Both films together [µm].
+        /// Both films together (µm).
         films_um: f64,
-        /// Speed of the inner ring against the outer [Hz].
+        /// Speed of the inner ring against the outer (Hz).
         speed_hz: f64,
-        /// What is left of the clearance [µm].
+        /// What is left of the clearance (µm).
         clearance_um: f64,
-        /// Limit [µm].
+        /// Limit (µm).
         limit_um: f64,
     },
     /// A step was asked for before initialization.
@@ -61,7 +61,7 @@ pub enum SimulationError {
     /// The integration failed; the state is that of the last accepted integration step.
     #[error("at {time:.6e} s: {cause}")]
     Step {
-        /// Start of the communication step [s].
+        /// Start of the communication step (s).
         time: f64,
         /// The reason.
         cause: StepError,

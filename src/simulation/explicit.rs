@@ -42,7 +42,7 @@ pub fn error(room: &Room, parts: ErrorParts, i: usize, h: f64) -> f64 {
 }
 
 /// How stages are weighted, the one row for positions and the other for velocities; both times the step's length `h`
-/// [s].
+/// (s).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Weights<'a, const N: usize> {
     pub(super) h: f64,
@@ -129,7 +129,7 @@ pub(super) fn row<const N: usize, const ALL: usize>(row: [f64; ALL]) -> [f64; N]
 
 /// What the methods integrate.
 pub trait RightHandSide {
-    /// Puts the derivative of `state` at the node of a stage into `out`. With a time `ahead` [s], what counts are the
+    /// Puts the derivative of `state` at the node of a stage into `out`. With a time `ahead` (s), what counts are the
     /// positions that the velocities in `state` reach in that time from those in `state`. Asked for stages 1 to
     /// [`LAST`], the last one at the end of the step and without `ahead`. To be marked `inline(always)`.
     fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: &[f64], ahead: Option<f64>, out: &mut [f64]);

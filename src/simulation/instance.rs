@@ -50,7 +50,7 @@ pub struct Simulation {
     pub(super) forces: Forces,
     pub(super) derivative: Vec<f64>,
     pub(super) change: Change,
-    /// The outer ring's acceleration when outputs were computed last [m/s²].
+    /// The outer ring's acceleration when outputs were computed last (m/s²).
     pub(super) present_acceleration: Vector,
     pub(super) state: State,
     pub(super) fresh: Fresh,
@@ -198,7 +198,7 @@ impl Simulation {
         &self.scene
     }
 
-    /// Time [s].
+    /// Time (s).
     pub fn time(&self) -> f64 {
         self.state.time
     }
@@ -249,7 +249,7 @@ impl Simulation {
         &self.state.progress.cells
     }
 
-    /// Solves the static equilibrium at `start` [s] and ends the setting of parameters.
+    /// Solves the static equilibrium at `start` (s) and ends the setting of parameters.
     pub fn initialize(&mut self, start: f64) -> Result<(), SimulationError> {
         self.find_equilibrium()?;
         self.state.time = start;

@@ -182,7 +182,7 @@ impl RightHandSide for Stages<'_> {
 }
 
 /// One evaluation of the right-hand side, each contact kept if `RECORD`; if `AHEAD`, with positions that are still to
-/// be moved on by a time [s]. Each is a function of its own: a step that has all of its stages written out is longer
+/// be moved on by a time (s). Each is a function of its own: a step that has all of its stages written out is longer
 /// than what a processor keeps decoded.
 struct Evaluation<'a, const RECORD: bool, const AHEAD: bool> {
     model: &'a Model,

@@ -49,7 +49,7 @@ pub(super) enum Contact {
 /// The next knot to land on.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Knot {
-    /// When [s] since the communication point.
+    /// When (s) since the communication point.
     pub(super) tau: f64,
     /// Which contact.
     pub(super) contact: Contact,
@@ -70,7 +70,7 @@ impl Contact {
     }
 }
 
-/// The earliest scheduled passage of a contact into another cell between `from`, on `legs`, and `end`, both in [s]
+/// The earliest scheduled passage of a contact into another cell between `from`, on `legs`, and `end`, both in (s)
 /// since the communication point.
 pub(super) fn next_knot(model: &Model, drive: &Drive, from: f64, legs: Legs, end: f64, cells: &Cells) -> Option<Knot> {
     // In an uneven cage elements go by no quadratic of time: their passages are found like those inside.
@@ -132,7 +132,7 @@ struct Way<'a> {
 }
 
 /// Where passages of contacts over defects that turn with `frame` are looked for: between two times since the
-/// communication point [s].
+/// communication point (s).
 struct Search<'a> {
     model: &'a Model,
     drive: &'a Drive,
@@ -141,7 +141,7 @@ struct Search<'a> {
     end: f64,
 }
 
-/// When a contact enters another cell [s] since the communication point, and which.
+/// When a contact enters another cell (s) since the communication point, and which.
 #[derive(Clone, Copy)]
 struct Passage {
     tau: f64,
@@ -263,7 +263,7 @@ mod tests {
         model.outer.defects.cell_at(cage_angle + model.element_offset(j))
     }
 
-    /// How far the angle of element `j` is outside its cell [rad]; negative inside.
+    /// How far the angle of element `j` is outside its cell (rad); negative inside.
     fn outside(model: &Model, j: usize, cage_angle: f64, cell: u32) -> f64 {
         let (knots, angle) = (defect(model).knots(), defect(model).angle(cage_angle + model.element_offset(j)));
         match cell {

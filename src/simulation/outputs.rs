@@ -8,7 +8,7 @@ use crate::dynamics::model::Model;
 use crate::numerics::plane::Vector;
 use crate::scene::MOST_SENSORS;
 
-/// Angles of the cage and of the frames of defects [rad], all turns counted.
+/// Angles of the cage and of the frames of defects (rad), all turns counted.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Angles {
     /// Of the nominal cage.
@@ -22,7 +22,7 @@ pub struct Angles {
 pub struct Solution<'a> {
     /// What acts from outside.
     pub drive: &'a Drive,
-    /// Time since the communication point [s].
+    /// Time since the communication point (s).
     pub tau: f64,
     /// State vector.
     pub state: &'a [f64],
@@ -49,7 +49,7 @@ pub struct Outputs<'a> {
 }
 
 impl<'a> Outputs<'a> {
-    /// Acceleration of the outer ring [m/s²].
+    /// Acceleration of the outer ring (m/s²).
     pub(super) fn housing_acceleration(&self) -> Vector {
         self.acceleration[RingName::Housing.index()]
     }
@@ -80,7 +80,7 @@ impl<'a> Outputs<'a> {
         }
     }
 
-    /// Angle of element `j`, all turns counted [rad].
+    /// Angle of element `j`, all turns counted (rad).
     fn element_angle(&self, j: usize) -> f64 {
         self.angles.cage + self.model.element_offset(j) + self.model.lead(j, &self.cage).angle
     }

@@ -8,7 +8,7 @@ use crate::dynamics::raceway::Cells;
 use crate::numerics::lanes::padded;
 use crate::numerics::row::Row;
 
-/// Step tried first [s]: far below the period of an element on its contacts, and grown at once if that was too timid.
+/// Step tried first (s): far below the period of an element on its contacts, and grown at once if that was too timid.
 const FIRST_STEP: f64 = 1e-6;
 
 /// The part of the state that the integration owns.
@@ -23,7 +23,7 @@ pub struct Progress {
     /// 1 where a contact pushes and −1 where it does not, the inner ones and then the outer; each list filled up to a
     /// multiple of eight.
     pub pushing: Row,
-    /// Step that error control would like next [s].
+    /// Step that error control would like next (s).
     pub next_step: f64,
     /// Error of the last accepted step, per tolerance.
     pub last_error: f64,
@@ -33,7 +33,7 @@ pub struct Progress {
     pub due: Due,
     /// The recorder's rows under way; of no length where the scene has no recorder.
     pub under_way: Row,
-    /// Mean forces on inner and outer ring over the last communication step [N].
+    /// Mean forces on inner and outer ring over the last communication step (N).
     pub mean_force: [f64; 4],
     /// Accepted steps.
     pub steps: u64,

@@ -27,13 +27,13 @@ const ROUNDING: f64 = 1e-9;
 /// accelerations fall by 50 dB per decade, as impacts do that begin with a force ∝ t^1.5; what is left to fold at six
 /// times its frequency is 80 dB and more below the signal (docs/guide.md has the measured levels).
 const OVERSAMPLING: f64 = 6.0;
-/// Highest sampling rate [Hz]: that of a recorder without a filter.
+/// Highest sampling rate (Hz): that of a recorder without a filter.
 const HIGHEST_RATE: f64 = 1e7;
 
 /// The instants at which samples are due. Part of the state, as are the rows under way.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Due {
-    /// Time from the communication point to the next sample [s].
+    /// Time from the communication point to the next sample (s).
     pub delay: f64,
     /// Samples taken since the start.
     pub taken: u64,
@@ -45,7 +45,7 @@ pub struct Due {
 pub struct Recorder {
     /// Rows per second.
     rate: f64,
-    /// Time between two samples [s].
+    /// Time between two samples (s).
     interval: f64,
     /// `None` where every sample is a row.
     decimation: Option<Decimation>,
@@ -59,7 +59,7 @@ pub struct Recorder {
     values: Vec<f64>,
     /// Folder that the host wants the recording in; empty for no recording.
     pub(super) folder: String,
-    /// Time [s] and angles at the communication point.
+    /// Time (s) and angles at the communication point.
     start_time: f64,
     start_angles: Angles,
 }
@@ -69,7 +69,7 @@ pub struct Recorder {
 pub struct Samples<'a> {
     /// Number of the first row, counted from the start of the run.
     pub first: u64,
-    /// Values in a row: the time [s] and one for each signal.
+    /// Values in a row: the time (s) and one for each signal.
     pub width: usize,
     /// The rows, one after the other.
     pub values: &'a [f64],
@@ -113,7 +113,7 @@ impl Recorder {
         self.signals.iter().map(|(reference, _)| *reference)
     }
 
-    /// Time by which rows are seen later than they are [s]: the filter's reach.
+    /// Time by which rows are seen later than they are (s): the filter's reach.
     pub fn lag(&self) -> f64 {
         if self.decimation.is_some() { HALF as f64 / self.rate } else { 0.0 }
     }
@@ -133,7 +133,7 @@ impl Recorder {
         )
     }
 
-    /// Time between two samples [s].
+    /// Time between two samples (s).
     pub(super) fn interval(&self) -> f64 {
         self.interval
     }
@@ -181,17 +181,17 @@ impl Recorder {
         }
     }
 
-    /// A communication step begins at `time` [s] and these angles.
+    /// A communication step begins at `time` (s) and these angles.
     pub(super) fn begin(&mut self, time: f64, angles: Angles) {
         (self.start_time, self.start_angles) = (time, angles);
     }
 
-    /// A communication step of `step` [s] is done.
+    /// A communication step of `step` (s) is done.
     pub(super) fn end(&self, due: &mut Due, step: f64) {
         due.delay -= step;
     }
 
-    /// The next sample's time since the communication point, if it comes before `end`, both in [s].
+    /// The next sample's time since the communication point, if it comes before `end`, both in (s).
     pub(super) fn due_before(&self, due: &Due, end: f64) -> Option<f64> {
         (due.delay < end - ROUNDING * self.interval).then(|| due.delay.max(0.0))
     }
@@ -240,7 +240,7 @@ fn fill(values: &mut [f64], signals: &[(u32, Quantity)], outputs: &Outputs) {
     }
 }
 
-/// Frequency of an element between its raceways when the largest force presses on it [Hz]: the fastest oscillation of a
+/// Frequency of an element between its raceways when the largest force presses on it (Hz): the fastest oscillation of a
 /// bearing. Of a ball dQ/dδ = 1.5 K^⅔ Q^⅓ for each contact.
 fn element_frequency(scene: &Scene) -> f64 {
     let force = largest_force(scene);

@@ -62,7 +62,7 @@ impl Simulation {
         }
     }
 
-    /// Computes the tangent stiffness of the inner ring, −∂F/∂x with the elements in static balance [N/m].
+    /// Computes the tangent stiffness of the inner ring, −∂F/∂x with the elements in static balance (N/m).
     pub(super) fn refresh_stiffness(&mut self) {
         if self.fresh < Fresh::Stiffness {
             let drive = self.drive(false);

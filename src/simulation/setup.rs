@@ -95,7 +95,7 @@ fn ring_of(scene: &mut Scene, ring: RingName) -> &mut Ring {
 /// shape leaves open.
 const TOLERATED: f64 = 0.02;
 
-/// Contact maps are made for clearances that are multiples of this [µm]. What lies between changes a raceway's radius
+/// Contact maps are made for clearances that are multiples of this (µm). What lies between changes a raceway's radius
 /// by a ten thousandth, and forces by less than a hundredth of a map's own error; a bearing whose clearance is swept
 /// has few maps then.
 const CLEARANCE_UM: f64 = 5.0;

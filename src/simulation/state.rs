@@ -15,7 +15,7 @@ pub struct State {
     /// Angles of the frames of defects, in the order of [`crate::dynamics::drive::Frame`].
     pub(super) frames: [WholeAngle; 3],
     pub(super) ended: Ended,
-    /// Speed of the inner ring against the outer [rad/s] where the last communication step began: oil films follow it.
+    /// Speed of the inner ring against the outer (rad/s) where the last communication step began: oil films follow it.
     pub(super) film_speed: f64,
     pub(super) progress: Progress,
     /// Values of the table's real variables, by index; outputs are those computed last.
@@ -30,9 +30,9 @@ pub struct State {
 /// follow from them. Gone once the host sets an input.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Ended {
-    /// Of the cage [rad/s²].
+    /// Of the cage (rad/s²).
     pub(super) cage: f64,
-    /// Of a prescribed outer ring [m/s²].
+    /// Of a prescribed outer ring (m/s²).
     pub(super) housing: [f64; 2],
 }
 

@@ -206,7 +206,7 @@ impl Simulation {
     }
 }
 
-/// Ten times the velocity [m/s] that a host may prescribe for a ring.
+/// Ten times the velocity (m/s) that a host may prescribe for a ring.
 const LARGEST_VELOCITY: f64 = 1e4;
 /// Samples of the recorder in ten thousand years.
 const MOST_SAMPLES: u64 = 1 << 60;

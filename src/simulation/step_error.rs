@@ -2,7 +2,7 @@
 
 use crate::contact::error::ContactError;
 
-/// Smallest step [s]; the fastest real mode of a steel bearing's element lasts 1e-8 s.
+/// Smallest step (s); the fastest real mode of a steel bearing's element lasts 1e-8 s.
 pub(super) const SMALLEST_STEP: f64 = 1e-15;
 
 /// Why a communication step could not be finished; the state stays that of the last accepted integration step.
@@ -15,11 +15,11 @@ pub enum StepError {
          what resists is {component}: raise solver.tolerance, or look for an extreme load, damping or jump of an input"
     )]
     Underflow {
-        /// Step wanted [s].
+        /// Step wanted (s).
         step: f64,
-        /// Smallest step [s].
+        /// Smallest step (s).
         limit: f64,
-        /// Time into the communication step [s].
+        /// Time into the communication step (s).
         since: f64,
         /// State with the largest error.
         component: String,
@@ -37,9 +37,9 @@ pub enum StepError {
         value: f64,
         /// Its rate [SI unit per second].
         rate: f64,
-        /// Shortest step tried [s].
+        /// Shortest step tried (s).
         step: f64,
-        /// Time into the communication step [s].
+        /// Time into the communication step (s).
         since: f64,
     },
     /// The contact law has no answer for a contact near the defect, however short the step.
@@ -50,11 +50,11 @@ pub enum StepError {
     Contact {
         /// Number of the element, from 1.
         element: usize,
-        /// Its angle from the defect's centre [°].
+        /// Its angle from the defect's centre (°).
         angle_deg: f64,
-        /// Position of the outer ring's centre seen from the inner's [m].
+        /// Position of the outer ring's centre seen from the inner's (m).
         offset: [f64; 2],
-        /// Time into the communication step [s].
+        /// Time into the communication step (s).
         since: f64,
         /// Why there is no answer.
         cause: ContactError,
@@ -67,11 +67,11 @@ pub enum StepError {
     ThrownOut {
         /// Number of the element, from 1.
         element: usize,
-        /// Its path u [m].
+        /// Its path u (m).
         path: f64,
-        /// Largest path [m].
+        /// Largest path (m).
         limit: f64,
-        /// Time into the communication step [s].
+        /// Time into the communication step (s).
         since: f64,
     },
     /// The rings' centres are further apart than any bearing's can be.
@@ -82,15 +82,15 @@ pub enum StepError {
          stiffness", shaft[0], shaft[1], housing[0], housing[1]
     )]
     RingsApart {
-        /// Position of the inner ring's centre [m].
+        /// Position of the inner ring's centre (m).
         shaft: [f64; 2],
-        /// Position of the outer ring's centre [m].
+        /// Position of the outer ring's centre (m).
         housing: [f64; 2],
-        /// Distance of the rings' centres [m].
+        /// Distance of the rings' centres (m).
         offset: f64,
-        /// Largest distance [m].
+        /// Largest distance (m).
         limit: f64,
-        /// Time into the communication step [s].
+        /// Time into the communication step (s).
         since: f64,
     },
     /// Elements go round so fast that time does not pass between one knot of the defect and the next.
@@ -101,7 +101,7 @@ pub enum StepError {
     TooFast {
         /// Passages without any time between them.
         count: usize,
-        /// Time into the communication step [s].
+        /// Time into the communication step (s).
         since: f64,
     },
     /// More integration steps than allowed in one communication step.
@@ -115,9 +115,9 @@ pub enum StepError {
         steps: u64,
         /// The limit.
         limit: u64,
-        /// Time into the communication step [s].
+        /// Time into the communication step (s).
         since: f64,
-        /// Step wanted next [s].
+        /// Step wanted next (s).
         step: f64,
         /// State with the largest error.
         component: String,

@@ -71,7 +71,7 @@ struct Taken {
 }
 
 impl Stepper<'_> {
-    /// Advances the state by `step` [s].
+    /// Advances the state by `step` (s).
     pub fn advance(&mut self, step: f64) -> Result<(), StepError> {
         let mut advance = self.start(step)?;
         while !advance.is_done() {
@@ -81,7 +81,7 @@ impl Stepper<'_> {
         Ok(())
     }
 
-    /// Begins to advance by `step` [s].
+    /// Begins to advance by `step` (s).
     pub fn start(&mut self, step: f64) -> Result<Advance, StepError> {
         let first_count = self.progress.steps + self.progress.rejected_steps;
         self.begin()?;

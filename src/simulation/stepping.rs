@@ -54,12 +54,12 @@ impl StepUnderWay {
         self.advance.is_done()
     }
 
-    /// How far it has come [s].
+    /// How far it has come (s).
     pub fn elapsed(&self) -> f64 {
         self.advance.elapsed()
     }
 
-    /// Lets it end `elapsed` [s] after its beginning, if that is earlier than it would, and no earlier than where it
+    /// Lets it end `elapsed` (s) after its beginning, if that is earlier than it would, and no earlier than where it
     /// is.
     pub fn bring_forward(&mut self, elapsed: f64) {
         self.advance.bring_forward(elapsed);
@@ -67,7 +67,7 @@ impl StepUnderWay {
 }
 
 impl Simulation {
-    /// Advances by exactly `step` [s].
+    /// Advances by exactly `step` (s).
     pub fn step(&mut self, step: f64) -> Result<(), SimulationError> {
         let control = self.prepare(step)?;
         let drive = self.drive(true);
@@ -77,7 +77,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Begins a communication step of `step` [s].
+    /// Begins a communication step of `step` (s).
     ///
     /// # Errors
     /// A step that is not finite and above 0, or before `initialize`; what cannot be integrated.
@@ -182,7 +182,7 @@ impl Simulation {
         }
     }
 
-    /// Time, angles and inputs move on by `step` [s].
+    /// Time, angles and inputs move on by `step` (s).
     #[inline]
     fn arrive(&mut self, drive: &Drive, step: f64) {
         self.state.cage = self.state.cage.advanced(drive.cage.at(step));

@@ -73,13 +73,13 @@ pub struct Choice {
     pub tried: u32,
     /// Steps among them that error control ended; the others landed somewhere.
     pub limited: u32,
-    /// Time gained since the last check [s]; for the implicit method, explicit steps that this would have taken.
+    /// Time gained since the last check (s); for the implicit method, explicit steps that this would have taken.
     pub gained: f64,
     /// Checks that found stiffness but are still to be passed over.
     pub wait: u32,
     /// Checks that will be passed over after the next trial that fails.
     pub patience: u32,
-    /// Longest explicit step that is stable by the fastest eigenvalue of the last check [s]; 0 before the first.
+    /// Longest explicit step that is stable by the fastest eigenvalue of the last check (s); 0 before the first.
     pub stable_step: f64,
     /// The fastest motion was then so strongly damped that the phase-fitted method does not pay.
     pub damped: bool,
@@ -111,7 +111,7 @@ impl Choice {
             && (self.stable_step == 0.0 || self.stable_step >= SMALLEST_STEP)
     }
 
-    /// Notes a finished explicit step of length `h` [s] and how often it was tried. `landed`: something else than error
+    /// Notes a finished explicit step of length `h` (s) and how often it was tried. `landed`: something else than error
     /// control ended it. Says whether it is time to evaluate the Jacobian.
     pub fn explicit_step(&mut self, h: f64, tried: u32, landed: bool) -> bool {
         self.tried += tried;
@@ -144,12 +144,12 @@ impl Choice {
         *self = Self { implicit: again, wait, patience, stable_step, damped, ..Self::default() };
     }
 
-    /// `step` [s], or the longest stable one if that is shorter and the explicit method steps.
+    /// `step` (s), or the longest stable one if that is shorter and the explicit method steps.
     pub fn limited(&self, step: f64) -> f64 {
         if self.implicit || self.stable_step == 0.0 { step } else { step.min(self.stable_step) }
     }
 
-    /// Notes a finished implicit step of length `h` [s] and how often it was tried; decides now and then, between what
+    /// Notes a finished implicit step of length `h` (s) and how often it was tried; decides now and then, between what
     /// there is to choose from.
     pub fn implicit_step(&mut self, h: f64, tried: u32, jacobian: &Jacobian, method: Method, tolerance: f64) {
         let trial = self.limited == 0;
@@ -189,7 +189,7 @@ fn rate_of_steps(jacobian: &Jacobian, pair: Pair) -> f64 {
     eigenvalue / reach(pair, damping)
 }
 
-/// Longest stable step of an explicit method [s]; a number even where nothing moves by itself.
+/// Longest stable step of an explicit method (s); a number even where nothing moves by itself.
 fn stable_step(jacobian: &Jacobian, pair: Pair) -> f64 {
     (1.0 / rate_of_steps(jacobian, pair)).min(f64::MAX)
 }

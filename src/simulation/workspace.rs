@@ -16,13 +16,13 @@ use crate::dynamics::sensor_modes::StepEnds;
 use crate::numerics::row::Row;
 use crate::scene::Motion;
 
-/// Approach below which errors are no longer measured relative to it [m]: a contact of about 0.2 N.
+/// Approach below which errors are no longer measured relative to it (m): a contact of about 0.2 N.
 const SMALLEST_APPROACH: f64 = 0.1e-6;
-/// Turns an approach into a velocity [1/s]: below the rings' angular frequency on their contacts. With it the error of
+/// Turns an approach into a velocity (1/s): below the rings' angular frequency on their contacts. With it the error of
 /// accelerations comes out at about ten times the tolerance while contacts hold.
 const VELOCITY_PER_APPROACH: f64 = 1e3;
 
-/// Angle by which elements in balance may go round in one step where a host moves a ring [rad]: a fiftieth of a load
+/// Angle by which elements in balance may go round in one step where a host moves a ring (rad): a fiftieth of a load
 /// zone, over which the stages' sum misses 1e-6 of a mean force.
 const MOST_TURN: f64 = 0.02;
 
@@ -36,7 +36,7 @@ pub struct Problem<'a> {
 }
 
 impl Problem<'_> {
-    /// Longest step [s] over which stages see enough of what a host moves: elements in balance have no state whose
+    /// Longest step (s) over which stages see enough of what a host moves: elements in balance have no state whose
     /// error would say so, and mean forces are sums over the stages.
     pub(super) fn longest_step(&self) -> f64 {
         let hosted = [&self.model.shaft, &self.model.housing].iter().any(|ring| ring.motion == Motion::Host);
@@ -47,14 +47,14 @@ impl Problem<'_> {
 /// One step within a communication step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Span {
-    /// Its start [s] after the communication point.
+    /// Its start (s) after the communication point.
     pub from: f64,
-    /// Its length [s].
+    /// Its length (s).
     pub length: f64,
 }
 
 impl Span {
-    /// Its end [s] after the communication point.
+    /// Its end (s) after the communication point.
     pub fn end(self) -> f64 {
         self.from + self.length
     }
@@ -83,9 +83,9 @@ pub struct Workspace {
     pub(super) last_force: [f64; 4],
     /// Turns errors of all states into lengths; 0 where there is no state.
     pub(super) weights: Row,
-    /// Largest error of the step tried last [m], infinite as soon as one state's is not finite.
+    /// Largest error of the step tried last (m), infinite as soon as one state's is not finite.
     pub(super) largest_error: f64,
-    /// Largest approach of any contact at its end [m].
+    /// Largest approach of any contact at its end (m).
     pub(super) largest_approach: f64,
     /// Whether any contact pushes there that did not at its start, or the other way round.
     pub(super) changed: bool,
@@ -117,7 +117,7 @@ impl Workspace {
         }
     }
 
-    /// Derivative at the start of the next step, at `tau` [s] after the communication point.
+    /// Derivative at the start of the next step, at `tau` (s) after the communication point.
     pub(super) fn first_stage(&mut self, problem: Problem, tau: f64, progress: &Progress) {
         let (first, forces) = (&mut self.room.first, &mut self.forces);
         problem.model.derivative(problem.drive, tau, &progress.cells, &progress.state, first, forces);
@@ -140,7 +140,7 @@ impl Workspace {
     }
 }
 
-/// Both ends of the step of `length` [s] tried last from the state `start`.
+/// Both ends of the step of `length` (s) tried last from the state `start`.
 pub(super) fn step_ends<'a>(room: &'a Room, start: &'a [f64], length: f64) -> StepEnds<'a> {
     StepEnds { states: [start, &room.end], derivatives: [&room.first, &room.last], length }
 }

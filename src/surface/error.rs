@@ -23,9 +23,9 @@ pub enum SurfaceError {
     AxialNotAscending {
         /// The line.
         line: usize,
-        /// Axial coordinate there [mm].
+        /// Axial coordinate there (mm).
         axial_mm: f64,
-        /// That of the point before [mm].
+        /// That of the point before (mm).
         previous_mm: f64,
     },
     /// Nothing but comments and blank lines.
@@ -104,9 +104,9 @@ pub enum SurfaceError {
     NotAscending {
         /// The line.
         line: usize,
-        /// Arc there [mm].
+        /// Arc there (mm).
         arc_mm: f64,
-        /// Arc of the point before [mm].
+        /// Arc of the point before (mm).
         previous_mm: f64,
     },
     /// Points that do not describe a profile.
@@ -122,9 +122,9 @@ pub enum SurfaceError {
     RepeatedPoint {
         /// The line.
         line: usize,
-        /// Arc [mm].
+        /// Arc (mm).
         arc_mm: f64,
-        /// Axial coordinate [mm].
+        /// Axial coordinate (mm).
         axial_mm: f64,
     },
     /// A topography that is not a full rectangle.
@@ -133,9 +133,9 @@ pub enum SurfaceError {
          {arcs} by {axials} coordinates needs {needed}"
     )]
     Hole {
-        /// Arc of the first hole [mm].
+        /// Arc of the first hole (mm).
         arc_mm: f64,
-        /// Axial coordinate of the first hole [mm].
+        /// Axial coordinate of the first hole (mm).
         axial_mm: f64,
         /// Points given.
         found: usize,
@@ -154,9 +154,9 @@ pub enum SurfaceError {
     Overlap {
         /// Their numbers in the scene file, from 1.
         numbers: [usize; 2],
-        /// Distance from the end of one to the beginning of the other [mm]; negative for an overlap.
+        /// Distance from the end of one to the beginning of the other (mm); negative for an overlap.
         gap_mm: f64,
-        /// Limit [mm].
+        /// Limit (mm).
         limit_mm: f64,
     },
     /// A topography beside another defect that one contact may meet with it.
@@ -167,7 +167,7 @@ pub enum SurfaceError {
     TopographyClose {
         /// Their numbers in the scene file, from 1.
         numbers: [usize; 2],
-        /// Distance from which on they are apart [mm].
+        /// Distance from which on they are apart (mm).
         limit_mm: f64,
     },
     /// Something wrong with the surface of one of several defects.
@@ -181,9 +181,9 @@ pub enum SurfaceError {
     /// A measurement as long as the raceway or longer.
     #[error("defect profile: it is {length_mm:.6} mm long, it must be below {limit_mm:.6} mm, {limit}")]
     TooLong {
-        /// Length [mm].
+        /// Length (mm).
         length_mm: f64,
-        /// Limit [mm].
+        /// Limit (mm).
         limit_mm: f64,
         /// What that is.
         limit: &'static str,
@@ -194,9 +194,9 @@ pub enum SurfaceError {
          um, the radius of an element"
     )]
     TooRugged {
-        /// Height of the highest above the deepest point [µm].
+        /// Height of the highest above the deepest point (µm).
         height_um: f64,
-        /// Radius of an element [µm].
+        /// Radius of an element (µm).
         limit_um: f64,
     },
     /// A depth, or a rim, as large as an element's radius.
@@ -205,11 +205,11 @@ pub enum SurfaceError {
          must be below {limit_um:.3} um, {limit}"
     )]
     TooDeep {
-        /// Arc from the middle [mm].
+        /// Arc from the middle (mm).
         arc_mm: f64,
-        /// Depth [µm].
+        /// Depth (µm).
         depth_um: f64,
-        /// Limit [µm].
+        /// Limit (µm).
         limit_um: f64,
         /// What that is.
         limit: &'static str,

@@ -3,14 +3,14 @@
 /// An interval between two measured points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
-    /// Arc or axial coordinate of its middle [m].
+    /// Arc or axial coordinate of its middle (m).
     pub middle: f64,
-    /// Length [m].
+    /// Length (m).
     pub length: f64,
 }
 
 impl Interval {
-    /// From `low` to `high` [m].
+    /// From `low` to `high` (m).
     pub(super) fn between(low: f64, high: f64) -> Self {
         Self { middle: 0.5 * (low + high), length: high - low }
     }

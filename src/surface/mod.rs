@@ -1,7 +1,7 @@
 //! A raceway or an element as it was measured or described.
 //!
-//! Everywhere the arc s [m] runs along the body's surface at the groove's bottom or on the element's track,
-//! counter-clockwise in the body's own sense, from the defect's centre, and the depth h [m] is that of a depression:
+//! Everywhere the arc s (m) runs along the body's surface at the groove's bottom or on the element's track,
+//! counter-clockwise in the body's own sense, from the defect's centre, and the depth h (m) is that of a depression:
 //! positive into the body. Outside the defect the surface is smooth, h = 0. A raised rim is a negative depth.
 
 mod csv;
@@ -87,7 +87,7 @@ impl Surface {
         Ok(scaled)
     }
 
-    /// First and last arc [m] of the defect.
+    /// First and last arc (m) of the defect.
     pub fn extent(&self) -> (f64, f64) {
         match self {
             Self::Profile(profile) => profile.extent(),
@@ -106,7 +106,7 @@ impl Surface {
         }
     }
 
-    /// Arcs [m], ascending, at which the depth jumps.
+    /// Arcs (m), ascending, at which the depth jumps.
     pub fn edges(&self) -> Vec<f64> {
         match self {
             Self::Profile(profile) => profile.edges(),
@@ -123,7 +123,7 @@ impl Surface {
         }
     }
 
-    /// Exact mean depth [m] of the cell between two arcs and two axial coordinates [m].
+    /// Exact mean depth (m) of the cell between two arcs and two axial coordinates (m).
     pub fn mean_depth(&self, arc: [f64; 2], axial: [f64; 2]) -> f64 {
         match self {
             Self::Profile(profile) => profile.mean_depth(arc[0], arc[1]),
@@ -131,7 +131,7 @@ impl Surface {
         }
     }
 
-    /// Depths [m] of all points.
+    /// Depths (m) of all points.
     pub(crate) fn depths(&self) -> Box<dyn Iterator<Item = f64> + '_> {
         match self {
             Self::Profile(profile) => Box::new(profile.points().iter().map(|&(_, depth)| depth)),

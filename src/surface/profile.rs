@@ -5,7 +5,7 @@
 
 use super::{Interval, SurfaceError};
 
-/// Depth h [m] over the arc s [m].
+/// Depth h (m) over the arc s (m).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
     /// Arc and depth; arcs do not descend, at most two are equal, the first and last depth are 0.
@@ -17,7 +17,7 @@ pub struct Profile {
 /// The upper corner of an edge.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Corner {
-    /// Its arc [m].
+    /// Its arc (m).
     pub(crate) arc: f64,
     /// +1 where the raceway falls with growing arc, −1 where it rises.
     pub(crate) fall: f64,
@@ -26,7 +26,7 @@ pub(crate) struct Corner {
 impl Profile {
     /// A trapezoid: flat floor, straight flanks that lie within the length.
     ///
-    /// `length` [m] is measured at the raceway's surface, `depth` [m] at the floor, `edge_slope` [rad] is the flanks'
+    /// `length` (m) is measured at the raceway's surface, `depth` (m) at the floor, `edge_slope` (rad) is the flanks'
     /// angle against the raceway, π/2 for vertical edges. Flanks that would meet above the floor are made just steep
     /// enough to meet on it; a checked scene has none.
     pub fn spall(length: f64, depth: f64, edge_slope: f64) -> Self {
@@ -43,7 +43,7 @@ impl Profile {
         Self { points, sampled: false }
     }
 
-    /// A polygon through arcs and depths [m], arcs not descending.
+    /// A polygon through arcs and depths (m), arcs not descending.
     ///
     /// # Errors
     /// Fewer than two points, a value that is not finite, an arc below the one before, three points at one arc.
@@ -66,7 +66,7 @@ impl Profile {
         Ok(Self::closed(points))
     }
 
-    /// Several profiles as one, each with the arc [m] at which its own arcs begin; they ascend and do not touch.
+    /// Several profiles as one, each with the arc (m) at which its own arcs begin; they ascend and do not touch.
     pub(crate) fn joined(profiles: &[(f64, &Self)]) -> Self {
         let moved = |&(by, profile): &(f64, &Self)| {
             profile.points.iter().map(move |&(arc, depth)| (arc + by, depth)).collect::<Vec<_>>()
@@ -97,7 +97,7 @@ impl Profile {
         Self { points: self.points.iter().map(|&(arc, depth)| (arc, factor * depth)).collect(), ..*self }
     }
 
-    /// Upper corners of edges that are at least `steep` (tangent) and `drop` [m] deep, in ascending order: index of the
+    /// Upper corners of edges that are at least `steep` (tangent) and `drop` (m) deep, in ascending order: index of the
     /// point, and [`Corner::fall`].
     fn corners(&self, steep: f64, drop: f64) -> Vec<(usize, f64)> {
         let step = |k: usize| {
@@ -118,12 +118,12 @@ impl Profile {
         corners
     }
 
-    /// Upper corners of edges at least `steep` (tangent) and `drop` [m] deep, in ascending order.
+    /// Upper corners of edges at least `steep` (tangent) and `drop` (m) deep, in ascending order.
     pub(crate) fn upper_corners(&self, steep: f64, drop: f64) -> Vec<Corner> {
         self.corners(steep, drop).into_iter().map(|(k, fall)| Corner { arc: self.points[k].0, fall }).collect()
     }
 
-    /// With the upper side of such edges continued level by `distance` [m], and a vertical edge there.
+    /// With the upper side of such edges continued level by `distance` (m), and a vertical edge there.
     pub(crate) fn with_corners_continued(&self, steep: f64, drop: f64, distance: f64) -> Self {
         let mut points = self.points.clone();
         for (k, fall) in self.corners(steep, drop) {
@@ -140,23 +140,23 @@ impl Profile {
         Self { points, ..*self }
     }
 
-    /// Arcs and depths [m]. Arcs do not descend; the first and last depth are 0; two equal arcs are a vertical edge.
+    /// Arcs and depths (m). Arcs do not descend; the first and last depth are 0; two equal arcs are a vertical edge.
     pub fn points(&self) -> &[(f64, f64)] {
         &self.points
     }
 
-    /// First and last arc [m].
+    /// First and last arc (m).
     pub fn extent(&self) -> (f64, f64) {
         (self.points[0].0, self.points[self.points.len() - 1].0)
     }
 
-    /// Arcs [m], ascending, at which the depth jumps.
+    /// Arcs (m), ascending, at which the depth jumps.
     pub fn edges(&self) -> Vec<f64> {
         let jumps = self.points.windows(2).filter(|pair| pair[0].0 == pair[1].0 && pair[0].1 != pair[1].1);
         jumps.map(|pair| pair[0].0).collect()
     }
 
-    /// Depth [m] at an arc [m]; at a vertical edge the mean of both sides.
+    /// Depth (m) at an arc (m); at a vertical edge the mean of both sides.
     pub fn depth_at(&self, arc: f64) -> f64 {
         let next = self.points.partition_point(|&(s, _)| s < arc);
         let Some(&(s, h)) = self.points.get(next) else {
@@ -175,7 +175,7 @@ impl Profile {
         h_before + (h - h_before) * ((arc - s_before) / (s - s_before))
     }
 
-    /// Exact mean depth [m] between two arcs [m] in either order; the depth itself where they are equal.
+    /// Exact mean depth (m) between two arcs (m) in either order; the depth itself where they are equal.
     pub fn mean_depth(&self, from: f64, to: f64) -> f64 {
         let (from, to) = if from <= to { (from, to) } else { (to, from) };
         if from == to {
@@ -198,7 +198,7 @@ impl Profile {
         area / (to - from)
     }
 
-    /// Arc and depth [m] of the point farthest from the smooth raceway.
+    /// Arc and depth (m) of the point farthest from the smooth raceway.
     pub(super) fn farthest(&self) -> (f64, f64) {
         let deeper = |a: (f64, f64), b: (f64, f64)| if b.1.abs() > a.1.abs() { b } else { a };
         self.points.iter().copied().fold((0.0, 0.0), deeper)

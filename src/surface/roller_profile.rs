@@ -51,7 +51,7 @@ fn read(text: &str) -> Result<Vec<[f64; 2]>, SurfaceError> {
     Ok(rows.iter().map(|row| [row.values[0] / 1e3, row.values[1] / 1e6]).collect())
 }
 
-/// What is wrong with a crown on a roller of this half length and diameter [m].
+/// What is wrong with a crown on a roller of this half length and diameter (m).
 fn check(crown: &Crown, half: f64, diameter: f64) -> Result<(), String> {
     let ([from, _], [to, _]) = (crown.points[0], crown.points[crown.points.len() - 1]);
     if from > -WITHIN * half || to < WITHIN * half {

@@ -16,7 +16,7 @@ use super::{Interval, Profile, SurfaceError};
 /// Column of the axial coordinate; its presence tells a topography from a trace.
 pub(super) const AXIAL: &str = "axial_mm";
 
-/// Depth h [m] over the arc s [m] and the axial coordinate y [m].
+/// Depth h (m) over the arc s (m) and the axial coordinate y (m).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Topography {
     /// Arcs of the grid, ascending.
@@ -80,32 +80,32 @@ impl Topography {
         Self { depths: self.depths.iter().map(|depth| factor * depth).collect(), ..self.clone() }
     }
 
-    /// Arcs of the grid, ascending [m].
+    /// Arcs of the grid, ascending (m).
     pub fn arcs(&self) -> &[f64] {
         &self.arcs
     }
 
-    /// Axial coordinates of the grid, ascending [m].
+    /// Axial coordinates of the grid, ascending (m).
     pub fn axials(&self) -> &[f64] {
         &self.axials
     }
 
-    /// Depths, those of one arc side by side [m].
+    /// Depths, those of one arc side by side (m).
     pub fn depths(&self) -> &[f64] {
         &self.depths
     }
 
-    /// First and last arc [m].
+    /// First and last arc (m).
     pub fn extent(&self) -> (f64, f64) {
         (self.arcs[0], self.arcs[self.arcs.len() - 1])
     }
 
-    /// First and last axial coordinate [m].
+    /// First and last axial coordinate (m).
     pub fn axial_extent(&self) -> (f64, f64) {
         (self.axials[0], self.axials[self.axials.len() - 1])
     }
 
-    /// Arcs [m] at which the depth jumps: the first and the last, where the border is not at depth 0.
+    /// Arcs (m) at which the depth jumps: the first and the last, where the border is not at depth 0.
     pub fn edges(&self) -> Vec<f64> {
         let (first, last) = self.extent();
         let width = self.axials.len();
@@ -114,7 +114,7 @@ impl Topography {
         jumps.map(|(arc, _)| arc).collect()
     }
 
-    /// Depth [m] at an arc and an axial coordinate [m]; on the border the depth of the patch.
+    /// Depth (m) at an arc and an axial coordinate (m); on the border the depth of the patch.
     pub fn depth_at(&self, arc: f64, axial: f64) -> f64 {
         let (Some((i, p)), Some((j, q))) = (locate(&self.arcs, arc), locate(&self.axials, axial)) else {
             return 0.0;
@@ -125,7 +125,7 @@ impl Topography {
         near * (1.0 - p) + far * p
     }
 
-    /// Exact mean depth [m] over the cell between two arcs and two axial coordinates [m], each in ascending order.
+    /// Exact mean depth (m) over the cell between two arcs and two axial coordinates (m), each in ascending order.
     pub fn mean_depth(&self, arc: [f64; 2], axial: [f64; 2]) -> f64 {
         let (rows, columns) = (touched(&self.arcs, arc), touched(&self.axials, axial));
         let mut volume = 0.0;
@@ -137,7 +137,7 @@ impl Topography {
         volume / ((arc[1] - arc[0]) * (axial[1] - axial[0]))
     }
 
-    /// The profile along the arc at an axial coordinate [m].
+    /// The profile along the arc at an axial coordinate (m).
     pub fn profile_at(&self, axial: f64) -> Profile {
         Profile::closed(self.arcs.iter().map(|&arc| (arc, self.depth_at(arc, axial))).collect())
     }
@@ -155,7 +155,7 @@ impl Topography {
         ]
     }
 
-    /// Arc and depth [m] of the point farthest from the smooth raceway.
+    /// Arc and depth (m) of the point farthest from the smooth raceway.
     pub(super) fn farthest(&self) -> (f64, f64) {
         let mut farthest = (0.0, 0.0_f64);
         for (index, &depth) in self.depths.iter().enumerate() {

@@ -163,7 +163,7 @@ fn a_mirror_mirrors_the_result() {
     });
 }
 
-/// Largest speed of a ring that a scene has, and that a host sets or comes to [rad/s].
+/// Largest speed of a ring that a scene has, and that a host sets or comes to (rad/s).
 fn fastest_turn(case: &Case) -> [f64; 2] {
     let scene = [case.speed_hz, case.housing_hz.unwrap_or(0.0)].map(|hz| (hz * TAU).abs());
     let hosts = case.steps.iter().filter_map(|step| Some((step.length, step.host?)));

@@ -18,7 +18,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Speed of the shaft [Hz].
+/// Speed of the shaft (Hz).
 const SPEED: f64 = 20.0;
 /// How long recordings of a whole machine are: 40 turns.
 const SECONDS: f64 = 2.0;

@@ -10,7 +10,7 @@ use brinell::simulation::{Simulation, SimulationError};
 pub struct Subject {
     pub simulation: Simulation,
     references: Vec<u32>,
-    /// Time at which it begins [s].
+    /// Time at which it begins (s).
     pub begin: f64,
     /// Inputs are set one by one, in an order drawn from here.
     pub shuffle: Option<Draw>,

@@ -15,21 +15,21 @@ pub const LIMIT: f64 = 100.0;
 /// Largest allowed difference over the largest force up to which runs are compared.
 pub const HORIZON: f64 = 0.02;
 
-/// How exactly a position is known [m]: to some roundings of the radii, and to what interpolating the rigid path
+/// How exactly a position is known (m): to some roundings of the radii, and to what interpolating the rigid path
 /// leaves.
 pub fn rounding(bearing: &Bearing) -> f64 {
     let path = if bearing.defective { 3e-13 * bearing.r } else { 0.0 };
     4e-15 * bearing.rho_0 + path
 }
 
-/// How exactly the position of a defect beside another one is known, along its body and out of it [m]: both may become
+/// How exactly the position of a defect beside another one is known, along its body and out of it (m): both may become
 /// one profile, whose arcs are rounded to a picometre.
 pub fn position_error(case: &Case) -> f64 {
     let beside = |(k, defect): (usize, &Defect)| case.defects[..k].iter().any(|other| other.on.is_body_of(defect.on));
     if case.defects.iter().enumerate().any(beside) { 0.5e-12 } else { 0.0 }
 }
 
-/// How exactly the slope of a kept path is known [m/rad] at an angle from the defect's centre.
+/// How exactly the slope of a kept path is known (m/rad) at an angle from the defect's centre.
 ///
 /// The path is kept as cubics through its values and slopes at nodes, at most 5e-6 m or 1.25e-3 r apart along the body
 /// with the defect, and twice as near until the path itself is right to E = 2e-13 r and some roundings. Between nodes w
@@ -55,7 +55,7 @@ pub fn slope_error(bearing: &Bearing, surface: &Surface, psi: f64) -> f64 {
     truncated + rounded
 }
 
-/// How exactly the path [m] is kept at an angle that is touched at more than 85°: a stretch has 65 536 cubics at most.
+/// How exactly the path (m) is kept at an angle that is touched at more than 85°: a stretch has 65 536 cubics at most.
 pub fn path_error(surface: &Surface, psi: f64) -> f64 {
     let envelope = &surface.envelope;
     let stretch = envelope.stretch(psi);
@@ -68,7 +68,7 @@ pub fn path_error(surface: &Surface, psi: f64) -> f64 {
     error(psi - width).max(error(psi + width))
 }
 
-/// One unit of each kind of signal, for the largest approaches [m].
+/// One unit of each kind of signal, for the largest approaches (m).
 pub fn units(bearing: &Bearing, case: &Case, largest: [f64; 2]) -> BTreeMap<Kind, f64> {
     let approach = largest[0].max(largest[1]).max(0.0);
     let length = case.tolerance * (approach + 1e-7) + rounding(bearing) + position_error(case) / LIMIT;

@@ -12,7 +12,7 @@ use brinell::contact::raceway_grid::Resolution;
 use brinell::surface::{Profile, Surface};
 use std::f64::consts::FRAC_PI_2;
 
-/// A spall 6.5 mm long with flanks of this slope [rad].
+/// A spall 6.5 mm long with flanks of this slope (rad).
 fn sloping(depth: f64, slope: f64) -> Surface {
     Surface::Profile(Profile::spall(6.5e-3, depth, slope))
 }
@@ -33,7 +33,7 @@ const EXACT: [[f64; 3]; 6] = [
     [0.3e-3, 0.79, 0.741],
 ];
 
-/// Normal force of an element `inside` [m] beside the first edge, over the half-space's.
+/// Normal force of an element `inside` (m) beside the first edge, over the half-space's.
 fn softened(soft: &mut LoveContact, stiff: &mut LoveContact, approach: f64, inside: f64) -> f64 {
     let at = -3.25e-3 - inside;
     let [soft, stiff] = [soft, stiff].map(|contact| contact.solve(approach, at).unwrap().forces(1.0)[0]);

@@ -73,7 +73,7 @@ fn pressure_on_512_cells_each_way_is_hertzs_to_one_part_in_ten_thousand() {
     }
 }
 
-/// Stresses along depth below the middle, on `count` depths up to three times a length [m].
+/// Stresses along depth below the middle, on `count` depths up to three times a length (m).
 fn below(pressed: &Pressed, length: f64, count: usize) -> (Vec<f64>, Vec<Stress>) {
     let corners = Corners::new(pressed, NU, 1);
     let [x, y] = pressed.centre(pressed.middle_cell());
@@ -161,7 +161,7 @@ fn spalled() -> Scene {
     scene.law(ContactLaw::Hertz).build().unwrap()
 }
 
-/// Force of law `love` over that on the fine grid, of a ball `s` [m] from the spall's middle pressed by a force [N].
+/// Force of law `love` over that on the fine grid, of a ball `s` (m) from the spall's middle pressed by a force (N).
 fn love_over_pressed(ball: &BallOnRaceway, s: f64, pressed: &Pressed, force: f64, grid: Resolution) -> f64 {
     let (surface, _) = &ball.defects[0];
     let mut love = LoveContact::new(ball.bodies, surface, 20e-6, grid).unwrap();

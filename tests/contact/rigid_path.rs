@@ -196,7 +196,7 @@ fn the_path_is_the_envelope_of_all_corners_and_pieces() {
 
 #[test]
 fn each_body_s_path_over_random_profiles_is_the_envelope() {
-    // Radii of the ER16K of `er16k-tb1` [m].
+    // Radii of the ER16K of `er16k-tb1` (m).
     const ELEMENT: f64 = 3.97e-3;
     const OUTER: f64 = 23.6325e-3;
     const INNER: f64 = 15.6875e-3;

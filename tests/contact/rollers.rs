@@ -36,7 +36,7 @@ fn under(bearing: Bearing, load: f64) -> StaticBearing {
     StaticBearing::new(&scene, None).unwrap()
 }
 
-/// Displacement [µm] and stiffness along the load [N/µm] with a roller on the load line.
+/// Displacement (µm) and stiffness along the load (N/µm) with a roller on the load line.
 fn found(bearing: Bearing, load: f64) -> [f64; 2] {
     let bearing = under(bearing, load);
     let balance = bearing.balance(-FRAC_PI_2, bearing.load()).unwrap();
@@ -62,11 +62,11 @@ fn one_table_serves_all_who_ask_for_a_crown_and_no_other() {
 /// Displacement, stiffness, and stiffness over the cage angle as the standard gives them.
 type Row = (Bearing, f64, [f64; 2], [f64; 3]);
 
-/// Half a unit of the last printed digit of displacement [µm] and stiffness [N/µm], and a little of their rounding.
+/// Half a unit of the last printed digit of displacement (µm) and stiffness (N/µm), and a little of their rounding.
 const PRINTED: [f64; 2] = [0.6e-6, 0.006];
 
-/// The balance in the standard's geometry, δ_j = δ_r cos φ_j − s/2 whatever the displacement: displacement [µm] and
-/// stiffness [N/µm] with a roller at `cage_angle` [rad] from the load line, the ring not moving across it.
+/// The balance in the standard's geometry, δ_j = δ_r cos φ_j − s/2 whatever the displacement: displacement (µm) and
+/// stiffness (N/µm) with a roller at `cage_angle` (rad) from the load line, the ring not moving across it.
 fn in_the_standards_geometry(bearing: &Bearing, load: f64, cage_angle: f64) -> [f64; 2] {
     let law = elastic_law(bearing, RacewaySide::Inner);
     let sum = |x: f64| {

@@ -34,7 +34,7 @@ fn love(crowned: bool, rows: usize) -> LoveContact {
     LoveContact::new(nu205(RacewaySide::Inner, crowned), &spall(), 15e-6, Resolution { columns: 48, rows }).unwrap()
 }
 
-/// A roller on the half-space, patches over its whole length and over the width of a line under a force [N] per middle
+/// A roller on the half-space, patches over its whole length and over the width of a line under a force (N) per middle
 /// of a crowned one; with `edge` the raceway ends below the roller's centre.
 fn problem(element: ElementOnRaceway, force: f64, [columns, rows]: [usize; 2], edge: bool) -> GridProblem {
     let [curvature, _] = element.curvatures();
@@ -57,7 +57,7 @@ fn solved(problem: &GridProblem, force: f64) -> GridContact {
     contact
 }
 
-/// Approach [m] under a force [N], and pressure at the end over that in the middle.
+/// Approach (m) under a force (N), and pressure at the end over that in the middle.
 fn on_the_half_space(side: RacewaySide, crowned: bool, force: f64, cells: [usize; 2]) -> [f64; 2] {
     let contact = solved(&problem(nu205(side, crowned), force, cells, false), force);
     let pressure = |row: usize| contact.pressure[row * cells[0] + cells[0] / 2];
@@ -100,8 +100,8 @@ fn away_from_the_spall_a_roller_has_the_smooth_raceways_contact() {
     }
 }
 
-/// Approach [m], but for one constant, of a cylinder in plane strain whose centre is `edge` [m] from the edge of the
-/// raceway, infinite without one, under a force per length over π E* [m]: u(x) = −2 Σ p ln|x − ξ|, by uniform strips.
+/// Approach (m), but for one constant, of a cylinder in plane strain whose centre is `edge` (m) from the edge of the
+/// raceway, infinite without one, under a force per length over π E* (m): u(x) = −2 Σ p ln|x − ξ|, by uniform strips.
 fn plane_strain(per_length: f64, curvature: f64, edge: f64) -> f64 {
     let half = 1.6 * (4.0 * per_length / curvature).sqrt();
     let count = 240;

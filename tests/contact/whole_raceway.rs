@@ -52,7 +52,7 @@ fn on_a_ridge(law: ContactLaw, ridge: f64) -> f64 {
     .unwrap()
 }
 
-/// The longest spall that is taken, from the refusal of a longer one [m].
+/// The longest spall that is taken, from the refusal of a longer one (m).
 fn limit(law: ContactLaw) -> f64 {
     let length = 359.9 / 360.0 * circumference();
     match on_the_rest(law, length) {

@@ -8,12 +8,12 @@ use brinell::scene::Scene;
 use brinell_analysis::spectrum::{Band, Spectrum};
 use std::time::Instant;
 
-/// Bands [Hz].
+/// Bands (Hz).
 pub(crate) const BANDS: [(f64, f64); 5] =
     [(0.0, 500.0), (500.0, 1000.0), (1000.0, 2000.0), (2000.0, 5000.0), (5000.0, 10_000.0)];
 /// Samples per second: elements with inertia vibrate up to 100 kHz.
 const RATE: f64 = 200_000.0;
-/// What is left out at the start and, because filters ring, at the end [s].
+/// What is left out at the start and, because filters ring, at the end (s).
 const EDGE: f64 = 0.02;
 
 /// A signal of the full model and of the same bearing without the inertia of its elements, sampled at [`RATE`].
@@ -44,7 +44,7 @@ pub(crate) fn level(signal: &[f64], low: f64, high: f64) -> f64 {
     (inside.iter().map(|x| x * x).sum::<f64>() / inside.len() as f64).sqrt()
 }
 
-/// Processor time of this thread [s]; where the system does not tell, time on the clock.
+/// Processor time of this thread (s); where the system does not tell, time on the clock.
 fn processor_time(start: Instant) -> f64 {
     let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
     let nanoseconds = told.and_then(|told| told.split(' ').next()?.parse::<f64>().ok());
@@ -81,7 +81,7 @@ fn error(scene: &Scene, tolerance: f64, exact: &[f64]) -> f64 {
     (misses / square(&mut exact.iter().copied())).sqrt()
 }
 
-/// When element 1 loses its load over the spall and when it first has it again [s].
+/// When element 1 loses its load over the spall and when it first has it again (s).
 pub(crate) fn events(mut scene: Scene) -> [f64; 2] {
     // It stands before the spall.
     scene.cage.initial_angle = scene.defects[0].angle - 0.25;

@@ -142,7 +142,7 @@ pub fn preload(kind: Kind) -> Row {
     .within((got - expected).abs() / expected, limit)
 }
 
-/// Force of a roller with the standard's crown on one raceway by the sum over its laminae [N].
+/// Force of a roller with the standard's crown on one raceway by the sum over its laminae (N).
 fn laminae(scene: &Scene, approach: f64) -> f64 {
     let (roller, diameter) = (scene.bearing.roller().unwrap(), scene.bearing.element_diameter);
     let count = f64::from(roller.laminae);
@@ -154,7 +154,7 @@ fn laminae(scene: &Scene, approach: f64) -> f64 {
     constant / count * (0..roller.laminae).map(over).sum::<f64>()
 }
 
-/// Energy [J] that one contact stores under a force [N], by the side: 2/5 Q δ of a ball, ∫Q dδ of a roller.
+/// Energy (J) that one contact stores under a force (N), by the side: 2/5 Q δ of a ball, ∫Q dδ of a roller.
 fn stored(scene: &Scene, side: RacewaySide, force: f64) -> f64 {
     let law = elastic_law(&scene.bearing, side);
     if scene.bearing.roller().is_none() {

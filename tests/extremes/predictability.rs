@@ -6,7 +6,7 @@ use brinell::scene::{Recorder, RecorderFilter};
 use std::fmt::Write;
 use std::ops::Range;
 
-/// Simulated time [s]: three passages over the spall.
+/// Simulated time (s): three passages over the spall.
 const STOP: f64 = 0.1;
 /// Samples per second: event times are known to 1 µs.
 const RATE: f64 = 1e6;
@@ -25,7 +25,7 @@ struct Run {
 }
 
 impl Run {
-    /// `er16k-tb1` at a tolerance, element 5 (on the unloaded side) moved by `moved` [m] at the start.
+    /// `er16k-tb1` at a tolerance, element 5 (on the unloaded side) moved by `moved` (m) at the start.
     fn new(tolerance: f64, moved: f64) -> Self {
         Self::of("er16k-tb1", tolerance, moved)
     }
@@ -89,7 +89,7 @@ impl Run {
     }
 
     /// When the outer contact of the element that enters first is lost, when it strikes again, and when the
-    /// acceleration is largest in this passage [s].
+    /// acceleration is largest in this passage (s).
     fn events(&self) -> [f64; 3] {
         let outer = &self.outer[0];
         let lost = (4e-3 * RATE) as usize + outer[(4e-3 * RATE) as usize..].iter().position(|&f| f == 0.0).unwrap();
@@ -115,11 +115,11 @@ fn move_element(bearing: &mut Named, element: usize, by: f64) {
     assert_eq!(bearing.0.state_vector()[element - 1], path + by);
 }
 
-/// Times of the first table [s].
+/// Times of the first table (s).
 const TIMES: [f64; 8] = [2e-3, 5e-3, 10e-3, 15e-3, 20e-3, 30e-3, 50e-3, 100e-3];
 /// Tolerances of the second.
 const TOLERANCES: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-7, 1e-9];
-/// Windows of the second [s].
+/// Windows of the second (s).
 const WINDOWS: [(f64, f64); 4] = [(0.0, 10e-3), (10e-3, 20e-3), (20e-3, 30e-3), (50e-3, 100e-3)];
 
 /// How a difference of 1e-12 m grows.

@@ -1,7 +1,7 @@
 //! What the golden runs are: which law, which steps, how a host moves the rings. The libraries of other machines are
 //! driven through the same runs.
 
-/// Communication step [s]. The recorded events of the shipped scenes lie within the first 20 ms: entry, flight, impact.
+/// Communication step (s). The recorded events of the shipped scenes lie within the first 20 ms: entry, flight, impact.
 pub(crate) const STEP: f64 = 1e-4;
 pub(crate) const STEPS: usize = 200;
 /// Scenes of which two runs are kept: one under law `hertz`, and one as shipped, with [`AS_SHIPPED`] behind its name.

@@ -18,14 +18,14 @@ fn scene(clearance: &str) -> Result<Scene, String> {
     Scene::from_toml(&text).map_err(|error| error.to_string())
 }
 
-/// Displacement of the inner ring [µm].
+/// Displacement of the inner ring (µm).
 fn displacement(clearance: &str) -> f64 {
     let bearing = StaticBearing::new(&scene(clearance).unwrap(), None).unwrap();
     let [x, y] = bearing.balance(-std::f64::consts::FRAC_PI_2, bearing.load()).unwrap().displacement;
     1e6 * x.hypot(y)
 }
 
-/// As the standard has it: every element carries along its nominal direction. By bisection [µm].
+/// As the standard has it: every element carries along its nominal direction. By bisection (µm).
 fn by_the_standard(clearance: &str) -> f64 {
     let bearing = scene(clearance).unwrap().bearing;
     let stiffness = HertzConstants::of(&bearing).in_series();

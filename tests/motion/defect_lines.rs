@@ -6,7 +6,7 @@ use crate::support::defects::{element, inner};
 use brinell::scene::{Ring, Scene};
 use std::f64::consts::TAU;
 
-/// Mean force on the outer ring, x and y, in every 20 µs of a run of some seconds [N].
+/// Mean force on the outer ring, x and y, in every 20 µs of a run of some seconds (N).
 fn housing_force(mut scene: Scene, seconds: f64) -> [Vec<f64>; 2] {
     // Held by the host, which gives means over steps.
     scene.housing = Ring::hosted();
@@ -24,7 +24,7 @@ fn housing_force(mut scene: Scene, seconds: f64) -> [Vec<f64>; 2] {
 
 const STEP: f64 = 2e-5;
 
-/// Amplitude of a line [N], by Hann's window.
+/// Amplitude of a line (N), by Hann's window.
 fn amplitude(signal: &[f64], frequency: f64) -> f64 {
     let count = signal.len() as f64;
     let (mut re, mut im, mut sum) = (0.0, 0.0, 0.0);
@@ -84,7 +84,7 @@ fn comb_share(signal: &[f64], carrier: f64, sideband: f64, most: f64) -> [f64; 2
 #[test]
 #[ignore = "ten seconds of two bearings"]
 fn lines_of_a_steady_run_are_those_that_an_independent_simulation_found() {
-    // Lines of the outer ring's force by a simulation in Python with its own equations, 10 s, law hertz [N]: BPFI and
+    // Lines of the outer ring's force by a simulation in Python with its own equations, 10 s, law hertz (N): BPFI and
     // twice that, with sidebands −3 to 3 times the shaft's frequency, along y and x.
     let (shaft, cage) = (10.0, 3.990_335_7);
     let (bpfi, bsf) = (9.0 * (shaft - cage), 23.751_038);

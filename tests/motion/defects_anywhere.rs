@@ -147,8 +147,8 @@ fn a_state_put_back_continues_with_the_same_bits() {
     }
 }
 
-/// All energy of a held bearing: shaft, elements, contacts, load and gravity [J]; and what leaves it by forced motions
-/// [W].
+/// All energy of a held bearing: shaft, elements, contacts, load and gravity (J); and what leaves it by forced motions
+/// (W).
 fn energy_and_power(bearing: &mut Named, scene: &Scene) -> (f64, f64) {
     let cage_torque = bearing.get("cage.torque");
     let (model, drive) = bearing.0.equations();

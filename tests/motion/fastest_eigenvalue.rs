@@ -46,7 +46,7 @@ impl Draw {
     }
 }
 
-/// An assembly with rings of at least `lightest` [kg]; without any damper unless `damped`.
+/// An assembly with rings of at least `lightest` (kg); without any damper unless `damped`.
 fn scene(draw: &mut Draw, lightest: f64, damped: bool) -> Scene {
     let mut scene = shipped(if draw.chance(0.5) { "er16k-tb1" } else { "6205-healthy" });
     if scene.defects.is_empty() {

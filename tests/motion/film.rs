@@ -19,7 +19,7 @@ fn oiled() -> Scene {
     Scene { film: Some(OIL), ..shipped("er16k-tb1") }
 }
 
-/// One element between rings that stand, without weight; films are as at this speed [rad/s].
+/// One element between rings that stand, without weight; films are as at this speed (rad/s).
 fn alone(speed: f64) -> (Model, Drive) {
     let mut scene = oiled();
     (scene.defects, scene.sensors) = (Vec::new(), Vec::new());
@@ -37,7 +37,7 @@ fn at(model: &Model, drive: &Drive, u: f64, w: f64) -> [f64; 3] {
     [forces.contacts.inner[0], forces.contacts.outer[0], rate[model.layout.radial_velocity]]
 }
 
-/// Films of the inner and of the outer raceway: squeeze constant [N s] and thickness [m] at a speed [rad/s].
+/// Films of the inner and of the outer raceway: squeeze constant (N s) and thickness (m) at a speed (rad/s).
 fn films(speed: f64) -> [(f64, f64); 2] {
     let bearing = oiled().bearing;
     // Rings that stand have no load: the smallest that the formula is asked for.

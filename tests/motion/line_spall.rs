@@ -7,7 +7,7 @@
 use crate::support::{Named, shipped};
 use brinell::scene::ContactLaw;
 
-/// Time after which element 1 of `er16k-tb1` passes the leading edge [s].
+/// Time after which element 1 of `er16k-tb1` passes the leading edge (s).
 const ENTRY: f64 = 5e-3;
 const STEP: f64 = 1e-5;
 
@@ -32,7 +32,7 @@ impl Passage {
         passage
     }
 
-    /// First time after `from` at which a force is (or is not) there, both counted from the entry [s].
+    /// First time after `from` at which a force is (or is not) there, both counted from the entry (s).
     fn first(force: &[f64], from: f64, there: bool) -> f64 {
         let start = ((ENTRY + from) / STEP).round() as usize;
         let found = (start..force.len()).find(|&i| (force[i] > 0.0) == there).expect("an event");

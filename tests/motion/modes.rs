@@ -47,7 +47,7 @@ fn standing(scene: &Scene, cage_angle: f64) -> Named {
     Named::started(scene)
 }
 
-/// Moves the state by a mode's shape times `size` [m], by way of the state's bytes, which hold it bit by bit.
+/// Moves the state by a mode's shape times `size` (m), by way of the state's bytes, which hold it bit by bit.
 fn disturb(bearing: &mut Named, mode: &Mode, size: f64) {
     let here = bearing.0.state_vector().to_vec();
     let (model, drive) = bearing.0.equations();
@@ -89,7 +89,7 @@ fn disturb(bearing: &mut Named, mode: &Mode, size: f64) {
     bearing.0.restore(&state).unwrap();
 }
 
-/// The eigenvalue [1/s] that the free decay of a bearing in motion has, by linear prediction of the state that moves
+/// The eigenvalue (1/s) that the free decay of a bearing in motion has, by linear prediction of the state that moves
 /// most. `mode` says how far apart to look.
 fn decay(bearing: &mut Named, rest: &[f64], mode: &Mode) -> [f64; 2] {
     let [re, im] = mode.eigenvalues[0];
@@ -155,7 +155,7 @@ fn free_decay_of_the_simulation_has_every_mode_s_frequency_and_damping() {
     assert!(compared > 70, "{compared}");
 }
 
-/// Frequency [Hz] of the rings' upper vertical mode.
+/// Frequency (Hz) of the rings' upper vertical mode.
 fn rings_mode(scene: &Scene, cage_angle_deg: f64) -> f64 {
     let assembly = assembly(scene);
     let modes = assembly.modes(cage_angle_deg.to_radians()).unwrap();
@@ -183,7 +183,7 @@ fn with_the_published_masses_the_rings_ring_as_the_validation_says() {
     }
 }
 
-/// Largest relative distance of the slowest frequencies at a cage angle from those of `squares` [1/s²].
+/// Largest relative distance of the slowest frequencies at a cage angle from those of `squares` (1/s²).
 fn distance(scene: &Scene, cage_angle: f64, mut squares: Vec<f64>) -> f64 {
     squares.sort_by(f64::total_cmp);
     let modes = assembly(scene).modes(cage_angle).unwrap().modes;

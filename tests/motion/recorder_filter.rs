@@ -37,7 +37,7 @@ fn recorded(scene: &str, rate: f64, filter: RecorderFilter, stop: f64, names: &[
     columns(&run, names)
 }
 
-/// Level of a signal in a part of its time [s], in a band [Hz]: [dB].
+/// Level of a signal in a part of its time (s), in a band (Hz): (dB).
 fn level(signal: &[f64], rate: f64, time: &Range<f64>, band: &Range<f64>) -> f64 {
     let part = &signal[(time.start * rate).round() as usize..(time.end * rate).round() as usize];
     let (power, bin) = power(part, rate, 0);
@@ -81,7 +81,7 @@ fn no_aliases_reach_the_band_below_the_rate_over_2_56() {
     }
 }
 
-/// Levels [dB] without a filter in the guide's row of a rate [Hz]: sensor, housing, force on the shaft.
+/// Levels (dB) without a filter in the guide's row of a rate (Hz): sensor, housing, force on the shaft.
 fn levels_in_the_guide(rate: f64) -> Vec<f64> {
     let (guide, number) = (include_str!("../../docs/guide.md"), format!("{}", rate as u64));
     let name = format!("| {} {} |", &number[..number.len() - 3], &number[number.len() - 3..]);

@@ -27,8 +27,8 @@ fn pressed(law: ContactLaw, shape: DefectShape) -> Scene {
     scene
 }
 
-/// A motion of the cage: angle of element 1 from the defect's centre at the start [rad], speed [rad/s] and acceleration
-/// [rad/s²] of the cage, duration [s].
+/// A motion of the cage: angle of element 1 from the defect's centre at the start (rad), speed (rad/s) and acceleration
+/// (rad/s²) of the cage, duration (s).
 #[derive(Debug, Clone, Copy)]
 struct Swing {
     angle: f64,
@@ -38,14 +38,14 @@ struct Swing {
 }
 
 impl Swing {
-    /// From `angle` to `turn` and back to `angle` [rad], turning in the middle.
+    /// From `angle` to `turn` and back to `angle` (rad), turning in the middle.
     fn there_and_back(angle: f64, turn: f64, time: f64) -> Self {
         let speed = 4.0 * (turn - angle) / time;
         Self { angle, speed, acceleration: -2.0 * speed / time, time }
     }
 }
 
-/// Path [m] and outer force [N] of every element after the swing, taken in `count` communication steps.
+/// Path (m) and outer force (N) of every element after the swing, taken in `count` communication steps.
 fn after(swing: Swing, count: u32, scene: &Scene, map: Option<&[u8]>) -> Vec<[f64; 2]> {
     let mut scene = scene.clone();
     scene.cage.initial_angle = -FRAC_PI_2 + swing.angle;
@@ -75,10 +75,10 @@ fn compare(swing: Swing, count: u32, scene: &Scene, map: Option<&[u8]>) -> f64 {
     one[0][1]
 }
 
-/// Half the angle of the spall of `er16k-tb1` [rad].
+/// Half the angle of the spall of `er16k-tb1` (rad).
 const HALF: f64 = 7.9 * PI / 180.0;
 
-/// The spall of `er16k-tb1` with another depth [m].
+/// The spall of `er16k-tb1` with another depth (m).
 fn line_spall(depth: f64) -> DefectShape {
     DefectShape::Spall { length: 6.517e-3, depth, edge_slope: FRAC_PI_2 }
 }
@@ -127,7 +127,7 @@ fn an_element_that_turns_on_a_knot_stays_on_either_side_of_it() {
     }
 }
 
-/// Knots of law `hertz` [rad] from the defect's centre.
+/// Knots of law `hertz` (rad) from the defect's centre.
 fn knots(scene: &Scene) -> Vec<f64> {
     let DefectShape::Spall { length, depth, edge_slope } = scene.defects[0].shape else { panic!() };
     let profile = Profile::spall(length, depth, edge_slope);

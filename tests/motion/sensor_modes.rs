@@ -19,7 +19,7 @@ fn impacts() -> Scene {
     scene
 }
 
-/// What a sensor behind `modes` shows of an acceleration sampled every `h` [s], straight between samples: the exact
+/// What a sensor behind `modes` shows of an acceleration sampled every `h` (s), straight between samples: the exact
 /// recursion of each mode, by exponentials and circular functions.
 fn behind(modes: &[SensorMode], h: f64, accelerations: &[f64]) -> Vec<f64> {
     let mut shown = accelerations.to_vec();

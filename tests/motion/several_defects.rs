@@ -15,7 +15,7 @@ fn bearing(defects: Vec<Defect>) -> Scene {
     Scene { defects, ..held(Defect::outer(0.0, spall(1e-3, 1e-4))) }
 }
 
-/// Angle [rad] of an arc [m] of the outer raceway.
+/// Angle (rad) of an arc (m) of the outer raceway.
 fn arc(length: f64) -> f64 {
     length / bearing(Vec::new()).bearing.outer_raceway_radius()
 }

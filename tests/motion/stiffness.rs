@@ -17,7 +17,7 @@ fn healthy() -> Scene {
     Scene { defects: Vec::new(), ..shipped("er16k-tb1") }
 }
 
-/// The extended spall with another depth [m].
+/// The extended spall with another depth (m).
 fn extended(depth_of_floor: f64) -> Scene {
     let mut scene = shipped("er16k-tb2");
     let Some(defect) = scene.defects.first_mut() else { panic!("no defect") };
@@ -26,7 +26,7 @@ fn extended(depth_of_floor: f64) -> Scene {
     scene
 }
 
-/// Least, mean and greatest stiffness along the load without transverse force [N/µm].
+/// Least, mean and greatest stiffness along the load without transverse force (N/µm).
 fn stiffness(bearing: &StaticBearing) -> [f64; 3] {
     min_mean_max(&sweep(bearing, -FRAC_PI_2, 200).unwrap(), |balance| balance.free_stiffness() * 1e-6)
 }

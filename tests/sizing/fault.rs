@@ -136,7 +136,7 @@ fn the_interval_holds_what_is_picked_in_resamples_too() {
     assert!(held(5.3) && held(4.5), "{:?} ± {:?}", found.length_deg, found.uncertainty_deg);
 }
 
-/// What the sensor of the shipped inner scene records at a speed [Hz], by the cheap law, with noise 30 dB below it.
+/// What the sensor of the shipped inner scene records at a speed (Hz), by the cheap law, with noise 30 dB below it.
 fn simulated(speed: f64, seconds: f64) -> Vec<f64> {
     let mut scene = Scene::from_toml(include_str!("../../scenes/6205-inner-5deg.toml")).unwrap();
     scene.shaft_speed = TAU * speed;

@@ -5,7 +5,7 @@ use brinell::dynamics::raceway::SMOOTH;
 use brinell::scene::{Defect, DefectOn, DefectShape, Ring, Scene};
 use std::f64::consts::FRAC_PI_2;
 
-/// Speeds of the ER16K at 10 Hz against the inner raceway and of an element's own turning against the cage [rad/s].
+/// Speeds of the ER16K at 10 Hz against the inner raceway and of an element's own turning against the cage (rad/s).
 pub const PAST_INNER: f64 = 37.7598;
 pub const SPIN: f64 = 149.2322;
 

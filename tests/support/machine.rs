@@ -8,7 +8,7 @@ use brinell::scene::Scene;
 use brinell_analysis::statistics::Random;
 use std::f64::consts::TAU;
 
-/// Sampling rate [Hz].
+/// Sampling rate (Hz).
 pub const RATE: f64 = 51_200.0;
 
 /// A 6205 under 49 N whose rig is not described: nothing to simulate.
@@ -50,7 +50,7 @@ pub struct Spall {
     pub early: f64,
 }
 
-/// A machine's answer to elements that pass a spall of `length` degrees at shaft speed `speed` [Hz]: the force that
+/// A machine's answer to elements that pass a spall of `length` degrees at shaft speed `speed` (Hz): the force that
 /// the element loses moves the housing (a mode at 700 Hz), and impacts on entry and exit excite a resonance at 9 kHz.
 /// Noise of `noise` times the signal's root mean square. Passages scatter by 0.2 degrees. `length` 0 is a healthy
 /// bearing: noise and shaft harmonics.

@@ -161,8 +161,8 @@ impl Named {
         }
     }
 
-    /// What element 3 presses on the outer raceway with [N], and what it must by m (ρ ω² + g·e_r), after 20 ms in which
-    /// nothing but its own weight and turn presses it there; `omega` [rad/s] is the cage's speed.
+    /// What element 3 presses on the outer raceway with (N), and what it must by m (ρ ω² + g·e_r), after 20 ms in which
+    /// nothing but its own weight and turn presses it there; `omega` (rad/s) is the cage's speed.
     pub fn pressed_outwards(&mut self, bearing: &Bearing, omega: f64) -> [f64; 2] {
         self.run(1e-4, 200);
         let radius = bearing.outer_raceway_radius() - bearing.element_radius();
@@ -171,7 +171,7 @@ impl Named {
         [self.get("element[3].force.outer"), bearing.mass_of_element() * (turning + gravity)]
     }
 
-    /// Force between each element and the inner raceway [N].
+    /// Force between each element and the inner raceway (N).
     pub fn inner_forces(&mut self, count: usize) -> Vec<f64> {
         (1..=count).map(|j| self.get(&format!("element[{j}].force.inner"))).collect()
     }

@@ -26,7 +26,7 @@ pub struct Assembly {
     /// The same with a shaft that moves under its load, where a held shaft has one: says where it is held.
     seat: Option<Model>,
     loads: [[f64; 2]; 2],
-    /// Angles of cage, inner and outer ring at the start of the scene [rad].
+    /// Angles of cage, inner and outer ring at the start of the scene (rad).
     angles: [f64; 3],
     /// Of the first defect.
     defect: Option<DefectPosition>,
@@ -35,9 +35,9 @@ pub struct Assembly {
 /// Where a defect is on its body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DefectPosition {
-    /// Length along the body [rad].
+    /// Length along the body (rad).
     pub length: f64,
-    /// Angle of the centre [rad].
+    /// Angle of the centre (rad).
     pub centre: f64,
 }
 
@@ -80,7 +80,7 @@ pub enum Body {
 #[derive(Debug, Clone)]
 pub(super) struct AtRest {
     pub(super) matrix: Vec<Vec<f64>>,
-    /// Angle of each element [rad], counter-clockwise from +x, in [−π, π].
+    /// Angle of each element (rad), counter-clockwise from +x, in [−π, π].
     pub(super) angles: Vec<f64>,
     pub(super) holds: Vec<Hold>,
 }
@@ -88,7 +88,7 @@ pub(super) struct AtRest {
 /// Share of the largest contact force below which a force is the rounding of a position.
 const CARRIES: f64 = 1e-15;
 
-/// The scene with another amount of load [N]: all its loads in proportion, that on the shaft, or else that on the
+/// The scene with another amount of load (N): all its loads in proportion, that on the shaft, or else that on the
 /// housing, becoming the amount. A scene without load gets it on the shaft, downwards, also where the shaft is held.
 pub fn loaded(scene: &Scene, amount: f64) -> Scene {
     let mut scene = scene.clone();
@@ -159,14 +159,14 @@ impl Assembly {
         self.model.element_count
     }
 
-    /// Cage angle with which everything repeats [rad]: the spacing of the elements, which are alike, their numbers
+    /// Cage angle with which everything repeats (rad): the spacing of the elements, which are alike, their numbers
     /// exchanged; or a whole turn of an irregular cage. A defect of a ring changes nothing in that, however
     /// long it is.
     pub fn period(&self) -> f64 {
         if self.model.is_even() { TAU / self.model.element_count as f64 } else { TAU }
     }
 
-    /// Loads on the inner and on the outer ring [N].
+    /// Loads on the inner and on the outer ring (N).
     pub fn loads(&self) -> [[f64; 2]; 2] {
         self.loads
     }
@@ -220,7 +220,7 @@ impl Assembly {
         freedoms
     }
 
-    /// The static equilibrium with element 1 at `cage_angle` [rad], and the Jacobian there.
+    /// The static equilibrium with element 1 at `cage_angle` (rad), and the Jacobian there.
     ///
     /// # Errors
     /// No equilibrium.

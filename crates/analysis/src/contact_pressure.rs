@@ -56,9 +56,9 @@ pub enum PressureError {
          bodies are no half-spaces; give a smaller force, or a position where the ball lies on the raceway"
     )]
     TooWide {
-        /// Force [N].
+        /// Force (N).
         force: f64,
-        /// Part of the radius [%].
+        /// Part of the radius (%).
         percent: f64,
     },
     /// The defect's profile cannot be used.
@@ -74,22 +74,22 @@ pub enum PressureError {
 pub struct BallOnRaceway {
     /// The two bodies.
     pub bodies: ElementOnRaceway,
-    /// E* [Pa].
+    /// E* (Pa).
     pub effective_modulus: f64,
     /// Poisson's ratio of both bodies.
     pub poissons_ratio: f64,
-    /// The raceway's defects, each with the arc [m] of the ball from its middle.
+    /// The raceway's defects, each with the arc (m) of the ball from its middle.
     pub defects: Vec<(Surface, f64)>,
 }
 
 /// Hertz's contact of the same force on the smooth raceway.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hertz {
-    /// Approach [m].
+    /// Approach (m).
     pub approach: f64,
-    /// Half-axes along and across the raceway [m].
+    /// Half-axes along and across the raceway (m).
     pub half_axes: [f64; 2],
-    /// Largest pressure [Pa].
+    /// Largest pressure (Pa).
     pub max_pressure: f64,
 }
 
@@ -99,24 +99,24 @@ pub struct Hertz {
 pub struct Pressed {
     /// Cells along and across.
     pub cells: [usize; 2],
-    /// Sides of a cell [m].
+    /// Sides of a cell (m).
     pub cell: [f64; 2],
-    /// Middle of the window [m].
+    /// Middle of the window (m).
     pub middle: [f64; 2],
-    /// Approach of the ball to the smooth raceway [m].
+    /// Approach of the ball to the smooth raceway (m).
     pub approach: f64,
-    /// Force [N].
+    /// Force (N).
     pub force: f64,
-    /// Pressure [Pa], `[row × columns + column]`, rows along x.
+    /// Pressure (Pa), `[row × columns + column]`, rows along x.
     pub pressure: Vec<f64>,
-    /// Mean depth of the raceway's defects in each cell [m].
+    /// Mean depth of the raceway's defects in each cell (m).
     pub depth: Vec<f64>,
     /// Largest gap where pressed, or penetration where not, over the approach since the first touch.
     pub residual: f64,
 }
 
 impl BallOnRaceway {
-    /// A ball of the scene's bearing on a raceway, `angle` [rad] counter-clockwise in the ring's own sense from the
+    /// A ball of the scene's bearing on a raceway, `angle` (rad) counter-clockwise in the ring's own sense from the
     /// middle of the first of its defects. `profiles` are as for [`Surface::load_all`].
     ///
     /// # Errors
@@ -148,7 +148,7 @@ impl BallOnRaceway {
         })
     }
 
-    /// Hertz's contact on the smooth raceway under a force [N].
+    /// Hertz's contact on the smooth raceway under a force (N).
     pub fn hertz(&self, force: f64) -> Hertz {
         let [along, across] = self.bodies.curvatures();
         let ratio = force / point_contact(along, across, self.effective_modulus);
@@ -173,12 +173,12 @@ impl BallOnRaceway {
         pressed
     }
 
-    /// Where the depth jumps, along the raceway [m] from the point below the ball's centre.
+    /// Where the depth jumps, along the raceway (m) from the point below the ball's centre.
     pub fn edges(&self) -> impl Iterator<Item = f64> {
         self.defects.iter().flat_map(|(surface, arc)| surface.edges().into_iter().map(move |edge| edge - arc))
     }
 
-    /// Pressure under a force [N], on `resolution` cells in each direction.
+    /// Pressure under a force (N), on `resolution` cells in each direction.
     ///
     /// # Errors
     /// For a force that is not positive, a resolution outside [`RESOLUTIONS`], and a contact that is too wide.
@@ -230,7 +230,7 @@ impl BallOnRaceway {
         [[-x, x], [-y, y]]
     }
 
-    /// Solution on a window, and the approach since the first touch [m].
+    /// Solution on a window, and the approach since the first touch (m).
     fn solve(
         &self,
         window: &[[f64; 2]; 2],
@@ -261,7 +261,7 @@ impl BallOnRaceway {
     }
 }
 
-/// Adds the depth of a defect, from whose middle the ball is `arc` [m] away, to that of each cell.
+/// Adds the depth of a defect, from whose middle the ball is `arc` (m) away, to that of each cell.
 fn add_depth(surface: &Surface, arc: f64, window: [[f64; 2]; 2], cell: [f64; 2], sum: &mut [f64]) {
     let [[x0, _], [y0, y1]] = window;
     let columns = ((window[0][1] - x0) / cell[0]).round() as usize;
@@ -277,7 +277,7 @@ fn add_depth(surface: &Surface, arc: f64, window: [[f64; 2]; 2], cell: [f64; 2],
     }
 }
 
-/// The contact under a force [N]: secants on F^(2/3), which Hertz makes a straight line, kept between approaches that
+/// The contact under a force (N): secants on F^(2/3), which Hertz makes a straight line, kept between approaches that
 /// are known to be too small and too large.
 fn at_force(solver: &mut impl GridSolver, force: f64, guess: f64) -> Result<GridContact, ContactError> {
     const MOST: usize = 60;
@@ -307,7 +307,7 @@ fn at_force(solver: &mut impl GridSolver, force: f64, guess: f64) -> Result<Grid
 }
 
 impl Pressed {
-    /// Centre of a cell [m].
+    /// Centre of a cell (m).
     pub fn centre(&self, cell: usize) -> [f64; 2] {
         let at = [cell % self.cells[0], cell / self.cells[0]];
         [0, 1].map(|k| self.middle[k] + (at[k] as f64 + 0.5 - 0.5 * self.cells[k] as f64) * self.cell[k])
@@ -318,7 +318,7 @@ impl Pressed {
         (0..self.pressure.len()).filter(|&cell| self.pressure[cell] > 0.0)
     }
 
-    /// Largest pressure [Pa].
+    /// Largest pressure (Pa).
     pub fn max_pressure(&self) -> f64 {
         self.pressure[self.highest_cell()]
     }
@@ -328,12 +328,12 @@ impl Pressed {
         self.under_pressure().max_by(|&a, &b| self.pressure[a].total_cmp(&self.pressure[b])).unwrap_or(0)
     }
 
-    /// Area under pressure [m²].
+    /// Area under pressure (m²).
     pub fn area(&self) -> f64 {
         self.under_pressure().count() as f64 * self.cell[0] * self.cell[1]
     }
 
-    /// Ends of what is under pressure, along and across [m]; borders of cells.
+    /// Ends of what is under pressure, along and across (m); borders of cells.
     pub fn extent(&self) -> [[f64; 2]; 2] {
         let mut extent = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
         for cell in self.under_pressure() {
@@ -346,7 +346,7 @@ impl Pressed {
         extent
     }
 
-    /// Half the lengths of that [m]: of an ellipse its half-axes.
+    /// Half the lengths of that (m): of an ellipse its half-axes.
     pub fn half_axes(&self) -> [f64; 2] {
         self.extent().map(|[from, to]| 0.5 * (to - from))
     }
@@ -367,7 +367,7 @@ impl Pressed {
         self.under_pressure().min_by(|&a, &b| far(a).total_cmp(&far(b))).unwrap_or(0)
     }
 
-    /// Borders of all cells, along and across [m].
+    /// Borders of all cells, along and across (m).
     pub fn window(&self) -> [[f64; 2]; 2] {
         [0, 1].map(|k| {
             let half = 0.5 * self.cells[k] as f64 * self.cell[k];

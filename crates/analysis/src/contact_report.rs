@@ -19,11 +19,11 @@ const HERTZ_CELLS: usize = 128;
 /// Cells along a patch below which it is said to be coarse: cells at its border, which are half under pressure, are
 /// then a quarter of all.
 const FEW: f64 = 16.0;
-/// Largest pressure [Pa] between balls and raceways up to which ISO 76 takes rolling bearings to keep their shape: it
+/// Largest pressure (Pa) between balls and raceways up to which ISO 76 takes rolling bearings to keep their shape: it
 /// leaves a dent of a ten-thousandth of the ball's diameter.
 const STATIC_LIMIT: f64 = 4.2e9;
 
-/// Stresses below the patch's middle, each with its point [m], x, y and depth.
+/// Stresses below the patch's middle, each with its point (m), x, y and depth.
 #[derive(Debug, Clone)]
 pub struct Section {
     /// Along depth, from the surface on.
@@ -74,17 +74,17 @@ pub struct ContactReport {
     pub scene: String,
     /// "outer" or "inner".
     pub on: &'static str,
-    /// Angle of the ball from the middle of the raceway's first defect, counter-clockwise in the ring's sense [°].
+    /// Angle of the ball from the middle of the raceway's first defect, counter-clockwise in the ring's sense (°).
     pub angle_deg: f64,
-    /// Force that was asked for [N].
+    /// Force that was asked for (N).
     pub force_n: f64,
     /// Cells along and across.
     pub cells: [usize; 2],
-    /// Sides of a cell [µm].
+    /// Sides of a cell (µm).
     pub cell_um: [f64; 2],
-    /// First and last border of the cells, along and across, from the point below the ball's centre [mm].
+    /// First and last border of the cells, along and across, from the point below the ball's centre (mm).
     pub window_mm: [[f64; 2]; 2],
-    /// Where the raceway's depth jumps, along it [mm].
+    /// Where the raceway's depth jumps, along it (mm).
     pub edges_mm: Vec<f64>,
     /// Residual of the solution, relative to the approach since the first touch.
     pub residual: f64,
@@ -101,15 +101,15 @@ pub struct ContactReport {
 /// A patch under pressure.
 #[derive(Debug, Clone, Serialize)]
 pub struct PatchReport {
-    /// Approach of the ball to the smooth raceway [µm].
+    /// Approach of the ball to the smooth raceway (µm).
     pub approach_um: f64,
-    /// Largest pressure [MPa].
+    /// Largest pressure (MPa).
     pub max_pressure_mpa: f64,
-    /// Where that is, along and across from the point below the ball's centre [mm].
+    /// Where that is, along and across from the point below the ball's centre (mm).
     pub max_pressure_at_mm: [f64; 2],
-    /// Half its length along and half its width across the raceway [mm]; of several patches that around all.
+    /// Half its length along and half its width across the raceway (mm); of several patches that around all.
     pub half_axes_mm: [f64; 2],
-    /// Area under pressure [mm²].
+    /// Area under pressure (mm²).
     pub area_mm2: f64,
 }
 
@@ -127,14 +127,14 @@ pub struct StressReport {
 /// A von Mises stress and where it is.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Highest {
-    /// The stress [MPa].
+    /// The stress (MPa).
     pub von_mises_mpa: f64,
-    /// Along and across the raceway from the point below the ball's centre, and depth [mm].
+    /// Along and across the raceway from the point below the ball's centre, and depth (mm).
     pub at_mm: [f64; 3],
 }
 
 impl ContactReport {
-    /// What is told of this contact under the force [N] that was asked for.
+    /// What is told of this contact under the force (N) that was asked for.
     pub fn new(
         scene: &str,
         side: RacewaySide,

@@ -15,7 +15,7 @@ use super::statistics;
 /// passages in one.
 const STRETCHES: [usize; 2] = [8, 4];
 const FEWEST: usize = 4;
-/// Shift that is looked for [share of a passage]: 2 degrees at 40° spacing, which alignment does not follow.
+/// Shift that is looked for (share of a passage): 2 degrees at 40° spacing, which alignment does not follow.
 const SHIFT: f64 = 0.05;
 /// Correlation of two stretches at that shift from which they are the same passages, and share of it that is left
 /// without the shift.
@@ -33,7 +33,7 @@ const MOST_PARTS: usize = 4;
 pub(super) struct Break {
     /// About the first passage behind it.
     pub(super) passage: usize,
-    /// Shift [share of a passage], from −0.5 to 0.5.
+    /// Shift (share of a passage), from −0.5 to 0.5.
     pub(super) shift: f64,
 }
 

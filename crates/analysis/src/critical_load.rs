@@ -24,9 +24,9 @@ use brinell::scene::DefectOn;
 /// A critical load and where it belongs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CriticalLoad {
-    /// Load on the inner ring [N].
+    /// Load on the inner ring (N).
     pub load: f64,
-    /// Cage angle [rad].
+    /// Cage angle (rad).
     pub cage_angle: f64,
     /// Number of elements at the greatest depth.
     pub elements: usize,
@@ -37,18 +37,18 @@ pub struct CriticalLoad {
 pub struct Sensitivity {
     /// By the depth of the defect, all its depths growing in proportion [N/m of the greatest path].
     pub by_depth: f64,
-    /// By the radial clearance [N/m].
+    /// By the radial clearance (N/m).
     pub by_clearance: f64,
-    /// By the compliance in series with each outer contact [N²/m].
+    /// By the compliance in series with each outer contact (N²/m).
     pub by_compliance: f64,
 }
 
 /// Where unloaded elements go down deepest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bottom {
-    /// Greatest depth to which an unloaded element goes down [m].
+    /// Greatest depth to which an unloaded element goes down (m).
     pub path: f64,
-    /// Angle of the bottom's middle [rad], counter-clockwise from +x.
+    /// Angle of the bottom's middle (rad), counter-clockwise from +x.
     pub middle: f64,
 }
 
@@ -105,7 +105,7 @@ impl StaticBearing {
         Ok(least)
     }
 
-    /// The load at which the first of the deepest elements in the defect carries, with element 1 at `cage_angle` [rad];
+    /// The load at which the first of the deepest elements in the defect carries, with element 1 at `cage_angle` (rad);
     /// `None` where no element has gone down, or no load brings it to carry.
     ///
     /// # Errors
@@ -158,7 +158,7 @@ impl StaticBearing {
     }
 }
 
-/// The load [N] at which an ascending function crosses 0, if it does; 0 where it is positive at a thousandth of
+/// The load (N) at which an ascending function crosses 0, if it does; 0 where it is positive at a thousandth of
 /// `scale`.
 ///
 /// Approaches grow about as load^(2/3), so that is what the Illinois form of the false position runs over.

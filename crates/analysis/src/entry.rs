@@ -16,9 +16,9 @@ use super::statistics;
 
 /// Share of its force that an elastic contact has lost when its centre stands over a sharp edge.
 const LOST_AT_EDGE: f64 = 0.15;
-/// Widest stretch before the first impact in which an entry is looked for [degrees].
+/// Widest stretch before the first impact in which an entry is looked for (degrees).
 const REACH: f64 = 3.0;
-/// Way after the last impact that is left to what the impact itself forces [degrees].
+/// Way after the last impact that is left to what the impact itself forces (degrees).
 const AFTER: f64 = 1.0;
 /// Points per degree on which ringing is predicted, and samples from which.
 const FINENESS: f64 = 10.0;
@@ -37,18 +37,18 @@ const STANDS_OUT_FAR: f64 = 6.0;
 pub struct Entry {
     /// Where the element's centre stands over the leading edge [grid points, with fraction].
     pub at: f64,
-    /// From there to half the excursion [grid points].
+    /// From there to half the excursion (grid points).
     pub half_way: f64,
-    /// Extreme of the excursion [grid points].
+    /// Extreme of the excursion (grid points).
     pub extreme: f64,
-    /// Standard uncertainty of `at` from what still rings and from noise [grid points].
+    /// Standard uncertainty of `at` from what still rings and from noise (grid points).
     pub uncertainty: f64,
     /// Extreme in standard deviations of what is there before.
     pub clearness: f64,
 }
 
 /// The entry before the first impact at grid point `impact` of the averaged signal over one spacing, `degree` grid
-/// points being one degree; `span` from first to last impact [grid points].
+/// points being one degree; `span` from first to last impact (grid points).
 pub fn entry(signal: &[f64], impact: f64, span: f64, degree: f64) -> Option<Entry> {
     let smooth = smooth(signal, degree);
     let index = |degrees: f64| (impact + degrees * degree).max(0.0) as usize;
@@ -144,7 +144,7 @@ pub fn far_entry(signal: &[f64], impact: f64, degree: f64) -> Option<Entry> {
     Some(Entry { clearness: if same { far.clearness.min(again.clearness) } else { 0.0 }, ..far })
 }
 
-/// Half the length of the impact's own flank, which begins a filter's length before its steepest point [degrees].
+/// Half the length of the impact's own flank, which begins a filter's length before its steepest point (degrees).
 const FLANK: f64 = 0.2;
 
 fn smooth(signal: &[f64], degree: f64) -> Vec<f64> {

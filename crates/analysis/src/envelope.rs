@@ -32,22 +32,22 @@ pub const SIGNIFICANT: f64 = 8.0;
 /// A comb to look for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pattern {
-    /// Nominal frequency [Hz].
+    /// Nominal frequency (Hz).
     pub frequency: f64,
-    /// Distance of the sidebands that belong to each harmonic [Hz]; 0 for none.
+    /// Distance of the sidebands that belong to each harmonic (Hz); 0 for none.
     pub sideband: f64,
 }
 
 /// The strongest comb near a nominal frequency.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comb {
-    /// Its frequency [Hz].
+    /// Its frequency (Hz).
     pub frequency: f64,
     /// How far it stands above chance, in standard deviations of S elsewhere.
     pub significance: f64,
-    /// S of its harmonics alone, without sidebands: by how much they stand above the noise near them [nepers of power].
+    /// S of its harmonics alone, without sidebands: by how much they stand above the noise near them (nepers of power).
     pub strength: f64,
-    /// The band whose envelope shows it best [Hz].
+    /// The band whose envelope shows it best (Hz).
     pub band: Band,
 }
 
@@ -70,8 +70,8 @@ pub fn bands(rate: f64, bpfo: f64) -> Vec<Band> {
     bands
 }
 
-/// Searches all bands for the strongest comb near each pattern's frequency; the shaft turns at `speed` [Hz], and `bpfo`
-/// [Hz] says how low bands go.
+/// Searches all bands for the strongest comb near each pattern's frequency; the shaft turns at `speed` (Hz), and `bpfo`
+/// (Hz) says how low bands go.
 pub fn find_combs<const N: usize>(
     spectrum: &mut Spectrum,
     rate: f64,
@@ -82,7 +82,7 @@ pub fn find_combs<const N: usize>(
     find_combs_of(&mut |band| (spectrum.squared_envelope(band), rate), rate, patterns, bpfo, speed)
 }
 
-/// The same of the squared envelopes that `envelope` gives of a band, each with its own rate [Hz]: those at equal shaft
+/// The same of the squared envelopes that `envelope` gives of a band, each with its own rate (Hz): those at equal shaft
 /// angles, where the speed changes.
 pub fn find_combs_of<const N: usize>(
     envelope: &mut dyn FnMut(Band) -> (Vec<f64>, f64),
@@ -118,7 +118,7 @@ pub fn find_combs_of<const N: usize>(
     })
 }
 
-/// The strongest comb from half to twice the nominal `bpfo` [Hz], where there is none near it: a wrong speed or rate,
+/// The strongest comb from half to twice the nominal `bpfo` (Hz), where there is none near it: a wrong speed or rate,
 /// or another part of the machine. Only the band of the comb near `bpfo` is searched.
 pub fn find_elsewhere(spectrum: &mut Spectrum, rate: f64, bpfo: f64, speed: f64, band: Band) -> Comb {
     let pattern = Pattern { frequency: bpfo, sideband: 0.0 };

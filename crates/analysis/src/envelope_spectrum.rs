@@ -21,7 +21,7 @@ use std::f64::consts::TAU;
 
 /// Fewest passages over the outer raceway that make a spectrum: a line is then half as wide as BPFO.
 pub const FEWEST_PASSAGES: f64 = 8.0;
-/// Range [BPFI] that is kept: three harmonics with their sidebands.
+/// Range (in BPFI) that is kept: three harmonics with their sidebands.
 const RANGE: f64 = 3.6;
 /// Times as fine as the resolution that points lie: lines are then drawn at their height.
 const FINENESS: usize = 8;
@@ -29,17 +29,17 @@ const FINENESS: usize = 8;
 /// Spectrum of a signal's squared envelope.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EnvelopeSpectrum {
-    /// The band whose envelope was taken [Hz].
+    /// The band whose envelope was taken (Hz).
     pub band: Band,
-    /// Width of a line [Hz]: that of the window's main lobe, 4 over the duration.
+    /// Width of a line (Hz): that of the window's main lobe, 4 over the duration.
     pub line_width: f64,
-    /// Frequencies [Hz].
+    /// Frequencies (Hz).
     pub frequency: Vec<f64>,
     /// Amplitudes, as shares of the envelope's mean.
     pub amplitude: Vec<f64>,
 }
 
-/// Characteristic frequencies of a scene with its slip [Hz], either ring turning or not; `None` where nothing turns.
+/// Characteristic frequencies of a scene with its slip (Hz), either ring turning or not; `None` where nothing turns.
 pub fn frequencies(scene: &Scene) -> Option<Frequencies> {
     let ratios = Ratios::new(&scene.bearing, scene.cage.slip, scene.cage.spin_slip);
     let (inner, outer) = (scene.shaft_speed / TAU, scene.housing_speed.unwrap_or(0.0) / TAU);
@@ -56,7 +56,7 @@ pub fn frequencies(scene: &Scene) -> Option<Frequencies> {
 }
 
 impl EnvelopeSpectrum {
-    /// Of a signal sampled at `rate` [Hz] on a bearing whose shaft turns at `speed` [Hz].
+    /// Of a signal sampled at `rate` (Hz) on a bearing whose shaft turns at `speed` (Hz).
     pub fn of(signal: &[f64], rate: f64, characteristic: Frequencies, speed: f64) -> Option<Self> {
         Self::at(signal, rate, characteristic, speed, &|squared| (squared, rate))
     }
@@ -74,7 +74,7 @@ impl EnvelopeSpectrum {
         Self::at(signal, rate, characteristic, speed, &|squared| (angles.resampled(&squared), even_rate))
     }
 
-    /// `even` gives a squared envelope at equal times or angles, and its rate [Hz].
+    /// `even` gives a squared envelope at equal times or angles, and its rate (Hz).
     fn at(
         signal: &[f64],
         rate: f64,

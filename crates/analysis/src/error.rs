@@ -90,11 +90,11 @@ pub enum SizingError {
     Clipped {
         /// The recording.
         name: String,
-        /// Share of samples in runs at the extremes [%].
+        /// Share of samples in runs at the extremes (%).
         percent: f64,
         /// The extreme.
         value: f64,
-        /// Largest share allowed [%].
+        /// Largest share allowed (%).
         limit: f64,
     },
     /// Too few elements pass the defect during the recording.
@@ -105,11 +105,11 @@ pub enum SizingError {
     TooShort {
         /// The recording.
         name: String,
-        /// Duration [s].
+        /// Duration (s).
         duration: f64,
         /// Passages in it.
         passages: f64,
-        /// Ball pass frequency [Hz].
+        /// Ball pass frequency (Hz).
         bpfo: f64,
         /// Fewest passages.
         limit: usize,
@@ -124,11 +124,11 @@ pub enum SizingError {
         name: String,
         /// Samples between one element and the next.
         samples: f64,
-        /// Sampling rate [Hz].
+        /// Sampling rate (Hz).
         rate: f64,
-        /// Ball pass frequency [Hz].
+        /// Ball pass frequency (Hz).
         bpfo: f64,
-        /// Shaft speed [Hz].
+        /// Shaft speed (Hz).
         speed: f64,
         /// Fewest samples per passage.
         limit: usize,
@@ -158,9 +158,9 @@ pub enum SizingError {
     SpeedRange {
         /// The recording.
         name: String,
-        /// Lowest speed [Hz].
+        /// Lowest speed (Hz).
         low: f64,
-        /// Highest speed [Hz].
+        /// Highest speed (Hz).
         high: f64,
         /// Largest ratio.
         limit: f64,
@@ -170,11 +170,11 @@ pub enum SizingError {
     OtherRate {
         /// The recording.
         name: String,
-        /// The rate that was given [Hz].
+        /// The rate that was given (Hz).
         given: f64,
-        /// The file's own [Hz].
+        /// The file's own (Hz).
         stated: f64,
-        /// Largest difference [%].
+        /// Largest difference (%).
         limit: f64,
     },
 }

@@ -31,21 +31,21 @@ use brinell::scene::Scene;
 
 /// Share of a period before the first impact.
 const LEAD: f64 = 0.3;
-/// The window of a jump: the way in which an impact's envelope rises [degrees], but not less than [`JUMP_TIME`].
+/// The window of a jump: the way in which an impact's envelope rises (degrees), but not less than [`JUMP_TIME`].
 const JUMP_WAY: f64 = 0.25;
-/// Shortest window of a jump [s].
+/// Shortest window of a jump (s).
 const JUMP_TIME: f64 = 1.2e-4;
 /// Clearness of the entry's excursion below which it is not taken for one.
 const CLEAR: f64 = 3.0;
 /// The same for an entry far before a single impact, where there is more to mistake.
 const CLEAR_FAR: f64 = 8.0;
-/// Sampling rate that events need [Hz]: echoes fade faster the higher the band, and 5 to 11 kHz is just enough. Below,
+/// Sampling rate that events need (Hz): echoes fade faster the higher the band, and 5 to 11 kHz is just enough. Below,
 /// an echo is taken for the last impact, whatever the length that comes out.
 const ENOUGH_RATE: f64 = 24_000.0;
 /// Impacts that a spall makes at most: on its floor or where the element is caught, and at its end. With more, nobody
 /// can tell which is the last.
 const MOST_IMPACTS: usize = 2;
-/// Standard uncertainty of the time between a force and what a sensor shows of it [s]: 64 µs are a radian of 2.5 kHz,
+/// Standard uncertainty of the time between a force and what a sensor shows of it (s): 64 µs are a radian of 2.5 kHz,
 /// up to which housings follow an entry, 35 µs an impact's window of 0.12 ms as a rectangle.
 const ANSWER: f64 = 7.3e-5;
 /// Standard uncertainty of a length, as a share, between one machine and another.
@@ -183,7 +183,7 @@ pub fn impacts(measured: &Measured) -> Vec<f64> {
     grid.after_first(&found.impacts)
 }
 
-/// The averaged passage that a figure shows: degrees from `from`, signal, envelope level [dB]. `from` is in degrees
+/// The averaged passage that a figure shows: degrees from `from`, signal, envelope level (dB). `from` is in degrees
 /// after the start of a passage's period.
 pub fn averaged_passage(measured: &Measured, from: f64) -> [Vec<f64>; 3] {
     let grid = Grid::new(measured);
@@ -200,7 +200,7 @@ struct Grid {
     degree: f64,
     /// Points of the jump's window.
     width: usize,
-    /// Smallest jump that is no accident [dB].
+    /// Smallest jump that is no accident (dB).
     smallest: f64,
     /// Points per second.
     rate: f64,
@@ -233,7 +233,7 @@ impl Grid {
         impacts.iter().map(|b| (b.at - first.at).rem_euclid(self.points as f64) / self.degree).collect()
     }
 
-    /// From first to last impact [degrees].
+    /// From first to last impact (degrees).
     fn span(&self, impacts: &[Impact]) -> f64 {
         match (impacts.first(), impacts.last()) {
             (Some(a), Some(b)) => (b.at - a.at).rem_euclid(self.points as f64) / self.degree,
@@ -249,7 +249,7 @@ struct Rows {
 
 /// The impacts between which a way is measured.
 struct Picked {
-    /// First and last impact [grid points].
+    /// First and last impact (grid points).
     impact: f64,
     last: f64,
     /// There is one impact: the entry may lie far before it.
@@ -263,7 +263,7 @@ impl Picked {
 }
 
 impl Rows {
-    /// Entry, and the way from it to the last impact [degrees], in the average over the chosen rows.
+    /// Entry, and the way from it to the last impact (degrees), in the average over the chosen rows.
     fn way(&self, picked: &Picked, chosen: &[usize], grid: &Grid) -> Option<(Entry, f64)> {
         let signal = statistics::average_of(&self.signal, chosen);
         let level = decibels(statistics::average_of(&self.envelope, chosen));
@@ -287,7 +287,7 @@ impl Rows {
         self.way(&picked, chosen, grid).map(|(_, way)| way)
     }
 
-    /// Standard uncertainty of the way [degrees] with all that is picked anew in each resample of the passages: half of
+    /// Standard uncertainty of the way (degrees) with all that is picked anew in each resample of the passages: half of
     /// the half-width that holds 95 % of them, and not less than consecutive stretches of the recording scatter.
     fn scatter(&self, grid: &Grid, way: f64) -> Result<f64, Unresolved> {
         let count = self.signal.len();

@@ -10,15 +10,15 @@ const WEAKEST_IMPACT: f64 = 0.12;
 /// On a raceway that turns through the load zone one edge may be struck much harder than the other: then this share is
 /// enough, if the jump is steep.
 const WEAKEST_STEEP: f64 = 0.03;
-/// An impact jumps at least by this share of the steepest impact's jump [dB]: it rises out of silence, or over a
+/// An impact jumps at least by this share of the steepest impact's jump (dB): it rises out of silence, or over a
 /// decaying impact, while an echo or a beat rises over what it is a part of.
 const LOWEST_JUMP: f64 = 0.3;
-/// A jump that no late echo makes [dB].
+/// A jump that no late echo makes (dB).
 const STEEP: f64 = 8.0;
 /// Correlation of loudness over the passages from which a rise is an echo of the impact before: two edges are hit each
 /// in its own way.
 const SAME_CAUSE: f64 = 0.6;
-/// Time after which echoes have died down [s]: 1 m of housing at the 1 km/s of slow bending waves. Later ones do not
+/// Time after which echoes have died down (s): 1 m of housing at the 1 km/s of slow bending waves. Later ones do not
 /// rise by [`STEEP`].
 const DIED_DOWN: f64 = 1e-3;
 /// Passages below which such a correlation may be chance: 0.6 of 20 passages is three standard deviations.
@@ -29,7 +29,7 @@ const FEWEST_TO_COMPARE: usize = 20;
 pub struct Impact {
     /// Where the envelope rises fastest [grid points, with fraction].
     pub at: f64,
-    /// Jump of the envelope [dB].
+    /// Jump of the envelope (dB).
     pub jump: f64,
     /// Energy that appears, as a share of the strongest's.
     pub energy: f64,
@@ -37,8 +37,8 @@ pub struct Impact {
 
 /// Impacts of a passage in the order of the circle of one spacing, that after the longest silence first.
 ///
-/// `level` is the averaged envelope [dB] over one spacing, `width` the window [grid points] of the jump, `smallest` the
-/// least jump that is no accident [dB], `turns` whether the raceway turns with the shaft.
+/// `level` is the averaged envelope (dB) over one spacing, `width` the window (grid points) of the jump, `smallest` the
+/// least jump that is no accident (dB), `turns` whether the raceway turns with the shaft.
 pub fn impacts(level: &[f64], width: usize, smallest: f64, turns: bool) -> Vec<Impact> {
     let n = level.len();
     if n < 4 * width {

@@ -13,7 +13,7 @@ use super::report::{CombReport, CombsReport, Fault};
 use super::spectrum::{Band, Spectrum};
 use brinell::geometry::kinematics::Frequencies;
 
-/// How much stronger than any other that is significant a comb must be to be the fault's [nepers of power]: twice the
+/// How much stronger than any other that is significant a comb must be to be the fault's (nepers of power): twice the
 /// power. Recordings of outer and inner raceways show 2 to 5.
 const CLEARLY: f64 = 0.7;
 
@@ -29,12 +29,12 @@ pub struct Combs {
 }
 
 impl Combs {
-    /// Searches a recording of a shaft that turns at `speed` [Hz] near the nominal frequencies.
+    /// Searches a recording of a shaft that turns at `speed` (Hz) near the nominal frequencies.
     pub fn find(spectrum: &mut Spectrum, rate: f64, nominal: Frequencies, speed: f64) -> Self {
         Self::find_of(&mut |band| (spectrum.squared_envelope(band), rate), rate, nominal, speed)
     }
 
-    /// The same in the squared envelopes that `envelope` gives of a band, each with its own rate [Hz].
+    /// The same in the squared envelopes that `envelope` gives of a band, each with its own rate (Hz).
     pub fn find_of(
         envelope: &mut dyn FnMut(Band) -> (Vec<f64>, f64),
         rate: f64,

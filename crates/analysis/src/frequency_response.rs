@@ -78,7 +78,7 @@ pub enum ResponseError {
 /// A response: the acceleration at the sensor over that of the outer ring, line by line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrequencyResponse {
-    /// Frequency [Hz], ascending, and response.
+    /// Frequency (Hz), ascending, and response.
     lines: Vec<(f64, c64)>,
 }
 
@@ -155,7 +155,7 @@ impl FrequencyResponse {
     }
 }
 
-/// Response of modes at a frequency [Hz].
+/// Response of modes at a frequency (Hz).
 pub fn response(modes: &[SensorMode], frequency: f64) -> c64 {
     let s = c64::new(0.0, TAU * frequency);
     modes.iter().fold(c64::new(1.0, 0.0), |sum, mode| {

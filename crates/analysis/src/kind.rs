@@ -21,18 +21,18 @@ use brinell::scene::{ContactLaw, Motion, Scene};
 
 /// Difference of similarity by which one kind of spall is preferred to the other.
 const CLEARLY_LIKER: f64 = 0.02;
-/// Depth at which ringing is expected [m]: deep enough for free elements, which is what the two kinds differ in.
+/// Depth at which ringing is expected (m): deep enough for free elements, which is what the two kinds differ in.
 const FREE_DEPTH: f64 = 1e-3;
-/// Depths between which the critical one is sought [m], and halvings of that range: to a thousandth of the depth.
+/// Depths between which the critical one is sought (m), and halvings of that range: to a thousandth of the depth.
 const DEPTHS: (f64, f64) = (1e-7, FREE_DEPTH);
 const HALVINGS: usize = 14;
 
 /// Where elements cross the spall in an averaged passage.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Crossing {
-    /// Where an entry begins [share of a period].
+    /// Where an entry begins (share of a period).
     pub(super) entry: f64,
-    /// How far from it the next exit is [degrees].
+    /// How far from it the next exit is (degrees).
     pub(super) way: f64,
 }
 
@@ -44,10 +44,10 @@ pub(super) struct Judged {
     pub(super) ringing: Option<Ringing>,
     /// Of a line spall, and of an extended one, of the scene's rig.
     pub(super) expected: Option<[Ringing; 2]>,
-    /// Of the spall that fits best [N], with its depth [m].
+    /// Of the spall that fits best (N), with its depth (m).
     pub(super) critical_load: Option<f64>,
     depth: Option<f64>,
-    /// Depth at which the load is the critical load of the extended spall with these events [m]; where the depth is
+    /// Depth at which the load is the critical load of the extended spall with these events (m); where the depth is
     /// unknown.
     pub(super) critical_depth: Option<f64>,
     spacing: f64,
@@ -124,7 +124,7 @@ fn load(scene: &Scene) -> f64 {
     scene.shaft.load[0].hypot(scene.shaft.load[1])
 }
 
-/// Depth [m] of a spall of `length` degrees at which the scene's load is its critical load.
+/// Depth (m) of a spall of `length` degrees at which the scene's load is its critical load.
 fn critical_depth(scene: &Scene, length: f64) -> Option<f64> {
     let load = load(scene);
     if scene.shaft.motion != Motion::Internal || load == 0.0 {

@@ -1,9 +1,6 @@
 //! What an engineer reads out of a bearing's scene or a recording: stiffness, critical load, which part is damaged, the
 //! length of a spall.
 
-// Units in brackets, as in `[m]`, are no links.
-#![allow(rustdoc::broken_intra_doc_links)]
-
 pub mod assembly;
 pub mod contact_pressure;
 pub mod contact_report;

@@ -18,7 +18,7 @@ use brinell::scene::Bearing;
 const FEWEST_PASSAGES: usize = 8;
 /// Fewest samples per passage: with 64, at 40° spacing, one sample is 0.6° and a spall of a few degrees a handful.
 const FEWEST_SAMPLES: usize = 64;
-/// Span of the samples from which the structure's ringing is predicted [s], and fewest samples: a period of modes above
+/// Span of the samples from which the structure's ringing is predicted (s), and fewest samples: a period of modes above
 /// 2.5 kHz, and short against the way between impacts (0.7 ms over 5 degrees at 40 Hz).
 const PREDICTED: f64 = 4e-4;
 const FEWEST_PREDICTING: usize = 8;
@@ -27,7 +27,7 @@ const FEWEST_PREDICTING: usize = 8;
 pub struct Measured {
     /// Name of the recording.
     pub name: String,
-    /// Shaft speed [Hz].
+    /// Shaft speed (Hz).
     pub speed: f64,
     /// The combs of the three kinds of fault.
     pub combs: Combs,
@@ -37,19 +37,19 @@ pub struct Measured {
     pub raceway: Raceway,
     /// A comb elsewhere, where there is none near the bearing's frequencies.
     pub elsewhere: Option<Comb>,
-    /// How often an element passes the defect, in the mean [Hz].
+    /// How often an element passes the defect, in the mean (Hz).
     pub pass_frequency: f64,
-    /// Mean ball pass frequency of the outer ring [Hz].
+    /// Mean ball pass frequency of the outer ring (Hz).
     pub bpfo: f64,
     /// Lag of the cage behind pure rolling.
     pub slip: f64,
-    /// Element spacing [degrees].
+    /// Element spacing (degrees).
     pub spacing: f64,
     /// The passages, on the inner raceway those in the load zone.
     pub passages: Passages,
     /// Strong passages over weak ones: quantiles at 90 and 10 % of the root mean square above 5 kHz.
     pub modulation: f64,
-    /// Sampling rate [Hz].
+    /// Sampling rate (Hz).
     pub rate: f64,
     /// Where passages are shifted against those before, as behind a missing piece.
     pub(super) broken: Option<Break>,
@@ -131,7 +131,7 @@ impl Measured {
         })
     }
 
-    /// Element travel per second [degrees].
+    /// Element travel per second (degrees).
     pub fn travel(&self) -> f64 {
         self.spacing * self.pass_frequency
     }
@@ -152,7 +152,7 @@ impl Measured {
     }
 }
 
-/// Lower edge of the band of impacts [Hz]: far above the rings' modes (below 2 kHz), low enough for accelerometers.
+/// Lower edge of the band of impacts (Hz): far above the rings' modes (below 2 kHz), low enough for accelerometers.
 fn impact_band(rate: f64) -> f64 {
     (0.2 * rate).min(5000.0)
 }

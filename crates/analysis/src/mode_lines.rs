@@ -10,7 +10,7 @@ use super::stiffness::with_changes;
 /// Similarity times closeness below which two modes are not the same.
 const SAME: f64 = 0.1;
 
-/// The modes over one element spacing from the cage angle `first` [rad] on: at `count` evenly spaced angles, at the
+/// The modes over one element spacing from the cage angle `first` (rad) on: at `count` evenly spaced angles, at the
 /// end, and at both sides of each angle between them at which an element begins or ceases to be pressed or to rest.
 /// Angles ascend. Modes with a natural frequency have the number of their line, by ascending mean frequency.
 ///

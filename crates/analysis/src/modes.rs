@@ -26,7 +26,7 @@ pub enum ModesError {
     /// The eigenproblem has no solution that can be trusted.
     #[error("cage angle {cage_angle_deg} degrees: {cause}")]
     Eigen {
-        /// Cage angle [°].
+        /// Cage angle (°).
         cage_angle_deg: f64,
         /// The reason.
         cause: EigenError,
@@ -54,10 +54,10 @@ pub enum Kind {
 pub struct Mode {
     /// How it moves.
     pub kind: Kind,
-    /// Its eigenvalues λ [1/s], real and imaginary part: of a complex pair the one with positive imaginary part, of an
+    /// Its eigenvalues λ (1/s), real and imaginary part: of a complex pair the one with positive imaginary part, of an
     /// overdamped one the faster first; of a free one none.
     pub eigenvalues: Vec<[f64; 2]>,
-    /// Amplitude of each degree of freedom, the largest being 1, and its phase ahead of that [rad].
+    /// Amplitude of each degree of freedom, the largest being 1, and its phase ahead of that (rad).
     pub shape: Vec<[f64; 2]>,
     /// Share of each degree of freedom in the kinetic energy; their sum is 1.
     pub energy: Vec<f64>,
@@ -70,9 +70,9 @@ pub struct Mode {
 /// All modes at one cage angle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Modes {
-    /// Angle of element 1 [rad].
+    /// Angle of element 1 (rad).
     pub cage_angle: f64,
-    /// Angle of each element [rad], counter-clockwise from +x, in [−π, π].
+    /// Angle of each element (rad), counter-clockwise from +x, in [−π, π].
     pub angles: Vec<f64>,
     /// What holds each element.
     pub holds: Vec<Hold>,
@@ -87,7 +87,7 @@ const NOTHING: f64 = 1e-6;
 const ROUNDING: f64 = 1e-10;
 
 impl Mode {
-    /// Undamped natural frequency [Hz], of what oscillates or would do so without damping.
+    /// Undamped natural frequency (Hz), of what oscillates or would do so without damping.
     pub fn undamped_frequency(&self) -> Option<f64> {
         match (self.kind, &self.eigenvalues[..]) {
             (Kind::Oscillating, &[[re, im]]) => Some(libm::hypot(re, im) / TAU),
@@ -96,7 +96,7 @@ impl Mode {
         }
     }
 
-    /// Frequency with damping [Hz], of what oscillates.
+    /// Frequency with damping (Hz), of what oscillates.
     pub fn damped_frequency(&self) -> Option<f64> {
         (self.kind == Kind::Oscillating).then(|| self.eigenvalues[0][1] / TAU)
     }
@@ -130,7 +130,7 @@ impl Assembly {
         freedoms.iter().zip(&mode.energy).filter(|(freedom, _)| of(freedom.body)).map(|(_, energy)| energy).sum()
     }
 
-    /// The modes with element 1 at `cage_angle` [rad].
+    /// The modes with element 1 at `cage_angle` (rad).
     ///
     /// ```
     /// use brinell::scene::{Bearing, Scene};
@@ -178,7 +178,7 @@ impl<'a> Linear<'a> {
         &self.all[self.held[i]]
     }
 
-    /// −∂(acceleration)/∂(position) [1/s²], weighted with √m.
+    /// −∂(acceleration)/∂(position) (1/s²), weighted with √m.
     fn stiffness(&self) -> Vec<Vec<f64>> {
         let entry = |i: usize, k: usize| {
             let (row, column) = (self.freedom(i), self.freedom(k));

@@ -10,14 +10,14 @@ use serde::Serialize;
 pub struct ModesReport {
     /// Name of the scene.
     pub scene: String,
-    /// Load on the inner ring [N].
+    /// Load on the inner ring (N).
     pub shaft_load_n: [f64; 2],
-    /// Load on the outer ring [N].
+    /// Load on the outer ring (N).
     pub housing_load_n: [f64; 2],
-    /// Centre of the defect, or else direction of the load [degrees], counter-clockwise from +x: the middle of the
+    /// Centre of the defect, or else direction of the load (degrees), counter-clockwise from +x: the middle of the
     /// angles.
     pub middle_deg: f64,
-    /// Length of the defect [degrees]; `None` without one.
+    /// Length of the defect (degrees); `None` without one.
     pub defect_length_deg: Option<f64>,
     /// Names of the degrees of freedom, in the order of shapes and energies.
     pub freedoms: Vec<String>,
@@ -32,7 +32,7 @@ pub struct ModesReport {
 pub struct LineReport {
     /// Its number, from 1.
     pub line: usize,
-    /// Undamped natural frequency [Hz].
+    /// Undamped natural frequency (Hz).
     pub undamped_frequency_hz: [f64; 2],
     /// Damping ratio ζ.
     pub damping_ratio: [f64; 2],
@@ -45,9 +45,9 @@ pub struct LineReport {
 /// All modes at one cage angle.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct AngleReport {
-    /// Angle of element 1 [degrees], counter-clockwise from +x.
+    /// Angle of element 1 (degrees), counter-clockwise from +x.
     pub cage_angle_deg: f64,
-    /// Angle of each element [degrees].
+    /// Angle of each element (degrees).
     pub element_angles_deg: Vec<f64>,
     /// What holds each element.
     pub elements: Vec<Hold>,
@@ -62,24 +62,24 @@ pub struct ModeReport {
     pub line: Option<usize>,
     /// How it moves by itself.
     pub kind: Kind,
-    /// Undamped natural frequency [Hz].
+    /// Undamped natural frequency (Hz).
     pub undamped_frequency_hz: Option<f64>,
-    /// Frequency with damping [Hz].
+    /// Frequency with damping (Hz).
     pub damped_frequency_hz: Option<f64>,
     /// Damping ratio ζ.
     pub damping_ratio: Option<f64>,
-    /// Eigenvalues [1/s], real and imaginary part.
+    /// Eigenvalues (1/s), real and imaginary part.
     pub eigenvalues_1_s: Vec<[f64; 2]>,
     /// Amplitude of each degree of freedom, the largest being 1.
     pub amplitude: Vec<f64>,
-    /// Phase of each degree of freedom ahead of the largest [degrees].
+    /// Phase of each degree of freedom ahead of the largest (degrees).
     pub phase_deg: Vec<f64>,
     /// Share of each degree of freedom in the kinetic energy.
     pub energy: Vec<f64>,
 }
 
 impl ModesReport {
-    /// The report of a [`sweep`](super::mode_lines::sweep) about the angle `middle` [rad].
+    /// The report of a [`sweep`](super::mode_lines::sweep) about the angle `middle` (rad).
     pub fn new(scene: String, assembly: &Assembly, middle: f64, sweep: &[Modes]) -> Self {
         let bodies: Vec<Body> = assembly.freedoms().iter().map(|freedom| freedom.body).collect();
         let followed = |line: usize| -> Vec<&Mode> {
@@ -105,7 +105,7 @@ impl ModesReport {
         counts.fold([usize::MAX, 0], |[least, greatest], count| [least.min(count), greatest.max(count)])
     }
 
-    /// Least and greatest undamped natural frequency [Hz] and damping ratio of the modes in which most of the motion is
+    /// Least and greatest undamped natural frequency (Hz) and damping ratio of the modes in which most of the motion is
     /// that of elements held so; `None` without such a mode.
     pub fn of_elements(&self, hold: Hold) -> Option<[[f64; 2]; 2]> {
         let mut extents = None;

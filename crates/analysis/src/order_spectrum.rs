@@ -31,7 +31,7 @@ pub struct EvenAngles {
 }
 
 impl EvenAngles {
-    /// Of a signal at each of whose samples the shaft's speed [Hz] is known; `rate` in samples per second. `None` where
+    /// Of a signal at each of whose samples the shaft's speed (Hz) is known; `rate` in samples per second. `None` where
     /// the shaft stands or makes less than two turns in one sense.
     pub fn of(speeds: &[f64], rate: f64) -> Option<Self> {
         let fastest = speeds.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs()))?;
@@ -70,7 +70,7 @@ impl EvenAngles {
         self.per_turn
     }
 
-    /// Mean speed of the part that is used [Hz].
+    /// Mean speed of the part that is used (Hz).
     pub fn mean_speed(&self) -> f64 {
         self.mean_speed
     }
@@ -123,7 +123,7 @@ mod tests {
 
     const RATE: f64 = 20_000.0;
 
-    /// A run-up from 10 to 40 Hz in 2 s: 50 turns. Speed and angle [turns] at a sample.
+    /// A run-up from 10 to 40 Hz in 2 s: 50 turns. Speed and angle (turns) at a sample.
     fn run_up(i: usize) -> (f64, f64) {
         let t = i as f64 / RATE;
         (10.0 + 15.0 * t, t * (10.0 + 7.5 * t))

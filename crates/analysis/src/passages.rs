@@ -13,11 +13,11 @@ use super::statistics;
 
 /// Points per element spacing at which shifts are sought; parabolas refine them.
 pub(super) const GRID: usize = 400;
-/// Largest distance of a passage from its neighbours' [grid points].
+/// Largest distance of a passage from its neighbours' (grid points).
 const NEAR: isize = 20;
-/// Largest shift when they are known already [grid points].
+/// Largest shift when they are known already (grid points).
 const CLOSE: isize = 8;
-/// Largest shift at first [grid points].
+/// Largest shift at first (grid points).
 const FAR: isize = 50;
 /// Single passages from which the alignment begins, besides the mean of all.
 const BEGINNINGS: usize = 6;
@@ -31,18 +31,18 @@ const MOST: usize = 1200;
 /// When elements pass the defect.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Passages {
-    /// Start of each passage's period [samples].
+    /// Start of each passage's period (samples).
     pub starts: Vec<f64>,
     /// Samples per passage, mean over the recording.
     pub period: f64,
-    /// Standard deviation of the shifts from even passages [share of a period].
+    /// Standard deviation of the shifts from even passages (share of a period).
     pub jitter: f64,
     /// Which passages of the recording these are.
     index: Vec<usize>,
 }
 
 impl Passages {
-    /// Even passages, before anything is known of them. `period` is the ball pass period [samples] as the envelope's
+    /// Even passages, before anything is known of them. `period` is the ball pass period (samples) as the envelope's
     /// spectrum gives it.
     pub fn even(samples: usize, period: f64) -> Self {
         // One period at each end is lost to the filters' ends and to shifts.
@@ -301,7 +301,7 @@ fn recentre(shifted: &mut [f64], from: &[f64]) {
     shifted.iter_mut().for_each(|s| *s -= mean);
 }
 
-/// Shift [grid points] at which the log envelope from `start` on agrees best with the template.
+/// Shift (grid points) at which the log envelope from `start` on agrees best with the template.
 fn best_shift(log: &[f64], start: f64, step: f64, template: &[f64], reach: isize) -> f64 {
     let width = template.len() + 2 * reach as usize;
     let from = start - reach as f64 * step;

@@ -37,7 +37,7 @@ impl Raceway {
         }
     }
 
-    /// Radius [m].
+    /// Radius (m).
     pub fn radius(self, bearing: &Bearing) -> f64 {
         match self {
             Self::Outer => bearing.outer_raceway_radius(),
@@ -45,25 +45,25 @@ impl Raceway {
         }
     }
 
-    /// 1/r_e [1/m].
+    /// 1/r_e (1/m).
     fn relative_curvature(self, bearing: &Bearing) -> f64 {
         let own = 1.0 / self.radius(bearing);
         1.0 / bearing.element_radius() + if self == Self::Inner { own } else { -own }
     }
 
-    /// Way past an edge [degrees] after which an element has sunk by `depth` [m].
+    /// Way past an edge (degrees) after which an element has sunk by `depth` (m).
     pub fn sunk_after(self, bearing: &Bearing, depth: f64) -> f64 {
         ((2.0 * depth / self.relative_curvature(bearing)).sqrt() / self.radius(bearing)).to_degrees()
     }
 
-    /// How far [m] an element has sunk `degrees` past an edge.
+    /// How far (m) an element has sunk `degrees` past an edge.
     pub fn depth_at(self, bearing: &Bearing, degrees: f64) -> f64 {
         let s = degrees.to_radians() * self.radius(bearing);
         0.5 * s * s * self.relative_curvature(bearing)
     }
 }
 
-/// Approach of the most loaded element's two contacts together [m]; Q = 5F/Z holds for usual clearances (Stribeck).
+/// Approach of the most loaded element's two contacts together (m); Q = 5F/Z holds for usual clearances (Stribeck).
 pub(super) fn approach(scene: &Scene) -> Option<f64> {
     let load = scene.shaft.load[0].hypot(scene.shaft.load[1]);
     if scene.shaft.motion != Motion::Internal || load == 0.0 {
@@ -78,7 +78,7 @@ pub(super) fn approach(scene: &Scene) -> Option<f64> {
     Some(libm::cbrt(ratio * ratio))
 }
 
-/// Shortest length that the scene's load and clearance allow [degrees], where the load is known.
+/// Shortest length that the scene's load and clearance allow (degrees), where the load is known.
 pub(super) fn shortest_length(scene: &Scene, raceway: Raceway) -> Option<f64> {
     let free = approach(scene)? + scene.bearing.radial_clearance.max(0.0);
     Some(2.0 * raceway.sunk_after(&scene.bearing, free))

@@ -13,7 +13,7 @@ use std::path::Path;
 /// Smallest range and largest magnitude of a signal: sums of squares stay numbers.
 const SMALLEST: f64 = 1e-100;
 const LARGEST: f64 = 1e100;
-/// Share of samples in runs at an extreme from which a signal counts as clipped [%].
+/// Share of samples in runs at an extreme from which a signal counts as clipped (%).
 const CLIPPED_PERCENT: f64 = 0.1;
 /// Equal samples in a row at the extreme that count as a run: two can be chance in a coarse signal.
 const CLIPPED_RUN: usize = 3;
@@ -27,7 +27,7 @@ const STILL_RUN: usize = 3;
 /// Where the shaft's speed comes from. Columns are chosen by name, or by number from 1.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Speed {
-    /// Constant [Hz].
+    /// Constant (Hz).
     Constant(f64),
     /// A tachometer column and its pulses per shaft turn.
     Tachometer(String, u32),
@@ -38,7 +38,7 @@ pub enum Speed {
 /// Which part of a file is the recording.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Source {
-    /// Sampling rate [Hz]; may be left out where the file states it.
+    /// Sampling rate (Hz); may be left out where the file states it.
     pub rate: Option<f64>,
     /// Shaft speed.
     pub speed: Speed,
@@ -56,7 +56,7 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// Checks a signal sampled at `rate` [Hz] while the shaft turned at `speed` [Hz].
+    /// Checks a signal sampled at `rate` (Hz) while the shaft turned at `speed` (Hz).
     ///
     /// # Errors
     /// Rate or speed not positive, samples missing, not finite, constant or clipped.
@@ -95,7 +95,7 @@ impl Recording {
         Self::at_equal_angles(name, samples, &pulses, &turns, rate)
     }
 
-    /// The same with the shaft's speed [Hz] at every sample.
+    /// The same with the shaft's speed (Hz) at every sample.
     ///
     /// # Errors
     /// As [`new`](Self::new), and speeds that are not above 0 or vary too much.
@@ -188,17 +188,17 @@ impl Recording {
         &self.samples
     }
 
-    /// Sampling rate [Hz].
+    /// Sampling rate (Hz).
     pub fn rate(&self) -> f64 {
         self.rate
     }
 
-    /// Shaft speed [Hz].
+    /// Shaft speed (Hz).
     pub fn speed(&self) -> f64 {
         self.speed
     }
 
-    /// Duration [s].
+    /// Duration (s).
     pub fn duration(&self) -> f64 {
         self.samples.len() as f64 / self.rate
     }

@@ -1,13 +1,13 @@
 //! A recording's file as named columns, and which of them is what.
 //!
-//! Text ([`recording_csv`](super::recording_csv)), NumPy ([`recording_npy`](super::recording_npy)) and WAV, which
+//! Text ([`recording_csv`]), NumPy ([`recording_npy`]) and WAV, which
 //! goes through `hound`. Columns are chosen by name or by number from 1. Left to itself, the signal is the column
 //! whose name begins with `sensor.acceleration` or, of several sensors, `sensor[1].acceleration`, else with `acc`,
 //! `vib` or `signal`, else the only one that does not count time or samples, else, where columns have no names, the
 //! first of those.
 //!
 //! Time is a column that is called so, or has a unit of time and rises, or an unnamed first column beside others that
-//! rises like time. It must be even ([`sampling_times`](super::sampling_times)). A column of any other name that
+//! rises like time. It must be even ([`sampling_times`]). A column of any other name that
 //! ticks from sample to sample, as counters and angles do, must have no holes.
 
 use super::error::SizingError;
@@ -50,7 +50,7 @@ pub(super) struct Table {
     columns: Vec<Vec<f64>>,
     /// Whether each column counts time or samples.
     clocks: Vec<bool>,
-    /// Sampling rate [Hz], where the file states it.
+    /// Sampling rate (Hz), where the file states it.
     pub(super) rate: Option<f64>,
 }
 

@@ -41,11 +41,11 @@ pub enum Fault {
 /// A comb of harmonics in the envelope's spectrum.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct CombReport {
-    /// Its frequency [Hz].
+    /// Its frequency (Hz).
     pub frequency_hz: f64,
-    /// How far it stands above chance [standard deviations].
+    /// How far it stands above chance (standard deviations).
     pub significance: f64,
-    /// How far its harmonics stand above the noise near them [nepers of power]: what kinds are told by.
+    /// How far its harmonics stand above the noise near them (nepers of power): what kinds are told by.
     pub strength: f64,
 }
 
@@ -92,15 +92,15 @@ pub struct Report {
     pub standing: Option<Standing>,
     /// Part of the bearing that the recordings look damaged in.
     pub fault: Fault,
-    /// Arc on the raceway of that fault [mm].
+    /// Arc on the raceway of that fault (mm).
     pub length_mm: Option<f64>,
-    /// The same [degrees].
+    /// The same (degrees).
     pub length_deg: Option<f64>,
-    /// Half-width of the interval that holds the length with 95 % confidence [mm].
+    /// Half-width of the interval that holds the length with 95 % confidence (mm).
     pub uncertainty_mm: Option<f64>,
     /// Kind of spall.
     pub kind: Kind,
-    /// Ball pass frequency of the outer ring in the first recording [Hz].
+    /// Ball pass frequency of the outer ring in the first recording (Hz).
     pub bpfo_hz: f64,
     /// Lag of the cage behind pure rolling at the stated speed, mean over the recordings.
     pub slip: f64,
@@ -110,9 +110,9 @@ pub struct Report {
     pub reason: String,
     /// How the length was found.
     pub method: Option<Method>,
-    /// Smallest load at which elements inside the spall carry load again [N], where the scene's rig could be used.
+    /// Smallest load at which elements inside the spall carry load again (N), where the scene's rig could be used.
     pub critical_load_n: Option<f64>,
-    /// Depth of an extended spall with these events below which the load is above its critical load [µm], where the
+    /// Depth of an extended spall with these events below which the load is above its critical load (µm), where the
     /// depth is unknown.
     pub critical_depth_um: Option<f64>,
     /// Each recording by itself.
@@ -135,31 +135,31 @@ pub struct RecordingReport {
     pub combs: CombsReport,
     /// Length [degrees of the raceway of that fault].
     pub length_deg: Option<f64>,
-    /// Half-width of its 95 % interval [degrees].
+    /// Half-width of its 95 % interval (degrees).
     pub uncertainty_deg: Option<f64>,
     /// How it was found.
     pub method: Option<Method>,
-    /// Ball pass frequency of the outer ring [Hz].
+    /// Ball pass frequency of the outer ring (Hz).
     pub bpfo_hz: f64,
     /// Passages used; on the inner raceway those in the load zone.
     pub passages: usize,
-    /// How far its strongest comb stands above chance [standard deviations].
+    /// How far its strongest comb stands above chance (standard deviations).
     pub significance: f64,
     /// Strength of strong passages over that of weak ones, 90 against 10 % quantile of the root mean square above 5
     /// kHz: an inner raceway's load zone.
     pub modulation: f64,
-    /// Onset of the entry before the first impact [degrees], where there is one.
+    /// Onset of the entry before the first impact (degrees), where there is one.
     pub onset_deg: Option<f64>,
-    /// Impacts, from the first on [degrees].
+    /// Impacts, from the first on (degrees).
     pub impacts_deg: Vec<f64>,
-    /// Both edges as the length has them, from the first impact, or by similarity from the entry [degrees].
+    /// Both edges as the length has them, from the first impact, or by similarity from the entry (degrees).
     pub edges_deg: Option<[f64; 2]>,
     /// Similarity to the scene's rig, 0 to 1, where the scene describes one: with the best spall, or without a spall
     /// where that is as good. A length rests on it from 0.9 on.
     pub similarity: Option<f64>,
-    /// Frequencies of ringing after entry and after exit [Hz], where they could be measured.
+    /// Frequencies of ringing after entry and after exit (Hz), where they could be measured.
     pub ringing_hz: Option<[f64; 2]>,
-    /// Those expected of a line spall, and of an extended one, of the scene's rig [Hz].
+    /// Those expected of a line spall, and of an extended one, of the scene's rig (Hz).
     pub expected_ringing_hz: Option<[[f64; 2]; 2]>,
     /// Why there is no length.
     pub reason: Option<String>,
@@ -171,17 +171,17 @@ pub struct RecordingReport {
 pub struct Figure {
     /// Name of the recording.
     pub name: String,
-    /// Angle [degrees].
+    /// Angle (degrees).
     pub angle: Vec<f64>,
     /// Averaged signal, in the recording's unit.
     pub signal: Vec<f64>,
-    /// Averaged level of the high-frequency envelope [dB].
+    /// Averaged level of the high-frequency envelope (dB).
     pub level: Vec<f64>,
     /// The signal below the band of impacts, in which entries show and similarity is measured.
     pub low: Vec<f64>,
     /// The most alike simulated passage, scaled to `low`, where similarity gave the length.
     pub model: Option<Vec<f64>>,
     /// Rigid path of an element's centre over a spall of the answer's length, deep enough that its floor is not reached
-    /// [m].
+    /// (m).
     pub path: Option<Vec<f64>>,
 }

@@ -21,10 +21,10 @@ use std::f64::consts::TAU;
 
 /// Relative distance of a measured from an expected frequency up to which they agree.
 const AGREE: f64 = 0.1;
-/// Frequencies among which ringing is sought [Hz].
+/// Frequencies among which ringing is sought (Hz).
 const RANGE: (f64, f64) = (150.0, 2500.0);
 
-/// Frequencies of the rings' mode [Hz].
+/// Frequencies of the rings' mode (Hz).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ringing {
     /// Between an entry and the next exit.
@@ -40,7 +40,7 @@ impl Ringing {
         log_ratio(self.after_entry, other.after_entry).max(log_ratio(self.after_exit, other.after_exit))
     }
 
-    /// After entry, after exit [Hz].
+    /// After entry, after exit (Hz).
     pub fn pair(self) -> [f64; 2] {
         [self.after_entry, self.after_exit]
     }
@@ -60,7 +60,7 @@ pub fn expected(rig: &Rig<'_>, trial: Trial, spacing: f64) -> Result<Ringing, St
     let bearing = StaticBearing::new(&scene, None)?;
     let centre = scene.defects.first().map_or(0.0, |d| d.angle);
     let over = trial.length.rem_euclid(spacing);
-    // Element 1 that far past the leading edge [degrees].
+    // Element 1 that far past the leading edge (degrees).
     let frequency = |past_edge: f64| -> Result<f64, StaticError> {
         let cage_angle = centre + (past_edge - 0.5 * trial.length).to_radians();
         Ok(upper_frequency(&scene, bearing.balance(cage_angle, bearing.load())?.held_stiffness()))
@@ -76,7 +76,7 @@ fn upper_frequency(scene: &Scene, stiffness: f64) -> f64 {
     (0.5 * (a + b) + (0.25 * (a - b) * (a - b) + coupling).sqrt()).sqrt() / TAU
 }
 
-/// Smallest load [N] at which elements at the bottom of the spall carry some of it.
+/// Smallest load (N) at which elements at the bottom of the spall carry some of it.
 ///
 /// # Errors
 /// Those of the static balance.
@@ -84,7 +84,7 @@ pub fn critical_load(scene: &Scene, trial: Trial) -> Result<Option<f64>, StaticE
     Ok(StaticBearing::new(&synthesis::with_spall(scene, trial), None)?.critical_load()?.map(|critical| critical.load))
 }
 
-/// Strongest frequency of a stretch of signal sampled at `rate` [Hz]; `None` when it is shorter than two of its
+/// Strongest frequency of a stretch of signal sampled at `rate` (Hz); `None` when it is shorter than two of its
 /// periods.
 pub fn strongest(signal: &[f64], rate: f64) -> Option<f64> {
     if signal.len() < 16 {

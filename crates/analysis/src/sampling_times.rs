@@ -12,10 +12,10 @@ use super::statistics;
 
 /// Steps over which the period is taken: the digits' share in it is then 1/64 of a unit.
 const STRIDE: usize = 64;
-/// Difference of a step from the period beside the digits' [share of the period]. At 0.45 of the rate, the top of the
+/// Difference of a step from the period beside the digits' (share of the period). At 0.45 of the rate, the top of the
 /// band that is used, it is a phase of 0.06 rad: noise 25 dB below the signal.
 const JITTER: f64 = 0.02;
-/// Difference that digits explain at most [share of the period]: a lost sample makes it 1, a repeated one −1.
+/// Difference that digits explain at most (share of the period): a lost sample makes it 1, a repeated one −1.
 const EXPLAINED: f64 = 0.9;
 /// Stretches in which the rate is checked, and largest difference of one from the mean of all: what a given rate
 /// may differ from the file's.
@@ -135,7 +135,7 @@ pub enum Uneven {
         at: f64,
         /// Mean period of all.
         mean: f64,
-        /// Largest difference [%].
+        /// Largest difference (%).
         limit: f64,
         /// Unit.
         unit: String,

@@ -2,8 +2,8 @@
 //!
 //! Each recording is sized by similarity to the scene's own rig if the scene describes the rig ([`waveform_length`]),
 //! else by the events of its passages, which needs nothing but the bearing's dimensions ([`event_length`]). A rig that
-//! sounds like the recording also tells a line spall from an extended one; otherwise ringing does ([`ringing`]), or
-//! nothing does.
+//! sounds like the recording also tells a line spall from an extended one; otherwise ringing does
+//! ([`ringing`](super::ringing)), or nothing does.
 //!
 //! Several recordings are of one spall: their lengths are averaged with their statistical weights, and a scatter that
 //! is larger than these explain widens the interval. What all share (what the events mean, the contact's law) is not
@@ -39,7 +39,7 @@ const CONTRADICTION: f64 = 0.2;
 const SPEEDS_APART: f64 = 1.3;
 /// Difference of lengths at two speeds up to which they agree, as a share.
 const AGREEMENT: f64 = 0.1;
-/// Statistical uncertainty that is always granted [degrees]: events are sought on a grid of samples.
+/// Statistical uncertainty that is always granted (degrees): events are sought on a grid of samples.
 const FLOOR: f64 = 0.02;
 
 /// Sizes the spall in recordings of one bearing. The scene gives bearing, load and rig; its defect is not looked at.
@@ -147,7 +147,7 @@ struct Sized {
     judged: Judged,
 }
 
-/// Length of one recording [degrees].
+/// Length of one recording (degrees).
 #[derive(Debug, Clone)]
 struct Length {
     length: f64,
@@ -234,7 +234,7 @@ impl Sized {
         }
     }
 
-    /// Both edges [degrees], from where angles count.
+    /// Both edges (degrees), from where angles count.
     fn edges(&self) -> Option<[f64; 2]> {
         let length = self.length.as_ref().ok()?.length;
         let onset = if self.waveform.is_some() { 0.0 } else { self.events.as_ref()?.onset };
@@ -285,9 +285,9 @@ fn of_waveform(waveform: &WaveformLength, scene: &Scene, kind: Kind) -> Result<L
 
 /// What several lengths of one spall say together.
 struct Combined {
-    /// Their mean [degrees].
+    /// Their mean (degrees).
     length: f64,
-    /// Its standard uncertainty [degrees].
+    /// Its standard uncertainty (degrees).
     uncertainty: f64,
 }
 

@@ -44,9 +44,9 @@ pub enum StaticError {
     /// No balance was found.
     #[error("cage angle {cage_angle_deg} degrees, load {load:?} N: {cause}")]
     Equilibrium {
-        /// Cage angle [°].
+        /// Cage angle (°).
         cage_angle_deg: f64,
-        /// Load [N].
+        /// Load (N).
         load: [f64; 2],
         /// The reason.
         cause: EquilibriumError,
@@ -54,7 +54,7 @@ pub enum StaticError {
     /// A load of nothing has no direction.
     #[error("the load on the bearing is {load:?} N: it must be finite and not 0; give shaft.load_n, or a load")]
     NoLoad {
-        /// Load [N].
+        /// Load (N).
         load: [f64; 2],
     },
     /// A healthy bearing was asked for its defect.
@@ -63,7 +63,7 @@ pub enum StaticError {
     /// No element sinks into the defect.
     #[error("elements sink {depth_um} um into this defect: it must be above 0 to have a critical load")]
     NoDepth {
-        /// Greatest depth of their path [µm].
+        /// Greatest depth of their path (µm).
         depth_um: f64,
     },
 }
@@ -82,15 +82,15 @@ pub struct StaticBearing {
 /// One element in balance.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LoadedElement {
-    /// Its angle [rad], counter-clockwise from +x, in [−π, π].
+    /// Its angle (rad), counter-clockwise from +x, in [−π, π].
     pub angle: f64,
-    /// Its path u [m].
+    /// Its path u (m).
     pub path: f64,
-    /// Force of the inner contact [N].
+    /// Force of the inner contact (N).
     pub inner_force: f64,
-    /// Force of the outer contact [N].
+    /// Force of the outer contact (N).
     pub outer_force: f64,
-    /// Approach of the inner contact [m]; of an element without load, minus its gap.
+    /// Approach of the inner contact (m); of an element without load, minus its gap.
     pub inner_approach: f64,
     /// Whether its centre is within the length of the defect.
     pub in_defect: bool,
@@ -99,15 +99,15 @@ pub struct LoadedElement {
 /// The balance at one cage angle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Balance {
-    /// Angle of element 1 [rad].
+    /// Angle of element 1 (rad).
     pub cage_angle: f64,
-    /// Load on the inner ring [N].
+    /// Load on the inner ring (N).
     pub load: [f64; 2],
-    /// Position of the inner ring [m].
+    /// Position of the inner ring (m).
     pub displacement: [f64; 2],
-    /// K [N/m].
+    /// K (N/m).
     pub stiffness: [[f64; 2]; 2],
-    /// Half-angle of the load zone ψ_l [rad].
+    /// Half-angle of the load zone ψ_l (rad).
     pub load_zone: f64,
     /// All elements, from element 1.
     pub elements: Vec<LoadedElement>,
@@ -126,7 +126,7 @@ impl StaticBearing {
     /// // With an element right under the load it carries some 5 F/Z (Stribeck).
     /// let balance = StaticBearing::new(&scene, None)?.balance(-std::f64::consts::FRAC_PI_2, load)?;
     /// assert!((balance.elements[0].outer_force / (5.0 * 1500.0 / 9.0) - 1.0).abs() < 0.1);
-    /// assert!(balance.stiffness[1][1] > 1e7);
+    /// assert!(balance.stiffness[1](1) > 1e7);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
@@ -175,7 +175,7 @@ impl StaticBearing {
         Ok(Self { model, surfaces, scene, load: [0.0; 2] })
     }
 
-    /// The scene's load on the bearing [N]: that on the inner ring, or, where there is none, against that on the outer.
+    /// The scene's load on the bearing (N): that on the inner ring, or, where there is none, against that on the outer.
     pub fn load(&self) -> [f64; 2] {
         self.load
     }
@@ -185,32 +185,32 @@ impl StaticBearing {
         self.model.element_count
     }
 
-    /// The spacing of the elements in an even cage [rad].
+    /// The spacing of the elements in an even cage (rad).
     pub fn spacing(&self) -> f64 {
         TAU / self.model.element_count as f64
     }
 
-    /// Cage angle with which everything repeats [rad]: the spacing of the elements, which are alike, or a whole turn of
+    /// Cage angle with which everything repeats (rad): the spacing of the elements, which are alike, or a whole turn of
     /// an irregular cage.
     pub fn period(&self) -> f64 {
         if self.model.is_even() { self.spacing() } else { TAU }
     }
 
-    /// The same bearing with the inner ring at another angle [rad].
+    /// The same bearing with the inner ring at another angle (rad).
     pub fn with_shaft_angle(&self, angle: f64) -> Self {
         let mut other = self.clone();
         other.scene.shaft_initial_angle = angle;
         other
     }
 
-    /// How far [m] element `j` (from 0) goes down in the defects of the rings before it touches both, with element 1 at
-    /// `cage_angle` [rad].
+    /// How far (m) element `j` (from 0) goes down in the defects of the rings before it touches both, with element 1 at
+    /// `cage_angle` (rad).
     pub(super) fn sunk(&self, j: usize, cage_angle: f64) -> f64 {
         let inside = self.model.resting_opening(j, cage_angle, self.scene.shaft_initial_angle);
         self.model.resting_path(j, cage_angle) + inside
     }
 
-    /// The balance with element 1 at `cage_angle` [rad] under `load` [N] on the inner ring.
+    /// The balance with element 1 at `cage_angle` (rad) under `load` (N) on the inner ring.
     ///
     /// # Errors
     /// A load that is 0 or not finite; no equilibrium found.
@@ -250,12 +250,12 @@ impl StaticBearing {
         })
     }
 
-    /// The same bearing under another load on the inner ring [N].
+    /// The same bearing under another load on the inner ring (N).
     pub fn with_load(&self, load: [f64; 2]) -> Self {
         Self { load, ..self.clone() }
     }
 
-    /// The same bearing with another radial clearance [m]; the raceways' radii, and with them the Hertz constants,
+    /// The same bearing with another radial clearance (m); the raceways' radii, and with them the Hertz constants,
     /// stay: they would change by as little as the clearance is against them.
     pub fn with_clearance(&self, clearance: f64) -> Self {
         let mut other = self.clone();
@@ -263,7 +263,7 @@ impl StaticBearing {
         other
     }
 
-    /// The same bearing with another compliance in series with each outer contact [m/N].
+    /// The same bearing with another compliance in series with each outer contact (m/N).
     pub fn with_outer_compliance(&self, compliance: f64) -> Self {
         let mut other = self.clone();
         other.model.outer.contact.compliance = compliance;
@@ -285,7 +285,7 @@ impl StaticBearing {
         Ok(other.with_clearance(self.model.radial_clearance).with_outer_compliance(self.model.outer.contact.compliance))
     }
 
-    /// The defects of a ring: first and last angle [rad] from the centre of each, and the angle of its centre against
+    /// The defects of a ring: first and last angle (rad) from the centre of each, and the angle of its centre against
     /// the axes while the ring is at its angle of the start.
     pub(super) fn extents(&self, on: DefectOn) -> impl Iterator<Item = ([f64; 2], f64)> {
         let turned = match on {
@@ -300,7 +300,7 @@ impl StaticBearing {
         })
     }
 
-    /// Length of the first defect along its body [rad]; `None` without one.
+    /// Length of the first defect along its body (rad); `None` without one.
     pub fn defect_length(&self) -> Option<f64> {
         let (defect, surface) = self.scene.defects.first().zip(self.surfaces.first())?;
         let (first, last) = surface.extent();
@@ -325,14 +325,14 @@ impl Balance {
         [x / length, y / length]
     }
 
-    /// Stiffness along the load with the transverse position held, e·K e [N/m].
+    /// Stiffness along the load with the transverse position held, e·K e (N/m).
     pub fn held_stiffness(&self) -> f64 {
         let [x, y] = self.load_direction();
         let [[xx, xy], [yx, yy]] = self.stiffness;
         x * (xx * x + xy * y) + y * (yx * x + yy * y)
     }
 
-    /// Stiffness along the load without transverse force, 1/(e·K⁻¹ e) [N/m]; 0 where nothing holds the ring sideways.
+    /// Stiffness along the load without transverse force, 1/(e·K⁻¹ e) (N/m); 0 where nothing holds the ring sideways.
     pub fn free_stiffness(&self) -> f64 {
         let [x, y] = self.load_direction();
         let [[xx, xy], [yx, yy]] = self.stiffness;

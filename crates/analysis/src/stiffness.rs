@@ -6,10 +6,10 @@
 
 use super::static_bearing::{Balance, StaticBearing, StaticError};
 
-/// Half the width of the bracket in which a change is found [rad].
+/// Half the width of the bracket in which a change is found (rad).
 const NARROW: f64 = 1e-7;
 
-/// The balances over one period, the element spacing or a turn of an irregular cage, from the cage angle `first` [rad]
+/// The balances over one period, the element spacing or a turn of an irregular cage, from the cage angle `first` (rad)
 /// on, under the bearing's own load: at `count` evenly spaced angles, at the end, and at both sides of each angle
 /// between them at which an element begins or ceases to carry. Angles ascend.
 ///
@@ -22,7 +22,7 @@ pub fn sweep(bearing: &StaticBearing, first: f64, count: usize) -> Result<Vec<Ba
     with_changes(first, bearing.period(), count, at, same_loaded)
 }
 
-/// What `at` gives at `count` evenly spaced angles from `first` [rad] on over one element spacing, at its end, and at
+/// What `at` gives at `count` evenly spaced angles from `first` (rad) on over one element spacing, at its end, and at
 /// both sides of each angle between them at which it ceases to be the same kind.
 pub(super) fn with_changes<T: Clone, E>(
     first: f64,

@@ -25,7 +25,7 @@
 use super::contact_pressure::Pressed;
 use std::f64::consts::TAU;
 
-/// A stress tensor [Pa].
+/// A stress tensor (Pa).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Stress {
     /// σ_xx, σ_yy, σ_zz.
@@ -35,7 +35,7 @@ pub struct Stress {
 }
 
 impl Stress {
-    /// Von Mises' equivalent stress [Pa].
+    /// Von Mises' equivalent stress (Pa).
     pub fn von_mises(&self) -> f64 {
         let ([x, y, z], [xy, xz, yz]) = (self.normal, self.shear);
         let square = |v: f64| v * v;
@@ -44,7 +44,7 @@ impl Stress {
     }
 }
 
-/// Corners of loaded cells: x and y [m], and the mixed difference of the pressures that meet there [Pa].
+/// Corners of loaded cells: x and y (m), and the mixed difference of the pressures that meet there (Pa).
 #[derive(Debug, Clone)]
 pub struct Corners {
     poissons_ratio: f64,
@@ -82,7 +82,7 @@ impl Corners {
         Self { poissons_ratio, corners }
     }
 
-    /// Stress at a point [m], x, y and depth.
+    /// Stress at a point (m), x, y and depth.
     pub fn stress(&self, [x, y, z]: [f64; 3]) -> Stress {
         let nu = self.poissons_ratio;
         let mut sum = Stress::default();
@@ -118,7 +118,7 @@ fn corner_stress(x: f64, y: f64, z: f64, nu: f64) -> Stress {
     }
 }
 
-/// The largest von Mises stress among points of ascending depth, and its depth [m], by a parabola through the three
+/// The largest von Mises stress among points of ascending depth, and its depth (m), by a parabola through the three
 /// points around it.
 pub fn maximum(depths: &[f64], stresses: &[Stress]) -> [f64; 2] {
     let values: Vec<f64> = stresses.iter().map(Stress::von_mises).collect();

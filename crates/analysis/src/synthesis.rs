@@ -20,9 +20,9 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Points of one passage.
 pub const POINTS: usize = 1024;
-/// Upper edge of the compared band [Hz]: above the rings' modes (0.2–1 kHz), below the chatter of unloaded elements.
+/// Upper edge of the compared band (Hz): above the rings' modes (0.2–1 kHz), below the chatter of unloaded elements.
 pub const CUT: f64 = 2500.0;
-/// Time in which the rings' modes decay to a hundredth, with usual supports [s]; a long run grants twice that.
+/// Time in which the rings' modes decay to a hundredth, with usual supports (s); a long run grants twice that.
 const DECAY: f64 = 0.025;
 /// Tolerance of short runs: it moves similarity by less than 0.002 and saves a third of the time.
 const ROUGH: f64 = 1e-3;
@@ -41,7 +41,7 @@ pub enum Run {
 pub struct Trial {
     /// Length [degrees of the outer raceway].
     pub length: f64,
-    /// Depth [m].
+    /// Depth (m).
     pub depth: f64,
     /// Law of the contact near its edges.
     pub law: ContactLaw,
@@ -60,7 +60,7 @@ pub struct Rig<'a> {
 }
 
 impl<'a> Rig<'a> {
-    /// The scene at the speed at which elements pass `bpfo` times a second [Hz]; `None` when the scene leaves motion or
+    /// The scene at the speed at which elements pass `bpfo` times a second (Hz); `None` when the scene leaves motion or
     /// sensor to others and cannot be simulated by itself.
     pub fn new(scene: &Scene, bpfo: f64, maps: Maps<'a>) -> Option<Self> {
         let whole = scene.shaft.motion == Motion::Internal && scene.housing.motion != Motion::Host;

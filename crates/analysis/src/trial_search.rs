@@ -9,11 +9,11 @@ use super::synthesis::{Rig, Run, Trial, similarity};
 use brinell::scene::ContactLaw;
 use rayon::prelude::*;
 
-/// Step of the last search [degrees].
+/// Step of the last search (degrees).
 pub(super) const FINE: f64 = 0.1;
-/// Half the range in which the contact's width can shift a length [degrees].
+/// Half the range in which the contact's width can shift a length (degrees).
 const WIDE: f64 = 0.8;
-/// First steps of a climb, in length [degrees] and as a ratio of depths.
+/// First steps of a climb, in length (degrees) and as a ratio of depths.
 const FIRST_STEPS: (f64, f64) = (0.4, 1.25);
 /// Times the steps are halved: to a twentieth of a degree and 3 % of the depth.
 const HALVINGS: usize = 3;
@@ -170,7 +170,7 @@ pub(super) fn top(fits: &[Fit], target: &[f64]) -> Option<Top> {
     Some(Top { length: length + shift * FINE, similarity: b, index: i })
 }
 
-/// Lengths from one to another [degrees].
+/// Lengths from one to another (degrees).
 pub(super) fn lengths(from: f64, to: f64, step: f64) -> impl Iterator<Item = f64> {
     let count = ((to - from) / step + 1e-9).floor().max(0.0) as usize;
     (0..=count).map(move |i| from + step * i as f64)

@@ -23,14 +23,14 @@ use brinell::scene::{ContactLaw, Scene};
 pub const LIKE: f64 = 0.9;
 /// Similarity of the coarse search below which the fine one is not worth its time.
 const HOPELESS: f64 = 0.5;
-/// Depth of the first trial spalls [m]: where elements do not reach the floor, it does not matter.
+/// Depth of the first trial spalls (m): where elements do not reach the floor, it does not matter.
 const DEPTH: f64 = 100e-6;
 /// Shallow trials, in approaches of the most loaded element: at 3.3 of them the neighbours' squeeze brings the inner
 /// ring down to the floor of an extended spall.
 const SHALLOW: [f64; 5] = [4.4, 3.4, 2.6, 2.0, 1.5];
 /// Depths tried beside the best, as shares of it.
 const OTHER_DEPTHS: [f64; 4] = [0.5, 0.25, 2.0, 4.0];
-/// Step of the ladder [degrees]; half of it where elements stand on the floor, for similarity falls off more steeply
+/// Step of the ladder (degrees); half of it where elements stand on the floor, for similarity falls off more steeply
 /// there.
 const STEP: f64 = 1.0;
 /// Climbs from the ladder's best trials at most.
@@ -45,7 +45,7 @@ const RESAMPLINGS: usize = 60;
 pub struct WaveformLength {
     /// Length.
     pub length: f64,
-    /// Depth of the best trial [m].
+    /// Depth of the best trial (m).
     pub depth: f64,
     /// Standard uncertainty from the scatter of passages.
     pub statistical: f64,
@@ -55,7 +55,7 @@ pub struct WaveformLength {
     pub similarity: f64,
     /// Largest similarity of a trial that is a line spall, and of one that is extended.
     pub by_kind: [f64; 2],
-    /// Where in a period an entry begins [share of it].
+    /// Where in a period an entry begins (share of it).
     pub entry: f64,
     /// The most alike passage, moved over the measured one and turned its way: [`POINTS`] points from the period's
     /// start, norm 1.

@@ -2,9 +2,6 @@
 //!
 //! A crate of its own: faer's methods are generic, and are compiled here once for all who use them.
 
-// Units in brackets, as in `[m]`, are no links.
-#![allow(rustdoc::broken_intra_doc_links)]
-
 use faer::Mat;
 pub use faer::c64;
 use faer::linalg::solvers::{Solve, SolveLstsq};

@@ -2,9 +2,6 @@
 //!
 //! The standard library's sine and cosine are the platform's own; these are compiled with the project.
 
-// Units in brackets, as in `[m]`, are no links.
-#![allow(rustdoc::broken_intra_doc_links)]
-
 pub mod counter_noise;
 mod trigonometry;
 

@@ -6,7 +6,7 @@
 
 use std::f64::consts::{FRAC_1_PI, FRAC_2_PI, TAU};
 
-/// Largest angle that the two parts of π/2 serve [rad].
+/// Largest angle that the two parts of π/2 serve (rad).
 const LARGEST: f64 = 1e5;
 /// π/2 in two parts; the first has 33 bits.
 const QUARTER: [f64; 2] = [1.570_796_326_734_125_6, 6.077_100_506_506_192e-11];
@@ -36,7 +36,7 @@ const COSINE: [f64; 7] = [
     1.0 / 20_922_789_888_000.0,
 ];
 
-/// Sine and cosine of `angle` [rad], with the same bits on every machine.
+/// Sine and cosine of `angle` (rad), with the same bits on every machine.
 #[inline(always)]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
     if !(angle.abs() <= LARGEST) {
@@ -69,7 +69,7 @@ fn series<const N: usize>(c: &[f64; N], x: f64) -> f64 {
     even + x * odd
 }
 
-/// `angle` [rad] brought into [−π, π] by whole turns.
+/// `angle` (rad) brought into [−π, π] by whole turns.
 #[inline(always)]
 pub fn wrap(angle: f64) -> f64 {
     let turns = angle * (0.5 * FRAC_1_PI);

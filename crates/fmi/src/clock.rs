@@ -26,20 +26,20 @@ const ADDED: f64 = 1e-9;
 /// The same per step, of the last one and the one to come the shorter.
 const OF_STEP: f64 = 1e-2;
 
-/// Time of an instance [s].
+/// Time of an instance (s).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Clock {
-    /// Start of the experiment [s].
+    /// Start of the experiment (s).
     pub(super) start: f64,
-    /// End of the experiment [s], when the host has told one.
+    /// End of the experiment (s), when the host has told one.
     pub(super) stop: Option<f64>,
-    /// The communication point reached [s].
+    /// The communication point reached (s).
     pub(super) time: f64,
-    /// The step that led there [s]; 0 before the first.
+    /// The step that led there (s); 0 before the first.
     pub(super) last: f64,
-    /// How far `time` is beyond the start and the exact sum of all steps since [s].
+    /// How far `time` is beyond the start and the exact sum of all steps since (s).
     pub(super) drift: f64,
-    /// What the roundings of so many additions may come to [s].
+    /// What the roundings of so many additions may come to (s).
     pub(super) rounded: f64,
 }
 
@@ -143,7 +143,7 @@ impl Clock {
         Self { time: end, last: step, drift, rounded, ..*self }
     }
 
-    /// Difference [s] that passes for a host's rounding around a step, next to which the `shortest` step lies.
+    /// Difference (s) that passes for a host's rounding around a step, next to which the `shortest` step lies.
     fn allowed(&self, step: f64, shortest: f64) -> f64 {
         let largest = self.time.abs().max(self.start.abs()).max(step);
         (ROUNDINGS * f64::EPSILON * largest).max((ADDED * largest).min(OF_STEP * shortest))

@@ -15,7 +15,7 @@ use super::mode::Mode;
 /// Where a step has ended.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Reached {
-    /// Time [s].
+    /// Time (s).
     pub(super) time: f64,
     /// Whether that is before the end asked for.
     pub(super) early: bool,
@@ -51,7 +51,7 @@ pub(super) fn take_step(instance: &mut Borrowed, point: f64, step: f64) -> Resul
     Ok(Reached { time: reached.time, early })
 }
 
-/// When the host is called within a step [s].
+/// When the host is called within a step (s).
 struct Instants {
     /// Begin of the step.
     from: f64,

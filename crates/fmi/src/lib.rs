@@ -23,8 +23,6 @@
 //! | `intermediate` | steps that tell the host how far they have come, and return early |
 //! | [`fmi2`], [`fmi3`] | the functions of FMI 2.0 and of FMI 3.0 |
 
-// Units in brackets, as in `[m]`, are no links.
-#![allow(rustdoc::broken_intra_doc_links)]
 #![allow(unsafe_code)]
 
 mod addressing;

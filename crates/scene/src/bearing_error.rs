@@ -78,11 +78,11 @@ pub enum BearingError {
          {high_mm} mm, 0.3 and 3 times bearing.element_diameter_mm, for cylindrical rollers; needle rollers bend"
     )]
     RollerLength {
-        /// Length [mm].
+        /// Length (mm).
         length_mm: f64,
-        /// Smallest length [mm].
+        /// Smallest length (mm).
         low_mm: f64,
-        /// Largest length [mm].
+        /// Largest length (mm).
         high_mm: f64,
     },
     /// Rollers of another material than steel.
@@ -119,11 +119,11 @@ pub enum BearingError {
     ElementsOverlap {
         /// Number of elements.
         count: usize,
-        /// Element diameter [mm].
+        /// Element diameter (mm).
         diameter_mm: f64,
-        /// Pitch diameter [mm].
+        /// Pitch diameter (mm).
         pitch_diameter_mm: f64,
-        /// Largest diameter that fits [mm].
+        /// Largest diameter that fits (mm).
         limit_mm: f64,
     },
     /// An inner raceway without a radius.
@@ -132,9 +132,9 @@ pub enum BearingError {
          diameter and the radial clearance together, or no inner raceway is left"
     )]
     NoInnerRaceway {
-        /// Pitch diameter [mm].
+        /// Pitch diameter (mm).
         pitch_diameter_mm: f64,
-        /// What it must exceed [mm].
+        /// What it must exceed (mm).
         limit_mm: f64,
     },
     /// A preload that squeezes the elements beyond what the model describes.
@@ -144,9 +144,9 @@ pub enum BearingError {
          as much"
     )]
     NoRoom {
-        /// Clearance [µm].
+        /// Clearance (µm).
         clearance_um: f64,
-        /// Smallest clearance [µm].
+        /// Smallest clearance (µm).
         limit_um: f64,
     },
     /// A clearance from which the elements fall.
@@ -155,9 +155,9 @@ pub enum BearingError {
          of an element; bearing.internal_clearance_um is twice as much"
     )]
     TooLoose {
-        /// Clearance [µm].
+        /// Clearance (µm).
         clearance_um: f64,
-        /// Largest clearance [µm].
+        /// Largest clearance (µm).
         limit_um: f64,
     },
 }

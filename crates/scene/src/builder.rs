@@ -64,7 +64,7 @@ impl Scene {
 }
 
 impl Bearing {
-    /// A ball bearing of steel: `count` balls of a diameter [m] on a pitch diameter [m]. Conformities 0.52, radial
+    /// A ball bearing of steel: `count` balls of a diameter (m) on a pitch diameter (m). Conformities 0.52, radial
     /// clearance 5 µm, Young's modulus 207 GPa, Poisson's ratio 0.3, density 7800 kg/m³: all of them assumed, usual
     /// values.
     pub fn steel_balls(count: usize, element_diameter: f64, pitch_diameter: f64) -> Self {
@@ -87,8 +87,8 @@ impl Bearing {
         }
     }
 
-    /// A cylindrical roller bearing of steel: `count` rollers of a diameter and an effective length [m] on a pitch
-    /// diameter [m], with the logarithmic crown of ISO/TS 16281. The rest as [`steel_balls`](Self::steel_balls) has it.
+    /// A cylindrical roller bearing of steel: `count` rollers of a diameter and an effective length (m) on a pitch
+    /// diameter (m), with the logarithmic crown of ISO/TS 16281. The rest as [`steel_balls`](Self::steel_balls) has it.
     pub fn steel_rollers(count: usize, element_diameter: f64, length: f64, pitch_diameter: f64) -> Self {
         let roller = Roller { length, profile: RollerProfile::Logarithmic, laminae: Roller::LAMINAE };
         Self {
@@ -141,21 +141,21 @@ impl SceneBuilder {
         self
     }
 
-    /// Gravity [m/s²], x and y.
+    /// Gravity (m/s²), x and y.
     #[must_use]
     pub fn gravity(mut self, gravity: [f64; 2]) -> Self {
         self.scene.gravity = gravity;
         self
     }
 
-    /// Shaft speed [rad/s], counter-clockwise.
+    /// Shaft speed (rad/s), counter-clockwise.
     #[must_use]
     pub fn shaft_speed(mut self, speed: f64) -> Self {
         self.scene.shaft_speed = speed;
         self
     }
 
-    /// Load on the inner ring [N], x and y.
+    /// Load on the inner ring (N), x and y.
     #[must_use]
     pub fn shaft_load(mut self, load: [f64; 2]) -> Self {
         self.scene.shaft.load = load;
@@ -176,7 +176,7 @@ impl SceneBuilder {
         self
     }
 
-    /// A spall of the outer raceway with vertical edges: angle of its centre [rad], length [m] and depth [m].
+    /// A spall of the outer raceway with vertical edges: angle of its centre (rad), length (m) and depth (m).
     #[must_use]
     pub fn spall(self, angle: f64, length: f64, depth: f64) -> Self {
         self.defect(Defect::outer(angle, DefectShape::Spall { length, depth, edge_slope: FRAC_PI_2 }))
@@ -203,7 +203,7 @@ impl SceneBuilder {
         self
     }
 
-    /// The cage: its slip, and the angle of element 1 at the start [rad].
+    /// The cage: its slip, and the angle of element 1 at the start (rad).
     #[must_use]
     pub fn cage(mut self, slip: f64, initial_angle: f64) -> Self {
         self.scene.cage = Cage { slip, initial_angle, ..self.scene.cage };

@@ -9,7 +9,7 @@ pub struct Cage {
     pub slip: f64,
     /// The elements' lag behind the spin of pure rolling.
     pub spin_slip: f64,
-    /// Angle of element 1 at the start [rad], counter-clockwise from +x; in an irregular cage that of its position
+    /// Angle of element 1 at the start (rad), counter-clockwise from +x; in an irregular cage that of its position
     /// in an even one.
     pub initial_angle: f64,
     /// What makes passages uneven; `None` for an even cage that turns evenly.
@@ -19,9 +19,9 @@ pub struct Cage {
 /// What makes passages uneven.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CageIrregularity {
-    /// Angle of each element ahead of even spacing [rad], their sum 0.
+    /// Angle of each element ahead of even spacing (rad), their sum 0.
     pub offsets: Vec<f64>,
-    /// Root mean square of each element's stationary motion about its position [rad].
+    /// Root mean square of each element's stationary motion about its position (rad).
     pub jitter: f64,
     /// Root mean square of the slow part of slip, as a share of the cage's speed.
     pub wander: f64,
@@ -35,7 +35,7 @@ impl CageIrregularity {
     /// are stationary, and the mean speed wanders by 0.1 to 0.7 % in 5 s.
     pub const RECORDED: [f64; 3] = [0.006, 0.004, 0.003];
 
-    /// Offsets of `count` elements drawn with a seed, of this root mean square [rad] and of sum 0.
+    /// Offsets of `count` elements drawn with a seed, of this root mean square (rad) and of sum 0.
     pub fn drawn_offsets(count: usize, rms: f64, seed: u64) -> Vec<f64> {
         let drawn: Vec<f64> = (0..count).map(|j| gaussian(seed, 0, j as i64)).collect();
         let centred = centred(&drawn);

@@ -19,7 +19,7 @@
 
 /// Millimetres of 1/64 inch, in which balls are made.
 const STEP_OF_BALLS: f64 = 25.4 / 64.0;
-/// Part of the pitch circle that balls fill [°], from the outermost edge of the first to that of the last but one.
+/// Part of the pitch circle that balls fill (°), from the outermost edge of the first to that of the last but one.
 const FILLED: f64 = 195.0;
 
 /// Cylindrical roller bearings, and the ball bearing that has the same boundary by ISO 15.
@@ -54,7 +54,7 @@ const FLANGES: [&str; 4] = ["NU", "NJ", "NUP", "N"];
 pub struct CatalogueBearing {
     /// Its name.
     pub designation: &'static str,
-    /// Bore, outside diameter and width [mm].
+    /// Bore, outside diameter and width (mm).
     pub boundary: [f64; 3],
     /// What is inside.
     pub inside: Inside,
@@ -65,23 +65,23 @@ pub struct CatalogueBearing {
 pub struct Inside {
     /// Number of balls or rollers.
     pub element_count: usize,
-    /// Their diameter [mm].
+    /// Their diameter (mm).
     pub element_diameter: f64,
-    /// Pitch diameter [mm].
+    /// Pitch diameter (mm).
     pub pitch_diameter: f64,
-    /// Effective length of a roller [mm]; `None` of balls.
+    /// Effective length of a roller (mm); `None` of balls.
     pub roller_length: Option<f64>,
     /// Who has published that; `None` where it is estimated.
     pub source: Option<&'static str>,
 }
 
-/// Static load rating of deep groove ball bearings over Z·D² [N/mm²], about ISO 76's f₀ for them.
+/// Static load rating of deep groove ball bearings over Z·D² (N/mm²), about ISO 76's f₀ for them.
 const RATING_OF_BALLS: f64 = 12.3;
-/// The same of cylindrical roller bearings over (1 − D/D_pw) Z L D [N/mm²], ISO 76.
+/// The same of cylindrical roller bearings over (1 − D/D_pw) Z L D (N/mm²), ISO 76.
 const RATING_OF_ROLLERS: f64 = 44.0;
 
 impl Inside {
-    /// Static load rating by ISO 76, roughly [N].
+    /// Static load rating by ISO 76, roughly (N).
     pub fn static_rating(&self) -> f64 {
         let (count, diameter) = (self.element_count as f64, self.element_diameter);
         match self.roller_length {
@@ -91,7 +91,7 @@ impl Inside {
     }
 }
 
-/// Name, bore, outside diameter and width [mm] by ISO 15.
+/// Name, bore, outside diameter and width (mm) by ISO 15.
 const BOUNDARIES: [(&str, [f64; 3]); 37] = [
     ("608", [8.0, 22.0, 7.0]),
     ("6000", [10.0, 26.0, 8.0]),
@@ -132,7 +132,7 @@ const BOUNDARIES: [(&str, [f64; 3]); 37] = [
     ("6312", [60.0, 130.0, 31.0]),
 ];
 
-/// Name, number of balls, their diameter and the pitch diameter [mm], and who has published that.
+/// Name, number of balls, their diameter and the pitch diameter (mm), and who has published that.
 const PUBLISHED: [(&str, usize, [f64; 2], &str); 2] = [
     ("6203", 8, [6.7462, 28.4988], "Case Western Reserve University's bearing data, fan end"),
     ("6205", 9, [7.94, 39.04], "Case Western Reserve University's bearing data, drive end"),

@@ -170,12 +170,12 @@ impl Sensor {
 }
 
 impl Bearing {
-    /// Smallest radial clearance [m]; negative. Below it the contacts leave the elastic range.
+    /// Smallest radial clearance (m); negative. Below it the contacts leave the elastic range.
     pub fn smallest_radial_clearance(&self) -> f64 {
         SMALLEST_RELATIVE_CLEARANCE * self.element_diameter
     }
 
-    /// Largest radial clearance [m]: the radius of an element.
+    /// Largest radial clearance (m): the radius of an element.
     pub fn largest_radial_clearance(&self) -> f64 {
         self.element_radius()
     }

@@ -88,7 +88,7 @@ impl Defect {
         check_profile_name(name)
     }
 
-    /// Diameter of a pit whose rim the rolling track touches [m].
+    /// Diameter of a pit whose rim the rolling track touches (m).
     fn off_track(&self, bearing: &Bearing) -> f64 {
         match self.on {
             DefectOn::Element { tilt, .. } => 2.0 * bearing.element_radius() * libm::sin(tilt).abs(),

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 pub struct Defect {
     /// The body that bears it.
     pub on: DefectOn,
-    /// Angle of its centre [rad]: on a ring counter-clockwise in the ring's own sense, from +x at the start unless the
+    /// Angle of its centre (rad): on a ring counter-clockwise in the ring's own sense, from +x at the start unless the
     /// ring has another initial angle; on an element counter-clockwise from where it faces the outer raceway at the
     /// start.
     pub angle: f64,
@@ -28,7 +28,7 @@ pub enum DefectOn {
     Element {
         /// Which, from 0.
         element: usize,
-        /// Latitude of a pit's centre off the rolling track [rad], 0 for one on it.
+        /// Latitude of a pit's centre off the rolling track (rad), 0 for one on it.
         tilt: f64,
     },
 }
@@ -38,11 +38,11 @@ pub enum DefectOn {
 pub enum DefectShape {
     /// A trapezoid: flat floor, straight flanks, the full width of the raceway.
     Spall {
-        /// Length along the raceway at its surface [m].
+        /// Length along the raceway at its surface (m).
         length: f64,
-        /// Depth of the floor [m].
+        /// Depth of the floor (m).
         depth: f64,
-        /// Steepness of the flanks [rad]; π/2 for vertical edges.
+        /// Steepness of the flanks (rad); π/2 for vertical edges.
         edge_slope: f64,
     },
     /// A measured profile: file name beside the scene file.
@@ -52,7 +52,7 @@ pub enum DefectShape {
 /// What a size of a defect must stay below.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DefectLimit {
-    /// [m]
+    /// (m)
     pub size: f64,
     /// What that is.
     pub what: &'static str,
@@ -64,19 +64,19 @@ const LONGEST: f64 = 0.9;
 const DEEPEST: f64 = 0.2;
 
 impl Defect {
-    /// A defect of the outer raceway whose centre is at `angle` [rad].
+    /// A defect of the outer raceway whose centre is at `angle` (rad).
     pub fn outer(angle: f64, shape: DefectShape) -> Self {
         Self { on: DefectOn::Outer, angle, shape }
     }
 
-    /// A defect of the inner raceway whose centre is at `angle` [rad] at the start.
+    /// A defect of the inner raceway whose centre is at `angle` (rad) at the start.
     pub fn inner(angle: f64, shape: DefectShape) -> Self {
         Self { on: DefectOn::Inner, angle, shape }
     }
 }
 
 impl DefectOn {
-    /// Radius of the body where defects are [m].
+    /// Radius of the body where defects are (m).
     pub fn radius(self, bearing: &Bearing) -> f64 {
         match self {
             Self::Outer => bearing.outer_raceway_radius(),
@@ -105,7 +105,7 @@ impl DefectOn {
         DefectLimit { size, what }
     }
 
-    /// Length [m] along the rolling track of a spall of this length: the chord on which the track crosses a round pit
+    /// Length (m) along the rolling track of a spall of this length: the chord on which the track crosses a round pit
     /// that lies off it, √(d² − 4 r² sin² λ); 0 where it does not.
     pub fn met_length(self, length: f64, bearing: &Bearing) -> f64 {
         match self {

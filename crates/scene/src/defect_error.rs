@@ -7,7 +7,7 @@ pub enum DefectError {
     /// A defect off the track of a roller, whose track is as wide as the roller.
     #[error("defect.tilt_deg is {tilt_deg}: it must be 0 on a roller, which touches over its whole length")]
     TiltOnRoller {
-        /// Tilt [°].
+        /// Tilt (°).
         tilt_deg: f64,
     },
     /// A spall as long as the raceway or longer.
@@ -16,9 +16,9 @@ pub enum DefectError {
          {limit}"
     )]
     SpallTooLong {
-        /// Length [mm].
+        /// Length (mm).
         length_mm: f64,
-        /// Limit [mm].
+        /// Limit (mm).
         limit_mm: f64,
         /// What that is.
         limit: &'static str,
@@ -29,17 +29,17 @@ pub enum DefectError {
          thousandth of the element's diameter, or no element sinks into it"
     )]
     SpallTooShort {
-        /// Length [mm].
+        /// Length (mm).
         length_mm: f64,
-        /// Limit [mm].
+        /// Limit (mm).
         limit_mm: f64,
     },
     /// A spall as deep as the element's radius or deeper.
     #[error("spall depth (defect.depth_um) is {depth_um}: it must be below {limit_um}, {limit}")]
     SpallTooDeep {
-        /// Depth [µm].
+        /// Depth (µm).
         depth_um: f64,
-        /// Limit [µm].
+        /// Limit (µm).
         limit_um: f64,
         /// What that is.
         limit: &'static str,
@@ -58,9 +58,9 @@ pub enum DefectError {
          if it is more than {limit_mm} across"
     )]
     PitNotMet {
-        /// Diameter [mm].
+        /// Diameter (mm).
         length_mm: f64,
-        /// Diameter at which its rim touches the track [mm].
+        /// Diameter at which its rim touches the track (mm).
         limit_mm: f64,
     },
     /// A measured profile off the rolling track.
@@ -68,7 +68,7 @@ pub enum DefectError {
         "defect.tilt_deg is {tilt_deg}: it must be 0 with defect.profile, which is measured along the rolling track"
     )]
     TiltedProfile {
-        /// Tilt [°].
+        /// Tilt (°).
         tilt_deg: f64,
     },
     /// A key that belongs to a defect of an element.
@@ -85,13 +85,13 @@ pub enum DefectError {
          at {limit_um} um in a spall of {length_mm} mm"
     )]
     FlanksMeet {
-        /// Depth [µm].
+        /// Depth (µm).
         depth_um: f64,
-        /// Steepness of the flanks [°].
+        /// Steepness of the flanks (°).
         edge_slope_deg: f64,
-        /// Depth at which they meet [µm].
+        /// Depth at which they meet (µm).
         limit_um: f64,
-        /// Length [mm].
+        /// Length (mm).
         length_mm: f64,
     },
     /// A softness of edges that the law knows nothing of.

@@ -139,11 +139,11 @@ pub enum SceneError {
     OffPocket {
         /// Its number, from 1.
         element: usize,
-        /// Offset [°].
+        /// Offset (°).
         offset_deg: f64,
-        /// Root mean square of the jitter [°].
+        /// Root mean square of the jitter (°).
         jitter_deg: f64,
-        /// Limit [°].
+        /// Limit (°).
         limit_deg: f64,
     },
     /// A load on a ring that does not move by itself.
@@ -152,7 +152,7 @@ pub enum SceneError {
     LoadNotInternal {
         /// Table of the ring.
         ring: &'static str,
-        /// The load [N].
+        /// The load (N).
         load: [f64; 2],
     },
     /// Two free rings, so that no load has an equilibrium.
@@ -169,9 +169,9 @@ pub enum SceneError {
         "communication step (experiment.step_s) is {step}: it must be at most {stop}, the stop time (experiment.stop_s)"
     )]
     StepBeyondStop {
-        /// Communication step [s].
+        /// Communication step (s).
         step: f64,
-        /// Stop time [s].
+        /// Stop time (s).
         stop: f64,
     },
 }

@@ -147,14 +147,14 @@ struct SceneFile {
     /// Slip, start and irregularity of the cage.
     #[serde(default)]
     cage: CageTable,
-    /// A defect; several as [[defect]]; none for a healthy bearing.
+    /// A defect; several as `[[defect]]`; none for a healthy bearing.
     #[serde(default)]
     defect: OneOrMore<DefectTable>,
     /// The inner ring.
     shaft: ShaftTable,
     /// The outer ring.
     housing: HousingTable,
-    /// An accelerometer on the housing; several as [[sensor]].
+    /// An accelerometer on the housing; several as `[[sensor]]`.
     #[serde(default)]
     sensor: OneOrMore<SensorTable>,
     /// A displacement probe between the rings; a table without keys.

@@ -2,9 +2,6 @@
 //!
 //! A [`Scene`] that exists is possible: all that is made of it relies on that and checks nothing again.
 
-// Units in brackets, as in `[m]`, are no links.
-#![allow(rustdoc::broken_intra_doc_links)]
-
 mod bearing_error;
 mod builder;
 mod cage;
@@ -52,7 +49,7 @@ pub struct Scene {
     pub name: String,
     /// One line for the reader.
     pub description: String,
-    /// Gravity [m/s²], x and y.
+    /// Gravity (m/s²), x and y.
     pub gravity: [f64; 2],
     /// The bearing itself.
     pub bearing: Bearing,
@@ -66,16 +63,16 @@ pub struct Scene {
     pub defects: Vec<Defect>,
     /// The inner ring.
     pub shaft: Ring,
-    /// Shaft speed [rad/s], the start value of the input `shaft.speed`.
+    /// Shaft speed (rad/s), the start value of the input `shaft.speed`.
     pub shaft_speed: f64,
-    /// Angle of the inner ring at the start [rad].
+    /// Angle of the inner ring at the start (rad).
     pub shaft_initial_angle: f64,
     /// The outer ring.
     pub housing: Ring,
-    /// Speed of an outer ring that turns [rad/s], the start value of the input `housing.speed`; `None` for one that
+    /// Speed of an outer ring that turns (rad/s), the start value of the input `housing.speed`; `None` for one that
     /// does not.
     pub housing_speed: Option<f64>,
-    /// Angle of the outer ring at the start [rad].
+    /// Angle of the outer ring at the start (rad).
     pub housing_initial_angle: f64,
     /// Accelerometers on the housing.
     pub sensors: Vec<Sensor>,
@@ -153,30 +150,30 @@ pub struct Bearing {
     pub element: RollingElement,
     /// Number of rolling elements Z.
     pub element_count: usize,
-    /// Rolling element diameter D_w [m].
+    /// Rolling element diameter D_w (m).
     pub element_diameter: f64,
-    /// Pitch diameter D_pw [m].
+    /// Pitch diameter D_pw (m).
     pub pitch_diameter: f64,
     /// Groove conformity of the inner ring f_i = r_gi/D_w, above 0.5; infinite with rollers, whose raceways are
     /// straight.
     pub conformity_inner: f64,
     /// Groove conformity of the outer ring f_o = r_go/D_w, above 0.5; infinite with rollers.
     pub conformity_outer: f64,
-    /// Radial internal clearance G_r [m]; negative is a preload.
+    /// Radial internal clearance G_r (m); negative is a preload.
     pub radial_clearance: f64,
-    /// Young's modulus of rings and elements [Pa].
+    /// Young's modulus of rings and elements (Pa).
     pub youngs_modulus: f64,
     /// Poisson's ratio of rings and elements.
     pub poissons_ratio: f64,
-    /// Density of the elements [kg/m³].
+    /// Density of the elements (kg/m³).
     pub density: f64,
-    /// Mass of one element [kg], when it overrides the solid element's.
+    /// Mass of one element (kg), when it overrides the solid element's.
     pub element_mass: Option<f64>,
-    /// Hertz constant of the inner contact [N/m^1.5], when it overrides the computed one.
+    /// Hertz constant of the inner contact (N/m^1.5), when it overrides the computed one.
     pub hertz_inner: Option<f64>,
-    /// Hertz constant of the outer contact [N/m^1.5], when it overrides the computed one.
+    /// Hertz constant of the outer contact (N/m^1.5), when it overrides the computed one.
     pub hertz_outer: Option<f64>,
-    /// Compliance in series with each outer contact [m/N]: how far the outer raceway yields under an element, by the
+    /// Compliance in series with each outer contact (m/N): how far the outer raceway yields under an element, by the
     /// ring's and its seat's own deformation, for each newton that this element carries. 0 for a rigid assembly.
     pub outer_compliance: f64,
     /// Whether an element's mass resists its radial acceleration.
@@ -184,22 +181,22 @@ pub struct Bearing {
 }
 
 impl Bearing {
-    /// Radius of an element [m].
+    /// Radius of an element (m).
     pub fn element_radius(&self) -> f64 {
         0.5 * self.element_diameter
     }
 
-    /// Radius of the outer raceway at the groove's bottom, R_o = (D_pw + D_w + G_r)/2 [m].
+    /// Radius of the outer raceway at the groove's bottom, R_o = (D_pw + D_w + G_r)/2 (m).
     pub fn outer_raceway_radius(&self) -> f64 {
         (self.pitch_diameter + self.element_diameter + self.radial_clearance) / 2.0
     }
 
-    /// Radius of the inner raceway at the groove's bottom, R_i = (D_pw − D_w − G_r)/2 [m].
+    /// Radius of the inner raceway at the groove's bottom, R_i = (D_pw − D_w − G_r)/2 (m).
     pub fn inner_raceway_radius(&self) -> f64 {
         (self.pitch_diameter - self.element_diameter - self.radial_clearance) / 2.0
     }
 
-    /// Mass of one element [kg]: the scene's, or a solid ball's or roller's.
+    /// Mass of one element (kg): the scene's, or a solid ball's or roller's.
     pub fn mass_of_element(&self) -> f64 {
         self.element_mass.unwrap_or_else(|| self.element.volume(self.element_diameter) * self.density)
     }
@@ -220,7 +217,7 @@ pub struct Contact {
     pub law: ContactLaw,
     /// Contact damping.
     pub damping: Damping,
-    /// Largest force on an element near the defect that laws `map` and `love` are prepared for [N]; `None` to take it
+    /// Largest force on an element near the defect that laws `map` and `love` are prepared for (N); `None` to take it
     /// from the loads.
     pub largest_force: Option<f64>,
     /// Cells of the contact grid of laws `map` and `love` along and across Hertz's ellipse at the largest force; `None`
@@ -284,20 +281,20 @@ impl ContactLaw {
 /// Contact damping; never pulls.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Damping {
-    /// Q = Q_e · max(0, 1 + χ δ̇), with the elastic force Q_e(δ), of a ball Kδ^1.5, and χ [s/m].
+    /// Q = Q_e · max(0, 1 + χ δ̇), with the elastic force Q_e(δ), of a ball Kδ^1.5, and χ (s/m).
     HuntCrossley(f64),
-    /// Q = max(0, Q_e + τ Q_e′ δ̇), with τ [s].
+    /// Q = max(0, Q_e + τ Q_e′ δ̇), with τ (s).
     Proportional(f64),
 }
 
 /// Oil in the contacts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Film {
-    /// Viscosity at the pressure of the surroundings [Pa s].
+    /// Viscosity at the pressure of the surroundings (Pa s).
     pub viscosity: f64,
-    /// How the viscosity's logarithm grows with pressure [1/Pa].
+    /// How the viscosity's logarithm grows with pressure (1/Pa).
     pub pressure_viscosity: f64,
-    /// Height up to which oil fills gaps [m]; `None` for all of them.
+    /// Height up to which oil fills gaps (m); `None` for all of them.
     pub layer: Option<f64>,
 }
 
@@ -319,21 +316,21 @@ pub enum Motion {
 pub struct Ring {
     /// Who moves it.
     pub motion: Motion,
-    /// External load [N], x and y: start value of the load inputs. This and what follows: zero unless `motion` is
+    /// External load (N), x and y: start value of the load inputs. This and what follows: zero unless `motion` is
     /// internal.
     pub load: [f64; 2],
-    /// Mass [kg].
+    /// Mass (kg).
     pub mass: f64,
-    /// Viscous damping to ground [N s/m].
+    /// Viscous damping to ground (N s/m).
     pub damping: f64,
-    /// Stiffness to ground [N/m].
+    /// Stiffness to ground (N/m).
     pub stiffness: f64,
 }
 
 /// A recorder of outputs inside the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Recorder {
-    /// Samples per second [Hz].
+    /// Samples per second (Hz).
     pub rate: f64,
     /// What keeps aliases out.
     pub filter: RecorderFilter,
@@ -354,8 +351,8 @@ pub enum RecorderFilter {
 /// Default run of the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Experiment {
-    /// Stop time [s].
+    /// Stop time (s).
     pub stop: f64,
-    /// Communication step [s].
+    /// Communication step (s).
     pub step: f64,
 }

@@ -19,9 +19,9 @@ pub enum Remark {
     },
     /// Oil films that take half of the clearance and more.
     ThickFilms {
-        /// Both films together at the speed of the start [µm].
+        /// Both films together at the speed of the start (µm).
         together_um: f64,
-        /// Radial clearance [µm].
+        /// Radial clearance (µm).
         clearance_um: f64,
     },
     /// A value far from what is built, and usual if it was meant in another unit.

@@ -29,7 +29,7 @@ pub enum ElementInertia {
 /// A cylindrical roller.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Roller {
-    /// Effective length L_we [m]: that of the contact, without chamfers.
+    /// Effective length L_we (m): that of the contact, without chamfers.
     pub length: f64,
     /// How its ends are relieved.
     pub profile: RollerProfile,
@@ -53,7 +53,7 @@ pub enum RollerProfile {
 pub struct Crown {
     /// Name of its file beside the scene file.
     pub name: String,
-    /// Distance from the roller's middle, ascending, and depth [m]; none before the file has been read.
+    /// Distance from the roller's middle, ascending, and depth (m); none before the file has been read.
     pub points: Arc<[[f64; 2]]>,
 }
 
@@ -63,7 +63,7 @@ impl Crown {
         !self.points.is_empty()
     }
 
-    /// Depth [m] at `x` [m] from the roller's middle; beyond the points that of the last.
+    /// Depth (m) at `x` (m) from the roller's middle; beyond the points that of the last.
     pub fn depth(&self, x: f64) -> f64 {
         let next = self.points.partition_point(|point| point[0] <= x);
         match (next.checked_sub(1).and_then(|k| self.points.get(k)), self.points.get(next)) {
@@ -80,7 +80,7 @@ impl Roller {
 }
 
 impl RollingElement {
-    /// Volume [m³] of a solid element of this diameter [m]; a roller's with its effective length.
+    /// Volume (m³) of a solid element of this diameter (m); a roller's with its effective length.
     pub fn volume(&self, diameter: f64) -> f64 {
         match self {
             Self::Ball => PI / 6.0 * diameter * diameter * diameter,

@@ -8,13 +8,13 @@ pub const MOST_SENSORS: usize = 8;
 pub struct Sensor {
     /// What the user calls it; may be empty.
     pub name: String,
-    /// Direction along which it measures [rad], counter-clockwise from +x; π/2 is upwards.
+    /// Direction along which it measures (rad), counter-clockwise from +x; π/2 is upwards.
     pub direction: f64,
-    /// Mass [kg].
+    /// Mass (kg).
     pub mass: f64,
-    /// Stiffness [N/m].
+    /// Stiffness (N/m).
     pub stiffness: f64,
-    /// Damping [N s/m].
+    /// Damping (N s/m).
     pub damping: f64,
     /// Modes of the structure between the outer ring and it.
     pub modes: Vec<SensorMode>,
@@ -26,7 +26,7 @@ pub const MOST_SENSOR_MODES: usize = 32;
 /// A mode of the structure between the outer ring and a sensor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensorMode {
-    /// Natural frequency [Hz].
+    /// Natural frequency (Hz).
     pub frequency: f64,
     /// Share of critical damping.
     pub damping_ratio: f64,

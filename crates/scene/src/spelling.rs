@@ -1,6 +1,6 @@
 //! What was probably meant by a word that is not known.
 
-/// Longest word that is compared [bytes].
+/// Longest word that is compared (bytes).
 const LONGEST: usize = 100;
 
 /// The known word that is spelt most like this one: a beginning of it, or a third of the letters off; `None` if none

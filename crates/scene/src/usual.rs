@@ -17,11 +17,11 @@ struct Usual {
     source: &'static str,
 }
 
-/// Largest n·d_m [mm/min]. Catalogues rate a 6205 for 28 000 rev/min on a pitch circle of 39 mm.
+/// Largest n·d_m (mm/min). Catalogues rate a 6205 for 28 000 rev/min on a pitch circle of 39 mm.
 const FASTEST: f64 = 1.2e6;
 /// What is lifted, m/s².
 const GRAVITY: f64 = 9.81;
-/// Density from plastics to tungsten alloys [kg/m³].
+/// Density from plastics to tungsten alloys (kg/m³).
 const DENSITIES: Range = [1e3, 25e3];
 const DIAMETERS: Range = [0.3, 300.0];
 const PITCHES: Range = [2.0, 5000.0];
@@ -140,7 +140,7 @@ const USUAL: [Usual; 28] = [
     },
 ];
 
-/// The dimensions of a file's bearing [mm], as far as they are known.
+/// The dimensions of a file's bearing (mm), as far as they are known.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Dimensions {
     count: Option<f64>,
@@ -180,7 +180,7 @@ impl Dimensions {
         )
     }
 
-    /// Volume of an element [mm³].
+    /// Volume of an element (mm³).
     fn volume(&self) -> Option<f64> {
         let diameter = self.diameter?;
         Some(match self.length {
@@ -189,12 +189,12 @@ impl Dimensions {
         })
     }
 
-    /// Circumference of the outer raceway [mm].
+    /// Circumference of the outer raceway (mm).
     fn around(&self) -> Option<f64> {
         Some(PI * (self.pitch? + self.diameter?))
     }
 
-    /// Static load rating [N].
+    /// Static load rating (N).
     fn rating(&self) -> Option<f64> {
         let (element_count, element_diameter) = (self.count? as usize, self.diameter?);
         let (pitch_diameter, roller_length) = (self.pitch?, self.length);

@@ -6,14 +6,11 @@
 //!
 //! A crate of its own: the transforms are generic, and are compiled here once for all who use them.
 
-// Units in brackets, as in `[m]`, are no links.
-#![allow(rustdoc::broken_intra_doc_links)]
-
 use realfft::num_complex::Complex;
 use realfft::{RealFftPlanner, RealToComplex};
 use std::f64::consts::PI;
 
-/// A frequency band [Hz].
+/// A frequency band (Hz).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Band {
     /// Lower edge, at half amplitude; 0 for none.
@@ -43,7 +40,7 @@ pub struct Spectrum {
 }
 
 impl Spectrum {
-    /// Transforms `signal`, sampled at `rate` [Hz].
+    /// Transforms `signal`, sampled at `rate` (Hz).
     pub fn of(signal: &[f64], rate: f64) -> Self {
         let mut planner = RealFftPlanner::new();
         let bins = forward(planner.plan_fft_forward(signal.len()).as_ref(), signal.to_vec());
@@ -86,7 +83,7 @@ impl Spectrum {
     }
 }
 
-/// Power spectrum after a Hann window, the signal filled up with zeros to at least `len`; with its bin width [Hz].
+/// Power spectrum after a Hann window, the signal filled up with zeros to at least `len`; with its bin width (Hz).
 pub fn power(signal: &[f64], rate: f64, len: usize) -> (Vec<f64>, f64) {
     let count = signal.len();
     let len = len.max(count).next_power_of_two();

@@ -10,7 +10,7 @@ use brinell::numerics::counter_noise::gaussian;
 
 use super::signals::Signals;
 
-/// Ratios beyond these are no measurement [dB].
+/// Ratios beyond these are no measurement (dB).
 pub(crate) const RATIOS: std::ops::RangeInclusive<f64> = -60.0..=200.0;
 
 /// How much noise, and which.
@@ -27,7 +27,7 @@ impl fmt::Display for Noise {
 }
 
 impl Noise {
-    /// Noise at a ratio [dB].
+    /// Noise at a ratio (dB).
     ///
     /// # Errors
     /// A ratio beyond the limits.

@@ -12,12 +12,12 @@ use brinell::recording::npy_header;
 /// Rows that are read or changed at once.
 const BLOCK: usize = 4096;
 
-/// A file of rows with a number for each name; the first is the time [s].
+/// A file of rows with a number for each name; the first is the time (s).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Signals {
     path: PathBuf,
     names: Vec<String>,
-    /// Length of the header [bytes].
+    /// Length of the header (bytes).
     header: u64,
     rows: u64,
 }

@@ -21,9 +21,9 @@ const HIGHEST_ORDER: f64 = 200.0;
 /// An acceleration at even times.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Acceleration {
-    /// Samples [m/s²]; none where nothing measures.
+    /// Samples (m/s²); none where nothing measures.
     pub(super) samples: Vec<f64>,
-    /// Samples per second [Hz].
+    /// Samples per second (Hz).
     pub(super) rate: f64,
 }
 
@@ -37,7 +37,7 @@ pub(super) struct Spectra<'a> {
     acceleration: Acceleration,
     /// Where the shaft has turned by equal angles, once somebody has asked.
     angles: OnceCell<Option<EvenAngles>>,
-    /// Characteristic frequencies and the shaft's speed [Hz], likewise.
+    /// Characteristic frequencies and the shaft's speed (Hz), likewise.
     frequencies: OnceCell<Option<(Frequencies, f64)>>,
 }
 
@@ -111,7 +111,7 @@ impl<'a> Spectra<'a> {
         self.profile.is_some_and(|profile| !profile.is_constant())
     }
 
-    /// Characteristic frequencies and the shaft's speed [Hz], at the mean speed where it changes; `None` where nothing
+    /// Characteristic frequencies and the shaft's speed (Hz), at the mean speed where it changes; `None` where nothing
     /// turns, or where two rings turn in a ratio that changes.
     fn frequencies(&self) -> Option<(Frequencies, f64)> {
         *self.frequencies.get_or_init(|| self.found_frequencies())
@@ -146,7 +146,7 @@ impl<'a> Spectra<'a> {
     }
 }
 
-/// What is marked, as multiples of `unit` [Hz].
+/// What is marked, as multiples of `unit` (Hz).
 fn marks(of: &Frequencies, unit: f64) -> Value {
     json!({ "BPFO": of.bpfo / unit, "BPFI": of.bpfi / unit, "2 BSF": 2.0 * of.bsf / unit, "FTF": of.ftf / unit })
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 
-/// Largest speed [Hz], as that of a scene.
+/// Largest speed (Hz), as that of a scene.
 const LARGEST: f64 = 1e4;
 /// The columns.
 const NAMES: [&str; 2] = ["time_s", "speed_hz"];
@@ -14,7 +14,7 @@ const NAMES: [&str; 2] = ["time_s", "speed_hz"];
 /// A speed that changes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpeedProfile {
-    /// Times [s], ascending from 0, and speeds [Hz].
+    /// Times (s), ascending from 0, and speeds (Hz).
     points: Vec<(f64, f64)>,
 }
 
@@ -47,12 +47,12 @@ impl SpeedProfile {
         Ok(Self { points })
     }
 
-    /// Its last time [s].
+    /// Its last time (s).
     pub fn end(&self) -> f64 {
         self.points.last().map_or(0.0, |&(time, _)| time)
     }
 
-    /// Refuses a run that goes on after the profile has ended [s].
+    /// Refuses a run that goes on after the profile has ended (s).
     pub fn check_covers(&self, stop: f64) -> Result<()> {
         // The stop time is a multiple of the step up to rounding.
         if stop > self.end() * (1.0 + 1e-9) {
@@ -61,14 +61,14 @@ impl SpeedProfile {
         Ok(())
     }
 
-    /// Speed at a time [s] [Hz].
+    /// Speed at a time (s) (Hz).
     pub fn hertz(&self, time: f64) -> f64 {
         let after = self.points.partition_point(|&(t, _)| t <= time).clamp(1, self.points.len() - 1);
         let ((t0, f0), (t1, f1)) = (self.points[after - 1], self.points[after]);
         f0 + (f1 - f0) * ((time - t0) / (t1 - t0)).clamp(0.0, 1.0)
     }
 
-    /// Speed at a time [s] [rad/s].
+    /// Speed at a time (s) (rad/s).
     pub fn at(&self, time: f64) -> f64 {
         TAU * self.hertz(time)
     }

@@ -8,15 +8,15 @@ use anyhow::{Context, Result, bail};
 use super::signals::Signals;
 use crate::whole_file;
 
-/// Largest file [bytes]: its lengths are numbers of 32 bits.
+/// Largest file (bytes): its lengths are numbers of 32 bits.
 const LARGEST: u64 = 0xffff_ff00;
 
 /// What is written.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wav {
-    /// Samples per second [Hz]; `None` for those of the scene's recorder.
+    /// Samples per second (Hz); `None` for those of the scene's recorder.
     pub rate: Option<f64>,
-    /// Acceleration that becomes 1 [m/s²].
+    /// Acceleration that becomes 1 (m/s²).
     pub scale: f64,
 }
 
@@ -32,7 +32,7 @@ impl Wav {
         Ok(())
     }
 
-    /// Writes the signals at these indices, sampled at `rate` [Hz]. Gives the largest sample.
+    /// Writes the signals at these indices, sampled at `rate` (Hz). Gives the largest sample.
     pub fn write(&self, signals: &Signals, indices: &[usize], rate: f64, path: &Path) -> Result<f64> {
         let length = 4 * signals.rows() * indices.len() as u64;
         if length > LARGEST {

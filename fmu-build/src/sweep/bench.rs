@@ -356,7 +356,7 @@ fn kind_of(on: DefectOn) -> Fault {
     }
 }
 
-/// Angle of the one defect on an outer ring that stands [rad]: elements pass it where their angles say.
+/// Angle of the one defect on an outer ring that stands (rad): elements pass it where their angles say.
 fn passes_outer_defect(scene: &Scene) -> Option<f64> {
     match &scene.defects[..] {
         [defect] if defect.on == DefectOn::Outer && scene.housing_speed.is_none() => Some(defect.angle),

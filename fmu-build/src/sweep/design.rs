@@ -15,7 +15,7 @@ const NOISE: &str = "noise";
 /// Noise added to a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct RunNoise {
-    /// Signal-to-noise ratio [dB].
+    /// Signal-to-noise ratio (dB).
     pub(super) ratio: f64,
     /// Which noise.
     pub(super) seed: u64,

@@ -13,7 +13,7 @@ use crate::run::noise::RATIOS;
 const KEYS: [&str; 10] =
     ["scene", "runs", "seed", "stop_s", "settle_s", "rate_hz", "filter", "kinds", "speed_profiles", "noise_db"];
 const TABLES: [&str; 3] = ["set", "grid", "random"];
-/// Samples per second that a sweep may ask for [Hz].
+/// Samples per second that a sweep may ask for (Hz).
 const RATES: RangeInclusive<f64> = 100.0..=1e6;
 /// Runs of a sweep at most: numbers of runs have seven digits.
 const MOST: u64 = 10_000_000;
@@ -53,17 +53,17 @@ pub(super) struct Sweep {
     /// How many runs; each point of the grid once where nothing is said.
     pub(super) runs: u64,
     pub(super) seed: u64,
-    /// End of each run, and what is left out of signals and statistics at its beginning [s].
+    /// End of each run, and what is left out of signals and statistics at its beginning (s).
     pub(super) stop: f64,
     pub(super) settle: f64,
-    /// Samples per second [Hz].
+    /// Samples per second (Hz).
     pub(super) rate: f64,
     /// Whether samples go through the recorder's filter against aliases.
     pub(super) filter: bool,
     pub(super) kinds: Vec<Kind>,
     /// Files with the shaft's speed over time, relative to this one.
     pub(super) speed_profiles: Vec<String>,
-    /// Limits of the signal-to-noise ratio [dB].
+    /// Limits of the signal-to-noise ratio (dB).
     pub(super) noise: Option<[f64; 2]>,
     pub(super) set: Vec<Entry<Value>>,
     pub(super) grid: Vec<Entry<Vec<Value>>>,

@@ -167,7 +167,7 @@ fn load(present: Option<&Value>, value: &Value) -> Value {
     Value::Array([x, y].map(|part| Value::Float(force * part)).to_vec())
 }
 
-/// Force up to which the contact maps of a sweep's runs reach [N]: for the largest load of all runs, so that they share
+/// Force up to which the contact maps of a sweep's runs reach (N): for the largest load of all runs, so that they share
 /// them.
 fn force_of_map(scene: &Scene, sweep: &Sweep) -> f64 {
     let size = |value: &Value| match value.as_array() {

@@ -13,12 +13,12 @@ pub(super) const HARMONICS: usize = 5;
 /// Figures of a signal.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Statistics {
-    /// Root mean square without the mean, and largest deviation from it [m/s²].
+    /// Root mean square without the mean, and largest deviation from it (m/s²).
     pub(super) rms: f64,
     pub(super) peak: f64,
     /// Fourth moment over the squared second one: 3 for normal noise.
     pub(super) kurtosis: f64,
-    /// Amplitudes of the envelope at multiples of the passage frequency [m/s²].
+    /// Amplitudes of the envelope at multiples of the passage frequency (m/s²).
     pub(super) envelope: [f64; HARMONICS],
 }
 
@@ -54,7 +54,7 @@ impl Statistics {
 
 /// What one element does at each sample.
 pub(super) struct OneElement<'a> {
-    /// Its angle [rad], and its force on the outer raceway [N].
+    /// Its angle (rad), and its force on the outer raceway (N).
     pub(super) angle: &'a [f64],
     pub(super) force: &'a [f64],
 }
@@ -62,15 +62,15 @@ pub(super) struct OneElement<'a> {
 /// The first passage of a defect of the outer raceway.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Passage {
-    /// When an element loses half its force over the defect, and when it has regained it [s].
+    /// When an element loses half its force over the defect, and when it has regained it (s).
     pub(super) unloaded: f64,
     pub(super) loaded_again: f64,
-    /// How far it turns in between [rad]: a lower bound of a line spall's length.
+    /// How far it turns in between (rad): a lower bound of a line spall's length.
     pub(super) turned: f64,
 }
 
 impl Passage {
-    /// The first after `settle` [s] of a defect at an angle [rad], among so many elements.
+    /// The first after `settle` (s) of a defect at an angle (rad), among so many elements.
     pub(super) fn first(time: &[f64], elements: &[OneElement<'_>], defect: f64, settle: f64) -> Option<Self> {
         let reach = 0.75 * PI / elements.len() as f64 + 0.3;
         let end = *time.last()?;

@@ -123,7 +123,7 @@ fn anew(page: &str, all: bool) -> String {
     out
 }
 
-/// What the commands have taken so far of a core [s]: a busy machine makes one wait longer, but not this.
+/// What the commands have taken so far of a core (s): a busy machine makes one wait longer, but not this.
 fn core_seconds() -> f64 {
     let text = fs::read_to_string("/proc/self/stat").unwrap();
     // After the program's name, which may hold blanks: user and system time of children that have ended, in 1/100 s.

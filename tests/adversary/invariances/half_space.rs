@@ -38,7 +38,7 @@ pub(super) fn patch(draw: &mut Draw, step: f64, half: f64, depth: f64) -> Topogr
     Topography { arcs, axials, depths }
 }
 
-/// Depth [m] at a point of a shape [m]; bilinear, and 0 outside.
+/// Depth (m) at a point of a shape (m); bilinear, and 0 outside.
 pub(super) fn depth_at(shape: &Shape, arc: f64, axial: f64) -> f64 {
     let between = |lines: &[f64], at: f64| -> Option<(usize, f64)> {
         let k = lines.windows(2).position(|pair| pair[0] <= at && at <= pair[1])?;
@@ -100,7 +100,7 @@ impl Meeting {
         Self { pair, bearing, shape: shape.clone(), solver }
     }
 
-    /// Radius of the body with the defect [m].
+    /// Radius of the body with the defect (m).
     fn own(&self) -> f64 {
         let Bearing { r, rho_0, clearance, .. } = self.bearing;
         match self.pair {
@@ -199,7 +199,7 @@ fn shape(draw: &mut Draw, half: f64, approach: f64) -> Shape {
     }
 }
 
-/// One element that is pressed outwards over a defect, `at` [m] beside its middle, counter-clockwise.
+/// One element that is pressed outwards over a defect, `at` (m) beside its middle, counter-clockwise.
 fn over(case: &Case, meeting: &Meeting, at: f64) -> Case {
     let (away, element) = ((at / meeting.own()).to_degrees(), On::Element { element: 0, tilt_deg: 0.0 });
     let (on, angle_deg) = match meeting.pair {

@@ -8,7 +8,7 @@ use crate::draw::{Draw, for_seeds};
 use crate::oracle::Bearing;
 use crate::subject::Subject;
 
-/// A bearing of one element without a defect, and how far it is pressed outwards [m].
+/// A bearing of one element without a defect, and how far it is pressed outwards (m).
 pub(super) fn standing(draw: &mut Draw) -> (Case, f64) {
     let diameter_mm = draw.log(2.0, 40.0);
     let ring = Ring { motion: Motion::Host, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
@@ -48,7 +48,7 @@ pub(super) fn standing(draw: &mut Draw) -> (Case, f64) {
     (case, approach)
 }
 
-/// The same pressed by the inner ring, so that it would go `approach` [m] into a smooth raceway.
+/// The same pressed by the inner ring, so that it would go `approach` (m) into a smooth raceway.
 pub(super) fn pressed(case: &Case, approach: f64) -> Case {
     let bearing = Bearing::smooth(case);
     // Both contacts carry the same.
@@ -76,19 +76,19 @@ fn force(case: &Case) -> Result<[f64; 3], String> {
     Ok([value("element[1].path"), x * cos + y * sin, x * sin - y * cos])
 }
 
-/// Half the contact's length on the smooth raceway, roughly [m].
+/// Half the contact's length on the smooth raceway, roughly (m).
 pub(super) fn half_contact(case: &Case, approach: f64) -> f64 {
     (approach * case.diameter_mm * 0.5e-3).sqrt()
 }
 
-/// Samples of a depth along a length, all [m], `step` apart.
+/// Samples of a depth along a length, all (m), `step` apart.
 pub(super) fn trace(length: f64, step: f64, depth: impl Fn(f64) -> f64) -> Shape {
     let count = (length / step).ceil() as usize;
     let points = (0..=count).map(|i| i as f64 / count as f64);
     Shape::Trace(points.map(|share| (share * length * 1e3, depth(share) * 1e6)).collect())
 }
 
-/// Stands `at` [m] before the defect's middle, counter-clockwise.
+/// Stands `at` (m) before the defect's middle, counter-clockwise.
 fn over(case: &Case, shape: Shape, at: f64) -> Case {
     let raceway = Bearing::smooth(case).rho_0 + 0.5e-3 * case.diameter_mm;
     let angle_deg = case.cage_deg - (at / raceway).to_degrees();

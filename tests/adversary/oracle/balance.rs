@@ -18,7 +18,7 @@ struct Search<'a> {
     acting: Acting,
 }
 
-/// Largest net force [N] that is left on a free ring or an element at the best stable balance found, and the largest
+/// Largest net force (N) that is left on a free ring or an element at the best stable balance found, and the largest
 /// force in play.
 pub fn best(bearing: &Bearing, case: &Case) -> (f64, f64) {
     let run = Run::new(bearing, vec![0.0; bearing.state_count()], case.steps[0].host.as_ref(), Pace::STANDING);

@@ -30,12 +30,12 @@ pub struct Case {
     pub poisson: f64,
     pub density: Option<f64>,
     pub mass_g: Option<f64>,
-    /// Hertz constants that override the computed ones, inner and outer [N/m^1.5].
+    /// Hertz constants that override the computed ones, inner and outer (N/m^1.5).
     pub hertz: [Option<f64>; 2],
     pub compliance: f64,
     pub damping: Damping,
     pub law: &'static str,
-    /// Largest force [N], cells along and across, accuracy of the map: for laws `map` and `love`.
+    /// Largest force (N), cells along and across, accuracy of the map: for laws `map` and `love`.
     pub grid: Option<(f64, [u32; 2], f64)>,
     pub slip: f64,
     /// Set as a host does, as the scene has no key for it.
@@ -63,7 +63,7 @@ pub struct Case {
 
 #[derive(Debug, Clone, Copy)]
 pub enum Grooves {
-    /// Their diameter [mm].
+    /// Their diameter (mm).
     Equal(f64),
     /// Conformities of the inner and the outer.
     Each(f64, f64),
@@ -101,12 +101,12 @@ pub enum Shape {
         depth_um: f64,
         slope_deg: f64,
     },
-    /// Arc [mm] and depth [µm].
+    /// Arc (mm) and depth (µm).
     Trace(Vec<(f64, f64)>),
     Topography(Topography),
 }
 
-/// Depths [µm] over arcs and axial coordinates [mm], those of one arc side by side.
+/// Depths (µm) over arcs and axial coordinates (mm), those of one arc side by side.
 #[derive(Debug, Clone)]
 pub struct Topography {
     pub arcs: Vec<f64>,
@@ -147,7 +147,7 @@ pub struct Step {
 /// Inputs with their derivatives.
 #[derive(Debug, Clone, Copy)]
 pub struct Host {
-    /// Speeds of shaft and housing [rad/s] with their derivatives.
+    /// Speeds of shaft and housing (rad/s) with their derivatives.
     pub speeds: [[f64; 2]; 2],
     /// Of shaft and housing, along x and y: load, or position, with its first and second derivative [N or m, s].
     pub rings: [[[f64; 3]; 2]; 2],
@@ -277,7 +277,7 @@ impl Case {
         elements
     }
 
-    /// Length of the whole run [s].
+    /// Length of the whole run (s).
     pub fn duration(&self) -> f64 {
         self.steps.iter().map(|step| step.length).sum()
     }

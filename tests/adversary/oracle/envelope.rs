@@ -53,7 +53,7 @@ pub struct Envelope {
 const PARTS: usize = 16;
 
 impl Envelope {
-    /// `profiles` are arcs and depths [m] around the middle of the first, in order and within one turn, `r` and
+    /// `profiles` are arcs and depths (m) around the middle of the first, in order and within one turn, `r` and
     /// `raceway` the radii of element and raceway.
     pub fn new(profiles: &[Vec<(f64, f64)>], pair: Pair, r: f64, raceway: f64) -> Self {
         let mut envelope = Self::at_single_angles(profiles, pair, r, raceway);

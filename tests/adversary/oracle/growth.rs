@@ -57,7 +57,7 @@ impl Growth {
         }
     }
 
-    /// Force [N] and its slope [N/m] at an approach [m] that is not negative.
+    /// Force (N) and its slope (N/m) at an approach (m) that is not negative.
     pub fn force(&self, delta: f64) -> [f64; 2] {
         match self {
             Self::Point(k) => [k * delta * delta.sqrt(), 1.5 * k * delta.sqrt()],
@@ -71,7 +71,7 @@ impl Growth {
         }
     }
 
-    /// The approach [m] under a force [N].
+    /// The approach (m) under a force (N).
     pub fn approach(&self, force: f64) -> f64 {
         if let Self::Point(k) = self {
             return (force / k).cbrt().powi(2);

@@ -8,11 +8,11 @@ use std::f64::consts::PI;
 
 #[derive(Clone, Copy)]
 pub struct HalfSpace {
-    /// Radii of the element, of the raceway and of its groove [m]; a convex raceway's is negative, a plane's infinite.
+    /// Radii of the element, of the raceway and of its groove (m); a convex raceway's is negative, a plane's infinite.
     pub element: f64,
     pub raceway: f64,
     pub groove: f64,
-    /// E* [Pa].
+    /// E* (Pa).
     pub modulus: f64,
     /// Cells along and across.
     pub cells: [usize; 2],
@@ -20,7 +20,7 @@ pub struct HalfSpace {
     pub shift: f64,
 }
 
-/// How far a circle has fallen away at a distance from where it touches [m].
+/// How far a circle has fallen away at a distance from where it touches (m).
 fn sag(radius: f64, x: f64) -> f64 {
     radius.signum() * x * x / (radius.abs() + (radius * radius - x * x).sqrt())
 }
@@ -36,8 +36,8 @@ fn love(x: f64, y: f64, a: f64, b: f64) -> f64 {
 }
 
 impl HalfSpace {
-    /// Normal and tangential force [N] on an element that is pressed by `u` [m] against a raceway whose mean depth [m]
-    /// in a cell, between two positions along and two across, is `depth`. `high` is how far the highest rim rises [m].
+    /// Normal and tangential force (N) on an element that is pressed by `u` (m) against a raceway whose mean depth (m)
+    /// in a cell, between two positions along and two across, is `depth`. `high` is how far the highest rim rises (m).
     pub fn forces(&self, u: f64, high: f64, depth: impl Fn([f64; 2], [f64; 2]) -> f64) -> [f64; 2] {
         if u + high <= 0.0 {
             return [0.0; 2];

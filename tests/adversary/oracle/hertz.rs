@@ -21,7 +21,7 @@ fn integrals(b: f64) -> (f64, f64) {
     (k, k * sum)
 }
 
-/// K of Q = K δ^1.5 for two relative principal curvatures [1/m] and the effective modulus [Pa].
+/// K of Q = K δ^1.5 for two relative principal curvatures (1/m) and the effective modulus (Pa).
 pub(crate) fn stiffness(curvatures: [f64; 2], modulus: f64) -> f64 {
     let (small, large) = (curvatures[0].min(curvatures[1]) / 2.0, curvatures[0].max(curvatures[1]) / 2.0);
     // (B/A)(K − E) = (a/b)² E − K = (a/b)² (e² K − (K − E)), which is steep in b: halve its logarithm.

@@ -11,8 +11,6 @@
 
 // What helpers unwrap is a test's own set-up, and names say what its numbers are.
 #![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
-// Units stand in brackets.
-#![allow(rustdoc::broken_intra_doc_links)]
 
 pub mod balance;
 pub mod case;
@@ -46,9 +44,9 @@ pub struct Bearing {
     pub damping: Damping,
     /// Speeds of cage, shaft, housing and elements' spin per speed of the shaft and of the housing.
     pub ratios: [[f64; 2]; 4],
-    /// Their angles at the start [rad]; spin is counted from there.
+    /// Their angles at the start (rad); spin is counted from there.
     pub starts: [f64; 4],
-    /// Speeds of shaft and housing at the start [rad/s].
+    /// Speeds of shaft and housing at the start (rad/s).
     pub speeds: [f64; 2],
     /// What contacts may meet.
     pub surfaces: Surfaces,
@@ -69,7 +67,7 @@ pub struct Outside {
     pub turns: [[f64; 3]; 4],
     /// As in [`crate::case::Host::rings`].
     pub rings: [[[f64; 3]; 2]; 2],
-    /// Thickness of the oil films inside and outside [m].
+    /// Thickness of the oil films inside and outside (m).
     pub films: [f64; 2],
 }
 
@@ -83,12 +81,12 @@ pub const ELEMENTS: usize = 10;
 pub struct Contact {
     pub force: f64,
     pub approach: f64,
-    /// ∂(force)/∂(rate of approach) [N s/m].
+    /// ∂(force)/∂(rate of approach) (N s/m).
     pub by_rate: f64,
     pub pushes: bool,
     /// Whether oil is pressed out of it.
     pub squeezes: bool,
-    /// Bound of ∂(force)/∂(approach) [N/m], but for the elastic part.
+    /// Bound of ∂(force)/∂(approach) (N/m), but for the elastic part.
     pub steep: f64,
     /// Whose defect it is over: the ring's (0) or the element's.
     pub over: Option<usize>,
@@ -108,14 +106,14 @@ struct Push {
 pub struct Acting {
     /// Inner and outer contact of each element.
     pub contacts: Vec<[Contact; 2]>,
-    /// The bearing's force on shaft and housing [N].
+    /// The bearing's force on shaft and housing (N).
     pub rings: [[f64; 2]; 2],
-    /// Their accelerations [m/s²].
+    /// Their accelerations (m/s²).
     pub accelerations: [[f64; 2]; 2],
     pub sensor: f64,
     /// What the sensor shows of it through its modes.
     pub measured: f64,
-    /// On the cage, and on the shaft by its defect [N m].
+    /// On the cage, and on the shaft by its defect (N m).
     pub torque: f64,
     pub shaft_torque: f64,
 }
@@ -205,7 +203,7 @@ impl Bearing {
         ELEMENTS + 2 * self.count + 4
     }
 
-    /// The oil films at the speeds of these turns [m]; none is 0.
+    /// The oil films at the speeds of these turns (m); none is 0.
     pub fn films(&self, turns: &[[f64; 3]; 4]) -> [f64; 2] {
         self.oil.as_ref().map_or([0.0; 2], |oil| oil.films(turns[1][1] - turns[2][1]))
     }
@@ -218,7 +216,7 @@ impl Bearing {
         [0, 1, 2, 3].map(|which| [angles[which], sum(which, 0), sum(which, 1)])
     }
 
-    /// The force of a contact, beside a film of this thickness [m]: with side 1, that of the outer raceway in series
+    /// The force of a contact, beside a film of this thickness (m): with side 1, that of the outer raceway in series
     /// with its compliance.
     fn contact(&self, side: usize, film: f64, approach: f64, rate: f64) -> Contact {
         let oil = self.oil.as_ref().map_or(Resistance::default(), |oil| oil.resistance(side, film, approach, rate));

@@ -12,19 +12,19 @@
 use crate::case::Case;
 use std::f64::consts::PI;
 
-/// Height of asperities [m]: no gap is smaller.
+/// Height of asperities (m): no gap is smaller.
 pub const THINNEST: f64 = 0.02e-6;
 
 /// Oil in both raceways' contacts.
 #[derive(Debug, Clone)]
 pub struct Oil {
-    /// c [N s], inner and outer.
+    /// c (N s), inner and outer.
     pub squeeze: [f64; 2],
-    /// Thickness [m] at a rolling speed of 1 m/s.
+    /// Thickness (m) at a rolling speed of 1 m/s.
     thickness: [f64; 2],
-    /// Height up to which oil stands [m].
+    /// Height up to which oil stands (m).
     layer: f64,
-    /// Rolling speed [m/s] per speed of one ring against the other [rad/s].
+    /// Rolling speed (m/s) per speed of one ring against the other (rad/s).
     rolling: f64,
 }
 
@@ -33,12 +33,12 @@ pub struct Oil {
 pub struct Resistance {
     pub force: f64,
     pub by_rate: f64,
-    /// Bound of ∂F/∂Δ [N/m].
+    /// Bound of ∂F/∂Δ (N/m).
     pub steep: f64,
 }
 
 impl Oil {
-    /// Radii of element and raceways [m], conformities, and E/(2(1−ν²)) [Pa]; `None` without oil.
+    /// Radii of element and raceways (m), conformities, and E/(2(1−ν²)) (Pa); `None` without oil.
     pub fn new(case: &Case, [r, inner, outer]: [f64; 3], conformities: [f64; 2], modulus: f64) -> Option<Self> {
         let film = case.film?;
         let load = case.rings.iter().map(|ring| ring.load[0].hypot(ring.load[1])).fold(0.0, f64::max);
@@ -67,12 +67,12 @@ impl Oil {
         })
     }
 
-    /// Thickness [m] of the inner and the outer film while the inner ring turns so fast against the outer one [rad/s].
+    /// Thickness (m) of the inner and the outer film while the inner ring turns so fast against the outer one (rad/s).
     pub fn films(&self, speed: f64) -> [f64; 2] {
         self.thickness.map(|thickness| thickness * (self.rolling * speed.abs()).powf(0.67))
     }
 
-    /// What resists at an approach [m] and its rate [m/s], beside a film of this thickness [m].
+    /// What resists at an approach (m) and its rate (m/s), beside a film of this thickness (m).
     pub fn resistance(&self, side: usize, film: f64, approach: f64, rate: f64) -> Resistance {
         let h = film.max(THINNEST);
         let gap = if approach < 0.0 { h - approach } else { h };
@@ -85,7 +85,7 @@ impl Oil {
         Resistance { force: by_rate * rate, by_rate, steep: 3.0 * self.squeeze[side] / (gap * gap) * rate }
     }
 
-    /// Largest ∂F/∂(rate) of a contact [N s/m].
+    /// Largest ∂F/∂(rate) of a contact (N s/m).
     pub fn strongest(&self, side: usize) -> f64 {
         self.squeeze[side] / THINNEST
     }

@@ -27,7 +27,7 @@ pub struct Run<'a> {
     pub acting: Acting,
     /// Those that contacts are in.
     pub stretches: Vec<Stretches>,
-    /// Largest approach in any inner and any outer contact so far [m].
+    /// Largest approach in any inner and any outer contact so far (m).
     pub largest: [f64; 2],
     pace: Pace,
     left: usize,
@@ -37,7 +37,7 @@ pub struct Run<'a> {
 /// How fast a run goes.
 #[derive(Debug, Clone, Copy)]
 pub struct Pace {
-    /// Longest step [s].
+    /// Longest step (s).
     pub h: f64,
     /// Steps at least between two passages; eight times as many in a communication step.
     pub fewest: u32,
@@ -104,7 +104,7 @@ impl<'a> Run<'a> {
         &self.stages[0]
     }
 
-    /// Acceleration with which the outer ring carries element `j` outwards [m/s²]: no balance counts the host's, nor
+    /// Acceleration with which the outer ring carries element `j` outwards (m/s²): no balance counts the host's, nor
     /// that of a light ring by the little that is left of its own balance.
     pub fn carried(&self, j: usize) -> f64 {
         let (sin, cos) = (self.outside.turns[0][0] + TAU * j as f64 / self.bearing.count as f64).sin_cos();

@@ -16,7 +16,7 @@ pub type Turns = [[f64; 3]; 4];
 /// The defects of a body as one raceway's contacts meet them.
 pub struct Surface {
     pub envelope: Envelope,
-    /// Angle of the first one's middle [rad] in its frame.
+    /// Angle of the first one's middle (rad) in its frame.
     pub centre: f64,
     pub frame: usize,
 }
@@ -115,7 +115,7 @@ impl Bearing {
         self.all_surfaces().any(|(_, surface)| surface.envelope.leaps())
     }
 
-    /// Angular speed [rad/s] of contacts past a defect where the rings turn at these speeds.
+    /// Angular speed (rad/s) of contacts past a defect where the rings turn at these speeds.
     pub fn past(&self, on: Option<On>, speeds: [f64; 2]) -> f64 {
         let turn = |which: usize| self.ratios[which][0] * speeds[0] + self.ratios[which][1] * speeds[1];
         let frame = match on {
@@ -161,7 +161,7 @@ pub fn of(bearing: &Bearing, case: &Case) -> Option<Surfaces> {
     Some(surfaces)
 }
 
-/// Arcs and depths [m] of all defects of a body of radius `own`, in order from the first on around it; none with a
+/// Arcs and depths (m) of all defects of a body of radius `own`, in order from the first on around it; none with a
 /// topography.
 fn profiles(body: &[&Defect], own: f64, r: f64) -> Option<Vec<Vec<(f64, f64)>>> {
     let all: Vec<Vec<(f64, f64)>> = body.iter().map(|defect| points(defect, own, r)).collect::<Option<_>>()?;
@@ -179,7 +179,7 @@ fn profiles(body: &[&Defect], own: f64, r: f64) -> Option<Vec<Vec<(f64, f64)>>> 
     Some(shifted)
 }
 
-/// Smallest distance between two defects of one body [m], negative where they overlap; infinite without.
+/// Smallest distance between two defects of one body (m), negative where they overlap; infinite without.
 pub fn closest(bearing: &Bearing, case: &Case) -> f64 {
     let mut closest = f64::INFINITY;
     for (k, one) in case.defects.iter().enumerate() {
@@ -201,7 +201,7 @@ pub fn closest(bearing: &Bearing, case: &Case) -> f64 {
     closest
 }
 
-/// Arcs and depths [m] of a defect on a body of radius `own`.
+/// Arcs and depths (m) of a defect on a body of radius `own`.
 fn points(defect: &Defect, own: f64, r: f64) -> Option<Vec<(f64, f64)>> {
     match &defect.shape {
         Shape::Trace(points) => {

@@ -54,7 +54,7 @@ pub unsafe extern "C" fn fmi2GetStatus(c: Component, s: StatusKind, value: *mut 
     })
 }
 
-/// `fmi2GetRealStatus`: for `fmi2LastSuccessfulTime`, the communication point reached [s].
+/// `fmi2GetRealStatus`: for `fmi2LastSuccessfulTime`, the communication point reached (s).
 ///
 /// # Safety
 /// `value` is null or points to a number.

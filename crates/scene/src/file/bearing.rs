@@ -171,7 +171,7 @@ fn bearing_named(name: &str) -> Result<CatalogueBearing, SceneError> {
     catalogued(name).ok_or_else(|| BearingError::NotInCatalogue { name: name.to_owned() }.into())
 }
 
-/// Clearance where the file says none [µm].
+/// Clearance where the file says none (µm).
 const DEFAULT_CLEARANCE_UM: f64 = 5.0;
 
 impl WholeBearing {
@@ -261,7 +261,7 @@ impl WholeBearing {
         }
     }
 
-    /// G = R_o − R_i − 2r [m]. What a catalogue calls the radial internal clearance is how far one ring can be moved
+    /// G = R_o − R_i − 2r (m). What a catalogue calls the radial internal clearance is how far one ring can be moved
     /// against the other, from stop to stop: 2 G.
     fn clearance(&self) -> Result<f64, SceneError> {
         match (self.radial_clearance_um, self.internal_clearance_um) {

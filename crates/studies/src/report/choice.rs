@@ -25,7 +25,7 @@ const EXPLICIT_STEPS: f64 = 5.0;
 /// Tolerance of the runs.
 const TOLERANCE: f64 = 1e-5;
 
-/// One case: its name, its scene, simulated time [s], and what is changed.
+/// One case: its name, its scene, simulated time (s), and what is changed.
 type Case = (&'static str, &'static str, f64, fn(&mut Scene));
 
 const CASES: [Case; 16] = [

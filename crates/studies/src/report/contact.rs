@@ -21,9 +21,9 @@ use super::Extent;
 use super::machine::fastest;
 use fmu_build::whole_file;
 
-/// Largest approach [m].
+/// Largest approach (m).
 const LARGEST: f64 = 10e-6;
-/// Length of the spall [m]: 15.8°.
+/// Length of the spall (m): 15.8°.
 const LENGTH: f64 = 6.517e-3;
 const ELEMENT: ElementOnRaceway = ElementOnRaceway {
     element_radius: 3.97e-3,

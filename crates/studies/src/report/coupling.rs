@@ -55,11 +55,11 @@ impl Coupling {
 /// Outcome of one run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row {
-    /// Mass of the host [kg].
+    /// Mass of the host (kg).
     pub host_mass: f64,
     /// Way of coupling.
     pub coupling: Coupling,
-    /// Communication step H [s].
+    /// Communication step H (s).
     pub step: f64,
     /// Root mean square of the error of the ring's position over that of its distance from the start; `None` if the run
     /// was unstable: the ring was further from its exact position than twice the largest distance, or out of the
@@ -67,14 +67,14 @@ pub struct Row {
     pub error: Option<f64>,
 }
 
-/// Simulated time [s].
+/// Simulated time (s).
 const STOP: f64 = 0.02;
 /// Tolerance of the bearing: its errors stay below those of the coupling.
 const TOLERANCE: f64 = 1e-9;
 const DAMPER_ITERATIONS: usize = 8;
-/// Communication steps of the study [s].
+/// Communication steps of the study (s).
 pub const STEPS: [f64; 12] = [1e-6, 2e-6, 5e-6, 1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 3e-4, 4e-4, 5e-4, 6e-4];
-/// Masses of hosts [kg].
+/// Masses of hosts (kg).
 pub const MASSES: [f64; 3] = [0.1, 1.0, 3.0];
 
 /// Runs every coupling with every step for the bearing of `scene` under its own load.
@@ -98,11 +98,11 @@ pub fn study(scene: &Scene, masses: &[f64], steps: &[f64]) -> Result<Vec<Row>, S
 /// How far a coupling is stable.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limit {
-    /// Mass of the host [kg].
+    /// Mass of the host (kg).
     pub host_mass: f64,
     /// The coupling.
     pub coupling: Coupling,
-    /// Longest step [s] up to which all shorter ones are stable, too.
+    /// Longest step (s) up to which all shorter ones are stable, too.
     pub longest: Option<f64>,
 }
 
@@ -131,11 +131,11 @@ pub fn limits(rows: &[Row]) -> Vec<Limit> {
 /// The motion of the ring with the mass inside one simulation.
 struct Exact {
     host_mass: f64,
-    /// Time between positions [s].
+    /// Time between positions (s).
     step: f64,
-    /// Positions x, y [m].
+    /// Positions x, y (m).
     positions: Vec<[f64; 2]>,
-    /// Largest distance from the start [m].
+    /// Largest distance from the start (m).
     travel: f64,
 }
 
@@ -214,7 +214,7 @@ struct Host {
     load: [f64; 2],
     x: [f64; 2],
     v: [f64; 2],
-    /// The bearing's force at the present instant [N].
+    /// The bearing's force at the present instant (N).
     now: [f64; 2],
 }
 
@@ -249,7 +249,7 @@ impl Host {
         self.bearing.set_reals(&self.motion, &values).map_err(SimulationError::from)
     }
 
-    /// The bearing's mean and end force over a step in which the ring moves as x + vτ + ½aτ² [N].
+    /// The bearing's mean and end force over a step in which the ring moves as x + vτ + ½aτ² (N).
     fn bearing_step(&mut self, v: [f64; 2], a: [f64; 2], step: f64) -> Result<[[f64; 2]; 2], SimulationError> {
         self.give(v, a)?;
         self.bearing.step(step)?;

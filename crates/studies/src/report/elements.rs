@@ -17,7 +17,7 @@ use fmu_build::whole_file;
 
 /// Numbers of elements.
 const COUNTS: [usize; 10] = [3, 5, 8, 9, 16, 25, 32, 50, 75, 100];
-/// Communication step [s], and how many of them.
+/// Communication step (s), and how many of them.
 const STEP: (f64, usize) = (1e-4, 50);
 
 /// Cost at one number of elements.

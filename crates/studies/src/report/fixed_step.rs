@@ -50,7 +50,7 @@ impl FixedRun {
         }
     }
 
-    /// Integrates to `stop` [s] in steps of 1/(`RATE`·`per_sample`); with signals if they are wanted. Stops early when
+    /// Integrates to `stop` (s) in steps of 1/(`RATE`·`per_sample`); with signals if they are wanted. Stops early when
     /// a state is no number any more.
     pub(super) fn run(&mut self, method: FixedStep, per_sample: usize, stop: f64, wanted: bool) -> Signals {
         let mut signals = Signals { acceleration: Vec::new(), paths: Vec::new() };

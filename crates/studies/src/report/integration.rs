@@ -20,10 +20,10 @@ use fmu_build::model::Model;
 use fmu_build::python::Python;
 use fmu_build::whole_file;
 
-/// Simulated time [s]: long enough for an element to pass the spall of the ER16K, short enough for elements that bounce
+/// Simulated time (s): long enough for an element to pass the spall of the ER16K, short enough for elements that bounce
 /// freely not to have lost all memory of the start.
 const STOP: f64 = 0.025;
-/// Simulated time of the cross-check with SciPy [s].
+/// Simulated time of the cross-check with SciPy (s).
 const CHECKED: f64 = 0.02;
 /// Tolerances asked for.
 const TOLERANCES: [f64; 9] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
@@ -37,7 +37,7 @@ const REFERENCE: f64 = 1e-12;
 pub(super) struct Row {
     pub(super) scene: String,
     pub(super) method: &'static str,
-    /// Tolerance, or, with a fixed step, the step [s].
+    /// Tolerance, or, with a fixed step, the step (s).
     pub(super) setting: f64,
     /// CPU seconds per simulated second.
     pub(super) cost: f64,
@@ -65,7 +65,7 @@ pub(super) struct Check {
 pub(super) struct Integration {
     pub(super) rows: Vec<Row>,
     pub(super) checks: Vec<Check>,
-    /// Simulated time [s].
+    /// Simulated time (s).
     pub(super) stop: f64,
 }
 

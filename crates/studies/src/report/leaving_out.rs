@@ -17,7 +17,7 @@ use fmu_build::model::Model;
 use fmu_build::project::Project;
 use fmu_build::whole_file;
 
-/// Communication step [s].
+/// Communication step (s).
 const STEP: f64 = 1e-4;
 
 /// Cost of one scene.

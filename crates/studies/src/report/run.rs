@@ -6,9 +6,9 @@ use brinell::simulation::{Method, Simulation};
 
 use fmu_build::model::Model;
 
-/// Rate at which runs are compared [Hz]: above every frequency that a housing sensor sees.
+/// Rate at which runs are compared (Hz): above every frequency that a housing sensor sees.
 pub(super) const RATE: f64 = 100_000.0;
-/// Communication step of the runs [s].
+/// Communication step of the runs (s).
 pub(super) const STEP: f64 = 1e-4;
 
 /// A shipped scene, ready to be run by itself.
@@ -17,7 +17,7 @@ pub(super) struct Subject {
     /// Its name.
     pub(super) name: String,
     simulation: Simulation,
-    /// Simulated time [s].
+    /// Simulated time (s).
     pub(super) stop: f64,
 }
 
@@ -26,7 +26,7 @@ pub(super) struct Subject {
 pub(super) struct Signals {
     /// Acceleration of the outer ring along y, or, where the host has it, the force on the inner ring.
     pub(super) acceleration: Vec<f64>,
-    /// Paths of all elements at one instant after the other [m].
+    /// Paths of all elements at one instant after the other (m).
     pub(super) paths: Vec<f64>,
 }
 
@@ -37,9 +37,9 @@ pub(super) struct Deviation {
     pub(super) acceleration_rms: f64,
     /// Largest error of the acceleration over the largest acceleration.
     pub(super) acceleration_max: f64,
-    /// Root mean square error of the paths [m].
+    /// Root mean square error of the paths (m).
     pub(super) path_rms: f64,
-    /// Largest error of any path [m].
+    /// Largest error of any path (m).
     pub(super) path_max: f64,
 }
 

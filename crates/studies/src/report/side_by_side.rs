@@ -18,9 +18,9 @@ const BESIDE: [usize; 4] = [1, 2, 4, 8];
 pub(super) struct SideBySide<'a> {
     /// Explicit steps of healthy bearings, by rising numbers of elements.
     elements: &'a [elements::Row],
-    /// What a register of elements costs of a step [s].
+    /// What a register of elements costs of a step (s).
     per_register: f64,
-    /// What all else costs of a step [s].
+    /// What all else costs of a step (s).
     rest: f64,
 }
 
@@ -36,7 +36,7 @@ impl<'a> SideBySide<'a> {
         (spread > 0.0).then_some(Self { elements, per_register, rest: y - per_register * x })
     }
 
-    /// CPU time of a healthy bearing's step [s], one of `beside` bearings at best.
+    /// CPU time of a healthy bearing's step (s), one of `beside` bearings at best.
     pub(super) fn step(&self, count: usize, beside: usize) -> f64 {
         (registers(count * beside) * self.per_register + self.rest) / beside as f64
     }

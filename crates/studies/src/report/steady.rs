@@ -23,7 +23,7 @@ use fmu_build::whole_file;
 const TOLERANCES: [f64; 3] = [1e-2, 1e-3, 1e-5];
 /// Tolerance of the run that they are held against.
 const REFERENCE: f64 = 1e-7;
-/// The start, which is left out, and what is measured alone of it [s].
+/// The start, which is left out, and what is measured alone of it (s).
 const START: f64 = 0.3;
 const FIRST: f64 = 0.025;
 
@@ -87,7 +87,7 @@ pub(super) fn measure(extent: Extent, data: &Path) -> Result<Vec<Row>> {
     Ok(rows)
 }
 
-/// Frequency up to which the loaded elements of `6205-healthy` vibrate [Hz].
+/// Frequency up to which the loaded elements of `6205-healthy` vibrate (Hz).
 pub(super) fn fastest_of_healthy() -> Result<f64> {
     let model = Model::read(&scene_file("6205-healthy"))?;
     let assembly = Assembly::new(&model.scene, None, None)?;
@@ -104,7 +104,7 @@ struct Found {
     rms: f64,
 }
 
-/// One run: the first 25 ms, the rest of the start, and `length` [s] more.
+/// One run: the first 25 ms, the rest of the start, and `length` (s) more.
 fn run(subject: &Subject, tolerance: f64, length: f64) -> Result<Found> {
     let mut simulation = subject.start(Method::Automatic, tolerance)?;
     let signal = simulation.reference(subject.signal())?;
@@ -134,7 +134,7 @@ struct Sum {
 }
 
 impl Sum {
-    /// Steps over `length` [s], takes the signal after each step, and gives the CPU seconds of the steps.
+    /// Steps over `length` (s), takes the signal after each step, and gives the CPU seconds of the steps.
     fn over(&mut self, simulation: &mut Simulation, signal: u32, length: f64) -> Result<f64> {
         let start = ThreadTime::now();
         let mut value = [0.0];

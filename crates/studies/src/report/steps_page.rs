@@ -69,7 +69,7 @@ pub(super) fn page(
     text
 }
 
-/// What whole seconds cost; elements of `6205-healthy` vibrate at up to `fastest` [Hz].
+/// What whole seconds cost; elements of `6205-healthy` vibrate at up to `fastest` (Hz).
 pub(super) fn seconds(rows: &[steady::Row], gain: Option<&SideBySide<'_>>, fastest: f64) -> String {
     let mut text = "\n## A whole second\n\n\
          Shipped scenes after the first 0.3 s, when what hung in the clearance has begun to bounce. *Start*: the first \
@@ -103,7 +103,7 @@ pub(super) fn seconds(rows: &[steady::Row], gain: Option<&SideBySide<'_>>, faste
 /// Reach ωh of the phase-fitted pair's stability.
 const REACH: f64 = 4.0;
 
-/// Why a second does not cost less; elements of `6205-healthy` vibrate at up to `fastest` [Hz].
+/// Why a second does not cost less; elements of `6205-healthy` vibrate at up to `fastest` (Hz).
 fn bounds(rows: &[steady::Row], fastest: f64) -> String {
     let of = |scene: &str| rows.iter().find(|row| row.scene == scene && row.tolerance == 1e-3);
     let (Some(healthy), Some(spalled)) = (of("6205-healthy"), of("er16k-tb1")) else { return String::new() };

@@ -21,7 +21,7 @@ const LEAD: f64 = 0.25;
 const SKIP: usize = 4;
 const COUNT: usize = 24;
 
-/// What is run: key, label, scene and load [N], and the paper's frequencies.
+/// What is run: key, label, scene and load (N), and the paper's frequencies.
 const CASES: [(&str, &str, &str, f64, &str); 7] = [
     ("tb1", "TB1, 500 N", "er16k-tb1", 500.0, "≈ 1000 Hz"),
     ("tb2-500", "TB2, 500 N", "er16k-tb2", 500.0, "≈ 600 Hz"),
@@ -114,7 +114,7 @@ fn expected(case: &Case) -> Option<Ringing> {
     ringing::expected(&rig, Trial { length: case.length(), depth, law: ContactLaw::Hertz }, spacing).ok()
 }
 
-/// Stiffness along the load with two elements about the middle of the spall [N/µm].
+/// Stiffness along the load with two elements about the middle of the spall (N/µm).
 fn least_stiffness(case: &Case) -> Result<f64> {
     let bearing = StaticBearing::new(&case.clone().with_law(ContactLaw::Hertz).scene, None)?;
     let angle = -std::f64::consts::FRAC_PI_2 - if case.length() > 40.0 { 0.5 * bearing.spacing() } else { 0.0 };

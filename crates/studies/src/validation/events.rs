@@ -52,7 +52,7 @@ pub fn fill(project: &Project, values: &mut Values) -> Result<()> {
     epps(project, values)
 }
 
-/// Time from the edge [s] and the outputs around the first passage of element 1, from so long before to so long after.
+/// Time from the edge (s) and the outputs around the first passage of element 1, from so long before to so long after.
 fn around_passage(project: &Project, case: &Case, length: f64, window: [f64; 2]) -> Result<(Vec<f64>, Vec<Vec<f64>>)> {
     let entry = case.entry(length);
     let run = case.record(project, &NAMES, RATE, entry + window[1])?;
@@ -61,7 +61,7 @@ fn around_passage(project: &Project, case: &Case, length: f64, window: [f64; 2])
     Ok((time, run.into_iter().map(|column| column[from..].to_vec()).collect()))
 }
 
-/// Times from the leading edge [s].
+/// Times from the leading edge (s).
 struct FourEvents {
     free: f64,
     floor: f64,
@@ -130,7 +130,7 @@ fn epps(project: &Project, values: &mut Values) -> Result<()> {
     profile_csv(project, &Case::shipped(project, "6205-epps")?)
 }
 
-/// Frequency of the averaged signal below 2.5 kHz after the exit [Hz].
+/// Frequency of the averaged signal below 2.5 kHz after the exit (Hz).
 fn rings_after(project: &Project, case: &Case, length: f64) -> Result<String> {
     let rate = 51_200.0;
     let run = case.record(project, &NAMES[..1], rate, 0.4)?;
@@ -149,7 +149,7 @@ fn path_of(case: &Case) -> Result<(Surface, RigidPath)> {
     Ok((surface, path))
 }
 
-/// Depth of the path of a rigid element [m] at angle [rad].
+/// Depth of the path of a rigid element (m) at angle (rad).
 fn rigid(path: &RigidPath, angle: f64) -> f64 {
     let after = path.knots().partition_point(|&knot| knot <= angle);
     if after == 0 || after == path.knots().len() { 0.0 } else { path.at(after - 1, angle).path }

@@ -51,7 +51,7 @@ pub enum Part {
 pub struct Options {
     /// Recordings to size and to lay beside their scene.
     pub recordings: Vec<Known>,
-    /// Their sampling rate [Hz].
+    /// Their sampling rate (Hz).
     pub rate: f64,
     /// The one part to compute; the others' tables are taken from the last run.
     pub only: Option<Part>,

@@ -24,14 +24,14 @@ use fmu_build::project::Project;
 const SCENE: &str = "6205-spall-5deg";
 /// The same bearing with a spall of the inner raceway.
 const INNER_SCENE: &str = "6205-inner-5deg";
-/// Way from the loudest impact that another must keep [degrees]: less than half of a spall of 5 degrees, more than
+/// Way from the loudest impact that another must keep (degrees): less than half of a spall of 5 degrees, more than
 /// echoes.
 const APART: f64 = 2.0;
 /// What the inner scene records: long enough for the load zone's share of passages.
 const INNER_SECONDS: f64 = 3.0;
 const RATE: f64 = 51_200.0;
-/// The other spall laid beside the recording: length at the surface [degrees], depth [m], slope of the flanks
-/// [degrees]. Its floor is 5 degrees long. Chosen so that impacts and null fall where the recording has them.
+/// The other spall laid beside the recording: length at the surface (degrees), depth (m), slope of the flanks
+/// (degrees). Its floor is 5 degrees long. Chosen so that impacts and null fall where the recording has them.
 const FLANKS: [f64; 3] = [5.8, 12e-6, 4.18];
 /// Harmonics of the envelope that are drawn.
 const HARMONICS: usize = 20;
@@ -41,11 +41,11 @@ const HARMONICS: usize = 20;
 pub struct Known {
     /// The file.
     pub path: PathBuf,
-    /// Shaft speed [Hz].
+    /// Shaft speed (Hz).
     pub speed: f64,
-    /// Sampling rate [Hz], where it is not that of all.
+    /// Sampling rate (Hz), where it is not that of all.
     pub rate: Option<f64>,
-    /// Nominal length [degrees], 0 of a healthy bearing or of a fault that has none.
+    /// Nominal length (degrees), 0 of a healthy bearing or of a fault that has none.
     pub nominal: f64,
     /// The fault that it is of.
     pub fault: Fault,
@@ -53,7 +53,7 @@ pub struct Known {
 
 impl Known {
     /// `FILE@HZ=DEGREES` of the outer raceway, `FILE@HZ=DEGREESi` of the inner one, `FILE@HZ=0` healthy,
-    /// `FILE@HZ=ball`; behind the speed `/RATE` where the sampling rate is another [Hz].
+    /// `FILE@HZ=ball`; behind the speed `/RATE` where the sampling rate is another (Hz).
     pub fn parse(text: &str) -> Result<Self> {
         let wanted = || {
             format!(
@@ -140,7 +140,7 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
     Ok(text)
 }
 
-/// Recordings of one fault and one nominal length [degrees].
+/// Recordings of one fault and one nominal length (degrees).
 struct OneFault {
     nominal: f64,
     fault: Fault,
@@ -149,7 +149,7 @@ struct OneFault {
 
 /// What stands beside an outer recording.
 struct Beside {
-    /// Of the shaft [Hz].
+    /// Of the shaft (Hz).
     speed: f64,
     figure: Figure,
     found: RecordingReport,
@@ -159,7 +159,7 @@ struct Beside {
 
 /// What stands beside an inner recording.
 struct Inside {
-    /// Of the shaft [Hz].
+    /// Of the shaft (Hz).
     speed: f64,
     found: RecordingReport,
     loud: Loud,
@@ -226,7 +226,7 @@ fn inner_row(speed: f64, label: &str, found: &RecordingReport, loud: &Loud) -> S
     format!("| {speed} | {label} | {fault} | {apart:.2} | {impacts} | {onset} | {length} | {strong:.1} |")
 }
 
-/// What is loud in an averaged passage [degrees].
+/// What is loud in an averaged passage (degrees).
 struct Loud {
     /// Impacts, after the first.
     impacts: Vec<f64>,

@@ -22,13 +22,13 @@ use super::synthetic_rig::SyntheticRig;
 
 /// Numbers of the machines of each group, for each length.
 const GROUPS: [Range<u64>; 3] = [0..20, 100..120, 500..540];
-/// Lengths of spalls [degrees]; 0 is healthy.
+/// Lengths of spalls (degrees); 0 is healthy.
 const LENGTHS: [f64; 7] = [0.0, 0.5, 0.9, 1.3, 2.0, 5.0, 8.0];
 /// Lengths on the inner raceway.
 const INNER: [f64; 3] = [2.0, 5.0, 8.0];
 /// Error up to which a length counts as right.
 const RIGHT: f64 = 0.15;
-/// Elements, their diameter and pitch diameter [mm]: 6205 for every other machine, else one of all.
+/// Elements, their diameter and pitch diameter (mm): 6205 for every other machine, else one of all.
 const BEARINGS: [(usize, f64, f64); 4] = [(9, 7.94, 39.04), (8, 6.747, 28.5), (9, 7.94, 39.32), (9, 9.53, 46.0)];
 
 /// Fills in `rigs` and `rigs_inner`.
@@ -59,7 +59,7 @@ fn table(raceway: Raceway, lengths: &[f64]) -> Result<String> {
 
 /// What sizing gives.
 struct Found {
-    /// Length and half its 95 % interval [degrees].
+    /// Length and half its 95 % interval (degrees).
     length: Option<f64>,
     interval: f64,
     /// Of which raceway.

@@ -40,19 +40,19 @@ impl Case {
         self
     }
 
-    /// The same under another load downwards [N].
+    /// The same under another load downwards (N).
     pub fn with_load(mut self, load: f64) -> Self {
         self.scene.shaft.load = [0.0, -load];
         self
     }
 
-    /// The same at another shaft speed [Hz].
+    /// The same at another shaft speed (Hz).
     pub fn at_speed(mut self, speed: f64) -> Self {
         self.scene.shaft_speed = std::f64::consts::TAU * speed;
         self
     }
 
-    /// The same with a spall of another length [degrees] and depth [m] with sharp edges, or healthy at length 0.
+    /// The same with a spall of another length (degrees) and depth (m) with sharp edges, or healthy at length 0.
     pub fn with_spall(mut self, length: f64, depth: f64) -> Self {
         let radius = self.scene.bearing.outer_raceway_radius();
         self.profile = None;
@@ -65,7 +65,7 @@ impl Case {
         self
     }
 
-    /// The same with flanks instead of sharp edges: length at the surface [degrees], depth [m], slope [degrees].
+    /// The same with flanks instead of sharp edges: length at the surface (degrees), depth (m), slope (degrees).
     pub fn with_flanks(mut self, length: f64, depth: f64, slope: f64) -> Self {
         self = self.with_spall(length, depth);
         if let Some(Defect { shape: DefectShape::Spall { edge_slope, .. }, .. }) = self.scene.defects.first_mut() {
@@ -79,17 +79,17 @@ impl Case {
         self.profile.as_deref()
     }
 
-    /// Ball pass frequency of the outer ring [Hz].
+    /// Ball pass frequency of the outer ring (Hz).
     pub fn bpfo(&self) -> f64 {
         kinematics::frequencies(&self.scene.bearing, self.scene.cage.slip, self.shaft_speed()).bpfo
     }
 
-    /// Shaft speed [Hz].
+    /// Shaft speed (Hz).
     pub fn shaft_speed(&self) -> f64 {
         self.scene.shaft_speed / std::f64::consts::TAU
     }
 
-    /// Length of the spall [degrees]; 0 of other defects and none.
+    /// Length of the spall (degrees); 0 of other defects and none.
     pub fn length(&self) -> f64 {
         match self.scene.defects.first().map(|defect| &defect.shape) {
             Some(DefectShape::Spall { length, .. }) => {
@@ -101,19 +101,19 @@ impl Case {
         }
     }
 
-    /// When element 1 stands over the leading edge of a defect of so many degrees [s].
+    /// When element 1 stands over the leading edge of a defect of so many degrees (s).
     pub fn entry(&self, length: f64) -> f64 {
         let centre = self.scene.defects.first().map_or(-std::f64::consts::FRAC_PI_2, |defect| defect.angle);
         let way = centre.to_degrees() - 0.5 * length - self.scene.cage.initial_angle.to_degrees();
         way.rem_euclid(360.0 / self.scene.bearing.element_count as f64) / self.travel()
     }
 
-    /// Element travel per second [degrees].
+    /// Element travel per second (degrees).
     pub fn travel(&self) -> f64 {
         360.0 / self.scene.bearing.element_count as f64 * self.bpfo()
     }
 
-    /// The named outputs, sampled at `rate` [Hz] for a time [s], from the start on.
+    /// The named outputs, sampled at `rate` (Hz) for a time (s), from the start on.
     pub fn record(&self, project: &Project, names: &[&str], rate: f64, seconds: f64) -> Result<Vec<Vec<f64>>> {
         let about = || format!("scene {}", self.scene.name);
         let map = contact_map::of(&self.scene, self.profile(), project).with_context(about)?;
@@ -140,7 +140,7 @@ impl Case {
         Ok(columns)
     }
 
-    /// Mean of the passages of a signal recorded from the start at `rate` [Hz], each from `lead` of a period before an
+    /// Mean of the passages of a signal recorded from the start at `rate` (Hz), each from `lead` of a period before an
     /// entry on; the first `skip` passages are left out.
     pub fn average(&self, signal: &[f64], rate: f64, length: f64, lead: f64, skip: usize) -> Vec<f64> {
         let period = rate / self.bpfo();

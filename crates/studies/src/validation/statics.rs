@@ -15,8 +15,8 @@ use fmu_build::project::Project;
 /// Evenly spaced cage angles of a sweep.
 const ANGLES: usize = 200;
 
-/// Rows of the stiffness table: label, scene, spall depth [m] where it is not the scene's, load [N], and the
-/// prototype's figures [N/µm].
+/// Rows of the stiffness table: label, scene, spall depth (m) where it is not the scene's, load (N), and the
+/// prototype's figures (N/µm).
 type Row = (&'static str, &'static str, Option<f64>, f64, Option<[f64; 3]>);
 const ROWS: [Row; 5] = [
     ("healthy, 500 N", "healthy", None, 500.0, Some([87.3, 88.4, 88.8])),

@@ -33,35 +33,35 @@ const EARLY: f64 = 0.47;
 /// A machine, its speed and its recorder.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SyntheticRig {
-    /// Sampling rate [Hz].
+    /// Sampling rate (Hz).
     pub rate: f64,
-    /// Shaft speed [Hz].
+    /// Shaft speed (Hz).
     pub speed: f64,
-    /// Load on the bearing [N].
+    /// Load on the bearing (N).
     pub load: f64,
-    /// Signal's power above the noise's [dB].
+    /// Signal's power above the noise's (dB).
     pub noise_db: f64,
     duration: f64,
     slip: f64,
-    /// Scatter of passages from even ones, and of its slow wander [degrees].
+    /// Scatter of passages from even ones, and of its slow wander (degrees).
     jitter: f64,
     wander: f64,
-    /// Modes of the housing and of the structure: frequency [Hz], damping, share.
+    /// Modes of the housing and of the structure: frequency (Hz), damping, share.
     slow: Vec<[f64; 3]>,
     fast: Vec<[f64; 3]>,
-    /// Delay [s] and strength.
+    /// Delay (s) and strength.
     echoes: Vec<[f64; 2]>,
-    /// Duration of an impact [s].
+    /// Duration of an impact (s).
     impact: f64,
     /// Scatter of the impacts' loudness (of its logarithm), and that which both impacts of a passage share.
     loudness: f64,
     shared: f64,
-    /// Way from the edge to the floor [degrees].
+    /// Way from the edge to the floor (degrees).
     floor: f64,
     /// Strength of the first impact, the last being 1, and of the entry's excursion.
     first: f64,
     entry: f64,
-    /// Way over which edges are rounded [degrees].
+    /// Way over which edges are rounded (degrees).
     rounded: f64,
     /// Where between L − s_u and L the load is taken up, 0 to 1.
     reload: f64,
@@ -141,7 +141,7 @@ impl SyntheticRig {
         self.ring(force, impacts, random)
     }
 
-    /// One element over the spall, whose leading edge it meets at a time [s] under a share of the load.
+    /// One element over the spall, whose leading edge it meets at a time (s) under a share of the load.
     fn pass(&self, spall: Spall, edge: f64, load: f64, force: &mut [f64], impacts: &mut [f64], random: &mut Random) {
         let Spall { length, free, travel } = spall;
         let never_free = 0.5 * length < free;
@@ -218,15 +218,15 @@ impl SyntheticRig {
 /// A spall as an element meets it.
 #[derive(Clone, Copy)]
 struct Spall {
-    /// Length [degrees].
+    /// Length (degrees).
     length: f64,
-    /// Way [degrees] after which the most loaded element is free.
+    /// Way (degrees) after which the most loaded element is free.
     free: f64,
-    /// Element travel per second [degrees].
+    /// Element travel per second (degrees).
     travel: f64,
 }
 
-/// Way [degrees] after which the most loaded element is free.
+/// Way (degrees) after which the most loaded element is free.
 fn unloading(bearing: &Bearing, raceway: Raceway, load: f64) -> f64 {
     let ratio = 5.0 * load / bearing.element_count as f64 / HertzConstants::of(bearing).in_series();
     let approach = libm::cbrt(ratio * ratio);

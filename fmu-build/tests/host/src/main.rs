@@ -1,7 +1,7 @@
 //! Does what a job file says with the library of an FMU, and prints a checksum of each output.
 //!
 //! A job is lines of a word and what belongs to it: `library`, `uri`, `guid`, `times` (how often the library is loaded,
-//! run and unloaded), `step` [s], `outputs` and `inputs` (value references), and for each step one `row` of input
+//! run and unloaded), `step` (s), `outputs` and `inputs` (value references), and for each step one `row` of input
 //! values, as the hexadecimal bits of floating-point numbers. The first row is also set before initialization.
 
 #[path = "../../../src/slave.rs"]

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 /// What the host feeds.
 pub(super) struct Inputs {
     internal: [bool; 2],
-    /// Around which a ring's input moves, how far, and how fast [1/s].
+    /// Around which a ring's input moves, how far, and how fast (1/s).
     middle: [[f64; 2]; 2],
     swing: [[f64; 2]; 2],
     rate: f64,

@@ -36,10 +36,10 @@ pub(super) struct Scale {
     raceway: f64,
     inner: f64,
     pub(super) approach: f64,
-    /// Tangent stiffness of the two contacts in series and of both beside each other [N/m].
+    /// Tangent stiffness of the two contacts in series and of both beside each other (N/m).
     stiffness: f64,
     mass: f64,
-    /// Angular frequency of an element between its raceways [rad/s].
+    /// Angular frequency of an element between its raceways (rad/s).
     pub(super) omega: f64,
 }
 
@@ -93,7 +93,7 @@ fn scene(draw: &mut Draw, space: Space, mut parts_draw: Option<Draw>) -> (Kind, 
     (kind, case)
 }
 
-/// A defect of a body that is no longer than so much [m].
+/// A defect of a body that is no longer than so much (m).
 fn defect(draw: &mut Draw, space: Space, scale: &Scale, on: On, most: f64) -> (&'static str, Defect) {
     let around = Around { r: scale.r, bearer: scale.bearer(on), on, most, approach: scale.approach };
     let (name, shape) = match space.topography(draw) {
@@ -123,7 +123,7 @@ fn more(draw: &mut Draw, space: Space, scale: &Scale, case: &mut Case) {
 }
 
 impl Scale {
-    /// Radius of the body with a defect [m].
+    /// Radius of the body with a defect (m).
     fn bearer(&self, on: On) -> f64 {
         match on {
             On::Outer => self.raceway,
@@ -267,7 +267,7 @@ fn motion_name(case: &Case) -> &'static str {
     }
 }
 
-/// Largest angular frequency or rate of decay [1/s] of a case under its loads.
+/// Largest angular frequency or rate of decay (1/s) of a case under its loads.
 pub fn fastest(case: &Case, approach: [f64; 2]) -> f64 {
     let bearing = Bearing::smooth(case);
     let (mut stiff, mut damped) = (0.0, 0.0);
@@ -293,7 +293,7 @@ pub fn fastest(case: &Case, approach: [f64; 2]) -> f64 {
     case.modes.iter().fold(rate, |rate, mode| rate.max(TAU * mode.frequency_hz * (1.0 + 2.0 * mode.damping_ratio)))
 }
 
-/// Time [s] that an oracle of the usual step can go through.
+/// Time (s) that an oracle of the usual step can go through.
 fn time(case: &Case, scale: &Scale) -> f64 {
     let rate = fastest(case, [scale.approach; 2]);
     WORK / case.count as f64 * PHASE / rate

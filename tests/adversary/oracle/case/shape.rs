@@ -5,13 +5,13 @@ use crate::draw::Draw;
 
 /// What a defect is drawn for.
 pub(super) struct Around {
-    /// Radius of an element and of the body with the defect [m].
+    /// Radius of an element and of the body with the defect (m).
     pub r: f64,
     pub bearer: f64,
     pub on: On,
-    /// How long it may be [m].
+    /// How long it may be (m).
     pub most: f64,
-    /// How far elements are pressed into the raceways [m].
+    /// How far elements are pressed into the raceways (m).
     pub approach: f64,
 }
 
@@ -25,7 +25,7 @@ impl Around {
         length.min(self.most)
     }
 
-    /// How deep a defect may be [m].
+    /// How deep a defect may be (m).
     fn deepest(&self) -> f64 {
         if matches!(self.on, On::Element { .. }) { 0.19 * self.r } else { 0.9 * self.r }
     }
@@ -49,7 +49,7 @@ impl Shape {
         }
     }
 
-    /// Its length along a body of this radius [m].
+    /// Its length along a body of this radius (m).
     pub fn length(&self, bearer: f64) -> f64 {
         let range = |arcs: [f64; 2]| (arcs[1] - arcs[0]) * 1e-3;
         match self {
@@ -90,7 +90,7 @@ pub(super) fn topography(draw: &mut Draw, around: &Around) -> Shape {
     })
 }
 
-/// How long a defect is [m]: from a contact's width to a few elements', seldom a large part of the raceway.
+/// How long a defect is (m): from a contact's width to a few elements', seldom a large part of the raceway.
 fn length(draw: &mut Draw, around: &Around) -> f64 {
     let whole = std::f64::consts::TAU * around.bearer;
     if draw.chance(0.1) {
@@ -100,7 +100,7 @@ fn length(draw: &mut Draw, around: &Around) -> f64 {
     around.limited(if around.on == On::Outer { length } else { length.min(around.longest() * whole) })
 }
 
-/// A depth [m]: about an approach, or what the element's circle reaches in this length, or more than it reaches.
+/// A depth (m): about an approach, or what the element's circle reaches in this length, or more than it reaches.
 fn depth(draw: &mut Draw, around: &Around, length: f64) -> f64 {
     let sag = length * length / (8.0 * around.r);
     let most = around.deepest();
@@ -137,7 +137,7 @@ fn sloping(draw: &mut Draw, around: &Around) -> Shape {
     spall(draw, around, length, depth, slope)
 }
 
-/// Points of a trace from arcs as shares of its length and depths [m].
+/// Points of a trace from arcs as shares of its length and depths (m).
 fn points(length: f64, shares: impl Iterator<Item = (f64, f64)>) -> Shape {
     Shape::Trace(shares.map(|(share, depth)| (share * length * 1e3, depth * 1e6)).collect())
 }
