@@ -162,6 +162,9 @@ fn rounding_of(a: f64, b: f64, sum: f64) -> f64 {
 mod tests {
     use super::*;
 
+    /// Steps of a long run. Miri is a thousand times slower, and looks for something else.
+    const COUNT: u32 = if cfg!(miri) { 100 } else { 100_000 };
+
     /// A clock that has come to `time` by a step.
     fn at(time: f64, last: f64) -> Clock {
         Clock { start: 0.0, stop: None, time, last, drift: 0.0, rounded: 0.0 }
@@ -187,13 +190,11 @@ mod tests {
 
     #[test]
     fn a_host_that_multiplies_is_met_from_any_start_with_any_step() {
-        // Miri is a thousand times slower, and looks for something else.
-        let count = if cfg!(miri) { 100 } else { 100_000 };
         for start in [-1.7e9, -1e3, -0.37, 0.0, 1e5, 1.7e9] {
             // Down to steps that do not move so late a time, and through 0.
             for step in [0.3, 1e-2, 1e-4 / 3.0, 1e-6, 1e-8] {
                 let mut clock = Clock::new(start, None).unwrap();
-                for n in 0..count {
+                for n in 0..COUNT {
                     clock = clock.after(start + f64::from(n) * step, step).unwrap();
                 }
             }
@@ -203,7 +204,7 @@ mod tests {
     #[test]
     fn a_host_that_adds_is_met_exactly() {
         let (mut clock, mut time) = (Clock::new(1.7e9, None).unwrap(), 1.7e9);
-        for n in 0..100_000 {
+        for n in 0..COUNT {
             let step = 1e-4 + 1e-9 * f64::from(n);
             clock = clock.after(time, step).unwrap();
             time += step;

@@ -44,6 +44,8 @@ mod mode;
 mod resource_error;
 mod resources;
 mod shared_models;
+#[cfg(test)]
+mod small_scene;
 mod snapshot;
 mod snapshots;
 mod uri;

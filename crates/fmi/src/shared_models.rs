@@ -151,11 +151,10 @@ impl Drop for SharedModel {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::small_scene::SCENE;
     use brinell::scene::Scene;
     use std::fs;
     use std::path::PathBuf;
-
-    const SCENE: &str = include_str!("../../../scenes/6205-healthy.toml");
 
     fn user(guid: &str, map: &Path) -> Result<SharedModel, ResourceError> {
         let set_up = |_| Simulation::new(Scene::from_toml(SCENE).unwrap(), None);
@@ -224,7 +223,7 @@ mod tests {
     #[test]
     fn users_that_come_and_go_in_eight_threads_leave_nothing() {
         let path = file(85);
-        let rounds = if cfg!(miri) { 2 } else { 50 };
+        let rounds = if cfg!(miri) { 1 } else { 50 };
         std::thread::scope(|scope| {
             for _ in 0..8 {
                 scope.spawn(|| {

@@ -9,31 +9,8 @@ use std::path::PathBuf;
 use std::{env, fs, ptr};
 
 use super::*;
+use crate::small_scene::SCENE;
 use brinell::simulation::guid::guid;
-
-/// Three elements without a defect, started quickly.
-const SCENE: &str = r#"
-name = "small"
-description = "Three elements"
-[bearing]
-element_count = 3
-element_diameter_mm = 7.94
-pitch_diameter_mm = 39.32
-groove_diameter_mm = 8.19
-radial_clearance_um = 5.0
-youngs_modulus_gpa = 207.0
-poissons_ratio = 0.3
-density_kg_m3 = 7800.0
-[shaft]
-motion = "internal"
-speed_hz = 10.0
-load_n = [0.0, -500.0]
-mass_kg = 3.0
-damping_n_s_m = 1400.0
-stiffness_n_m = 1e7
-[housing]
-motion = "fixed"
-"#;
 
 /// Unpacked resources, deleted when dropped.
 struct Resources(PathBuf);
