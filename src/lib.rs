@@ -36,3 +36,8 @@ pub mod surface;
 #[doc(inline)]
 pub use brinell_scene as scene;
 pub use simulation::SimulationError as Error;
+
+/// The example in README.md compiles and runs.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -34,7 +34,7 @@ impl Simulation {
     /// let scene = Scene::builder(bearing).shaft_speed(157.1).shaft_load([0.0, -1500.0]).build()?;
     /// let mut simulation = Simulation::new(scene, None)?;
     /// simulation.initialize(0.0)?;
-    /// let forces = simulation.samples(&["element(1).force.outer"], 1e-4)?.take(11);
+    /// let forces = simulation.samples(&["element[1].force.outer"], 1e-4)?.take(11);
     /// let largest = forces.map(|sample| Ok(sample?.values[0])).collect::<Result<Vec<f64>, brinell::Error>>()?;
     /// assert_eq!(largest.len(), 11);
     /// # Ok::<(), brinell::Error>(())

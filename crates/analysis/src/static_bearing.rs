@@ -126,7 +126,7 @@ impl StaticBearing {
     /// // With an element right under the load it carries some 5 F/Z (Stribeck).
     /// let balance = StaticBearing::new(&scene, None)?.balance(-std::f64::consts::FRAC_PI_2, load)?;
     /// assert!((balance.elements[0].outer_force / (5.0 * 1500.0 / 9.0) - 1.0).abs() < 0.1);
-    /// assert!(balance.stiffness[1](1) > 1e7);
+    /// assert!(balance.stiffness[1][1] > 1e7);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
