@@ -28,7 +28,7 @@ pub struct Arguments {
 pub enum Command {
     /// Builds the FMU of each scene
     Build(Build),
-    /// Simulates a scene without a host and writes its signals, a figure, sound, a page to look at
+    /// Simulates a scene without a host and writes its signals, a figure, sound, an HTML page
     Run(Run),
     /// Runs a scene thousands of times over grids and random values, on all cores: one Parquet table
     Sweep(Sweep),

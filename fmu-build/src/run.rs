@@ -53,7 +53,7 @@ pub struct Options {
     pub wav: Option<Wav>,
     /// Whether to draw.
     pub figure: bool,
-    /// Whether to write a page to look at.
+    /// Whether to write an HTML page.
     pub page: bool,
 }
 

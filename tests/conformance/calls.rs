@@ -33,7 +33,7 @@ pub(super) const RULES: &[Rule] = &[
     ),
     (
         "Steps",
-        "A step past a defined stop time is an error, rounding aside; without one there is no end.",
+        "A step past a defined stop time is an error, apart from rounding; without one there is no end.",
         &[
             T("a_step_past_the_stop_time_is_an_error_and_one_that_ends_there_is_not"),
             T("a_whole_step_past_a_late_stop_time_is_an_error"),

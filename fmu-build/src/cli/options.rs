@@ -87,7 +87,7 @@ pub struct Run {
         value_parser = number,
     )]
     pub(super) wav_scale: f64,
-    /// Write a page to look at in a browser: signals, path over the defect, spectra
+    /// Write an HTML page for a browser: signals, path over the defect, spectra
     #[arg(long)]
     pub(super) html: bool,
     /// Folder for what is written [default: the current one]
