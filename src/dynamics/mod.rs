@@ -6,6 +6,7 @@
 mod balance_lanes;
 mod balance_variation;
 mod balanced_derivative;
+mod body_rates;
 pub mod contact_lanes;
 pub(crate) mod dense_output;
 pub mod drive;

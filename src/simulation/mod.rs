@@ -43,6 +43,7 @@ pub mod stepper;
 mod stepping;
 pub mod switching;
 pub mod table;
+mod table_builder;
 mod table_parameters;
 mod values;
 pub mod variables;

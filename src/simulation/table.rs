@@ -3,31 +3,20 @@
 //! Inputs come first, then outputs, then parameters. A variable's index is its FMI value reference.
 
 use super::quantity::{Count, Quantity, Quantity as Q, RingName};
+use super::table_builder::{Builder, RINGS};
 use super::variables::{Causality, Kind, Unit, Variability, Variable};
-use crate::scene::{ContactLaw, Motion, Scene};
-
-/// Items of the enumeration type of `contact.law`, the first having value 1.
-pub const CONTACT_LAWS: &[(&str, &str)] = &{
-    let laws = ContactLaw::ALL;
-    [laws[0].described(), laws[1].described(), laws[2].described()]
-};
+use crate::scene::{Motion, Scene};
 
 /// The table of a scene, with what each variable stands for.
 pub fn rows(scene: &Scene) -> Vec<(Variable, Quantity)> {
     let count = 60 + 4 * scene.bearing.element_count;
-    let mut builder = Builder { scene, rows: Vec::with_capacity(count) };
+    let mut builder = Builder::new(scene, count);
     builder.inputs();
     builder.outputs();
     builder.parameters();
-    builder.rows
+    builder.into_rows()
 }
 
-pub(super) struct Builder<'a> {
-    pub(super) scene: &'a Scene,
-    rows: Vec<(Variable, Quantity)>,
-}
-
-pub(super) const RINGS: [RingName; 2] = [RingName::Shaft, RingName::Housing];
 const AXES: [&str; 2] = ["x", "y"];
 
 /// Sizes of an input: from -`largest` to `largest`, in its unit.
@@ -35,15 +24,6 @@ const AXES: [&str; 2] = ["x", "y"];
 struct Size {
     largest: f64,
     nominal: f64,
-}
-
-/// Start value, limits and nominal value of a parameter, in its unit.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Limited {
-    pub(super) start: f64,
-    pub(super) min: f64,
-    pub(super) max: f64,
-    pub(super) nominal: f64,
 }
 
 /// An input of a prescribed ring along each axis.
@@ -83,13 +63,6 @@ const SPEED: Size = Size { largest: 1e5, nominal: 100.0 };
 const LOAD: Size = Size { largest: 1e9, nominal: 1000.0 };
 
 impl Builder<'_> {
-    pub(super) fn motion(&self, ring: RingName) -> Motion {
-        match ring {
-            RingName::Shaft => self.scene.shaft.motion,
-            RingName::Housing => self.scene.housing.motion,
-        }
-    }
-
     fn inputs(&mut self) {
         let scene = self.scene;
         self.input(
@@ -345,36 +318,5 @@ impl Builder<'_> {
     fn counter(&mut self, name: &str, text: &str, quantity: Quantity) {
         // Not an output: there are masters that read every output as a real number.
         self.push(name, text, Kind::Integer, (Causality::Local, Variability::Discrete), quantity);
-    }
-
-    pub(super) fn parameter(
-        &mut self,
-        name: &str,
-        text: &str,
-        quantity: Quantity,
-        unit: Unit,
-        Limited { start, min, max, nominal }: Limited,
-    ) {
-        let kind = Kind::Real { unit, start: Some(start), min: Some(min), max: Some(max), nominal };
-        self.push(name, text, kind, (Causality::Parameter, Variability::Fixed), quantity);
-    }
-
-    pub(super) fn push(
-        &mut self,
-        name: &str,
-        text: &str,
-        kind: Kind,
-        causality: (Causality, Variability),
-        quantity: Quantity,
-    ) {
-        let variable = Variable {
-            name: name.to_owned(),
-            description: text.to_owned(),
-            reference: self.rows.len() as u32,
-            kind,
-            causality: causality.0,
-            variability: causality.1,
-        };
-        self.rows.push((variable, quantity));
     }
 }

@@ -1,7 +1,7 @@
 //! The parameters in the variable table: what a host may set before the start, with limits.
 
 use super::quantity::{Parameter, Quantity as Q, RingName};
-use super::table::{Builder, CONTACT_LAWS, Limited, RINGS};
+use super::table_builder::{Builder, CONTACT_LAWS, Limited, RINGS};
 use super::variables::{Causality, Kind, Unit, Variability};
 use crate::scene::{Damping, DefectOn, Motion};
 
