@@ -3,11 +3,11 @@
 
 use std::f64::consts::PI;
 
-use brinell::contact::active_set::Mirror;
+use brinell::contact::active_set::{ActiveSet, Mirror, Window};
 use brinell::contact::conjugate_gradients::ConjugateGradients;
 use brinell::contact::error::ContactError;
 use brinell::contact::grid::{Border, GridActiveSet, GridProblem, GridSolver};
-use brinell::contact::half_space::rectangle_kernel;
+use brinell::contact::half_space::{KernelTable, rectangle_kernel};
 
 const APPROACH: f64 = 0.01;
 
@@ -232,6 +232,15 @@ fn printed_gap_of_equation_4_presses_harder_in_a_depression_and_forgets_the_groo
     assert!(printed > 1.2 * smooth, "{printed} {smooth}");
     // Without the groove the element meets a nearly flat floor across: several times too little force.
     assert!(force(1.0, false, 0.0) < 0.4 * smooth);
+}
+
+#[test]
+fn cells_that_carry_nothing_are_refused_by_the_pivot_that_is_not_above_zero() {
+    let mirror = Mirror { x: false, y: false, middle_row: false };
+    // Without an area a cell deforms nothing: its matrix is 0.
+    let mut solver = ActiveSet::new(&KernelTable::new(3, 1, [0.0, 1.0]), 1, mirror).unwrap();
+    let refused = solver.solve(Window { first: 0, columns: 3, interference: &[1e-6; 3] }).unwrap_err();
+    assert_eq!(refused, ContactError::NotPositiveDefinite { pivot: 1, cells: 3 });
 }
 
 /// The paper's loop: solve on the set, drop what pulls, never add. Dense elimination, no symmetry.
