@@ -6,9 +6,6 @@
 //! the machine: nalgebra's and faer's choose their order of sums by it, and allocate. Nothing is allocated once the
 //! storage has met its largest matrix.
 
-// Register tiles are addressed by lane and column: iterators would hide which.
-#![allow(clippy::needless_range_loop)]
-
 use pulp::{Arch, NullaryFnOnce};
 
 /// Columns eliminated together.

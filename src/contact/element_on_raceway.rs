@@ -5,9 +5,6 @@
 //! roller's free end is as stiff here as if it went on, too. Pressures at the ends of a straight roller grow without
 //! bound as a grid is refined; forces do not.
 
-// `!(a > b)` is true for NaN as well, and is meant to be.
-#![allow(clippy::neg_cmp_op_on_partial_ord)]
-
 use super::{elasticity::LINE_ORDER, error::ContactError, rolling::RacewaySide};
 use crate::geometry::hertz_constant::squared_eccentricity;
 use crate::geometry::line_contact::{half_width_under, logarithmic_depth};

@@ -100,11 +100,6 @@ impl Topography {
         (self.arcs[0], self.arcs[self.arcs.len() - 1])
     }
 
-    /// First and last axial coordinate (m).
-    pub fn axial_extent(&self) -> (f64, f64) {
-        (self.axials[0], self.axials[self.axials.len() - 1])
-    }
-
     /// Arcs (m) at which the depth jumps: the first and the last, where the border is not at depth 0.
     pub fn edges(&self) -> Vec<f64> {
         let (first, last) = self.extent();
