@@ -142,7 +142,7 @@ impl Topography {
         let h = |i: usize, j: usize| self.depths[i * self.axials.len() + j];
         let longest = |lines: &[f64], differ: &dyn Fn(usize) -> bool| {
             let intervals = lines.windows(2).enumerate().filter(|(k, _)| differ(*k));
-            Interval::longest(intervals.map(|(_, pair)| Interval::between(pair[0], pair[1])))
+            Interval::longest(intervals.map(|(_, pair)| Interval::new(pair[0], pair[1])))
         };
         [
             longest(&self.arcs, &|i| (0..self.axials.len()).any(|j| h(i, j) != h(i + 1, j))),
