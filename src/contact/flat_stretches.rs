@@ -1,5 +1,6 @@
 //! Where a raceway is level, so that the contact is the smooth one's: before the defect, after it, and on flat floors.
 
+use crate::geometry::curvature;
 use crate::surface::Surface;
 
 use super::element_on_raceway::ElementOnRaceway;
@@ -36,7 +37,7 @@ pub(crate) fn check_ends(
 /// Distance (m) along the raceway within which the element comes lower than `depth` (m); a little more than the
 /// circles'.
 pub(super) fn reach(element: ElementOnRaceway, depth: f64) -> f64 {
-    (2.0 * depth.max(0.0) / element.curvatures()[0]).sqrt()
+    curvature::reach(depth.max(0.0), element.curvatures()[0])
 }
 
 /// A stretch of constant depth.
