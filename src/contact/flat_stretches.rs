@@ -11,16 +11,27 @@ use std::f64::consts::TAU;
 /// 1e-9 rad are one.
 const SMALLEST_GAP: f64 = 1e-8;
 
-/// Refuses a defect of this `extent` (first and last arc (m)) that elements feel between the arcs `felt` (m), for the
-/// reason `why`, if that is the whole raceway: laws near the defect know what is beyond one of its ends, not what is
-/// beyond both.
-pub(crate) fn check_ends(
-    extent: (f64, f64),
-    felt: (f64, f64),
-    raceway_radius: f64,
-    why: &'static str,
-) -> Result<(), ContactError> {
-    let (length, span) = (extent.1 - extent.0, felt.1 - felt.0);
+/// A part of a raceway.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Arcs {
+    /// First arc (m).
+    pub(crate) first: f64,
+    /// Last arc (m).
+    pub(crate) last: f64,
+}
+
+impl Arcs {
+    /// Of a defect.
+    pub(crate) fn of(surface: &Surface) -> Self {
+        let (first, last) = surface.extent();
+        Self { first, last }
+    }
+}
+
+/// Refuses a defect of this `extent` that elements feel within `felt`, for the reason `why`, if that is the whole
+/// raceway: laws near the defect know what is beyond one of its ends, not what is beyond both.
+pub(crate) fn check_ends(extent: Arcs, felt: Arcs, raceway_radius: f64, why: &'static str) -> Result<(), ContactError> {
+    let (length, span) = (extent.last - extent.first, felt.last - felt.first);
     let limit = (TAU - SMALLEST_GAP) * raceway_radius;
     if span < limit {
         return Ok(());
@@ -28,7 +39,7 @@ pub(crate) fn check_ends(
     Err(ContactError::EndsMeet {
         length_mm: length * 1e3,
         limit_mm: (limit - (span - length)) * 1e3,
-        reach_mm: (extent.0 - felt.0).max(felt.1 - extent.1) * 1e3,
+        reach_mm: (extent.first - felt.first).max(felt.last - extent.last) * 1e3,
         why,
         circumference_mm: TAU * raceway_radius * 1e3,
     })
