@@ -14,7 +14,7 @@
 use std::sync::Arc;
 
 use super::{
-    cholesky::Cholesky,
+    cholesky::{Cholesky, NotPositiveDefinite},
     error::ContactError,
     half_space::KernelTable,
     row_pairs::{CellIndex, Image, Loaded, RowPairs, SEGMENT},
@@ -25,6 +25,8 @@ pub use super::row_pairs::{Mirror, PressedCell, Run};
 
 /// Interpenetration below this part of the largest interference counts as touching; rounding of K p is far below.
 const TOUCHING: f64 = 1e-13;
+/// Sets tried at most.
+const MOST_SETS: usize = 100;
 
 /// Interference g = δ − h of the undeformed bodies (m) in a window of the grid.
 #[derive(Debug, Clone, Copy)]
@@ -165,8 +167,8 @@ impl ActiveSet {
     /// Solves the contact; starts from the last set unless it was forgotten.
     ///
     /// # Errors
-    /// [`ContactError::WrongLength`] for a window wider than the kernel's table, [`ContactError::NotConverged`] when
-    /// the set does not settle.
+    /// [`ContactError::WrongLength`] for a window wider than the kernel's table, [`ContactError::Cycles`] when the set
+    /// does not settle, [`ContactError::NotPositiveDefinite`] when rounding spoils the matrix of a set.
     pub fn solve(&mut self, window: Window<'_>) -> Result<Effort, ContactError> {
         let Window { first, columns, interference } = window;
         let widest = if self.mirror.x { self.pairs.reach() / 2 } else { self.pairs.reach() };
@@ -204,8 +206,8 @@ impl ActiveSet {
                 }
                 only_drop = true;
             }
-            if effort.iterations == 100 {
-                return Err(ContactError::NotConverged { iterations: 100, residual: f64::NAN, limit: TOUCHING });
+            if effort.iterations == MOST_SETS {
+                return Err(ContactError::Cycles { cells: self.factor.order(), limit: MOST_SETS });
             }
         }
     }
@@ -312,11 +314,9 @@ impl ActiveSet {
                 }
             }
         }
-        self.factor.factor().map_err(|_| ContactError::NotConverged {
-            iterations: 0,
-            residual: f64::NAN,
-            limit: TOUCHING,
-        })?;
+        self.factor
+            .factor()
+            .map_err(|NotPositiveDefinite { pivot }| ContactError::NotPositiveDefinite { pivot, cells: count })?;
         self.factored.clone_from(&self.runs);
         self.factored_there = felt(&self.edges).next().is_some();
         Ok(true)

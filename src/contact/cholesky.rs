@@ -6,9 +6,6 @@
 //! the machine: nalgebra's and faer's choose their order of sums by it, and allocate. Nothing is allocated once the
 //! storage has met its largest matrix.
 
-// Register tiles are addressed by lane and column: iterators would hide which.
-#![allow(clippy::needless_range_loop)]
-
 use pulp::{Arch, NullaryFnOnce};
 
 /// Columns eliminated together.
@@ -18,7 +15,10 @@ const TILE: usize = 8;
 
 /// The matrix is not positive definite to working precision.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct NotPositiveDefinite;
+pub struct NotPositiveDefinite {
+    /// Number of the first pivot that is not above 0, from 1.
+    pub pivot: usize,
+}
 
 /// Storage of one factor.
 #[derive(Debug, Clone, Default)]
@@ -151,7 +151,7 @@ fn factor_diagonal(
         let column = c * stride + first;
         let pivot = panel[column + c];
         if pivot.is_nan() || pivot <= 0.0 {
-            return Err(NotPositiveDefinite);
+            return Err(NotPositiveDefinite { pivot: first + c + 1 });
         }
         let root = pivot.sqrt();
         let inverse = 1.0 / root;
@@ -327,6 +327,6 @@ mod tests {
         m.resize(2);
         m.column_mut(0).copy_from_slice(&[1.0, 2.0]);
         m.column_mut(1).copy_from_slice(&[1.0]);
-        assert_eq!(m.factor(), Err(NotPositiveDefinite));
+        assert_eq!(m.factor(), Err(NotPositiveDefinite { pivot: 2 }));
     }
 }

@@ -20,9 +20,6 @@
 //! c is a measure of an assembly's softness and not a ring's flexibility. Near a defect Δ is the equivalent approach of
 //! the contact law, and the raceway yields along the contact's direction.
 
-// `!(a < b)` is true for NaN as well, and is meant to be.
-#![allow(clippy::neg_cmp_op_on_partial_ord)]
-
 use super::elasticity::Elasticity;
 use super::force_law::{Force, ForceLaw};
 

@@ -10,9 +10,6 @@
 //! For stored problems and reference solutions, with the same bits on every machine. Warm, or with few unknowns,
 //! `active_set` is faster.
 
-// `!(a > b)` is true for NaN as well, and is meant to be.
-#![allow(clippy::neg_cmp_op_on_partial_ord)]
-
 use pulp::{Arch, NullaryFnOnce};
 
 use super::{

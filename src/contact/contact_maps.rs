@@ -7,9 +7,8 @@ use std::sync::Arc;
 
 use super::error::ContactError;
 use super::map::{Accuracy, ContactMap};
-use super::map_format::{check_inputs, refused};
-use crate::numerics::bytes::Reader;
-use crate::numerics::checksum::{Checksum, checksum};
+use super::map_format::{HEAD, Opened, TAIL, begun, check_inputs, opened, refused, sealed};
+use crate::numerics::checksum::Checksum;
 
 const MAGIC: &[u8; 8] = b"BRNL-MPS";
 const VERSION: u32 = 1;
@@ -66,17 +65,13 @@ impl ContactMaps {
         if let [one] = &self.0[..] {
             return one.to_bytes();
         }
-        let mut out = MAGIC.to_vec();
-        out.extend(VERSION.to_le_bytes());
-        out.extend(self.fingerprint().to_le_bytes());
+        let mut out = begun(MAGIC, VERSION, self.fingerprint());
         for map in &self.0 {
             let bytes = map.to_bytes();
             out.extend((bytes.len() as u64).to_le_bytes());
             out.extend(bytes);
         }
-        let sum = checksum(&out);
-        out.extend(sum.to_le_bytes());
-        out
+        sealed(out)
     }
 
     /// Reads maps made from the inputs with this fingerprint.
@@ -102,23 +97,18 @@ impl ContactMaps {
     /// # Errors
     /// [`ContactError::MapRefused`] for bytes that are damaged or of another version.
     pub fn decode(bytes: &[u8]) -> Result<Self, ContactError> {
-        let Some(rest) = bytes.strip_prefix(MAGIC) else { return Ok(Self::new([ContactMap::decode(bytes)?])) };
+        if !bytes.starts_with(MAGIC) {
+            return Ok(Self::new([ContactMap::decode(bytes)?]));
+        }
         let short = || refused("the file is too short");
-        let body = bytes.split_last_chunk::<8>();
-        let (body, sum) = body.filter(|(body, _)| body.len() >= MAGIC.len() + 12).ok_or_else(short)?;
-        let mut rest = Reader(&rest[..body.len() - MAGIC.len()]);
-        let version = rest.u32().ok_or_else(short)?;
-        if version != VERSION {
-            return Err(refused(&format!("the file has format {version}, this library reads {VERSION}")));
+        if bytes.len() < HEAD + TAIL {
+            return Err(short());
         }
-        if checksum(body) != u64::from_le_bytes(*sum) {
-            return Err(refused("the checksum does not fit, the file is damaged"));
-        }
-        let fingerprint = rest.u64().ok_or_else(short)?;
+        let Opened { fingerprint, mut body } = opened(bytes, MAGIC, VERSION)?;
         let mut maps = Vec::new();
-        while !rest.0.is_empty() {
-            let length = rest.u64().and_then(|length| usize::try_from(length).ok()).ok_or_else(short)?;
-            maps.push(ContactMap::decode(rest.bytes(length).ok_or_else(short)?)?);
+        while !body.0.is_empty() {
+            let length = body.u64().and_then(|length| usize::try_from(length).ok()).ok_or_else(short)?;
+            maps.push(ContactMap::decode(body.bytes(length).ok_or_else(short)?)?);
         }
         let maps = Self::new(maps);
         if maps.fingerprint() == fingerprint { Ok(maps) } else { Err(refused("its contents contradict each other")) }

@@ -5,10 +5,8 @@
 //! roller's free end is as stiff here as if it went on, too. Pressures at the ends of a straight roller grow without
 //! bound as a grid is refined; forces do not.
 
-// `!(a > b)` is true for NaN as well, and is meant to be.
-#![allow(clippy::neg_cmp_op_on_partial_ord)]
-
 use super::{elasticity::LINE_ORDER, error::ContactError, rolling::RacewaySide};
+use crate::geometry::curvature::relative_curvature;
 use crate::geometry::hertz_constant::squared_eccentricity;
 use crate::geometry::line_contact::{half_width_under, logarithmic_depth};
 use crate::numerics::elliptic;
@@ -88,16 +86,15 @@ impl ElementOnRaceway {
 
     /// Curvatures of the gap along and across the raceway (1/m).
     pub fn curvatures(&self) -> [f64; 2] {
-        let r = 1.0 / self.element_radius;
-        let along = match self.raceway {
-            RacewaySide::Inner => r + 1.0 / self.raceway_radius,
-            RacewaySide::Outer => r - 1.0 / self.raceway_radius,
+        let raceway = match self.raceway {
+            RacewaySide::Inner => self.raceway_radius,
+            RacewaySide::Outer => -self.raceway_radius,
         };
         let across = match self.across {
-            Across::Groove(radius) => r - 1.0 / radius,
+            Across::Groove(radius) => relative_curvature(self.element_radius, -radius),
             Across::Roller { .. } => 0.0,
         };
-        [along, across]
+        [relative_curvature(self.element_radius, raceway), across]
     }
 
     /// Half-axes of the contact along and across the raceway (m) at the approach δ (m). Of a ball those of Hertz's

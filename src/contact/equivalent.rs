@@ -31,10 +31,9 @@ impl EquivalentApproach {
         Self { value: u - depth, du: 1.0, ..Self::default() }
     }
 
-    /// F_n and F_t (N) of a ball for Hertz's constant `k` (N/m^1.5).
-    pub fn forces(&self, k: f64) -> [f64; 2] {
-        let approach = self.value.max(0.0);
-        let smooth = k * approach * approach.sqrt();
-        [smooth * self.du, -smooth * self.ds]
+    /// F_n and F_t (N), where `smooth` gives the force (N) of the smooth contact at an approach (m).
+    pub fn forces(&self, smooth: impl Fn(f64) -> f64) -> [f64; 2] {
+        let force = smooth(self.value.max(0.0));
+        [force * self.du, -force * self.ds]
     }
 }

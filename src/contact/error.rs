@@ -109,6 +109,28 @@ pub enum ContactError {
         /// Residual asked for.
         limit: f64,
     },
+    /// The stiffness matrix of the pressed cells cannot be factored.
+    #[error(
+        "contact not solved: pivot {pivot} of the stiffness matrix of its {cells} pressed cells is not above 0, where \
+         that of a positive definite matrix is; other cells (contact.cells) may help"
+    )]
+    NotPositiveDefinite {
+        /// Number of the pivot, from 1.
+        pivot: usize,
+        /// Pressed cells.
+        cells: usize,
+    },
+    /// The set of pressed cells comes back to what it was.
+    #[error(
+        "contact not solved: its set of {cells} pressed cells still changes after {limit} sets, which is the limit; \
+         other cells (contact.cells) may help"
+    )]
+    Cycles {
+        /// Pressed cells of the last set.
+        cells: usize,
+        /// Sets that may be tried.
+        limit: usize,
+    },
     /// Outside the range the law was prepared for.
     #[error(
         "{quantity} is {value:.6e} m, the range prepared is {}; contact.largest_force_n says how large forces near the \
@@ -156,5 +178,14 @@ mod tests {
         let said = beyond(f64::NEG_INFINITY).to_string();
         assert!(said.starts_with("approach is 2.000000e-5 m, the range prepared is up to 1.000000e-5 m;"), "{said}");
         assert!(beyond(-1e-6).to_string().contains("is -1.000000e-6 to 1.000000e-5 m;"));
+    }
+
+    #[test]
+    fn a_set_of_cells_that_fails_is_told_without_a_residual_that_is_no_number() {
+        let matrix = ContactError::NotPositiveDefinite { pivot: 7, cells: 50 }.to_string();
+        assert!(matrix.contains("pivot 7 ") && matrix.contains(" 50 pressed cells is not above 0"), "{matrix}");
+        let cycle = ContactError::Cycles { cells: 50, limit: 100 }.to_string();
+        assert!(cycle.contains(" 50 pressed cells still changes after 100 sets"), "{cycle}");
+        assert!(!(matrix + &cycle).contains("NaN"));
     }
 }

@@ -1,5 +1,6 @@
 //! Where a raceway is level, so that the contact is the smooth one's: before the defect, after it, and on flat floors.
 
+use crate::geometry::curvature;
 use crate::surface::Surface;
 
 use super::element_on_raceway::ElementOnRaceway;
@@ -10,16 +11,27 @@ use std::f64::consts::TAU;
 /// 1e-9 rad are one.
 const SMALLEST_GAP: f64 = 1e-8;
 
-/// Refuses a defect of this `extent` (first and last arc (m)) that elements feel between the arcs `felt` (m), for the
-/// reason `why`, if that is the whole raceway: laws near the defect know what is beyond one of its ends, not what is
-/// beyond both.
-pub(crate) fn check_ends(
-    extent: (f64, f64),
-    felt: (f64, f64),
-    raceway_radius: f64,
-    why: &'static str,
-) -> Result<(), ContactError> {
-    let (length, span) = (extent.1 - extent.0, felt.1 - felt.0);
+/// A part of a raceway.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Arcs {
+    /// First arc (m).
+    pub(crate) first: f64,
+    /// Last arc (m).
+    pub(crate) last: f64,
+}
+
+impl Arcs {
+    /// Of a defect.
+    pub(crate) fn of(surface: &Surface) -> Self {
+        let (first, last) = surface.extent();
+        Self { first, last }
+    }
+}
+
+/// Refuses a defect of this `extent` that elements feel within `felt`, for the reason `why`, if that is the whole
+/// raceway: laws near the defect know what is beyond one of its ends, not what is beyond both.
+pub(crate) fn check_ends(extent: Arcs, felt: Arcs, raceway_radius: f64, why: &'static str) -> Result<(), ContactError> {
+    let (length, span) = (extent.last - extent.first, felt.last - felt.first);
     let limit = (TAU - SMALLEST_GAP) * raceway_radius;
     if span < limit {
         return Ok(());
@@ -27,7 +39,7 @@ pub(crate) fn check_ends(
     Err(ContactError::EndsMeet {
         length_mm: length * 1e3,
         limit_mm: (limit - (span - length)) * 1e3,
-        reach_mm: (extent.0 - felt.0).max(felt.1 - extent.1) * 1e3,
+        reach_mm: (extent.first - felt.first).max(felt.last - extent.last) * 1e3,
         why,
         circumference_mm: TAU * raceway_radius * 1e3,
     })
@@ -36,7 +48,7 @@ pub(crate) fn check_ends(
 /// Distance (m) along the raceway within which the element comes lower than `depth` (m); a little more than the
 /// circles'.
 pub(super) fn reach(element: ElementOnRaceway, depth: f64) -> f64 {
-    (2.0 * depth.max(0.0) / element.curvatures()[0]).sqrt()
+    curvature::reach(depth.max(0.0), element.curvatures()[0])
 }
 
 /// A stretch of constant depth.

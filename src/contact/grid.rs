@@ -4,9 +4,6 @@
 //! and matched at their centres. Beyond the grid nothing touches: a contact that reaches the border is refused unless
 //! the grid is said to be the whole body.
 
-// `!(a > b)` is true for NaN as well, and is meant to be.
-#![allow(clippy::neg_cmp_op_on_partial_ord)]
-
 use libm::pow;
 
 use super::{

@@ -20,9 +20,6 @@
 //! Pressure at a sharp corner grows without bound as the grid is refined (the force does not). A half-space knows
 //! nothing of the corner's own compliance; [`LoveContact::with_edges`] adds it.
 
-// `!(a > b)` is true for NaN as well, and is meant to be.
-#![allow(clippy::neg_cmp_op_on_partial_ord)]
-
 use crate::surface::Surface;
 use libm::pow;
 

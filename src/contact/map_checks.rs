@@ -41,10 +41,7 @@ impl Check {
         if self.exact.value <= 0.0 && found.value <= 0.0 {
             return Ok(None);
         }
-        let [found, exact] = [found, self.exact].map(|at| {
-            let smooth = grown(at.value.max(0.0));
-            [smooth * at.du, -smooth * at.ds]
-        });
+        let [found, exact] = [found, self.exact].map(|at| at.forces(grown));
         Ok(Some([(found[0] - exact[0]) / full_scale, (found[1] - exact[1]) / full_scale]))
     }
 }

@@ -15,6 +15,46 @@ pub const HEAD: usize = 8 + 4 + 8;
 /// Length of what follows them: the checksum.
 pub const TAIL: usize = 8;
 
+/// Bytes that begin as a file of maps does: what is stored is to follow, and then [`sealed`].
+pub(super) fn begun(magic: &[u8; 8], version: u32, fingerprint: u64) -> Vec<u8> {
+    let mut out = magic.to_vec();
+    out.extend(version.to_le_bytes());
+    out.extend(fingerprint.to_le_bytes());
+    out
+}
+
+/// The same with the checksum.
+pub(super) fn sealed(mut out: Vec<u8>) -> Vec<u8> {
+    let sum = checksum(&out);
+    out.extend(sum.to_le_bytes());
+    out
+}
+
+/// What [`sealed`] bytes hold.
+pub(super) struct Opened<'a> {
+    /// Fingerprint of the inputs.
+    pub(super) fingerprint: u64,
+    /// What is stored.
+    pub(super) body: Reader<'a>,
+}
+
+/// Reads [`sealed`] bytes.
+pub(super) fn opened<'a>(bytes: &'a [u8], magic: &[u8; 8], version: u32) -> Result<Opened<'a>, ContactError> {
+    let short = || refused("the file is too short");
+    let (checked, sum) = bytes.split_last_chunk::<TAIL>().ok_or_else(short)?;
+    let rest = checked.strip_prefix(magic).ok_or_else(|| refused("the file is not a contact map"))?;
+    let mut body = Reader(rest);
+    let found = body.u32().ok_or_else(short)?;
+    if found != version {
+        return Err(refused(&format!("the file has format {found}, this library reads {version}")));
+    }
+    if checksum(checked) != u64::from_le_bytes(*sum) {
+        return Err(refused("the checksum does not fit, the file is damaged"));
+    }
+    let fingerprint = body.u64().ok_or_else(short)?;
+    Ok(Opened { fingerprint, body })
+}
+
 pub(super) fn refused(reason: &str) -> ContactError {
     ContactError::MapRefused { reason: reason.to_owned() }
 }
@@ -22,9 +62,7 @@ pub(super) fn refused(reason: &str) -> ContactError {
 impl ContactMap {
     /// The map as bytes for [`ContactMap::from_bytes`].
     pub fn to_bytes(&self) -> Vec<u8> {
-        let mut out = MAGIC.to_vec();
-        out.extend(VERSION.to_le_bytes());
-        out.extend(self.fingerprint.to_le_bytes());
+        let mut out = begun(MAGIC, VERSION, self.fingerprint);
         let mut number = |value: f64| out.extend(value.to_le_bytes());
         let a = self.accuracy;
         for value in [self.largest_approach, a.max_normal, a.rms_normal, a.max_tangential, a.rms_tangential] {
@@ -68,9 +106,7 @@ impl ContactMap {
                 }
             }
         }
-        let sum = checksum(&out);
-        out.extend(sum.to_le_bytes());
-        out
+        sealed(out)
     }
 
     /// Reads a map made from the inputs with this fingerprint.
@@ -96,18 +132,8 @@ impl ContactMap {
     /// # Errors
     /// [`ContactError::MapRefused`] for a file that is damaged or of another version.
     pub fn decode(bytes: &[u8]) -> Result<Self, ContactError> {
-        let Some((body, sum)) = bytes.split_last_chunk::<8>() else { return Err(refused("the file is too short")) };
-        let Some(rest) = body.strip_prefix(MAGIC) else { return Err(refused("the file is not a contact map")) };
-        let mut rest = Reader(rest);
-        let Some(version) = rest.u32() else { return Err(refused("the file is too short")) };
-        if version != VERSION {
-            return Err(refused(&format!("the file has format {version}, this library reads {VERSION}")));
-        }
-        if checksum(body) != u64::from_le_bytes(*sum) {
-            return Err(refused("the checksum does not fit, the file is damaged"));
-        }
-        let Some(own) = rest.u64() else { return Err(refused("the file is too short")) };
-        read(rest.0, own).filter(consistent).ok_or_else(|| refused("its contents contradict each other"))
+        let Opened { fingerprint, body } = opened(bytes, MAGIC, VERSION)?;
+        read(body, fingerprint).filter(consistent).ok_or_else(|| refused("its contents contradict each other"))
     }
 }
 
@@ -135,8 +161,8 @@ impl Numbers<'_> {
     }
 }
 
-fn read(body: &[u8], fingerprint: u64) -> Option<ContactMap> {
-    let mut numbers = Numbers(Reader(body));
+fn read(body: Reader<'_>, fingerprint: u64) -> Option<ContactMap> {
+    let mut numbers = Numbers(body);
     let largest_approach = numbers.number()?;
     let mut accuracy = Accuracy {
         max_normal: numbers.number()?,

@@ -13,7 +13,7 @@ use std::sync::{Mutex, PoisonError};
 use super::{
     element_on_raceway::ElementOnRaceway,
     error::ContactError,
-    flat_stretches::{Flat, check_ends, flats, reach, shallowest},
+    flat_stretches::{Arcs, Flat, check_ends, flats, reach, shallowest},
     love::LoveContact,
     map::{Accuracy, ContactMap, Patch, Stretch, Strip},
     map_cells::{Cells, FINEST, Key, LEVELS, LatticeIndex, Node},
@@ -84,9 +84,9 @@ impl MapPlan {
         let mut plan = Self { specification, fingerprint, contact, idle, line, symmetric, patches: Vec::new() };
         plan.patches = plan.patches_for(surface, element);
         if let (Some(first), Some(last)) = (plan.patches.first(), plan.patches.last()) {
-            let felt = (first.start, last.end());
+            let felt = Arcs { first: first.start, last: last.end() };
             let why = "where contacts of the largest force (contact.largest_force_n) reach it";
-            check_ends(surface.extent(), felt, element.raceway_radius, why)?;
+            check_ends(Arcs::of(surface), felt, element.raceway_radius, why)?;
         }
         Ok(plan)
     }

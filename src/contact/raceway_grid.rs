@@ -17,9 +17,6 @@
 //! sharp edge, because an edge 0.17 cell off costs fifty times the error. The grid does not move with the element: one
 //! that does turns its own resolution into a tangential force.
 
-// `!(a > b)` is true for NaN as well, and is meant to be.
-#![allow(clippy::neg_cmp_op_on_partial_ord)]
-
 use crate::surface::{Corner, Interval, Surface};
 
 use super::{active_set::Mirror, element_on_raceway::ElementOnRaceway, error::ContactError, soft_edges::GridEdge};

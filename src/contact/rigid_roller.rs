@@ -4,7 +4,7 @@
 //! Equations and limits are those of `rigid_path`, which makes a table of what is found here.
 
 use super::error::ContactError;
-use super::flat_stretches::check_ends;
+use super::flat_stretches::{Arcs, check_ends};
 use super::rolling::{Rolling, Touch};
 
 /// What the element touches.
@@ -87,7 +87,7 @@ impl Roller {
     /// Refuses a profile around the whole body.
     pub(super) fn check_ends(&self) -> Result<(), ContactError> {
         let radius = self.rolling.bearer_radius();
-        let arcs = |(first, last)| (first * radius, last * radius);
+        let arcs = |(first, last)| Arcs { first: first * radius, last: last * radius };
         check_ends(arcs(self.ends()), arcs(self.extent()), radius, "where raised rims may lift them")
     }
 

@@ -11,7 +11,7 @@ use crate::scene::{Remark, Scene};
 use std::cell::Cell;
 
 /// Force on the most loaded of Z elements over the whole load, times Z: Stribeck's 5.
-const MOST_LOADED: f64 = 5.0;
+const MOST_LOADED: f64 = crate::geometry::STRIBECK;
 
 /// Share of the clearance that films may take without a remark.
 const UNREMARKED: f64 = 0.5;

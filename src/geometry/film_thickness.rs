@@ -17,7 +17,7 @@
 //! ```
 //! 6πηR² for a sphere. Viscosity is that without pressure: the gap is open and the surfaces are rigid there.
 
-use super::hertz_constant::effective_modulus;
+use super::{curvature::relative_curvature, hertz_constant::effective_modulus};
 use crate::scene::{Bearing, Film};
 use std::f64::consts::PI;
 
@@ -56,10 +56,13 @@ impl LubricatedContact {
     /// Those of a bearing's inner and outer raceway under the force (N) of the most loaded contact.
     pub fn of(bearing: &Bearing, film: &Film, force: f64) -> [Self; 2] {
         let r = bearing.element_radius();
-        let across = |conformity: f64| 1.0 / (1.0 / r - 1.0 / (conformity * bearing.element_diameter));
-        let inner = [1.0 / (1.0 / r + 1.0 / bearing.inner_raceway_radius()), across(bearing.conformity_inner)];
-        let outer = [1.0 / (1.0 / r - 1.0 / bearing.outer_raceway_radius()), across(bearing.conformity_outer)];
-        [inner, outer].map(|radii| Self::new(radii, effective_modulus(bearing), film, force))
+        let groove = |conformity: f64| -(conformity * bearing.element_diameter);
+        let inner = [bearing.inner_raceway_radius(), groove(bearing.conformity_inner)];
+        let outer = [-bearing.outer_raceway_radius(), groove(bearing.conformity_outer)];
+        [inner, outer].map(|raceway| {
+            let equivalent = raceway.map(|radius| 1.0 / relative_curvature(r, radius));
+            Self::new(equivalent, effective_modulus(bearing), film, force)
+        })
     }
 
     /// h_c (m) at the speed ū (m/s).

@@ -10,6 +10,7 @@
 //! No approximation of the integrals is used. Valid while the contact is small against the radii: at an element force
 //! of 1500 N true circles are already 2.4 % softer than their paraboloids.
 
+use super::curvature::relative_curvature;
 use crate::numerics::elliptic;
 use crate::scene::Bearing;
 
@@ -27,15 +28,13 @@ impl HertzConstants {
     pub fn of(bearing: &Bearing) -> Self {
         let r = bearing.element_radius();
         let modulus = effective_modulus(bearing);
-        let across = |conformity: f64| 1.0 / r - 1.0 / (conformity * bearing.element_diameter);
-        Self {
-            inner: bearing.hertz_inner.unwrap_or_else(|| {
-                point_contact(1.0 / r + 1.0 / bearing.inner_raceway_radius(), across(bearing.conformity_inner), modulus)
-            }),
-            outer: bearing.hertz_outer.unwrap_or_else(|| {
-                point_contact(1.0 / r - 1.0 / bearing.outer_raceway_radius(), across(bearing.conformity_outer), modulus)
-            }),
-        }
+        let constant = |raceway: f64, conformity: f64| {
+            let across = relative_curvature(r, -(conformity * bearing.element_diameter));
+            point_contact(relative_curvature(r, raceway), across, modulus)
+        };
+        let inner = || constant(bearing.inner_raceway_radius(), bearing.conformity_inner);
+        let outer = || constant(-bearing.outer_raceway_radius(), bearing.conformity_outer);
+        Self { inner: bearing.hertz_inner.unwrap_or_else(inner), outer: bearing.hertz_outer.unwrap_or_else(outer) }
     }
 
     /// Constant of both contacts in series: Q = K (δ_i + δ_o)^1.5.
@@ -60,6 +59,12 @@ pub fn point_contact(curvature_1: f64, curvature_2: f64, effective_modulus: f64)
     let difference_over_m = if m < 1e-8 { 0.25 * std::f64::consts::PI * (1.0 + 0.375 * m) } else { (k - e) / m };
     let c = 1.5 / (std::f64::consts::PI * effective_modulus);
     1.0 / (k * k.sqrt() * c) * (difference_over_m / (0.5 * two_a)).sqrt()
+}
+
+/// δ (m) of Q = K δ^1.5 under a force (N), for K (N/m^1.5).
+pub fn approach_under(force: f64, constant: f64) -> f64 {
+    let ratio = force / constant;
+    libm::cbrt(ratio * ratio)
 }
 
 /// e² of the contact ellipse whose curvature ratio B/A ≥ 1 is given, by bisection on ln(b/a): the ratio is monotonic.

@@ -199,7 +199,7 @@ pub fn largest_force(scene: &Scene) -> f64 {
         return force;
     }
     let load = [scene.shaft.load, scene.housing.load].iter().map(|f| f[0].hypot(f[1])).fold(0.0, f64::max);
-    let needed = 4.0 * 5.0 * load / scene.bearing.element_count as f64;
+    let needed = 4.0 * crate::geometry::STRIBECK * load / scene.bearing.element_count as f64;
     let mut decade = LEAST_FORCE;
     while 10.0 * decade < needed {
         decade *= 10.0;

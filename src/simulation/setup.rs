@@ -10,7 +10,7 @@ use super::quantity::{Parameter, Quantity, RingName};
 use super::variables::{Kind, Variable};
 use crate::contact::contact_maps::ContactMaps;
 use crate::contact::element_on_raceway::ElementOnRaceway;
-use crate::contact::flat_stretches::check_ends;
+use crate::contact::flat_stretches::{Arcs, check_ends};
 use crate::contact::map::ContactMap;
 use crate::contact::map_plan::MapPlan;
 use crate::contact::map_specification::{MapSpecification, Runner, Sequential};
@@ -241,7 +241,8 @@ fn near(
     let (knots, radius) = (near.knots(), rolling.bearer_radius());
     if let (Some(first), Some(last)) = (knots.first(), knots.last()) {
         // The contact's own check is for a raceway; an element is shorter around.
-        check_ends(surface.extent(), (first * radius, last * radius), radius, "where contacts reach it")?;
+        let felt = Arcs { first: first * radius, last: last * radius };
+        check_ends(Arcs::of(surface), felt, radius, "where contacts reach it")?;
     }
     Ok(near)
 }

@@ -11,7 +11,7 @@ pub struct Interval {
 
 impl Interval {
     /// From `low` to `high` (m).
-    pub(super) fn between(low: f64, high: f64) -> Self {
+    pub(super) fn new(low: f64, high: f64) -> Self {
         Self { middle: 0.5 * (low + high), length: high - low }
     }
 

@@ -89,7 +89,7 @@ impl Profile {
     /// The longest straight line between two samples that differ; `None` for a polygon.
     pub(super) fn coarsest(&self) -> Option<Interval> {
         let lines = self.points.windows(2).filter(|pair| self.sampled && pair[0].1 != pair[1].1);
-        Interval::longest(lines.map(|pair| Interval::between(pair[0].0, pair[1].0)))
+        Interval::longest(lines.map(|pair| Interval::new(pair[0].0, pair[1].0)))
     }
 
     /// With every depth multiplied by `factor`.

@@ -100,11 +100,6 @@ impl Topography {
         (self.arcs[0], self.arcs[self.arcs.len() - 1])
     }
 
-    /// First and last axial coordinate (m).
-    pub fn axial_extent(&self) -> (f64, f64) {
-        (self.axials[0], self.axials[self.axials.len() - 1])
-    }
-
     /// Arcs (m) at which the depth jumps: the first and the last, where the border is not at depth 0.
     pub fn edges(&self) -> Vec<f64> {
         let (first, last) = self.extent();
@@ -147,7 +142,7 @@ impl Topography {
         let h = |i: usize, j: usize| self.depths[i * self.axials.len() + j];
         let longest = |lines: &[f64], differ: &dyn Fn(usize) -> bool| {
             let intervals = lines.windows(2).enumerate().filter(|(k, _)| differ(*k));
-            Interval::longest(intervals.map(|(_, pair)| Interval::between(pair[0], pair[1])))
+            Interval::longest(intervals.map(|(_, pair)| Interval::new(pair[0], pair[1])))
         };
         [
             longest(&self.arcs, &|i| (0..self.axials.len()).any(|j| h(i, j) != h(i + 1, j))),

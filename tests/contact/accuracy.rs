@@ -47,7 +47,7 @@ fn compare(map: &ContactMap, grid: &mut LoveContact, points: usize) -> ([f64; 2]
         if exact.value > largest {
             continue;
         }
-        let (exact, found) = (exact.forces(1.0), map.lookup(u, s).unwrap().forces(1.0));
+        let (exact, found) = (exact.forces(crate::hertz), map.lookup(u, s).unwrap().forces(crate::hertz));
         count += 1.0;
         for k in 0..2 {
             let error = (found[k] - exact[k]) / largest.powf(1.5);

@@ -36,7 +36,7 @@ const EXACT: [[f64; 3]; 6] = [
 /// Normal force of an element `inside` (m) beside the first edge, over the half-space's.
 fn softened(soft: &mut LoveContact, stiff: &mut LoveContact, approach: f64, inside: f64) -> f64 {
     let at = -3.25e-3 - inside;
-    let [soft, stiff] = [soft, stiff].map(|contact| contact.solve(approach, at).unwrap().forces(1.0)[0]);
+    let [soft, stiff] = [soft, stiff].map(|contact| contact.solve(approach, at).unwrap().forces(crate::hertz)[0]);
     soft / stiff
 }
 
@@ -229,7 +229,7 @@ fn a_map_of_soft_edges_follows_its_grid_and_is_not_taken_for_another() {
     let full = LARGEST * LARGEST.sqrt();
     for k in 0..60 {
         let (s, u) = (-3.7e-3 + 0.013e-3 * f64::from(k), 3e-6 + 0.13e-6 * f64::from(k));
-        let [map, grid] = [map.lookup(u, s).unwrap(), grid.solve(u, s).unwrap()].map(|at| at.forces(1.0));
+        let [map, grid] = [map.lookup(u, s).unwrap(), grid.solve(u, s).unwrap()].map(|at| at.forces(crate::hertz));
         for (map, grid) in map.into_iter().zip(grid) {
             // The accuracy asked for, and half more where checks between nodes missed the worst.
             assert!((map - grid).abs() < 1.5e-2 * full, "{s} {u}: {map:e} {grid:e}");

@@ -3,11 +3,12 @@
 
 use std::f64::consts::PI;
 
-use brinell::contact::active_set::Mirror;
+use brinell::contact::active_set::{ActiveSet, Mirror, Window};
 use brinell::contact::conjugate_gradients::ConjugateGradients;
 use brinell::contact::error::ContactError;
 use brinell::contact::grid::{Border, GridActiveSet, GridProblem, GridSolver};
-use brinell::contact::half_space::rectangle_kernel;
+use brinell::contact::half_space::{KernelTable, rectangle_kernel};
+use nalgebra::{DMatrix, DVector};
 
 const APPROACH: f64 = 0.01;
 
@@ -234,6 +235,15 @@ fn printed_gap_of_equation_4_presses_harder_in_a_depression_and_forgets_the_groo
     assert!(force(1.0, false, 0.0) < 0.4 * smooth);
 }
 
+#[test]
+fn cells_that_carry_nothing_are_refused_by_the_pivot_that_is_not_above_zero() {
+    let mirror = Mirror { x: false, y: false, middle_row: false };
+    // Without an area a cell deforms nothing: its matrix is 0.
+    let mut solver = ActiveSet::new(&KernelTable::new(3, 1, [0.0, 1.0]), 1, mirror).unwrap();
+    let refused = solver.solve(Window { first: 0, columns: 3, interference: &[1e-6; 3] }).unwrap_err();
+    assert_eq!(refused, ContactError::NotPositiveDefinite { pivot: 1, cells: 3 });
+}
+
 /// The paper's loop: solve on the set, drop what pulls, never add. Dense elimination, no symmetry.
 fn drop_only(problem: &GridProblem, approach: f64, mut set: Vec<usize>) -> f64 {
     let (n, [a, b]) = (problem.columns(), problem.cell());
@@ -242,21 +252,9 @@ fn drop_only(problem: &GridProblem, approach: f64, mut set: Vec<usize>) -> f64 {
             let (x, y) = ((p % n) as f64 - (q % n) as f64, (p / n) as f64 - (q / n) as f64);
             rectangle_kernel(x * a, y * b, 0.5 * a, 0.5 * b) / PI
         };
-        let mut rows: Vec<Vec<f64>> =
-            set.iter().map(|&p| set.iter().map(|&q| k(p, q)).chain([approach - problem.gap()[p]]).collect()).collect();
         let count = set.len();
-        for c in 0..count {
-            let pivot = rows[c].clone();
-            for row in rows.iter_mut().skip(c + 1) {
-                let factor = row[c] / pivot[c];
-                row.iter_mut().zip(&pivot).skip(c).for_each(|(r, p)| *r -= factor * p);
-            }
-        }
-        let mut p = vec![0.0; count];
-        for c in (0..count).rev() {
-            let known: f64 = (c + 1..count).map(|q| rows[c][q] * p[q]).sum();
-            p[c] = (rows[c][count] - known) / rows[c][c];
-        }
+        let matrix = DMatrix::from_fn(count, count, |row, column| k(set[row], set[column]));
+        let p = matrix.lu().solve(&DVector::from_fn(count, |row, _| approach - problem.gap()[set[row]])).unwrap();
         if p.iter().all(|&p| p >= 0.0) {
             return p.iter().sum::<f64>() * a * b;
         }

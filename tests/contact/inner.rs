@@ -29,7 +29,7 @@ fn grid_on(element: ElementOnRaceway, length: f64, columns: usize, rows: usize) 
 
 /// Forces at an approach and arc over the smooth contact's at the largest approach.
 fn forces(contact: &mut LoveContact, u: f64, s: f64) -> [f64; 2] {
-    contact.solve(u, s).unwrap().forces(1.0).map(|force| force / LARGEST.powf(1.5))
+    contact.solve(u, s).unwrap().forces(crate::hertz).map(|force| force / LARGEST.powf(1.5))
 }
 
 #[test]
@@ -96,7 +96,7 @@ fn the_map_follows_the_grid_and_the_grid_a_finer_one() {
                 continue;
             }
             let exact = forces(&mut contact, u, s);
-            let looked_up = map.lookup(u, s).unwrap().forces(1.0).map(|force| force / LARGEST.powf(1.5));
+            let looked_up = map.lookup(u, s).unwrap().forces(crate::hertz).map(|force| force / LARGEST.powf(1.5));
             for k in 0..2 {
                 of_map[k] = of_map[k].max((looked_up[k] - exact[k]).abs());
             }

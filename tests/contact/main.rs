@@ -19,3 +19,8 @@ mod rollers_near_defects;
 mod support;
 mod surface;
 mod whole_raceway;
+
+/// Force of a ball on a smooth raceway at an approach (m), over Hertz's constant.
+fn hertz(approach: f64) -> f64 {
+    approach * approach.sqrt()
+}

@@ -46,10 +46,10 @@ fn far_from_the_edges_the_grid_is_the_closed_form_without_a_jump() {
             let s = -0.5 * LENGTH - 1e-3 + 1.3e-6 * f64::from(i);
             let smooth = contact.solve(u, s).unwrap();
             // The grid's ripple under a moving element; full scale is LARGEST^1.5.
-            let force = smooth.forces(1.0).map(|f| f / LARGEST.powf(1.5));
+            let force = smooth.forces(crate::hertz).map(|f| f / LARGEST.powf(1.5));
             assert!((force[0] - (u / LARGEST).powf(1.5)).abs() < 1e-4, "{u} {s}: {force:?}");
             assert!(force[1].abs() < 1e-5, "{u} {s}: {force:?}");
-            let floor = contact.solve(u + 100e-6, 1.3e-6 * f64::from(i)).unwrap().forces(1.0);
+            let floor = contact.solve(u + 100e-6, 1.3e-6 * f64::from(i)).unwrap().forces(crate::hertz);
             assert!((floor[0] / LARGEST.powf(1.5) - (u / LARGEST).powf(1.5)).abs() < 1e-4);
         }
     }
@@ -60,7 +60,7 @@ fn an_element_centred_on_an_edge_keeps_some_87_percent_of_its_force() {
     let mut contact = love();
     for u in [4e-6, 6e-6, 10e-6] {
         let edge = contact.solve(u, -0.5 * LENGTH).unwrap();
-        let ratio = edge.forces(1.0)[0] / u.powf(1.5);
+        let ratio = edge.forces(crate::hertz)[0] / u.powf(1.5);
         // Two digits: the reference says 0.87 of the smooth force.
         assert!((ratio - 0.87).abs() < 0.01, "{u}: {ratio}");
     }
@@ -97,7 +97,7 @@ fn the_map_meets_its_accuracy_and_closed_paths_cost_no_work() {
     };
     for i in 0..n {
         let ([u, s], [du, ds]) = at(i);
-        let [normal, tangential] = map.lookup(u, s).unwrap().forces(1.0);
+        let [normal, tangential] = map.lookup(u, s).unwrap().forces(crate::hertz);
         let power = (normal * du - tangential * ds) * std::f64::consts::TAU / n as f64;
         work += power;
         moved += power.abs();
@@ -161,8 +161,8 @@ fn beyond_the_largest_approach_a_lookup_is_an_error() {
     let map = coarse_map();
     assert!(map.lookup(3.0 * LARGEST, -0.5 * LENGTH).is_err());
     // Between its largest approach and half as much again a map continues: some per cent of the force.
-    let (above, exact) = (1.4 * LARGEST, love().solve(1.4 * LARGEST, -0.5 * LENGTH).unwrap().forces(1.0)[0]);
-    let found = map.lookup(above, -0.5 * LENGTH).unwrap().forces(1.0)[0];
+    let (above, exact) = (1.4 * LARGEST, love().solve(1.4 * LARGEST, -0.5 * LENGTH).unwrap().forces(crate::hertz)[0]);
+    let found = map.lookup(above, -0.5 * LENGTH).unwrap().forces(crate::hertz)[0];
     assert!((found / exact - 1.0).abs() < 0.03, "{found} {exact}");
     assert!(map.lookup(-1e-3, -0.5 * LENGTH).unwrap().value < 0.0);
 }
@@ -239,7 +239,7 @@ fn a_contact_map_holds_for_clearances_half_a_step_of_theirs_away() {
         for height in [1e-6, 4e-6, 7e-6] {
             let u = own.first_touch(s) + height;
             let (Ok(a), Ok(b)) = (own.solve(u, s), wider.solve(u, s)) else { continue };
-            let [a, b] = [a, b].map(|approach| approach.forces(1.0).map(|force| force / LARGEST.powf(1.5)));
+            let [a, b] = [a, b].map(|approach| approach.forces(crate::hertz).map(|force| force / LARGEST.powf(1.5)));
             largest = largest.max((a[0] - b[0]).abs()).max((a[1] - b[1]).abs());
             most = most.max(a[0]);
         }

@@ -12,6 +12,7 @@ use brinell::contact::raceway_grid::Resolution;
 use brinell::contact::rolling::RacewaySide;
 use brinell::geometry::line_contact::logarithmic_depth;
 use brinell::surface::{Profile, Surface, Topography};
+use nalgebra::{DMatrix, DVector};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Write;
 
@@ -118,45 +119,21 @@ fn plane_strain(per_length: f64, curvature: f64, edge: f64) -> f64 {
     loop {
         // Σ_j K_ij p_j − δ = −κ x²/2, Σ p w = q.
         let n = pressed.len();
-        let mut matrix: Vec<Vec<f64>> = (0..n)
-            .map(|a| {
-                let mut row: Vec<f64> = (0..n).map(|b| kernel(pressed[a], pressed[b])).collect();
-                row.extend([-1.0, -0.5 * curvature * centres[pressed[a]].powi(2)]);
-                row
-            })
-            .collect();
-        let mut last = vec![width; n];
-        last.extend([0.0, per_length]);
-        matrix.push(last);
-        let found = eliminate(matrix);
+        let matrix = DMatrix::from_fn(n + 1, n + 1, |row, column| match (row < n, column < n) {
+            (true, true) => kernel(pressed[row], pressed[column]),
+            (true, false) => -1.0,
+            (false, true) => width,
+            (false, false) => 0.0,
+        });
+        let gap = |row: usize| -0.5 * curvature * centres[pressed[row]].powi(2);
+        let known = DVector::from_fn(n + 1, |row, _| if row < n { gap(row) } else { per_length });
+        let found = matrix.lu().solve(&known).unwrap();
         let kept: Vec<usize> = pressed.iter().zip(&found).filter(|(_, p)| **p > 0.0).map(|(k, _)| *k).collect();
         if kept.len() == n {
             return found[n];
         }
         pressed = kept;
     }
-}
-
-/// Solves by elimination with the largest pivot.
-fn eliminate(mut matrix: Vec<Vec<f64>>) -> Vec<f64> {
-    let n = matrix.len();
-    for k in 0..n {
-        let pivot = (k..n).max_by(|&a, &b| matrix[a][k].abs().total_cmp(&matrix[b][k].abs())).unwrap();
-        matrix.swap(k, pivot);
-        let row = matrix[k].clone();
-        for other in matrix.iter_mut().skip(k + 1) {
-            let factor = other[k] / row[k];
-            if factor != 0.0 {
-                other.iter_mut().zip(&row).skip(k).for_each(|(value, of_row)| *value -= factor * of_row);
-            }
-        }
-    }
-    let mut found = vec![0.0; n];
-    for k in (0..n).rev() {
-        let known: f64 = (k + 1..n).map(|j| matrix[k][j] * found[j]).sum();
-        found[k] = (matrix[k][n] - known) / matrix[k][k];
-    }
-    found
 }
 
 #[test]

@@ -71,7 +71,7 @@ fn a_file_with_an_axial_column_is_a_topography() {
     assert!((topography.depth_at(0.0, 0.0) - 1.5e-6).abs() < 1e-20);
     assert_eq!(topography.depth_at(0.0, -1e-6), 0.0);
     assert_eq!(topography.edges(), [5e-4]);
-    assert_eq!(topography.axial_extent(), (0.0, 1e-3));
+    assert_eq!(topography.axials(), [0.0, 1e-3]);
 }
 
 #[test]

@@ -13,7 +13,7 @@ use brinell::contact::element_on_raceway::{Across, ElementOnRaceway};
 use brinell::contact::error::ContactError;
 use brinell::contact::grid::{Border, GridContact, GridProblem, GridSolver};
 use brinell::contact::rolling::RacewaySide;
-use brinell::geometry::hertz_constant::{effective_modulus, point_contact};
+use brinell::geometry::hertz_constant::{approach_under, effective_modulus, point_contact};
 use brinell::numerics::wrap;
 use brinell::scene::{DefectOn, Scene};
 use brinell::surface::{Surface, SurfaceError};
@@ -151,8 +151,7 @@ impl BallOnRaceway {
     /// Hertz's contact on the smooth raceway under a force (N).
     pub fn hertz(&self, force: f64) -> Hertz {
         let [along, across] = self.bodies.curvatures();
-        let ratio = force / point_contact(along, across, self.effective_modulus);
-        let approach = libm::cbrt(ratio * ratio);
+        let approach = approach_under(force, point_contact(along, across, self.effective_modulus));
         let half_axes = self.bodies.contact_half_axes(approach);
         Hertz { approach, half_axes, max_pressure: 1.5 * force / (PI * half_axes[0] * half_axes[1]) }
     }

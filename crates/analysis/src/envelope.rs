@@ -71,20 +71,9 @@ pub fn bands(rate: f64, bpfo: f64) -> Vec<Band> {
 }
 
 /// Searches all bands for the strongest comb near each pattern's frequency; the shaft turns at `speed` (Hz), and `bpfo`
-/// (Hz) says how low bands go.
-pub fn find_combs<const N: usize>(
-    spectrum: &mut Spectrum,
-    rate: f64,
-    patterns: [Pattern; N],
-    bpfo: f64,
-    speed: f64,
-) -> [Comb; N] {
-    find_combs_of(&mut |band| (spectrum.squared_envelope(band), rate), rate, patterns, bpfo, speed)
-}
-
-/// The same of the squared envelopes that `envelope` gives of a band, each with its own rate (Hz): those at equal shaft
+/// (Hz) says how low bands go. `envelope` gives the squared envelope of a band with its own rate (Hz): at equal shaft
 /// angles, where the speed changes.
-pub fn find_combs_of<const N: usize>(
+pub fn find_combs<const N: usize>(
     envelope: &mut dyn FnMut(Band) -> (Vec<f64>, f64),
     rate: f64,
     patterns: [Pattern; N],
@@ -229,7 +218,7 @@ mod tests {
             };
             let envelope: Vec<f64> = (0..(rate * duration) as usize).map(|i| passage(i as f64 / rate)).collect();
             let pattern = Pattern { frequency: bpfo, sideband: 0.0 };
-            let [comb] = find_combs_of(&mut |_| (envelope.clone(), rate), rate, [pattern], bpfo, speed);
+            let [comb] = find_combs(&mut |_| (envelope.clone(), rate), rate, [pattern], bpfo, speed);
             // A twentieth of a passage over the whole recording, which alignment follows with ease.
             let lost = (comb.frequency - share * bpfo) * duration;
             assert!(lost.abs() < 0.05, "{lost:.3} passages of {:.0} at {share}", share * bpfo * duration);

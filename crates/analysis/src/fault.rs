@@ -8,7 +8,7 @@
 //! noise is the fault's: sidebands are weaker than what they belong to, and a comb that shares some lines has not all
 //! of them.
 
-use super::envelope::{Comb, Pattern, find_combs_of};
+use super::envelope::{Comb, Pattern, find_combs};
 use super::report::{CombReport, CombsReport, Fault};
 use super::spectrum::{Band, Spectrum};
 use brinell::geometry::kinematics::Frequencies;
@@ -43,7 +43,7 @@ impl Combs {
     ) -> Self {
         let patterns = [(nominal.bpfo, 0.0), (nominal.bpfi, speed), (2.0 * nominal.bsf, nominal.ftf)];
         let patterns = patterns.map(|(frequency, sideband)| Pattern { frequency, sideband });
-        let [outer, inner, element] = find_combs_of(envelope, rate, patterns, nominal.bpfo, speed);
+        let [outer, inner, element] = find_combs(envelope, rate, patterns, nominal.bpfo, speed);
         Self { outer, inner, element }
     }
 

@@ -11,7 +11,9 @@
 use super::report::Fault;
 use brinell::contact::rolling::RacewaySide;
 use brinell::contact::smooth_laws::elastic_law;
-use brinell::geometry::hertz_constant::HertzConstants;
+use brinell::geometry::STRIBECK;
+use brinell::geometry::curvature::{reach, relative_curvature};
+use brinell::geometry::hertz_constant::{HertzConstants, approach_under};
 use brinell::scene::{Bearing, Motion, Scene};
 
 /// The raceway that bears the spall.
@@ -47,13 +49,13 @@ impl Raceway {
 
     /// 1/r_e (1/m).
     fn relative_curvature(self, bearing: &Bearing) -> f64 {
-        let own = 1.0 / self.radius(bearing);
-        1.0 / bearing.element_radius() + if self == Self::Inner { own } else { -own }
+        let own = self.radius(bearing);
+        relative_curvature(bearing.element_radius(), if self == Self::Inner { own } else { -own })
     }
 
     /// Way past an edge (degrees) after which an element has sunk by `depth` (m).
     pub fn sunk_after(self, bearing: &Bearing, depth: f64) -> f64 {
-        ((2.0 * depth / self.relative_curvature(bearing)).sqrt() / self.radius(bearing)).to_degrees()
+        (reach(depth, self.relative_curvature(bearing)) / self.radius(bearing)).to_degrees()
     }
 
     /// How far (m) an element has sunk `degrees` past an edge.
@@ -63,19 +65,18 @@ impl Raceway {
     }
 }
 
-/// Approach of the most loaded element's two contacts together (m); Q = 5F/Z holds for usual clearances (Stribeck).
+/// Approach of the most loaded element's two contacts together (m); Q as of [`STRIBECK`].
 pub(super) fn approach(scene: &Scene) -> Option<f64> {
     let load = scene.shaft.load[0].hypot(scene.shaft.load[1]);
     if scene.shaft.motion != Motion::Internal || load == 0.0 {
         return None;
     }
-    let force = 5.0 * load / scene.bearing.element_count as f64;
+    let force = STRIBECK * load / scene.bearing.element_count as f64;
     if scene.bearing.roller().is_some() {
         let both = [RacewaySide::Inner, RacewaySide::Outer];
         return Some(both.map(|side| elastic_law(&scene.bearing, side).approach_under(force)).iter().sum());
     }
-    let ratio = force / HertzConstants::of(&scene.bearing).in_series();
-    Some(libm::cbrt(ratio * ratio))
+    Some(approach_under(force, HertzConstants::of(&scene.bearing).in_series()))
 }
 
 /// Shortest length that the scene's load and clearance allow (degrees), where the load is known.

@@ -1,5 +1,7 @@
 //! Robust statistics, and a generator of random numbers that gives the same ones everywhere.
 
+use brinell::numerics::counter_noise::{GOLDEN, mixed};
+
 /// The value below which `share` of the values lie, between the two nearest in proportion; `None` of nothing.
 pub fn quantile(values: &[f64], share: f64) -> Option<f64> {
     let mut keys: Vec<i64> = values.iter().map(|&value| key(value)).collect();
@@ -83,10 +85,9 @@ impl Random {
 
     /// The next 64 random bits.
     pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        let next = mixed(self.0);
+        self.0 = self.0.wrapping_add(GOLDEN);
+        next
     }
 
     /// Uniform below `count`, which must be above 0; the bias of the remainder is below count/2⁶⁴.

@@ -26,10 +26,14 @@ pub fn bits(seed: u64, course: u64, index: i64) -> u64 {
 /// Any number that is not 0: it makes a second number for the same index.
 const OTHER: u64 = 0x5851_f42d_4c95_7f2d;
 
-/// Every bit of the result depends on every bit of `x`, and no two give the same: the finalizer of SplitMix64 (Steele,
-/// Lea and Flood 2014).
-fn mixed(x: u64) -> u64 {
-    let x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
+/// What SplitMix64's state (Steele, Lea and Flood 2014) grows by from one number to the next: 2⁶⁴ over the golden
+/// ratio.
+pub const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
+
+/// The number that SplitMix64 (Steele, Lea and Flood 2014) gives in state `x`. Every bit of it depends on every bit of
+/// `x`, and no two states give the same.
+pub fn mixed(x: u64) -> u64 {
+    let x = x.wrapping_add(GOLDEN);
     let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     x ^ (x >> 31)

@@ -90,9 +90,14 @@ fn reference(surface: &Surface) -> Result<(Points, Forces)> {
     Ok((points, exact))
 }
 
+/// Force of the smooth contact at an approach (m), over Hertz's constant.
+fn hertz(approach: f64) -> f64 {
+    approach * approach.sqrt()
+}
+
 fn forces(contact: &mut LoveContact, points: &Points) -> Result<Forces, ContactError> {
-    let scale = LARGEST * LARGEST.sqrt();
-    points.iter().map(|&[u, s]| Ok(contact.solve(u, s)?.forces(1.0).map(|force| force / scale))).collect()
+    let scale = hertz(LARGEST);
+    points.iter().map(|&[u, s]| Ok(contact.solve(u, s)?.forces(hertz).map(|force| force / scale))).collect()
 }
 
 fn of_grid(surface: &Surface, cells: Resolution, points: &Points, exact: &Forces) -> Result<Row> {
@@ -132,7 +137,7 @@ fn of_map(surface: &Surface, accuracy: f64) -> Result<Row> {
         |()| {
             (0..MAP_CONTACTS).try_for_each(|i| {
                 let s = -0.5 * LENGTH - 0.1e-3 + 2e-9 * i as f64;
-                sum += map.lookup(5e-6, s)?.forces(1.0)[0];
+                sum += map.lookup(5e-6, s)?.forces(hertz)[0];
                 Ok::<_, ContactError>(())
             })
         },

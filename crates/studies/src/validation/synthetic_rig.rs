@@ -18,7 +18,8 @@
 //! the bearing, and noise are added. It is no simulation of a machine, and shares with the estimator only the two
 //! formulas of sinking; nothing in it was measured.
 
-use brinell::geometry::hertz_constant::HertzConstants;
+use brinell::geometry::STRIBECK;
+use brinell::geometry::hertz_constant::{HertzConstants, approach_under};
 use brinell::geometry::kinematics;
 use brinell::scene::Bearing;
 use brinell_analysis::raceway::Raceway;
@@ -228,12 +229,8 @@ struct Spall {
 
 /// Way (degrees) after which the most loaded element is free.
 fn unloading(bearing: &Bearing, raceway: Raceway, load: f64) -> f64 {
-    let ratio = 5.0 * load / bearing.element_count as f64 / HertzConstants::of(bearing).in_series();
-    let approach = libm::cbrt(ratio * ratio);
-    let radius = raceway.radius(bearing);
-    let own = if raceway == Raceway::Inner { 1.0 / radius } else { -1.0 / radius };
-    let curvature = 2.0 / bearing.element_diameter + own;
-    ((2.0 * approach / curvature).sqrt() / radius).to_degrees()
+    let force = STRIBECK * load / bearing.element_count as f64;
+    raceway.sunk_after(bearing, approach_under(force, HertzConstants::of(bearing).in_series()))
 }
 
 /// A half-sine of unit impulse, and its echoes.
