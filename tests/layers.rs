@@ -160,6 +160,9 @@ fn the_reader_of_cycles_finds_one_that_is_there() {
     let other = "impl Own {\n    fn of_a(&self) {\n        // self.nothing()\n        self.of_b();\n    }\n}\n";
     assert_eq!(found(&["layer"], &[(2, part)]), [""; 0]);
     assert_eq!(found(&["layer"], &[(2, part), (1, other), (2, "use super::a::A;")]), ["in crate::layer: a -> b -> a"]);
+    // So does one that another type's value is asked for, if its name has several words.
+    let asks = "fn f(own: &Own) {\n    own.of_b::<f64>();\n}";
+    assert_eq!(found(&["layer"], &[(2, part), (1, asks), (2, "use super::a::A;")]), ["in crate::layer: a -> b -> a"]);
     let back = part.replace("self.own()", "self.of_a()");
     assert_eq!(found(&["layer"], &[(2, &back), (1, other)]), ["in crate::layer: a -> b -> a"]);
 }

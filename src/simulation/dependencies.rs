@@ -44,6 +44,7 @@ fn follows(output: Q, input: Q, defect: bool, scene: &Scene) -> bool {
             Q::ElementPath(_) => return position || speed,
             Q::Force(..) | Q::ElementInnerForce(_) | Q::ElementOuterForce(_) => return position || velocity || speed,
             Q::Acceleration(ring, axis) => return position || velocity || speed || input == Q::Load(ring, axis),
+            // The others follow as with inertia; each is named below.
             _ => {}
         }
     }
@@ -97,7 +98,20 @@ fn starts_from(output: Q, known: Q, scene: &Scene) -> bool {
         Q::CageSpeed => matches!(known, Q::Speed(_) | Q::Parameter(Parameter::CageSlip)),
         // At rest.
         Q::Velocity(..) | Q::Acceleration(..) | Q::SensorAcceleration(_) => false,
-        _ => match known {
+        Q::Position(..)
+        | Q::Force(..)
+        | Q::MeanForce(..)
+        | Q::Stiffness(..)
+        | Q::Probe(_)
+        | Q::CageTorque
+        | Q::ShaftTorque
+        | Q::ElementPath(_)
+        | Q::ElementInnerForce(_)
+        | Q::ElementOuterForce(_)
+        | Q::Speed(_)
+        | Q::Load(..)
+        | Q::Count(_)
+        | Q::Parameter(_) => match known {
             // Tolerance and recorder are of steps; masses and dampers of rings matter in motion.
             Q::Parameter(
                 Parameter::Tolerance | Parameter::RecorderFolder | Parameter::RingMass(_) | Parameter::RingDamping(_),

@@ -15,7 +15,7 @@
 use super::access;
 use super::change::Change;
 use super::instance::Simulation;
-use super::quantity::{Quantity, RingName};
+use super::quantity::{Input, Quantity, RingName};
 use super::values::{out_of_range, wrong_type};
 use super::variables::{Causality, Kind, Variable};
 use super::{SimulationError, VariableError};
@@ -151,8 +151,9 @@ impl Simulation {
         let films = self.model.films.as_ref().filter(|_| !self.state.started);
         let films_by_speed = films.map_or(0.0, |films| films.together_by_speed());
         for (&reference, &value) in knowns.iter().zip(seed) {
-            match self.quantities[reference as usize] {
-                Quantity::Speed(ring) => {
+            let Some(input) = self.quantities[reference as usize].as_input() else { continue };
+            match input {
+                Input::Speed(ring) => {
                     let (ratios, i) = (&self.model.ratios, ring.index());
                     change.variation.cage_speed += ratios.cage[i] * value;
                     change.variation.frames[ring.frame() as usize][1] += value;
@@ -160,12 +161,11 @@ impl Simulation {
                     let against = if ring == RingName::Shaft { value } else { -value };
                     change.variation.clearance -= films_by_speed * against;
                 }
-                Quantity::Load(RingName::Shaft, axis) => change.loads[axis] += value,
-                Quantity::Load(RingName::Housing, axis) => change.loads[2 + axis] += value,
-                Quantity::Position(name, axis) => change.ring(name).position[axis] += value,
-                Quantity::Velocity(name, axis) => change.ring(name).velocity[axis] += value,
-                Quantity::Acceleration(name, axis) => change.accelerations[name.index()][axis] += value,
-                _ => {}
+                Input::Load(RingName::Shaft, axis) => change.loads[axis] += value,
+                Input::Load(RingName::Housing, axis) => change.loads[2 + axis] += value,
+                Input::Position(name, axis) => change.ring(name).position[axis] += value,
+                Input::Velocity(name, axis) => change.ring(name).velocity[axis] += value,
+                Input::Acceleration(name, axis) => change.accelerations[name.index()][axis] += value,
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Where in the variable table the inputs stand.
 
-use super::quantity::{Parameter, Quantity, RingName};
+use super::quantity::{Input, Parameter, Quantity, RingName};
 
 /// Where in the table the inputs of one ring stand.
 #[derive(Debug, Clone, Copy, Default)]
@@ -34,13 +34,13 @@ impl Inputs {
             ..Self::default()
         };
         for (index, &quantity) in quantities.iter().take(input_count).enumerate() {
-            let slot = match quantity {
-                Quantity::Speed(ring) => &mut inputs.speeds[ring.index()],
-                Quantity::Load(ring, axis) => &mut inputs.ring(ring).load[axis],
-                Quantity::Position(ring, axis) => &mut inputs.ring(ring).position[axis],
-                Quantity::Velocity(ring, axis) => &mut inputs.ring(ring).velocity[axis],
-                Quantity::Acceleration(ring, axis) => &mut inputs.ring(ring).acceleration[axis],
-                _ => continue,
+            let Some(input) = quantity.as_input() else { continue };
+            let slot = match input {
+                Input::Speed(ring) => &mut inputs.speeds[ring.index()],
+                Input::Load(ring, axis) => &mut inputs.ring(ring).load[axis],
+                Input::Position(ring, axis) => &mut inputs.ring(ring).position[axis],
+                Input::Velocity(ring, axis) => &mut inputs.ring(ring).velocity[axis],
+                Input::Acceleration(ring, axis) => &mut inputs.ring(ring).acceleration[axis],
             };
             *slot = Some(index);
         }

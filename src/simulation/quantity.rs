@@ -58,6 +58,16 @@ pub enum Quantity {
     Parameter(Parameter),
 }
 
+/// What a host moves or loads the bearing with. `usize` is the axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Input {
+    Speed(RingName),
+    Load(RingName, usize),
+    Position(RingName, usize),
+    Velocity(RingName, usize),
+    Acceleration(RingName, usize),
+}
+
 /// What the solver counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[allow(missing_docs)]
@@ -88,16 +98,46 @@ pub enum Parameter {
 }
 
 impl Quantity {
-    /// Highest order of the derivatives by time that act where a quantity is an input, and how its description says so.
+    /// The quantity as an input, if it can be one.
+    pub(super) fn as_input(self) -> Option<Input> {
+        match self {
+            Self::Speed(ring) => Some(Input::Speed(ring)),
+            Self::Load(ring, axis) => Some(Input::Load(ring, axis)),
+            Self::Position(ring, axis) => Some(Input::Position(ring, axis)),
+            Self::Velocity(ring, axis) => Some(Input::Velocity(ring, axis)),
+            Self::Acceleration(ring, axis) => Some(Input::Acceleration(ring, axis)),
+            Self::RingAngle(_)
+            | Self::ShaftTorque
+            | Self::Force(..)
+            | Self::MeanForce(..)
+            | Self::Stiffness(..)
+            | Self::SensorAcceleration(_)
+            | Self::Probe(_)
+            | Self::CageAngle
+            | Self::CageSpeed
+            | Self::CageTorque
+            | Self::ElementAngle(_)
+            | Self::ElementPath(_)
+            | Self::ElementInnerForce(_)
+            | Self::ElementOuterForce(_)
+            | Self::ElementSpinAngle(_)
+            | Self::Count(_)
+            | Self::Parameter(_) => None,
+        }
+    }
+}
+
+impl Input {
+    /// Highest order of the derivatives by time that act, and how the input's description says so.
     ///
     /// What would make a higher polynomial than [`Drive`](crate::dynamics::drive::Drive) has is refused: the cage's
     /// angle is a quadratic, so that the instants at which elements pass knots are roots of one.
-    pub(super) fn input_derivatives(self) -> (i32, &'static str) {
+    pub(super) fn derivatives(self) -> (i32, &'static str) {
         match self {
             Self::Position(..) => (2, "derivatives of orders 1 and 2 act, in place of velocity and acceleration"),
             Self::Velocity(..) => (2, "derivatives of orders 1 and 2 act, in place of acceleration and its derivative"),
             Self::Load(..) => (2, "derivatives of orders 1 and 2 act"),
-            _ => (1, "derivative of order 1 acts"),
+            Self::Speed(_) | Self::Acceleration(..) => (1, "derivative of order 1 acts"),
         }
     }
 }

@@ -87,12 +87,13 @@ impl Recorder {
             }
             RecorderFilter::None => None,
         };
-        let recorded = |wanted: fn(Quantity) -> bool| {
+        let recorded = |as_wanted: Recorded| {
             let rows = table.iter().zip(quantities).filter(|(row, _)| row.causality == Causality::Output);
-            rows.map(|(row, &quantity)| (row.reference, quantity)).filter(move |(_, quantity)| wanted(*quantity))
+            rows.map(|(row, &quantity)| (row.reference, quantity))
+                .filter(move |(_, quantity)| as_recorded(*quantity) == as_wanted)
         };
-        let signals: Vec<_> = recorded(is_vibration).chain(recorded(is_of_an_instant)).collect();
-        let filtered = if decimation.is_some() { recorded(is_vibration).count() } else { 0 };
+        let signals: Vec<_> = recorded(Recorded::Vibration).chain(recorded(Recorded::Instant)).collect();
+        let filtered = if decimation.is_some() { recorded(Recorded::Vibration).count() } else { 0 };
         let per_row = decimation.as_ref().map_or(1, Decimation::factor);
         Some(Self {
             rate,
@@ -251,20 +252,39 @@ fn element_frequency(scene: &Scene) -> f64 {
     ((inner + outer) / scene.bearing.mass_of_element()).sqrt() / TAU
 }
 
-/// What a measuring chain could show.
-fn is_vibration(quantity: Quantity) -> bool {
-    matches!(quantity, Quantity::SensorAcceleration(_) | Quantity::Acceleration(..) | Quantity::Force(..))
+/// How an output is recorded.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Recorded {
+    /// What a measuring chain could show.
+    Vibration,
+    /// What is sampled instant by instant.
+    Instant,
+    /// Not at all: what follows from the others or is constant over a step.
+    Left,
 }
 
-/// What is sampled instant by instant. Positions and velocities of rings and angles of elements follow from the
-/// vibrations or from the cage angle.
-fn is_of_an_instant(quantity: Quantity) -> bool {
-    matches!(
-        quantity,
+/// Positions and velocities of rings and angles of elements follow from the vibrations or from the cage angle.
+fn as_recorded(output: Quantity) -> Recorded {
+    match output {
+        Quantity::SensorAcceleration(_) | Quantity::Acceleration(..) | Quantity::Force(..) => Recorded::Vibration,
         Quantity::CageAngle
-            | Quantity::ElementPath(_)
-            | Quantity::Probe(_)
-            | Quantity::ElementInnerForce(_)
-            | Quantity::ElementOuterForce(_)
-    )
+        | Quantity::ElementPath(_)
+        | Quantity::Probe(_)
+        | Quantity::ElementInnerForce(_)
+        | Quantity::ElementOuterForce(_) => Recorded::Instant,
+        Quantity::Speed(_)
+        | Quantity::RingAngle(_)
+        | Quantity::ShaftTorque
+        | Quantity::Load(..)
+        | Quantity::Position(..)
+        | Quantity::Velocity(..)
+        | Quantity::MeanForce(..)
+        | Quantity::Stiffness(..)
+        | Quantity::CageSpeed
+        | Quantity::CageTorque
+        | Quantity::ElementAngle(_)
+        | Quantity::ElementSpinAngle(_)
+        | Quantity::Count(_)
+        | Quantity::Parameter(_) => Recorded::Left,
+    }
 }

@@ -301,7 +301,8 @@ impl Builder<'_> {
     fn input(&mut self, name: &str, text: &str, quantity: Quantity, unit: Unit, start: f64, size: Size) {
         let Size { largest, nominal } = size;
         let kind = Kind::Real { unit, start: Some(start), min: Some(-largest), max: Some(largest), nominal };
-        let text = [text, "; ", quantity.input_derivatives().1].concat();
+        let derivatives = quantity.as_input().map_or("no derivative acts", |input| input.derivatives().1);
+        let text = [text, "; ", derivatives].concat();
         self.push(name, &text, kind, (Causality::Input, Variability::Continuous), quantity);
     }
 

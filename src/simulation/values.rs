@@ -144,7 +144,7 @@ impl Simulation {
             if variable.causality != Causality::Input || order < 1 {
                 return Err(VariableError::Derivative { name: name(), order });
             }
-            let (highest, _) = self.quantities[reference as usize].input_derivatives();
+            let highest = self.quantities[reference as usize].as_input().map_or(0, |input| input.derivatives().0);
             if order > highest {
                 return Err(VariableError::UnusedDerivative { name: name(), order, highest });
             }

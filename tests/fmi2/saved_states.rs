@@ -135,13 +135,13 @@ fn a_freed_state_is_null_and_cannot_be_used_again() {
 }
 
 #[test]
-fn a_state_passed_where_its_address_belongs_is_freed_with_a_warning_or_refused() {
+fn a_state_passed_where_its_address_belongs_is_freed_and_logged_or_refused() {
     let (host, other) = (Host::started("er16k-tb1"), Host::started("er16k-tb1"));
     let (keep, state, foreign) = (host.save(), host.save(), other.save());
     // SAFETY: what is tested: handles, which are no addresses, are not followed.
     unsafe {
-        // As the program fmusim does it.
-        assert_eq!(fmi2FreeFMUstate(host.c, state.cast()), Status::Warning);
+        // As the program fmusim does it, which stops at any status but OK.
+        assert_eq!(fmi2FreeFMUstate(host.c, state.cast()), Status::Ok);
         let line = host.lines().pop().unwrap();
         assert!(line.status == Status::Warning && line.message.contains("it is freed"), "{line:?}");
         // The run goes on.

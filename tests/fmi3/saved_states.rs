@@ -66,3 +66,24 @@ fn invented_freed_and_foreign_states_are_errors_under_fmi_3() {
         assert_eq!(host.restore(kept), Status::Ok);
     }
 }
+
+#[test]
+fn a_state_in_place_of_its_address_is_freed_and_bytes_over_their_handle_are_refused_under_fmi_3() {
+    let host = Host::started("6205-healthy");
+    let (kept, state) = (host.save(), host.save());
+    // SAFETY: what is tested: a handle, which is no address, is not followed.
+    unsafe {
+        assert_eq!(fmi3FreeFMUState(host.c, state.cast()), Status::Ok);
+        assert!(host.last_message().contains("it is freed"));
+        assert_eq!(fmi3FreeFMUState(host.c, state.cast()), Status::Error);
+    }
+    assert_eq!(host.restore(kept), Status::Ok);
+    let size = host.serialize(kept).len();
+    let mut words = vec![0u64; size.div_ceil(8)];
+    let base = words.as_mut_ptr();
+    // SAFETY: as many bytes as said, with the handle, which is NULL, among them, which is what is tested.
+    let status = unsafe { fmi3DeserializeFMUState(host.c, base.cast(), size, base.cast()) };
+    assert_eq!(status, Status::Error);
+    assert!(host.last_message().contains("overlap"));
+    assert!(words.iter().all(|word| *word == 0));
+}

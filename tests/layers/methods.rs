@@ -1,5 +1,5 @@
-//! Finds where the methods stand that a type calls on itself: with its `impl` blocks in several files, one calls
-//! another without naming its module.
+//! Finds where the methods stand that code calls: with a type's `impl` blocks in several files, one calls another
+//! without naming its module.
 
 use std::collections::BTreeMap;
 
@@ -29,19 +29,33 @@ impl Methods {
         Self(methods)
     }
 
-    /// The modules of the methods that a file's types call on themselves.
+    /// The modules of the methods that a file's types call on themselves, or that it calls on anything else if the
+    /// name is of several words and only one type of the crate has a method of that name: a single word may be another
+    /// crate's.
     pub(super) fn called(&self, text: &str) -> Vec<Path> {
+        let text = without_comments(text);
         let mut found = Vec::new();
-        for block in blocks(&without_comments(text)) {
+        for block in blocks(&text) {
             let code = block.lines.join("\n");
             for keyword in ["self.", "Self::"] {
-                let after = code.split(keyword).skip(1);
-                let names = after.map(|rest| rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect());
-                found.extend(names.filter_map(|name: String| self.0.get(&(block.of.clone(), name)).cloned()));
+                found.extend(names(&code, keyword).filter_map(|name| self.0.get(&(block.of.clone(), name)).cloned()));
             }
         }
+        let others = names(&text, ".").filter(|name| name.contains('_'));
+        found.extend(others.filter_map(|name| {
+            let mut homes = self.0.iter().filter(|((_, known), _)| *known == name);
+            homes.next().filter(|_| homes.next().is_none()).map(|(_, path)| path.clone())
+        }));
         found
     }
+}
+
+/// The names that are called right after a keyword.
+fn names(code: &str, keyword: &str) -> impl Iterator<Item = String> {
+    code.split(keyword).skip(1).filter_map(|rest| {
+        let end = rest.find(|c: char| !c.is_alphanumeric() && c != '_')?;
+        rest[end..].starts_with(['(', ':']).then(|| rest[..end].to_owned())
+    })
 }
 
 fn blocks(text: &str) -> Vec<Block<'_>> {

@@ -32,9 +32,6 @@ pub(super) enum Failure {
     /// A saved state where its address belongs.
     #[error("argument {0} is a state, not the address of one")]
     NotAnAddress(&'static str),
-    /// A saved state where its address belongs, in the one function that can do without.
-    #[error("the state itself was passed, not its address; it is freed")]
-    FreedByValue,
     /// An array longer than any that makes sense.
     #[error("argument {name} has {count} elements, at most {limit} are accepted")]
     TooLong {
@@ -174,7 +171,7 @@ impl Failure {
     /// The status that the host gets.
     pub(super) fn status(&self) -> Status {
         match self {
-            Failure::UnknownCategory(_) | Failure::FreedByValue | Failure::Unstored { .. } => Status::Warning,
+            Failure::UnknownCategory(_) | Failure::Unstored { .. } => Status::Warning,
             Failure::UnknownStatus(_)
             | Failure::Variable(VariableError::OutOfRange { .. } | VariableError::UnusedDerivative { .. })
             | Failure::Simulation(

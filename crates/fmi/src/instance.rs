@@ -188,6 +188,15 @@ impl Instance {
         })
     }
 
+    /// Frees a state that came in place of its address. A warning is logged but not returned: hosts that do this stop
+    /// at any status but OK.
+    pub(super) fn free_by_value(&mut self, handle: FmuState, function: &'static str) -> Result<(), Failure> {
+        self.snapshots.free(handle)?;
+        let text = || format!("{function}: the state itself was passed, not its address; it is freed.");
+        self.logger.line(Status::Warning, text);
+        Ok(())
+    }
+
     /// Puts a saved state back. A simulation that a panic has damaged is set up anew first.
     pub(super) fn restore(&mut self, handle: FmuState) -> Result<(), Failure> {
         if self.damaged {

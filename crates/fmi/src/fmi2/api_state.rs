@@ -37,7 +37,7 @@ pub unsafe extern "C" fn fmi2SetFMUstate(c: Component, FMUstate: FmuState) -> St
 }
 
 /// `fmi2FreeFMUstate`: frees a saved state and sets its handle to NULL. NULL is ignored. A host that passes the state
-/// instead of its address, as fmusim (the program in C) does, is warned and has it freed.
+/// instead of its address, as fmusim (the program in C) does, has it freed all the same; the log warns.
 ///
 /// # Safety
 /// `FMUstate` is null or points to a handle.
@@ -48,8 +48,7 @@ pub unsafe extern "C" fn fmi2FreeFMUstate(c: Component, FMUstate: *mut FmuState)
             return Ok(());
         }
         if snapshots::is_handle(FMUstate.addr()) {
-            instance.snapshots.free(FMUstate.cast())?;
-            return Err(Failure::FreedByValue);
+            return instance.free_by_value(FMUstate.cast(), "fmi2FreeFMUstate");
         }
         // SAFETY: this function's contract; misaligned pointers are refused. The handle itself may be any value.
         let handle = unsafe { state_handle(FMUstate)? };

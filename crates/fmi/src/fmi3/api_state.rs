@@ -37,7 +37,7 @@ pub unsafe extern "C" fn fmi3SetFMUState(instance: Instance, FMUState: FmuState)
 }
 
 /// `fmi3FreeFMUState`: frees a saved state and sets its handle to NULL. NULL is ignored. A host that passes the state
-/// instead of its address, as fmusim (the program in C) does, is warned and has it freed.
+/// instead of its address, as fmusim (the program in C) does, has it freed all the same; the log warns.
 ///
 /// # Safety
 /// `FMUState` is null or points to a handle.
@@ -48,8 +48,7 @@ pub unsafe extern "C" fn fmi3FreeFMUState(instance: Instance, FMUState: *mut Fmu
             return Ok(());
         }
         if snapshots::is_handle(FMUState.addr()) {
-            instance.snapshots.free(FMUState.cast())?;
-            return Err(Failure::FreedByValue);
+            return instance.free_by_value(FMUState.cast(), "fmi3FreeFMUState");
         }
         // SAFETY: this function's contract; misaligned pointers are refused. The handle itself may be any value.
         let handle = unsafe { state_handle(FMUState)? };
