@@ -12,6 +12,7 @@ mod methods;
 #[path = "layers/reader.rs"]
 mod reader;
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -108,6 +109,33 @@ fn no_module_imports_one_that_imports_it() {
         found.extend(tops.iter().flat_map(|top| cycles(top, &files)).map(|cycle| format!("{folder}: {cycle}")));
     }
     assert!(found.is_empty(), "\n{}", found.join("\n"));
+}
+
+#[test]
+fn the_lists_of_architecture_have_every_module_below_all_that_use_it() {
+    let root = brinell_tests::root();
+    let page = fs::read_to_string(root.join("ARCHITECTURE.md")).unwrap();
+    let source = root.join("src");
+    let files = files_below(&source).into_iter().map(|file| (module(&source, &file), read(&file))).collect();
+    let files = reader::without_tests(files);
+    for layer in ["simulation", "dynamics"] {
+        let list = page.split(&format!("\n{layer}   ")).nth(1).unwrap();
+        // After three blanks stands what a row is.
+        let rows = list.lines().take_while(|row| !row.is_empty() && !row.starts_with("```"));
+        let rows: Vec<_> = rows.map(|row| row.trim().split("   ").next().unwrap().split_whitespace()).collect();
+        let listed = rows.into_iter().enumerate().flat_map(|(row, names)| names.map(move |name| (name, row)));
+        let row_of: BTreeMap<&str, usize> = listed.collect();
+        let mut wrong = Vec::new();
+        for (module, used) in cycles::modules(&[layer.to_owned()], &files) {
+            let Some(row) = row_of.get(&*module) else {
+                wrong.push(format!("{module} is not listed"));
+                continue;
+            };
+            let above = used.iter().filter(|used| row_of.get(&***used).is_some_and(|other| other <= row));
+            wrong.extend(above.map(|used| format!("{module} is not above {used}")));
+        }
+        assert!(wrong.is_empty(), "{layer}:\n{}", wrong.join("\n"));
+    }
 }
 
 /// Path of a file's module from its crate's root.

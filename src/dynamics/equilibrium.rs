@@ -236,7 +236,7 @@ impl Model {
         }
         let load = |axis: &Quadratic| axis.at(0.0);
         let loads = Rings::from_iterator(drive.shaft_load.iter().chain(&drive.housing_load).map(load));
-        let supports = Rings::from_fn(|i, _| self.supports.rings()[i / 2].stiffness * rings[i]);
+        let supports = Rings::from(self.supports.ring_stiffnesses()).component_mul(&rings);
         force += loads - supports;
         largest = largest.max(loads.amax()).max(supports.amax());
         let limit = RESIDUAL * largest + SMALLEST_RESIDUAL;

@@ -4,8 +4,10 @@
 //! ```text
 //! f_i = −k_i x_i − c_i v_i        f_o = −k_o x_o − c_o v_o + f_s e_y        f_s = k_s (y_s − y_o) + c_s (v_s − v_o)
 //! ```
-//! f_s acts on the sensor the other way. That is written once, in [`Supports::forces`]; right-hand side, Jacobian,
-//! equilibrium and derivatives of outputs take it from there.
+//! f_s acts on the sensor the other way. [`Supports::forces`] says so for all bodies at once: Jacobian and derivatives
+//! of outputs are made of it. The right-hand side takes a ring's part from [`Support::ring_rates`] and a sensor's from
+//! [`SensorSupport::force`], whose order of terms decides the last digits of every run. At rest only the springs of the
+//! rings are left, [`Supports::ring_stiffnesses`], of which equilibrium and tangent are made.
 
 use super::kinematics::{Kinematics, RingState};
 use crate::numerics::lanes::{Lanes, QUAD, Wide};
@@ -94,6 +96,12 @@ impl Supports {
     /// Support of each ring, the inner first.
     pub fn rings(&self) -> [&Support; 2] {
         [&self.shaft, &self.housing]
+    }
+
+    /// Stiffness of the rings' springs (N/m), for each coordinate: inner ring x, y, outer ring x, y.
+    pub(super) fn ring_stiffnesses(&self) -> [f64; 4] {
+        let [shaft, housing] = self.rings().map(|ring| ring.stiffness);
+        [shaft, shaft, housing, housing]
     }
 
     /// 1/mass of each coordinate (1/kg); 0 where forces move nothing.

@@ -102,9 +102,9 @@ impl Model {
     /// The matrix of the free rings' balance, −J + supports + `shift`; rows and columns of the others are those of the
     /// unit matrix.
     pub(super) fn free_rings_matrix(&self, jacobian: &RingJacobian, shift: f64) -> RingJacobian {
-        let (free, rings) = (self.free(), self.supports.rings());
+        let (free, springs) = (self.free(), self.supports.ring_stiffnesses());
         RingJacobian::from_fn(|i, k| match (free[i] && free[k], i == k) {
-            (true, true) => rings[i / 2].stiffness + shift - jacobian[(i, i)],
+            (true, true) => springs[i] + shift - jacobian[(i, i)],
             (true, false) => -jacobian[(i, k)],
             (false, on_diagonal) => f64::from(u8::from(on_diagonal)),
         })
