@@ -115,7 +115,7 @@ def structure(bearing, force, start):
     )
     kind = 'type="application/x-fmu-sharedlibrary"'
     return f"""<?xml version="1.0" encoding="UTF-8"?>
-<ssd:SystemStructureDescription name="bearing-and-rotor" version="1.0"
+<ssd:SystemStructureDescription name="bearing_and_rotor" version="1.0"
     xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescription"
     xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon"
     xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues">

@@ -24,7 +24,7 @@ pub struct Build {
     /// Scene files (TOML), or names of shipped scenes
     #[arg(required = true, value_name = "SCENE")]
     pub(super) scenes: Vec<PathBuf>,
-    /// Folder for the FMUs [default: the current one]
+    /// Folder for the FMUs [default: the current one; in the repository of Brinell target/fmu]
     #[arg(short, long, value_name = "DIR")]
     pub(super) output: Option<PathBuf>,
     /// Version of the FMI standard
