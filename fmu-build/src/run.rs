@@ -30,7 +30,7 @@ use noise::Noise;
 use signals::Signals;
 use spectra::{Acceleration, Spectra};
 use speed_profile::SpeedProfile;
-use table::Format;
+use table::{Column, Format};
 use wav::Wav;
 
 /// Rate of a recorder that a sound or a page needs and the scene does not have (Hz).
@@ -77,10 +77,10 @@ pub fn command(project: &Project, model: Model, options: &Options, folder: &Path
             noise.add(recording, &sensors(recording), 1)?;
         }
     }
-    let columns: Vec<(usize, &str)> = std::iter::once("time")
+    let columns: Vec<Column> = std::iter::once("time")
         .chain(chosen.names().map(|(name, _)| name))
         .filter_map(|name| done.units.iter().position(|(known, _)| known == name))
-        .map(|index| (index, done.units[index].1))
+        .map(|index| Column { index, unit: done.units[index].1 })
         .collect();
     options.format.write(&done.signals, &columns, &path)?;
     println!("{}", path.display());

@@ -5,9 +5,9 @@
 //! f_i = −k_i x_i − c_i v_i        f_o = −k_o x_o − c_o v_o + f_s e_y        f_s = k_s (y_s − y_o) + c_s (v_s − v_o)
 //! ```
 //! f_s acts on the sensor the other way. [`Supports::forces`] says so for all bodies at once: Jacobian and derivatives
-//! of outputs are made of it. The right-hand side takes a ring's part from [`Support::ring_rates`] and a sensor's from
+//! of outputs are made of it. The right-hand side takes a ring's part from `Support::ring_rates` and a sensor's from
 //! [`SensorSupport::force`], whose order of terms decides the last digits of every run. At rest only the springs of the
-//! rings are left, [`Supports::ring_stiffnesses`], of which equilibrium and tangent are made.
+//! rings are left, `Supports::ring_stiffnesses`, of which equilibrium and tangent are made.
 
 use super::kinematics::{Kinematics, RingState};
 use crate::numerics::lanes::{Lanes, QUAD, Wide};

@@ -50,7 +50,7 @@ pub struct Recorder {
     /// `None` where every sample is a row.
     decimation: Option<Decimation>,
     /// References and quantities of the recorded outputs, those that are filtered first.
-    signals: Vec<(u32, Quantity)>,
+    signals: Vec<Signal>,
     /// Values of those in one sample.
     sample: Vec<f64>,
     /// Number of the first row kept.
@@ -89,8 +89,8 @@ impl Recorder {
         };
         let recorded = |as_wanted: Recorded| {
             let rows = table.iter().zip(quantities).filter(|(row, _)| row.causality == Causality::Output);
-            rows.map(|(row, &quantity)| (row.reference, quantity))
-                .filter(move |(_, quantity)| as_recorded(*quantity) == as_wanted)
+            rows.map(|(row, &quantity)| Signal { reference: row.reference, quantity })
+                .filter(move |signal| as_recorded(signal.quantity) == as_wanted)
         };
         let signals: Vec<_> = recorded(Recorded::Vibration).chain(recorded(Recorded::Instant)).collect();
         let filtered = if decimation.is_some() { recorded(Recorded::Vibration).count() } else { 0 };
@@ -111,7 +111,7 @@ impl Recorder {
 
     /// References of the recorded outputs, in the order of the columns after the time.
     pub fn references(&self) -> impl Iterator<Item = u32> {
-        self.signals.iter().map(|(reference, _)| *reference)
+        self.signals.iter().map(|signal| signal.reference)
     }
 
     /// Time by which rows are seen later than they are (s): the filter's reach.
@@ -235,9 +235,9 @@ impl Recorder {
 }
 
 /// Puts the values of signals at an instant into as many values.
-fn fill(values: &mut [f64], signals: &[(u32, Quantity)], outputs: &Outputs) {
-    for (value, (_, quantity)) in values.iter_mut().zip(signals) {
-        *value = outputs.value(*quantity).unwrap_or(f64::NAN);
+fn fill(values: &mut [f64], signals: &[Signal], outputs: &Outputs) {
+    for (value, signal) in values.iter_mut().zip(signals) {
+        *value = outputs.value(signal.quantity).unwrap_or(f64::NAN);
     }
 }
 
@@ -250,6 +250,14 @@ fn element_frequency(scene: &Scene) -> f64 {
         _ => law.elastic_stiffness(law.approach_under(force)),
     });
     ((inner + outer) / scene.bearing.mass_of_element()).sqrt() / TAU
+}
+
+/// An output that is recorded.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Signal {
+    /// Its value reference.
+    reference: u32,
+    quantity: Quantity,
 }
 
 /// How an output is recorded.

@@ -78,8 +78,16 @@ pub enum ResponseError {
 /// A response: the acceleration at the sensor over that of the outer ring, line by line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrequencyResponse {
-    /// Frequency (Hz), ascending, and response.
-    lines: Vec<(f64, c64)>,
+    /// By ascending frequency.
+    lines: Vec<Line>,
+}
+
+/// The response at one frequency.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Line {
+    /// Frequency (Hz).
+    frequency: f64,
+    value: c64,
 }
 
 /// Modes that follow from a response.
@@ -108,17 +116,17 @@ impl FrequencyResponse {
             check(name, column, "must be finite", |value, _| value.is_finite())?;
         }
         let rows = |of: fn([f64; 2]) -> c64| {
-            let pairs = columns[1].iter().zip(&columns[2]).map(|(&a, &b)| of([a, b]));
-            columns[0].iter().copied().zip(pairs).collect()
+            let values = columns[1].iter().zip(&columns[2]).map(|(&a, &b)| of([a, b]));
+            columns[0].iter().zip(values).map(|(&frequency, value)| Line { frequency, value }).collect()
         };
-        let lines: Vec<(f64, c64)> = match names[..] {
+        let lines: Vec<Line> = match names[..] {
             ["frequency_hz", "real", "imaginary"] => rows(|[real, imaginary]| c64::new(real, imaginary)),
             ["frequency_hz", "magnitude", "phase_deg"] => rows(polar),
             ["time_s", "response_1_s"] => transformed(&columns)?,
             _ => return Err(ResponseError::Columns(names.into_iter().map(str::to_owned).collect())),
         };
         let ascending = |value: f64, before: Option<f64>| value > before.unwrap_or(0.0);
-        let frequencies: Vec<f64> = lines.iter().map(|(frequency, _)| *frequency).collect();
+        let frequencies: Vec<f64> = lines.iter().map(|line| line.frequency).collect();
         check(names[0], &frequencies, "must be above 0 and grow from line to line", ascending)?;
         if lines.len() < FEWEST_LINES {
             return Err(ResponseError::Few(lines.len()));
@@ -132,7 +140,7 @@ impl FrequencyResponse {
     /// A response that none come near enough.
     pub fn fit(&self) -> Result<Fit, ResponseError> {
         let every = self.lines.len().div_ceil(MOST_LINES);
-        let lines: Vec<(f64, c64)> = self.lines.iter().copied().step_by(every).collect();
+        let lines: Vec<Line> = self.lines.iter().copied().step_by(every).collect();
         let mut best = Fit { modes: Vec::new(), misfit: misfit(&[], &self.lines) };
         // Each mode takes four numbers from the lines.
         let mut in_vain = 0;
@@ -170,9 +178,9 @@ fn columns_of(s: c64, [frequency, damping_ratio]: [f64; 2]) -> [c64; 2] {
     [-s * s / resonance, -s * frequency / resonance]
 }
 
-fn misfit(modes: &[SensorMode], lines: &[(f64, c64)]) -> f64 {
-    let missed: f64 = lines.iter().map(|(frequency, value)| (response(modes, *frequency) - value).norm_sqr()).sum();
-    let whole: f64 = lines.iter().map(|(_, value)| value.norm_sqr()).sum();
+fn misfit(modes: &[SensorMode], lines: &[Line]) -> f64 {
+    let missed: f64 = lines.iter().map(|line| (response(modes, line.frequency) - line.value).norm_sqr()).sum();
+    let whole: f64 = lines.iter().map(|line| line.value.norm_sqr()).sum();
     (missed / whole).sqrt()
 }
 
@@ -192,7 +200,7 @@ fn check(
 
 /// An impulse response's lines: its Fourier transform at the multiples of the inverse of its length, up to a quarter of
 /// its sampling rate, beyond which the sum is no longer near the integral.
-fn transformed(columns: &[Vec<f64>]) -> Result<Vec<(f64, c64)>, ResponseError> {
+fn transformed(columns: &[Vec<f64>]) -> Result<Vec<Line>, ResponseError> {
     let (times, values) = (&columns[0], &columns[1]);
     if times.len() < 4 * FEWEST_LINES {
         return Err(ResponseError::Few(times.len() / 4));
@@ -208,21 +216,21 @@ fn transformed(columns: &[Vec<f64>]) -> Result<Vec<(f64, c64)>, ResponseError> {
             let (sin, cos) = (TAU * frequency * time).sin_cos();
             c64::new(value * cos, -value * sin)
         });
-        (frequency, terms.sum::<c64>() * step)
+        Line { frequency, value: terms.sum::<c64>() * step }
     };
     Ok((1..=times.len() / 4).map(line).collect())
 }
 
 /// ω and ζ of so many modes, where the iteration for them ends well. Frequencies are measured by the highest line's.
-fn poles(lines: &[(f64, c64)], count: usize) -> Option<Vec<[f64; 2]>> {
-    let (lowest, highest) = (lines.first()?.0, lines.last()?.0);
+fn poles(lines: &[Line], count: usize) -> Option<Vec<[f64; 2]>> {
+    let (lowest, highest) = (lines.first()?.frequency, lines.last()?.frequency);
     let unit = TAU * highest;
     let spread = |k: usize| (lowest + (highest - lowest) * (k as f64 + 0.5) / count as f64) / highest;
     let mut poles: Vec<c64> = (0..count).map(|k| c64::new(-FIRST_DAMPING * spread(k), spread(k))).collect();
     for _ in 0..ITERATIONS {
         let mut rows = Vec::with_capacity(2 * lines.len());
         let mut known = Vec::with_capacity(2 * lines.len());
-        for (frequency, value) in lines {
+        for Line { frequency, value } in lines {
             let s = c64::new(0.0, frequency / highest);
             let basis: Vec<c64> = poles.iter().flat_map(|pole| fractions(s, *pole)).collect();
             let unknown = basis.iter().copied().chain([c64::new(1.0, 0.0)]).chain(basis.iter().map(|of| -of * value));
@@ -275,10 +283,10 @@ fn zeros(poles: &[c64], weights: &[f64]) -> Option<Vec<c64>> {
 }
 
 /// Modes of these ω and ζ with the gains that come nearest.
-fn gains(lines: &[(f64, c64)], poles: &[[f64; 2]]) -> Option<Vec<SensorMode>> {
+fn gains(lines: &[Line], poles: &[[f64; 2]]) -> Option<Vec<SensorMode>> {
     let mut rows = Vec::with_capacity(2 * lines.len());
     let mut known = Vec::with_capacity(2 * lines.len());
-    for (frequency, value) in lines {
+    for Line { frequency, value } in lines {
         let s = c64::new(0.0, TAU * frequency);
         let columns: Vec<c64> = poles.iter().flat_map(|pole| columns_of(s, *pole)).collect();
         rows.push(columns.iter().map(|of| of.re).collect());

@@ -36,6 +36,15 @@ pub enum Format {
     Parquet,
 }
 
+/// A column of a table.
+#[derive(Debug, Clone, Copy)]
+pub struct Column<'a> {
+    /// Which of the signals it is.
+    pub index: usize,
+    /// Its unit, for the heading.
+    pub unit: &'a str,
+}
+
 impl Format {
     /// The file of a scene's table. The recorder's samples have the name that ends in `.npy` alone.
     pub fn path(self, folder: &Path, scene: &str) -> PathBuf {
@@ -47,8 +56,8 @@ impl Format {
         folder.join(format!("{scene}{ending}"))
     }
 
-    /// Writes the columns at these indices, whose units are given.
-    pub fn write(self, signals: &Signals, columns: &[(usize, &str)], path: &Path) -> Result<()> {
+    /// Writes these columns of the signals.
+    pub fn write(self, signals: &Signals, columns: &[Column], path: &Path) -> Result<()> {
         whole_file::write_with(path, |out| match self {
             Self::Csv => as_csv(signals, columns, out),
             Self::Npy => as_npy(signals, columns, out),
@@ -57,28 +66,28 @@ impl Format {
     }
 }
 
-fn as_csv(signals: &Signals, columns: &[(usize, &str)], mut out: &mut (dyn Write + Send)) -> Result<()> {
-    csv::header(&mut out, columns.iter().map(|&(index, unit)| (signals.names()[index].as_str(), unit)))?;
-    signals.each_row(|row| Ok(csv::row(&mut out, columns.iter().map(|&(index, _)| row[index]))?))
+fn as_csv(signals: &Signals, columns: &[Column], mut out: &mut (dyn Write + Send)) -> Result<()> {
+    csv::header(&mut out, columns.iter().map(|column| (signals.names()[column.index].as_str(), column.unit)))?;
+    signals.each_row(|row| Ok(csv::row(&mut out, columns.iter().map(|column| row[column.index]))?))
 }
 
-fn as_npy(signals: &Signals, columns: &[(usize, &str)], out: &mut (dyn Write + Send)) -> Result<()> {
-    let names: Vec<String> = columns.iter().map(|&(index, _)| signals.names()[index].clone()).collect();
+fn as_npy(signals: &Signals, columns: &[Column], out: &mut (dyn Write + Send)) -> Result<()> {
+    let names: Vec<String> = columns.iter().map(|column| signals.names()[column.index].clone()).collect();
     out.write_all(&npy_header(&names, signals.rows()))?;
-    signals.each_row(|row| Ok(columns.iter().try_for_each(|&(index, _)| out.write_all(&row[index].to_le_bytes()))?))
+    signals.each_row(|row| Ok(columns.iter().try_for_each(|column| out.write_all(&row[column.index].to_le_bytes()))?))
 }
 
 /// Doubles with their bytes sorted by significance, which then pack well; each column's unit stands in the file's own
 /// metadata as `unit:<name>`.
-fn as_parquet(signals: &Signals, columns: &[(usize, &str)], out: &mut (dyn Write + Send)) -> Result<()> {
-    let field = |&(index, _): &(usize, &str)| {
-        let built = Type::primitive_type_builder(&signals.names()[index], Physical::DOUBLE);
+fn as_parquet(signals: &Signals, columns: &[Column], out: &mut (dyn Write + Send)) -> Result<()> {
+    let field = |column: &Column| {
+        let built = Type::primitive_type_builder(&signals.names()[column.index], Physical::DOUBLE);
         Ok(Arc::new(built.with_repetition(Repetition::REQUIRED).build()?))
     };
     let fields = columns.iter().map(field).collect::<Result<Vec<_>>>()?;
     let schema = Arc::new(Type::group_type_builder("run").with_fields(fields).build()?);
-    let unit = |&(index, unit): &(usize, &str)| {
-        KeyValue::new(format!("unit:{}", signals.names()[index]), Some(unit.to_owned()))
+    let unit = |column: &Column| {
+        KeyValue::new(format!("unit:{}", signals.names()[column.index]), Some(column.unit.to_owned()))
     };
     let properties = WriterProperties::builder()
         .set_dictionary_enabled(false)
@@ -89,8 +98,8 @@ fn as_parquet(signals: &Signals, columns: &[(usize, &str)], out: &mut (dyn Write
     let mut writer = SerializedFileWriter::new(out, schema, Arc::new(properties))?;
     let mut group = vec![Vec::with_capacity(GROUP); columns.len()];
     signals.each_row(|row| {
-        for (column, &(index, _)) in group.iter_mut().zip(columns) {
-            column.push(row[index]);
+        for (values, column) in group.iter_mut().zip(columns) {
+            values.push(row[column.index]);
         }
         if group[0].len() == GROUP { put(&mut group, &mut writer) } else { Ok(()) }
     })?;

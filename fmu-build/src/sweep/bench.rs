@@ -25,7 +25,7 @@ use crate::run::course::{Course, Done};
 use crate::run::noise::Noise;
 use crate::run::signals::{Growing, Signals};
 use crate::run::speed_profile::SpeedProfile;
-use crate::run::table::Format;
+use crate::run::table::{self, Format};
 use crate::run::wav::Wav;
 use crate::shipped;
 use crate::whole_file::{self, NotWritten};
@@ -276,7 +276,8 @@ impl Bench<'_> {
     /// leaves nothing in their folder.
     fn write(&self, written: Written, kept: &Signals, name: &str) -> Result<()> {
         let unit = |k: usize| if k == 0 { "s" } else { "m/s2" };
-        let columns: Vec<(usize, &str)> = (0..kept.names().len()).map(|k| (k, unit(k))).collect();
+        let column = |index: usize| table::Column { index, unit: unit(index) };
+        let columns: Vec<_> = (0..kept.names().len()).map(column).collect();
         let ending = match written {
             Written::Npy => "npy",
             Written::Parquet => "parquet",
