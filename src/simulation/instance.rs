@@ -259,6 +259,23 @@ impl Simulation {
     }
 
     /// Takes the state.
+    /// ```
+    /// use brinell::scene::{Bearing, Scene};
+    /// use brinell::simulation::Simulation;
+    ///
+    /// let bearing = Bearing::steel_balls(9, 7.94e-3, 39.04e-3);
+    /// let scene = Scene::builder(bearing).shaft_speed(157.1).shaft_load([0.0, -1500.0]).build()?;
+    /// let mut simulation = Simulation::new(scene, None)?;
+    /// simulation.initialize(0.0)?;
+    /// let state = simulation.save();
+    /// simulation.step(1e-4)?;
+    /// let first = simulation.get("shaft.y")?;
+    /// // Back, and the same step once more: the same bits.
+    /// simulation.restore(&state)?;
+    /// simulation.step(1e-4)?;
+    /// assert_eq!(simulation.get("shaft.y")?, first);
+    /// # Ok::<(), brinell::Error>(())
+    /// ```
     pub fn save(&self) -> State {
         self.state.clone()
     }

@@ -118,6 +118,18 @@ pub struct Pressed {
 impl BallOnRaceway {
     /// A ball of the scene's bearing on a raceway, `angle` (rad) counter-clockwise in the ring's own sense from the
     /// middle of the first of its defects. `profiles` are as for [`Surface::load_all`].
+    /// ```
+    /// use brinell::contact::rolling::RacewaySide;
+    /// use brinell::scene::{Bearing, Scene};
+    /// use brinell_analysis::contact_pressure::BallOnRaceway;
+    ///
+    /// let scene = Scene::builder(Bearing::steel_balls(9, 7.94e-3, 39.04e-3)).shaft_load([0.0, -1500.0]).build()?;
+    /// let ball = BallOnRaceway::of(&scene, None, RacewaySide::Outer, 0.0)?;
+    /// // On a smooth raceway the measured surface's pressure is Hertz's.
+    /// let pressed = ball.pressed(800.0, 64)?;
+    /// assert!((pressed.max_pressure() / ball.hertz(800.0).max_pressure - 1.0).abs() < 0.03);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// For rollers, an angle that is not finite and a profile that cannot be used.

@@ -40,6 +40,16 @@ pub struct EnvelopeSpectrum {
 }
 
 /// Characteristic frequencies of a scene with its slip (Hz), either ring turning or not; `None` where nothing turns.
+/// ```
+/// use brinell::scene::{Bearing, Scene};
+/// use brinell_analysis::envelope_spectrum::frequencies;
+///
+/// let speed = std::f64::consts::TAU * 10.0;
+/// let scene = Scene::builder(Bearing::steel_balls(9, 7.94e-3, 39.32e-3)).shaft_speed(speed).build()?;
+/// // An ER16K at 10 Hz.
+/// assert!((frequencies(&scene).unwrap().bpfo - 35.913).abs() < 1e-3);
+/// # Ok::<(), brinell::scene::SceneError>(())
+/// ```
 pub fn frequencies(scene: &Scene) -> Option<Frequencies> {
     let ratios = Ratios::new(&scene.bearing, scene.cage.slip, scene.cage.spin_slip);
     let (inner, outer) = (scene.shaft_speed / TAU, scene.housing_speed.unwrap_or(0.0) / TAU);

@@ -99,6 +99,22 @@ pub struct OrderSpectrum {
 
 impl OrderSpectrum {
     /// Of a signal up to the order `highest`, or to that which its samples show.
+    /// ```
+    /// use brinell_analysis::order_spectrum::{EvenAngles, OrderSpectrum};
+    ///
+    /// // Run up from 10 to 20 Hz in 10 s; three waves of 2 m/s² per turn.
+    /// let (rate, count) = (2000.0, 20_000);
+    /// let speeds: Vec<f64> = (0..count).map(|k| 10.0 + 10.0 * k as f64 / count as f64).collect();
+    /// let turns = speeds.iter().scan(0.0, |turns, speed| {
+    ///     let now = *turns;
+    ///     *turns += speed / rate;
+    ///     Some(now)
+    /// });
+    /// let signal: Vec<f64> = turns.map(|turns| 2.0 * (std::f64::consts::TAU * 3.0 * turns).sin()).collect();
+    /// let spectrum = OrderSpectrum::of(&signal, &EvenAngles::of(&speeds, rate).unwrap(), 10.0);
+    /// let (k, largest) = spectrum.amplitude.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).unwrap();
+    /// assert!((spectrum.order[k] - 3.0).abs() < spectrum.line_width && (largest / 2.0 - 1.0).abs() < 0.02);
+    /// ```
     pub fn of(signal: &[f64], angles: &EvenAngles, highest: f64) -> Self {
         let mut even = angles.resampled(signal);
         let mean = statistics::mean(&even);

@@ -14,6 +14,17 @@ const NARROW: f64 = 1e-7;
 /// between them at which an element begins or ceases to carry. Angles ascend.
 ///
 /// Of several changes between two evenly spaced angles at least one is found.
+/// ```
+/// use brinell::scene::{Bearing, Scene};
+/// use brinell_analysis::static_bearing::StaticBearing;
+/// use brinell_analysis::stiffness::{min_mean_max, sweep};
+///
+/// let scene = Scene::builder(Bearing::steel_balls(9, 7.94e-3, 39.04e-3)).shaft_load([0.0, -1500.0]).build()?;
+/// let balances = sweep(&StaticBearing::new(&scene, None)?, 0.0, 16)?;
+/// let [least, mean, greatest] = min_mean_max(&balances, |balance| balance.stiffness[1][1]);
+/// assert!(least <= mean && mean <= greatest && greatest < 1.1 * least);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 /// Those of [`StaticBearing::balance`].

@@ -205,6 +205,10 @@ fn halfway([bore, outside, _]: [f64; 3]) -> f64 {
 }
 
 /// The bearing of this name, what makers put behind it (`-2RS`, `ZZ`, ` ECP`, ` C3`) left out; `None` if there is none.
+/// ```
+/// let bearing = brinell_scene::catalogued("6205-2RS").unwrap();
+/// assert_eq!((bearing.boundary, bearing.inside.element_count), ([25.0, 52.0, 15.0], 9));
+/// ```
 pub fn catalogued(designation: &str) -> Option<CatalogueBearing> {
     let name = designation.trim().to_uppercase();
     let letters = name.len() - name.trim_start_matches(|c: char| c.is_ascii_alphabetic()).len();
