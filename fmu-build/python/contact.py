@@ -60,6 +60,12 @@ def scale(most, bound):
     return (UNBOUNDED * bound, True) if most > UNBOUNDED * bound else (most, False)
 
 
+def legend_below(axis):
+    """A legend that covers no curve, and few enough numbers along the axis."""
+    axis.xaxis.set_major_locator(MaxNLocator(5))
+    axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=3, fontsize=8, handlelength=1.4, columnspacing=1)
+
+
 def edges(axis, label=None):
     for edge in report["edges_mm"]:
         if x_from < edge < x_to:
@@ -93,14 +99,14 @@ def pressure_map(axis):
     axis.set_title("pressure (axes are not to one scale)")
     axis.set_xlabel("x, along the raceway (mm)")
     axis.set_ylabel("y, across the raceway (mm)")
-    axis.legend(loc="upper right", fontsize=8, frameon=True, framealpha=0.85, edgecolor="none")
+    legend_below(axis)
 
 
 def limits(axis, x, y, a, b):
-    """All of the window and of Hertz's ellipse, and room for the legend."""
+    """All of the window and of Hertz's ellipse."""
     axis.set_xlim(min(x[0], -1.05 * a), max(x[-1], 1.05 * a))
     low, high = min(y[0], -1.05 * b), max(y[-1], 1.05 * b)
-    axis.set_ylim(low, high + 0.25 * (high - low))
+    axis.set_ylim(low, high)
 
 
 def hertz_section(at, half, other_at, other_half):
@@ -109,9 +115,9 @@ def hertz_section(at, half, other_at, other_half):
 
 def section(axis, values, title, label):
     top, beyond = scale(max(values.max(), hertz["max_pressure_mpa"]), HIGHEST_PRESSURE)
-    # Room for the legend.
-    axis.set_ylim(0, 1.35 * top)
-    axis.set_title(f"{title}; up to {values.max():.0f} MPa" if beyond else title)
+    axis.set_ylim(0, 1.05 * top)
+    # How far beyond depends on the cells.
+    axis.set_title(f"{title}; peak cut off" if beyond else title)
     axis.set_xlabel(label)
     axis.set_ylabel("pressure (MPa)")
 
@@ -134,7 +140,7 @@ def along(axis):
         other.set_yticks(ticks)
         other.set_ylabel("depth (µm)", color=GREEN, loc="bottom")
         other.grid(False)
-    axis.legend(loc="upper right", fontsize=8, frameon=True, framealpha=0.85, edgecolor="none")
+    legend_below(axis)
 
 
 def across(axis):
@@ -143,7 +149,7 @@ def across(axis):
     axis.plot(at, hertz_section(at, b, 0.0, a), color=VERMILION, linestyle="--", label="Hertz's, in its middle")
     axis.plot(y, pressure[:, middle_column], color=BLUE, label="found")
     section(axis, pressure[:, middle_column], f"across, at x = {below_x:.3f} mm", "y, across the raceway (mm)")
-    axis.legend(loc="upper right", fontsize=8, frameon=True, framealpha=0.85, edgecolor="none")
+    legend_below(axis)
 
 
 def over_depth(axis):
