@@ -47,15 +47,21 @@ handles, labels = axes[0, 0].get_legend_handles_labels()
 for axis in axes.flat[len(scenes):]:
     axis.set_axis_off()
 # Beside the panels where there is room, or it would cover points.
-(axes[-1, -1] if len(scenes) < rows * columns else axes[0, -1]).legend(handles, labels, loc="center")
+(axes[-1, -1] if len(scenes) < rows * columns else axes[0, -1]).legend(
+    handles, labels, loc="center", title="errors above 1 are at the upper edge", title_fontsize=8
+)
 for axis in axes[:, 0]:
     axis.set_ylabel("acceleration error (rms / rms)")
-for axis in axes[-1]:
+# The lowest panel of each column, which need not be in the last row.
+for axis in axes.flat[max(len(scenes) - columns, 0) : len(scenes)]:
+    axis.tick_params(labelbottom=True)
     axis.set_xlabel("CPU seconds per simulated second")
 plotting.save(figure, stem)
 
 # Co-simulation: one row of panels for each scene, one panel for each mass.
 WAYS = {"held": (VERMILION, "v", ":"), "extrapolated": (GREEN, "s", "--"), "rolled back once": (BLUE, "o", "-")}
+# Where a run is unstable there is no error to draw: a cross at the upper edge says so, each way at its own height.
+CROSSES = {"held": 3.0, "extrapolated": 12.0, "rolled back once": 48.0}
 panels = defaultdict(lambda: defaultdict(list))
 with open(data / "co-simulation.csv", encoding="utf-8") as file:
     for row in csv.DictReader(file):
@@ -73,13 +79,12 @@ for axis, ((scene, mass), ways) in zip(axes.flat, panels.items()):
         axis.loglog(step, error, line, color=colour, marker=marker, markersize=4, label=way)
         unstable = step[np.isnan(error)]
         if unstable.size:
-            # Where the run is unstable there is no error to draw: a cross at the upper edge says so.
-            axis.plot(unstable, np.full(unstable.size, 3.0), "x", color=colour, markersize=5, clip_on=False)
+            axis.plot(unstable, np.full(unstable.size, CROSSES[way]), "x", color=colour, markersize=5)
     axis.set_title(f"{scene}, {mass:g} kg")
-    axis.set_ylim(1e-8, 3.0)
+    axis.set_ylim(1e-8, 120.0)
     axis.axhline(1.0, color="black", linewidth=0.7)
 for axis in axes[:, 0]:
-    axis.set_ylabel("error of the ring's position")
+    axis.set_ylabel("position error (rms / rms)")
 for axis in axes[-1]:
     axis.set_xlabel("communication step (s), × unstable")
 axes[0, 0].legend(loc="lower right")
