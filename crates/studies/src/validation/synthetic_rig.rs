@@ -1,4 +1,4 @@
-//! Machines that do not exist: what an accelerometer on one would record while elements pass a spall of known length.
+//! Synthetic machines: what an accelerometer on one would record while elements pass a spall of known length.
 //!
 //! The bearing answers by the kinematics of an element of finite size; everything behind it is drawn at random. With s
 //! the way past the leading edge, L the spall's length, P = s²/(2 r_e) the way sunk and δ the approach of the most
