@@ -124,9 +124,13 @@ fn the_lists_of_architecture_have_every_module_below_all_that_use_it() {
         let rows = list.lines().take_while(|row| !row.is_empty() && !row.starts_with("```"));
         let rows: Vec<_> = rows.map(|row| row.trim().split("   ").next().unwrap().split_whitespace()).collect();
         let listed = rows.into_iter().enumerate().flat_map(|(row, names)| names.map(move |name| (name, row)));
-        let row_of: BTreeMap<&str, usize> = listed.collect();
-        let mut wrong = Vec::new();
-        for (module, used) in cycles::modules(&[layer.to_owned()], &files) {
+        let modules = cycles::modules(&[layer.to_owned()], &files);
+        let (mut row_of, mut wrong) = (BTreeMap::new(), Vec::new());
+        for (name, row) in listed {
+            wrong.extend((!modules.contains_key(name)).then(|| format!("{name} is no module")));
+            wrong.extend(row_of.insert(name, row).map(|_| format!("{name} is listed twice")));
+        }
+        for (module, used) in modules {
             let Some(row) = row_of.get(&*module) else {
                 wrong.push(format!("{module} is not listed"));
                 continue;
@@ -188,9 +192,16 @@ fn the_reader_of_cycles_finds_one_that_is_there() {
     let other = "impl Own {\n    fn of_a(&self) {\n        // self.nothing()\n        self.of_b();\n    }\n}\n";
     assert_eq!(found(&["layer"], &[(2, part)]), [""; 0]);
     assert_eq!(found(&["layer"], &[(2, part), (1, other), (2, "use super::a::A;")]), ["in crate::layer: a -> b -> a"]);
-    // So does one that another type's value is asked for, if its name has several words.
-    let asks = "fn f(own: &Own) {\n    own.of_b::<f64>();\n}";
-    assert_eq!(found(&["layer"], &[(2, part), (1, asks), (2, "use super::a::A;")]), ["in crate::layer: a -> b -> a"]);
+    // So is one that another type's value is asked for. That `a` uses `b` is known; only the call leads back.
+    let asks = "fn g(own: &Own) {\n    own.of_a::<f64>();\n}";
+    assert_eq!(found(&["layer"], &[(1, other), (2, asks)]), ["in crate::layer: a -> b -> a"]);
+    // A single word has many homonyms: it counts where the type is named and no other module of the layer has it.
+    let (word, asks) = (other.replace("of_a", "push"), asks.replace("of_a", "push"));
+    let homonym = "impl Other {\n    fn push(&self) {}\n}\n";
+    assert_eq!(found(&["layer"], &[(1, &word), (2, &asks)]), ["in crate::layer: a -> b -> a"]);
+    assert_eq!(found(&["layer"], &[(1, &word), (2, &asks), (6, homonym)]), ["in crate::layer: a -> b -> a"]);
+    assert_eq!(found(&["layer"], &[(1, &word), (2, &asks), (2, homonym)]), [""; 0]);
+    assert_eq!(found(&["layer"], &[(1, &word), (2, &asks.replace("&Own", "&mut Vec<u8>"))]), [""; 0]);
     let back = part.replace("self.own()", "self.of_a()");
     assert_eq!(found(&["layer"], &[(2, &back), (1, other)]), ["in crate::layer: a -> b -> a"]);
 }

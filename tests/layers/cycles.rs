@@ -49,7 +49,7 @@ fn graph(folder: &[String], counts_own: bool, files: &[File], methods: &Methods)
     let mut graph = Graph::new();
     for (path, text) in files {
         let Some(from) = below(path).filter(|from| counts_own || !from.is_empty()) else { continue };
-        let all = [named(path, text), methods.called(text)].concat();
+        let all = [named(path, text), methods.called(folder, text)].concat();
         let mut named: Vec<String> = all.iter().filter_map(below).map(home).collect();
         if from.is_empty() {
             named.extend(own_uses.iter().filter(|brought| !brought.is_public).filter_map(source));

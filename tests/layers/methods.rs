@@ -1,7 +1,7 @@
 //! Finds where the methods stand that code calls: with a type's `impl` blocks in several files, one calls another
 //! without naming its module.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::lengths::name;
 use super::reader::{File, Path, without_comments};
@@ -29,10 +29,12 @@ impl Methods {
         Self(methods)
     }
 
-    /// The modules of the methods that a file's types call on themselves, or that it calls on anything else if the
-    /// name is of several words and only one type of the crate has a method of that name: a single word may be another
-    /// crate's.
-    pub(super) fn called(&self, text: &str) -> Vec<Path> {
+    /// The modules of the methods that a file's types call on themselves, and of those that it calls on anything else
+    /// and that exactly one module of a folder has.
+    ///
+    /// A method of the standard library or of another folder may have the same name. So the file has to name the type,
+    /// unless the name is of several words and no other module of the crate has it.
+    pub(super) fn called(&self, folder: &[String], text: &str) -> Vec<Path> {
         let text = without_comments(text);
         let mut found = Vec::new();
         for block in blocks(&text) {
@@ -41,10 +43,16 @@ impl Methods {
                 found.extend(names(&code, keyword).filter_map(|name| self.0.get(&(block.of.clone(), name)).cloned()));
             }
         }
-        let others = names(&text, ".").filter(|name| name.contains('_'));
-        found.extend(others.filter_map(|name| {
-            let mut homes = self.0.iter().filter(|((_, known), _)| *known == name);
-            homes.next().filter(|_| homes.next().is_none()).map(|(_, path)| path.clone())
+        let words: BTreeSet<&str> = text.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
+        found.extend(names(&text, ".").filter_map(|name| {
+            let name = &name;
+            let homes = || self.0.iter().filter(move |((_, known), _)| known == name);
+            let inside = || homes().filter(move |(_, path)| path.starts_with(folder));
+            let ((_, path), module) = (inside().next()?, folder.len());
+            let is_one = inside().all(|(_, other)| other.get(module) == path.get(module));
+            let is_known = inside().any(|((of, _), _)| words.contains(&**of));
+            let is_own = name.contains('_') && homes().all(|(_, path)| path.starts_with(folder));
+            (is_one && (is_known || is_own)).then(|| path.clone())
         }));
         found
     }
