@@ -5,7 +5,7 @@
 //! every motion that is given; but rings are at rest whatever the inputs are, and what only matters in motion does not
 //! enter.
 
-use super::quantity::{Parameter, Quantity as Q, RingName};
+use super::quantity::{Input, Parameter, Quantity as Q, RingName};
 use super::variables::{Causality, Dependencies, Variable};
 use crate::scene::{DefectOn, ElementInertia, Motion, Scene};
 
@@ -24,7 +24,8 @@ pub(super) fn of(table: &[Variable], quantities: &[Q], scene: &Scene) -> Vec<Dep
             Dependencies {
                 output: variable.reference,
                 direct: listed(&|known, quantity| {
-                    known.causality == Causality::Input && follows(output, quantity, defect, scene)
+                    let input = quantity.as_input().filter(|_| known.causality == Causality::Input);
+                    input.is_some_and(|input| follows(output, input, defect, scene))
                 }),
                 initial: listed(&|_, quantity| starts_from(output, quantity, scene)),
             }
@@ -33,45 +34,42 @@ pub(super) fn of(table: &[Variable], quantities: &[Q], scene: &Scene) -> Vec<Dep
 }
 
 /// Whether an output follows an input at the same instant.
-fn follows(output: Q, input: Q, defect: bool, scene: &Scene) -> bool {
+fn follows(output: Q, input: Input, defect: bool, scene: &Scene) -> bool {
     use RingName::{Housing, Shaft};
-    let position = matches!(input, Q::Position(..));
-    let velocity = matches!(input, Q::Velocity(..));
-    let speed = matches!(input, Q::Speed(_));
-    if scene.bearing.element_inertia == ElementInertia::None {
-        // An element in balance hands on at once what either ring does.
-        match output {
-            Q::ElementPath(_) => return position || speed,
-            Q::Force(..) | Q::ElementInnerForce(_) | Q::ElementOuterForce(_) => return position || velocity || speed,
-            Q::Acceleration(ring, axis) => return position || velocity || speed || input == Q::Load(ring, axis),
-            // The others follow as with inertia; each is named below.
-            _ => {}
-        }
-    }
+    let (position, velocity, speed) = match input {
+        Input::Position(..) => (true, false, false),
+        Input::Velocity(..) => (false, true, false),
+        Input::Speed(_) => (false, false, true),
+        Input::Load(..) | Input::Acceleration(..) => (false, false, false),
+    };
+    // Inner contacts see both rings, and the cage speed through the rate of approach.
+    let inner = position || velocity || speed;
+    // Outer contacts see the path, which is measured from the outer ring, and its rate. An element in balance hands on
+    // at once what either ring does.
+    let balanced = scene.bearing.element_inertia == ElementInertia::None;
+    let outer = if balanced { inner } else { matches!(input, Input::Velocity(Housing, _)) || (defect && speed) };
     match output {
-        // Inner contacts see both rings, and the cage speed through the rate of approach.
-        Q::Force(Shaft, _) | Q::ElementInnerForce(_) => position || velocity || speed,
-        // Outer contacts see the path, which is measured from the outer ring, and its rate.
-        Q::Force(Housing, _) | Q::ElementOuterForce(_) => matches!(input, Q::Velocity(Housing, _)) || (defect && speed),
-        Q::Acceleration(Shaft, axis) => position || velocity || speed || input == Q::Load(Shaft, axis),
-        Q::Acceleration(Housing, axis) => {
-            matches!(input, Q::Velocity(Housing, _)) || (defect && speed) || input == Q::Load(Housing, axis)
-        }
+        Q::Force(Shaft, _) | Q::ElementInnerForce(_) => inner,
+        Q::Force(Housing, _) | Q::ElementOuterForce(_) => outer,
+        Q::Acceleration(Shaft, axis) => inner || input == Input::Load(Shaft, axis),
+        Q::Acceleration(Housing, axis) => outer || input == Input::Load(Housing, axis),
         Q::Stiffness(..) => position,
         // Through its spring and damper, along its direction.
         Q::SensorAcceleration(k) => match input {
-            Q::Position(Housing, axis) | Q::Velocity(Housing, axis) => {
+            Input::Position(Housing, axis) | Input::Velocity(Housing, axis) => {
                 scene.housing.motion == Motion::Host && scene.sensors[k].unit()[axis] != 0.0
             }
-            _ => false,
+            Input::Position(Shaft, _) | Input::Velocity(Shaft, _) => false,
+            Input::Speed(_) | Input::Load(..) | Input::Acceleration(..) => false,
         },
         // The host's own positions; those of the state follow no input at once.
-        Q::Probe(axis) => matches!(input, Q::Position(_, along) if along == axis),
+        Q::Probe(axis) => matches!(input, Input::Position(_, along) if along == axis),
         Q::CageSpeed => speed,
         // Tangential parts of the inner contacts, and the elements' inertia as the outer ring accelerates.
-        Q::CageTorque => {
-            position || velocity || speed || matches!(input, Q::Acceleration(Housing, _) | Q::Load(Housing, _))
-        }
+        Q::CageTorque => inner || matches!(input, Input::Acceleration(Housing, _) | Input::Load(Housing, _)),
+        Q::ShaftTorque => inner,
+        // With inertia it is a state.
+        Q::ElementPath(_) => balanced && (position || speed),
         // States follow no input at once, and a mean is of the step before.
         Q::Position(..)
         | Q::Velocity(..)
@@ -79,9 +77,7 @@ fn follows(output: Q, input: Q, defect: bool, scene: &Scene) -> bool {
         | Q::CageAngle
         | Q::ElementAngle(_)
         | Q::RingAngle(_)
-        | Q::ElementSpinAngle(_)
-        | Q::ElementPath(_) => false,
-        Q::ShaftTorque => position || velocity || speed,
+        | Q::ElementSpinAngle(_) => false,
         Q::Speed(_) | Q::Load(..) | Q::Count(_) | Q::Parameter(_) => false,
     }
 }
@@ -111,15 +107,30 @@ fn starts_from(output: Q, known: Q, scene: &Scene) -> bool {
         | Q::Speed(_)
         | Q::Load(..)
         | Q::Count(_)
-        | Q::Parameter(_) => match known {
-            // Tolerance and recorder are of steps; masses and dampers of rings matter in motion.
-            Q::Parameter(
-                Parameter::Tolerance | Parameter::RecorderFolder | Parameter::RingMass(_) | Parameter::RingDamping(_),
-            ) => false,
+        | Q::Parameter(_) => match (known, known.as_input()) {
+            (Q::Parameter(parameter), _) => balances(parameter),
             // Only the cage's torque knows that a prescribed outer ring accelerates.
-            Q::Acceleration(RingName::Housing, _) => output == Q::CageTorque,
-            Q::Acceleration(RingName::Shaft, _) => false,
-            _ => true,
+            (_, Some(Input::Acceleration(RingName::Housing, _))) => output == Q::CageTorque,
+            (_, Some(Input::Acceleration(RingName::Shaft, _))) => false,
+            (_, Some(Input::Speed(_) | Input::Load(..) | Input::Position(..) | Input::Velocity(..))) => true,
+            (_, None) => false,
         },
+    }
+}
+
+/// Whether the static equilibrium depends on a parameter.
+fn balances(parameter: Parameter) -> bool {
+    match parameter {
+        // Tolerance and recorder are of steps; masses and dampers of rings matter in motion.
+        Parameter::Tolerance | Parameter::RecorderFolder | Parameter::RingMass(_) | Parameter::RingDamping(_) => false,
+        Parameter::RadialClearance
+        | Parameter::ContactDamping
+        | Parameter::ContactLaw
+        | Parameter::CageSlip
+        | Parameter::CageInitialAngle
+        | Parameter::RingInitialAngle(_)
+        | Parameter::SpinSlip
+        | Parameter::DefectAngle(_)
+        | Parameter::RingStiffness(_) => true,
     }
 }
