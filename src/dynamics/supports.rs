@@ -1,13 +1,16 @@
-//! What holds rings and sensor: a spring and a damper from each ring to the ground, and from the sensor to the outer
+//! What holds rings and sensors: a spring and a damper from each ring to the ground, and from each sensor to the outer
 //! ring.
 //!
 //! ```text
-//! f_i = −k_i x_i − c_i v_i        f_o = −k_o x_o − c_o v_o + f_s e_y        f_s = k_s (y_s − y_o) + c_s (v_s − v_o)
+//! f_i = −k_i x_i − c_i v_i     f_o = −k_o x_o − c_o v_o + Σ f_s e     f_s = k_s (s − x_o·e) + c_s (v_s − v_o·e)
 //! ```
-//! f_s acts on the sensor the other way. [`Supports::forces`] says so for all bodies at once: Jacobian and derivatives
-//! of outputs are made of it. The right-hand side takes a ring's part from `Support::ring_rates` and a sensor's from
-//! [`SensorSupport::force`], whose order of terms decides the last digits of every run. At rest only the springs of the
-//! rings are left, `Supports::ring_stiffnesses`, of which equilibrium and tangent are made.
+//! f_s acts on the sensor the other way, along its direction e. Three functions say so, because shipped bits depend on
+//! the order of terms:
+//!
+//! - [`Supports::forces`], all bodies at once, of which Jacobian and derivatives of outputs are made;
+//! - `Support::ring_rates` for the right-hand side, which sums (F − c v − k x)/m with all other forces F on a ring, not
+//!   F/m − (k x + c v)/m; a sensor's part is [`SensorSupport::force`] in both;
+//! - `Supports::ring_stiffnesses` for what is at rest, equilibrium and tangent: there only the rings' springs are left.
 
 use super::kinematics::{Kinematics, RingState};
 use crate::numerics::lanes::{Lanes, QUAD, Wide};
