@@ -134,8 +134,17 @@ def draw(stem, table, signals, raceway, normal, events, element, radius):
     for what, (when, value) in events.items():
         if what in ("least", "peak"):
             force.plot((when - start) * 1e3, value, "o", color="black", markersize=4)
+            # The least on the left, or event 3 would cross it.
+            text, side, anchor = (
+                (f"{value:.0f} N", -6, "right") if what == "least" else (f"re-load peak, {value:.0f} N", 6, "left")
+            )
             force.annotate(
-                f"{value:.0f} N", ((when - start) * 1e3, value), xytext=(6, 0), textcoords="offset points", va="center"
+                text,
+                ((when - start) * 1e3, value),
+                xytext=(side, 0),
+                textcoords="offset points",
+                ha=anchor,
+                va="center",
             )
     force.axhline(normal, color="black", linewidth=0.8, linestyle=":", label="before the entry")
     force.set_ylabel(f"force on\nelement {element} (N)")

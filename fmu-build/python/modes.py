@@ -50,7 +50,7 @@ def is_resting(angle, mode):
 def logarithmic(axis):
     axis.set_yscale("log")
     axis.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if np.ptp(np.log10(axis.get_ylim())) < 2.5 else (1,)))
-    axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}" if value >= 1 else f"{value:g}"))
+    axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.0f}" if value >= 1 else f"{value:g}"))
     axis.yaxis.set_minor_formatter(NullFormatter())
 
 
@@ -146,5 +146,10 @@ if others:
 else:
     handles = over_the_cage_angle(figure.add_gridspec(1, 2))
     figure.legend(*handles, loc="outside lower center", ncols=2)
-figure.suptitle(stem.name, x=0.01, ha="left")
+loads = [
+    f"{np.hypot(*report[f'{ring}_load_n']):g} N on the {ring}"
+    for ring in ("shaft", "housing")
+    if any(report[f"{ring}_load_n"])
+]
+figure.suptitle(", ".join([stem.name, *loads]), x=0.01, ha="left")
 plotting.save(figure, stem.with_name(stem.name + "-modes"))

@@ -15,15 +15,16 @@ def read(name):
     return plotting.read_csv(data_folder / f"{name}.csv")
 
 
-def event(axis, at, text, height=0.97):
+def event(axis, at, text, height=0.97, ha="left"):
     """A dotted line with its name at the top of the axis."""
     axis.axvline(at, color="black", linewidth=0.8, linestyle=":")
     axis.annotate(
         text,
         (at, height),
         xycoords=axis.get_xaxis_transform(),
-        xytext=(3, 0),
+        xytext=(3 if ha == "left" else -3, 0),
         textcoords="offset points",
+        ha=ha,
         va="top",
         fontsize=9,
     )
@@ -56,7 +57,7 @@ def four_events():
     axes[1].set_ylim(low, high + 0.55 * (high - low))
     for at, text in ((0.0, "leading\nedge"), (free, "free"), (again, "carries again"), (10.997, "trailing\nedge")):
         # Names that would meet stand on two heights.
-        event(axes[1], at, text, 0.8 if text in ("free", "trailing\nedge") else 0.98)
+        event(axes[1], at, text, 0.8 if text in ("free", "trailing\nedge") else 0.98, "right" if at == 0 else "left")
         for axis in (axes[0], axes[2]):
             axis.axvline(at, color="black", linewidth=0.8, linestyle=":")
     axes[0].set_title("Line spall of 15.8°, 500 N, 10 Hz: one element passes")
@@ -105,7 +106,7 @@ def epps():
         for edge in (0.0, 0.5447):
             axis.axvline(edge, color="black", linewidth=0.8, linestyle=":")
     axes[2].invert_yaxis()
-    legend_above(axes[1], ncols=4)
+    legend_above(axes[1], ncols=2)
     axes[-1].set_xlabel("time from the leading edge (ms); dotted: both edges")
     figure.align_ylabels()
     plotting.save(figure, figures / "validation-epps")
@@ -151,7 +152,7 @@ def spectrograms(name, rows, title):
         line[0].set_ylabel("frequency (Hz)")
     for axis in axes[-1]:
         axis.set_xlabel("time from the edge (ms)")
-    figure.colorbar(mesh, ax=axes, label="dB below the passage's greatest", shrink=0.6, pad=0.01)
+    figure.colorbar(mesh, ax=axes, label="level (dB re maximum of the passage)", shrink=0.6, pad=0.01)
     figure.suptitle(title, x=0.01, ha="left")
     plotting.save(figure, figures / name)
 

@@ -133,14 +133,14 @@ def draw(found, table, stem):
     figure, (motion, passes) = plt.subplots(2, 1, figsize=(plotting.WIDTH, 5.0), sharex=True)
     motion.plot(time, 1e6 * expected[:, 1], color="black", label="one FMU")
     motion.plot(time, 1e6 * rows[:, 1], ".", color=plotting.VERMILION, ms=3, label="host and FMU, iterated, H = 50 µs")
-    motion.set_ylabel("shaft.y [µm]")
+    motion.set_ylabel("shaft.y (µm)")
     motion.set_title("A shaft of 0.1 kg moved by the host, over a spall")
     motion.legend()
     for scheme, colour in [("fixed point", plotting.ORANGE), ("newton", plotting.BLUE)]:
         count = found[scheme, 5e-5][3]
-        passes.step(time[1 : len(count) + 1], count, color=colour, label=scheme)
+        passes.step(time[1 : len(count) + 1], count, color=colour, label=scheme.replace("newton", "Newton"))
     passes.set_ylabel("passes in a step")
-    passes.set_xlabel("time [ms]")
+    passes.set_xlabel("time (ms)")
     passes.legend()
     plotting.save(figure, stem)
     with open(f"{stem}.md", "w", encoding="utf-8", newline="\n") as file:
