@@ -18,6 +18,7 @@ from pathlib import Path
 
 import numpy as np
 from figures import BLACK, ORANGE, legend, plots, save
+from matplotlib.ticker import LogLocator
 from ross_bearings import SIMPSON, Coupled, Lateral, Propagator, exact, unbalance, with_bearings
 from rotor_ross import fmus_in, shown
 from scipy.optimize import least_squares
@@ -126,11 +127,12 @@ def main():
         axis.plot(between, np.abs(curve[linear.number_dof * node + 1]) * 1e6, color=BLACK, label="ROSS, linear bearing")
         axis.plot(at[:, 0], at[:, 3] * 1e6, "o", color=ORANGE, label="ROSS, FMU")
         axis.set(xlabel="shaft speed (Hz)", ylabel=f"{name}, y,\nat shaft speed (µm)", yscale="log")
+        axis.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         axis.yaxis.set_major_formatter("{x:g}")
         axis.yaxis.set_minor_formatter("")
     axes[2].plot(t * 1e3, expected * 1e6, color=BLACK, label="ROSS, linear bearing")
     axes[2].plot(t * 1e3, found * 1e6, "--", color=ORANGE, label="ROSS, FMU")
-    axes[2].set(xlabel="time after a strike on the disk (ms)", ylabel="disk, y (µm)")
+    axes[2].set(xlabel="time after an impact on the disk (ms)", ylabel="disk, y (µm)")
     axes[0].set_title("Small motion about rest, healthy bearing", loc="left")
     legend(axes[0])
     save(figure, options.output / "rotor_linear")

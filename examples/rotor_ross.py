@@ -79,8 +79,8 @@ def draw(bearing, disk, runs, passage, h, turns, settle, stem):
         t, shaft, middle = runs[name].time, runs[name].at(bearing)[:, 1] * 1e6, runs[name].at(disk)[:, 1] * 1e6
         curve(whole[name], t, shaft, colour, name, turns)
         part = t >= max(t[-1] - 4 / turns, settle)
-        axes[0].plot((t[part] - t[-1]) * turns, shaft[part], color=colour)
-        axes[1].plot((t[part] - t[-1]) * turns, middle[part], color=colour)
+        axes[0].plot((t[part] - t[-1]) * turns, shaft[part], color=colour, label=name)
+        axes[1].plot((t[part] - t[-1]) * turns, middle[part], color=colour, label=name)
         late = t >= settle
         for axis, signal in ((axes[2], shaft[late]), (axes[3], runs[name].outputs[0]["housing.ay"][late])):
             order, amplitude = spectrum(signal, h, turns)
@@ -96,14 +96,15 @@ def draw(bearing, disk, runs, passage, h, turns, settle, stem):
         axis.set_xlim(0, 11)
     axes[2].set_ylim(1e-4, None)
     axes[3].set_ylim(1e-4, None)
-    axes[0].set(ylabel="shaft in the bearing,\ny from rest (µm)", xlabel="turns of the shaft")
-    axes[1].set(ylabel="disk, y from rest\n(µm)", xlabel="turns of the shaft")
+    axes[0].set(ylabel="shaft in the bearing,\ny from rest (µm)", xlabel="turns of the shaft from the end")
+    axes[1].set(ylabel="disk, y from rest\n(µm)", xlabel="turns of the shaft from the end")
     marks = "order of shaft speed; grey marks: sidebands, BPFO ± shaft speed"
     axes[2].set(ylabel="shaft in the bearing,\ny (µm)", xlabel=marks)
     axes[3].set(ylabel="housing, y (m/s²)", xlabel="order of shaft speed")
     whole["healthy"].sharey(whole["spalled"])
     for axis in whole.values():
         axis.set(ylabel="shaft in the bearing,\ny from rest (µm)", xlabel="time (s)", xlim=(0, t[-1]))
+    for axis in (*whole.values(), *axes[:2]):
         legend(axis)
     whole["spalled"].set_title(f"ROSS rotor at {turns:g} Hz, ER16K with a spall of 15.8°", loc="left")
     save(figure, stem)

@@ -171,10 +171,10 @@ def draw(names, speeds, all_facts, stem):
             for k, passage in enumerate(one["_passages"][picked]):
                 shift = -16 * (k + 3 * [one for one, _ in here].index(name))
                 axes[2 * i + 1].plot(angle, sign * passage / one["rms"] + shift, colour, lw=0.5)
-        axes[2 * i].set(xlim=(-3, 22), ylabel="mean / RMS", title=f"{speed:g} Hz")
+        axes[2 * i].set(xlim=(-3, 22), ylabel="mean passage\n/ RMS", title=f"{speed:g} Hz")
         axes[2 * i].legend(frameon=False, loc="upper right", ncols=3)
-        axes[2 * i + 1].set(ylabel="single / RMS", yticks=[])
-    axes[-1].set_xlabel("way of the elements after the entry's onset (°)")
+        axes[2 * i + 1].set(ylabel="single passages\n/ RMS, shifted", yticks=[])
+    axes[-1].set_xlabel("element travel from the onset of the entry (degrees)")
     Path(stem).parent.mkdir(parents=True, exist_ok=True)
     figures.save(figure, stem)
 

@@ -77,7 +77,7 @@ def epps():
     top.invert_yaxis()
     top.set_xlabel("arc from the middle of the spall (mm)")
     top.set_ylabel("depth (µm)")
-    top.set_title("Etched spall of 0.8 mm on a 6205, 1500 N, 25 Hz")
+    figure.suptitle("Etched spall of 0.8 mm on a 6205, 1500 N, 25 Hz", x=0.01, ha="left")
     legend_above(top, ncols=2)
     time = data["time"] * 1e3
     panels = (
@@ -182,7 +182,7 @@ def beside():
             axis.axvline(0, color="black", linewidth=0.8, linestyle=":")
             axis.set_title(f"{who if column == 0 else 'scene with flanks'}, {speed} Hz")
             if column == 0:
-                axis.set_ylabel("acceleration (of its greatest)")
+                axis.set_ylabel("acceleration / its largest")
                 other.set_yticklabels([])
             else:
                 other.set_ylabel("envelope (dB)")
@@ -203,7 +203,7 @@ def beside():
     bottom.set_ylim(0, None)
     bottom.set_xticks(range(1, 21))
     bottom.set_xlabel("harmonic of the ball pass frequency in the averaged envelope")
-    bottom.set_ylabel("amplitude over the first's")
+    bottom.set_ylabel("amplitude / that of the first")
     bottom.legend(ncols=len(speeds))
     plotting.save(figure, figures / "validation-beside")
 
