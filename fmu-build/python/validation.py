@@ -163,6 +163,7 @@ def beside():
         return
     figure = plt.figure(figsize=(plotting.WIDTH, 2.3 * len(speeds) + 2.8))
     grid = figure.add_gridspec(len(speeds) + 1, 2)
+    shown = {}
     for row, speed in enumerate(speeds):
         for column, (who, colour) in enumerate((("recording", BLUE), ("scene", VERMILION))):
             axis = figure.add_subplot(grid[row, column])
@@ -170,12 +171,12 @@ def beside():
             data = plotting.read_csv(path)
             near = (data["angle"] > -4) & (data["angle"] < 9)
             low = data["low"][near]
-            axis.plot(data["angle"][near], low / np.abs(low).max(), color=colour, label="below 2.5 kHz")
+            axis.plot(data["angle"][near], low / np.abs(low).max(), color=colour)
             axis.set_ylim(-1.15, 1.9)
             axis.set_xlim(-4, 9)
             other = axis.twinx()
             level = data["level"][near]
-            other.plot(data["angle"][near], level - level.max(), color=GREEN, linewidth=0.9, label="envelope")
+            other.plot(data["angle"][near], level - level.max(), color=GREEN, linewidth=0.9)
             other.set_ylim(-75, 5)
             other.grid(False)
             other.spines["right"].set_visible(True)
@@ -186,11 +187,12 @@ def beside():
                 other.set_yticklabels([])
             else:
                 other.set_ylabel("envelope (dB)")
-            if row == 0 and column == 0:
-                lines = axis.get_lines()[:1] + other.get_lines()[:1]
-                legend_above(axis, lines, [line.get_label() for line in lines], ncols=2)
+            if row == 0:
+                shown[f"{who}, below 2.5 kHz"] = axis.get_lines()[0]
+                shown["envelope"] = other.get_lines()[0]
             if row == len(speeds) - 1:
                 axis.set_xlabel("element travel from the first impact (degrees)")
+    figure.legend(shown.values(), shown, loc="outside upper right", ncols=len(shown))
     bottom = figure.add_subplot(grid[len(speeds), :])
     styles = ("-", "--", ":")
     for speed, style in zip(speeds, styles * 3):

@@ -61,6 +61,20 @@ fn a_healthy_bearing_and_a_spall_below_the_limit_are_unresolved() {
 }
 
 #[test]
+fn the_passage_of_a_recording_without_a_length_is_drawn_from_its_first_impact() {
+    let report = sized(signal(0.8, 10.0, 0.05), 10.0, &scene());
+    assert_eq!(report.verdict, Verdict::Unresolved, "{:?}", report.length_deg);
+    let figure = &report.figures[0];
+    let level = |degrees: std::ops::Range<f64>| {
+        let within = figure.angle.iter().zip(&figure.level).filter(|(angle, _)| degrees.contains(angle));
+        let levels: Vec<f64> = within.map(|(_, &level)| level).collect();
+        levels.iter().sum::<f64>() / levels.len() as f64
+    };
+    let (before, after) = (level(-3.0..-1.0), level(0.0..1.0));
+    assert!(after > before + 10.0, "{before:.1} dB before, {after:.1} dB after");
+}
+
+#[test]
 fn equal_recordings_give_equal_bits() {
     let [a, b] = [(); 2].map(|()| sized(signal(5.0, 10.0, 0.1), 10.0, &scene()));
     assert_eq!(a.length_deg.map(f64::to_bits), b.length_deg.map(f64::to_bits));

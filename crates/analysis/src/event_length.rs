@@ -95,8 +95,7 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Result<EventLength, Unres
         return Err(Unresolved::LowRate(measured.rate, ENOUGH_RATE));
     }
     let grid = Grid::new(measured);
-    let envelopes = measured.envelope_rows(0.0, grid.points);
-    let Told { impacts, doubtful } = grid.told(&envelopes, &(0..envelopes.len()).collect::<Vec<_>>());
+    let Told { impacts, doubtful } = grid.told_of(measured);
     let Some(first) = impacts.first().copied() else { return Err(Unresolved::NoImpact(grid.smallest)) };
     let span = grid.span(&impacts);
     if span > 0.6 * measured.spacing {
@@ -178,9 +177,13 @@ fn unclear(picked: &Picked, span: f64, clearness: f64) -> Unresolved {
 /// All impacts of the averaged passage without echoes [degrees after the first], however many there are.
 pub fn impacts(measured: &Measured) -> Vec<f64> {
     let grid = Grid::new(measured);
-    let envelopes = measured.envelope_rows(0.0, grid.points);
-    let found = grid.told(&envelopes, &(0..envelopes.len()).collect::<Vec<_>>());
-    grid.after_first(&found.impacts)
+    grid.after_first(&grid.told_of(measured).impacts)
+}
+
+/// The first impact of the averaged passage (degrees after the start of a passage's period), if there is one.
+pub fn first_impact(measured: &Measured) -> Option<f64> {
+    let grid = Grid::new(measured);
+    grid.told_of(measured).impacts.first().map(|impact| impact.at / grid.degree)
 }
 
 /// The averaged passage that a figure shows: degrees from `from`, signal, envelope level (dB). `from` is in degrees
@@ -218,6 +221,12 @@ impl Grid {
         let smallest = (6.0 * 5.6 / (measured.passages.starts.len() as f64).sqrt()).max(3.0);
         let (rate, turns) = (degree * measured.travel(), measured.raceway == Raceway::Inner);
         Self { points, degree, width, smallest, rate, turns }
+    }
+
+    /// Impacts in the mean of all passages, told from echoes.
+    fn told_of(&self, measured: &Measured) -> Told {
+        let envelopes = measured.envelope_rows(0.0, self.points);
+        self.told(&envelopes, &(0..envelopes.len()).collect::<Vec<_>>())
     }
 
     /// Impacts in the mean of the chosen rows, told from echoes.

@@ -166,7 +166,7 @@ pub struct RecordingReport {
 }
 
 /// The averaged passage of one recording, for a figure. Angles in degrees of element travel from the first impact, or
-/// by similarity from the entry.
+/// by similarity from the entry; where no impact is found from the start of a passage's period.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
     /// Name of the recording.

@@ -246,7 +246,8 @@ impl Sized {
         let from = match (&self.waveform, &self.events) {
             (Some(w), _) => w.entry * measured.spacing,
             (None, Some(e)) => e.first,
-            _ => 0.0,
+            // Without a length, too, a passage is best seen from its first impact.
+            (None, None) => event_length::first_impact(measured).unwrap_or(0.0),
         };
         let [angle, signal, level] = event_length::averaged_passage(measured, from);
         let rate = measured.pass_frequency * signal.len() as f64;

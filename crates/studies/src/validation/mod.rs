@@ -16,7 +16,7 @@ pub mod synthetic_rig;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use brinell::scene::ContactLaw;
 
 use fmu_build::csv;
@@ -75,17 +75,27 @@ impl Values {
         self.folder.join(format!("{name}.md"))
     }
 
-    /// The template with all its tables; one that was never computed says so.
-    fn filled(&self, template: &str) -> String {
+    /// The template with all its tables; an error, if some have never been computed here.
+    fn filled(&self, template: &str) -> Result<String> {
         let mut parts = template.split("{{");
         let mut text = parts.next().unwrap_or_default().to_owned();
+        let mut missing = Vec::new();
         for part in parts {
             let (name, rest) = part.split_once("}}").unwrap_or(("", part));
-            let table = fs::read_to_string(self.path(name)).unwrap_or_else(|_| "not computed yet".to_owned());
-            text += table.trim_end();
+            match fs::read_to_string(self.path(name)) {
+                Ok(table) => text += table.trim_end(),
+                Err(_) => missing.push(name),
+            }
             text += rest;
         }
-        text
+        ensure!(
+            missing.is_empty(),
+            "page and figures are left as they were: of their tables {} have never been computed here; run once without \
+             --only. What was computed is in {}",
+            missing.join(", "),
+            self.folder.display()
+        );
+        Ok(text)
     }
 }
 
@@ -122,7 +132,7 @@ pub fn command(project: &Project, options: &Options, docs: &Path) -> Result<()> 
     }
     values.set("recordings", recordings::last(docs))?;
     let path = docs.join("validation.md");
-    whole_file::write(&path, values.filled(TEMPLATE))?;
+    whole_file::write(&path, values.filled(TEMPLATE)?)?;
     println!("{}", path.display());
     if options.figures {
         let python = Python::prepare(project)?;
@@ -147,4 +157,19 @@ fn write_csv(project: &Project, name: &str, names: &[(String, &str)], columns: &
         }
         Ok(())
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_page_lacks_no_table() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut values = Values { folder: folder.path().to_owned() };
+        values.set("there", "| 1 |\n".to_owned()).unwrap();
+        assert_eq!(values.filled("a {{there}} b").unwrap(), "a | 1 | b");
+        let error = values.filled("{{there}} {{one}} {{another}}").unwrap_err().to_string();
+        assert!(error.contains("one, another have never been computed"), "{error}");
+    }
 }
