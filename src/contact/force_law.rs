@@ -121,6 +121,14 @@ impl ForceLaw {
         }
     }
 
+    /// Elastic tangent stiffness (N/m) under an elastic force (N); of a ball 1.5 K^⅔ Q^⅓.
+    pub fn stiffness_under(&self, force: f64) -> f64 {
+        match self.elasticity {
+            Elasticity::Point => 1.5 * libm::cbrt(self.stiffness * self.stiffness * force),
+            _ => self.elastic_stiffness(self.approach_under(force)),
+        }
+    }
+
     /// Change of the elastic tangent stiffness with the approach (N/m²), at approach `delta` (m) above 0.
     #[inline]
     pub fn hardening(&self, delta: f64) -> f64 {
@@ -176,6 +184,7 @@ impl ForceLaw {
         if !matches!(self.elasticity, Elasticity::Point) {
             return self.line_with_derivatives(delta, rate);
         }
+        // As of a line contact, with the factors in the order in which the results of balls have their bits.
         let root = self.stiffness * delta.sqrt();
         match self.damping {
             Damping::HuntCrossley(chi) => Force {

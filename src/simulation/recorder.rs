@@ -15,7 +15,6 @@ use super::outputs::{Angles, Outputs};
 use super::quantity::Quantity;
 use super::setup::largest_force;
 use super::variables::{Causality, Variable};
-use crate::contact::elasticity::Elasticity;
 use crate::contact::smooth_laws::smooth_laws;
 use crate::scene::{self, RecorderFilter, Scene};
 
@@ -242,13 +241,10 @@ fn fill(values: &mut [f64], signals: &[Signal], outputs: &Outputs) {
 }
 
 /// Frequency of an element between its raceways when the largest force presses on it (Hz): the fastest oscillation of a
-/// bearing. Of a ball dQ/dδ = 1.5 K^⅔ Q^⅓ for each contact.
+/// bearing.
 fn element_frequency(scene: &Scene) -> f64 {
     let force = largest_force(scene);
-    let [inner, outer] = smooth_laws(&scene.bearing, scene.contact.damping).map(|law| match law.elasticity {
-        Elasticity::Point => 1.5 * libm::cbrt(law.stiffness * law.stiffness * force),
-        _ => law.elastic_stiffness(law.approach_under(force)),
-    });
+    let [inner, outer] = smooth_laws(&scene.bearing, scene.contact.damping).map(|law| law.stiffness_under(force));
     ((inner + outer) / scene.bearing.mass_of_element()).sqrt() / TAU
 }
 
