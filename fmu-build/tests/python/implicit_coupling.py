@@ -145,7 +145,7 @@ def draw(found, table, stem):
     plotting.save(figure, stem)
     with open(f"{stem}.md", "w", encoding="utf-8", newline="\n") as file:
         file.write(
-            "| scheme | step [µs] | error / largest excursion | passes, mean | passes, most |\n|---|---|---|---|---|\n"
+            "| scheme | step (µs) | error / largest excursion | passes, mean | passes, most |\n|---|---|---|---|---|\n"
         )
         for scheme, step, error, mean, most in table:
             shown = "unstable" if not np.isfinite(error) or error > 1 else f"{error:.1e}"
