@@ -8,10 +8,11 @@ mod half_space;
 mod laws;
 mod same_bits;
 
-use crate::case::{Case, Motion, On, on_the_outer_raceway, random};
+use crate::case::{Case, Motion, On};
 use crate::draw::{Draw, for_seeds};
 use crate::oracle::Bearing;
 use crate::oracle::signals::{Kind, signals};
+use crate::random_case::{on_the_outer_raceway, random};
 use crate::subject::Subject;
 use crate::units::{HORIZON, LIMIT, differences, largest_force, units};
 use brinell::simulation::{Method, SimulationError};

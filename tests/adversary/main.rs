@@ -22,4 +22,4 @@ mod support;
 mod units;
 
 use brinell_oracle as oracle;
-use brinell_oracle::{case, draw};
+use brinell_oracle::{case, draw, random_case};

@@ -4,11 +4,12 @@ mod found;
 mod judge;
 mod report;
 
-use crate::case::{Case, random};
+use crate::case::Case;
 use crate::draw::{Draw, for_seeds, seeds};
 use crate::oracle::Bearing;
 use crate::oracle::envelope::within_half_a_turn;
-use crate::oracle::surfaces::Surface;
+use crate::oracle::surface::Surface;
+use crate::random_case::random;
 use crate::subject::Subject;
 use brinell::contact::error::ContactError;
 use brinell::contact::near_defect::Lever;

@@ -7,7 +7,7 @@ use crate::case::{Case, Damping, Defect, Mode, Motion};
 use crate::oracle::Bearing;
 use crate::oracle::envelope::Feature;
 use crate::oracle::signals::Kind;
-use crate::oracle::surfaces::Surface;
+use crate::oracle::surface::Surface;
 use std::collections::BTreeMap;
 
 /// Units that a difference may have: many steps follow each other, each wrong by up to one.

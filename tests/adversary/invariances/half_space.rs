@@ -2,12 +2,13 @@
 //! at the start and along a run that goes over the defect.
 
 use super::laws::{half_contact, pressed, standing, trace};
-use crate::case::{Case, Damping, Defect, Grooves, Length, On, Shape, Topography, bowl};
+use crate::case::{Case, Damping, Defect, Grooves, Length, On, Shape, Topography};
 use crate::draw::{Draw, for_seeds};
 use crate::oracle::Bearing;
 use crate::oracle::envelope::Pair;
 use crate::oracle::half_space::HalfSpace;
 use crate::oracle::signals::signals;
+use crate::random_case::bowl;
 use crate::subject::Subject;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;

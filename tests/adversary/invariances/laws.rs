@@ -3,9 +3,10 @@
 //! One element stands somewhere over a defect, pressed outwards by the inner ring, which the host holds.
 
 use super::course;
-use crate::case::{Case, Damping, Defect, Grooves, Host, Length, Motion, On, Ring, Shape, Step, bowl};
+use crate::case::{Case, Damping, Defect, Grooves, Host, Length, Motion, On, Ring, Shape, Step};
 use crate::draw::{Draw, for_seeds};
 use crate::oracle::Bearing;
+use crate::random_case::bowl;
 use crate::subject::Subject;
 
 /// A bearing of one element without a defect, and how far it is pressed outwards (m).

@@ -3,10 +3,11 @@
 //! For rings at given positions each element is balanced by halving; then the free rings go downhill in the square of
 //! the force on them (Levenberg and Marquardt, with difference quotients).
 
-use super::run::{Pace, Run};
-use super::surfaces::Stretches;
-use super::{Acting, Bearing, ELEMENTS, Outside};
+use crate::bearing::Bearing;
 use crate::case::{Case, Motion};
+use crate::instant::{Acting, ELEMENTS, Outside};
+use crate::run::{Pace, Run};
+use crate::surface::Stretches;
 use std::f64::consts::TAU;
 
 struct Search<'a> {

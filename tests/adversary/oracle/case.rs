@@ -2,16 +2,11 @@
 //!
 //! The simulation gets it as the text of a scene file and by setting inputs; the oracle reads the numbers themselves.
 
-mod inputs;
 mod parts;
-mod random;
 mod shape;
 mod transform;
-mod whole;
 
 pub use parts::{Film, Mode, Roller};
-pub use random::{Kind, PHASE, fastest, of_dry_balls, on_the_outer_raceway, random};
-pub use shape::bowl;
 pub use transform::Factors;
 
 use std::fmt::Write;

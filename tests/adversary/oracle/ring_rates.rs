@@ -1,7 +1,9 @@
 //! What rings, the sensor and its modes do under the forces of the contacts.
 
-use super::{Acting, Bearing, Outside, SENSOR, quadratic};
+use crate::bearing::Bearing;
 use crate::case::Motion;
+use crate::instant::{Acting, Outside, SENSOR};
+use crate::turning::quadratic;
 use std::f64::consts::TAU;
 
 impl Bearing {

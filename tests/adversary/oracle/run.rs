@@ -2,10 +2,13 @@
 //! begins or ceases to push. After such a change of contact, and at each communication point, the steps begin small and
 //! grow, because a force sets in as δ^1.5 or √δ.
 
-use super::growth::Growth;
-use super::surfaces::Stretches;
-use super::{Acting, Bearing, ELEMENTS, Outside, SENSOR, quadratic};
+use crate::bearing::Bearing;
 use crate::case::{Host, Motion};
+use crate::growth::Growth;
+use crate::instant::{Acting, ELEMENTS, Outside, SENSOR};
+use crate::signals;
+use crate::surface::Stretches;
+use crate::turning::quadratic;
 use std::f64::consts::{PI, TAU};
 
 /// Why a run ended early.
@@ -21,7 +24,7 @@ pub enum Stop {
 
 /// One run of the oracle.
 pub struct Run<'a> {
-    pub(super) bearing: &'a Bearing,
+    bearing: &'a Bearing,
     pub y: Vec<f64>,
     pub outside: Outside,
     pub acting: Acting,
@@ -93,6 +96,11 @@ impl<'a> Run<'a> {
                 self.largest[side] = self.largest[side].max(contacts[side].approach);
             }
         }
+    }
+
+    /// The signals now, after a communication step of this length, in the order of [`signals::signals`].
+    pub fn values(&self, length: f64) -> Vec<f64> {
+        signals::values(self.bearing, &self.y, &self.outside, &self.acting, length)
     }
 
     pub fn bearing(&self) -> &Bearing {

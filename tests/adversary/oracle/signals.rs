@@ -1,8 +1,8 @@
 //! What is compared: the oracle's signals under the names of the variables.
 
-use super::ELEMENTS;
-use super::run::Run;
+use crate::bearing::Bearing;
 use crate::case::{Case, Motion, On};
+use crate::instant::{Acting, ELEMENTS, Outside};
 use std::f64::consts::TAU;
 
 /// What a signal is measured in.
@@ -58,43 +58,41 @@ pub fn signals(case: &Case) -> Vec<(String, Kind)> {
     found
 }
 
-impl Run<'_> {
-    /// The signals now, after a communication step of this length, in the order of [`signals`].
-    pub fn values(&self, length: f64) -> Vec<f64> {
-        let mut found = Vec::new();
-        let impulses = &self.y[ELEMENTS + 2 * self.bearing.count..][..4];
-        for which in 0..2 {
-            found.extend(self.acting.rings[which]);
-            match self.bearing.rings[which].motion {
-                Motion::Internal => {
-                    found.extend(&self.y[4 * which..4 * which + 4]);
-                    found.extend(self.acting.accelerations[which]);
-                }
-                Motion::Host if length == 0.0 => found.extend(self.acting.rings[which]),
-                Motion::Host => found.extend([0, 1].map(|a| impulses[2 * which + a] / length)),
-                Motion::Fixed => {}
+/// The signals of a run as it is, after a communication step of this length, in the order of [`signals`].
+pub(crate) fn values(bearing: &Bearing, y: &[f64], outside: &Outside, acting: &Acting, length: f64) -> Vec<f64> {
+    let mut found = Vec::new();
+    let impulses = &y[ELEMENTS + 2 * bearing.count..][..4];
+    for which in 0..2 {
+        found.extend(acting.rings[which]);
+        match bearing.rings[which].motion {
+            Motion::Internal => {
+                found.extend(&y[4 * which..4 * which + 4]);
+                found.extend(acting.accelerations[which]);
             }
+            Motion::Host if length == 0.0 => found.extend(acting.rings[which]),
+            Motion::Host => found.extend([0, 1].map(|a| impulses[2 * which + a] / length)),
+            Motion::Fixed => {}
         }
-        let [cage, shaft, housing, spin] = self.outside.turns.map(|turn| turn[0]);
-        if self.bearing.inner_defective {
-            found.extend([shaft, self.acting.shaft_torque]);
-        }
-        if self.bearing.turns {
-            found.push(housing);
-        }
-        for (j, own) in self.bearing.surfaces.own.iter().enumerate() {
-            if let Some([_, outside]) = own {
-                found.push(outside.centre + spin - (cage + TAU * j as f64 / self.bearing.count as f64));
-            }
-        }
-        if self.bearing.sensor.is_some() {
-            found.push(self.acting.measured);
-        }
-        found.extend([cage, self.acting.torque]);
-        for j in 0..self.bearing.count {
-            let [inner, outer] = self.acting.contacts[j];
-            found.extend([self.y[ELEMENTS + 2 * j], inner.force, outer.force]);
-        }
-        found
     }
+    let [cage, shaft, housing, spin] = outside.turns.map(|turn| turn[0]);
+    if bearing.inner_defective {
+        found.extend([shaft, acting.shaft_torque]);
+    }
+    if bearing.turns {
+        found.push(housing);
+    }
+    for (j, own) in bearing.surfaces.own.iter().enumerate() {
+        if let Some([_, outside]) = own {
+            found.push(outside.centre + spin - (cage + TAU * j as f64 / bearing.count as f64));
+        }
+    }
+    if bearing.sensor.is_some() {
+        found.push(acting.measured);
+    }
+    found.extend([cage, acting.torque]);
+    for j in 0..bearing.count {
+        let [inner, outer] = acting.contacts[j];
+        found.extend([y[ELEMENTS + 2 * j], inner.force, outer.force]);
+    }
+    found
 }

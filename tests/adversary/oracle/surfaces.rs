@@ -1,35 +1,12 @@
 //! Where defects are: on which body, how it turns, and which of its parts a contact is over.
 
-use super::envelope::{Envelope, Feature, Pair, within_half_a_turn};
-use super::{Bearing, Outside, Seat, quadratic};
+use crate::bearing::Bearing;
 use crate::case::{Case, Defect, On, Shape};
+use crate::envelope::{Envelope, Feature, Pair};
+use crate::instant::{Outside, Seat};
+use crate::surface::{Stretches, Surface, Surfaces};
+use crate::turning::{HOUSING, SHAFT, SPIN, Turns, quadratic};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-
-/// Which of the turns a body follows.
-pub const SHAFT: usize = 1;
-pub const HOUSING: usize = 2;
-pub const SPIN: usize = 3;
-
-/// Angle, speed and acceleration of cage, shaft, housing and spin.
-pub type Turns = [[f64; 3]; 4];
-
-/// The defects of a body as one raceway's contacts meet them.
-pub struct Surface {
-    pub envelope: Envelope,
-    /// Angle of the first one's middle (rad) in its frame.
-    pub centre: f64,
-    pub frame: usize,
-}
-
-/// All surfaces: those of the rings, and those of each element on the inner and the outer raceway.
-#[derive(Default)]
-pub struct Surfaces {
-    pub rings: [Option<Surface>; 2],
-    pub own: Vec<Option<[Surface; 2]>>,
-}
-
-/// Of an element's two contacts, the stretches of the ring's surface and of its own that they are in.
-pub type Stretches = [[usize; 2]; 2];
 
 /// The surface that a contact is over, with its number and the stretch, and P, dP/dψ and the speed past it.
 pub struct Over<'a> {
@@ -41,25 +18,14 @@ pub struct Over<'a> {
     pub rate: f64,
 }
 
-impl Surface {
-    /// Angle from the defect's middle to a direction in which the bodies touch, within half a turn.
-    pub fn psi(&self, direction: f64, turns: &Turns) -> f64 {
-        within_half_a_turn(direction - turns[self.frame][0] - self.centre)
-    }
-}
-
-impl Seat {
-    /// Direction of the element from a ring's centre, and how fast that turns.
-    pub fn turning(&self, side: usize, turns: &Turns) -> [f64; 2] {
-        if side == 1 {
-            return [self.angle, turns[0][1]];
-        }
-        let ([x, y], [vx, vy]) = (self.q, self.q_rate);
-        [y.atan2(x), (x * vy - y * vx) / (x * x + y * y)]
-    }
-}
-
 impl Bearing {
+    /// That of a case with its defects.
+    pub fn new(case: &Case) -> Self {
+        let mut bearing = Self::smooth(case);
+        bearing.surfaces = of(&bearing, case).unwrap_or_default();
+        bearing
+    }
+
     /// What element `j` may meet on the inner or the outer raceway: the ring's defects, and its own.
     pub fn surfaces(&self, side: usize, j: usize) -> [Option<&Surface>; 2] {
         let own = self.surfaces.own.get(j).and_then(Option::as_ref);
@@ -129,7 +95,7 @@ impl Bearing {
 }
 
 /// The surfaces of a case; none where a topography has no envelope.
-pub fn of(bearing: &Bearing, case: &Case) -> Option<Surfaces> {
+fn of(bearing: &Bearing, case: &Case) -> Option<Surfaces> {
     let (r, r_o) = (bearing.r, bearing.rho_0 + bearing.r);
     let r_i = bearing.rho_0 - bearing.clearance - r;
     let surface = |pair: Pair, frame: usize, from: f64, body: &[&Defect]| {

@@ -1,10 +1,11 @@
 //! Scenes that have failed once, each with what was wrong.
 
 use super::judge::{Verdict, judge, start};
-use crate::case::{Case, Damping, Grooves, Motion, Ring, Step, of_dry_balls, on_the_outer_raceway};
+use crate::case::{Case, Damping, Grooves, Motion, Ring, Step};
 use crate::draw::Draw;
 use crate::oracle::Bearing;
 use crate::oracle::signals::signals;
+use crate::random_case::{of_dry_balls, on_the_outer_raceway};
 use crate::subject::Subject;
 use brinell::contact::error::ContactError;
 use brinell::simulation::SimulationError;

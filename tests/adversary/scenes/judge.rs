@@ -4,12 +4,13 @@
 //! and what the oracle makes of a push of one unit at the start: elements that bounce make small differences large. A
 //! scene is judged as long as all that is small beside the forces themselves.
 
-use crate::case::{Case, Motion, Shape, Step, fastest};
+use crate::case::{Case, Motion, Shape, Step};
 use crate::oracle::balance;
 use crate::oracle::run::{Pace, Run, Stop};
 use crate::oracle::signals::{Kind, signals};
 use crate::oracle::surfaces::closest;
 use crate::oracle::{Bearing, ELEMENTS, SENSOR};
+use crate::random_case::fastest;
 use crate::subject::Subject;
 use crate::units::{HORIZON, LIMIT, differences, largest_force, position_error, rounding, slope_error, units};
 use brinell::contact::error::ContactError;
@@ -18,7 +19,7 @@ use brinell::surface::SurfaceError;
 use std::collections::BTreeMap;
 
 /// Phase of the fastest motion in one step of the oracle; its reference takes half of it.
-const PHASE: f64 = crate::case::PHASE;
+const PHASE: f64 = crate::random_case::PHASE;
 /// Steps times elements of the oracle's first run.
 const WORK: f64 = 8e5;
 

@@ -1,7 +1,7 @@
 //! What many random scenes came to: the section of `docs/stability.md`.
 
 use super::judge::{Measure, Verdict};
-use crate::case::Kind;
+use crate::random_case::Kind;
 use brinell::simulation::SimulationError;
 use std::collections::BTreeMap;
 use std::fmt::{self, Display, Formatter, Write};

@@ -1,6 +1,7 @@
 //! The same scene seen from elsewhere: turned, mirrored, made of other lengths, forces and times, its steps cut.
 
-use super::{Case, Damping, Grooves, Host, Length, On, Shape, Step, Topography};
+use super::{Case, Damping, Grooves, Host, Length, Motion, On, Shape, Step, Topography};
+use crate::turning::quadratic;
 
 /// Factors of length, force and time.
 #[derive(Debug, Clone, Copy)]
@@ -121,7 +122,7 @@ impl Case {
         for host in self.steps.iter_mut().filter_map(|step| step.host.as_mut()) {
             host.speeds = host.speeds.map(|speed| [speed[0] / time, speed[1] / (time * time)]);
             for which in 0..2 {
-                let internal = self.rings[which].motion == super::Motion::Internal;
+                let internal = self.rings[which].motion == Motion::Internal;
                 let unit = if internal { force } else { length };
                 for axis in &mut host.rings[which] {
                     *axis = [axis[0] * unit, axis[1] * unit / time, axis[2] * unit / (time * time)];
@@ -150,7 +151,7 @@ impl Host {
     pub fn later(&self, time: f64) -> Self {
         Self {
             speeds: self.speeds.map(|[speed, slope]| [speed + time * slope, slope]),
-            rings: self.rings.map(|ring| ring.map(|c| crate::quadratic(c, time))),
+            rings: self.rings.map(|ring| ring.map(|c| quadratic(c, time))),
         }
     }
 }

@@ -4,13 +4,22 @@
 //! stiffness, a speed by how far it turns the cage in the time that can be computed. Otherwise most scenes would be
 //! either rigid or broken.
 
-use super::inputs::Inputs;
-use super::parts::{self, Elements};
-use super::shape::{self, Around};
-use super::whole::{self, Space};
-use super::{Case, Damping, Defect, Grooves, Motion, On, Ring, Step};
-use crate::Bearing;
+mod inputs;
+mod parts;
+mod scale;
+mod shape;
+mod space;
+
+pub use shape::bowl;
+
+use crate::bearing::Bearing;
+use crate::case::{Case, Damping, Defect, Grooves, Motion, On, Ring, Step};
 use crate::draw::Draw;
+use inputs::Inputs;
+use parts::Elements;
+use scale::Scale;
+use shape::Around;
+use space::Space;
 use std::f64::consts::{PI, TAU};
 
 /// What is counted.
@@ -28,20 +37,6 @@ pub struct Kind {
 const WORK: f64 = 3e5;
 /// Phase of the fastest motion in one step of the oracle.
 pub const PHASE: f64 = 0.03;
-
-/// A bearing while it is drawn.
-pub(super) struct Scale {
-    pub(super) r: f64,
-    rollers: bool,
-    raceway: f64,
-    inner: f64,
-    pub(super) approach: f64,
-    /// Tangent stiffness of the two contacts in series and of both beside each other (N/m).
-    stiffness: f64,
-    mass: f64,
-    /// Angular frequency of an element between its raceways (rad/s).
-    pub(super) omega: f64,
-}
 
 /// A random scene of the whole space.
 pub fn random(draw: &mut Draw) -> (Kind, Case) {
@@ -78,11 +73,11 @@ fn scene(draw: &mut Draw, space: Space, mut parts_draw: Option<Draw>) -> (Kind, 
     if draw.chance(0.8) {
         let on = space.body(draw, case.count);
         let (name, defect) = defect(draw, space, &scale, on, f64::INFINITY);
-        (kind.on, kind.defect) = (whole::body_name(defect.on), name);
+        (kind.on, kind.defect) = (space::body_name(defect.on), name);
         case.defects.push(defect);
         for _ in 0..space.more(draw) {
             more(draw, space, &scale, &mut case);
-            kind.on = whole::bodies_name(&case.defects);
+            kind.on = space::bodies_name(&case.defects);
         }
     }
     case.cage_deg = draw.between(-180.0, 180.0);
@@ -120,17 +115,6 @@ fn more(draw: &mut Draw, space: Space, scale: &Scale, case: &mut Case) {
         defect.angle_deg = last.angle_deg + (away / bearer).to_degrees() * draw.sign();
     }
     case.defects.push(defect);
-}
-
-impl Scale {
-    /// Radius of the body with a defect (m).
-    fn bearer(&self, on: On) -> f64 {
-        match on {
-            On::Outer => self.raceway,
-            On::Inner => self.inner,
-            On::Element { .. } => self.r,
-        }
-    }
 }
 
 fn bearing(draw: &mut Draw) -> Case {

@@ -1,7 +1,7 @@
 //! What the host of a random scene feeds, communication step by communication step.
 
-use super::random::Scale;
-use super::{Case, Host, Motion};
+use super::scale::Scale;
+use crate::case::{Case, Host, Motion};
 use crate::draw::Draw;
 use std::f64::consts::TAU;
 

@@ -1,6 +1,6 @@
 //! What random scenes have beyond a defect of an outer raceway at rest.
 
-use super::{Case, Defect, Length, On, Shape};
+use crate::case::{Case, Defect, On, Shape};
 use crate::draw::Draw;
 
 /// Which scenes are drawn.
@@ -74,16 +74,6 @@ impl Space {
         }
         case.housing_hz = Some(0.0);
         if draw.chance(0.3) { [0.0, 1.0] } else { [1.0, draw.log(0.05, 3.0) * draw.sign()] }
-    }
-}
-
-impl Length {
-    /// In metres, along a body of this radius.
-    pub fn on(self, radius: f64) -> f64 {
-        match self {
-            Self::Degrees(degrees) => degrees.to_radians() * radius,
-            Self::Millimetres(length) => length * 1e-3,
-        }
     }
 }
 
