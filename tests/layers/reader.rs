@@ -32,32 +32,59 @@ pub(super) fn without_tests(files: Vec<File>) -> Vec<File> {
 
 /// Every path within the crate that a module's text names by `crate::`, `super::` or `self::`, from the crate's root.
 pub(super) fn named(module: &Path, text: &str) -> Vec<Path> {
+    named_at(module, &without_comments(text)).into_iter().map(|(_, path)| path).collect()
+}
+
+/// Every module at the crate's root that a module's text names, alone or in braces, with its line; without a name where
+/// it is the root itself. Comments do not count.
+pub(super) fn imports(module: &Path, text: &str) -> Vec<(usize, String)> {
     let code = without_comments(text);
-    let mut found: Vec<Path> = after("crate::", &code).flat_map(|at| paths(&code[at..])).collect();
+    let roots = code.match_indices("crate as ").map(|(at, _)| (at, Path::new()));
+    let mut named: Vec<(usize, Path)> = named_at(module, &code).into_iter().chain(roots).collect();
+    named.sort_by_key(|(at, _)| *at);
+    let line = |at: usize| code[..at].matches('\n').count() + 1;
+    let mut found: Vec<_> =
+        named.into_iter().map(|(at, path)| (line(at), path.first().cloned().unwrap_or_default())).collect();
+    found.dedup();
+    found
+}
+
+/// What [`named`] finds in code without comments, and where.
+fn named_at(module: &Path, code: &str) -> Vec<(usize, Path)> {
+    let each = |at: usize| paths(&code[at..]).into_iter().map(move |path| (at, path));
+    let mut found: Vec<(usize, Path)> = after("crate::", code).flat_map(each).collect();
     for (keyword, least) in [("super::", 1), ("self::", 0)] {
-        for at in after(keyword, &code) {
+        for at in after(keyword, code) {
             let (mut up, mut rest) = (least, &code[at..]);
             while let Some(further) = rest.strip_prefix("super::") {
                 (up, rest) = (up + 1, further);
             }
+            if rest.starts_with("super as ") {
+                (up, rest) = (up + 1, "self");
+            }
+            let module = [&module[..], &inline_modules(&code[..at])].concat();
             if let Some(depth) = module.len().checked_sub(up) {
-                found.extend(paths(rest).into_iter().map(|path| [&module[..depth], &path].concat()));
+                found.extend(paths(rest).into_iter().map(|path| (at, [&module[..depth], &path].concat())));
             }
         }
     }
     found
 }
 
-/// Every name that follows `crate::`, alone or in braces, with its line; comments do not count.
-pub(super) fn imports(text: &str) -> Vec<(usize, String)> {
-    let code = without_comments(text);
-    let mut found = Vec::new();
-    for at in after("crate::", &code) {
-        let line = code[..at].matches('\n').count() + 1;
-        found.extend(paths(&code[at..]).into_iter().filter_map(|path| Some((line, path.first()?.clone()))));
+/// The modules that are open at the end of a part of a formatted file: those whose brace has not been closed.
+fn inline_modules(code: &str) -> Path {
+    let mut open: Vec<(usize, String)> = Vec::new();
+    for line in code.lines() {
+        let rest = line.trim_start();
+        let indent = line.len() - rest.len();
+        let head = rest.split_once("mod ").filter(|(before, _)| before.is_empty() || before.starts_with("pub"));
+        if let Some(name) = head.and_then(|(_, after)| after.strip_suffix(" {")) {
+            open.push((indent, name.to_owned()));
+        } else if rest == "}" {
+            open.retain(|(of, _)| *of != indent);
+        }
     }
-    found.dedup();
-    found
+    open.into_iter().map(|(_, name)| name).collect()
 }
 
 /// What a file's own `use` lines bring, those of its functions not counted.
