@@ -146,6 +146,18 @@ fn the_lists_of_architecture_have_every_module_below_all_that_use_it() {
     }
 }
 
+#[test]
+fn architecture_says_in_how_many_files_the_two_largest_types_have_their_methods() {
+    let root = brinell_tests::root();
+    let page = fs::read_to_string(root.join("ARCHITECTURE.md")).unwrap();
+    let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+    for (of, layer) in [("Model", "dynamics"), ("Simulation", "simulation")] {
+        let block = format!("\nimpl {of} {{\n");
+        let files = files_of(&root.join("src"), layer).into_iter().filter(|file| read(file).contains(&block)).count();
+        assert!(page.contains(&format!("`impl {of}` stands in {files} files")), "`impl {of}` stands in {files} files");
+    }
+}
+
 /// Path of a file's module from its crate's root.
 fn module(source: &Path, file: &Path) -> reader::Path {
     let inside = file.strip_prefix(source).unwrap().with_extension("");
