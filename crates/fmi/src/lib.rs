@@ -1,7 +1,9 @@
 //! A Brinell bearing as hosts of the Functional Mock-up Interface see it: the dynamic library inside an FMU.
 //!
-//! The only crate of the workspace that exports C functions, and the only one with `unsafe` code. It touches no
-//! floating-point control state, starts no thread, keeps nothing in thread-local storage and prints nothing.
+//! The only crate of the workspace that exports C functions. Tests and benches aside it is the only one with `unsafe`
+//! code, but for the small host of the command `check` (`fmu-build/src/slave.rs`, `slave3.rs`), which calls such
+//! functions. It touches no floating-point control state, starts no thread, keeps nothing in thread-local storage and
+//! prints nothing.
 //!
 //! | file | knows |
 //! |---|---|
