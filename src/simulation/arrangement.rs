@@ -198,7 +198,7 @@ pub fn largest_force(scene: &Scene) -> f64 {
     if let Some(force) = scene.contact.largest_force {
         return force;
     }
-    let load = [scene.shaft.load, scene.housing.load].iter().map(|f| f[0].hypot(f[1])).fold(0.0, f64::max);
+    let load = [scene.shaft.load, scene.housing.load].iter().map(|f| libm::hypot(f[0], f[1])).fold(0.0, f64::max);
     let needed = 4.0 * crate::geometry::STRIBECK * load / scene.bearing.element_count as f64;
     let mut decade = LEAST_FORCE;
     while 10.0 * decade < needed {
