@@ -8,7 +8,7 @@ use anyhow::{Context, Result};
 use brinell::contact::rolling::RacewaySide;
 use brinell::scene::{DefectOn, Scene};
 use brinell_analysis::contact_pressure::{BallOnRaceway, Pressed};
-use brinell_analysis::contact_report::{ContactReport, Section};
+use brinell_analysis::contact_report::{ContactReport, Section, StressAt};
 use brinell_analysis::subsurface::Stress;
 use clap::ValueEnum;
 
@@ -119,7 +119,7 @@ fn write_surface(out: &mut impl Write, pressed: &Pressed) -> Result<()> {
 }
 
 /// Stresses at points, and beside them, where there are any, von Mises' of Hertz's contact.
-fn write_stresses(out: &mut impl Write, points: &[([f64; 3], Stress)], hertz: &[f64]) -> Result<()> {
+fn write_stresses(out: &mut impl Write, points: &[StressAt], hertz: &[f64]) -> Result<()> {
     let position = [("x", "m"), ("y", "m"), ("depth", "m")];
     let mut stresses: Vec<_> =
         ["xx", "yy", "zz", "xy", "xz", "yz", "von_mises"].map(|name| format!("stress.{name}")).into();
@@ -127,8 +127,8 @@ fn write_stresses(out: &mut impl Write, points: &[([f64; 3], Stress)], hertz: &[
         stresses.push("hertz.von_mises".to_owned());
     }
     csv::header(out, position.into_iter().chain(stresses.iter().map(|name| (name.as_str(), "Pa"))))?;
-    for (i, (at, stress)) in points.iter().enumerate() {
-        let values = at.iter().chain(&stress.normal).chain(&stress.shear).copied();
+    for (i, StressAt { point, stress }) in points.iter().enumerate() {
+        let values = point.iter().chain(&stress.normal).chain(&stress.shear).copied();
         csv::row(out, values.chain([stress.von_mises()]).chain(hertz.get(i).copied()))?;
     }
     Ok(())

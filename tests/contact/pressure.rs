@@ -163,7 +163,7 @@ fn spalled() -> Scene {
 
 /// Force of law `love` over that on the fine grid, of a ball `s` (m) from the spall's middle pressed by a force (N).
 fn love_over_pressed(ball: &BallOnRaceway, s: f64, pressed: &Pressed, force: f64, grid: Resolution) -> f64 {
-    let (surface, _) = &ball.defects[0];
+    let surface = &ball.defects[0].surface;
     let mut love = LoveContact::new(ball.bodies, surface, 20e-6, grid).unwrap();
     let equivalent = love.solve(pressed.approach, s).unwrap();
     // W(u) = W_smooth(Δ(u)), hence F = F_smooth(Δ) ∂Δ/∂u. The smooth raceway's force is that of true circles, to which

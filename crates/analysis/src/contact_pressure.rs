@@ -8,6 +8,7 @@
 //!
 //! Invalid where the contact is not small against the ball, and beyond the elastic limit.
 
+use super::defect_below::DefectBelow;
 use brinell::contact::conjugate_gradients::ConjugateGradients;
 use brinell::contact::element_on_raceway::{Across, ElementOnRaceway};
 use brinell::contact::error::ContactError;
@@ -78,8 +79,8 @@ pub struct BallOnRaceway {
     pub effective_modulus: f64,
     /// Poisson's ratio of both bodies.
     pub poissons_ratio: f64,
-    /// The raceway's defects, each with the arc (m) of the ball from its middle.
-    pub defects: Vec<(Surface, f64)>,
+    /// The raceway's defects.
+    pub defects: Vec<DefectBelow>,
 }
 
 /// Hertz's contact of the same force on the smooth raceway.
@@ -156,7 +157,7 @@ impl BallOnRaceway {
             bodies: ElementOnRaceway::of(bearing, side).checked()?,
             effective_modulus: effective_modulus(bearing),
             poissons_ratio: bearing.poissons_ratio,
-            defects: there.into_iter().map(|(defect, surface)| (surface, arc(defect.angle))).collect(),
+            defects: there.into_iter().map(|(of, surface)| DefectBelow { surface, arc: arc(of.angle) }).collect(),
         })
     }
 
@@ -186,7 +187,7 @@ impl BallOnRaceway {
 
     /// Where the depth jumps, along the raceway (m) from the point below the ball's centre.
     pub fn edges(&self) -> impl Iterator<Item = f64> {
-        self.defects.iter().flat_map(|(surface, arc)| surface.edges().into_iter().map(move |edge| edge - arc))
+        self.defects.iter().flat_map(DefectBelow::edges)
     }
 
     /// Pressure under a force (N), on `resolution` cells in each direction.
@@ -256,9 +257,7 @@ impl BallOnRaceway {
         let modulus = self.effective_modulus;
         let sampled = GridProblem::sampled(n, n, cell, modulus, smooth, Border::Window)?;
         let mut depth = vec![0.0; n * n];
-        for (surface, arc) in &self.defects {
-            add_depth(surface, *arc, *window, cell, &mut depth);
-        }
+        self.defects.iter().for_each(|defect| defect.add_depth(*window, cell, &mut depth));
         let mut gap: Vec<f64> = sampled.gap().iter().zip(&depth).map(|(h, d)| h + d).collect();
         // From the first touch on: a deep defect's floor would take digits away.
         let touch = gap.iter().fold(f64::INFINITY, |m, &h| m.min(h));
@@ -269,22 +268,6 @@ impl BallOnRaceway {
         let cells = [n, n];
         let pressed = Pressed { cells, cell, middle, approach: touch + approach, force, pressure, depth, residual };
         Ok((pressed, approach))
-    }
-}
-
-/// Adds the depth of a defect, from whose middle the ball is `arc` (m) away, to that of each cell.
-fn add_depth(surface: &Surface, arc: f64, window: [[f64; 2]; 2], cell: [f64; 2], sum: &mut [f64]) {
-    let [[x0, _], [y0, y1]] = window;
-    let columns = ((window[0][1] - x0) / cell[0]).round() as usize;
-    let side = |from: f64, i: usize, cell: f64| [from + i as f64 * cell, from + (i + 1) as f64 * cell];
-    let row = |axial: [f64; 2]| -> Vec<f64> {
-        (0..columns).map(|i| surface.mean_depth(side(arc + x0, i, cell[0]), axial)).collect()
-    };
-    // The same depth over the whole width.
-    let profile = matches!(surface, Surface::Profile(_)).then(|| row([y0, y1]));
-    for (j, line) in sum.chunks_exact_mut(columns).enumerate() {
-        let depth = profile.clone().unwrap_or_else(|| row(side(y0, j, cell[1])));
-        line.iter_mut().zip(depth).for_each(|(sum, d)| *sum += d);
     }
 }
 

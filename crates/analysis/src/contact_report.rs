@@ -23,15 +23,24 @@ const FEW: f64 = 16.0;
 /// leaves a dent of a ten-thousandth of the ball's diameter.
 const STATIC_LIMIT: f64 = 4.2e9;
 
-/// Stresses below the patch's middle, each with its point (m), x, y and depth.
+/// A stress and where it is.
+#[derive(Debug, Clone, Copy)]
+pub struct StressAt {
+    /// Its point (m): x, y and depth.
+    pub point: [f64; 3],
+    /// The stress.
+    pub stress: Stress,
+}
+
+/// Stresses below the patch's middle.
 #[derive(Debug, Clone)]
 pub struct Section {
     /// Along depth, from the surface on.
-    pub depth: Vec<([f64; 3], Stress)>,
+    pub depth: Vec<StressAt>,
     /// At the same depths below the middle of Hertz's contact on the smooth raceway.
     pub hertz: Vec<Stress>,
     /// In the plane along the raceway, depth by depth, then in that across it.
-    pub plane: Vec<([f64; 3], Stress)>,
+    pub plane: Vec<StressAt>,
 }
 
 impl Section {
@@ -42,7 +51,7 @@ impl Section {
         // Hertz's largest stress is within 0.8 of his shorter half-axis.
         let deepest = (3.0 * shorter(pressed.half_axes())).max(1.2 * shorter(ball.hertz(pressed.force).half_axes));
         let fine = Corners::new(pressed, ball.poissons_ratio, 1);
-        let at = |corners: &Corners, point: [f64; 3]| (point, corners.stress(point));
+        let at = |corners: &Corners, point: [f64; 3]| StressAt { point, stress: corners.stress(point) };
         let depths = || (0..=DEPTHS).map(|i| deepest * i as f64 / DEPTHS as f64);
         let line = depths().map(|z| at(&fine, [x0, y0, z])).collect();
         let smooth = ball.hertz_pressed(pressed.force, HERTZ_CELLS);
@@ -178,14 +187,14 @@ impl ContactReport {
 
 impl StressReport {
     fn of(section: &Section) -> Self {
-        let (points, stresses): (Vec<[f64; 3]>, Vec<Stress>) = section.depth.iter().copied().unzip();
-        let depths: Vec<f64> = points.iter().map(|point| point[2]).collect();
-        let [x, y, _] = points[0];
+        let stresses: Vec<Stress> = section.depth.iter().map(|at| at.stress).collect();
+        let depths: Vec<f64> = section.depth.iter().map(|at| at.point[2]).collect();
+        let [x, y, _] = section.depth[0].point;
         let below = |stresses: &[Stress], [x, y]: [f64; 2]| {
             let [most, depth] = maximum(&depths, stresses);
             Highest::at(most, [x, y, depth])
         };
-        let values = section.plane.iter().map(|(point, stress)| (stress.von_mises(), *point));
+        let values = section.plane.iter().map(|at| (at.stress.von_mises(), at.point));
         let (most, at) = values.fold((0.0, [0.0; 3]), |most, here| if here.0 > most.0 { here } else { most });
         Self {
             below_middle: below(&stresses, [x, y]),
@@ -229,8 +238,8 @@ fn notes(ball: &BallOnRaceway, pressed: &Pressed) -> Vec<String> {
                 .to_owned(),
         );
     }
-    for (surface, _) in &ball.defects {
-        for (interval, cell) in surface.coarsest_intervals().into_iter().zip(pressed.cell) {
+    for defect in &ball.defects {
+        for (interval, cell) in defect.surface.coarsest_intervals().into_iter().zip(pressed.cell) {
             if let Some(Interval { length, .. }) = interval.filter(|of| of.length > cell) {
                 notes.push(format!(
                     "measured points are up to {:.2} um apart, cells {:.2} um: the surface is straight between points",

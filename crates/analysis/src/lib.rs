@@ -6,6 +6,7 @@ pub mod contact_pressure;
 pub mod contact_report;
 mod continuity;
 pub mod critical_load;
+pub mod defect_below;
 pub mod entry;
 pub mod envelope;
 pub mod envelope_spectrum;
