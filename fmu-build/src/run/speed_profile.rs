@@ -11,11 +11,20 @@ const LARGEST: f64 = 1e4;
 /// The columns.
 const NAMES: [&str; 2] = ["time_s", "speed_hz"];
 
+/// A speed at a time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Point {
+    /// (s)
+    time: f64,
+    /// (Hz)
+    speed: f64,
+}
+
 /// A speed that changes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpeedProfile {
-    /// Times (s), ascending from 0, and speeds (Hz).
-    points: Vec<(f64, f64)>,
+    /// In the order of their times, which ascend from 0.
+    points: Vec<Point>,
 }
 
 impl SpeedProfile {
@@ -36,7 +45,7 @@ impl SpeedProfile {
         if names != NAMES {
             bail!("line 1 is {heading:?}: a speed profile begins with the heading time_s,speed_hz");
         }
-        let mut points: Vec<(f64, f64)> = Vec::new();
+        let mut points: Vec<Point> = Vec::new();
         for (number, line) in lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#')) {
             let point = point(line, points.last().copied()).with_context(|| format!("line {number}"))?;
             points.push(point);
@@ -49,7 +58,7 @@ impl SpeedProfile {
 
     /// Its last time (s).
     pub fn end(&self) -> f64 {
-        self.points.last().map_or(0.0, |&(time, _)| time)
+        self.points.last().map_or(0.0, |point| point.time)
     }
 
     /// Refuses a run that goes on after the profile has ended (s).
@@ -63,9 +72,9 @@ impl SpeedProfile {
 
     /// Speed at a time (s) (Hz).
     pub fn hertz(&self, time: f64) -> f64 {
-        let after = self.points.partition_point(|&(t, _)| t <= time).clamp(1, self.points.len() - 1);
-        let ((t0, f0), (t1, f1)) = (self.points[after - 1], self.points[after]);
-        f0 + (f1 - f0) * ((time - t0) / (t1 - t0)).clamp(0.0, 1.0)
+        let after = self.points.partition_point(|point| point.time <= time).clamp(1, self.points.len() - 1);
+        let (from, to) = (self.points[after - 1], self.points[after]);
+        from.speed + (to.speed - from.speed) * ((time - from.time) / (to.time - from.time)).clamp(0.0, 1.0)
     }
 
     /// Speed at a time (s) (rad/s).
@@ -75,12 +84,12 @@ impl SpeedProfile {
 
     /// Whether the shaft keeps one speed.
     pub fn is_constant(&self) -> bool {
-        self.points.iter().all(|&(_, speed)| speed == self.points[0].1)
+        self.points.iter().all(|point| point.speed == self.points[0].speed)
     }
 }
 
-/// Time and speed of a line after the row `before`.
-fn point(line: &str, before: Option<(f64, f64)>) -> Result<(f64, f64)> {
+/// The point of a line after the row `before`.
+fn point(line: &str, before: Option<Point>) -> Result<Point> {
     let cells: Vec<&str> = line.split(',').map(str::trim).collect();
     if cells.len() != NAMES.len() {
         bail!("{line:?} has {} cells: it must have 2, time_s and speed_hz", cells.len());
@@ -96,13 +105,15 @@ fn point(line: &str, before: Option<(f64, f64)>) -> Result<(f64, f64)> {
     let [time, speed] = values;
     match before {
         None if time != 0.0 => bail!("time_s is {time}: the first must be 0, where runs begin"),
-        Some((last, _)) if time <= last => bail!("time_s is {time}: it must be above {last}, that of the row before"),
+        Some(Point { time: last, .. }) if time <= last => {
+            bail!("time_s is {time}: it must be above {last}, that of the row before")
+        }
         _ => {}
     }
     if speed.abs() > LARGEST {
         bail!("speed_hz is {speed}: it must be between -{LARGEST} and {LARGEST}; are they rev/min?");
     }
-    Ok((time, speed))
+    Ok(Point { time, speed })
 }
 
 #[cfg(test)]
