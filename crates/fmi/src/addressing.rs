@@ -27,6 +27,15 @@ pub(super) struct RowAddress {
     pub(super) element: usize,
 }
 
+/// How many values a call gives or wants.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ValueCount {
+    /// What the interface calls the number.
+    pub(super) name: &'static str,
+    /// The number.
+    pub(super) given: usize,
+}
+
 /// What the references of one model stand for.
 #[derive(Debug)]
 pub(super) struct Addressing {
@@ -81,7 +90,8 @@ impl Addressing {
     }
 
     /// Refuses a number of values that is not that behind the references.
-    pub(super) fn check_count(&self, references: &[u32], name: &'static str, given: usize) -> Result<(), Failure> {
+    pub(super) fn check_count(&self, references: &[u32], count: ValueCount) -> Result<(), Failure> {
+        let ValueCount { name, given } = count;
         let mut needed = 0;
         for reference in references {
             needed += self.count(reference)?;

@@ -6,6 +6,7 @@
 use super::functions;
 use super::types::{Instance, Status, ValueReference};
 use super::values::{expand, may_read};
+use crate::addressing::ValueCount;
 use crate::arguments::{array, array_mut, disjoint};
 use crate::boundary;
 use crate::failure::Failure;
@@ -13,12 +14,18 @@ use crate::instance::{self, finite};
 use crate::mode::Function;
 use brinell::simulation::{Simulation, SimulationError};
 
+/// An array as a host gives it.
+struct Given<P> {
+    pointer: P,
+    count: usize,
+}
+
 /// References and values of a product with the Jacobian.
 struct Product {
-    unknowns: (*const ValueReference, usize),
-    knowns: (*const ValueReference, usize),
-    seed: (*const f64, usize),
-    sensitivity: (*mut f64, usize),
+    unknowns: Given<*const ValueReference>,
+    knowns: Given<*const ValueReference>,
+    seed: Given<*const f64>,
+    sensitivity: Given<*mut f64>,
 }
 
 /// What the model computes of rows of unknowns and knowns and a seed.
@@ -31,20 +38,21 @@ type Computed = fn(&mut Simulation, &[u32], &[u32], &[f64], &mut [f64]) -> Resul
 unsafe fn product(handle: Instance, function: &'static Function, product: Product, adjoint: bool) -> Status {
     boundary::call(handle, function, |instance| {
         let Product { unknowns, knowns, seed, sensitivity } = product;
-        disjoint(unknowns.0, unknowns.1, sensitivity.0, sensitivity.1)?;
-        disjoint(knowns.0, knowns.1, sensitivity.0, sensitivity.1)?;
-        disjoint(seed.0, seed.1, sensitivity.0, sensitivity.1)?;
+        disjoint(unknowns.pointer, unknowns.count, sensitivity.pointer, sensitivity.count)?;
+        disjoint(knowns.pointer, knowns.count, sensitivity.pointer, sensitivity.count)?;
+        disjoint(seed.pointer, seed.count, sensitivity.pointer, sensitivity.count)?;
         // SAFETY: this function's contract; null, misaligned and overlapping arrays are refused.
         let (unknowns, knowns, seed, sensitivity) = unsafe {
             (
-                array("unknowns", unknowns.0, unknowns.1)?,
-                array("knowns", knowns.0, knowns.1)?,
-                array("seed", seed.0, seed.1)?,
-                array_mut("sensitivity", sensitivity.0, sensitivity.1)?,
+                array("unknowns", unknowns.pointer, unknowns.count)?,
+                array("knowns", knowns.pointer, knowns.count)?,
+                array("seed", seed.pointer, seed.count)?,
+                array_mut("sensitivity", sensitivity.pointer, sensitivity.count)?,
             )
         };
-        let counts = [("nSeed", seed.len()), ("nSensitivity", sensitivity.len())];
-        let [of_unknowns, of_knowns] = if adjoint { counts } else { [counts[1], counts[0]] };
+        let of_seed = ValueCount { name: "nSeed", given: seed.len() };
+        let of_sensitivity = ValueCount { name: "nSensitivity", given: sensitivity.len() };
+        let (of_unknowns, of_knowns) = if adjoint { (of_seed, of_sensitivity) } else { (of_sensitivity, of_seed) };
         with_rows(instance, |instance, rows| {
             expand(instance, unknowns, of_unknowns, rows)?;
             let count = rows.len();
@@ -90,10 +98,10 @@ pub unsafe extern "C" fn fmi3GetDirectionalDerivative(
     nSensitivity: usize,
 ) -> Status {
     let wanted = Product {
-        unknowns: (unknowns, nUnknowns),
-        knowns: (knowns, nKnowns),
-        seed: (seed, nSeed),
-        sensitivity: (sensitivity, nSensitivity),
+        unknowns: Given { pointer: unknowns, count: nUnknowns },
+        knowns: Given { pointer: knowns, count: nKnowns },
+        seed: Given { pointer: seed, count: nSeed },
+        sensitivity: Given { pointer: sensitivity, count: nSensitivity },
     };
     // SAFETY: this function's contract.
     unsafe { product(instance, &functions::GET_DIRECTIONAL_DERIVATIVE, wanted, false) }
@@ -116,10 +124,10 @@ pub unsafe extern "C" fn fmi3GetAdjointDerivative(
     nSensitivity: usize,
 ) -> Status {
     let wanted = Product {
-        unknowns: (unknowns, nUnknowns),
-        knowns: (knowns, nKnowns),
-        seed: (seed, nSeed),
-        sensitivity: (sensitivity, nSensitivity),
+        unknowns: Given { pointer: unknowns, count: nUnknowns },
+        knowns: Given { pointer: knowns, count: nKnowns },
+        seed: Given { pointer: seed, count: nSeed },
+        sensitivity: Given { pointer: sensitivity, count: nSensitivity },
     };
     // SAFETY: this function's contract.
     unsafe { product(instance, &functions::GET_ADJOINT_DERIVATIVE, wanted, true) }
@@ -152,7 +160,7 @@ pub unsafe extern "C" fn fmi3GetOutputDerivatives(
         };
         may_read(instance, references)?;
         with_rows(instance, |instance, rows| {
-            expand(instance, references, ("nValues", values.len()), rows)?;
+            expand(instance, references, ValueCount { name: "nValues", given: values.len() }, rows)?;
             let of_rows = orders_of_rows(instance, references, orders)?;
             instance.simulation.output_derivatives(rows, &of_rows, values)?;
             finite(&instance.simulation, rows, values)

@@ -1,6 +1,6 @@
 //! How scalars and arrays are read and set: all of a call's variables or none.
 
-use crate::addressing::Addressing;
+use crate::addressing::{Addressing, ValueCount};
 use crate::failure::Failure;
 use crate::instance::{Instance, finite};
 use crate::mode::Mode;
@@ -62,7 +62,7 @@ pub(super) fn read(instance: &mut Instance, references: &[u32], values: &mut [f6
         simulation.reals(references, values)?;
         return finite(simulation, references, values);
     }
-    addressing.check_count(references, "nValues", values.len())?;
+    addressing.check_count(references, ValueCount { name: "nValues", given: values.len() })?;
     let mut rest = values;
     for reference in references {
         let rows = addressing.rows(reference)?;
@@ -93,7 +93,7 @@ pub(super) fn check_scalars(instance: &Instance, references: &[u32], count: usiz
     if references.len() == count && addressing.are_scalars(references) {
         return Ok(());
     }
-    addressing.check_count(references, "nValues", count)?;
+    addressing.check_count(references, ValueCount { name: "nValues", given: count })?;
     match references.iter().find(|&&reference| !addressing.are_scalars(&[reference])) {
         None => Ok(()),
         Some(&reference) => {
@@ -130,11 +130,11 @@ pub(super) fn wrong_type(instance: &Instance, reference: u32, wanted: &'static s
 pub(super) fn expand(
     instance: &Instance,
     references: &[u32],
-    (name, count): (&'static str, usize),
+    count: ValueCount,
     rows: &mut Vec<u32>,
 ) -> Result<(), Failure> {
     let addressing = addressing(instance)?;
-    addressing.check_count(references, name, count)?;
+    addressing.check_count(references, count)?;
     for reference in references {
         if addressing.is_time(*reference) {
             return Err(VariableError::NotAnUnknown { name: "time".to_owned() }.into());
