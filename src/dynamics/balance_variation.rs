@@ -6,7 +6,7 @@
 //! 5 µm, and what rounding leaves is 1e-9.
 
 use super::drive::{Drive, Frame};
-use super::element_balance::InBalance;
+use super::element_balance::{BodyTorque, InBalance};
 use super::kinematics::{CageState, FramedKinematics};
 use super::linearized::Linearized;
 use super::model::Model;
@@ -122,7 +122,7 @@ impl Model {
             let [shaft, housing] = exerted.rings;
             sample.rings += stacked(shaft, housing);
             sample.cage_torque += self.torque_on_cage(j, &found, now, acceleration);
-            for (frame, torque) in exerted.torques {
+            for BodyTorque { frame, torque } in exerted.torques {
                 match frame {
                     Frame::Shaft => sample.shaft_torque += torque,
                     Frame::Spin => sample.cage_torque += torque,

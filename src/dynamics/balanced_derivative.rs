@@ -6,7 +6,7 @@
 
 use super::balance_lanes::SmoothElements;
 use super::contact_lanes::Record;
-use super::element_balance::InBalance;
+use super::element_balance::{BodyTorque, InBalance};
 use super::forces::Forces;
 use super::kinematics::{FramedKinematics, Kinematics, Stage, moved};
 use super::linearized::Linearized;
@@ -77,7 +77,7 @@ impl Model {
             }
             derivative[j] = found.path_rate;
             if RECORD {
-                for (frame, torque) in exerted.torques {
+                for BodyTorque { frame, torque } in exerted.torques {
                     forces.torques[frame as usize] += torque;
                 }
                 self.record_balanced(j, &found, along, &mut forces.contacts);

@@ -69,13 +69,22 @@ pub(super) struct InBalance {
     pub(super) evaluations: u64,
 }
 
+/// A torque on a body with a defect.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct BodyTorque {
+    /// The frame in which the body turns.
+    pub(super) frame: Frame,
+    /// About its own centre (N m).
+    pub(super) torque: f64,
+}
+
 /// What an element in balance exerts on the rest of the bearing.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Exerted {
     /// Force on the inner and on the outer ring (N).
     pub(super) rings: [Vector; 2],
-    /// Torque (N m) on the bodies with the defects under its inner and its outer contact, each about its own centre.
-    pub(super) torques: [(Frame, f64); 2],
+    /// Torques on the bodies with the defects under its inner and its outer contact.
+    pub(super) torques: [BodyTorque; 2],
 }
 
 /// A path that was searched for.
@@ -96,7 +105,7 @@ impl InBalance {
         let outer = if self.near[1] { -self.outer.y * rho } else { 0.0 };
         Exerted {
             rings: [-self.inner, e_r * self.outer.x - e_t * self.outer.y],
-            torques: [(frames[0], inner), (frames[1], outer)],
+            torques: [BodyTorque { frame: frames[0], torque: inner }, BodyTorque { frame: frames[1], torque: outer }],
         }
     }
 
