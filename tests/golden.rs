@@ -19,6 +19,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use brinell::scene::{Motion, Scene};
+use brinell::simulation::StepCounts;
 use brinell::simulation::variables::{Causality, Kind};
 use runs::{AS_SHIPPED, BY_PATH, STEP, STEPS, ring_motion, scene_of};
 use support::{Named, fingerprint};
@@ -87,7 +88,7 @@ fn run(name: &str) -> Run {
             bearing.run(STEP, 1);
         }
     }
-    let (steps, implicit) = bearing.0.step_counts();
+    let StepCounts { all: steps, implicit } = bearing.0.step_counts();
     let mut counters = BTreeMap::from([("steps".to_owned(), steps), ("implicit".to_owned(), implicit)]);
     for counter in ["rejected_steps", "map_lookups", "contact_solves"] {
         // Which of them there are follows from the contact law.

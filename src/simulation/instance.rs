@@ -7,7 +7,7 @@ use super::dependencies;
 use super::driving;
 use super::error::{SimulationError, VariableError};
 use super::inputs::Inputs;
-use super::progress::Progress;
+use super::progress::{Progress, StepCounts};
 use super::quantity::{Parameter, Quantity, RingName};
 use super::recorder::Recorder;
 use super::setup;
@@ -210,9 +210,9 @@ impl Simulation {
         self.state.progress.choice.stable_step = 0.0;
     }
 
-    /// Accepted integration steps so far, and how many of them the implicit method took.
-    pub fn step_counts(&self) -> (u64, u64) {
-        (self.state.progress.steps, self.state.progress.implicit_steps)
+    /// Accepted integration steps so far.
+    pub fn step_counts(&self) -> StepCounts {
+        StepCounts { all: self.state.progress.steps, implicit: self.state.progress.implicit_steps }
     }
 
     /// The recorder, if the scene has one and the host has given it a folder.

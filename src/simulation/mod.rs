@@ -51,6 +51,7 @@ pub mod workspace;
 
 pub use error::{SimulationError, VariableError};
 pub use instance::Simulation;
+pub use progress::StepCounts;
 pub use state::State;
 pub use stepping::{Inspection, StepUnderWay};
 pub use switching::Method;

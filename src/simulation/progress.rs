@@ -11,6 +11,15 @@ use crate::numerics::row::Row;
 /// Step tried first (s): far below the period of an element on its contacts, and grown at once if that was too timid.
 const FIRST_STEP: f64 = 1e-6;
 
+/// Accepted integration steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct StepCounts {
+    /// Of all methods.
+    pub all: u64,
+    /// How many of them the implicit method took.
+    pub implicit: u64,
+}
+
 /// The part of the state that the integration owns.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Progress {

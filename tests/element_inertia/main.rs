@@ -203,7 +203,7 @@ fn elements_without_inertia_are_no_states_and_leave_nothing_to_the_implicit_meth
     assert_eq!(bearing.0.equations().0.layout.count(), 10);
     bearing.0.set_method(Method::Rodas);
     bearing.run(1e-3, 20);
-    assert_eq!(bearing.0.step_counts().1, 0);
+    assert_eq!(bearing.0.step_counts().implicit, 0);
 }
 
 #[test]

@@ -52,7 +52,7 @@ fn a_saved_state_continues_with_the_same_bits_while_the_methods_take_turns() {
         other.run(7.7e-5, 2);
         assert_eq!(first, (names.map(|name| other.get(name).to_bits()), other.0.step_counts()));
         let now = bearing.0.step_counts();
-        let (all, implicit) = (now.0 - last.0, now.1 - last.1);
+        let (all, implicit) = (now.all - last.all, now.implicit - last.implicit);
         turns += usize::from(implicit > 0 && implicit < all);
         last = now;
     }

@@ -1,6 +1,7 @@
 //! One row of `docs/stability.md`.
 
 use crate::support::Named;
+use brinell::simulation::StepCounts;
 
 /// What was expected of an extreme, and what came.
 pub struct Row {
@@ -8,7 +9,7 @@ pub struct Row {
     expected: String,
     got: String,
     error: String,
-    steps: (u64, u64),
+    steps: StepCounts,
 }
 
 impl Row {
@@ -24,16 +25,16 @@ impl Row {
 
     fn method(&self) -> String {
         match self.steps {
-            (0, _) => "none".to_owned(),
-            (_, 0) => "explicit".to_owned(),
-            (all, implicit) if all == implicit => "implicit".to_owned(),
-            (all, implicit) => format!("both, {:.0} % implicit", 100.0 * implicit as f64 / all as f64),
+            StepCounts { all: 0, .. } => "none".to_owned(),
+            StepCounts { implicit: 0, .. } => "explicit".to_owned(),
+            StepCounts { all, implicit } if all == implicit => "implicit".to_owned(),
+            StepCounts { all, implicit } => format!("both, {:.0} % implicit", 100.0 * implicit as f64 / all as f64),
         }
     }
 
     /// As a line of a Markdown table.
     pub fn line(&self) -> String {
         let Self { what, expected, got, error, steps } = self;
-        format!("| {what} | {expected} | {got} | {error} | {} | {} |\n", steps.0, self.method())
+        format!("| {what} | {expected} | {got} | {error} | {} | {} |\n", steps.all, self.method())
     }
 }

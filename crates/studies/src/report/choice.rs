@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use anyhow::Result;
 use brinell::scene::{ContactLaw, Damping, Motion, Scene};
-use brinell::simulation::{Method, Simulation};
+use brinell::simulation::{Method, Simulation, StepCounts};
 use cpu_time::ThreadTime;
 
 use super::Extent;
@@ -153,7 +153,7 @@ struct Counted {
 fn counted(run: &mut Simulation) -> Result<Counted> {
     let mut rejected = [0];
     run.integers(&[run.reference("solver.rejected_steps")?], &mut rejected)?;
-    let (all, implicit) = run.step_counts();
+    let StepCounts { all, implicit } = run.step_counts();
     let share = implicit as f64 / all as f64;
     let tried = all as f64 + f64::from(rejected[0]);
     Ok(Counted { steps: tried * (1.0 + (EXPLICIT_STEPS - 1.0) * share), implicit: share })

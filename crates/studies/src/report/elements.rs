@@ -86,7 +86,7 @@ fn of_a_step(scene: &Scene, method: Method) -> Result<f64> {
             for _ in 0..STEP.1 {
                 run.step(STEP.0)?;
             }
-            steps = run.step_counts().0;
+            steps = run.step_counts().all;
             anyhow::Ok(())
         },
     )?;
@@ -113,7 +113,7 @@ fn hosted(tolerance: f64) -> Result<Hosted> {
                 run.set_reals(&references, &motion)?;
                 run.step(1e-5)?;
             }
-            steps = run.step_counts().0;
+            steps = run.step_counts().all;
             anyhow::Ok(())
         },
     )?;

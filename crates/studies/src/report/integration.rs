@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use brinell::scene::ContactLaw;
-use brinell::simulation::{Method, Simulation};
+use brinell::simulation::{Method, Simulation, StepCounts};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::Extent;
@@ -148,7 +148,7 @@ fn controlled(
 ) -> Result<Row> {
     let signals = subject.signals(method, tolerance)?;
     let start = subject.start(method, tolerance)?;
-    let mut counts = (0, 0);
+    let mut counts = StepCounts::default();
     let seconds = fastest(
         || start.clone(),
         |simulation: &mut Simulation| {
@@ -162,8 +162,8 @@ fn controlled(
         method: label,
         setting: tolerance,
         cost: seconds / subject.stop,
-        steps: counts.0 as f64 / subject.stop,
-        implicit: counts.1 as f64 / counts.0 as f64,
+        steps: counts.all as f64 / subject.stop,
+        implicit: counts.implicit as f64 / counts.all as f64,
         deviation: signals.deviation(reference),
     })
 }

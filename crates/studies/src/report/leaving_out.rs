@@ -162,7 +162,7 @@ fn cost(what: &'static str, scene: &Scene, seen: Seen, stop: f64) -> Result<Part
                 }
                 run.forget_samples();
             }
-            steps = run.step_counts().0;
+            steps = run.step_counts().all;
             let mut counts = vec![0; counters.len()];
             run.integers(&counters, &mut counts)?;
             lookups = counts.iter().sum::<i32>();
