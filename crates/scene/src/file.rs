@@ -10,7 +10,7 @@
 //! | `gravity_m_s2` | `[0, -9.81]` |
 //! | `bearing.element` | `"ball"`; or `"cylindrical-roller"`, which needs `roller_length_mm` and has no groove |
 //! | `bearing.roller_profile`, `.roller_laminae` | `"log"`, the crown of ISO/TS 16281, or `"straight"`, or a file; 40 |
-//! | `bearing.catalogue` | none: dimensions and material are needed; `"6205"`, `"NU205"`: elements, pitch diameter, conformity 0.52, steel; keys beside it win |
+//! | `bearing.catalogue` | none: dimensions and material are needed; or a name, such as `"6205"` or `"NU205"` |
 //! | `bearing.radial_clearance_um` | 5: what separates a raceway from an element pressed to the other, R_o − R_i − 2r |
 //! | `bearing.internal_clearance_um` | instead: a catalogue's radial internal clearance (ISO 5753), twice as much |
 //! | `bearing.outer_compliance_m_n` | 0: rings and seats are rigid |
@@ -18,8 +18,8 @@
 //! | `bearing.density_kg_m3` | from `element_mass_g`, which is then needed |
 //! | `bearing.element_mass_g`, `hertz_inner_n_m1_5`, `hertz_outer_n_m1_5` | computed |
 //! | `contact.law` | `"map"` with a defect, else `"hertz"` |
-//! | `contact.largest_force_n` | four times the static force on the most loaded element, at least 1000 N, rounded up to 1, 1.25, 1.6, 2, 2.5, 3.15, … kN |
-//! | `contact.cells` | `[48, 32]`, rollers `[48, 16]`: cells along and across the contact at the largest force, laws `map` and `love` |
+//! | `contact.largest_force_n` | four times the static force on the most loaded element, rounded up |
+//! | `contact.cells` | `[48, 32]`, rollers `[48, 16]`: along and across the contact at the largest force |
 //! | `contact.map_accuracy` | 1e-3 of the largest force; without the key up to 2e-2 is tolerated and reported |
 //! | `contact.damping` | `"hunt-crossley"`; its `damping_chi_s_m` 0.5 |
 //! | `cage.slip`, `cage.initial_angle_deg` | 0, −90 |
@@ -32,7 +32,8 @@
 //! | `shaft.load_n`, `housing.load_n` (internal only) | `[0, 0]` |
 //! | `shaft.initial_angle_deg`, `housing.initial_angle_deg` | 0 |
 //! | `housing.speed_hz` | none: the outer ring does not turn |
-//! | `sensor` | none; its `direction_deg` 90, `name` empty, `mass_kg`, `stiffness_n_m`, `damping_n_s_m` 1, 8.8826e9, 9424.8; several as `[[sensor]]` |
+//! | `sensor` | none; its `direction_deg` 90, `name` empty; several as `[[sensor]]` |
+//! | `sensor.mass_kg`, `.stiffness_n_m`, `.damping_n_s_m` | 1, 8.8826e9, 9424.8 |
 //! | `sensor.mode` | none; several as `[[sensor.mode]]` below their sensor; its `quadrature_gain` 0, the rest needed |
 //! | `sensor.response` | none; a file instead of the modes |
 //! | `probe` | none; a table without keys |
@@ -41,6 +42,10 @@
 //! | `film` | none: dry contacts; its `layer_um` fills every gap |
 //! | `recorder` | none; its `filter` `"linear-phase"`, or `"none"` |
 //! | `experiment.stop_s`, `.step_s` | 0.5, 1e-4 |
+//!
+//! A bearing of the catalogue has its elements, its pitch diameter, conformity 0.52 and steel; keys beside its name win.
+//! The largest force is at least 1000 N and rounded up to 1, 1.25, 1.6, 2, 2.5, 3.15, … kN; laws `map` and `love` need
+//! it and the cells.
 
 mod bearing;
 mod cage;

@@ -8,7 +8,10 @@
 //! |---|---|---|
 //! | held | stays where it is | stays what it was at the end of the step |
 //! | extrapolated | x + vτ + ½aτ² | the parabola through both ends with the mean force that the FMU gives |
-//! | rolled back | as extrapolated; then the state is put back and the step repeated with the parabola that has the same mean as the motion that came out | the same, brought to that motion by the FMU's tangent stiffness |
+//! | rolled back | as extrapolated, then again: the parabola with the mean that came out | the same, brought to that motion |
+//!
+//! To roll back, the state is put back and the step repeated with the parabola that has the same mean as the motion
+//! that came out; the FMU's tangent stiffness brings the force to that motion.
 //!
 //! With F₀ and F₁ at the ends and F̄ as mean, and the velocity running evenly from v₀ to v₁ as far as the damper sees
 //! it, the host's motion is

@@ -90,8 +90,8 @@ impl Values {
         }
         ensure!(
             missing.is_empty(),
-            "page and figures are left as they were: of their tables {} have never been computed here; run once without \
-             --only. What was computed is in {}",
+            "page and figures are left as they were: of their tables {} have never been computed here; run once \
+             without --only. What was computed is in {}",
             missing.join(", "),
             self.folder.display()
         );
