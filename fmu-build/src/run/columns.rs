@@ -89,7 +89,7 @@ impl Columns {
         let near = near.map_or_else(String::new, |near| format!("did you mean {near}? "));
         let like: Vec<&str> = self.names().map(|(name, _)| name).filter(|name| head(name) == head(pattern)).collect();
         if !like.is_empty() {
-            return format!("{near}beginning so there are {}", like.join(", "));
+            return format!("{near}names that begin with {:?} are {}", head(pattern), like.join(", "));
         }
         let mut heads: Vec<String> = Vec::new();
         for head in self.names().map(|(name, _)| format!("{}*", head(name))) {

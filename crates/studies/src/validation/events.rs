@@ -16,7 +16,7 @@ use fmu_build::project::Project;
 /// A row of the table of events: its name, the prototype's figure, and how ours is read.
 type Event = (&'static str, &'static str, fn(&FourEvents) -> f64);
 
-/// Samples per second of what is looked at closely: elements ring on their contacts at 40 to 50 kHz.
+/// Samples per second where a passage is shown in detail: elements ring on their contacts at 40 to 50 kHz.
 const RATE: f64 = 1e6;
 const NAMES: [&str; 5] =
     ["sensor.acceleration", "housing.ay", "element[1].path", "element[1].force.inner", "element[1].force.outer"];

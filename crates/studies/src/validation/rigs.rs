@@ -1,7 +1,7 @@
 //! Sizing on machines that do not exist: how often a length comes out right, wrong, or not at all.
 //!
-//! Machines are numbered and each is drawn anew from its number and the length. **The first group was looked at while
-//! the method was made, the second once, when what it missed was mended, the third only to write down the result.** The
+//! Machines are numbered and each is drawn anew from its number and the length. **The first group was used
+//! to develop the method, the second once, to correct what it had missed, the third only to record the result.** The
 //! scene that sizes them knows the bearing, and the load within a third; it has no rig.
 
 use std::fmt::Write;
