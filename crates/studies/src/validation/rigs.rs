@@ -1,8 +1,8 @@
 //! Sizing on machines that do not exist: how often a length comes out right, wrong, or not at all.
 //!
-//! Machines are numbered and each is drawn anew from its number and the length. **The first group was used
-//! to develop the method, the second once, to correct what it had missed, the third only to record the result.** The
-//! scene that sizes them knows the bearing, and the load within a third; it has no rig.
+//! Machines are numbered and each is drawn anew from its number and the length. **The first group was used to
+//! develop the method, the second once, to correct what it had missed, the third only to record the result.** The scene
+//! that sizes them knows the bearing, and the load within a third; it has no rig.
 
 use std::fmt::Write;
 use std::ops::Range;
