@@ -1,4 +1,5 @@
-//! A defect of the raceway below a ball: where its edges are and how deep it is, from the point below the ball's centre.
+//! A defect of the raceway below a ball: where its edges are and how deep it is, counted from the point below the
+//! ball's centre.
 
 use brinell::surface::Surface;
 

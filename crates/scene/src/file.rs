@@ -43,9 +43,9 @@
 //! | `recorder` | none; its `filter` `"linear-phase"`, or `"none"` |
 //! | `experiment.stop_s`, `.step_s` | 0.5, 1e-4 |
 //!
-//! A bearing of the catalogue has its elements, its pitch diameter, conformity 0.52 and steel; keys beside its name win.
-//! The largest force is at least 1000 N and rounded up to 1, 1.25, 1.6, 2, 2.5, 3.15, … kN; laws `map` and `love` need
-//! it and the cells.
+//! A bearing of the catalogue has its elements, its pitch diameter, conformity 0.52 and steel; keys beside its name
+//! win. The largest force is at least 1000 N and rounded up to 1, 1.25, 1.6, 2, 2.5, 3.15, … kN; laws `map` and `love`
+//! need it and the cells.
 
 mod bearing;
 mod cage;

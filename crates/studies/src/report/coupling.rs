@@ -8,7 +8,7 @@
 //! |---|---|---|
 //! | held | stays where it is | stays what it was at the end of the step |
 //! | extrapolated | x + vτ + ½aτ² | the parabola through both ends with the mean force that the FMU gives |
-//! | rolled back | as extrapolated, then again: the parabola with the mean that came out | the same, brought to that motion |
+//! | rolled back | as extrapolated, then again: a parabola of the mean that came out | the same, brought to it |
 //!
 //! To roll back, the state is put back and the step repeated with the parabola that has the same mean as the motion
 //! that came out; the FMU's tangent stiffness brings the force to that motion.
