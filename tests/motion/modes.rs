@@ -357,6 +357,31 @@ fn all_repeats_with_the_element_spacing_and_lines_do_not_jump() {
     let [pressed, resting] = [Hold::Pressed, Hold::Resting].map(|hold| least(hold).unwrap());
     assert!(pressed > 5e3 && resting < 5e3, "{pressed} {resting}");
     assert_eq!(least(Hold::Loose), None);
-    // Rings and sensor, and of nine elements those that are never loose.
-    assert_eq!(found[0].modes.iter().filter_map(|mode| mode.line).max(), Some(13));
+    // Rings and sensor, five, and nine elements, of which two pass the height of the rings' centres, where they are
+    // loose, and have a line on either side of it.
+    assert_eq!(report.lines.len(), 5 + 9 + 2);
+}
+
+#[test]
+fn least_and_greatest_of_every_line_do_not_depend_on_the_number_of_angles() {
+    let scene = shipped_as_it_is("er16k-tb2");
+    let assembly = assembly(&scene);
+    let middle = assembly.defect().unwrap().centre;
+    let [few, many] = [20, 200].map(|count| {
+        let found = sweep(&assembly, middle - 0.5 * assembly.period(), count).unwrap();
+        ModesReport::new(scene.name.clone(), &assembly, middle, &found).lines
+    });
+    assert_eq!(few.len(), many.len());
+    for (few, many) in few.iter().zip(&many) {
+        for end in 0..2 {
+            agree(few.undamped_frequency_hz[end], many.undamped_frequency_hz[end], 2e-4);
+            // What damps an element that begins to be pressed begins with its stiffness, as a root of the angle.
+            agree(few.damping_ratio[end], many.damping_ratio[end], 1e-3);
+        }
+        // Mean shares are means over the angle, not over angles that lie close where modes change.
+        assert!((few.elements - many.elements).abs() < 0.01, "{few:?} {many:?}");
+    }
+    // A twentieth of a degree after a third element begins to be pressed inside the spall the rings ring fastest, as
+    // 2000 evenly spaced angles show. Between 200 of them the peak is missed by 0.7 %.
+    agree(few[3].undamped_frequency_hz[1], 999.38, 1e-4);
 }

@@ -4,6 +4,7 @@
 //! all damping are the scene's. A ring that a host moves, or that is fixed, holds still at its origin; a held shaft
 //! with a load holds still where it carries that load.
 
+use super::edges::{self, Edge};
 use super::static_bearing::StaticError;
 use brinell::dynamics::drive::{Cubic, Drive, Quadratic};
 use brinell::dynamics::equilibrium::EquilibriumError;
@@ -30,6 +31,7 @@ pub struct Assembly {
     angles: [f64; 3],
     /// Of the first defect.
     defect: Option<DefectPosition>,
+    edges: Vec<Edge>,
 }
 
 /// Where a defect is on its body.
@@ -83,10 +85,15 @@ pub(super) struct AtRest {
     /// Angle of each element (rad), counter-clockwise from +x, in [−π, π].
     pub(super) angles: Vec<f64>,
     pub(super) holds: Vec<Hold>,
+    /// Whether the inner and the outer raceway press on each element.
+    pub(super) carried: Vec<[bool; 2]>,
 }
 
 /// Share of the largest contact force below which a force is the rounding of a position.
 const CARRIES: f64 = 1e-15;
+/// Share of its weight below which an element does not rest: where it goes from one raceway to the other, at the height
+/// of the rings' centres, the frequency of its contact goes to 0.
+const RESTS: f64 = 1e-3;
 
 /// The scene with another amount of load (N): all its loads in proportion, that on the shaft, or else that on the
 /// housing, becoming the amount. A scene without load gets it on the shaft, downwards, also where the shaft is held.
@@ -151,6 +158,7 @@ impl Assembly {
             loads: [scene.shaft.load, scene.housing.load],
             angles: [scene.cage.initial_angle, scene.shaft_initial_angle, scene.housing_initial_angle],
             defect: of_first,
+            edges: Edge::all(scene, &surfaces),
         })
     }
 
@@ -174,6 +182,12 @@ impl Assembly {
     /// Where the scene's first defect is; `None` without one.
     pub fn defect(&self) -> Option<DefectPosition> {
         self.defect
+    }
+
+    /// `count` evenly spaced cage angles from `first` (rad) on over one period, its end, and those at which a contact
+    /// crosses an edge of a ring's defect, some across its length; ascending.
+    pub(super) fn telling_angles(&self, first: f64, count: usize) -> Vec<f64> {
+        edges::angles(&self.model, &self.edges, first, self.period(), count)
     }
 
     /// All degrees of freedom: every element, then rings and sensor as far as they move.
@@ -242,18 +256,25 @@ impl Assembly {
         model.linearize(&drive, 0.0, &cells, &state, &mut jacobian, &mut vec![0.0; state.len()]);
         let contacts = &forces.contacts;
         let largest = contacts.inner.iter().chain(&*contacts.outer).fold(0.0f64, |most, &force| most.max(force));
-        let hold = |j: usize| {
-            let carries = [contacts.inner[j], contacts.outer[j]].map(|force| force > CARRIES * largest);
-            match carries {
-                [true, true] => Hold::Pressed,
-                [false, false] => Hold::Loose,
-                _ => Hold::Resting,
+        let weight = model.element_mass * model.gravity.norm();
+        let carried = |j: usize| {
+            let forces = [contacts.inner[j], contacts.outer[j]];
+            match forces.map(|force| force > CARRIES * largest) {
+                [true, true] => [true, true],
+                _ => forces.map(|force| force > CARRIES * largest && force > RESTS * weight),
             }
+        };
+        let carried: Vec<[bool; 2]> = (0..count).map(carried).collect();
+        let hold = |carried: &[bool; 2]| match carried {
+            [true, true] => Hold::Pressed,
+            [false, false] => Hold::Loose,
+            _ => Hold::Resting,
         };
         Ok(AtRest {
             matrix: jacobian.matrix(state.len()),
             angles: (0..count).map(|j| wrap(model.element_angle(j, &CageState::at_rest(cage_angle)))).collect(),
-            holds: (0..count).map(hold).collect(),
+            holds: carried.iter().map(hold).collect(),
+            carried,
         })
     }
 

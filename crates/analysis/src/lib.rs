@@ -7,6 +7,7 @@ pub mod contact_report;
 mod continuity;
 pub mod critical_load;
 pub mod defect_below;
+mod edges;
 pub mod entry;
 pub mod envelope;
 pub mod envelope_spectrum;

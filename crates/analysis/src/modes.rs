@@ -78,6 +78,8 @@ pub struct Modes {
     pub holds: Vec<Hold>,
     /// The modes, by ascending magnitude of the eigenvalue.
     pub modes: Vec<Mode>,
+    /// Whether the inner and the outer raceway press on each element.
+    pub(super) carried: Vec<[bool; 2]>,
 }
 
 /// Share of the largest frequency up to which one counts as 0: a double eigenvalue 0 comes out as the root of a
@@ -151,7 +153,7 @@ impl Assembly {
         let modes = Linear::new(&self.freedoms(), &rest)
             .modes()
             .map_err(|cause| ModesError::Eigen { cage_angle_deg: cage_angle.to_degrees(), cause })?;
-        Ok(Modes { cage_angle, angles: rest.angles, holds: rest.holds, modes })
+        Ok(Modes { cage_angle, angles: rest.angles, holds: rest.holds, modes, carried: rest.carried })
     }
 }
 

@@ -2,6 +2,7 @@
 //! each angle.
 
 use super::assembly::{Assembly, Body, Hold};
+use super::mode_lines::spans;
 use super::modes::{Kind, Mode, Modes};
 use serde::Serialize;
 
@@ -21,7 +22,7 @@ pub struct ModesReport {
     pub defect_length_deg: Option<f64>,
     /// Names of the degrees of freedom, in the order of shapes and energies.
     pub freedoms: Vec<String>,
-    /// Modes followed over the angles, by ascending mean frequency.
+    /// Modes followed over the angles, by ascending mean frequency over the angle.
     pub lines: Vec<LineReport>,
     /// All modes at each angle.
     pub angles: Vec<AngleReport>,
@@ -36,7 +37,7 @@ pub struct LineReport {
     pub undamped_frequency_hz: [f64; 2],
     /// Damping ratio ζ.
     pub damping_ratio: [f64; 2],
-    /// Mean share of each degree of freedom in the kinetic energy.
+    /// Mean share of each degree of freedom in the kinetic energy, over the angle.
     pub energy: Vec<f64>,
     /// Mean share of all elements.
     pub elements: f64,
@@ -82,8 +83,10 @@ impl ModesReport {
     /// The report of a [`sweep`](super::mode_lines::sweep) about the angle `middle` (rad).
     pub fn new(scene: String, assembly: &Assembly, middle: f64, sweep: &[Modes]) -> Self {
         let bodies: Vec<Body> = assembly.freedoms().iter().map(|freedom| freedom.body).collect();
-        let followed = |line: usize| -> Vec<&Mode> {
-            sweep.iter().flat_map(|modes| &modes.modes).filter(|mode| mode.line == Some(line)).collect()
+        let spans = spans(sweep);
+        let followed = |line: usize| -> Vec<(&Mode, f64)> {
+            let all = sweep.iter().zip(&spans).flat_map(|(at, &span)| at.modes.iter().map(move |mode| (mode, span)));
+            all.filter(|(mode, _)| mode.line == Some(line)).collect()
         };
         let lines = (0..).map(followed).take_while(|line| !line.is_empty());
         let [shaft_load_n, housing_load_n] = assembly.loads();
@@ -133,12 +136,15 @@ impl ModesReport {
     }
 }
 
-fn line_report(line: usize, modes: &[&Mode], bodies: &[Body]) -> LineReport {
+/// The report of a line from its modes, each with the part of the angles that it stands for (rad).
+fn line_report(line: usize, modes: &[(&Mode, f64)], bodies: &[Body]) -> LineReport {
     let extent = |of: fn(&Mode) -> Option<f64>| {
-        let values = modes.iter().filter_map(|mode| of(mode));
+        let values = modes.iter().filter_map(|(mode, _)| of(mode));
         values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], value| [least.min(value), most.max(value)])
     };
-    let mean = |of: &dyn Fn(&Mode) -> f64| rounded(modes.iter().map(|mode| of(mode)).sum::<f64>() / modes.len() as f64);
+    let whole: f64 = modes.iter().map(|(_, span)| span).sum();
+    let mean =
+        |of: &dyn Fn(&Mode) -> f64| rounded(modes.iter().map(|(mode, span)| span * of(mode)).sum::<f64>() / whole);
     let of_elements = |mode: &Mode| -> f64 {
         let parts = bodies.iter().zip(&mode.energy);
         parts.filter(|(body, _)| matches!(body, Body::Element(_))).map(|(_, energy)| energy).sum()

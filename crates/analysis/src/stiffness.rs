@@ -6,14 +6,14 @@
 
 use super::static_bearing::{Balance, StaticBearing, StaticError};
 
-/// Half the width of the bracket in which a change is found (rad).
+/// Width of the bracket in which a change is found (rad).
 const NARROW: f64 = 1e-7;
 
 /// The balances over one period, the element spacing or a turn of an irregular cage, from the cage angle `first` (rad)
 /// on, under the bearing's own load: at `count` evenly spaced angles, at the end, and at both sides of each angle
 /// between them at which an element begins or ceases to carry. Angles ascend.
 ///
-/// Of several changes between two evenly spaced angles at least one is found.
+/// Of several changes between two evenly spaced angles those are found that do not undo each other.
 /// ```
 /// use brinell::scene::{Bearing, Scene};
 /// use brinell_analysis::static_bearing::StaticBearing;
@@ -30,28 +30,31 @@ const NARROW: f64 = 1e-7;
 /// Those of [`StaticBearing::balance`].
 pub fn sweep(bearing: &StaticBearing, first: f64, count: usize) -> Result<Vec<Balance>, StaticError> {
     let at = |angle: f64| bearing.balance(angle, bearing.load());
-    with_changes(first, bearing.period(), count, at, same_loaded)
+    let count = count.max(1);
+    let angles: Vec<f64> = (0..=count).map(|i| first + i as f64 * (bearing.period() / count as f64)).collect();
+    with_changes(&angles, NARROW, at, same_loaded)
 }
 
-/// What `at` gives at `count` evenly spaced angles from `first` (rad) on over one element spacing, at its end, and at
-/// both sides of each angle between them at which it ceases to be the same kind.
+/// What `at` gives at ascending angles (rad), and at both sides of each angle between them at which it ceases to be the
+/// same kind, no more than `narrow` (rad) apart.
 pub(super) fn with_changes<T: Clone, E>(
-    first: f64,
-    spacing: f64,
-    count: usize,
+    angles: &[f64],
+    narrow: f64,
     at: impl Fn(f64) -> Result<T, E>,
     same: impl Fn(&T, &T) -> bool,
 ) -> Result<Vec<T>, E> {
-    let count = count.max(1);
-    let angle = |i: usize| first + i as f64 * (spacing / count as f64);
-    let mut found = vec![at(first)?];
-    for i in 1..=count {
-        let next = at(angle(i))?;
-        let last = &found[found.len() - 1];
-        if !same(last, &next) {
+    let mut found: Vec<T> = Vec::with_capacity(angles.len());
+    for (i, &angle) in angles.iter().enumerate() {
+        let next = at(angle)?;
+        let mut from = if i > 0 { angles[i - 1] } else { angle };
+        // Several changes between two angles are found one after the other, but for those that undo each other.
+        while let Some(last) = found.last()
+            && !same(last, &next)
+            && angle - from > narrow
+        {
             let (mut before, mut after) = (last.clone(), next.clone());
-            let (mut low, mut high) = (angle(i - 1), angle(i));
-            while high - low > NARROW {
+            let (mut low, mut high) = (from, angle);
+            while high - low > narrow {
                 let middle = 0.5 * (low + high);
                 let between = at(middle)?;
                 if same(&before, &between) {
@@ -61,6 +64,7 @@ pub(super) fn with_changes<T: Clone, E>(
                 }
             }
             found.extend([before, after]);
+            from = high;
         }
         found.push(next);
     }
