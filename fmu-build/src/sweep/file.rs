@@ -2,11 +2,11 @@
 
 use std::ops::RangeInclusive;
 
-use brinell::scene::nearest;
+use brinell::scene::{nearest, toml_fault};
 use toml::de::{DeTable, DeValue};
 use toml::{Table, Value};
 
-use super::faults::{Fault, Faults};
+use super::faults::Fault;
 use crate::run::noise::RATIOS;
 
 /// Keys of the file itself, and its three tables of keys of a scene.
@@ -74,17 +74,12 @@ impl Sweep {
     /// Reads the text of a file; gives what of it is right, and all that is wrong with it by itself.
     ///
     /// # Errors
-    /// What is no TOML.
-    pub(super) fn read(text: &str) -> Result<(Self, Vec<Fault>), Faults> {
+    /// The first place at which it is not TOML.
+    pub(super) fn read(text: &str) -> Result<(Self, Vec<Fault>), toml::de::Error> {
         let breaks: Vec<usize> = text.match_indices('\n').map(|(at, _)| at).collect();
         let line = |at: usize| 1 + breaks.partition_point(|&end| end < at);
-        let file = DeTable::parse(text).map_err(|error| {
-            let at = error.span().map_or(0, |span| line(span.start));
-            Faults(vec![Fault { line: at, said: format!("no TOML: {}", error.message()) }])
-        })?;
-        let values: Table = text.parse().map_err(|error: toml::de::Error| {
-            Faults(vec![Fault { line: 0, said: format!("no TOML: {}", error.message()) }])
-        })?;
+        let file = DeTable::parse(text).map_err(|error| toml_fault(text).unwrap_or(error))?;
+        let values: Table = text.parse()?;
         let mut reading = Reading { file: file.get_ref(), values: &values, line: &line, faults: Vec::new() };
         let sweep = reading.sweep();
         Ok((sweep, reading.faults))

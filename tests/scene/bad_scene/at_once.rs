@@ -135,14 +135,19 @@ fn tables_of_the_wrong_kind_and_missing_ones_hide_nothing() {
 }
 
 #[test]
-fn all_lines_at_which_a_file_is_no_toml_are_told() {
-    let text = GOOD
-        .replace("name = \"er16k-tb1\"", "name = \"er16k-tb1")
-        .replace("poissons_ratio = 0.3", "poissons_ratio = 0,3")
-        .replace("speed_hz = 10.0", "speed_hz 10.0");
-    let message = Scene::from_toml(&text).unwrap_err().to_string();
-    for line in ["line 2: no TOML: ", "line 11: no TOML: ", "line 27: no TOML: "] {
-        assert_eq!(message.matches(line).count(), 1, "`{line}` in: {message}");
+fn of_a_file_that_is_not_toml_the_first_fault_is_told_and_shown() {
+    for (good, bad, told) in [
+        // Neither the lines that follow an open bracket nor the second line of an open text are faults of their own.
+        ("load_n = [0.0, -500.0]", "load_n = [0.0, -500.0", "TOML parse error at line 29, column 1\n"),
+        ("name = \"er16k-tb1\"", "name = 'er16k\ntb1'", "TOML parse error at line 2, column 14\n"),
+        ("[housing]", "[shaft]", "TOML parse error at line 33, column 2\n"),
+        ("poissons_ratio = 0.3", "poissons_ratio = 0,3\nspeed_hz 10.0", "TOML parse error at line 11, column 19\n"),
+    ] {
+        assert_eq!(GOOD.matches(good).count(), 1, "{good}");
+        let message = Scene::from_toml(&GOOD.replace(good, bad)).unwrap_err().to_string();
+        assert!(message.starts_with(&format!("scene file: {told}")), "`{told}` is not: {message}");
+        // Where, an empty line, the line itself, a caret below what is wrong in it, and why.
+        assert_eq!(message.lines().count(), 5, "{message}");
+        assert_eq!(message.matches('^').count().min(1), 1, "{message}");
     }
-    assert_eq!(message.lines().count(), 4, "{message}");
 }

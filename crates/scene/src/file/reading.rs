@@ -10,6 +10,7 @@ use super::mended::Mended;
 use super::tables::{path, tables};
 use super::values::numbers;
 use crate::key_fault::KeyFault;
+use crate::toml_fault::toml_fault;
 use crate::usual::Dimensions;
 use crate::{Remark, SceneError, UnitQuestion};
 use toml::de::{DeTable, DeValue};
@@ -17,9 +18,11 @@ use toml::de::{DeTable, DeValue};
 /// How often the rest is read: each time at least one key more is left out, and few files are as bad.
 const ROUNDS: usize = 20;
 
-/// The error for a file that was refused with `error`: all its faults; of what is no TOML the lines where it is none.
+/// The error for a file that was refused with `error`: all its faults, or the first place at which it is not TOML.
 pub(super) fn all_faults(text: &str, error: SceneError) -> SceneError {
-    let Ok(file) = DeTable::parse(text) else { return not_toml(text, error) };
+    let Ok(file) = DeTable::parse(text) else {
+        return toml_fault(text).map_or(error, SceneError::Toml);
+    };
     let mut mended = Mended::of(file.clone());
     let reading = Reading::new(text, file.get_ref());
     let mut faults = Vec::new();
@@ -45,32 +48,6 @@ pub(super) fn all_faults(text: &str, error: SceneError) -> SceneError {
     }
     faults.sort_by_key(KeyFault::line);
     if faults.is_empty() { error } else { SceneError::Keys(faults) }
-}
-
-/// The faults of a text that is no TOML, the first of each line; `error` where there is one.
-fn not_toml(text: &str, error: SceneError) -> SceneError {
-    let breaks = breaks(text);
-    let (_, errors) = DeTable::parse_recoverable(text);
-    let mut faults: Vec<KeyFault> = errors
-        .iter()
-        .map(|wrong| KeyFault::Value {
-            line: wrong.span().map_or(0, |at| line_of(&breaks, at.start)),
-            said: format!("no TOML: {}", wrong.message()),
-        })
-        .collect();
-    faults.sort_by_key(KeyFault::line);
-    faults.dedup_by_key(|fault| fault.line());
-    if faults.len() < 2 { error } else { SceneError::Keys(faults) }
-}
-
-/// Where lines end.
-fn breaks(text: &str) -> Vec<usize> {
-    text.match_indices('\n').map(|(at, _)| at).collect()
-}
-
-/// Line of an offset in a text with these line breaks, from 1.
-fn line_of(breaks: &[usize], at: usize) -> usize {
-    1 + breaks.partition_point(|&end| end < at)
 }
 
 /// Questions about values of a file that was accepted.
@@ -105,12 +82,12 @@ impl<'a, 'f> Reading<'a, 'f> {
         let value = |key: &str| bearing.and_then(|bearing| bearing.get(key)).map(|value| value.get_ref());
         let name = value("catalogue").and_then(DeValue::as_str);
         let dimensions = Dimensions::of(name, |key| value(key).and_then(|value| numbers(value).first().copied()));
-        Self { file, breaks: breaks(text), dimensions }
+        Self { file, breaks: text.match_indices('\n').map(|(at, _)| at).collect(), dimensions }
     }
 
     /// Line of an offset in the text, from 1.
     fn line(&self, at: usize) -> usize {
-        line_of(&self.breaks, at)
+        1 + self.breaks.partition_point(|&end| end < at)
     }
 
     /// Faults of keys and of values by themselves.
