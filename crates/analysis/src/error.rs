@@ -7,13 +7,13 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SizingError {
-    /// The file could not be read.
-    #[error("{path}: {source}")]
+    /// The file could not be read. The message says why, so no source would say it again.
+    #[error("{path}: {cause}")]
     File {
         /// The file.
         path: PathBuf,
         /// Why.
-        source: std::io::Error,
+        cause: std::io::Error,
     },
     /// The file is not what its ending says, or of a kind that is not read.
     #[error("{path}: {why}")]

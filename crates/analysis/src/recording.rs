@@ -143,7 +143,7 @@ impl Recording {
     /// A file that cannot be read or understood, a rate that contradicts the file's own, and those of
     /// [`new`](Self::new), [`with_tachometer`](Self::with_tachometer) and [`with_speeds`](Self::with_speeds).
     pub fn read(path: &Path, source: &Source) -> Result<Self, SizingError> {
-        let bytes = std::fs::read(path).map_err(|source| SizingError::File { path: path.to_owned(), source })?;
+        let bytes = std::fs::read(path).map_err(|cause| SizingError::File { path: path.to_owned(), cause })?;
         Self::of_file(path, &bytes, source)
     }
 
@@ -155,6 +155,9 @@ impl Recording {
         let table = Table::read(path, bytes)?;
         let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
         let refuse = |why: String| SizingError::Format { path: path.to_owned(), why };
+        if let Some(value) = source.rate.filter(|rate| !(rate.is_finite() && *rate > 0.0)) {
+            return Err(SizingError::NotPositive { name, quantity: "sampling rate", value, unit: "Hz" });
+        }
         let rate = match (source.rate, table.rate) {
             (Some(given), Some(stated)) if !((given / stated - 1.0).abs() <= SAME_RATE) => {
                 return Err(SizingError::OtherRate { name, given, stated, limit: 100.0 * SAME_RATE });

@@ -7,30 +7,30 @@ use super::uri::UriError;
 use brinell::scene::SceneError;
 use brinell::simulation::SimulationError;
 
-/// Why the model could not be read or set up.
+/// Why the model could not be read or set up. Messages are whole: a cause in them is no source to be told again.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum ResourceError {
     /// The location names no path.
     #[error(transparent)]
     Uri(#[from] UriError),
     /// A file that cannot be read.
-    #[error("resource {path}: {source}")]
+    #[error("resource {path}: {cause}")]
     Unreadable {
         /// Its path.
         path: PathBuf,
         /// What the system says.
-        source: io::Error,
+        cause: io::Error,
     },
     /// A profile that does not lie in the directory.
     #[error("profile \"{0}\": it must be the name of a file beside scene.toml")]
     OutsideResources(String),
     /// A scene that is refused.
-    #[error("resource {path}: {source}")]
+    #[error("resource {path}: {cause}")]
     Scene {
         /// Path of the scene.
         path: PathBuf,
         /// What is wrong with it.
-        source: SceneError,
+        cause: SceneError,
     },
     /// A scene that cannot be set up.
     #[error(transparent)]
@@ -38,7 +38,7 @@ pub(super) enum ResourceError {
 }
 
 impl ResourceError {
-    pub(super) fn unreadable(path: &Path, source: io::Error) -> Self {
-        Self::Unreadable { path: path.to_owned(), source }
+    pub(super) fn unreadable(path: &Path, cause: io::Error) -> Self {
+        Self::Unreadable { path: path.to_owned(), cause }
     }
 }

@@ -15,7 +15,7 @@ use brinell::simulation::guid::guid;
 pub(super) fn load(directory: &Path) -> Result<SharedModel, ResourceError> {
     let path = directory.join("scene.toml");
     let text = read(&path)?;
-    let scene = Scene::from_toml(&text).map_err(|source| ResourceError::Scene { path, source })?;
+    let scene = Scene::from_toml(&text).map_err(|cause| ResourceError::Scene { path, cause })?;
     let profile = |name| read(&beside(directory, name)?);
     let profiles: Vec<String> = scene.profile_names().into_iter().map(profile).collect::<Result<_, _>>()?;
     let guid = guid(&text, profiles.iter().map(String::as_str));

@@ -220,3 +220,33 @@ fn lines_stay_those_of_the_file_where_a_response_becomes_modes() {
     once(&said, "sensor.response \"none.csv\"");
     once(&said, &format!("line {line}: stop time (experiment.stop_s)"));
 }
+
+#[test]
+fn a_recording_that_cannot_be_read_is_told_with_its_cause_once() {
+    let folder = common::folder("no-recording");
+    let missing = folder.join("missing.npy");
+    for path in [&missing, &folder] {
+        let shown = path.display().to_string();
+        let output = program(&["size", &shown, "--scene", "6205-healthy", "--rate", "20000", "--speed", "10"]);
+        let cause = fs::read(path).unwrap_err();
+        assert_eq!(String::from_utf8(output.stderr).unwrap(), format!("error: {shown}: {cause}\n"));
+        assert!(!output.status.success());
+    }
+}
+
+#[test]
+fn a_sampling_rate_that_is_none_is_told_so_also_where_the_file_states_its_own() {
+    let folder = common::folder("no-rate");
+    for (name, heading, time) in [("own", "time_s,a", "0.001,"), ("none", "a", "")] {
+        let path = folder.join(format!("{name}.csv"));
+        fs::write(&path, format!("{heading}\n{}1\n{time}2\n", time.replace('1', "0"))).unwrap();
+        for rate in ["0", "-5", "nan"] {
+            let arguments = ["--scene", "6205-healthy", "--rate", rate, "--speed", "10"];
+            let output = program(&[&["size", path.to_str().unwrap()][..], &arguments].concat());
+            let said = String::from_utf8(output.stderr).unwrap();
+            let rate = rate.replace("nan", "NaN");
+            let told = format!("error: {name}.csv: sampling rate {rate} Hz: it must be finite and above 0\n");
+            assert_eq!(said, told);
+        }
+    }
+}
