@@ -3,7 +3,7 @@
 use super::step_error::StepError;
 use crate::contact::error::ContactError;
 use crate::dynamics::equilibrium::EquilibriumError;
-use crate::scene::{ContactLaw, SceneError};
+use crate::scene::{ContactLaw, Plain, SceneError};
 use crate::surface::SurfaceError;
 
 /// What goes wrong in setting up or stepping a bearing. Each message names the quantity, its value and the limit.
@@ -32,8 +32,11 @@ pub enum SimulationError {
         law: ContactLaw,
     },
     /// A communication step that cannot be taken. Nothing was changed.
-    #[error("communication step {0} s: it must be finite and above 0")]
+    #[error("communication step {} s: it must be finite and above 0", Plain(*.0))]
     CommunicationStep(f64),
+    /// A start time that is no instant. Nothing was changed.
+    #[error("start time {0} s: it must be finite")]
+    StartTime(f64),
     /// Rings that nothing holds: how the equilibrium moves with the inputs is not defined.
     #[error("the initial equilibrium has no derivative: an internal ring touches nothing and has no support stiffness")]
     NoDerivative,
@@ -76,8 +79,13 @@ pub enum VariableError {
     #[error("value reference {0} is unknown: this model's references are 0 to {1}")]
     UnknownReference(u32, u32),
     /// No such name.
-    #[error("this model has no variable {0}")]
-    UnknownName(String),
+    #[error("this model has no variable {name}{}", asked(.near.as_deref()))]
+    UnknownName {
+        /// The name.
+        name: String,
+        /// The variable whose name is spelt most like it, if any is.
+        near: Option<String>,
+    },
     /// The variable has another type.
     #[error("variable {name} (value reference {reference}) is not of type {wanted}")]
     WrongType {
@@ -88,6 +96,16 @@ pub enum VariableError {
         /// Type of the call.
         wanted: &'static str,
     },
+    /// A variable that is not real was read or set by its name, as only a real one can be.
+    #[error("variable {name} is of type {kind}: {call} takes it, by its reference")]
+    NotReal {
+        /// Its name.
+        name: String,
+        /// Its type.
+        kind: &'static str,
+        /// The method for its type.
+        call: &'static str,
+    },
     /// An output, or a parameter after initialization.
     #[error("variable {name} cannot be set: {why}")]
     NotSettable {
@@ -97,7 +115,7 @@ pub enum VariableError {
         why: &'static str,
     },
     /// A value outside its range, or not finite.
-    #[error("variable {name}: {value} is outside {min} … {max}")]
+    #[error("variable {name}: {} is outside {} … {}", Plain(*value), Plain(*min), Plain(*max))]
     OutOfRange {
         /// Its name.
         name: String,
@@ -148,4 +166,9 @@ pub enum VariableError {
         /// Order asked for.
         order: i32,
     },
+}
+
+/// A question after the name that was probably meant.
+fn asked(near: Option<&str>) -> String {
+    near.map_or_else(String::new, |near| format!(": did you mean {near}?"))
 }

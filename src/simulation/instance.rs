@@ -22,7 +22,7 @@ use crate::dynamics::forces::Forces;
 use crate::dynamics::model::Model;
 use crate::dynamics::raceway::Cells;
 use crate::numerics::plane::Vector;
-use crate::scene::{ContactLaw, Scene};
+use crate::scene::{ContactLaw, Scene, nearest};
 use crate::surface::{Surface, with_roller_profile};
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -82,7 +82,7 @@ impl Simulation {
     }
 
     /// As [`new`](Self::new), with the bytes of the contact map that was stored for the scene. Without it, law `map`
-    /// computes the map on initialization, which takes seconds.
+    /// computes the map on initialization, which takes seconds; [`setup::build_map`] makes it once, and has an example.
     ///
     /// # Errors
     /// An impossible scene or profile; a map that is damaged or belongs to something else.
@@ -185,7 +185,10 @@ impl Simulation {
     /// The scene has no such variable.
     pub fn reference(&self, name: &str) -> Result<u32, VariableError> {
         let variable = self.table.iter().find(|variable| variable.name == name);
-        variable.map(|variable| variable.reference).ok_or_else(|| VariableError::UnknownName(name.to_owned()))
+        variable.map(|variable| variable.reference).ok_or_else(|| {
+            let near = nearest(self.table.iter().map(|variable| &*variable.name), name).map(str::to_owned);
+            VariableError::UnknownName { name: name.to_owned(), near }
+        })
     }
 
     /// What each output depends on, in the order of the table.
@@ -250,7 +253,18 @@ impl Simulation {
     }
 
     /// Solves the static equilibrium at `start` (s) and ends the setting of parameters.
+    ///
+    /// A second call begins a run anew, at its own `start`: from the equilibrium under the parameters as they are and
+    /// the inputs as they are then, cage and rings at their initial angles and the solver's counts at 0. It drops the
+    /// recorder's samples that have not been stored.
+    ///
+    /// # Errors
+    /// A start that is not finite; parameters that make an impossible scene; no equilibrium.
     pub fn initialize(&mut self, start: f64) -> Result<(), SimulationError> {
+        if !start.is_finite() {
+            return Err(SimulationError::StartTime(start));
+        }
+        self.state.ended = Ended::default();
         self.find_equilibrium()?;
         self.state.time = start;
         self.state.started = true;

@@ -175,6 +175,33 @@ pub fn needed_maps<'s>(scene: &Scene, surfaces: &'s [Surface]) -> Result<Vec<Nee
 /// Computes the contact maps of a scene with these surfaces of its defects, `None` where its law needs none. `runner`
 /// says on how many cores.
 ///
+/// Maps take seconds, and serve every simulation of the scene: keep their bytes, in a file or in memory, and hand them
+/// to [`Simulation::with_map`](super::Simulation::with_map) at each start.
+/// ```
+/// use brinell::contact::map_specification::Sequential;
+/// use brinell::scene::{Bearing, Scene};
+/// use brinell::simulation::Simulation;
+/// use brinell::simulation::setup::build_map;
+/// use brinell::surface::Surface;
+///
+/// // Coarse, so that it takes a moment here: leave cells and accuracy out.
+/// let scene = Scene::builder(Bearing::steel_balls(9, 7.94e-3, 39.04e-3))
+///     .shaft_load([0.0, -1500.0])
+///     .spall(-std::f64::consts::FRAC_PI_2, 2e-3, 50e-6)
+///     .contact_cells([8, 8])
+///     .map_accuracy(0.1)
+///     .build()?;
+/// let surfaces = Surface::load_all(&scene, None)?;
+/// // One column after the other; the closure may show how far it is.
+/// let map = build_map(&scene, &surfaces, &mut Sequential(|_done, _of| {}))?;
+/// let bytes = map.map(|map| map.to_bytes());
+///
+/// let mut simulation = Simulation::with_map(scene, None, bytes.as_deref())?;
+/// simulation.initialize(0.0)?;
+/// assert!(simulation.get("shaft.y")? < 0.0);
+/// # Ok::<(), brinell::Error>(())
+/// ```
+///
 /// # Errors
 /// Defects that overlap; where a contact cannot be solved or the accuracy is not reached.
 pub fn build_map(

@@ -14,8 +14,17 @@ impl Simulation {
     /// # Errors
     /// An unknown name; a variable that is not real; before `initialize` an equilibrium that does not exist.
     pub fn get(&mut self, name: &str) -> Result<f64, SimulationError> {
+        let reference = self.reference(name)?;
+        let variable = self.variable(reference)?;
+        let not_real = |kind, call| Err(VariableError::NotReal { name: name.to_owned(), kind, call }.into());
+        match variable.kind {
+            Kind::Real { .. } => {}
+            Kind::Integer => return not_real("Integer", "counts"),
+            Kind::Enumeration { .. } => return not_real("Enumeration", "integers"),
+            Kind::Text { .. } => return not_real("String", "strings"),
+        }
         let mut value = [0.0];
-        self.reals(&[self.reference(name)?], &mut value)?;
+        self.reals(&[reference], &mut value)?;
         Ok(value[0])
     }
 
@@ -24,7 +33,15 @@ impl Simulation {
     /// # Errors
     /// An unknown name; a variable that cannot be set now; a value out of range.
     pub fn set(&mut self, name: &str, value: f64) -> Result<(), VariableError> {
-        self.set_reals(&[self.reference(name)?], &[value])
+        let reference = self.reference(name)?;
+        let variable = self.variable(reference)?;
+        let not_real = |kind, call| Err(VariableError::NotReal { name: name.to_owned(), kind, call });
+        match variable.kind {
+            Kind::Real { .. } => self.set_reals(&[reference], &[value]),
+            Kind::Integer => Err(not_settable(variable, COMPUTED)),
+            Kind::Enumeration { .. } => not_real("Enumeration", "set_integers"),
+            Kind::Text { .. } => not_real("String", "set_strings"),
+        }
     }
 
     /// Sets reals; all or none. Inputs at any time, parameters before `initialize`.

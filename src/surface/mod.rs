@@ -3,6 +3,17 @@
 //! Everywhere the arc s (m) runs along the body's surface at the groove's bottom or on the element's track,
 //! counter-clockwise in the body's own sense, from the defect's centre, and the depth h (m) is that of a depression:
 //! positive into the body. Outside the defect the surface is smooth, h = 0. A raised rim is a negative depth.
+//!
+//! ```
+//! use brinell::surface::{Profile, Surface};
+//!
+//! // A spall of 2 mm, 50 µm deep, with vertical edges.
+//! let spall = Surface::Profile(Profile::spall(2e-3, 50e-6, std::f64::consts::FRAC_PI_2));
+//! assert_eq!(spall.edges(), [-1e-3, 1e-3]);
+//! // Of a cell along the raceway that is half over the edge, half is as deep as the floor.
+//! let depth = spall.mean_depth([0.9e-3, 1.1e-3], [0.0, 1e-4]);
+//! assert!((depth - 25e-6).abs() < 1e-12);
+//! ```
 
 mod csv;
 mod error;

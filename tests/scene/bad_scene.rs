@@ -108,7 +108,7 @@ fn a_name_that_cannot_be_a_file_name_is_refused() {
 
 #[test]
 fn a_bearing_without_elements_is_refused() {
-    refused("element_count = 9", "element_count = 0", &["bearing.element_count", "is 0", "at least 1.0"]);
+    refused("element_count = 9", "element_count = 0", &["bearing.element_count", "is 0", "at least 1"]);
 }
 
 #[test]
@@ -120,23 +120,23 @@ fn negative_quantities_are_refused() {
     minus("element_diameter_mm", "element diameter (bearing.element_diameter_mm)", "at least 0.01");
     minus("pitch_diameter_mm", "pitch diameter (bearing.pitch_diameter_mm)", "at least 0.01");
     minus("youngs_modulus_gpa", "Young's modulus (bearing.youngs_modulus_gpa)", "at least 0.001");
-    minus("density_kg_m3", "density of the elements (bearing.density_kg_m3)", "above 0.0");
-    minus("damping_chi_s_m", "contact damping (contact.damping_chi_s_m)", "at least 0.0");
-    minus("slip", "cage slip (cage.slip)", "at least 0.0");
-    minus("depth_um", "spall depth (defect.depth_um)", "above 0.0");
-    minus("edge_slope_deg", "edge slope (defect.edge_slope_deg)", "above 0.0");
-    minus("stiffness_n_m", "housing stiffness (housing.stiffness_n_m)", "at least 0.0");
+    minus("density_kg_m3", "density of the elements (bearing.density_kg_m3)", "above 0");
+    minus("damping_chi_s_m", "contact damping (contact.damping_chi_s_m)", "at least 0");
+    minus("slip", "cage slip (cage.slip)", "at least 0");
+    minus("depth_um", "spall depth (defect.depth_um)", "above 0");
+    minus("edge_slope_deg", "edge slope (defect.edge_slope_deg)", "above 0");
+    minus("stiffness_n_m", "housing stiffness (housing.stiffness_n_m)", "at least 0");
     minus("mass_kg", "sensor mass (sensor.mass_kg)", "at least 1e-9");
     minus("tolerance", "tolerance (solver.tolerance)", "at least 1e-12");
-    minus("rate_hz", "recorder rate (recorder.rate_hz)", "above 0.0");
-    minus("stop_s", "stop time (experiment.stop_s)", "above 0.0");
-    minus("step_s", "communication step (experiment.step_s)", "above 0.0");
+    minus("rate_hz", "recorder rate (recorder.rate_hz)", "above 0");
+    minus("stop_s", "stop time (experiment.stop_s)", "above 0");
+    minus("step_s", "communication step (experiment.step_s)", "above 0");
 }
 
 #[test]
 fn a_recorder_that_filters_has_a_lowest_rate_and_a_known_filter() {
     let rate = GOOD.lines().find(|line| line.starts_with("rate_hz")).unwrap();
-    refused(rate, "rate_hz = 99.0", &["recorder.rate_hz", "linear-phase", "is 99", "at least 100.0"]);
+    refused(rate, "rate_hz = 99.0", &["recorder.rate_hz", "linear-phase", "is 99", "at least 100"]);
     refused(rate, &format!("{rate}\nfilter = \"butterworth\""), &["butterworth", "linear-phase", "none"]);
     assert!(Scene::from_toml(&GOOD.replace(rate, "rate_hz = 99.0\nfilter = \"none\"")).is_ok());
 }
@@ -165,7 +165,7 @@ fn no_quantity_may_be_nan_or_infinite() {
 
 #[test]
 fn a_spall_length_is_told_by_the_key_that_is_given() {
-    refused("length_deg = 15.8", "length_deg = -1.0", &["spall length (defect.length_deg) is -1:", "above 0.0"]);
+    refused("length_deg = 15.8", "length_deg = -1.0", &["spall length (defect.length_deg) is -1:", "above 0"]);
     refused("length_deg = 15.8", "length_mm = nan", &["spall length, in mm (defect.length_mm) is NaN"]);
 }
 
@@ -234,7 +234,7 @@ fn a_pitch_circle_without_room_for_an_inner_raceway_is_refused() {
 #[test]
 fn poissons_ratio_lies_between_minus_1_and_one_half() {
     for value in ["-1.0", "0.5"] {
-        let parts = ["Poisson's ratio (bearing.poissons_ratio)", "above -1.0 and below 0.5"];
+        let parts = ["Poisson's ratio (bearing.poissons_ratio)", "above -1 and below 0.5"];
         refused("poissons_ratio = 0.3", &format!("poissons_ratio = {value}"), &parts);
     }
     accepted("poissons_ratio = 0.3", "poissons_ratio = 0.0");
@@ -254,7 +254,7 @@ fn an_element_needs_a_density_or_a_mass() {
 fn hertz_constants_that_override_must_be_positive() {
     let with = |key: &str| format!("density_kg_m3 = 7800.0\n{key} = 0.0");
     for key in ["hertz_inner_n_m1_5", "hertz_outer_n_m1_5"] {
-        refused("density_kg_m3 = 7800.0", &with(key), &[key, "is 0:", "at least 1.0"]);
+        refused("density_kg_m3 = 7800.0", &with(key), &[key, "is 0:", "at least 1"]);
     }
 }
 
@@ -281,7 +281,7 @@ fn a_damping_constant_of_the_other_model_is_refused() {
 
 #[test]
 fn a_cage_slips_between_0_and_1() {
-    refused("slip = 0.0", "slip = 1.01", &["cage slip (cage.slip) is 1.01", "at most 1.0"]);
+    refused("slip = 0.0", "slip = 1.01", &["cage slip (cage.slip) is 1.01", "at most 1"]);
     accepted("slip = 0.0", "slip = 1.0");
 }
 
@@ -313,7 +313,7 @@ fn a_ring_without_mass_is_refused() {
     refused(
         "stiffness_n_m = 1.51056e7",
         "mass_kg = 1e-7",
-        &["housing mass (housing.mass_kg) is 0.0000001", "at least 1e-6"],
+        &["housing mass (housing.mass_kg) is 1e-7", "at least 1e-6"],
     );
 }
 
@@ -332,7 +332,7 @@ fn a_sensor_on_a_fixed_housing_is_refused() {
 
 #[test]
 fn a_sensor_without_a_spring_is_refused() {
-    let parts = ["sensor stiffness (sensor.stiffness_n_m) is 0", "above 0.0"];
+    let parts = ["sensor stiffness (sensor.stiffness_n_m) is 0", "above 0"];
     refused("mass_kg = 1.0", "stiffness_n_m = 0.0", &parts);
 }
 
@@ -362,8 +362,8 @@ fn a_communication_step_beyond_the_stop_time_is_refused() {
 #[test]
 fn a_value_in_the_wrong_unit_is_refused() {
     // Pascals where gigapascals are asked for; revolutions per minute would pass unless absurd.
-    refused("youngs_modulus_gpa = 207.0", "youngs_modulus_gpa = 207e9", &["207000000000", "at most 10000.0"]);
-    refused("speed_hz = 10.0", "speed_hz = 6e5", &["shaft speed (shaft.speed_hz) is 600000", "at most 10000.0"]);
+    refused("youngs_modulus_gpa = 207.0", "youngs_modulus_gpa = 207e9", &["2.07e11", "at most 10000"]);
+    refused("speed_hz = 10.0", "speed_hz = 6e5", &["shaft speed (shaft.speed_hz) is 600000", "at most 10000"]);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::{
     Bearing, Cage, CageIrregularity, Contact, ContactEdge, ContactLaw, Damping, Defect, DefectShape, ElementInertia,
-    Experiment, Motion, Recorder, Ring, Roller, RollerProfile, RollingElement, Scene, SceneError, Sensor,
+    Experiment, Film, Motion, Recorder, Ring, Roller, RollerProfile, RollingElement, Scene, SceneError, Sensor,
 };
 use std::f64::consts::FRAC_PI_2;
 
@@ -141,6 +141,13 @@ impl SceneBuilder {
         self
     }
 
+    /// One line about it for the reader.
+    #[must_use]
+    pub fn description(mut self, description: &str) -> Self {
+        description.clone_into(&mut self.scene.description);
+        self
+    }
+
     /// Gravity (m/s²), x and y.
     #[must_use]
     pub fn gravity(mut self, gravity: [f64; 2]) -> Self {
@@ -152,6 +159,13 @@ impl SceneBuilder {
     #[must_use]
     pub fn shaft_speed(mut self, speed: f64) -> Self {
         self.scene.shaft_speed = speed;
+        self
+    }
+
+    /// Angle of the inner ring at the start (rad), from which its defects are counted.
+    #[must_use]
+    pub fn shaft_initial_angle(mut self, angle: f64) -> Self {
+        self.scene.shaft_initial_angle = angle;
         self
     }
 
@@ -173,6 +187,20 @@ impl SceneBuilder {
     #[must_use]
     pub fn housing(mut self, ring: Ring) -> Self {
         self.scene.housing = ring;
+        self
+    }
+
+    /// Speed of the outer ring (rad/s), counter-clockwise; without it the ring does not turn and has no such input.
+    #[must_use]
+    pub fn housing_speed(mut self, speed: f64) -> Self {
+        self.scene.housing_speed = Some(speed);
+        self
+    }
+
+    /// Angle of the outer ring at the start (rad), from which its defects are counted.
+    #[must_use]
+    pub fn housing_initial_angle(mut self, angle: f64) -> Self {
+        self.scene.housing_initial_angle = angle;
         self
     }
 
@@ -203,10 +231,53 @@ impl SceneBuilder {
         self
     }
 
+    /// What laws `map` and `love` take a sharp edge to be.
+    #[must_use]
+    pub fn contact_edge(mut self, edge: ContactEdge) -> Self {
+        self.scene.contact.edge = edge;
+        self
+    }
+
+    /// Cells of the contact grid of laws `map` and `love` along and across Hertz's ellipse at the largest force.
+    #[must_use]
+    pub fn contact_cells(mut self, cells: [u32; 2]) -> Self {
+        self.scene.contact.cells = Some(cells);
+        self
+    }
+
+    /// Largest force on an element near a defect (N) that laws `map` and `love` are prepared for; without it the loads
+    /// say.
+    #[must_use]
+    pub fn largest_force(mut self, force: f64) -> Self {
+        self.scene.contact.largest_force = Some(force);
+        self
+    }
+
+    /// Largest error of the contact map, relative to the largest force.
+    #[must_use]
+    pub fn map_accuracy(mut self, accuracy: f64) -> Self {
+        self.scene.contact.map_accuracy = Some(accuracy);
+        self
+    }
+
+    /// An oil film in the contacts, which are dry without it.
+    #[must_use]
+    pub fn film(mut self, film: Film) -> Self {
+        self.scene.film = Some(film);
+        self
+    }
+
     /// The cage: its slip, and the angle of element 1 at the start (rad).
     #[must_use]
     pub fn cage(mut self, slip: f64, initial_angle: f64) -> Self {
         self.scene.cage = Cage { slip, initial_angle, ..self.scene.cage };
+        self
+    }
+
+    /// The elements' lag behind the spin of pure rolling, which counts where one bears a defect.
+    #[must_use]
+    pub fn spin_slip(mut self, slip: f64) -> Self {
+        self.scene.cage.spin_slip = slip;
         self
     }
 
@@ -242,6 +313,20 @@ impl SceneBuilder {
     #[must_use]
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.scene.tolerance = tolerance;
+        self
+    }
+
+    /// Most integration steps in one communication step.
+    #[must_use]
+    pub fn max_steps(mut self, steps: u64) -> Self {
+        self.scene.max_steps = steps;
+        self
+    }
+
+    /// The default run: its stop time and its communication step (s).
+    #[must_use]
+    pub fn experiment(mut self, stop: f64, step: f64) -> Self {
+        self.scene.experiment = Experiment { stop, step };
         self
     }
 

@@ -5,6 +5,7 @@ use super::bearing_error::BearingError;
 use super::defect_error::DefectError;
 use super::key_fault::KeyFault;
 use super::limits::Limits;
+use super::plain::Plain;
 use std::fmt;
 
 /// Longest name of a scene.
@@ -111,7 +112,7 @@ pub enum SceneError {
     #[error("sensor name (sensor.name) {0:?}: at most {max} bytes without control characters", max = LONGEST_NAME)]
     SensorName(String),
     /// A quantity outside its limits, or not finite.
-    #[error("{quantity} ({key}) is {value}: it must be {limits}")]
+    #[error("{quantity} ({key}) is {}: it must be {limits}", Plain(*value))]
     OutOfRange {
         /// The field's term for it.
         quantity: &'static str,

@@ -16,11 +16,13 @@ mod faults;
 mod file;
 mod key_fault;
 mod limits;
+mod plain;
 mod quantity;
 mod remark;
 mod rolling_element;
 mod sensor;
 mod spelling;
+mod toml_fault;
 mod unit_hint;
 mod usual;
 
@@ -34,10 +36,12 @@ pub use defect_error::DefectError;
 pub use error::SceneError;
 pub use key_fault::{Hint, KeyFault};
 pub use limits::{Bound, Limits};
+pub use plain::Plain;
 pub use remark::Remark;
 pub use rolling_element::{Crown, ElementInertia, Roller, RollerProfile, RollingElement};
 pub use sensor::{MOST_SENSOR_MODES, MOST_SENSORS, Sensor, SensorMode};
 pub use spelling::nearest;
+pub use toml_fault::toml_fault;
 pub use unit_hint::UnitQuestion;
 
 use serde::Deserialize;

@@ -1,5 +1,6 @@
 //! Ranges of quantities.
 
+use super::plain::Plain;
 use std::fmt;
 
 /// Limits of a quantity.
@@ -38,12 +39,12 @@ impl Limits {
 impl fmt::Display for Limits {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.low {
-            Bound::Inclusive(bound) => write!(f, "at least {bound:?} ")?,
-            Bound::Exclusive(bound) => write!(f, "above {bound:?} ")?,
+            Bound::Inclusive(bound) => write!(f, "at least {} ", Plain(bound))?,
+            Bound::Exclusive(bound) => write!(f, "above {} ", Plain(bound))?,
         }
         match self.high {
-            Bound::Inclusive(bound) => write!(f, "and at most {bound:?}"),
-            Bound::Exclusive(bound) => write!(f, "and below {bound:?}"),
+            Bound::Inclusive(bound) => write!(f, "and at most {}", Plain(bound)),
+            Bound::Exclusive(bound) => write!(f, "and below {}", Plain(bound)),
         }
     }
 }

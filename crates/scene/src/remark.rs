@@ -1,7 +1,8 @@
 //! What a scene may say and hardly means: it is computed, and remarked upon.
 
 use super::Scene;
-use super::unit_hint::{Plain, UnitQuestion};
+use super::plain::Plain;
+use super::unit_hint::UnitQuestion;
 use std::fmt;
 
 /// Largest groove conformity of ball bearings that are built, self-aligning ones aside; ISO 281 rates up to 0.53.

@@ -1,5 +1,6 @@
 //! Which unit was probably meant by a value that is far off in the unit of its key.
 
+use super::plain::Plain;
 use super::quantity::shown;
 use std::fmt;
 
@@ -57,19 +58,6 @@ impl fmt::Display for UnitQuestion {
         // Six digits: units are converted by factors that have more.
         let meant = Plain(format!("{:.5e}", self.meant).parse().unwrap_or(self.meant));
         write!(f, "{meant}{space}{} given in {}?", self.unit, self.given)
-    }
-}
-
-/// A number as people write it: large and small ones with a power of ten.
-pub(super) struct Plain(pub(super) f64);
-
-impl fmt::Display for Plain {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.0 == 0.0 || (1e-4..1e6).contains(&self.0.abs()) {
-            write!(f, "{}", self.0)
-        } else {
-            write!(f, "{:e}", self.0)
-        }
     }
 }
 

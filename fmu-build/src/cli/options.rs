@@ -178,14 +178,14 @@ pub struct Stiffness {
 /// Options of `modes`.
 #[derive(Debug, Args)]
 pub struct Modes {
-    /// Scene file (TOML); its cage stands still
+    /// Scene file (TOML), or the name of a shipped scene; its cage stands still
     pub(super) scene: PathBuf,
     /// Load in newtons along the scene's load; of a scene without load, on the shaft and downwards, wherever that is
     /// held [default: the scene's]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
     pub(super) load: Option<f64>,
-    /// Cage angles within one element spacing [default: 200, more for a short defect]; those at which elements begin
-    /// to be pressed are added
+    /// Cage angles within one element spacing [default: 200, more for a short defect]; others are added
+    /// where elements begin to be pressed, where they cross an edge of a defect, and where modes change much
     #[arg(long, value_name = "COUNT", allow_negative_numbers = true, value_parser = whole::<1, 100_000>)]
     pub(super) points: Option<u32>,
     /// Folder for JSON and figure [default: the current one]
@@ -229,7 +229,7 @@ pub struct Size {
     /// Recordings of one bearing: .csv, .txt, .npy or .wav
     #[arg(required = true, value_name = "RECORDING")]
     pub(super) recordings: Vec<PathBuf>,
-    /// Scene file (TOML) of the bearing, its load and, if known, its rig; its defect is not looked at
+    /// Scene file (TOML) of the bearing, its load and, if known, its rig; its defect is ignored
     #[arg(long)]
     pub(super) scene: PathBuf,
     /// Sampling rate in hertz [default: the file's own]

@@ -9,7 +9,7 @@ const SPALL: &str = "length_deg = 15.8\ndepth_um = 100.0\nedge_slope_deg = 90.0\
 fn every_defect_that_cannot_be_is_told_with_its_value_and_the_limit() {
     let cases: [(&str, &[&str]); 13] = [
         ("on = \"element\"\nelement = 10\nlength_mm = 1\ndepth_um = 50", &["defect.element is 10", "1 to 9"]),
-        ("on = \"element\"\nelement = 0\nlength_mm = 1\ndepth_um = 50", &["(defect.element) is 0:", "at least 1.0"]),
+        ("on = \"element\"\nelement = 0\nlength_mm = 1\ndepth_um = 50", &["(defect.element) is 0:", "at least 1"]),
         ("on = \"element\"\nlength_mm = 1\ndepth_um = 50", &["defect.element", "defect.on is \"element\""]),
         ("element = 2\nlength_mm = 1\ndepth_um = 50", &["defect.element is 2", "defect.on = \"element\""]),
         ("on = \"inner\"\ntilt_deg = 3\nlength_mm = 1\ndepth_um = 50", &["defect.tilt_deg is 3", "\"element\""]),

@@ -12,7 +12,7 @@ fn film(lines: &str) -> String {
 fn a_film_without_viscosity_or_of_none_is_refused() {
     let with = |viscosity: &str| film(&format!("viscosity_pa_s = {viscosity}\npressure_viscosity_1_pa = 2e-8"));
     for viscosity in ["0.0", "-0.04", "nan", "11.0"] {
-        let parts = ["viscosity of the film (film.viscosity_pa_s) is", "at least 0.0001", "at most 10.0"];
+        let parts = ["viscosity of the film (film.viscosity_pa_s) is", "at least 0.0001", "at most 10"];
         refused("[cage]", &with(viscosity), &parts);
     }
     refused("[cage]", &film("pressure_viscosity_1_pa = 2e-8"), &["film.viscosity_pa_s is missing"]);

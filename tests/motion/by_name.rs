@@ -1,0 +1,88 @@
+//! A simulation as a Rust program uses it: variables by name, and its start.
+#![allow(clippy::unwrap_used)]
+
+use crate::support::shipped;
+use brinell::scene::{Recorder, RecorderFilter, Scene};
+use brinell::simulation::Simulation;
+
+fn simulation(scene: &str) -> Simulation {
+    Simulation::new(shipped(scene), None).unwrap()
+}
+
+#[test]
+fn a_variable_that_is_not_real_is_told_with_the_method_that_takes_it() {
+    let recorder = Some(Recorder { rate: 51_200.0, filter: RecorderFilter::None });
+    let mut bearing = Simulation::new(Scene { recorder, ..shipped("er16k-tb1") }, None).unwrap();
+    for (name, told) in [
+        ("solver.steps", "variable solver.steps is of type Integer: counts takes it, by its reference"),
+        ("contact.law", "variable contact.law is of type Enumeration: integers takes it, by its reference"),
+        ("recorder.folder", "variable recorder.folder is of type String: strings takes it, by its reference"),
+    ] {
+        assert_eq!(bearing.get(name).unwrap_err().to_string(), told);
+    }
+    for (name, told) in [
+        ("solver.steps", "variable solver.steps cannot be set: it is computed"),
+        ("contact.law", "variable contact.law is of type Enumeration: set_integers takes it, by its reference"),
+        ("recorder.folder", "variable recorder.folder is of type String: set_strings takes it, by its reference"),
+    ] {
+        assert_eq!(bearing.set(name, 1.0).unwrap_err().to_string(), told);
+    }
+}
+
+#[test]
+fn an_unknown_name_is_told_with_the_nearest_one() {
+    let bearing = simulation("er16k-tb1");
+    let told = |name: &str| bearing.reference(name).unwrap_err().to_string();
+    assert_eq!(told("shaft.laod.y"), "this model has no variable shaft.laod.y: did you mean shaft.load.y?");
+    assert_eq!(told("temperature"), "this model has no variable temperature");
+}
+
+#[test]
+fn large_numbers_are_told_with_their_power_of_ten() {
+    let error = simulation("er16k-tb1").set("shaft.load.y", 1e300).unwrap_err();
+    assert_eq!(error.to_string(), "variable shaft.load.y: 1e300 is outside -1e9 … 1e9");
+}
+
+#[test]
+fn a_start_that_is_no_instant_is_refused_and_changes_nothing() {
+    for start in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let mut bearing = simulation("er16k-tb1");
+        let error = bearing.initialize(start).unwrap_err();
+        assert_eq!(error.to_string(), format!("start time {start} s: it must be finite"));
+        assert!(bearing.step(1e-4).is_err() && bearing.time() == 0.0);
+        bearing.initialize(2.0).unwrap();
+        assert_eq!(bearing.time(), 2.0);
+    }
+}
+
+#[test]
+fn a_second_start_is_as_the_first_but_for_its_inputs() {
+    let names = |bearing: &Simulation| -> Vec<u32> {
+        let reals =
+            bearing.table().iter().filter(|row| matches!(row.kind, brinell::simulation::variables::Kind::Real { .. }));
+        reals.map(|row| row.reference).collect()
+    };
+    for scene in ["er16k-tb1", "6205-hosted"] {
+        let values = |bearing: &mut Simulation| {
+            let references = names(bearing);
+            let mut values = vec![0.0; references.len()];
+            bearing.reals(&references, &mut values).unwrap();
+            values.into_iter().map(f64::to_bits).collect::<Vec<u64>>()
+        };
+        let (mut once, mut twice) = (simulation(scene), simulation(scene));
+        twice.initialize(0.0).unwrap();
+        for _ in 0..5 {
+            twice.set("shaft.speed", 70.0).unwrap();
+            twice.step(1e-4).unwrap();
+        }
+        once.set("shaft.speed", 70.0).unwrap();
+        once.initialize(3.0).unwrap();
+        twice.initialize(3.0).unwrap();
+        assert_eq!(values(&mut once), values(&mut twice), "{scene} at the start");
+        assert_eq!((twice.time(), twice.step_counts()), (3.0, (0, 0)));
+        for bearing in [&mut once, &mut twice] {
+            bearing.step(1e-4).unwrap();
+        }
+        assert_eq!(values(&mut once), values(&mut twice), "{scene} after a step");
+    }
+}
