@@ -140,7 +140,7 @@ fn of_a_file_that_is_not_toml_the_first_fault_is_told_and_shown() {
         // Neither the lines that follow an open bracket nor the second line of an open text are faults of their own.
         ("load_n = [0.0, -500.0]", "load_n = [0.0, -500.0", "TOML parse error at line 29, column 1\n"),
         ("name = \"er16k-tb1\"", "name = 'er16k\ntb1'", "TOML parse error at line 2, column 14\n"),
-        ("[housing]", "[shaft]", "TOML parse error at line 33, column 2\n"),
+        ("[housing]", "[shaft]", "TOML parse error at line 29, column 2\n"),
         ("poissons_ratio = 0.3", "poissons_ratio = 0,3\nspeed_hz 10.0", "TOML parse error at line 11, column 19\n"),
     ] {
         assert_eq!(GOOD.matches(good).count(), 1, "{good}");
