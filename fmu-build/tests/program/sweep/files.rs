@@ -74,7 +74,7 @@ bearing.element_count = [8.5, 10]
     assert!(!said.contains("line 15"), "{said}");
     assert!(!folder.join("out").exists(), "a folder of a sweep that cannot be");
     for (text, part) in [
-        ("scene = \"er16k-tb1", "TOML parse error at line 1, column 9\n"),
+        ("scene = \"er16k-tb1", "TOML parse error at line 1, column 19\n"),
         ("runs = 1\n", "scene is missing"),
         ("scene = \"er16k-tb3\"\n", "line 1: scene: er16k-tb3: neither a file nor a shipped scene; did you mean"),
         ("scene = \"er16k-tb1\"\n[random]\nshaft.load_n = [1, 2]\n", "runs is missing"),
