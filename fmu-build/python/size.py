@@ -73,7 +73,7 @@ def draw(stem):
     axes[-1].set_xlabel(
         f"element travel from the {origin} (degrees of {raceway})"
         if found["length_deg"]
-        else f"element travel (degrees of {raceway})"
+        else f"element travel (degrees of {raceway}; 0: first impact, if there is one)"
     )
     edges = found["edges_deg"]
     if edges:

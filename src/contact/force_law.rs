@@ -184,7 +184,7 @@ impl ForceLaw {
         if !matches!(self.elasticity, Elasticity::Point) {
             return self.line_with_derivatives(delta, rate);
         }
-        // As of a line contact, with the factors in the order in which the results of balls have their bits.
+        // As for a line contact, but written out: results of balls depend on this order of the factors to the last bit.
         let root = self.stiffness * delta.sqrt();
         match self.damping {
             Damping::HuntCrossley(chi) => Force {

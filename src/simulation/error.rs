@@ -97,7 +97,7 @@ pub enum VariableError {
         wanted: &'static str,
     },
     /// A variable that is not real was read or set by its name, as only a real one can be.
-    #[error("variable {name} is of type {kind}: {call} takes it, by its reference")]
+    #[error("variable {name} is of type {kind}: use {call}, with its reference")]
     NotReal {
         /// Its name.
         name: String,

@@ -31,7 +31,7 @@ impl Simulation {
     /// Sets a real input, or before `initialize` a real parameter, by its name.
     ///
     /// # Errors
-    /// An unknown name; a variable that cannot be set now; a value out of range.
+    /// An unknown name; a variable that is not real, or cannot be set now; a value out of range.
     pub fn set(&mut self, name: &str, value: f64) -> Result<(), VariableError> {
         let reference = self.reference(name)?;
         let variable = self.variable(reference)?;

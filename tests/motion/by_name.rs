@@ -10,20 +10,20 @@ fn simulation(scene: &str) -> Simulation {
 }
 
 #[test]
-fn a_variable_that_is_not_real_is_told_with_the_method_that_takes_it() {
+fn a_variable_that_is_not_real_is_told_with_the_method_to_use() {
     let recorder = Some(Recorder { rate: 51_200.0, filter: RecorderFilter::None });
     let mut bearing = Simulation::new(Scene { recorder, ..shipped("er16k-tb1") }, None).unwrap();
     for (name, told) in [
-        ("solver.steps", "variable solver.steps is of type Integer: counts takes it, by its reference"),
-        ("contact.law", "variable contact.law is of type Enumeration: integers takes it, by its reference"),
-        ("recorder.folder", "variable recorder.folder is of type String: strings takes it, by its reference"),
+        ("solver.steps", "variable solver.steps is of type Integer: use counts, with its reference"),
+        ("contact.law", "variable contact.law is of type Enumeration: use integers, with its reference"),
+        ("recorder.folder", "variable recorder.folder is of type String: use strings, with its reference"),
     ] {
         assert_eq!(bearing.get(name).unwrap_err().to_string(), told);
     }
     for (name, told) in [
         ("solver.steps", "variable solver.steps cannot be set: it is computed"),
-        ("contact.law", "variable contact.law is of type Enumeration: set_integers takes it, by its reference"),
-        ("recorder.folder", "variable recorder.folder is of type String: set_strings takes it, by its reference"),
+        ("contact.law", "variable contact.law is of type Enumeration: use set_integers, with its reference"),
+        ("recorder.folder", "variable recorder.folder is of type String: use set_strings, with its reference"),
     ] {
         assert_eq!(bearing.set(name, 1.0).unwrap_err().to_string(), told);
     }

@@ -168,8 +168,8 @@ impl Assembly {
     }
 
     /// Cage angle with which everything repeats (rad): the spacing of the elements, which are alike, their numbers
-    /// exchanged; or a whole turn of an irregular cage. A defect of a ring changes nothing in that, however
-    /// long it is.
+    /// exchanged; or a whole turn of a cage whose elements are unevenly spaced. A defect of a ring changes nothing in
+    /// that, however long it is. A cage that jitters or wanders repeats with no angle; a turn is taken there as well.
     pub fn period(&self) -> f64 {
         if self.model.is_even() { TAU / self.model.element_count as f64 } else { TAU }
     }
@@ -188,6 +188,12 @@ impl Assembly {
     /// crosses an edge of a ring's defect, some across its length; ascending.
     pub(super) fn telling_angles(&self, first: f64, count: usize) -> Vec<f64> {
         edges::angles(&self.model, &self.edges, first, self.period(), count)
+    }
+
+    /// Angle of each element (rad), counter-clockwise from +x, in [−π, π], with the cage at rest at an angle (rad).
+    pub(super) fn element_angles(&self, cage_angle: f64) -> Vec<f64> {
+        let cage = CageState::at_rest(cage_angle);
+        (0..self.model.element_count).map(|j| wrap(self.model.element_angle(j, &cage))).collect()
     }
 
     /// All degrees of freedom: every element, then rings and sensor as far as they move.
@@ -272,7 +278,7 @@ impl Assembly {
         };
         Ok(AtRest {
             matrix: jacobian.matrix(state.len()),
-            angles: (0..count).map(|j| wrap(model.element_angle(j, &CageState::at_rest(cage_angle)))).collect(),
+            angles: self.element_angles(cage_angle),
             holds: carried.iter().map(hold).collect(),
             carried,
         })

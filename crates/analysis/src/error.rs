@@ -7,7 +7,8 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SizingError {
-    /// The file could not be read. The message says why, so no source would say it again.
+    /// The file could not be read. The message includes the cause, which is therefore no `source`: whoever prints the
+    /// chain would tell it twice.
     #[error("{path}: {cause}")]
     File {
         /// The file.

@@ -99,8 +99,9 @@ fn follow_all(found: &mut [Modes]) {
     sort(found, lines);
 }
 
-/// Numbers of the angles behind which, up to the next, a line's frequency or damping ratio may be less or greater than
-/// at any: both sides of where it is least and greatest, if they are wider than `finest` (rad) and of one kind.
+/// Indices of the intervals, each by the angle at which it begins, in which a line's frequency or damping ratio may go
+/// beyond its extremes at the angles: those on either side of an extreme that are wider than `finest` (rad) and at both
+/// ends of which the same contacts carry.
 fn beside_extremes(found: &[Modes], finest: f64) -> BTreeSet<usize> {
     let mut extremes: BTreeMap<(usize, usize), (f64, usize)> = BTreeMap::new();
     for (i, modes) in found.iter().enumerate() {

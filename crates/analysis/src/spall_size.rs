@@ -42,7 +42,7 @@ const AGREEMENT: f64 = 0.1;
 /// Statistical uncertainty that is always granted (degrees): events are sought on a grid of samples.
 const FLOOR: f64 = 0.02;
 
-/// Sizes the spall in recordings of one bearing. The scene gives bearing, load and rig; its defect is not looked at.
+/// Sizes the spall in recordings of one bearing. The scene gives bearing, load and rig; its defect is ignored.
 ///
 /// ```
 /// use brinell::scene::{ContactLaw, Scene};

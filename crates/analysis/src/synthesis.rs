@@ -7,7 +7,7 @@
 //! ```text
 //! c(L) = max over shift of |⟨measured, simulated(L)⟩| / (‖measured‖ ‖simulated(L)‖)
 //! ```
-//! The scene's defect is not looked at. A rig that is not the scene's gives a low c, and the fit is then not used.
+//! The scene's defect is ignored. A rig that is not the scene's gives a low c, and the fit is then not used.
 //! Above the cut lies the chatter of unloaded elements, which depends on the last micrometre and is no measure of
 //! length.
 

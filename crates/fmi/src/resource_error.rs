@@ -7,7 +7,8 @@ use super::uri::UriError;
 use brinell::scene::SceneError;
 use brinell::simulation::SimulationError;
 
-/// Why the model could not be read or set up. Messages are whole: a cause in them is no source to be told again.
+/// Why the model could not be read or set up. Messages include their causes, which are therefore no `source`: the log
+/// would tell them twice.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum ResourceError {
     /// The location names no path.
