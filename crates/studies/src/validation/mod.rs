@@ -131,7 +131,7 @@ pub fn command(project: &Project, options: &Options, docs: &Path) -> Result<()> 
     if !missing.is_empty() {
         println!("{}", values.folder.display());
         eprintln!(
-            "validate: page and figures are left as they were, for of the page's tables {} have never been computed here",
+            "validate: page and figures are left as they were; of the tables {} have never been computed here",
             missing.join(", ")
         );
         return Ok(());
