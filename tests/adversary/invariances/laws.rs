@@ -3,7 +3,7 @@
 //! One element stands somewhere over a defect, pressed outwards by the inner ring, which the host holds.
 
 use super::course;
-use crate::case::{Case, Damping, Defect, Grooves, Host, Length, Motion, On, Ring, Shape, Step};
+use crate::case::{Case, Defect, Grooves, Host, Length, Motion, On, Ring, Shape, Step};
 use crate::draw::{Draw, for_seeds};
 use crate::oracle::Bearing;
 use crate::random_case::bowl;
@@ -12,38 +12,18 @@ use crate::subject::Subject;
 /// A bearing of one element without a defect, and how far it is pressed outwards (m).
 pub(super) fn standing(draw: &mut Draw) -> (Case, f64) {
     let diameter_mm = draw.log(2.0, 40.0);
-    let ring = Ring { motion: Motion::Host, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
     let case = Case {
-        gravity: [0.0; 2],
         count: 1,
         diameter_mm,
         pitch_mm: diameter_mm * draw.between(2.5, 8.0),
         grooves: Grooves::Each(draw.between(0.51, 0.56), draw.between(0.51, 0.56)),
-        catalogue: false,
         clearance_um: diameter_mm * draw.log(0.1, 3.0),
         modulus_gpa: draw.log(50.0, 400.0),
         poisson: draw.between(0.1, 0.45),
-        density: Some(7800.0),
-        mass_g: None,
-        hertz: [None; 2],
-        compliance: 0.0,
-        damping: Damping::HuntCrossley(0.5),
-        law: "hertz",
-        grid: None,
-        slip: 0.0,
-        spin_slip: 0.0,
-        rings_deg: [0.0; 2],
         cage_deg: draw.between(-180.0, 180.0),
-        defects: Vec::new(),
-        rings: [ring; 2],
-        speed_hz: 0.0,
-        housing_hz: None,
-        sensor: None,
-        roller: None,
-        film: None,
-        modes: Vec::new(),
+        rings: [Ring { motion: Motion::Host, ..Ring::FIXED }; 2],
         tolerance: 1e-6,
-        steps: Vec::new(),
+        ..Case::at_rest()
     };
     let approach = 0.5e-3 * diameter_mm * draw.log(1e-4, 2e-3);
     (case, approach)

@@ -158,7 +158,48 @@ impl Motion {
     }
 }
 
+impl Ring {
+    /// Held to the ground, without load.
+    pub const FIXED: Self = Self { motion: Motion::Fixed, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
+}
+
 impl Case {
+    /// Smooth balls of steel at rest between fixed rings, dry and without weight: what other cases differ from.
+    pub fn at_rest() -> Self {
+        Self {
+            gravity: [0.0; 2],
+            count: 9,
+            diameter_mm: 7.94,
+            pitch_mm: 39.32,
+            grooves: Grooves::Equal(8.19),
+            clearance_um: 0.0,
+            catalogue: false,
+            modulus_gpa: 207.0,
+            poisson: 0.3,
+            density: Some(7800.0),
+            mass_g: None,
+            hertz: [None; 2],
+            compliance: 0.0,
+            damping: Damping::HuntCrossley(0.5),
+            law: "hertz",
+            grid: None,
+            slip: 0.0,
+            spin_slip: 0.0,
+            cage_deg: 0.0,
+            rings_deg: [0.0; 2],
+            defects: Vec::new(),
+            rings: [Ring::FIXED; 2],
+            speed_hz: 0.0,
+            housing_hz: None,
+            sensor: None,
+            roller: None,
+            film: None,
+            modes: Vec::new(),
+            tolerance: 1e-5,
+            steps: Vec::new(),
+        }
+    }
+
     /// Text of the scene file.
     pub fn toml(&self) -> String {
         let mut text = format!("name = \"adversary\"\ngravity_m_s2 = {:?}\n[bearing]\n", self.gravity);

@@ -1,7 +1,7 @@
 //! Scenes that have failed once, each with what was wrong.
 
 use super::judge::{Verdict, judge, start};
-use crate::case::{Case, Damping, Grooves, Motion, Ring, Step};
+use crate::case::{Case, Grooves, Motion, Ring, Step};
 use crate::draw::Draw;
 use crate::oracle::Bearing;
 use crate::oracle::signals::signals;
@@ -13,39 +13,16 @@ use brinell::surface::SurfaceError;
 
 /// A bearing of few elements that turns slowly under 500 N straight down; nothing but the elements holds the shaft.
 fn few_elements(count: usize, cage_deg: f64, clearance_um: f64) -> Case {
-    let fixed = Ring { motion: Motion::Fixed, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
     let shaft = Ring { motion: Motion::Internal, load: [0.0, -500.0], mass: 3.0, damping: 1400.0, stiffness: 0.0 };
     Case {
         gravity: [0.0, -9.81],
         count,
-        diameter_mm: 7.94,
-        pitch_mm: 39.32,
-        grooves: Grooves::Equal(8.19),
         clearance_um,
-        catalogue: false,
-        modulus_gpa: 207.0,
-        poisson: 0.3,
-        density: Some(7800.0),
-        mass_g: None,
-        hertz: [None; 2],
-        compliance: 0.0,
-        damping: Damping::HuntCrossley(0.5),
-        law: "hertz",
-        grid: None,
-        slip: 0.0,
-        spin_slip: 0.0,
         cage_deg,
-        rings_deg: [0.0; 2],
-        defects: Vec::new(),
-        rings: [shaft, fixed],
+        rings: [shaft, Ring::FIXED],
         speed_hz: 10.0,
-        housing_hz: None,
-        sensor: None,
-        roller: None,
-        film: None,
-        modes: Vec::new(),
-        tolerance: 1e-5,
         steps: vec![Step { length: 1e-6, host: None }],
+        ..Case::at_rest()
     }
 }
 
