@@ -265,10 +265,8 @@ impl Assembly {
         let weight = model.element_mass * model.gravity.norm();
         let carried = |j: usize| {
             let forces = [contacts.inner[j], contacts.outer[j]];
-            match forces.map(|force| force > CARRIES * largest) {
-                [true, true] => [true, true],
-                _ => forces.map(|force| force > CARRIES * largest && force > RESTS * weight),
-            }
+            let is_pressed = forces.iter().all(|&force| force > CARRIES * largest);
+            forces.map(|force| force > CARRIES * largest && (is_pressed || force > RESTS * weight))
         };
         let carried: Vec<[bool; 2]> = (0..count).map(carried).collect();
         let hold = |carried: &[bool; 2]| match carried {

@@ -5,6 +5,7 @@
 //! where the depth jumps, and a defect's two ends. Those of an element's own defect are not among them: how it lies at
 //! a cage angle is a matter of chance.
 
+use super::stiffness::evenly_spaced;
 use brinell::contact::element_on_raceway::ElementOnRaceway;
 use brinell::contact::rolling::RacewaySide;
 use brinell::dynamics::kinematics::CageState;
@@ -61,9 +62,8 @@ impl Edge {
 /// `count` evenly spaced cage angles from `first` (rad) on over a `period` of the model, its end, and those at which an
 /// element's contact is about one of these edges; ascending.
 pub(super) fn angles(model: &Model, edges: &[Edge], first: f64, period: f64, count: usize) -> Vec<f64> {
-    let count = count.max(1);
-    let mut angles: Vec<f64> = (0..=count).map(|i| first + i as f64 * (period / count as f64)).collect();
-    let last = angles[count];
+    let mut angles = evenly_spaced(first, period, count);
+    let last = angles[angles.len() - 1];
     for place in edges.iter().flat_map(|edge| edge.around()) {
         // In an even cage any element does: the others' angles are whole spacings away.
         for j in 0..if model.is_even() { 1 } else { model.element_count } {

@@ -61,12 +61,9 @@ impl Recording {
     /// # Errors
     /// Rate or speed not positive, samples missing, not finite, constant or clipped.
     pub fn new(name: &str, samples: Vec<f64>, rate: f64, speed: f64) -> Result<Self, SizingError> {
+        check_positive(name, "sampling rate", rate)?;
+        check_positive(name, "shaft speed", speed)?;
         let name = name.to_owned();
-        for (quantity, value) in [("sampling rate", rate), ("shaft speed", speed)] {
-            if !(value.is_finite() && value > 0.0) {
-                return Err(SizingError::NotPositive { name, quantity, value, unit: "Hz" });
-            }
-        }
         check_samples(&name, &samples)?;
         let mean = samples.iter().sum::<f64>() / samples.len() as f64;
         let samples = samples.into_iter().map(|x| x - mean).collect();
@@ -101,9 +98,7 @@ impl Recording {
     /// As [`new`](Self::new), and speeds that are not above 0 or vary too much.
     pub fn with_speeds(name: &str, samples: &[f64], speeds: &[f64], rate: f64) -> Result<Self, SizingError> {
         check_beside(name, samples, speeds)?;
-        if let Some(value) = speeds.iter().copied().find(|&s| !(s.is_finite() && s > 0.0)) {
-            return Err(SizingError::NotPositive { name: name.to_owned(), quantity: "shaft speed", value, unit: "Hz" });
-        }
+        speeds.iter().try_for_each(|&speed| check_positive(name, "shaft speed", speed))?;
         let at: Vec<f64> = (0..samples.len()).map(|i| i as f64).collect();
         let mut turns = Vec::with_capacity(samples.len());
         let mut turn = 0.0;
@@ -155,9 +150,8 @@ impl Recording {
         let table = Table::read(path, bytes)?;
         let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
         let refuse = |why: String| SizingError::Format { path: path.to_owned(), why };
-        if let Some(value) = source.rate.filter(|rate| !(rate.is_finite() && *rate > 0.0)) {
-            return Err(SizingError::NotPositive { name, quantity: "sampling rate", value, unit: "Hz" });
-        }
+        // Before it is compared: 0 is no other rate, but none.
+        source.rate.map_or(Ok(()), |rate| check_positive(&name, "sampling rate", rate))?;
         let rate = match (source.rate, table.rate) {
             (Some(given), Some(stated)) if !((given / stated - 1.0).abs() <= SAME_RATE) => {
                 return Err(SizingError::OtherRate { name, given, stated, limit: 100.0 * SAME_RATE });
@@ -231,6 +225,14 @@ fn check_beside(name: &str, samples: &[f64], other: &[f64]) -> Result<(), Sizing
         return Ok(());
     }
     Err(SizingError::OtherLength { name: name.to_owned(), other: other.len(), samples: samples.len() })
+}
+
+/// Refuses a frequency (Hz) that is not above 0.
+fn check_positive(name: &str, quantity: &'static str, value: f64) -> Result<(), SizingError> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(());
+    }
+    Err(SizingError::NotPositive { name: name.to_owned(), quantity, value, unit: "Hz" })
 }
 
 fn check_samples(name: &str, samples: &[f64]) -> Result<(), SizingError> {

@@ -30,9 +30,13 @@ const NARROW: f64 = 1e-7;
 /// Those of [`StaticBearing::balance`].
 pub fn sweep(bearing: &StaticBearing, first: f64, count: usize) -> Result<Vec<Balance>, StaticError> {
     let at = |angle: f64| bearing.balance(angle, bearing.load());
+    with_changes(&evenly_spaced(first, bearing.period(), count), NARROW, at, same_loaded)
+}
+
+/// `count` evenly spaced cage angles from `first` (rad) on over a period, one at least, and its end.
+pub(super) fn evenly_spaced(first: f64, period: f64, count: usize) -> Vec<f64> {
     let count = count.max(1);
-    let angles: Vec<f64> = (0..=count).map(|i| first + i as f64 * (bearing.period() / count as f64)).collect();
-    with_changes(&angles, NARROW, at, same_loaded)
+    (0..=count).map(|i| first + i as f64 * (period / count as f64)).collect()
 }
 
 /// What `at` gives at ascending angles (rad), and at both sides of each angle between them at which it ceases to be the
