@@ -9,8 +9,7 @@
 
 use brinell::scene::Scene;
 use brinell::simulation::Simulation;
-use brinell::simulation::guid::guid;
-use brinell::simulation::variables::{Causality, Kind, Variable};
+use brinell::simulation::interface::table::{Causality, Kind, Variable, guid};
 use brinell_fmi::fmi2::*;
 use libloading::{Library, Symbol};
 use std::ffi::CString;

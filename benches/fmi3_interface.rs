@@ -9,8 +9,7 @@
 
 use brinell::scene::Scene;
 use brinell::simulation::Simulation;
-use brinell::simulation::guid::guid;
-use brinell::simulation::variables::{Causality, Kind};
+use brinell::simulation::interface::table::{Causality, Kind, guid};
 use brinell_fmi::fmi2::{self, CO_SIMULATION, CallbackFunctions, FmiString, LoggerCallback, Status};
 use brinell_fmi::fmi3::{self, FALSE, Instance, IntermediateUpdateCallback, LogMessageCallback, TRUE};
 use libloading::{Library, Symbol};

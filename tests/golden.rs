@@ -20,7 +20,7 @@ use std::path::PathBuf;
 
 use brinell::scene::{Motion, Scene};
 use brinell::simulation::StepCounts;
-use brinell::simulation::variables::{Causality, Kind};
+use brinell::simulation::interface::table::{Causality, Kind};
 use runs::{AS_SHIPPED, BY_PATH, STEP, STEPS, ring_motion, scene_of};
 use support::{Named, fingerprint};
 

@@ -12,7 +12,6 @@ mod methods;
 #[path = "layers/reader.rs"]
 mod reader;
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -23,7 +22,7 @@ use reader::imports;
 /// know is in `CRATES`.
 const ORDER: [&str; 8] = ["numerics", "scene", "geometry", "surface", "contact", "dynamics", "simulation", "recording"];
 /// The crates by folder, those of tests in `tests` aside, and those among them that each may depend on.
-const CRATES: [(&str, &[&str]); 13] = [
+const CRATES: [(&str, &[&str]); 12] = [
     ("crates/elementary", &[]),
     ("crates/scene", &["brinell-elementary"]),
     ("", &["brinell-elementary", "brinell-scene"]),
@@ -31,7 +30,6 @@ const CRATES: [(&str, &[&str]); 13] = [
     ("crates/eigen", &[]),
     ("crates/spectrum", &[]),
     ("crates/analysis", &["brinell", "brinell-eigen", "brinell-spectrum"]),
-    ("crates/contact-bench", &["brinell"]),
     ("fmu-build", &["brinell", "brinell-analysis"]),
     ("crates/studies", &["brinell", "brinell-analysis", "fmu-build"]),
     ("tests/adversary/oracle", &[]),
@@ -113,49 +111,6 @@ fn no_module_imports_one_that_imports_it() {
         found.extend(tops.iter().flat_map(|top| cycles(top, &files)).map(|cycle| format!("{folder}: {cycle}")));
     }
     assert!(found.is_empty(), "\n{}", found.join("\n"));
-}
-
-#[test]
-fn the_lists_of_architecture_have_every_module_below_all_that_use_it() {
-    let root = brinell_tests::root();
-    let page = fs::read_to_string(root.join("ARCHITECTURE.md")).unwrap();
-    let source = root.join("src");
-    let files = files_below(&source).into_iter().map(|file| (module(&source, &file), read(&file))).collect();
-    let files = reader::without_tests(files);
-    for layer in ["simulation", "dynamics"] {
-        let list = page.split(&format!("\n{layer}   ")).nth(1).unwrap();
-        // After three blanks stands what a row is.
-        let rows = list.lines().take_while(|row| !row.is_empty() && !row.starts_with("```"));
-        let rows: Vec<_> = rows.map(|row| row.trim().split("   ").next().unwrap().split_whitespace()).collect();
-        let listed = rows.into_iter().enumerate().flat_map(|(row, names)| names.map(move |name| (name, row)));
-        let modules = cycles::modules(&[layer.to_owned()], &files);
-        let (mut row_of, mut wrong) = (BTreeMap::new(), Vec::new());
-        for (name, row) in listed {
-            wrong.extend((!modules.contains_key(name)).then(|| format!("{name} is no module")));
-            wrong.extend(row_of.insert(name, row).map(|_| format!("{name} is listed twice")));
-        }
-        for (module, used) in modules {
-            let Some(row) = row_of.get(&*module) else {
-                wrong.push(format!("{module} is not listed"));
-                continue;
-            };
-            let above = used.iter().filter(|used| row_of.get(&***used).is_some_and(|other| other <= row));
-            wrong.extend(above.map(|used| format!("{module} is not above {used}")));
-        }
-        assert!(wrong.is_empty(), "{layer}:\n{}", wrong.join("\n"));
-    }
-}
-
-#[test]
-fn architecture_says_in_how_many_files_the_two_largest_types_have_their_methods() {
-    let root = brinell_tests::root();
-    let page = fs::read_to_string(root.join("ARCHITECTURE.md")).unwrap();
-    let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
-    for (of, layer) in [("Model", "dynamics"), ("Simulation", "simulation")] {
-        let block = format!("\nimpl {of} {{\n");
-        let files = files_of(&root.join("src"), layer).into_iter().filter(|file| read(file).contains(&block)).count();
-        assert!(page.contains(&format!("`impl {of}` stands in {files} files")), "`impl {of}` stands in {files} files");
-    }
 }
 
 /// Path of a file's module from its crate's root.

@@ -1,6 +1,6 @@
 """The same contacts through slippy, Tamaas, ContactMechanics and Brinell, from one run on one core.
 
-    cargo build --release --example contact_case && python3 benches/peers/contact.py
+    cargo build --release -p brinell-analysis --example contact_case && python3 benches/peers/contact.py
     python3 benches/peers/contact.py --hertz 512
 
 The second prints, for a sphere on so many cells each way, errors of largest pressure and force against

@@ -7,12 +7,11 @@ use std::path::PathBuf;
 use anyhow::{Context, Result};
 use clap::{Parser, Subcommand};
 
-use crate::library::Library;
-use crate::reference::Reference;
-use crate::{
-    catalogue, check, contact, demo, fmu, model::Model, modes, new_scene, project::Project, run, scenes, schema, size,
-    stiffness, sweep,
-};
+use crate::commands::{catalogue, contact, demo, modes, new_scene, scenes, schema, size, stiffness};
+use crate::host::check;
+use crate::package::{Library, Model, Reference, fmu};
+use crate::shared::Project;
+use crate::{run, sweep};
 use options::{Build, Catalogue, Check, Contact, Demo, Modes, New, Run, Scenes, Size, Stiffness, Sweep};
 
 /// Rolling bearings with a real surface defect as FMI co-simulation units.

@@ -5,5 +5,5 @@ use std::process::ExitCode;
 use clap::Parser;
 
 fn main() -> ExitCode {
-    fmu_build::ending::program(|| fmu_build::cli::Arguments::parse().execute())
+    fmu_build::shared::program(|| fmu_build::cli::Arguments::parse().execute())
 }

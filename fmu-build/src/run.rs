@@ -18,12 +18,8 @@ use anyhow::{Context, Result, bail};
 use brinell::scene::{Recorder, RecorderFilter, Scene};
 use brinell::simulation::Simulation;
 
-use crate::digits::digits;
-use crate::grid::Grid;
-use crate::model::{Model, Profile};
-use crate::project::Project;
-use crate::python::Python;
-use crate::whole_file;
+use crate::package::{Model, Profile};
+use crate::shared::{Grid, Project, Python, digits, whole_file};
 use columns::Columns;
 use course::{Course, Done};
 use noise::Noise;

@@ -25,10 +25,8 @@ use anyhow::{Context, Result, bail};
 use brinell::scene::Experiment;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::grid::Grid;
-use crate::project::Project;
 use crate::run::speed_profile::SpeedProfile;
-use crate::whole_file::{self, NotWritten};
+use crate::shared::{Grid, NotWritten, Project, whole_file};
 use bench::Bench;
 pub(crate) use bench::Written;
 use faults::{Fault, Faults};

@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use dist::{made, names};
-use fmu_build::zig::{OLDEST_GLIBC, needed_glibc};
+use fmu_build::platforms::{OLDEST_GLIBC, needed_glibc};
 use object::{Architecture, BinaryFormat, Object, macho};
 use zip::ZipArchive;
 

@@ -11,11 +11,10 @@ mod macos;
 use std::process::Command;
 use std::sync::OnceLock;
 
-use fmu_build::fmi_version::Version;
-use fmu_build::fmu;
-use fmu_build::library::{Binary, Choice, Library};
-use fmu_build::project::Project;
-use fmu_build::zig::{OLDEST_GLIBC, needed_glibc};
+use fmu_build::package::{Binary, Choice, Library, fmu};
+use fmu_build::platforms::{OLDEST_GLIBC, needed_glibc};
+use fmu_build::shared::Project;
+use fmu_build::shared::Version;
 use object::{LittleEndian, Object, macho};
 
 /// How many functions of each version there are: those of co-simulation, and those that only refuse.
@@ -136,7 +135,7 @@ mod all_platforms {
         assert!(bytes.len() < 6_000_000, "{} bytes", bytes.len());
         let file = common::folder("all-platforms").join("6205-epps.fmu");
         std::fs::write(&file, bytes).unwrap();
-        fmu_build::check::command(&Project::find(), &file).unwrap();
+        fmu_build::host::command(&Project::find(), &file).unwrap();
     }
 
     #[test]

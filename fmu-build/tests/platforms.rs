@@ -17,11 +17,10 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use brinell::scene::Motion;
-use brinell::simulation::variables::{Causality, Kind, Variable};
-use fmu_build::library::{Choice, Library};
-use fmu_build::model::Model;
-use fmu_build::platform::Platform;
-use fmu_build::project::Project;
+use brinell::simulation::interface::table::{Causality, Kind, Variable};
+use fmu_build::package::{Choice, Library, Model};
+use fmu_build::platforms::Platform;
+use fmu_build::shared::Project;
 use runs::{AS_SHIPPED, BY_PATH, STEP, STEPS, ring_motion, scene_of};
 
 /// A kind of machine, on which a library and a host run.

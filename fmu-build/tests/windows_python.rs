@@ -14,10 +14,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use fmu_build::fmi_version::Version;
-use fmu_build::library::{Choice, Library};
-use fmu_build::platform::Platform;
-use fmu_build::project::Project;
+use fmu_build::package::{Choice, Library};
+use fmu_build::platforms::Platform;
+use fmu_build::shared::Project;
+use fmu_build::shared::Version;
 
 /// numpy 2 asks for functions of the C library that Wine 8 lacks.
 const NUMPY: &str = "numpy==1.26.4";
@@ -74,7 +74,7 @@ mod all_platforms {
             .iter()
             .map(|scene| {
                 let model = common::model(scene.file_stem().unwrap().to_str().unwrap());
-                fmu_build::fmu::write(&model, &library, Version::Fmi2, &folder).unwrap()
+                fmu_build::package::write(&model, &library, Version::Fmi2, &folder).unwrap()
             })
             .collect();
         let here = common::run_script("bits.py", words(&folder.join("here"), &fmus, Path::to_path_buf));

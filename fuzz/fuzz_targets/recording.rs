@@ -6,8 +6,7 @@ use std::path::Path;
 
 use brinell::scene::Scene;
 use brinell_analysis::recording::{Recording, Source, Speed};
-use brinell_analysis::report::Verdict;
-use brinell_analysis::spall_size::size;
+use brinell_analysis::sizing::{Verdict, size};
 use libfuzzer_sys::fuzz_target;
 
 /// 67 samples a passage at 10 Hz: 8 passages, the fewest that are sized, fit into a short input.

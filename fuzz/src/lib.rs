@@ -9,8 +9,7 @@ use std::{fs, ptr};
 
 use brinell::scene::Scene;
 use brinell::simulation::Simulation;
-use brinell::simulation::guid::guid;
-use brinell::simulation::variables::{Kind, Variable};
+use brinell::simulation::interface::table::{guid, Kind, Variable};
 use brinell_fmi::fmi2::*;
 
 /// Scenes: both rings moved by forces, one of them by the host, both by the host; and defects of all bodies, an outer

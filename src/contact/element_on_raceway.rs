@@ -5,11 +5,13 @@
 //! roller's free end is as stiff here as if it went on, too. Pressures at the ends of a straight roller grow without
 //! bound as a grid is refined; forces do not.
 
-use super::{elasticity::LINE_ORDER, error::ContactError, rolling::RacewaySide};
+use super::error::ContactError;
+use super::rolling::RacewaySide;
+use crate::contact::law::LINE_ORDER;
 use crate::geometry::curvature::relative_curvature;
 use crate::geometry::hertz_constant::squared_eccentricity;
 use crate::geometry::line_contact::{half_width_under, logarithmic_depth};
-use crate::numerics::elliptic;
+use crate::numerics::elementary::elliptic;
 use crate::scene::{Bearing, RollerProfile};
 
 /// Radii of an element and of the raceway it runs on.

@@ -3,8 +3,8 @@
 //!
 //! ```
 //! use brinell::contact::element_on_raceway::ElementOnRaceway;
-//! use brinell::contact::love::LoveContact;
-//! use brinell::contact::raceway_grid::Resolution;
+//! use crate::contact::love::love_contact::love_contact::LoveContact;
+//! use crate::contact::love::love_contact::raceway_grid::Resolution;
 //! use brinell::contact::rolling::RacewaySide;
 //! use brinell::scene::Bearing;
 //! use brinell::surface::{Profile, Surface};
@@ -22,39 +22,12 @@
 //! # Ok::<(), brinell::contact::error::ContactError>(())
 //! ```
 
-pub mod active_set;
-mod batched_fft;
-pub mod cholesky;
-pub mod compliant;
-pub mod conjugate_gradients;
-pub mod contact_maps;
-pub mod crown;
-pub mod edge_softness;
-pub mod elasticity;
 pub mod element_on_raceway;
 pub mod equivalent;
 pub mod error;
-pub mod fft_product;
-pub(crate) mod flat_stretches;
-pub mod force_law;
-pub mod grid;
-pub mod half_space;
+pub mod law;
 pub mod love;
 pub mod map;
-pub mod map_build;
-mod map_cells;
-mod map_checks;
-pub mod map_format;
-pub mod map_plan;
-pub mod map_specification;
 pub mod near_defect;
-mod patch_plan;
-pub mod raceway_grid;
-pub mod rigid_path;
-mod rigid_roller;
+pub mod rolled_path;
 pub mod rolling;
-mod row_pairs;
-pub mod smooth_laws;
-mod smooth_scale;
-mod soft_edges;
-pub mod squeeze_film;

@@ -11,10 +11,9 @@ use std::sync::Arc;
 
 use super::equivalent::EquivalentApproach;
 use super::error::ContactError;
-use super::love::LoveContact;
-use super::map::ContactMap;
-use super::map_plan::Unmapped;
-use super::rigid_path::RigidPath;
+use crate::contact::love::LoveContact;
+use crate::contact::map::{ContactMap, Unmapped};
+use crate::contact::rolled_path::RigidPath;
 
 /// Equivalent approach of one element to a raceway, and the direction of the contact force on the element.
 #[derive(Debug, Clone, Copy, PartialEq)]

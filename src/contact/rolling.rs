@@ -189,8 +189,8 @@ impl Rolling {
 
 #[cfg(test)]
 mod tests {
-    use super::super::rigid_path::RigidPath;
     use super::*;
+    use crate::contact::rolled_path::RigidPath;
 
     /// Radii of the ER16K of `er16k-tb1` (m).
     const ELEMENT: f64 = 3.97e-3;

@@ -3,34 +3,9 @@
 //! Knows neither steps nor hosts. Time enters only through a [`drive::Drive`], which gives the cage angle and the
 //! prescribed motions and loads as polynomials of the time since the last communication point.
 
-mod balance_lanes;
-mod balance_variation;
-mod balanced_derivative;
-mod body_rates;
-pub mod contact_lanes;
-pub(crate) mod dense_output;
-pub mod drive;
-mod element_balance;
-mod element_block;
-mod element_contacts;
+pub mod contacts;
+pub mod derivatives;
 pub mod equilibrium;
-mod equilibrium_error;
-pub mod equilibrium_variation;
-pub mod film;
-pub mod forces;
-mod gap_lanes;
-pub mod irregularity;
-pub mod jacobian;
-pub mod kinematics;
-pub mod layout;
-mod linearized;
-pub mod model;
-mod other_contacts;
-mod path_search;
-pub mod raceway;
-mod right_hand_side;
-mod ring_motion;
-pub mod sensor_modes;
-pub mod supports;
-pub mod tangent;
-pub mod variation;
+pub mod motion;
+pub mod parameters;
+pub mod quasi_static;

@@ -11,7 +11,7 @@
 //! of 1500 N true circles are already 2.4 % softer than their paraboloids.
 
 use super::curvature::relative_curvature;
-use crate::numerics::elliptic;
+use crate::numerics::elementary::elliptic;
 use crate::scene::Bearing;
 
 /// Hertz constants of one element's contacts with the two smooth raceways (N/m^1.5).

@@ -116,6 +116,7 @@ impl Wide for Scalar256b {
 }
 
 mod partition;
+pub mod row;
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 mod x86;
 

@@ -9,7 +9,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::sin_cos;
+use crate::numerics::sin_cos;
 
 /// Coefficients h(−K) … h(K) for K = `half`, cut-off `cutoff` [cycles per sample] and attenuation `attenuation` (dB).
 /// Their sum is 1.

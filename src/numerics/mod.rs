@@ -5,19 +5,15 @@
 
 pub mod bytes;
 pub mod checksum;
-pub mod elliptic;
-pub mod hermite;
+pub mod elementary;
 pub mod lanes;
 pub mod low_pass;
-mod ninth_root;
 pub mod number;
 pub mod plane;
-mod power;
-pub(crate) mod quintic;
-pub mod row;
+pub mod polynomials;
 #[cfg(test)]
 pub(crate) mod trees;
 
 pub use brinell_elementary::{counter_noise, sin_cos, wrap};
-pub use ninth_root::ninth_root;
-pub use power::rough_power;
+pub use elementary::ninth_root::ninth_root;
+pub use elementary::power::rough_power;

@@ -1,9 +1,9 @@
 //! What goes wrong in setting up or stepping a bearing.
 
-use super::step_error::StepError;
 use crate::contact::error::ContactError;
 use crate::dynamics::equilibrium::EquilibriumError;
 use crate::scene::{ContactLaw, Plain, SceneError};
+use crate::simulation::step_error::StepError;
 use crate::surface::SurfaceError;
 
 /// What goes wrong in setting up or stepping a bearing. Each message names the quantity, its value and the limit.

@@ -3,7 +3,7 @@
 use crate::contact::error::ContactError;
 
 /// Smallest step (s); the fastest real mode of a steel bearing's element lasts 1e-8 s.
-pub(super) const SMALLEST_STEP: f64 = 1e-15;
+pub(in crate::simulation) const SMALLEST_STEP: f64 = 1e-15;
 
 /// Why a communication step could not be finished; the state stays that of the last accepted integration step.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -15,7 +15,8 @@ use crate::oracle::signals::{Kind, signals};
 use crate::random_case::{on_the_outer_raceway, random};
 use crate::subject::Subject;
 use crate::units::{HORIZON, LIMIT, differences, largest_force, units};
-use brinell::simulation::{Method, SimulationError};
+use brinell::simulation::Method;
+use brinell::simulation::SimulationError;
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 

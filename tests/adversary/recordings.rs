@@ -10,8 +10,7 @@ mod machine;
 mod signals;
 
 use brinell_analysis::recording::{Recording, Source, Speed};
-use brinell_analysis::report::Report;
-use brinell_analysis::spall_size::size;
+use brinell_analysis::sizing::{Report, size};
 use brinell_analysis::statistics::Random;
 use machine::{RATE, scene};
 use std::fmt::Write;

@@ -4,7 +4,7 @@ use crate::case::{Case, Motion};
 use crate::draw::Draw;
 use crate::oracle::signals::signals;
 use brinell::scene::Scene;
-use brinell::simulation::variables::{Causality, Kind};
+use brinell::simulation::interface::table::{Causality, Kind};
 use brinell::simulation::{Simulation, SimulationError};
 
 pub struct Subject {

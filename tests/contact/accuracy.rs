@@ -7,10 +7,8 @@ use std::fmt::Write;
 
 use crate::er16k::OUTER as ER16K;
 use brinell::contact::element_on_raceway::ElementOnRaceway;
-use brinell::contact::love::LoveContact;
-use brinell::contact::map::ContactMap;
-use brinell::contact::map_specification::{MapSpecification, Sequential};
-use brinell::contact::raceway_grid::Resolution;
+use brinell::contact::love::{LoveContact, Resolution};
+use brinell::contact::map::{ContactMap, MapSpecification, Sequential};
 use brinell::contact::rolling::RacewaySide;
 use brinell::simulation::setup;
 use brinell::surface::{Surface, Topography};

@@ -7,10 +7,8 @@ use crate::er16k;
 use std::f64::consts::FRAC_PI_2;
 
 use crate::counting::counted;
-use brinell::contact::love::LoveContact;
-use brinell::contact::map::ContactMap;
-use brinell::contact::map_specification::{MapSpecification, Sequential};
-use brinell::contact::raceway_grid::Resolution;
+use brinell::contact::love::{LoveContact, Resolution};
+use brinell::contact::map::{ContactMap, MapSpecification, Sequential};
 use brinell::surface::{Profile, Surface};
 
 #[test]

@@ -3,12 +3,9 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::er16k::OUTER as ER16K;
-use brinell::contact::edge_softness::{EdgeSoftness, image_factor};
 use brinell::contact::error::ContactError;
-use brinell::contact::love::LoveContact;
-use brinell::contact::map::ContactMap;
-use brinell::contact::map_specification::{MapSpecification, Sequential};
-use brinell::contact::raceway_grid::Resolution;
+use brinell::contact::love::{EdgeSoftness, LoveContact, Resolution, image_factor};
+use brinell::contact::map::{ContactMap, MapSpecification, Sequential};
 use brinell::surface::{Profile, Surface};
 use std::f64::consts::FRAC_PI_2;
 

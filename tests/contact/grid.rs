@@ -3,11 +3,9 @@
 
 use std::f64::consts::PI;
 
-use brinell::contact::active_set::{ActiveSet, Mirror, Window};
-use brinell::contact::conjugate_gradients::ConjugateGradients;
 use brinell::contact::error::ContactError;
-use brinell::contact::grid::{Border, GridActiveSet, GridProblem, GridSolver};
-use brinell::contact::half_space::{KernelTable, rectangle_kernel};
+use brinell::contact::love::{ActiveSet, KernelTable, Mirror, Window, rectangle_kernel};
+use brinell_analysis::pressure::{Border, ConjugateGradients, GridActiveSet, GridProblem, GridSolver};
 use nalgebra::{DMatrix, DVector};
 
 const APPROACH: f64 = 0.01;

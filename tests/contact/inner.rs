@@ -4,10 +4,8 @@
 
 use crate::er16k::{INNER, OUTER};
 use brinell::contact::element_on_raceway::ElementOnRaceway;
-use brinell::contact::love::LoveContact;
-use brinell::contact::map::ContactMap;
-use brinell::contact::map_specification::{MapSpecification, Sequential};
-use brinell::contact::raceway_grid::Resolution;
+use brinell::contact::love::{LoveContact, Resolution};
+use brinell::contact::map::{ContactMap, MapSpecification, Sequential};
 use brinell::contact::rolling::RacewaySide;
 use brinell::surface::{Profile, Surface};
 use std::f64::consts::FRAC_PI_2;

@@ -7,10 +7,8 @@ use std::sync::OnceLock;
 use crate::er16k::OUTER as ER16K;
 use brinell::contact::element_on_raceway::{Across, ElementOnRaceway};
 use brinell::contact::error::ContactError;
-use brinell::contact::love::LoveContact;
-use brinell::contact::map::ContactMap;
-use brinell::contact::map_specification::{MapSpecification, Sequential};
-use brinell::contact::raceway_grid::Resolution;
+use brinell::contact::love::{LoveContact, Resolution};
+use brinell::contact::map::{ContactMap, MapSpecification, Sequential};
 use brinell::surface::{Profile, Surface, Topography};
 
 const LENGTH: f64 = 6.517e-3;

@@ -3,12 +3,10 @@
 #![allow(clippy::unwrap_used)]
 
 use brinell::contact::element_on_raceway::{Across, ElementOnRaceway};
-use brinell::contact::love::LoveContact;
-use brinell::contact::raceway_grid::Resolution;
+use brinell::contact::love::{LoveContact, Resolution};
 use brinell::contact::rolling::RacewaySide;
 use brinell::scene::{Bearing, ContactLaw, Scene};
-use brinell_analysis::contact_pressure::{BallOnRaceway, Pressed};
-use brinell_analysis::subsurface::{Corners, Stress, maximum};
+use brinell_analysis::pressure::{BallOnRaceway, Corners, Pressed, Stress, maximum};
 
 const RADIUS: f64 = 0.01;
 const NU: f64 = 0.3;

@@ -2,7 +2,7 @@
 //! kinds.
 #![allow(clippy::unwrap_used)]
 
-use brinell::contact::rigid_path::RigidPath;
+use brinell::contact::rolled_path::RigidPath;
 use brinell::contact::rolling::{RacewaySide, Rolling};
 use brinell_oracle::envelope::{Envelope, Pair};
 use std::f64::consts::TAU;

@@ -2,13 +2,12 @@
 #![allow(clippy::unwrap_used)]
 
 use RollerProfile::{Logarithmic, Straight};
-use brinell::contact::elasticity::Elasticity;
+use brinell::contact::law::{Elasticity, elastic_law};
 use brinell::contact::rolling::RacewaySide;
-use brinell::contact::smooth_laws::elastic_law;
 use brinell::geometry::line_contact::logarithmic_depth;
 use brinell::scene::{Bearing, ContactLaw, Crown, Roller, RollerProfile, RollingElement, Scene};
 use brinell::simulation::Simulation;
-use brinell_analysis::static_bearing::StaticBearing;
+use brinell_analysis::statics::StaticBearing;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, PI, TAU};
 use std::fmt::Write;
 use std::sync::Arc;

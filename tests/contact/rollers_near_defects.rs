@@ -2,16 +2,13 @@
 //! and finer grids.
 #![allow(clippy::unwrap_used)]
 
-use brinell::contact::conjugate_gradients::ConjugateGradients;
 use brinell::contact::element_on_raceway::{Across, ElementOnRaceway};
-use brinell::contact::grid::{Border, GridContact, GridProblem, GridSolver};
-use brinell::contact::love::LoveContact;
-use brinell::contact::map::ContactMap;
-use brinell::contact::map_specification::{MapSpecification, Sequential};
-use brinell::contact::raceway_grid::Resolution;
+use brinell::contact::love::{LoveContact, Resolution};
+use brinell::contact::map::{ContactMap, MapSpecification, Sequential};
 use brinell::contact::rolling::RacewaySide;
 use brinell::geometry::line_contact::logarithmic_depth;
 use brinell::surface::{Profile, Surface, Topography};
+use brinell_analysis::pressure::{Border, ConjugateGradients, GridContact, GridProblem, GridSolver};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Write;

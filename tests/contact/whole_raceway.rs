@@ -4,7 +4,7 @@
 
 use crate::support::{Named, shipped};
 use brinell::contact::error::ContactError;
-use brinell::contact::rigid_path::RigidPath;
+use brinell::contact::rolled_path::RigidPath;
 use brinell::contact::rolling::Rolling;
 use brinell::scene::{ContactLaw, Defect, DefectShape, Motion, Scene};
 use brinell::simulation::{Simulation, SimulationError};

@@ -4,7 +4,7 @@
 use super::without_inertia;
 use crate::support::{Named, shipped};
 use brinell::scene::{Ring, Scene};
-use brinell::simulation::variables::Causality;
+use brinell::simulation::interface::table::Causality;
 
 /// The line spall, its shaft moved by a host, elements over the spall.
 fn hosted() -> Scene {

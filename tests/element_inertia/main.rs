@@ -11,8 +11,7 @@ mod support;
 
 use brinell::scene::{ContactLaw, ElementInertia, Ring, Scene};
 use brinell::simulation::Method;
-use brinell_analysis::assembly::Assembly;
-use brinell_analysis::modes::Mode;
+use brinell_analysis::modes::{Assembly, Mode};
 use support::{Named, shipped, shipped_as_it_is};
 
 fn without_inertia(mut scene: Scene) -> Scene {

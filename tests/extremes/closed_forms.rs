@@ -3,8 +3,8 @@
 use crate::row::Row;
 use crate::scenes::{Kind, loaded, without_inertia};
 use crate::support::Named;
+use brinell::contact::law::elastic_law;
 use brinell::contact::rolling::RacewaySide;
-use brinell::contact::smooth_laws::elastic_law;
 use brinell::geometry::hertz_constant::HertzConstants;
 use brinell::geometry::kinematics::cage_ratio;
 use brinell::scene::{Damping, Ring, Scene};

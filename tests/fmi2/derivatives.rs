@@ -1,7 +1,7 @@
 //! Derivatives by inputs: what the functions give is what a host finds by differences.
 
 use crate::host::Host;
-use brinell::simulation::variables::{Causality, Dependencies, Kind, Unit, Variable};
+use brinell::simulation::interface::table::{Causality, Dependencies, Kind, Unit, Variable};
 use brinell_fmi::fmi2::*;
 
 /// All that may move: rings inside, one ring or both from the host, sound, spalled, spalled and compliant.

@@ -4,7 +4,7 @@
 //! arguments that Brinell passes. On the platforms that the tests run on (System V x86-64, AArch64 Linux, Windows
 //! x64) variable arguments arrive where fixed ones do, so this is harmless; on Apple's AArch64 it is not.
 
-use brinell::simulation::guid::guid;
+use brinell::simulation::interface::table::guid;
 use brinell_fmi::fmi2::*;
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_void};
@@ -340,7 +340,7 @@ impl Host {
     }
 
     /// The variable table, as the model description would tell it.
-    pub(crate) fn table(&self) -> Vec<brinell::simulation::variables::Variable> {
+    pub(crate) fn table(&self) -> Vec<brinell::simulation::interface::table::Variable> {
         self.simulation().table().to_vec()
     }
 
@@ -355,8 +355,9 @@ impl Host {
 
     /// References of all real variables.
     pub(crate) fn reals(&self) -> Vec<u32> {
-        use brinell::simulation::variables::Kind;
-        let real = |variable: &&brinell::simulation::variables::Variable| matches!(variable.kind, Kind::Real { .. });
+        use brinell::simulation::interface::table::Kind;
+        let real =
+            |variable: &&brinell::simulation::interface::table::Variable| matches!(variable.kind, Kind::Real { .. });
         self.table().iter().filter(real).map(|variable| variable.reference).collect()
     }
 }

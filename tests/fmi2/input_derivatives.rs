@@ -1,7 +1,7 @@
 //! Derivatives of inputs by time: each order is used or refused.
 
 use crate::host::{Host, bits};
-use brinell::simulation::variables::{Causality, Variable};
+use brinell::simulation::interface::table::{Causality, Variable};
 use brinell_fmi::fmi2::*;
 
 const SCENES: [&str; 3] = ["er16k-tb1", "er16k-tb1-hosted-shaft", "6205-hosted"];

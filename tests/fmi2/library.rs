@@ -1,6 +1,6 @@
 //! The compiled library as a host loads it.
 
-use brinell::simulation::guid::guid;
+use brinell::simulation::interface::table::guid;
 use brinell_fmi::fmi2::*;
 use libloading::{Library, Symbol};
 use std::ffi::{CStr, CString};

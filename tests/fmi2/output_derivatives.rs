@@ -2,7 +2,7 @@
 
 use crate::derivatives::{SCENES, inputs, outputs, references};
 use crate::host::Host;
-use brinell::simulation::variables::{Kind, Unit};
+use brinell::simulation::interface::table::{Kind, Unit};
 use brinell_fmi::fmi2::*;
 use std::ptr;
 

@@ -1,7 +1,7 @@
 //! Saving, restoring and serializing the state of an instance.
 
 use crate::host::{Host, Resources, bits};
-use brinell::simulation::variables::Kind;
+use brinell::simulation::interface::table::Kind;
 use brinell_fmi::fmi2::*;
 use std::ptr;
 

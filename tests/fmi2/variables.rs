@@ -1,7 +1,7 @@
 //! Reading and setting variables.
 
 use crate::host::Host;
-use brinell::simulation::variables::{Causality, Kind, Variable};
+use brinell::simulation::interface::table::{Causality, Kind, Variable};
 use brinell_fmi::fmi2::*;
 use std::ptr;
 

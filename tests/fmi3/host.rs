@@ -3,8 +3,8 @@
 
 pub(crate) use crate::two::Resources;
 use brinell::simulation::Simulation;
-use brinell::simulation::arrays::of_all_elements;
-use brinell::simulation::variables::Variable;
+use brinell::simulation::interface::table::Variable;
+use brinell::simulation::run::of_all_elements;
 use brinell_fmi::fmi3::*;
 use std::cell::{Cell, RefCell};
 use std::ffi::{CStr, CString};
@@ -324,7 +324,7 @@ impl Host {
 
 /// References of all real variables, and the number of their values.
 pub(crate) fn reals(simulation: &Simulation) -> (Vec<u32>, usize) {
-    use brinell::simulation::variables::Kind;
+    use brinell::simulation::interface::table::Kind;
     let arrays = simulation.arrays();
     let is_real = |row: &&Variable| matches!(row.kind, Kind::Real { .. });
     let rows: Vec<u32> = simulation.table().iter().filter(is_real).map(|row| row.reference).collect();

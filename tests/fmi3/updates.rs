@@ -19,11 +19,11 @@ fn readable(scene: &str) -> Vec<String> {
     let name = |reference: &u32| {
         let row = &host.table()[*reference as usize];
         let is_array = arrays.iter().any(|array| array.rows[0] == *reference);
-        if is_array { brinell::simulation::arrays::of_all_elements(row).0 } else { row.name.clone() }
+        if is_array { brinell::simulation::run::of_all_elements(row).0 } else { row.name.clone() }
     };
     let is_output = |reference: &u32| {
         let row = &host.table()[*reference as usize];
-        row.changes_within_steps() && row.causality == brinell::simulation::variables::Causality::Output
+        row.changes_within_steps() && row.causality == brinell::simulation::interface::table::Causality::Output
     };
     reals(host.simulation()).0.iter().filter(|reference| is_output(reference)).map(name).collect()
 }

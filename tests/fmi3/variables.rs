@@ -3,7 +3,7 @@
 use crate::host::Host;
 use crate::two;
 use crate::two::bits;
-use brinell::simulation::variables::{Causality, Kind};
+use brinell::simulation::interface::table::{Causality, Kind};
 use brinell_fmi::fmi3::*;
 use std::ffi::CStr;
 use std::ptr;

@@ -6,7 +6,7 @@ use super::methods::Methods;
 use super::reader::{File, Path, Use, named, uses};
 
 /// Modules by name, those of one folder; the module of the folder itself has none.
-pub(super) type Graph = BTreeMap<String, BTreeSet<String>>;
+type Graph = BTreeMap<String, BTreeSet<String>>;
 
 /// A cycle of each folder below `top` that has one. `files` are without tests.
 pub(super) fn cycles(top: &[String], files: &[File]) -> Vec<String> {
@@ -20,11 +20,6 @@ pub(super) fn cycles(top: &[String], files: &[File]) -> Vec<String> {
         Some(format!("in {name}: {}", shown.map(String::as_str).collect::<Vec<_>>().join(" -> ")))
     });
     found.collect()
-}
-
-/// The modules of a folder, each with those beside it that it uses. `files` are without tests.
-pub(super) fn modules(folder: &[String], files: &[File]) -> Graph {
-    graph(folder, false, files, &Methods::of(files))
 }
 
 /// Which modules of a folder each of them names, or calls by a method of a type that both have a part of.

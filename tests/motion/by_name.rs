@@ -58,8 +58,10 @@ fn a_start_that_is_no_instant_is_refused_and_changes_nothing() {
 #[test]
 fn a_second_start_is_as_the_first_but_for_its_inputs() {
     let names = |bearing: &Simulation| -> Vec<u32> {
-        let reals =
-            bearing.table().iter().filter(|row| matches!(row.kind, brinell::simulation::variables::Kind::Real { .. }));
+        let reals = bearing
+            .table()
+            .iter()
+            .filter(|row| matches!(row.kind, brinell::simulation::interface::table::Kind::Real { .. }));
         reals.map(|row| row.reference).collect()
     };
     for scene in ["er16k-tb1", "6205-hosted"] {

@@ -3,7 +3,7 @@
 
 use brinell::geometry::hertz_constant::HertzConstants;
 use brinell::scene::Scene;
-use brinell_analysis::static_bearing::StaticBearing;
+use brinell_analysis::statics::StaticBearing;
 use std::f64::consts::TAU;
 
 /// Seven balls under 1000 N through one of them: the ball bearing of the tests of minzhun's implementation of ISO/TS

@@ -4,11 +4,11 @@
 use crate::support::defects::{PAST_INNER, SPIN, cells_kept, element, inner, spall};
 use crate::support::{Named, map_of};
 use brinell::contact::rolling::RacewaySide;
-use brinell::dynamics::drive::Frame;
-use brinell::dynamics::forces::Forces;
+use brinell::dynamics::contacts::Forces;
+use brinell::dynamics::parameters::Frame;
 use brinell::geometry::hertz_constant::HertzConstants;
 use brinell::scene::{ContactLaw, Damping, Defect, DefectOn, Ring, Scene};
-use brinell_analysis::static_bearing::StaticBearing;
+use brinell_analysis::statics::StaticBearing;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 #[test]

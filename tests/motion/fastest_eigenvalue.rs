@@ -2,9 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::support::{Named, shipped};
-use brinell::dynamics::drive::{Drive, Quadratic};
-use brinell::dynamics::jacobian::{Fastest, Jacobian};
-use brinell::dynamics::model::Model;
+use brinell::dynamics::derivatives::{Fastest, Jacobian};
+use brinell::dynamics::parameters::{Drive, Model, Quadratic};
 use brinell::scene::{Damping, Motion, Scene, Sensor};
 use brinell::simulation::Method;
 use brinell::simulation::setup::build_model;

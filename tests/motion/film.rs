@@ -2,11 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::support::{Named, shipped};
-use brinell::dynamics::drive::Drive;
-use brinell::dynamics::film;
-use brinell::dynamics::forces::Forces;
-use brinell::dynamics::model::Model;
-use brinell::dynamics::raceway::Cells;
+use brinell::dynamics::contacts::Forces;
+use brinell::dynamics::parameters::{Cells, Drive, Model, film};
 use brinell::geometry::film_thickness::{LubricatedContact, rolling_speed_ratio};
 use brinell::scene::{Film, Motion, Ring, Scene};
 use brinell::simulation::Simulation;

@@ -2,17 +2,13 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::support::{Named, map_of, profile_of, shipped, shipped_as_it_is};
-use brinell::dynamics::jacobian::Jacobian;
-use brinell::dynamics::kinematics::FramedKinematics;
-use brinell::dynamics::raceway::Cells;
+use brinell::dynamics::derivatives::Jacobian;
+use brinell::dynamics::parameters::{Cells, FramedKinematics};
 use brinell::geometry::hertz_constant::HertzConstants;
 use brinell::numerics::plane::Vector;
 use brinell::scene::{Damping, Motion, Ring, Scene};
-use brinell_analysis::assembly::{Assembly, Body, Hold, loaded};
-use brinell_analysis::mode_lines::sweep;
-use brinell_analysis::modes::{Kind, Mode, Modes};
-use brinell_analysis::modes_report::ModesReport;
-use brinell_analysis::static_bearing::StaticBearing;
+use brinell_analysis::modes::{Assembly, Body, Hold, Kind, Mode, Modes, ModesReport, loaded, sweep};
+use brinell_analysis::statics::StaticBearing;
 use brinell_eigen::eigenvalues;
 use std::f64::consts::TAU;
 

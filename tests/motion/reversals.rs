@@ -3,11 +3,12 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::support::{Named, shipped};
-use brinell::contact::map_specification::Sequential;
-use brinell::contact::rigid_path::RigidPath;
+use brinell::contact::map::Sequential;
+use brinell::contact::rolled_path::RigidPath;
 use brinell::contact::rolling::Rolling;
 use brinell::scene::{ContactLaw, Defect, DefectShape, Ring, Scene};
-use brinell::simulation::{Simulation, setup};
+use brinell::simulation::Simulation;
+use brinell::simulation::setup;
 use brinell::surface::{Profile, Surface};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};

@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::support::{Named, shipped};
+use brinell::contact::law::elastic_law;
 use brinell::contact::rolling::RacewaySide;
-use brinell::contact::smooth_laws::elastic_law;
 use brinell::geometry::kinematics::cage_ratio;
 use brinell::geometry::line_contact::line_constant;
 use brinell::scene::{Bearing, ContactLaw, Damping, DefectOn, Ring, Roller, RollerProfile, RollingElement, Scene};

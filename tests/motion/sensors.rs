@@ -3,7 +3,7 @@
 
 use crate::support::{Named, shipped};
 use brinell::scene::{Ring, Scene, Sensor};
-use brinell::simulation::variables::Causality;
+use brinell::simulation::interface::table::Causality;
 use std::f64::consts::FRAC_PI_2;
 
 fn sensor(degrees: f64, mass: f64) -> Sensor {

@@ -3,9 +3,7 @@
 
 use crate::support::{profile_of, shipped};
 use brinell::scene::{DefectOn, DefectShape, Scene};
-use brinell_analysis::critical_load::CriticalLoad;
-use brinell_analysis::static_bearing::{Balance, StaticBearing, StaticError};
-use brinell_analysis::stiffness::{min_mean_max, sweep};
+use brinell_analysis::statics::{Balance, CriticalLoad, StaticBearing, StaticError, min_mean_max, sweep};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -7,11 +7,9 @@
 use crate::machine::{RATE, scene, signal};
 use brinell::scene::{ContactLaw, Defect, DefectShape, Scene};
 use brinell::simulation::Simulation;
-use brinell_analysis::error::SizingError;
-use brinell_analysis::recording::Recording;
-use brinell_analysis::report::{Fault, Kind, Method, Report, Verdict};
-use brinell_analysis::spall_size::size;
-use brinell_analysis::static_bearing::StaticBearing;
+use brinell_analysis::recording::{Recording, SizingError};
+use brinell_analysis::sizing::{Fault, Kind, Method, Report, Verdict, size};
+use brinell_analysis::statics::StaticBearing;
 use brinell_analysis::statistics::Random;
 use std::f64::consts::{FRAC_PI_2, TAU};
 

@@ -1,7 +1,7 @@
 //! Scenes with a defect of the inner raceway or of a ball.
 
 use super::{Named, shipped};
-use brinell::dynamics::raceway::SMOOTH;
+use brinell::dynamics::parameters::SMOOTH;
 use brinell::scene::{Defect, DefectOn, DefectShape, Ring, Scene};
 use std::f64::consts::FRAC_PI_2;
 

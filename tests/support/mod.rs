@@ -9,10 +9,8 @@ use std::hash::Hasher;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock};
 
-use brinell::contact::contact_maps::ContactMaps;
 use brinell::contact::error::ContactError;
-use brinell::contact::map::ContactMap;
-use brinell::contact::map_specification::Runner;
+use brinell::contact::map::{ContactMap, ContactMaps, Runner};
 use brinell::numerics::checksum::Checksum;
 use brinell::scene::{Bearing, ContactLaw, Scene};
 use brinell::simulation::Simulation;

@@ -3,7 +3,7 @@
 
 use brinell::scene::Scene;
 use brinell_analysis::recording::{Recording, Source, Speed};
-use brinell_analysis::spall_size::size;
+use brinell_analysis::sizing::size;
 use std::error::Error;
 use std::path::Path;
 

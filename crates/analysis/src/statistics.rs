@@ -108,7 +108,7 @@ impl Random {
 }
 
 /// Mean of some of the rows, column by column.
-pub(super) fn average_of(rows: &[Vec<f64>], chosen: &[usize]) -> Vec<f64> {
+pub(crate) fn average_of(rows: &[Vec<f64>], chosen: &[usize]) -> Vec<f64> {
     let mut sum = vec![0.0; rows.first().map_or(0, Vec::len)];
     for &k in chosen {
         for (s, x) in sum.iter_mut().zip(&rows[k]) {

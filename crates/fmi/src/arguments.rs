@@ -6,9 +6,8 @@
 use std::ffi::CStr;
 use std::slice;
 
-use super::c_types::{FmiString, FmuState};
-use super::failure::Failure;
-use super::snapshots;
+use crate::c_interface::{FmiString, FmuState};
+use crate::instance::{Failure, snapshots};
 
 /// Longest array in one call. No model has that many variables, so a longer one is a miscount, not a wish.
 const LONGEST: usize = 1 << 20;
@@ -31,7 +30,7 @@ fn check<T>(name: &'static str, pointer: *const T, count: usize) -> Result<(), F
 /// If `pointer` is neither null nor misaligned, it points to `count` initialised values that nobody writes during the
 /// call.
 #[inline]
-pub(super) unsafe fn array<'a, T>(name: &'static str, pointer: *const T, count: usize) -> Result<&'a [T], Failure> {
+pub(crate) unsafe fn array<'a, T>(name: &'static str, pointer: *const T, count: usize) -> Result<&'a [T], Failure> {
     if count == 0 {
         return Ok(&[]);
     }
@@ -47,7 +46,7 @@ pub(super) unsafe fn array<'a, T>(name: &'static str, pointer: *const T, count: 
 /// If `pointer` is neither null nor misaligned, it points to memory of `count` values of a type that has zero bytes for
 /// a value, and nobody else touches it during the call.
 #[inline]
-pub(super) unsafe fn array_mut<'a, T>(
+pub(crate) unsafe fn array_mut<'a, T>(
     name: &'static str,
     pointer: *mut T,
     count: usize,
@@ -69,7 +68,7 @@ pub(super) unsafe fn array_mut<'a, T>(
 /// If `pointer` is neither null nor misaligned, it points to memory for one value that nobody else touches during the
 /// call.
 #[inline]
-pub(super) unsafe fn store<T>(name: &'static str, pointer: *mut T, value: T) -> Result<(), Failure> {
+pub(crate) unsafe fn store<T>(name: &'static str, pointer: *mut T, value: T) -> Result<(), Failure> {
     check(name, pointer, 1)?;
     // SAFETY: not null and aligned by `check`; the rest is this function's contract.
     unsafe { pointer.write(value) };
@@ -81,7 +80,7 @@ pub(super) unsafe fn store<T>(name: &'static str, pointer: *mut T, value: T) -> 
 /// # Safety
 /// If `pointer` is neither null nor misaligned, it points to memory for as many values that nobody else touches during
 /// the call.
-pub(super) unsafe fn store_all<T: Copy>(name: &'static str, pointer: *mut T, values: &[T]) -> Result<(), Failure> {
+pub(crate) unsafe fn store_all<T: Copy>(name: &'static str, pointer: *mut T, values: &[T]) -> Result<(), Failure> {
     if !values.is_empty() {
         check(name, pointer, values.len())?;
         // SAFETY: not null and aligned by `check`; the values are ours, so they lie elsewhere; the rest is this
@@ -96,7 +95,7 @@ pub(super) unsafe fn store_all<T: Copy>(name: &'static str, pointer: *mut T, val
 /// # Safety
 /// If `pointer` is neither null, misaligned nor a state, it points to a handle, which may have any value and which
 /// nobody else touches during the call.
-pub(super) unsafe fn state_handle<'a>(pointer: *mut FmuState) -> Result<&'a mut FmuState, Failure> {
+pub(crate) unsafe fn state_handle<'a>(pointer: *mut FmuState) -> Result<&'a mut FmuState, Failure> {
     const NAME: &str = "FMUstate";
     if snapshots::is_handle(pointer.addr()) {
         return Err(Failure::NotAnAddress(NAME));
@@ -108,7 +107,7 @@ pub(super) unsafe fn state_handle<'a>(pointer: *mut FmuState) -> Result<&'a mut 
 
 /// Refuses input and output arrays that overlap; to be asked before slices are made of them.
 #[inline]
-pub(super) fn disjoint<A, B>(a: *const A, a_count: usize, b: *const B, b_count: usize) -> Result<(), Failure> {
+pub(crate) fn disjoint<A, B>(a: *const A, a_count: usize, b: *const B, b_count: usize) -> Result<(), Failure> {
     let (a_start, b_start) = (a.addr(), b.addr());
     let a_end = a_start.saturating_add(a_count.saturating_mul(size_of::<A>()));
     let b_end = b_start.saturating_add(b_count.saturating_mul(size_of::<B>()));
@@ -119,7 +118,7 @@ pub(super) fn disjoint<A, B>(a: *const A, a_count: usize, b: *const B, b_count: 
 ///
 /// # Safety
 /// If `pointer` is not null, it points to a string ended by a NUL that nobody writes during the call.
-pub(super) unsafe fn string<'a>(name: &'static str, pointer: FmiString) -> Result<&'a str, Failure> {
+pub(crate) unsafe fn string<'a>(name: &'static str, pointer: FmiString) -> Result<&'a str, Failure> {
     if pointer.is_null() {
         return Err(Failure::NullPointer(name));
     }

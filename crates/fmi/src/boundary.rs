@@ -7,15 +7,12 @@
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use super::c_types::{Component, Status};
-use super::failure::Failure;
-use super::handles::{self, Borrowed};
-use super::instance::Instance;
-use super::mode::{Function, Mode};
+use crate::c_interface::{Component, Status};
+use crate::instance::{Borrowed, Failure, Function, Instance, Mode, handles};
 
 /// Runs a function's body on the instance behind a handle, if the instance's mode allows the function.
 #[inline]
-pub(super) fn call<B>(component: Component, function: &'static Function, body: B) -> Status
+pub(crate) fn call<B>(component: Component, function: &'static Function, body: B) -> Status
 where
     B: FnOnce(&mut Instance) -> Result<(), Failure>,
 {
@@ -24,7 +21,7 @@ where
 
 /// As [`call`], for a body that lends the instance to calls of the host while it runs.
 #[inline]
-pub(super) fn call_lending<B>(component: Component, function: &'static Function, body: B) -> Status
+pub(crate) fn call_lending<B>(component: Component, function: &'static Function, body: B) -> Status
 where
     B: FnOnce(&mut Borrowed) -> Result<(), Failure>,
 {
@@ -67,7 +64,7 @@ fn fail(instance: &mut Instance, function: &'static Function, failure: Failure) 
 }
 
 /// Runs code that has no instance yet. `None` if it panics.
-pub(super) fn guard<T>(body: impl FnOnce() -> T) -> Result<T, String> {
+pub(crate) fn guard<T>(body: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(body)).map_err(words)
 }
 

@@ -3,21 +3,16 @@
 use std::ffi::{CStr, CString, c_char};
 use std::ptr;
 
-use super::boundary;
-use super::c_types::{Component, Status};
-use super::handles;
-use super::instance::Instance;
-use super::logger::Logger;
-use super::resource_error::ResourceError;
-use super::resources;
-use super::shared_models::SharedModel;
-use super::uri::UriError;
+use crate::c_interface::{Component, Logger, Status, UriError};
+use crate::instance::{Instance, handles};
+use crate::resources::{ResourceError, SharedModel};
+use crate::{boundary, resources};
 use libc::c_int;
 use std::path::PathBuf;
 
 /// Why there is no instance.
 #[derive(Debug, thiserror::Error)]
-pub(super) enum Refusal {
+pub(crate) enum Refusal {
     #[error("the instance name is NULL or blank: give each instance a name")]
     Name,
     #[error("FMU type {0}: only co-simulation (1) is provided")]
@@ -57,7 +52,7 @@ impl From<UriError> for Refusal {
 
 /// Makes an instance. `logger` makes its logger of its name, or tells that there can be none; `prepare` reads its
 /// model, and `arrange` adds what a version of the standard needs.
-pub(super) fn instantiate(
+pub(crate) fn instantiate(
     function: &'static str,
     name: Option<&CStr>,
     logger: impl Fn(CString) -> Option<Logger>,
@@ -104,7 +99,7 @@ pub(super) fn instantiate(
 }
 
 /// The model in a directory, if it is the one that the host's token, called `what`, names.
-pub(super) fn model(what: &'static str, token: &CStr, directory: PathBuf) -> Result<SharedModel, Refusal> {
+pub(crate) fn model(what: &'static str, token: &CStr, directory: PathBuf) -> Result<SharedModel, Refusal> {
     let model = resources::load(&directory)?;
     if token.to_bytes() != model.guid().as_bytes() {
         let (given, own) = (token.to_string_lossy().into_owned(), model.guid().to_owned());
@@ -117,13 +112,13 @@ pub(super) fn model(what: &'static str, token: &CStr, directory: PathBuf) -> Res
 ///
 /// # Safety
 /// `pointer` is null or points to a string ended by NUL that outlives the call.
-pub(super) unsafe fn text<'a>(pointer: *const c_char) -> Option<&'a CStr> {
+pub(crate) unsafe fn text<'a>(pointer: *const c_char) -> Option<&'a CStr> {
     // SAFETY: not null; the rest is the contract.
     (!pointer.is_null()).then(|| unsafe { CStr::from_ptr(pointer) })
 }
 
 /// Ends an instance: what its recorder still holds is stored, or its loss told.
-pub(super) fn free(instance: handles::Borrowed, function: &'static str) {
+pub(crate) fn free(instance: handles::Borrowed, function: &'static str) {
     drop(boundary::guard(|| {
         let mut instance = handles::remove(instance);
         if let Err(failure) = instance.finish_recording("are lost") {

@@ -2,27 +2,24 @@
 //!
 //! The host is called after each accepted integration step. It may read outputs as they are there and set inputs, which
 //! then act from there on. A run that is inspected so has the bits of one that is not, unless inputs are set (and but
-//! for law `love`, see `brinell::simulation::stepping`). An early return ends the step where the host was told, or at a
-//! later instant that it names, and that exactly.
+//! for law `love`, see `brinell::simulation::run::stepping`). An early return ends the step where the host was told, or
+//! at a later instant that it names, and that exactly.
 
-use super::boundary;
-use super::c_types::Bool;
-use super::clock::Clock;
-use super::failure::Failure;
-use super::handles::Borrowed;
-use super::mode::Mode;
+use crate::boundary;
+use crate::c_interface::Bool;
+use crate::instance::{Borrowed, Clock, Failure, Mode};
 
 /// Where a step has ended.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Reached {
+pub(crate) struct Reached {
     /// Time (s).
-    pub(super) time: f64,
+    pub(crate) time: f64,
     /// Whether that is before the end asked for.
-    pub(super) early: bool,
+    pub(crate) early: bool,
 }
 
 /// Takes a step from a communication point, with intermediate updates if the host wants them.
-pub(super) fn take_step(instance: &mut Borrowed, point: f64, step: f64) -> Result<Reached, Failure> {
+pub(crate) fn take_step(instance: &mut Borrowed, point: f64, step: f64) -> Result<Reached, Failure> {
     if instance.updates.is_none() {
         instance.take_step(point, step)?;
         let clock = instance.clock.ok_or(Failure::NotSetUp)?;

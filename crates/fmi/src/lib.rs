@@ -27,27 +27,12 @@
 
 #![allow(unsafe_code)]
 
-mod addressing;
-mod arguments;
-mod blob;
-mod boundary;
-mod c_types;
-mod clock;
-mod failure;
+pub(crate) mod arguments;
+pub(crate) mod boundary;
+mod c_interface;
 pub mod fmi2;
 pub mod fmi3;
-mod handles;
-mod instance;
-mod instantiation;
-mod intermediate;
-mod intermediate_updates;
-mod logger;
-mod mode;
-mod resource_error;
-mod resources;
-mod shared_models;
-#[cfg(test)]
-mod small_scene;
-mod snapshot;
-mod snapshots;
-mod uri;
+pub mod instance;
+pub(crate) mod instantiation;
+pub(crate) mod intermediate;
+pub mod resources;

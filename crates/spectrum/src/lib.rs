@@ -6,6 +6,10 @@
 //!
 //! A crate of its own: the transforms are generic, and are compiled here once for all who use them.
 
+mod even_filter;
+
+pub use even_filter::EvenFilter;
+
 use realfft::num_complex::Complex;
 use realfft::{RealFftPlanner, RealToComplex};
 use std::f64::consts::PI;

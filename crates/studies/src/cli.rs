@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use clap::{Args, Parser, Subcommand};
 use fmu_build::cli::Command as UserCommand;
-use fmu_build::project::Project;
+use fmu_build::shared::Project;
 
 use crate::{dist, report, site, validation};
 

@@ -9,14 +9,9 @@ use std::process::Command;
 
 use anyhow::{Context, Result, bail, ensure};
 use flate2::{Compression, write::GzEncoder};
-use fmu_build::archive::Archive;
-use fmu_build::library::{Choice, Library};
-use fmu_build::platform::Platform;
-use fmu_build::project::Project;
-use fmu_build::python::Python;
-use fmu_build::shipped;
-use fmu_build::toolchain::Toolchain;
-use fmu_build::whole_file;
+use fmu_build::package::{Archive, Choice, Library};
+use fmu_build::platforms::{Platform, Toolchain};
+use fmu_build::shared::{Project, Python, shipped, whole_file};
 use zip::ZipArchive;
 
 /// The wheels' maker, exact, so that equal source gives equal bytes.

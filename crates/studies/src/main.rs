@@ -5,5 +5,5 @@ use std::process::ExitCode;
 use clap::Parser;
 
 fn main() -> ExitCode {
-    fmu_build::ending::program(|| brinell_studies::cli::Arguments::parse().execute())
+    fmu_build::shared::program(|| brinell_studies::cli::Arguments::parse().execute())
 }

@@ -8,8 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, bail};
-use fmu_build::project::Project;
-use fmu_build::whole_file;
+use fmu_build::shared::{Project, whole_file};
 
 use crate::scene_page::scene_page;
 

@@ -8,15 +8,15 @@ use brinell::scene::Experiment;
 use brinell_analysis::recording::Speed;
 use clap::Args;
 
-use crate::fmi_version::Version;
-use crate::grid::Grid;
-use crate::new_scene::Spall;
-use crate::numbers::{number, seed, whole};
+use crate::commands::{Spall, contact};
+use crate::package::library;
 use crate::run::noise::Noise;
 use crate::run::speed_profile::SpeedProfile;
 use crate::run::table::Format;
 use crate::run::wav::Wav;
-use crate::{contact, library, run, sweep};
+use crate::shared::Version;
+use crate::shared::{Grid, number, seed, whole};
+use crate::{run, sweep};
 
 /// Options of `build`.
 #[derive(Debug, Args)]

@@ -2,10 +2,10 @@
 
 use anyhow::{Result, bail};
 use brinell::scene::nearest;
-use brinell::simulation::variables::{Causality, Kind, Variable};
+use brinell::simulation::interface::table::{Causality, Kind, Variable};
 use brinell::simulation::{Simulation, SimulationError};
 
-use crate::units;
+use crate::package::description::units;
 
 /// The first column.
 const TIME: &str = "time";

@@ -10,8 +10,7 @@ use brinell::simulation::Simulation;
 use super::columns::Columns;
 use super::signals::{Growing, Signals};
 use super::speed_profile::SpeedProfile;
-use crate::grid::Grid;
-use crate::whole_file::NotWritten;
+use crate::shared::{Grid, NotWritten};
 
 /// When a run communicates, and how fast its shaft turns.
 #[derive(Debug, Clone, Copy)]

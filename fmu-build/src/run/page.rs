@@ -9,7 +9,7 @@ use brinell::surface::Surface;
 use serde_json::{Value, json};
 
 use super::signals::Signals;
-use crate::model::Model;
+use crate::package::Model;
 
 /// Most points of a surface that are drawn.
 const POINTS: usize = 4000;

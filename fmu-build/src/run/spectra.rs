@@ -7,13 +7,11 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use brinell::geometry::kinematics::Frequencies;
 use brinell::scene::Scene;
-use brinell_analysis::envelope_spectrum::{self, EnvelopeSpectrum};
-use brinell_analysis::order_spectrum::{EvenAngles, OrderSpectrum};
+use brinell_analysis::spectra::{EnvelopeSpectrum, EvenAngles, OrderSpectrum, envelope_spectrum};
 use serde_json::{Value, json};
 
 use super::speed_profile::SpeedProfile;
-use crate::csv;
-use crate::whole_file;
+use crate::shared::{csv, whole_file};
 
 /// Highest order that is kept: some harmonics of BPFI in bearings of any size.
 const HIGHEST_ORDER: f64 = 200.0;

@@ -15,8 +15,8 @@ use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 
 use super::signals::Signals;
-use crate::csv;
-use crate::whole_file;
+use crate::shared::csv;
+use crate::shared::whole_file;
 
 /// Rows in a group: what is kept in memory while a file is written.
 const GROUP: usize = 1 << 15;

@@ -6,7 +6,7 @@ use std::path::Path;
 use anyhow::{Context, Result, bail};
 
 use super::signals::Signals;
-use crate::whole_file;
+use crate::shared::whole_file;
 
 /// Largest file (bytes): its lengths are numbers of 32 bits.
 const LARGEST: u64 = 0xffff_ff00;

@@ -19,7 +19,6 @@ use super::maps::Maps;
 use super::rows::{Cell, Column, Kind, Row};
 use super::scenes::{Base, run_name};
 use super::statistics::{HARMONICS, OneElement, Passage, Statistics};
-use crate::grid::Grid;
 use crate::run::columns::Columns;
 use crate::run::course::{Course, Done};
 use crate::run::noise::Noise;
@@ -27,8 +26,7 @@ use crate::run::signals::{Growing, Signals};
 use crate::run::speed_profile::SpeedProfile;
 use crate::run::table::{self, Format};
 use crate::run::wav::Wav;
-use crate::shipped;
-use crate::whole_file::{self, NotWritten};
+use crate::shared::{Grid, NotWritten, shipped, whole_file};
 
 /// What each run's signals are written as.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -5,14 +5,12 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use anyhow::{Context, Result, bail};
-use brinell::contact::contact_maps::ContactMaps;
-use brinell::contact::map::ContactMap;
+use brinell::contact::map::{ContactMap, ContactMaps};
 use brinell::scene::{ContactLaw, Scene};
 use brinell::simulation::setup;
 use brinell::surface::Surface;
 
-use crate::contact_map;
-use crate::project::Project;
+use crate::shared::{Project, contact_map};
 
 /// Fingerprints of the maps that a scene needs; none where its law needs none.
 pub(super) fn needed(scene: &Scene, profiles: &[Arc<str>]) -> Result<Vec<u64>> {
@@ -56,7 +54,7 @@ impl<'p> Maps<'p> {
             match contact_map::one(scene, &needed, self.project, threads) {
                 Ok(_) => {}
                 // A disk that is full is nothing that a run has to do with.
-                Err(error) if error.is::<crate::whole_file::NotWritten>() => return Err(error),
+                Err(error) if error.is::<crate::shared::NotWritten>() => return Err(error),
                 Err(error) => {
                     self.failed.insert(needed.fingerprint, format!("contact map: {error:#}"));
                 }

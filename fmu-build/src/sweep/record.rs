@@ -13,8 +13,8 @@ use toml::{Table, Value};
 use super::bench::Written;
 use super::file::Sweep;
 use super::scenes::Base;
-use crate::shipped;
-use crate::whole_file;
+use crate::shared::shipped;
+use crate::shared::whole_file;
 
 /// Name of the file.
 const FILE: &str = "design.txt";

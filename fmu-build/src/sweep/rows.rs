@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use brinell::numerics::checksum::checksum;
 
-use crate::whole_file::{self, NotWritten};
+use crate::shared::{NotWritten, whole_file};
 
 /// Name of the journal.
 const FILE: &str = "rows.log";

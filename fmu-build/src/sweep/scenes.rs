@@ -9,7 +9,7 @@ use toml::{Table, Value};
 
 use super::design::Run;
 use super::file::{Kind, Sweep, number};
-use crate::model;
+use crate::package::model;
 
 /// Keys that are two ways to say one thing: who gives the first takes the others away.
 const INSTEAD: [(&str, &[&str]); 5] = [

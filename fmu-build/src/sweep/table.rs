@@ -11,7 +11,7 @@ use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
 
 use super::rows::{Cell, Column, Kind, Row};
-use crate::whole_file;
+use crate::shared::whole_file;
 
 /// Rows in a group.
 const GROUP: usize = 1 << 15;

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use fmu_build::project::Project;
+use fmu_build::shared::Project;
 
 /// The one file of `target/dist` with this end, of this version: those of earlier ones may still be there.
 pub(crate) fn made(end: &str) -> PathBuf {

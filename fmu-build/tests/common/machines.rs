@@ -5,9 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use fmu_build::platform::{Platform, Target};
-use fmu_build::project::Project;
-use fmu_build::toolchain::{self, Toolchain};
+use fmu_build::platforms::{Platform, Target, Toolchain, toolchain};
+use fmu_build::shared::Project;
 
 /// Compiles something of the package `tests/host` for a target, and gives the folder that it is in.
 pub(crate) fn compiled(target: Target, what: &[&str]) -> PathBuf {

@@ -7,12 +7,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock};
 
-use fmu_build::fmi_version::Version;
-use fmu_build::fmu;
-use fmu_build::library::{Choice, Library};
-use fmu_build::model::Model;
-use fmu_build::project::Project;
-use fmu_build::python::Python;
+use fmu_build::package::{Choice, Library, Model, fmu};
+use fmu_build::shared::Version;
+use fmu_build::shared::{Project, Python};
 
 /// Root of the workspace.
 pub(crate) fn root() -> &'static Path {

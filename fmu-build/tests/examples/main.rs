@@ -13,8 +13,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use fmu_build::project::Project;
-use fmu_build::python::Python;
+use fmu_build::shared::{Project, Python};
 use serde_json::Value;
 
 const RIGID: &str = "python examples/step_by_step.py --stop 0.06";

@@ -7,12 +7,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use brinell::scene::Experiment;
-use fmu_build::fmi_version::Version;
-use fmu_build::grid::Grid;
-use fmu_build::model::Model;
+use fmu_build::host::check;
+use fmu_build::package::Model;
 use fmu_build::run;
 use fmu_build::run::table::Format;
-use fmu_build::{check, project::Project};
+use fmu_build::shared::Version;
+use fmu_build::shared::{Grid, Project};
 
 fn all_fmus(folder: &Path) -> Vec<PathBuf> {
     let names = common::scenes().into_iter().map(|path| path.file_stem().unwrap().to_owned());
@@ -54,7 +54,8 @@ fn a_host_that_steps_by_milliseconds_records_at_51200_hz() {
     let scene = folder.join("recorded.toml");
     let text = fs::read_to_string(common::root().join("scenes/6205-healthy.toml")).unwrap();
     fs::write(&scene, format!("{text}\n[recorder]\nrate_hz = 51200.0\nfilter = \"none\"\n")).unwrap();
-    let fmu = fmu_build::fmu::write(&Model::read(&scene).unwrap(), common::library(), Version::Fmi2, &folder).unwrap();
+    let fmu =
+        fmu_build::package::write(&Model::read(&scene).unwrap(), common::library(), Version::Fmi2, &folder).unwrap();
     common::run_script("recorder.py", [fmu]);
 }
 

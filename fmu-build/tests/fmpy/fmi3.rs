@@ -5,7 +5,8 @@
 use crate::common;
 use std::path::{Path, PathBuf};
 
-use fmu_build::{check, project::Project};
+use fmu_build::host::check;
+use fmu_build::shared::Project;
 
 fn all_fmus(folder: &Path) -> Vec<PathBuf> {
     common::names().iter().map(|name| common::fmu3_of(name, folder)).collect()

@@ -2,11 +2,9 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common;
-use fmu_build::archive::{Archive, ArchiveError, Compressed};
-use fmu_build::fmi_version::Version;
-use fmu_build::fmu;
-use fmu_build::library::{Binary, Library};
-use fmu_build::platform::PLATFORMS;
+use fmu_build::package::{Archive, ArchiveError, Binary, Compressed, Library, fmu};
+use fmu_build::platforms::PLATFORMS;
+use fmu_build::shared::Version;
 
 #[test]
 fn packing_a_scene_twice_gives_equal_bytes() {
@@ -40,7 +38,7 @@ fn an_fmu_holds_what_the_standard_names_and_nothing_else() {
     let names: Vec<_> = headers(&bytes).into_iter().map(|header| header.name).collect();
     let library = format!(
         "binaries/{}/Brinell_6205_epps.{}",
-        fmu_build::platform::Platform::host().unwrap().name,
+        fmu_build::platforms::Platform::host().unwrap().name,
         std::env::consts::DLL_EXTENSION
     );
     let expected = [

@@ -5,11 +5,9 @@
 use crate::common;
 use std::process::Command;
 
-use fmu_build::library::{Choice, Library};
-use fmu_build::platform::{PLATFORMS, Platform};
-use fmu_build::project::Project;
-use fmu_build::toolchain::check_installed;
-use fmu_build::zig::{OLDEST_GLIBC, needed_glibc};
+use fmu_build::package::{Choice, Library};
+use fmu_build::platforms::{OLDEST_GLIBC, PLATFORMS, Platform, check_installed, needed_glibc};
+use fmu_build::shared::Project;
 
 #[test]
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]

@@ -17,8 +17,7 @@ use std::process::Command;
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
-use fmu_build::project::Project;
-use fmu_build::python::Python;
+use fmu_build::shared::{Project, Python};
 
 const PAGES: [&str; 4] = ["hour-catalogue.md", "hour-monitoring.md", "hour-data.md", "hour-rotor.md"];
 const COUNTED: &str = "*Typed: ";

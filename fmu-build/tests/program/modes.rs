@@ -5,9 +5,8 @@ use crate::common;
 use std::fs;
 use std::path::PathBuf;
 
-use fmu_build::modes;
-use fmu_build::project::Project;
-use fmu_build::stiffness::Options;
+use fmu_build::commands::{Options, modes};
+use fmu_build::shared::Project;
 use serde_json::Value;
 
 /// The folder of a scene's modes, and the report in it.

@@ -5,8 +5,7 @@ use crate::common;
 use std::fs;
 use std::path::Path;
 
-use fmu_build::project::Project;
-use fmu_build::python::Python;
+use fmu_build::shared::{Project, Python};
 use serde_json::Value;
 
 /// Runs the code of a notebook, and then `check`, in a folder of its own, in this program's environment; gives what was

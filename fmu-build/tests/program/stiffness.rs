@@ -4,9 +4,9 @@
 use crate::common;
 use std::fs;
 
-use fmu_build::model::Model;
-use fmu_build::project::Project;
-use fmu_build::stiffness::{self, Options};
+use fmu_build::commands::{Options, stiffness};
+use fmu_build::package::Model;
+use fmu_build::shared::Project;
 
 /// Header and rows of a CSV file.
 fn read(path: &std::path::Path) -> (Vec<String>, Vec<Vec<f64>>) {

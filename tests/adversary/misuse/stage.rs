@@ -5,7 +5,7 @@ use super::disk;
 use crate::host::{Host, Resources};
 use crate::support;
 use brinell::scene::Scene;
-use brinell::simulation::variables::{Causality, Kind, Variable};
+use brinell::simulation::interface::table::{Causality, Kind, Variable};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -4,7 +4,7 @@ use super::chance::Chance;
 use super::stage::is_real;
 use super::standard::{DISCARD, ERROR, OK};
 use super::walker::{State, Strangers, Walker};
-use brinell::simulation::variables::Causality;
+use brinell::simulation::interface::table::Causality;
 use brinell_fmi::fmi2::*;
 use std::ffi::CStr;
 use std::ptr;

@@ -2,7 +2,7 @@
 
 use super::{RATE, SECONDS, SPEED, sized};
 use brinell_analysis::recording::Recording;
-use brinell_analysis::report::Verdict;
+use brinell_analysis::sizing::Verdict;
 use brinell_analysis::statistics::Random;
 use std::f64::consts::TAU;
 

@@ -3,8 +3,7 @@
 use super::machine::{scene, signal};
 use super::{RATE, SECONDS, SPEED, noise, npy, read, read_as, refused, sized, timed, times, wav};
 use brinell_analysis::recording::Recording;
-use brinell_analysis::report::Verdict;
-use brinell_analysis::spall_size::size;
+use brinell_analysis::sizing::{Verdict, size};
 use brinell_analysis::statistics::Random;
 use std::sync::LazyLock;
 

@@ -6,15 +6,10 @@ use std::ptr;
 
 use super::functions;
 use super::types::{Boolean, CO_SIMULATION, CallbackFunctions, Component, FALSE, FmiString, FmuType, Real, Status};
-use crate::arguments;
-use crate::boundary;
-use crate::clock::Clock;
-use crate::failure::Failure;
-use crate::handles;
-use crate::instantiation::{self, Refusal, text};
-use crate::logger::Logger;
-use crate::mode::Mode;
-use crate::uri;
+use crate::c_interface::{Logger, uri};
+use crate::instance::{Clock, Failure, Mode, handles};
+use crate::instantiation::{Refusal, text};
+use crate::{arguments, boundary, instantiation};
 
 /// `fmi2GetTypesPlatform`: "default".
 #[unsafe(no_mangle)]

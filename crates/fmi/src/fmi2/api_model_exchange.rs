@@ -9,8 +9,7 @@
 use super::functions::ALWAYS;
 use super::types::{Boolean, Component, EventInfo, Real, Status};
 use crate::boundary;
-use crate::failure::Failure;
-use crate::mode::{Function, Version};
+use crate::instance::{Failure, Function, Version};
 
 macro_rules! not_provided {
     ($($name:ident($($argument:ty),*);)*) => {$(

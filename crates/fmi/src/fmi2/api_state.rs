@@ -7,10 +7,8 @@ use std::ptr;
 use super::functions;
 use super::types::{Byte, Component, FmuState, Status};
 use crate::arguments::{array, disjoint, state_handle, store, store_all};
-use crate::blob;
 use crate::boundary;
-use crate::failure::Failure;
-use crate::snapshots;
+use crate::instance::{Failure, blob, snapshots};
 
 /// `fmi2GetFMUstate`: saves the state; over an earlier one if `*FMUstate` is not NULL.
 ///

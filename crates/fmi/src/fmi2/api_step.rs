@@ -12,7 +12,7 @@ use super::types::{
 };
 use crate::arguments::store;
 use crate::boundary;
-use crate::failure::Failure;
+use crate::instance::Failure;
 
 /// `fmi2DoStep`: advances from a communication point by a step of any positive size.
 ///

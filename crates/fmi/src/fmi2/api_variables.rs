@@ -8,8 +8,7 @@ use super::functions;
 use super::types::{Boolean, Component, FmiString, Integer, Real, Status, ValueReference};
 use crate::arguments::{array, array_mut, disjoint, store_all, string};
 use crate::boundary;
-use crate::failure::Failure;
-use crate::instance::finite;
+use crate::instance::{Failure, finite};
 
 /// `fmi2GetReal`.
 ///

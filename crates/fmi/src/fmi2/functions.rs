@@ -2,8 +2,8 @@
 //! for co-simulation. `fmi2Instantiate`, `fmi2GetTypesPlatform` and `fmi2GetVersion` take no instance, so they have no
 //! row.
 
-use crate::mode::Mode::{Error, Initialization, Instantiated, StepComplete, Terminated};
-use crate::mode::{Function, Modes, Version, modes};
+use crate::instance::Mode::{Error, Initialization, Instantiated, StepComplete, Terminated};
+use crate::instance::{Function, Modes, Version, modes};
 
 /// Every mode.
 pub(super) const ALWAYS: Modes = modes([Instantiated, Initialization, StepComplete, Terminated, Error]);

@@ -29,5 +29,5 @@ pub use api_model_exchange::*;
 pub use api_state::*;
 pub use api_step::*;
 pub use api_variables::*;
-pub use brinell::simulation::log_category::Category;
+pub use brinell::simulation::interface::Category;
 pub use types::*;

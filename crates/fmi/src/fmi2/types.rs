@@ -6,7 +6,7 @@
 
 use libc::{c_char, c_int};
 
-pub use crate::c_types::{
+pub use crate::c_interface::{
     AllocateMemoryCallback, CallbackFunctions, Component, ComponentEnvironment, FmiString, FmuState,
     FreeMemoryCallback, LoggerCallback, Status, StepFinishedCallback, ValueReference,
 };

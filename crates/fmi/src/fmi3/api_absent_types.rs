@@ -7,10 +7,8 @@ use super::functions::{reading, setting};
 use super::types::{Binary, Bool, Instance, Status, ValueReference};
 use super::values::{may_read, may_set, wrong_type};
 use crate::arguments::array;
-use crate::boundary;
-use crate::failure::Failure;
-use crate::instance;
-use crate::mode::Function;
+use crate::instance::{Failure, Function};
+use crate::{boundary, instance};
 
 /// Refuses any variable, for it has another type.
 fn none_of(instance: &instance::Instance, references: &[ValueReference], wanted: &'static str) -> Result<(), Failure> {

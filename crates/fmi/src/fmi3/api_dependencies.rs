@@ -9,10 +9,8 @@ use super::functions;
 use super::types::{DEPENDENT, DependencyKind, Instance, Status, ValueReference};
 use super::values::addressing;
 use crate::arguments::{store, store_all};
-use crate::boundary;
-use crate::failure::Failure;
-use crate::instance;
-use crate::mode::Mode;
+use crate::instance::{Failure, Mode};
+use crate::{boundary, instance};
 
 /// What one element of the dependent variable depends on.
 struct Dependency {

@@ -6,12 +6,9 @@
 use super::functions;
 use super::types::{Instance, Status, ValueReference};
 use super::values::{expand, may_read};
-use crate::addressing::ValueCount;
 use crate::arguments::{array, array_mut, disjoint};
-use crate::boundary;
-use crate::failure::Failure;
-use crate::instance::{self, finite};
-use crate::mode::Function;
+use crate::instance::{Failure, Function, ValueCount, finite};
+use crate::{boundary, instance};
 use brinell::simulation::{Simulation, SimulationError};
 
 /// An array as a host gives it.

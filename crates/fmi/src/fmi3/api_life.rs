@@ -10,19 +10,11 @@ use super::types::{
     Bool, ClockUpdateCallback, FALSE, FmiString, Instance, InstanceEnvironment, IntermediateUpdateCallback,
     LogMessageCallback, PreemptionCallback, Status, ValueReference,
 };
-use crate::addressing::Addressing;
-use crate::arguments;
-use crate::boundary;
-use crate::clock::Clock;
-use crate::failure::Failure;
-use crate::handles;
-use crate::instance;
-use crate::instantiation::{self, Refusal, text};
-use crate::intermediate_updates::IntermediateUpdates;
-use crate::logger::Logger;
-use crate::mode::Mode;
-use crate::shared_models::SharedModel;
-use crate::uri;
+use crate::c_interface::{Logger, uri};
+use crate::instance::{Addressing, Clock, Failure, IntermediateUpdates, Mode, handles};
+use crate::instantiation::{Refusal, text};
+use crate::resources::SharedModel;
+use crate::{arguments, boundary, instance, instantiation};
 
 /// `fmi3GetVersion`: "3.0".
 #[unsafe(no_mangle)]

@@ -6,8 +6,7 @@
 use super::functions::ALWAYS;
 use super::types::{Bool, Instance, IntervalQualifier, Status, ValueReference};
 use crate::boundary;
-use crate::failure::Failure;
-use crate::mode::{Function, Version};
+use crate::instance::{Failure, Function, Version};
 
 const MODEL_EXCHANGE: &str = "is for co-simulation: step it with fmi3DoStep";
 const EVENTS: &str = "has no event mode: modelDescription.xml says so with hasEventMode=\"false\"";

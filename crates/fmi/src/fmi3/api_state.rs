@@ -7,10 +7,8 @@ use std::ptr;
 use super::functions;
 use super::types::{FmuState, Instance, Status};
 use crate::arguments::{array, disjoint, state_handle, store, store_all};
-use crate::blob;
 use crate::boundary;
-use crate::failure::Failure;
-use crate::snapshots;
+use crate::instance::{Failure, blob, snapshots};
 
 /// `fmi3GetFMUState`: saves the state; over an earlier one if `*FMUState` is not NULL.
 ///

@@ -5,9 +5,8 @@
 use super::functions;
 use super::types::{Bool, FALSE, Instance, Status};
 use crate::arguments::store;
-use crate::boundary;
-use crate::failure::Failure;
-use crate::intermediate;
+use crate::instance::Failure;
+use crate::{boundary, intermediate};
 
 /// `fmi3DoStep`: advances from a communication point by a step of any positive size. It ends early only where the host
 /// asks for it in an intermediate update; it never needs events handled and never ends the run.

@@ -10,9 +10,9 @@ use super::types::{FmiString, Instance, Status, ValueReference};
 use super::values::{self, check_kind, check_scalars, may_read, may_set};
 use crate::arguments::{array, array_mut, disjoint, store_all, string};
 use crate::boundary;
-use crate::failure::Failure;
+use crate::instance::Failure;
 use brinell::simulation::VariableError;
-use brinell::simulation::variables::Kind;
+use brinell::simulation::interface::table::Kind;
 
 /// `fmi3GetFloat64`.
 ///

@@ -2,8 +2,8 @@
 //! co-simulation without events. Functions that make an instance, and `fmi3GetVersion`, have no row; those that are not
 //! provided fail in every mode.
 
-use crate::mode::Mode::{Error, Initialization, Instantiated, IntermediateUpdate, StepComplete, Terminated};
-use crate::mode::{Function, Modes, Version, modes};
+use crate::instance::Mode::{Error, Initialization, Instantiated, IntermediateUpdate, StepComplete, Terminated};
+use crate::instance::{Function, Modes, Version, modes};
 
 /// Every mode but inside a step.
 pub(super) const ALWAYS: Modes = modes([Instantiated, Initialization, StepComplete, Terminated, Error]);

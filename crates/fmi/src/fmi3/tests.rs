@@ -9,8 +9,8 @@ use std::path::PathBuf;
 use std::{env, fs, ptr};
 
 use super::*;
-use crate::small_scene::SCENE;
-use brinell::simulation::guid::guid;
+use crate::resources::SCENE;
+use brinell::simulation::interface::table::guid;
 
 /// Unpacked resources, deleted when dropped.
 struct Resources(PathBuf);
@@ -62,7 +62,7 @@ impl Drop for Resources {
 
 /// Reference of the array whose first element has this name.
 fn reference(name: &str) -> u32 {
-    let table = brinell::simulation::table::rows(&brinell::scene::Scene::from_toml(SCENE).unwrap());
+    let table = brinell::simulation::interface::table::rows(&brinell::scene::Scene::from_toml(SCENE).unwrap());
     table.iter().find(|(row, _)| row.name == name).unwrap().0.reference
 }
 

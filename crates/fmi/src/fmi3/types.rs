@@ -5,7 +5,7 @@
 
 use libc::{c_int, c_void};
 
-pub use crate::c_types::{
+pub use crate::c_interface::{
     Bool, ComponentEnvironment as InstanceEnvironment, FmiString, FmuState, IntermediateUpdateCallback,
     LogMessageCallback, Status, ValueReference,
 };

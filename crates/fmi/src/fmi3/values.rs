@@ -1,11 +1,8 @@
 //! How scalars and arrays are read and set: all of a call's variables or none.
 
-use crate::addressing::{Addressing, ValueCount};
-use crate::failure::Failure;
-use crate::instance::{Instance, finite};
-use crate::mode::Mode;
+use crate::instance::{Addressing, Failure, Instance, Mode, ValueCount, finite};
 use brinell::simulation::VariableError;
-use brinell::simulation::variables::Kind;
+use brinell::simulation::interface::table::Kind;
 
 /// What references stand for, of an instance that was made by FMI 3.0.
 pub(super) fn addressing(instance: &Instance) -> Result<&Addressing, Failure> {

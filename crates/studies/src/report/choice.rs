@@ -15,10 +15,8 @@ use cpu_time::ThreadTime;
 use super::Extent;
 use super::integration::scene_file;
 use super::run::STEP;
-use fmu_build::contact_map;
-use fmu_build::model::Model;
-use fmu_build::project::Project;
-use fmu_build::whole_file;
+use fmu_build::package::Model;
+use fmu_build::shared::{Project, contact_map, whole_file};
 
 /// Explicit steps that an implicit one costs: what the choice itself assumes.
 const EXPLICIT_STEPS: f64 = 5.0;

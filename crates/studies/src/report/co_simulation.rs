@@ -9,7 +9,7 @@ use brinell::scene::Scene;
 use super::Extent;
 use super::coupling::{MASSES, Row, STEPS, study};
 use super::integration::scene_file;
-use fmu_build::whole_file;
+use fmu_build::shared::whole_file;
 
 /// The scenes studied: without and with impacts.
 const SCENES: [&str; 2] = ["6205-healthy", "er16k-tb1"];

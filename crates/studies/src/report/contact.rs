@@ -9,17 +9,15 @@ use std::path::Path;
 use anyhow::Result;
 use brinell::contact::element_on_raceway::{Across, ElementOnRaceway};
 use brinell::contact::error::ContactError;
-use brinell::contact::love::LoveContact;
-use brinell::contact::map_plan::MapPlan;
-use brinell::contact::map_specification::{MapSpecification, Sequential};
-use brinell::contact::raceway_grid::Resolution;
+use brinell::contact::love::{LoveContact, Resolution};
+use brinell::contact::map::{MapPlan, MapSpecification, Sequential};
 use brinell::contact::rolling::RacewaySide;
 use brinell::surface::{Profile, Surface};
 use cpu_time::ThreadTime;
 
 use super::Extent;
 use super::machine::fastest;
-use fmu_build::whole_file;
+use fmu_build::shared::whole_file;
 
 /// Largest approach (m).
 const LARGEST: f64 = 10e-6;

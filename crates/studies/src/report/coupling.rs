@@ -27,7 +27,8 @@
 //! on the bearing.
 
 use brinell::scene::{Motion, Ring, Scene};
-use brinell::simulation::{Simulation, SimulationError};
+use brinell::simulation::Simulation;
+use brinell::simulation::SimulationError;
 use nalgebra::{Matrix4, Vector4};
 
 /// How the host and the bearing exchange motion and force.

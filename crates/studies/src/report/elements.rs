@@ -12,8 +12,8 @@ use brinell::simulation::{Method, Simulation};
 use super::Extent;
 use super::integration::scene_file;
 use super::machine::fastest;
-use fmu_build::model::Model;
-use fmu_build::whole_file;
+use fmu_build::package::Model;
+use fmu_build::shared::whole_file;
 
 /// Numbers of elements.
 const COUNTS: [usize; 10] = [3, 5, 8, 9, 16, 25, 32, 50, 75, 100];

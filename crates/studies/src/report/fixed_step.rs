@@ -4,10 +4,8 @@
 //! kick with the force at the start, drift, half a kick with the force at the new position and the half velocity), of
 //! order 1 in the damping. Neither lands on contact changes or on the edges of the defect.
 
-use brinell::dynamics::drive::Drive;
-use brinell::dynamics::forces::Forces;
-use brinell::dynamics::model::Model;
-use brinell::dynamics::raceway::Cells;
+use brinell::dynamics::contacts::Forces;
+use brinell::dynamics::parameters::{Cells, Drive, Model};
 use brinell::simulation::Simulation;
 
 use super::run::{RATE, Signals};

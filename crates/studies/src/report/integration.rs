@@ -16,9 +16,8 @@ use super::Extent;
 use super::fixed_step::{FixedRun, FixedStep};
 use super::machine::fastest;
 use super::run::{Deviation, RATE, Signals, Subject};
-use fmu_build::model::Model;
-use fmu_build::python::Python;
-use fmu_build::whole_file;
+use fmu_build::package::Model;
+use fmu_build::shared::{Python, whole_file};
 
 /// Simulated time (s): long enough for an element to pass the spall of the ER16K, short enough for elements that bounce
 /// freely not to have lost all memory of the start.

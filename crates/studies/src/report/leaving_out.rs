@@ -12,10 +12,8 @@ use brinell::simulation::Simulation;
 use super::Extent;
 use super::integration::scene_file;
 use super::machine::fastest;
-use fmu_build::contact_map;
-use fmu_build::model::Model;
-use fmu_build::project::Project;
-use fmu_build::whole_file;
+use fmu_build::package::Model;
+use fmu_build::shared::{Project, contact_map, whole_file};
 
 /// Communication step (s).
 const STEP: f64 = 1e-4;
@@ -137,7 +135,7 @@ fn cost(what: &'static str, scene: &Scene, seen: Seen, stop: f64) -> Result<Part
     let references: Vec<u32> = simulation
         .table()
         .iter()
-        .filter(|v| matches!(v.kind, brinell::simulation::variables::Kind::Real { .. }))
+        .filter(|v| matches!(v.kind, brinell::simulation::interface::table::Kind::Real { .. }))
         .filter(|v| seen == Seen::Stiffness || !v.name.starts_with("shaft.stiffness"))
         .map(|v| v.reference)
         .collect();

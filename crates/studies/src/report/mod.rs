@@ -33,9 +33,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 
-use fmu_build::project::Project;
-use fmu_build::python::Python;
-use fmu_build::whole_file;
+use fmu_build::shared::{Project, Python, whole_file};
 use side_by_side::SideBySide;
 
 /// How much of the report to make.

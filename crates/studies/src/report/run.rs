@@ -4,7 +4,7 @@ use anyhow::{Result, ensure};
 use brinell::scene::{Recorder, RecorderFilter};
 use brinell::simulation::{Method, Simulation};
 
-use fmu_build::model::Model;
+use fmu_build::package::Model;
 
 /// Rate at which runs are compared (Hz): above every frequency that a housing sensor sees.
 pub(super) const RATE: f64 = 100_000.0;

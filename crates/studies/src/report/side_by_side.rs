@@ -7,7 +7,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use anyhow::Result;
-use fmu_build::whole_file;
+use fmu_build::shared::whole_file;
 
 use super::elements;
 

@@ -8,16 +8,14 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 use brinell::simulation::{Method, Simulation};
-use brinell_analysis::assembly::{Assembly, Hold};
-use brinell_analysis::mode_lines::sweep;
-use brinell_analysis::modes_report::ModesReport;
+use brinell_analysis::modes::{Assembly, Hold, ModesReport, sweep};
 use cpu_time::ThreadTime;
 
 use super::Extent;
 use super::integration::scene_file;
 use super::run::{STEP, Subject};
-use fmu_build::model::Model;
-use fmu_build::whole_file;
+use fmu_build::package::Model;
+use fmu_build::shared::whole_file;
 
 /// Tolerances of the runs.
 const TOLERANCES: [f64; 3] = [1e-2, 1e-3, 1e-5];

@@ -5,14 +5,14 @@ use std::fmt::Write;
 
 use anyhow::Result;
 use brinell::scene::{ContactLaw, DefectShape};
-use brinell_analysis::passages;
-use brinell_analysis::ringing::{self, Ringing};
-use brinell_analysis::static_bearing::StaticBearing;
-use brinell_analysis::synthesis::{self, Rig, Trial};
+use brinell_analysis::sizing::passages::fold;
+use brinell_analysis::sizing::waveform::{Rig, Trial, synthesis};
+use brinell_analysis::sizing::{Ringing, ringing};
+use brinell_analysis::statics::StaticBearing;
 
 use super::runs::Case;
 use super::{LAWS, Values, write_csv};
-use fmu_build::project::Project;
+use fmu_build::shared::Project;
 
 const RATE: f64 = 51_200.0;
 /// Share of a period before the entry.
@@ -91,7 +91,7 @@ fn rings(case: &Case, passage: &[f64]) -> Option<Ringing> {
     let spacing = 360.0 / case.scene.bearing.element_count as f64;
     let over = case.length().rem_euclid(spacing);
     // From the entry on, on a grid of degrees; half a degree to a degree after an event is left to the event itself.
-    let row = passages::cut(passage, &[0.0], passage.len() as f64 - 1.0, synthesis::POINTS).pop()?;
+    let row = fold::cut(passage, &[0.0], passage.len() as f64 - 1.0, synthesis::POINTS).pop()?;
     let smooth = synthesis::below_cut(&row, case.bpfo());
     let n = smooth.len();
     let stretch = |from: f64, to: f64| -> Vec<f64> {

@@ -6,14 +6,13 @@ use std::fmt::Write;
 use anyhow::Result;
 use brinell::scene::Scene;
 use brinell_analysis::recording::Recording;
-use brinell_analysis::report::{Report, Verdict};
-use brinell_analysis::spall_size;
+use brinell_analysis::sizing;
+use brinell_analysis::sizing::{Report, Verdict};
 use brinell_analysis::statistics::Random;
 
 use super::Values;
 use super::runs::Case;
-use fmu_build::contact_map;
-use fmu_build::project::Project;
+use fmu_build::shared::{Project, contact_map};
 
 const RATE: f64 = 51_200.0;
 /// Passages in a recording.
@@ -82,7 +81,7 @@ fn sized(project: &Project, case: &Case, signal: Vec<f64>, speed: f64) -> Result
     let blind = Scene { defects: Vec::new(), ..case.scene.clone() };
     let recording = Recording::new("simulated", signal, RATE, speed * case.shaft_speed())?;
     let maps = |scene: &Scene| contact_map::of(scene, None, project).ok().flatten();
-    Ok(spall_size::size_with(&[recording], &blind, &maps, &mut |_| ())?)
+    Ok(sizing::size_with(&[recording], &blind, &maps, &mut |_| ())?)
 }
 
 fn with_noise(signal: &[f64], noise: f64) -> Vec<f64> {

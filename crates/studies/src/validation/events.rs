@@ -3,15 +3,16 @@
 use std::fmt::Write;
 
 use anyhow::{Context, Result};
-use brinell::contact::rigid_path::RigidPath;
+use brinell::contact::rolled_path::RigidPath;
 use brinell::contact::rolling::{RacewaySide, Rolling};
 use brinell::scene::ContactLaw;
 use brinell::surface::Surface;
-use brinell_analysis::{ringing, synthesis};
+use brinell_analysis::sizing::ringing;
+use brinell_analysis::sizing::waveform::synthesis;
 
 use super::runs::Case;
 use super::{LAWS, Values, write_csv};
-use fmu_build::project::Project;
+use fmu_build::shared::Project;
 
 /// A row of the table of events: its name, the prototype's figure, and how ours is read.
 type Event = (&'static str, &'static str, fn(&FourEvents) -> f64);

@@ -19,10 +19,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use brinell::scene::ContactLaw;
 
-use fmu_build::csv;
-use fmu_build::project::Project;
-use fmu_build::python::Python;
-use fmu_build::whole_file;
+use fmu_build::shared::{Project, Python, csv, whole_file};
 use recordings::Known;
 
 const TEMPLATE: &str = include_str!("../../assets/validation.md");

@@ -9,16 +9,14 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use brinell::scene::Scene;
-use brinell_analysis::measured::Measured;
 use brinell_analysis::recording::{Recording, Source, Speed};
-use brinell_analysis::report::{Fault, Figure, RecordingReport};
-use brinell_analysis::{event_length, passages, spall_size};
+use brinell_analysis::sizing;
+use brinell_analysis::sizing::passages::fold;
+use brinell_analysis::sizing::{Fault, Figure, Measured, RecordingReport, event_length};
 
-use super::blind;
 use super::runs::Case;
-use super::write_csv;
-use fmu_build::contact_map;
-use fmu_build::project::Project;
+use super::{blind, write_csv};
+use fmu_build::shared::{Project, contact_map};
 
 /// Scene of the rig.
 const SCENE: &str = "6205-spall-5deg";
@@ -100,7 +98,7 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
     let mut inside: Vec<Inside> = Vec::new();
     for one in known {
         let recording = read(one)?;
-        let report = spall_size::size_with(std::slice::from_ref(&recording), &scene, &maps, &mut |_| ())?;
+        let report = sizing::size_with(std::slice::from_ref(&recording), &scene, &maps, &mut |_| ())?;
         let (Some(found), Some(figure)) = (report.recordings.first(), report.figures.first()) else {
             bail!("no report of {}", one.path.display());
         };
@@ -120,7 +118,7 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
     }
     let several = groups.iter().filter(|group| group.recordings.len() > 1 && group.nominal > 0.0);
     for OneFault { nominal, fault, recordings } in several {
-        let report = spall_size::size_with(recordings, &scene, &maps, &mut |_| ())?;
+        let report = sizing::size_with(recordings, &scene, &maps, &mut |_| ())?;
         let per_degree = report.length_mm.zip(report.length_deg).map_or(1.0, |(mm, deg)| mm / deg);
         let error = |deg: f64| format!("{:+.1} %", 100.0 * (deg / nominal - 1.0));
         writeln!(
@@ -180,7 +178,7 @@ fn outer_beside(project: &Project, [case, with_flanks]: [&Case; 2], beside: &[Be
             // By its events, like the recording: a scene without sensor is no rig to compare with.
             let recording = Recording::new("scene", blind::recorded(project, &case)?, RATE, *speed)?;
             let blind = Scene { defects: Vec::new(), sensors: Vec::new(), ..case.scene.clone() };
-            let report = spall_size::size(std::slice::from_ref(&recording), &blind)?;
+            let report = sizing::size(std::slice::from_ref(&recording), &blind)?;
             let own = harmonics(&recording, &blind)?;
             writeln!(text, "{}", beside_row(*speed, label, report.recordings.first(), &own))?;
             // The figure shows the last, which is nearer.
@@ -209,7 +207,7 @@ fn inner_beside(project: &Project, recorded: &[Inside]) -> Result<String> {
         let signal = case.record(project, &["sensor.acceleration"], RATE, INNER_SECONDS)?.remove(0);
         let recording = Recording::new("scene", signal, RATE, *speed)?;
         let blind = Scene { defects: Vec::new(), sensors: Vec::new(), ..case.scene.clone() };
-        let report = spall_size::size(std::slice::from_ref(&recording), &blind)?;
+        let report = sizing::size(std::slice::from_ref(&recording), &blind)?;
         let loud = Loud::of(&recording, &blind)?;
         let Some(found) = report.recordings.first() else { bail!("no report of the scene {INNER_SCENE}") };
         writeln!(text, "{}", inner_row(*speed, "scene", found, &loud))?;
@@ -299,7 +297,7 @@ fn number(value: Option<f64>) -> String {
 /// Amplitudes of the averaged envelope's harmonics of the ball pass frequency, over that of the first.
 fn harmonics(recording: &Recording, scene: &Scene) -> Result<Vec<f64>> {
     let measured = Measured::new(recording, &scene.bearing)?;
-    let row = passages::average(&measured.envelope_rows(0.0, measured.points()));
+    let row = fold::average(&measured.envelope_rows(0.0, measured.points()));
     let amplitude = |k: usize| {
         let turn = std::f64::consts::TAU * k as f64 / row.len() as f64;
         let (re, im) = row.iter().enumerate().fold((0.0, 0.0), |(re, im), (i, x)| {

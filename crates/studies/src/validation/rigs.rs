@@ -9,11 +9,9 @@ use std::ops::Range;
 
 use anyhow::Result;
 use brinell::scene::Scene;
-use brinell_analysis::error::SizingError;
-use brinell_analysis::raceway::Raceway;
-use brinell_analysis::recording::Recording;
-use brinell_analysis::report::Fault;
-use brinell_analysis::spall_size;
+use brinell_analysis::recording::{Recording, SizingError};
+use brinell_analysis::sizing;
+use brinell_analysis::sizing::{Fault, Raceway};
 use brinell_analysis::statistics::Random;
 use rayon::prelude::*;
 
@@ -103,7 +101,7 @@ fn one(number: u64, raceway: Raceway, length: f64) -> Result<Found> {
     ))?;
     let signal = rig.record(&scene.bearing, raceway, length, &mut random);
     let recording = Recording::new("synthetic", signal, rig.rate, rig.speed)?;
-    match spall_size::size(&[recording], &scene) {
+    match sizing::size(&[recording], &scene) {
         Ok(report) => {
             let interval = report.recordings.first().and_then(|r| r.uncertainty_deg).unwrap_or(0.0);
             let raceway = match report.fault {

@@ -7,12 +7,11 @@ use anyhow::{Context, Result};
 use brinell::geometry::kinematics;
 use brinell::scene::{ContactLaw, Defect, DefectShape, Scene};
 use brinell::simulation::Simulation;
-use brinell_analysis::passages;
-use brinell_analysis::raceway::Raceway;
+use brinell_analysis::sizing::Raceway;
+use brinell_analysis::sizing::passages::fold;
 
-use fmu_build::contact_map;
-use fmu_build::model::Model;
-use fmu_build::project::Project;
+use fmu_build::package::Model;
+use fmu_build::shared::{Project, contact_map};
 
 /// A scene with the text of its profile.
 #[derive(Debug, Clone)]
@@ -147,6 +146,6 @@ impl Case {
         let first = self.entry(length) * rate + (skip as f64 - lead) * period;
         let count = ((signal.len() as f64 - first) / period) as usize;
         let starts: Vec<f64> = (0..count).map(|i| first + i as f64 * period).collect();
-        passages::mean(signal, &starts, period, period.round() as usize)
+        fold::mean(signal, &starts, period, period.round() as usize)
     }
 }

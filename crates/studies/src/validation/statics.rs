@@ -5,12 +5,11 @@ use std::fmt::Write;
 
 use anyhow::{Context, Result};
 use brinell::scene::ContactLaw;
-use brinell_analysis::static_bearing::StaticBearing;
-use brinell_analysis::stiffness::{min_mean_max, sweep};
+use brinell_analysis::statics::{StaticBearing, min_mean_max, sweep};
 
 use super::Values;
 use super::runs::Case;
-use fmu_build::project::Project;
+use fmu_build::shared::Project;
 
 /// Evenly spaced cage angles of a sweep.
 const ANGLES: usize = 200;

@@ -18,13 +18,11 @@
 //! the bearing, and noise are added. It is no simulation of a machine, and shares with the estimator only the two
 //! formulas of sinking; nothing in it was measured.
 
-use brinell::geometry::STRIBECK;
 use brinell::geometry::hertz_constant::{HertzConstants, approach_under};
-use brinell::geometry::kinematics;
+use brinell::geometry::{STRIBECK, kinematics};
 use brinell::scene::Bearing;
-use brinell_analysis::raceway::Raceway;
-use brinell_analysis::statistics::Random;
-use brinell_analysis::statistics::rms;
+use brinell_analysis::sizing::Raceway;
+use brinell_analysis::statistics::{Random, rms};
 use std::f64::consts::TAU;
 
 /// Way before an edge at which an elastic contact begins to lose its force, in ways to get free: over the edge it has

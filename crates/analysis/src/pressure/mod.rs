@@ -1,0 +1,17 @@
+//! The pressure of one contact on a fine grid, and the stresses below it.
+
+mod conjugate_gradients;
+mod contact_pressure;
+mod defect_below;
+mod fft_product;
+mod grid;
+mod report;
+mod subsurface;
+
+pub use conjugate_gradients::ConjugateGradients;
+pub use contact_pressure::{BallOnRaceway, Hertz, Pressed, PressureError};
+pub use defect_below::DefectBelow;
+pub use fft_product::FftProduct;
+pub use grid::{Border, GridActiveSet, GridContact, GridProblem, GridSolver};
+pub use report::{ContactReport, Highest, PatchReport, Section, StressAt, StressReport};
+pub use subsurface::{Corners, Stress, maximum};

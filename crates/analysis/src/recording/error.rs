@@ -1,0 +1,181 @@
+//! What a recording can be refused for. Each message names the quantity, its value and the limit.
+
+use crate::recording::Uneven;
+use std::path::PathBuf;
+
+/// A recording that cannot be read or cannot be sized, whatever the bearing's state.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SizingError {
+    /// The file could not be read. The message includes the cause, which is therefore no `source`: whoever prints the
+    /// chain would tell it twice.
+    #[error("{path}: {cause}")]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        cause: std::io::Error,
+    },
+    /// The file is not what its ending says, or of a kind that is not read.
+    #[error("{path}: {why}")]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, and what would be right.
+        why: String,
+    },
+    /// The column that counts time or samples is uneven.
+    #[error("{path}: {column}: {why}")]
+    Times {
+        /// The file.
+        path: PathBuf,
+        /// Heading of the column, or its number.
+        column: String,
+        /// What is wrong.
+        why: Box<Uneven>,
+    },
+    /// No recordings were given.
+    #[error("0 recordings: at least 1 is needed")]
+    NoRecordings,
+    /// A quantity that must be positive and finite is not.
+    #[error("{name}: {quantity} {value} {unit}: it must be finite and above 0")]
+    NotPositive {
+        /// The recording.
+        name: String,
+        /// The quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
+    /// A sample is not a number.
+    #[error("{name}: sample {index} is {value}: samples must be finite")]
+    NotFinite {
+        /// The recording.
+        name: String,
+        /// Index of the sample, from 0.
+        index: usize,
+        /// The sample.
+        value: f64,
+    },
+    /// All samples are equal.
+    #[error("{name}: all {count} samples are {value}: a constant carries no vibration")]
+    Constant {
+        /// The recording.
+        name: String,
+        /// Number of samples.
+        count: usize,
+        /// Their value.
+        value: f64,
+    },
+    /// Squares of the samples would overflow or vanish.
+    #[error(
+        "{name}: samples from {low:e} to {high:e}: they must differ by {lowest:e} at least and stay within \
+         ±{highest:e}; choose another unit"
+    )]
+    Magnitude {
+        /// The recording.
+        name: String,
+        /// Smallest sample.
+        low: f64,
+        /// Largest sample.
+        high: f64,
+        /// Smallest range.
+        lowest: f64,
+        /// Largest magnitude.
+        highest: f64,
+    },
+    /// The signal sits at its limits.
+    #[error("{name}: {percent:.2} % of the samples sit in runs at the extreme value {value}: clipped; limit {limit} %")]
+    Clipped {
+        /// The recording.
+        name: String,
+        /// Share of samples in runs at the extremes (%).
+        percent: f64,
+        /// The extreme.
+        value: f64,
+        /// Largest share allowed (%).
+        limit: f64,
+    },
+    /// Too few elements pass the defect during the recording.
+    #[error(
+        "{name}: {duration:.3} s hold {passages:.1} passages at a ball pass frequency of {bpfo:.3} Hz: at least \
+         {limit} are needed"
+    )]
+    TooShort {
+        /// The recording.
+        name: String,
+        /// Duration (s).
+        duration: f64,
+        /// Passages in it.
+        passages: f64,
+        /// Ball pass frequency (Hz).
+        bpfo: f64,
+        /// Fewest passages.
+        limit: usize,
+    },
+    /// The ball pass frequency is too high for the sampling rate: rate or speed are wrong.
+    #[error(
+        "{name}: {samples:.1} samples per passage ({rate:.1} Hz at a ball pass frequency of {bpfo:.3} Hz): at least \
+         {limit} are needed; is the rate or the speed of {speed} Hz wrong?"
+    )]
+    TooCoarse {
+        /// The recording.
+        name: String,
+        /// Samples between one element and the next.
+        samples: f64,
+        /// Sampling rate (Hz).
+        rate: f64,
+        /// Ball pass frequency (Hz).
+        bpfo: f64,
+        /// Shaft speed (Hz).
+        speed: f64,
+        /// Fewest samples per passage.
+        limit: usize,
+    },
+    /// The tachometer column gives no speed.
+    #[error("{name}: {pulses} tachometer pulses: at least {limit} are needed")]
+    Tachometer {
+        /// The recording.
+        name: String,
+        /// Rising edges found.
+        pulses: usize,
+        /// Fewest pulses.
+        limit: usize,
+    },
+    /// The column beside the signal is not as long.
+    #[error("{name}: {other} samples of tachometer or speed beside {samples} of the signal: they must be equally many")]
+    OtherLength {
+        /// The recording.
+        name: String,
+        /// Length of the column.
+        other: usize,
+        /// Length of the signal.
+        samples: usize,
+    },
+    /// The speed varies too much.
+    #[error("{name}: shaft speed from {low:.3} to {high:.3} Hz: the fastest may be at most {limit} times the slowest")]
+    SpeedRange {
+        /// The recording.
+        name: String,
+        /// Lowest speed (Hz).
+        low: f64,
+        /// Highest speed (Hz).
+        high: f64,
+        /// Largest ratio.
+        limit: f64,
+    },
+    /// The rate contradicts the file.
+    #[error("{name}: sampling rate {given} Hz, but the file states {stated:.3} Hz: they may differ by {limit} %")]
+    OtherRate {
+        /// The recording.
+        name: String,
+        /// The rate that was given (Hz).
+        given: f64,
+        /// The file's own (Hz).
+        stated: f64,
+        /// Largest difference (%).
+        limit: f64,
+    },
+}

@@ -1,0 +1,248 @@
+//! A recording's file as named columns, and which of them is what.
+//!
+//! Text ([`recording_csv`]), NumPy ([`recording_npy`]) and WAV, which
+//! goes through `hound`. Columns are chosen by name or by number from 1. Left to itself, the signal is the column
+//! whose name begins with `sensor.acceleration` or, of several sensors, `sensor[1].acceleration`, else with `acc`,
+//! `vib` or `signal`, else the only one that does not count time or samples, else, where columns have no names, the
+//! first of those.
+//!
+//! Time is a column that is called so, or has a unit of time and rises, or an unnamed first column beside others that
+//! rises like time. It must be even ([`sampling_times`]). A column of any other name that
+//! ticks from sample to sample, as counters and angles do, must have no holes.
+
+use super::error::SizingError;
+use super::interleaving::deinterleaved;
+use super::sampling_times::{self, Clock, Uneven};
+use super::{csv, npy};
+use std::path::Path;
+
+/// Names of time.
+const TIME: [&str; 9] = ["t", "time", "times", "timestamp", "zeit", "temps", "tiempo", "tempo", "tijd"];
+/// What LabVIEW calls it.
+const LABVIEW_TIME: &str = "x_value";
+/// Units of time in seconds. The one before last is a micro sign in a coding that is not known.
+const TIME_UNITS: [(&str, f64); 16] = [
+    ("s", 1.0),
+    ("sec", 1.0),
+    ("second", 1.0),
+    ("seconds", 1.0),
+    ("ms", 1e-3),
+    ("msec", 1e-3),
+    ("milliseconds", 1e-3),
+    ("us", 1e-6),
+    ("usec", 1e-6),
+    ("microseconds", 1e-6),
+    ("\u{b5}s", 1e-6),
+    ("\u{3bc}s", 1e-6),
+    ("ns", 1e-9),
+    ("min", 60.0),
+    ("\u{fffd}s", 1e-6),
+    ("h", 3600.0),
+];
+/// Most columns that a message lists.
+const LISTED: usize = 100;
+
+/// What a file holds.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Table {
+    /// Headings; empty where the file has none.
+    names: Vec<String>,
+    columns: Vec<Vec<f64>>,
+    /// Whether each column counts time or samples.
+    clocks: Vec<bool>,
+    /// Sampling rate (Hz), where the file states it.
+    pub(crate) rate: Option<f64>,
+}
+
+impl Table {
+    /// Reads what a file of this path holds.
+    ///
+    /// # Errors
+    /// Bytes that are not what the path's ending says, times that are not even.
+    pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Self, SizingError> {
+        let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
+        let refuse = |why: String| SizingError::Format { path: path.to_owned(), why };
+        let (names, columns) = match ending.as_str() {
+            "csv" | "txt" => csv::columns(&String::from_utf8_lossy(bytes)).map_err(refuse)?,
+            "npy" => npy::columns(bytes).map_err(refuse)?,
+            "wav" => return wav(bytes).map_err(refuse),
+            _ => return Err(refuse(format!("ending '{ending}': recordings are .csv, .txt, .npy or .wav"))),
+        };
+        Self::new(names, columns).map_err(|(column, why)| SizingError::Times {
+            path: path.to_owned(),
+            column,
+            why: Box::new(why),
+        })
+    }
+
+    /// # Errors
+    /// Which column is uneven, and how.
+    fn new(names: Vec<String>, columns: Vec<Vec<f64>>) -> Result<Self, (String, Uneven)> {
+        let called = |i: usize| names.get(i).cloned().unwrap_or_else(|| format!("column {}", i + 1));
+        let time = time_column(&names, &columns);
+        let mut clocks = vec![false; columns.len()];
+        let mut rate = None;
+        for (i, column) in columns.iter().enumerate() {
+            if let Some((_, unit)) = time.filter(|&(time, _)| time == i) {
+                Clock::new(column, unit).and_then(|clock| clock.check()).map_err(|why| (called(i), why))?;
+                rate = sampling_times::mean_rate(column).map(|rate| rate / seconds(unit).unwrap_or(1.0));
+                clocks[i] = true;
+            } else if let Some(clock) = Clock::hidden_in(column) {
+                clock.check_for_holes().map_err(|why| (called(i), why))?;
+                clocks[i] = true;
+            }
+        }
+        Ok(Self { names, columns, clocks, rate })
+    }
+
+    /// The column of this name or number; without either, the one that is a signal by itself.
+    pub(crate) fn signal(&self, choice: Option<&str>) -> Result<Vec<f64>, String> {
+        if let Some(choice) = choice {
+            return self.column(choice).map(|(_, column)| column.to_vec());
+        }
+        let begins = |with: &str| self.names.iter().position(|name| bare(name).starts_with(with));
+        let by_name =
+            ["sensor.acceleration", "sensor[1].acceleration", "acc", "vib", "signal"].into_iter().find_map(begins);
+        let mut others = (0..self.columns.len()).filter(|&i| !self.clocks[i] || self.columns.len() == 1);
+        let found = by_name.or_else(|| {
+            let first = others.next();
+            if self.names.is_empty() || others.next().is_none() { first } else { None }
+        });
+        match found {
+            Some(found) => Ok(self.columns[found].clone()),
+            None => Err(format!("{}: which is the signal? Choose one", self.listed())),
+        }
+    }
+
+    /// Heading and values of the column of this name or number.
+    pub(crate) fn column(&self, choice: &str) -> Result<(&str, &[f64]), String> {
+        let wanted = choice.trim().to_lowercase();
+        let same = |name: &String| name.to_lowercase() == wanted || bare(name) == wanted;
+        let number = || wanted.parse::<usize>().ok()?.checked_sub(1).filter(|&i| i < self.columns.len());
+        let found = self.names.iter().position(same).or_else(number);
+        let found = found.ok_or_else(|| format!("no column '{choice}' among {}", self.listed()))?;
+        Ok((self.names.get(found).map_or("", String::as_str), &self.columns[found]))
+    }
+
+    fn listed(&self) -> String {
+        match (&self.names[..], self.columns.len()) {
+            ([], count) => format!("{count} columns without names"),
+            (names, count) if count > LISTED => format!("{count} columns from {}", names[..LISTED].join(", ")),
+            (names, _) => format!("columns {}", names.join(", ")),
+        }
+    }
+}
+
+/// Which column is time, and its unit.
+fn time_column<'a>(names: &'a [String], columns: &[Vec<f64>]) -> Option<(usize, &'a str)> {
+    let rises = |i: usize| sampling_times::rises(&columns[i]);
+    if names.is_empty() {
+        // One that counts samples does not tell the rate.
+        return (columns.len() > 1 && rises(0) && !sampling_times::counts(&columns[0])).then_some((0, "s"));
+    }
+    let called: Vec<(usize, &str)> =
+        names.iter().enumerate().filter_map(|(i, name)| Some((i, unit_of_time(name)?))).collect();
+    let by_name = called.iter().find(|&&(i, _)| rises(i)).or(called.first()).copied();
+    by_name.or_else(|| {
+        // Some programs write units alone above the numbers.
+        let mut units = names.iter().enumerate().map(|(i, name)| (i, unit(name).unwrap_or(name)));
+        units.find(|&(i, unit)| seconds(unit).is_some() && rises(i))
+    })
+}
+
+/// The unit of a column that is called time; none if it is not, or is not in a unit of time.
+fn unit_of_time(name: &str) -> Option<&str> {
+    let bare = bare(name);
+    let words: Vec<&str> = bare.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
+    let (first, last) = (words.first()?, words.last()?);
+    let called = [first, last].into_iter().any(|word| TIME.contains(word)) || bare == LABVIEW_TIME;
+    let unit = unit(name).or_else(|| TIME_UNITS.iter().find(|(unit, _)| unit == last).map(|(unit, _)| *unit));
+    (called && unit.is_none_or(|unit| seconds(unit).is_some())).then(|| unit.unwrap_or("s"))
+}
+
+/// A heading without its unit, in small letters.
+fn bare(name: &str) -> String {
+    name.split(['[', '(']).next().unwrap_or_default().trim().to_lowercase()
+}
+
+/// What stands in brackets.
+fn unit(name: &str) -> Option<&str> {
+    let (_, rest) = name.split_once(['[', '('])?;
+    Some(rest.split([']', ')']).next().unwrap_or_default().trim())
+}
+
+/// A unit of time in seconds.
+fn seconds(unit: &str) -> Option<f64> {
+    let unit = unit.to_lowercase();
+    TIME_UNITS.iter().find(|(name, _)| *name == unit).map(|(_, seconds)| *seconds)
+}
+
+fn wav(bytes: &[u8]) -> Result<Table, String> {
+    let mut reader = hound::WavReader::new(bytes).map_err(|e| e.to_string())?;
+    let spec = reader.spec();
+    let samples: Result<Vec<f64>, _> = match spec.sample_format {
+        hound::SampleFormat::Float => reader.samples::<f32>().map(|s| s.map(f64::from)).collect(),
+        hound::SampleFormat::Int => reader.samples::<i32>().map(|s| s.map(f64::from)).collect(),
+    };
+    let columns = deinterleaved(&samples.map_err(|e| e.to_string())?, spec.channels as usize);
+    let clocks = vec![false; columns.len()];
+    Ok(Table { names: Vec::new(), columns, clocks, rate: Some(f64::from(spec.sample_rate)) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn csv(text: &str) -> Table {
+        let (names, columns) = csv::columns(text).unwrap();
+        Table::new(names, columns).unwrap()
+    }
+
+    #[test]
+    fn the_signal_is_found_by_name_and_time_gives_the_rate() {
+        let table =
+            csv("time [s],cage.angle [rad],sensor.acceleration [m/s2],tacho\n0.0,9,1,0\n0.5,9,2,5\n1.0,9,3,0\n");
+        assert_eq!((table.signal(None).unwrap(), table.rate), (vec![1.0, 2.0, 3.0], Some(2.0)));
+        assert_eq!(table.column("tacho").unwrap(), ("tacho", [0.0, 5.0, 0.0].as_slice()));
+        assert_eq!(table.column("Cage.Angle").unwrap().1, [9.0; 3]);
+        assert_eq!(table.signal(Some("4")).unwrap(), [0.0, 5.0, 0.0]);
+        assert_eq!(csv("Time (ms),x\n0,7\n1,8\n2,9\n").rate, Some(1e3));
+    }
+
+    #[test]
+    fn a_first_column_without_name_that_rises_evenly_is_time() {
+        let table = csv("0.0 5\n0.25 6\n0.5 3\n");
+        assert_eq!((table.signal(None).unwrap(), table.rate), (vec![5.0, 6.0, 3.0], Some(4.0)));
+        // Alone it is a signal, and one that goes up and down is one too.
+        assert_eq!(csv("0.0\n0.25\n0.5\n").signal(None).unwrap(), [0.0, 0.25, 0.5]);
+        assert_eq!(csv("1 5\n-1 6\n2 3\n").signal(None).unwrap(), [1.0, -1.0, 2.0]);
+    }
+
+    #[test]
+    fn a_choice_that_cannot_be_met_lists_the_columns() {
+        let table = csv("left,right\n1,2\n3,4\n");
+        assert!(table.signal(None).is_err_and(|e| e.contains("left, right")));
+        assert!(table.column("middle").is_err_and(|e| e.contains("left, right")));
+        assert!(table.column("3").is_err() && table.column("0").is_err());
+        assert_eq!(table.column("2").unwrap().1, [2.0, 4.0]);
+    }
+
+    #[test]
+    fn wav_gives_channels_and_rate() {
+        let spec = hound::WavSpec {
+            channels: 2,
+            sample_rate: 48_000,
+            bits_per_sample: 16,
+            sample_format: hound::SampleFormat::Int,
+        };
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        let mut writer = hound::WavWriter::new(&mut bytes, spec).unwrap();
+        for sample in [1i16, 7, -2, 8] {
+            writer.write_sample(sample).unwrap();
+        }
+        writer.finalize().unwrap();
+        let table = wav(bytes.get_ref()).unwrap();
+        assert_eq!((table.signal(None).unwrap(), table.rate), (vec![1.0, -2.0], Some(48_000.0)));
+        assert_eq!(table.column("2").unwrap().1, [7.0, 8.0]);
+    }
+}

@@ -1,0 +1,167 @@
+//! Line or extended, and from which load on nobody can tell.
+//!
+//! An extended spall, longer than the element spacing, makes the events of a line spall that is shorter by the spacing.
+//! What differs is stiffness: while one more element is out of the bearing, the rings ring lower ([`ringing`]), unless
+//! the load is above the **critical load** of the extended spall, at which elements inside it carry again. That load
+//! depends on the depth:
+//!
+//! - where the scene's own rig sounds like the recording, the depth that fits best says which side of it the recording
+//!   is on;
+//! - where it does not, the depth is unknown, and the answer names the **critical depth**: were the spall shallower,
+//!   the load would be above its critical load, and an extended spall would ring like a line spall.
+
+use super::measured::Measured;
+use super::report::Kind;
+use super::ringing::{self, Ringing};
+use crate::sizing::passages::fold;
+use crate::sizing::waveform::{CUT, POINTS, Rig, Trial, WaveformLength};
+use crate::spectrum::{Band, Spectrum};
+use brinell::scene::{ContactLaw, Motion, Scene};
+
+/// Difference of similarity by which one kind of spall is preferred to the other.
+const CLEARLY_LIKER: f64 = 0.02;
+/// Depth at which ringing is expected (m): deep enough for free elements, which is what the two kinds differ in.
+const FREE_DEPTH: f64 = 1e-3;
+/// Depths between which the critical one is sought (m), and halvings of that range: to a thousandth of the depth.
+const DEPTHS: (f64, f64) = (1e-7, FREE_DEPTH);
+const HALVINGS: usize = 14;
+
+/// Where elements cross the spall in an averaged passage.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Crossing {
+    /// Where an entry begins (share of a period).
+    pub(crate) entry: f64,
+    /// How far from it the next exit is (degrees).
+    pub(crate) way: f64,
+}
+
+/// What a recording says of the kind of its spall.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Judged {
+    pub(crate) kind: Kind,
+    /// Measured, where an entry is known and there is time to ring.
+    pub(crate) ringing: Option<Ringing>,
+    /// Of a line spall, and of an extended one, of the scene's rig.
+    pub(crate) expected: Option<[Ringing; 2]>,
+    /// Of the spall that fits best (N), with its depth (m).
+    pub(crate) critical_load: Option<f64>,
+    depth: Option<f64>,
+    /// Depth at which the load is the critical load of the extended spall with these events (m); where the depth is
+    /// unknown.
+    pub(super) critical_depth: Option<f64>,
+    spacing: f64,
+}
+
+impl Judged {
+    /// `crossing` where it is known.
+    pub(crate) fn of(
+        measured: &Measured,
+        scene: &Scene,
+        rig: Option<&Rig<'_>>,
+        waveform: Option<&WaveformLength>,
+        crossing: Option<Crossing>,
+    ) -> Self {
+        let spacing = measured.spacing;
+        let trial = |length: f64, depth: f64| Trial { length, depth, law: ContactLaw::Hertz };
+        let ringing = crossing.and_then(|at| measured_ringing(measured, at.entry, at.way));
+        let expected = rig.zip(crossing).and_then(|(rig, Crossing { way, .. })| {
+            let of = |length: f64| ringing::expected(rig, trial(length, FREE_DEPTH), spacing).ok();
+            Some([of(way)?, of(way + spacing)?])
+        });
+        let by_ringing = by_ringing(ringing, expected);
+        let critical_load =
+            waveform.and_then(|w| ringing::critical_load(scene, trial(w.length, w.depth)).ok().flatten());
+        // Above the critical load ringing is no witness.
+        let heard =
+            if critical_load.is_some_and(|critical| load(scene) >= critical) { Kind::Undecided } else { by_ringing };
+        let kind = waveform.map_or(by_ringing, |w| by_similarity(w, spacing, heard));
+        // With two elements in the spall, or heard to swing on fewer elements, it is no question.
+        let critical_depth = crossing
+            .filter(|_| waveform.is_none() && kind != Kind::Extended)
+            .and_then(|at| critical_depth(scene, at.way + spacing));
+        Self { kind, ringing, expected, critical_load, depth: waveform.map(|w| w.depth), critical_depth, spacing }
+    }
+
+    /// In words, with warnings.
+    pub(crate) fn said(&self, scene: &Scene) -> String {
+        let mut text = String::new();
+        if let Some(Ringing { after_entry, after_exit }) = self.ringing {
+            text += &format!("; rings at {after_entry:.0} Hz after entry and {after_exit:.0} Hz after exit");
+            if let Some([line, extended]) = self.expected {
+                text += &format!(
+                    " (expected with free elements: line {:.0} and {:.0} Hz, extended {:.0} and {:.0} Hz)",
+                    line.after_entry, line.after_exit, extended.after_entry, extended.after_exit
+                );
+            }
+        }
+        if self.kind == Kind::Undecided {
+            let spacing = self.spacing;
+            text +=
+                &format!("; an extended spall, longer by one element spacing of {spacing:.1} degrees, is not excluded");
+        }
+        let load = load(scene);
+        if let Some((critical, depth)) = self.critical_load.zip(self.depth).filter(|&(critical, _)| load >= critical) {
+            text += &format!(
+                "; WARNING: the load of {load:.0} N is above the critical load of {critical:.0} N (at the depth that \
+                 fits best, {:.0} um): elements inside the spall carry load, and stiffness does not tell an extended \
+                 from a line spall",
+                1e6 * depth
+            );
+        }
+        if let Some(depth) = self.critical_depth {
+            text += &format!(
+                "; WARNING: were the spall shallower than {:.1} um, the load of {load:.0} N would be above the \
+                 critical load of an extended one, whose inner elements then carry: it would ring like a line spall",
+                1e6 * depth
+            );
+        }
+        text
+    }
+}
+
+fn load(scene: &Scene) -> f64 {
+    scene.shaft.load[0].hypot(scene.shaft.load[1])
+}
+
+/// Depth (m) of a spall of `length` degrees at which the scene's load is its critical load.
+fn critical_depth(scene: &Scene, length: f64) -> Option<f64> {
+    let load = load(scene);
+    if scene.shaft.motion != Motion::Internal || load == 0.0 {
+        return None;
+    }
+    let (mut low, mut high) = DEPTHS;
+    for _ in 0..HALVINGS {
+        let depth = (low * high).sqrt();
+        let critical = ringing::critical_load(scene, Trial { length, depth, law: ContactLaw::Hertz }).ok()?;
+        if critical.is_none_or(|critical| critical > load) { high = depth } else { low = depth }
+    }
+    (high < DEPTHS.1).then_some(high)
+}
+
+/// Ringing between the events; half a degree after each is left to the event itself.
+fn measured_ringing(measured: &Measured, entry: f64, over: f64) -> Option<Ringing> {
+    let row = fold::average(&measured.signal_rows(entry, POINTS));
+    let rate = measured.pass_frequency * POINTS as f64;
+    let smooth = Spectrum::of(&row, rate).filtered(Band { low: 0.0, high: CUT });
+    let point = |degrees: f64| (degrees / measured.spacing * POINTS as f64) as usize;
+    let between = |from: f64, to: f64| ringing::strongest(smooth.get(point(from)..point(to))?, rate);
+    Some(Ringing { after_entry: between(1.0, over - 1.0)?, after_exit: between(over + 0.5, measured.spacing - 0.5)? })
+}
+
+fn by_ringing(measured: Option<Ringing>, expected: Option<[Ringing; 2]>) -> Kind {
+    match (measured, expected) {
+        (Some(m), Some([line, extended])) => match (m.agrees(&line), m.agrees(&extended)) {
+            (true, false) => Kind::Line,
+            (false, true) => Kind::Extended,
+            _ => Kind::Undecided,
+        },
+        _ => Kind::Undecided,
+    }
+}
+
+fn by_similarity(waveform: &WaveformLength, spacing: f64, by_ringing: Kind) -> Kind {
+    let [line, extended] = waveform.by_kind;
+    let kind = if waveform.length > spacing { Kind::Extended } else { Kind::Line };
+    let contradicted = by_ringing != Kind::Undecided && by_ringing != kind;
+    if (line - extended).abs() < CLEARLY_LIKER || contradicted { Kind::Undecided } else { kind }
+}

@@ -1,0 +1,20 @@
+//! Which part of a bearing is damaged, and how long is its spall, from recordings.
+
+pub mod event_length;
+mod kind;
+mod measured;
+pub mod passages;
+mod raceway;
+mod report;
+pub mod ringing;
+mod spall_size;
+mod unresolved;
+pub mod waveform;
+
+pub use crate::spectra::Fault;
+pub use measured::Measured;
+pub use raceway::Raceway;
+pub use report::{Figure, Kind, Method, RecordingReport, Report, Standing, Verdict};
+pub use ringing::Ringing;
+pub use spall_size::{size, size_with};
+pub use unresolved::Unresolved;

@@ -1,0 +1,369 @@
+//! Length of a spall of a raceway from vibration recordings, with its uncertainty, or why there is none.
+//!
+//! Each recording is sized by similarity to the scene's own rig if the scene describes the rig ([`waveform_length`]),
+//! else by the events of its passages, which needs nothing but the bearing's dimensions ([`event_length`]). A rig that
+//! sounds like the recording also tells a line spall from an extended one; otherwise ringing does
+//! ([`ringing`](super::ringing)), or nothing does.
+//!
+//! Several recordings are of one spall: their lengths are averaged with their statistical weights, and a scatter that
+//! is larger than these explain widens the interval. What all share (what the events mean, the contact's law) is not
+//! averaged away.
+
+use super::event_length;
+use super::event_length::EventLength;
+use super::kind::{Crossing, Judged};
+use super::measured::Measured;
+use super::raceway::{self, Raceway};
+use super::report::{Figure, Kind, Method, RecordingReport, Report, Standing, Verdict};
+use super::ringing::Ringing;
+use super::unresolved::Unresolved;
+use crate::recording::{Recording, SizingError};
+use crate::sizing::waveform::{CUT, Maps, Rig, Unlike, WaveformLength, waveform_length};
+use crate::spectra::Fault;
+use crate::spectrum::{Band, Spectrum};
+use crate::statistics;
+use brinell::scene::{Bearing, Scene};
+
+/// Coverage factor of the stated interval: 95 % of a normal distribution.
+const COVERAGE: f64 = 2.0;
+/// Significance of the comb from which similarity is asked: less than the events need, for to be alike is a proof of
+/// its own. Short recordings lose many harmonics to the shaft's.
+const HEARD: f64 = 5.0;
+/// Harmonics of the passage frequency below the cut from which passages have a shape that can be compared: of one or
+/// two harmonics any passage is like any other.
+const HARMONICS: f64 = 5.0;
+/// Scatter between recordings of one spall, as a share of the length, from which they contradict each other.
+const CONTRADICTION: f64 = 0.2;
+/// Ratio of speeds from which they tell time from angle: with 10 % of agreement below, an event at a fixed time would
+/// lie 30 % off.
+const SPEEDS_APART: f64 = 1.3;
+/// Difference of lengths at two speeds up to which they agree, as a share.
+const AGREEMENT: f64 = 0.1;
+/// Statistical uncertainty that is always granted (degrees): events are sought on a grid of samples.
+const FLOOR: f64 = 0.02;
+
+/// Sizes the spall in recordings of one bearing. The scene gives bearing, load and rig; its defect is ignored.
+///
+/// ```
+/// use brinell::scene::{ContactLaw, Scene};
+/// use brinell::simulation::Simulation;
+/// use crate::recording::checked::checked::Recording;
+/// use super::report::Verdict;
+/// use super::spall_size::size;
+///
+/// // A healthy bearing, as its sensor hears it for half a second at 25.6 kHz.
+/// let mut scene = Scene::from_toml(include_str!("../../../../scenes/6205-spall-5deg.toml"))?;
+/// scene.contact.law = ContactLaw::Hertz;
+/// let mut simulation = Simulation::new(Scene { defects: Vec::new(), ..scene.clone() }, None)?;
+/// simulation.initialize(0.0)?;
+/// let samples = simulation.samples(&["sensor.acceleration"], 1.0 / 25.6e3)?.skip(2560).take(12_800);
+/// let signal = samples.map(|sample| Ok(sample?.values[0])).collect::<Result<Vec<f64>, brinell::Error>>()?;
+///
+/// let report = size(&[Recording::new("healthy", signal, 25.6e3, 10.0)?], &scene)?;
+/// assert_eq!((report.verdict, report.length_deg), (Verdict::Unresolved, None));
+/// println!("{}", report.reason);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// Recordings that cannot be sized whatever the bearing's state: too short, or too coarse for their speed.
+pub fn size(recordings: &[Recording], scene: &Scene) -> Result<Report, SizingError> {
+    size_with(recordings, scene, &|_| None, &mut |_| ())
+}
+
+/// The same with contact maps from elsewhere, saying after each recording what it gave.
+///
+/// # Errors
+/// As [`size`].
+pub fn size_with(
+    recordings: &[Recording],
+    scene: &Scene,
+    maps: Maps<'_>,
+    done: &mut dyn FnMut(&RecordingReport),
+) -> Result<Report, SizingError> {
+    let measured: Vec<Measured> =
+        recordings.iter().map(|recording| Measured::new(recording, &scene.bearing)).collect::<Result<_, _>>()?;
+    let sized: Vec<Sized> = measured
+        .into_iter()
+        .map(|measured| {
+            let sized = Sized::of(measured, scene, maps);
+            done(&sized.report());
+            sized
+        })
+        .collect();
+    let first = sized.first().ok_or(SizingError::NoRecordings)?;
+    let slips: Vec<f64> = sized.iter().map(|s| s.measured.slip).collect();
+    let mut report = Report {
+        verdict: Verdict::Unresolved,
+        standing: None,
+        fault: common_fault(&sized),
+        length_mm: None,
+        length_deg: None,
+        uncertainty_mm: None,
+        kind: Kind::Undecided,
+        bpfo_hz: first.measured.bpfo,
+        slip: statistics::mean(&slips),
+        passages: sized.iter().map(|s| s.measured.passages.starts.len()).sum(),
+        reason: String::new(),
+        method: None,
+        critical_load_n: None,
+        critical_depth_um: None,
+        recordings: sized.iter().map(Sized::report).collect(),
+        figures: sized.iter().map(|s| s.figure(&scene.bearing)).collect(),
+    };
+    let lengths: Vec<&Length> = sized.iter().filter_map(|s| s.length.as_ref().ok()).collect();
+    match of_one_fault(&sized).and_then(|()| combine(&lengths, sized.len())) {
+        Err(why) => {
+            let each =
+                sized.iter().filter_map(|s| s.length.as_ref().err().map(|e| format!("{}: {e}", s.measured.name)));
+            report.reason = std::iter::once(why).chain(each).collect::<Vec<_>>().join("; ");
+        }
+        Ok(Combined { length, uncertainty }) => {
+            let radius = Raceway::of(report.fault).radius(&scene.bearing);
+            let millimetres = 1e3 * radius * length.to_radians() / length;
+            report.verdict = Verdict::Resolved;
+            report.standing = Some(standing(&sized));
+            report.length_deg = Some(length);
+            report.length_mm = Some(length * millimetres);
+            report.uncertainty_mm = Some(COVERAGE * uncertainty * millimetres);
+            report.kind = common_kind(&lengths);
+            report.method = lengths.first().map(|l| l.method);
+            report.critical_load_n = sized.iter().find_map(|s| s.judged.critical_load);
+            report.critical_depth_um = sized.iter().find_map(|s| s.judged.critical_depth).map(|depth| 1e6 * depth);
+            report.reason = basis(&report, &sized, scene);
+        }
+    }
+    Ok(report)
+}
+
+/// A recording with what was found in it.
+struct Sized {
+    measured: Measured,
+    length: Result<Length, Unresolved>,
+    events: Option<EventLength>,
+    waveform: Option<WaveformLength>,
+    /// To the scene's rig, whether that was taken for the recording's or not.
+    similarity: Option<f64>,
+    judged: Judged,
+}
+
+/// Length of one recording (degrees).
+#[derive(Debug, Clone)]
+struct Length {
+    length: f64,
+    statistical: f64,
+    systematic: f64,
+    method: Method,
+    kind: Kind,
+}
+
+impl Sized {
+    fn of(mut measured: Measured, scene: &Scene, maps: Maps<'_>) -> Self {
+        let rig = Rig::new(scene, measured.bpfo, maps);
+        let once = measured.broken.is_none() && measured.times_a_period.is_none();
+        let combs = &measured.combs;
+        let outer = match measured.fault {
+            Fault::Outer => true,
+            Fault::None => combs.outer_leads() && combs.outer.significance >= HEARD,
+            _ => false,
+        };
+        let shaped = CUT >= HARMONICS * measured.bpfo;
+        let heard = rig.as_ref().filter(|_| outer && once && shaped);
+        let heard = heard.map(|rig| waveform_length::estimate(&measured, scene, rig));
+        let similarity = heard.as_ref().map(|heard| match heard {
+            Ok(waveform) => waveform.similarity,
+            Err(Unlike::OtherRig(similarity) | Unlike::Healthy { similarity, .. }) => *similarity,
+        });
+        let events = match heard {
+            Some(Err(Unlike::Healthy { similarity, surely })) => {
+                if surely {
+                    measured.fault = Fault::None;
+                }
+                Err(Unresolved::Healthy(similarity))
+            }
+            _ => event_length::estimate(&measured, scene),
+        };
+        let waveform = heard.and_then(Result::ok);
+        let spacing = measured.spacing;
+        let crossing = match (&waveform, &events) {
+            (Some(w), _) => Some(Crossing { entry: w.entry, way: w.length.rem_euclid(spacing) }),
+            (None, Ok(e)) => Some(Crossing { entry: (e.first + e.onset) / spacing, way: e.length }),
+            _ => None,
+        };
+        // Stiffness over the cage's angle tells kinds of spalls outside.
+        let crossing = crossing.filter(|_| measured.raceway == Raceway::Outer);
+        let judged = Judged::of(&measured, scene, rig.as_ref(), waveform.as_ref(), crossing);
+        let length = match (&waveform, &events) {
+            (Some(w), _) => of_waveform(w, scene, judged.kind),
+            (None, Ok(e)) => {
+                let extended = if judged.kind == Kind::Extended { spacing } else { 0.0 };
+                Ok(Length {
+                    length: e.length + extended,
+                    statistical: e.statistical,
+                    systematic: e.systematic,
+                    method: Method::Events,
+                    kind: judged.kind,
+                })
+            }
+            (None, Err(why)) => Err(why.clone()),
+        };
+        Self { measured, length, events: events.ok(), waveform, similarity, judged }
+    }
+
+    fn report(&self) -> RecordingReport {
+        let length = self.length.as_ref().ok();
+        RecordingReport {
+            name: self.measured.name.clone(),
+            verdict: if length.is_some() { Verdict::Resolved } else { Verdict::Unresolved },
+            fault: self.measured.fault,
+            combs: self.measured.combs.report(),
+            length_deg: length.map(|l| l.length),
+            uncertainty_deg: length.map(|l| COVERAGE * l.statistical.hypot(l.systematic).hypot(FLOOR)),
+            method: length.map(|l| l.method),
+            bpfo_hz: self.measured.bpfo,
+            significance: self.measured.combs.strongest().significance,
+            modulation: self.measured.modulation,
+            onset_deg: self.events.as_ref().map(|e| e.onset),
+            impacts_deg: self.events.as_ref().map_or_else(Vec::new, |e| e.impacts.clone()),
+            edges_deg: self.edges(),
+            passages: self.measured.passages.starts.len(),
+            similarity: self.similarity,
+            ringing_hz: self.judged.ringing.map(Ringing::pair),
+            expected_ringing_hz: self.judged.expected.map(|e| e.map(Ringing::pair)),
+            reason: self.length.as_ref().err().map(ToString::to_string),
+        }
+    }
+
+    /// Both edges (degrees), from where angles count.
+    fn edges(&self) -> Option<[f64; 2]> {
+        let length = self.length.as_ref().ok()?.length;
+        let onset = if self.waveform.is_some() { 0.0 } else { self.events.as_ref()?.onset };
+        Some([onset, onset + length])
+    }
+
+    fn figure(&self, bearing: &Bearing) -> Figure {
+        let measured = &self.measured;
+        let from = match (&self.waveform, &self.events) {
+            (Some(w), _) => w.entry * measured.spacing,
+            (None, Some(e)) => e.first,
+            // Without a length, too, a passage is best seen from its first impact.
+            (None, None) => event_length::first_impact(measured).unwrap_or(0.0),
+        };
+        let [angle, signal, level] = event_length::averaged_passage(measured, from);
+        let rate = measured.pass_frequency * signal.len() as f64;
+        let low = Spectrum::of(&signal, rate).filtered(Band { low: 0.5 * measured.pass_frequency, high: CUT });
+        let norm = |signal: &[f64]| (signal.iter().map(|x| x * x).sum::<f64>() / signal.len() as f64).sqrt();
+        let model = self.waveform.as_ref().map(|w| {
+            let scale = norm(&low) / norm(&w.model);
+            let share = |degrees: f64| ((degrees + from) / measured.spacing).rem_euclid(1.0);
+            let point = |degrees: f64| (share(degrees) * w.model.len() as f64) as usize % w.model.len();
+            angle.iter().map(|&degrees| scale * w.model[point(degrees)]).collect()
+        });
+        let path = self.edges().map(|[entry, exit]| {
+            let sunk =
+                |degrees: f64| measured.raceway.depth_at(bearing, (degrees - entry).min(exit - degrees).max(0.0));
+            angle.iter().map(|&degrees| sunk(degrees)).collect()
+        });
+        Figure { name: measured.name.clone(), angle, signal, level, low, model, path }
+    }
+}
+
+/// The length by similarity, unless it is shorter than what can be resolved: a guessed load, clearance or edge would
+/// make as much of it.
+fn of_waveform(waveform: &WaveformLength, scene: &Scene, kind: Kind) -> Result<Length, Unresolved> {
+    let WaveformLength { length, statistical, systematic, .. } = *waveform;
+    let uncertainty = statistical.hypot(systematic).hypot(FLOOR);
+    let limit = raceway::shortest_length(scene, Raceway::Outer);
+    if limit.is_some_and(|limit| length - COVERAGE * uncertainty < limit) {
+        return Err(Unresolved::TooShort(length, uncertainty, limit.unwrap_or_default()));
+    }
+    // Wider than the length itself: short spalls all sound alike but for their loudness.
+    if 2.0 * COVERAGE * uncertainty > length {
+        return Err(Unresolved::TooUncertain(length, COVERAGE * uncertainty));
+    }
+    Ok(Length { length, statistical, systematic, method: Method::Waveform, kind })
+}
+
+/// What several lengths of one spall say together.
+struct Combined {
+    /// Their mean (degrees).
+    length: f64,
+    /// Its standard uncertainty (degrees).
+    uncertainty: f64,
+}
+
+/// Combines lengths of one spall from so many recordings; or says why there is none.
+fn combine(lengths: &[&Length], of: usize) -> Result<Combined, String> {
+    if 2 * lengths.len() <= of {
+        return Err(format!("{} of {of} recordings give a length", lengths.len()));
+    }
+    let weight = |l: &Length| 1.0 / (l.statistical * l.statistical + FLOOR * FLOOR);
+    let total: f64 = lengths.iter().map(|l| weight(l)).sum();
+    let mean = lengths.iter().map(|l| weight(l) * l.length).sum::<f64>() / total;
+    let all: Vec<f64> = lengths.iter().map(|l| l.length).collect();
+    let scatter = statistics::deviation(&all);
+    if scatter > CONTRADICTION * mean {
+        return Err(format!("the recordings contradict each other: {all:.2?} degrees are not one spall"));
+    }
+    let systematic = lengths.iter().map(|l| l.systematic).fold(0.0, f64::max);
+    let statistical = (1.0 / total).sqrt().max(scatter / (all.len() as f64).sqrt());
+    Ok(Combined { length: mean, uncertainty: statistical.hypot(systematic) })
+}
+
+/// The fault that all recordings in which one is heard look like.
+fn common_fault(sized: &[Sized]) -> Fault {
+    let mut heard = sized.iter().map(|s| s.measured.fault).filter(|&fault| fault != Fault::None);
+    let Some(first) = heard.next() else { return Fault::None };
+    if heard.all(|fault| fault == first) { first } else { Fault::Undecided }
+}
+
+/// Lengths of different raceways are not of one spall.
+fn of_one_fault(sized: &[Sized]) -> Result<(), String> {
+    let differ = sized.iter().any(|s| s.measured.fault != Fault::None) && common_fault(sized) == Fault::Undecided;
+    if differ && sized.len() > 1 {
+        let each: Vec<String> =
+            sized.iter().map(|s| format!("{}: {}", s.measured.name, s.measured.combs.said())).collect();
+        return Err(format!("the recordings look like different faults: {}", each.join("; ")));
+    }
+    Ok(())
+}
+
+fn common_kind(lengths: &[&Length]) -> Kind {
+    let kind = lengths.first().map_or(Kind::Undecided, |l| l.kind);
+    if lengths.iter().all(|l| l.kind == kind) { kind } else { Kind::Undecided }
+}
+
+/// Firm where lengths at two speeds that are far enough apart agree in degrees.
+fn standing(sized: &[Sized]) -> Standing {
+    let found: Vec<(f64, f64)> =
+        sized.iter().filter_map(|s| s.length.as_ref().ok().map(|l| (s.measured.speed, l.length))).collect();
+    let pairs = found.iter().flat_map(|a| found.iter().map(move |b| (a, b)));
+    let mut apart = pairs.filter(|(a, b)| b.0 >= SPEEDS_APART * a.0).peekable();
+    let firm = apart.peek().is_some() && apart.all(|(a, b)| (b.1 - a.1).abs() <= AGREEMENT * a.1);
+    if firm { Standing::Firm } else { Standing::Provisional }
+}
+
+/// What a resolved answer rests on, and its warnings.
+fn basis(report: &Report, sized: &[Sized], scene: &Scene) -> String {
+    let mut text = match report.method {
+        Some(Method::Waveform) => "similarity of the averaged passage to the scene's rig".to_owned(),
+        _ => "way from the entry's onset to the last impact".to_owned(),
+    };
+    if let Some(said) = sized.iter().find(|s| s.length.is_ok()).map(|s| s.judged.said(scene)) {
+        text += &said;
+    }
+    if report.standing == Some(Standing::Provisional) {
+        text += &format!(
+            "; PROVISIONAL: an event that belongs to the structure, at the same time at any speed, is told from one of \
+             the spall by recordings at speeds {SPEEDS_APART} times apart that agree in degrees"
+        );
+    }
+    let lost = sized.iter().filter(|s| s.length.is_err()).count();
+    if lost > 0 {
+        text += &format!("; {lost} of {} recordings unresolved", sized.len());
+        for healthy in sized.iter().filter(|s| matches!(s.length, Err(Unresolved::Healthy(_)))) {
+            text += &format!("; WARNING: {} sounds like the scene's bearing without a spall", healthy.measured.name);
+        }
+    }
+    text
+}

@@ -1,0 +1,13 @@
+//! Spectra of signals, and what is read out of them.
+
+pub(crate) mod combs;
+pub mod envelope_spectrum;
+mod fault;
+mod frequency_response;
+mod order_spectrum;
+
+pub use combs::{Comb, Pattern, SIGNIFICANT, find_combs};
+pub use envelope_spectrum::{EnvelopeSpectrum, frequencies};
+pub use fault::{CombReport, Combs, CombsReport, Fault};
+pub use frequency_response::{Fit, FrequencyResponse, ResponseError, response};
+pub use order_spectrum::{EvenAngles, OrderSpectrum};

@@ -1,1 +1,0 @@
-//! Benchmarks of the contact, in `benches/contact.rs`.

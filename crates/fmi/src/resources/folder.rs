@@ -1,0 +1,50 @@
+//! The FMU's `resources/` directory: `scene.toml`, the profile that the scene names, and the contact map `map.bin`.
+//!
+//! The one place in the FMU that reads files, and only when an instance is made.
+
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+
+use super::error::ResourceError;
+use super::shared_models::SharedModel;
+use brinell::scene::Scene;
+use brinell::simulation::Simulation;
+use brinell::simulation::interface::table::guid;
+
+/// The model that the resources in a directory describe.
+pub(crate) fn load(directory: &Path) -> Result<SharedModel, ResourceError> {
+    let path = directory.join("scene.toml");
+    let text = read(&path)?;
+    let scene = Scene::from_toml(&text).map_err(|cause| ResourceError::Scene { path, cause })?;
+    let profile = |name| read(&beside(directory, name)?);
+    let profiles: Vec<String> = scene.profile_names().into_iter().map(profile).collect::<Result<_, _>>()?;
+    let guid = guid(&text, profiles.iter().map(String::as_str));
+    let set_up = |map| Simulation::with_shared_map(scene, profiles.iter().map(String::as_str), map);
+    SharedModel::obtain(guid, &directory.join("map.bin"), set_up)
+}
+
+/// The path of a file in the directory, given by its bare name.
+fn beside(directory: &Path, name: &str) -> Result<PathBuf, ResourceError> {
+    let mut components = Path::new(name).components();
+    match (components.next(), components.next()) {
+        (Some(Component::Normal(_)), None) => Ok(directory.join(name)),
+        _ => Err(ResourceError::OutsideResources(name.to_owned())),
+    }
+}
+
+fn read(path: &Path) -> Result<String, ResourceError> {
+    fs::read_to_string(path).map_err(|cause| ResourceError::unreadable(path, cause))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_profile_outside_the_resources_is_refused() {
+        for name in ["../a.csv", "/a.csv", "b/a.csv", "", "."] {
+            assert!(matches!(beside(Path::new("/r"), name), Err(ResourceError::OutsideResources(_))), "{name}");
+        }
+        assert_eq!(beside(Path::new("/r"), "a.csv").unwrap(), Path::new("/r/a.csv"));
+    }
+}

@@ -1,0 +1,16 @@
+//! The commands that print what a scene or a recording says, one file each.
+
+pub mod catalogue;
+pub mod contact;
+pub mod demo;
+pub mod modes;
+pub mod new_scene;
+pub mod scenes;
+pub mod schema;
+pub mod size;
+pub mod stiffness;
+
+pub use contact::On;
+pub use stiffness::Options;
+
+pub(crate) use new_scene::Spall;

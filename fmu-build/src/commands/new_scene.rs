@@ -1,0 +1,150 @@
+//! The command `new`: a commented scene of a bearing of the catalogue that runs as it is.
+
+use std::path::Path;
+use std::str::FromStr;
+
+use anyhow::{Context, Result, bail};
+use brinell::scene::{BearingError, CatalogueBearing, Scene, catalogued};
+
+use super::schema;
+use crate::shared::whole_file;
+
+/// Share of the static load rating that a new scene's bearing carries.
+const LOAD_SHARE: f64 = 0.05;
+/// What `--defect` says: on which body, and how long.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Spall {
+    on: &'static str,
+    length: f64,
+    unit: &'static str,
+}
+
+impl FromStr for Spall {
+    type Err = String;
+
+    /// From `inner:1.2mm` or `outer:5deg`.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong =
+            || format!("{text:?} is no defect: outer, inner or element, a colon, a length in mm or deg: inner:1.2mm");
+        let (on, length) = text.split_once(':').ok_or_else(wrong)?;
+        let on = ["outer", "inner", "element"].into_iter().find(|body| *body == on.trim()).ok_or_else(wrong)?;
+        let length = length.trim();
+        let unit = ["mm", "deg"].into_iter().find(|unit| length.ends_with(unit)).ok_or_else(wrong)?;
+        let length: f64 = length.trim_end_matches(unit).trim().parse().map_err(|_| wrong())?;
+        if length.is_finite() && length > 0.0 { Ok(Self { on, length, unit }) } else { Err(wrong()) }
+    }
+}
+
+/// The command: writes `<folder>/<name>.toml`.
+pub(crate) fn command(name: &str, bearing: &str, spall: Option<&Spall>, folder: &Path) -> Result<()> {
+    let Some(bearing) = catalogued(bearing) else {
+        bail!(BearingError::NotInCatalogue { name: bearing.to_owned() });
+    };
+    let text = text(name, &bearing, spall);
+    Scene::from_toml(&text).with_context(|| format!("a scene {name} of this bearing and defect is not possible"))?;
+    let path = folder.join(format!("{name}.toml"));
+    if path.exists() {
+        bail!("{} is there already and stays as it is", path.display());
+    }
+    whole_file::write(&path, text)?;
+    println!("{}", path.display());
+    schema::write_beside(folder)
+}
+
+fn text(name: &str, bearing: &CatalogueBearing, spall: Option<&Spall>) -> String {
+    let (designation, inside) = (bearing.designation, bearing.inside);
+    let source = inside.source.unwrap_or("assumed: estimated from bore and outside diameter; put in what you know");
+    let formula = if inside.roller_length.is_none() { "12.3 Z D²" } else { "44 (1 - D/Dpw) Z L D" };
+    let load = (LOAD_SHARE * inside.static_rating() / 10.0).round().max(1.0) * 10.0;
+    let roller = inside.roller_length.map_or(String::new(), |length| {
+        format!(
+            "# roller_length_mm = {length:<16} # the same; effective, without chamfers\n\
+             roller_profile = \"log\"                # assumed: the crown of ISO/TS 16281; or \"straight\"\n"
+        )
+    });
+    let what =
+        spall.map_or("healthy".to_owned(), |Spall { on, length, unit }| format!("spall of {length} {unit}, {on}"));
+    let defect = spall.map(of_spall).unwrap_or_default();
+    format!(
+        r#"#:schema scene.schema.json
+# What is marked as assumed is a start: put in what you know of your machine.
+
+name = "{name}"
+description = "{designation}, {what}, {load} N, 25 Hz"
+
+[bearing]
+catalogue = {name_of_bearing:<25} # gives the keys below; a key given beside it wins
+# element_count = {count:<19} # {source}
+# element_diameter_mm = {diameter:.3}
+# pitch_diameter_mm = {pitch:.3}
+{roller}radial_clearance_um = 5.0             # assumed; or internal_clearance_um, as catalogues count: twice as much
+{defect}
+[shaft]
+motion = "internal"                   # or "host": an FMU's host gives its position
+speed_hz = 25.0                       # assumed
+load_n = {vector:<28} # assumed: 5 % of the static rating {formula} in N and mm; downwards
+# mass_kg, damping_n_s_m, stiffness_n_m: without them those of a published model of a test rig
+
+[housing]
+motion = "internal"                   # or "host", or "fixed"
+
+[sensor]                              # an accelerometer on the housing, upwards
+mass_kg = 0.03                        # assumed: 15 kHz, 5 % of critical damping
+stiffness_n_m = 2.6648e8              # the same
+damping_n_s_m = 282.74                # the same
+
+[experiment]
+stop_s = 0.2                          # five turns of the shaft
+step_s = 2e-5                         # 50 kHz sampling
+"#,
+        name_of_bearing = format!("\"{designation}\""),
+        vector = format!("[0.0, -{load:.1}]"),
+        count = inside.element_count,
+        diameter = inside.element_diameter,
+        pitch = inside.pitch_diameter,
+    )
+}
+
+fn of_spall(&Spall { on, length, unit }: &Spall) -> String {
+    let at = match on {
+        "element" => "element = 1\nangle_deg = 0.0                       # faces the outer raceway at the start",
+        "inner" => "angle_deg = 180.0                     # at the start; it turns with the shaft into the load zone",
+        _ => "angle_deg = -90.0                     # in the middle of the load zone",
+    };
+    format!(
+        r#"
+[defect]
+on = "{on}"
+{at}
+length_{unit} = {length:?}
+depth_um = 50.0                       # assumed
+edge_slope_deg = 90.0                 # assumed: sharp edges
+"#
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use brinell::scene::catalogue;
+
+    #[test]
+    fn every_bearing_with_every_kind_of_defect_gives_a_scene() {
+        for bearing in catalogue() {
+            for spall in [None, Some("outer:5deg"), Some("inner:0.5mm"), Some("element:0.4mm")] {
+                let spall: Option<Spall> = spall.map(|text| text.parse().unwrap());
+                let scene = Scene::from_toml(&text("mine", &bearing, spall.as_ref())).unwrap();
+                assert_eq!(scene.bearing.element_count, bearing.inside.element_count);
+                assert_eq!(scene.defects.len(), usize::from(spall.is_some()));
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_no_defect_is_refused_with_an_example() {
+        for text in ["inner", "cage:1mm", "inner:1", "inner:mm", "inner:-1mm", "outer:infmm", "outer:1 cm"] {
+            assert!(text.parse::<Spall>().unwrap_err().contains("inner:1.2mm"), "{text}");
+        }
+        assert_eq!("inner: 1.2 mm".parse(), Ok(Spall { on: "inner", length: 1.2, unit: "mm" }));
+    }
+}

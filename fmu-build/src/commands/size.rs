@@ -1,0 +1,129 @@
+//! The command `size`: the damaged part and the length of a spall from recordings, as JSON on standard output and a
+//! figure for each recording.
+//!
+//! Standard output carries the JSON and nothing else; what happens meanwhile goes to standard error.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Result, bail};
+use brinell::scene::Scene;
+use brinell_analysis::recording::{Recording, Source, Speed};
+use brinell_analysis::sizing::{Figure, Raceway, RecordingReport, Report, size_with};
+
+use crate::package::read_scene;
+use crate::shared::{Project, Python, contact_map, csv, digits, whole_file};
+
+/// What the user says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// Sampling rate (Hz); `None` where the files state it.
+    pub rate: Option<f64>,
+    /// Shaft speed of all recordings, or of each.
+    pub speeds: Vec<Speed>,
+    /// Column of the signal, by name or number.
+    pub column: Option<String>,
+    /// Whether to draw.
+    pub figure: bool,
+}
+
+/// The command: prints the report, and writes `<folder>/<recording>-size.csv`, `.json` and, if wanted, figures.
+pub fn command(
+    project: &Project,
+    scene: &Path,
+    recordings: &[PathBuf],
+    options: &Options,
+    folder: &Path,
+) -> Result<()> {
+    let (_, scene) = read_scene(scene)?;
+    let recordings = read(recordings, options)?;
+    for r in &recordings {
+        // Times that are read as numbers leave some 1e-13 of the rate over.
+        let rate = digits(1e-3 * r.rate());
+        eprintln!("{}: {:.3} s at {rate} kHz, shaft {:.4} Hz", r.name(), r.duration(), r.speed());
+    }
+    let maps = |scene: &Scene| contact_map::of(scene, None, project).ok().flatten();
+    let report = size_with(&recordings, &scene, &maps, &mut |done| eprintln!("{}", line(done)))?;
+    println!("{}", serde_json::to_string_pretty(&report)?);
+    std::io::stdout().flush()?;
+    let stems = write(&report, folder)?;
+    if options.figure {
+        Python::draw(project, "size.py", &stems);
+    }
+    Ok(())
+}
+
+fn read(paths: &[PathBuf], options: &Options) -> Result<Vec<Recording>> {
+    let count = options.speeds.len();
+    if count != 1 && count != paths.len() {
+        bail!("{count} speeds for {} recordings: give one for all, or one for each", paths.len());
+    }
+    let speeds = options.speeds.iter().cycle();
+    let recordings = paths.iter().zip(speeds).map(|(path, speed)| {
+        let source = Source { rate: options.rate, speed: speed.clone(), signal: options.column.clone() };
+        Ok(Recording::read(path, &source)?)
+    });
+    recordings.collect()
+}
+
+/// What one recording gave, in a line.
+fn line(done: &RecordingReport) -> String {
+    match (done.length_deg, done.uncertainty_deg, &done.reason) {
+        (Some(length), Some(uncertainty), _) => {
+            let raceway = Raceway::of(done.fault).name();
+            format!("{}: {length:.2} ± {uncertainty:.2} degrees of the {raceway} raceway", done.name)
+        }
+        (_, _, why) => format!("{}: unresolved: {}", done.name, why.as_deref().unwrap_or("no reason given")),
+    }
+}
+
+/// Averaged passages as CSV and what was found in them as JSON, each named when it is there; gives the files' stems.
+fn write(report: &Report, folder: &Path) -> Result<Vec<PathBuf>> {
+    let mut stems: Vec<PathBuf> = Vec::new();
+    for (figure, recording) in report.figures.iter().zip(&report.recordings) {
+        let name = Path::new(&figure.name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        // Never the recording's own name: the folder may be its own.
+        let mut stem = folder.join(format!("{name}-size"));
+        // Recordings of one name from several folders.
+        for count in 2.. {
+            if !stems.contains(&stem) {
+                break;
+            }
+            stem = folder.join(format!("{name}-size-{count}"));
+        }
+        let passage = with_ending(&stem, ".csv");
+        whole_file::write_with(&passage, |mut out| write_passage(&mut out, figure))?;
+        eprintln!("{}", passage.display());
+        let mut found = serde_json::to_value(recording)?;
+        found["critical_load_n"] = serde_json::json!(report.critical_load_n);
+        found["kind"] = serde_json::json!(report.kind);
+        let about = with_ending(&stem, ".json");
+        whole_file::write(&about, serde_json::to_string_pretty(&found)? + "\n")?;
+        eprintln!("{}", about.display());
+        stems.push(stem);
+    }
+    Ok(stems)
+}
+
+/// A recording's name may hold dots: the ending is added, not exchanged.
+fn with_ending(stem: &Path, ending: &str) -> PathBuf {
+    let mut name = stem.as_os_str().to_owned();
+    name.push(ending);
+    name.into()
+}
+
+fn write_passage(out: &mut impl Write, figure: &Figure) -> Result<()> {
+    let mut names = vec![("angle", "deg"), ("signal", "1"), ("level", "dB"), ("low", "1")];
+    let mut columns = vec![&figure.angle, &figure.signal, &figure.level, &figure.low];
+    for (name, unit, column) in [("model", "1", &figure.model), ("path", "m", &figure.path)] {
+        if let Some(column) = column {
+            names.push((name, unit));
+            columns.push(column);
+        }
+    }
+    csv::header(out, names.into_iter())?;
+    for i in 0..figure.angle.len() {
+        csv::row(out, columns.iter().map(|column| column[i]))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,298 @@
+//! The command `stiffness`: static stiffness, load distribution and critical load of a scene, as CSV, figure and
+//! summary.
+
+use std::f64::consts::PI;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Result, bail};
+use brinell::dynamics::equilibrium::EquilibriumError;
+use brinell::scene::{Bearing, ContactLaw, DefectOn, Scene};
+use brinell_analysis::statics::{Balance, Bottom, CriticalLoad, StaticBearing, StaticError, min_mean_max, sweep};
+
+use crate::package::Model;
+use crate::shared::{Project, Python, contact_map, csv, whole_file};
+
+/// What the user says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options {
+    /// Amount of the load (N), along the scene's; `None` for the scene's own.
+    pub load: Option<f64>,
+    /// Evenly spaced cage angles within one element spacing; `None` for as many as the defect needs to be seen.
+    pub points: Option<usize>,
+    /// Whether to draw.
+    pub figure: bool,
+}
+
+impl Options {
+    /// Refuses a load that is none.
+    pub(crate) fn check(&self) -> Result<()> {
+        if let Some(amount) = self.load.filter(|amount| !(amount.is_finite() && *amount > 0.0)) {
+            bail!("load {amount} N: it must be finite and above 0");
+        }
+        Ok(())
+    }
+}
+
+/// Depths, as factors of the scene's, at which the critical load is computed.
+const DEPTHS: [f64; 9] = [0.1, 0.2, 0.3, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0];
+/// Number of angles of the inner ring, and of the cage at each of them, at which stiffness is computed.
+const SHAFT_ANGLES: usize = 180;
+const CAGE_ANGLES: usize = 24;
+/// Number of clearances and compliances at which it is computed.
+const VARIATIONS: usize = 21;
+
+/// The command: `<folder>/<scene>-stiffness.csv`, with a defect `<scene>-critical-load.csv`, and, if wanted, a figure.
+pub fn command(project: &Project, model: &Model, options: Options, folder: &Path) -> Result<()> {
+    options.check()?;
+    let map = contact_map::of(&model.scene, model.profile_texts(), project)?;
+    let bearing = loaded(StaticBearing::with_map(&model.scene, model.profile_texts(), map.as_deref())?, options.load)?;
+    let healthy =
+        loaded(StaticBearing::new(&Scene { defects: Vec::new(), ..model.scene.clone() }, None)?, options.load)?;
+    let [x, y] = bearing.load();
+    // Stiffness with a spall inside is least while that is under the load.
+    let inside = model.scene.defects.iter().find(|defect| defect.on == DefectOn::Inner).map(|defect| defect.angle);
+    let under_load = inside.map(|angle| libm::atan2(y, x) - angle);
+    let bearing = under_load.map_or_else(|| bearing.clone(), |angle| bearing.with_shaft_angle(angle));
+    let plain = plain(&bearing, model, options.load)?;
+    let plain = under_load.map_or_else(|| plain.clone(), |angle| plain.with_shaft_angle(angle));
+    let bottom = bottom_of(&bearing)?;
+    // In the middle of the sweep element 1 is in the middle of the defect, at its ends two elements are about it.
+    let middle = bottom.map_or(libm::atan2(y, x), |bottom| bottom.middle);
+    let first = middle - 0.5 * bearing.period();
+    let points = options.points.unwrap_or_else(|| enough_points(bearing.period(), bearing.defect_length()));
+    let balances = sweep(&bearing, first, points)?;
+
+    let stem = folder.join(&model.scene.name);
+    let path = beside(&stem, "-stiffness.csv");
+    whole_file::write_with(&path, |mut out| write_sweep(&mut out, &plain, &healthy, &balances))?;
+    println!("{}", path.display());
+
+    if let Some(angle) = under_load {
+        let path = beside(&stem, "-shaft-stiffness.csv");
+        whole_file::write_with(&path, |mut out| write_over_shaft(&mut out, &bearing, angle))?;
+        println!("{}", path.display());
+    }
+
+    let critical = if bottom.is_some() { covered(plain.critical_load())? } else { None };
+    if let (Some(bottom), Some(critical)) = (&bottom, &critical) {
+        let path = beside(&stem, "-critical-load.csv");
+        let Bearing { radial_clearance, outer_compliance, .. } = model.scene.bearing;
+        whole_file::write_with(&path, |mut out| {
+            write_variations(&mut out, &plain, bottom, critical, radial_clearance, outer_compliance)
+        })?;
+        println!("{}", path.display());
+    }
+    print!("{}", summary(&plain, &balances, bottom.as_ref(), critical.as_ref())?);
+    if options.figure {
+        let python = Python::prepare(project)?;
+        print!("{}", python.run("stiffness.py", [stem])?);
+    }
+    Ok(())
+}
+
+/// The bearing that is asked for critical loads. The bottom of a spall is flat: every law is Hertz's there. With
+/// `hertz` a variation needs no new map, and no map ends below the load.
+fn plain(bearing: &StaticBearing, model: &Model, load: Option<f64>) -> Result<StaticBearing> {
+    let mut scene = model.scene.clone();
+    scene.contact.law = ContactLaw::Hertz;
+    match StaticBearing::new(&scene, model.profile_texts()) {
+        Ok(plain) => loaded(plain, load),
+        // Law `hertz` knows no topography.
+        Err(_) => Ok(bearing.clone()),
+    }
+}
+
+/// A critical load, or `None` where it needs forces that the contact map does not cover.
+fn covered(found: Result<Option<CriticalLoad>, StaticError>) -> Result<Option<CriticalLoad>> {
+    match found {
+        Err(StaticError::Equilibrium { cause: EquilibriumError::Contact { .. }, .. }) => Ok(None),
+        found => Ok(found?),
+    }
+}
+
+/// The bearing under an amount of load along its own.
+fn loaded(bearing: StaticBearing, amount: Option<f64>) -> Result<StaticBearing> {
+    let Some(amount) = amount else { return Ok(bearing) };
+    let [x, y] = bearing.load();
+    let length = libm::hypot(x, y);
+    // A scene whose rings the host moves has no load: downwards then.
+    let [x, y] = if length > 0.0 { [x / length, y / length] } else { [0.0, -1.0] };
+    Ok(bearing.with_load([amount * x, amount * y]))
+}
+
+/// An even number, so that the middle is one of them: 0.2 degrees for nine elements, or a fortieth of a short defect.
+pub(crate) fn enough_points(spacing: f64, defect_length: Option<f64>) -> usize {
+    let of_defect = defect_length.map_or(0.0, |length| 20.0 * spacing / length);
+    2 * (of_defect.ceil() as usize).clamp(100, 2000)
+}
+
+/// The bottom of the defect; `None` for a healthy bearing or a defect that only rises.
+fn bottom_of(bearing: &StaticBearing) -> Result<Option<Bottom>> {
+    match bearing.bottom() {
+        Ok(bottom) => Ok(Some(bottom)),
+        Err(StaticError::NoDefect | StaticError::NoDepth { .. }) => Ok(None),
+        Err(error) => Err(error.into()),
+    }
+}
+
+fn write_sweep(
+    out: &mut impl Write,
+    plain: &StaticBearing,
+    healthy: &StaticBearing,
+    balances: &[Balance],
+) -> Result<()> {
+    let mut names: Vec<(String, &str)> = [
+        ("cage.angle", "rad"),
+        ("stiffness.free", "N/m"),
+        ("stiffness.held", "N/m"),
+        ("stiffness.healthy", "N/m"),
+        ("stiffness.xx", "N/m"),
+        ("stiffness.xy", "N/m"),
+        ("stiffness.yx", "N/m"),
+        ("stiffness.yy", "N/m"),
+        ("shaft.x", "m"),
+        ("shaft.y", "m"),
+        ("load.x", "N"),
+        ("load.y", "N"),
+        ("load_zone", "rad"),
+        ("critical_load", "N"),
+    ]
+    .map(|(name, unit)| (name.to_owned(), unit))
+    .to_vec();
+    for j in 1..=plain.element_count() {
+        names.extend([
+            (format!("element[{j}].angle"), "rad"),
+            (format!("element[{j}].force.inner"), "N"),
+            (format!("element[{j}].force.outer"), "N"),
+            (format!("element[{j}].in_defect"), "1"),
+        ]);
+    }
+    csv::header(out, names.iter().map(|(name, unit)| (name.as_str(), *unit)))?;
+    for balance in balances {
+        let without = healthy.balance(balance.cage_angle, balance.load)?;
+        let critical = covered(plain.critical_load_at(balance.cage_angle))?.map_or(f64::NAN, |found| found.load);
+        let [[xx, xy], [yx, yy]] = balance.stiffness;
+        let ([x, y], [load_x, load_y]) = (balance.displacement, balance.load);
+        let mut row =
+            vec![balance.cage_angle, balance.free_stiffness(), balance.held_stiffness(), without.free_stiffness()];
+        row.extend([xx, xy, yx, yy, x, y, load_x, load_y, balance.load_zone, critical]);
+        for element in &balance.elements {
+            row.extend([
+                element.angle,
+                element.inner_force,
+                element.outer_force,
+                f64::from(u8::from(element.in_defect)),
+            ]);
+        }
+        csv::row(out, row.into_iter())?;
+    }
+    Ok(())
+}
+
+/// Stiffness along the load over the inner ring's angle, counted from that at which its defect is under the load:
+/// least, mean and greatest over the cage angle.
+fn write_over_shaft(out: &mut impl Write, bearing: &StaticBearing, under_load: f64) -> Result<()> {
+    let names = ["least", "mean", "greatest"].map(|which| (format!("stiffness.free.{which}"), "N/m"));
+    let columns = [("shaft.angle", "rad")].into_iter().chain(names.iter().map(|(name, unit)| (name.as_str(), *unit)));
+    csv::header(out, columns)?;
+    for i in 0..=SHAFT_ANGLES {
+        let angle = PI * (2.0 * i as f64 / SHAFT_ANGLES as f64 - 1.0);
+        let turned = bearing.with_shaft_angle(under_load + angle);
+        let balances = sweep(&turned, 0.0, CAGE_ANGLES)?;
+        let values = min_mean_max(&balances, Balance::free_stiffness);
+        csv::row(out, [angle].into_iter().chain(values))?;
+    }
+    Ok(())
+}
+
+/// Three blocks, in each of which one of path, clearance and compliance varies and the others are the scene's.
+fn write_variations(
+    out: &mut impl Write,
+    bearing: &StaticBearing,
+    bottom: &Bottom,
+    critical: &CriticalLoad,
+    clearance: f64,
+    compliance: f64,
+) -> Result<()> {
+    let names = [("varied", "1"), ("path", "m"), ("clearance", "m"), ("compliance", "m/N"), ("critical_load", "N")];
+    csv::header(out, names.into_iter())?;
+    let mut row = |varied: f64, path: f64, clearance: f64, compliance: f64, bearing: &StaticBearing| -> Result<()> {
+        let found = covered(bearing.critical_load())?.map_or(f64::NAN, |found| found.load);
+        Ok(csv::row(out, [varied, path, clearance, compliance, found].into_iter())?)
+    };
+    for factor in DEPTHS {
+        match bearing.with_depth_times(factor) {
+            Ok(other) => row(0.0, other.bottom()?.path, clearance, compliance, &other)?,
+            // Deeper than an element's radius: the curve ends.
+            Err(StaticError::Surface(_)) => {}
+            Err(error) => return Err(error.into()),
+        }
+    }
+    let part = |i: usize| i as f64 / (VARIATIONS - 1) as f64;
+    let widest = (4.0 * clearance).max(0.5 * bottom.path);
+    for i in 0..VARIATIONS {
+        let clearance = widest * part(i);
+        row(1.0, bottom.path, clearance, compliance, &bearing.with_clearance(clearance))?;
+    }
+    let rigid = covered(bearing.with_outer_compliance(0.0).critical_load())?.map_or(critical.load, |found| found.load);
+    let softest = (4.0 * bottom.path / rigid).max(2.0 * compliance);
+    for i in 0..VARIATIONS {
+        let compliance = softest * part(i);
+        row(2.0, bottom.path, clearance, compliance, &bearing.with_outer_compliance(compliance))?;
+    }
+    Ok(())
+}
+
+fn summary(
+    bearing: &StaticBearing,
+    balances: &[Balance],
+    bottom: Option<&Bottom>,
+    critical: Option<&CriticalLoad>,
+) -> Result<String> {
+    let [x, y] = bearing.load();
+    let per_um = |quantity: fn(&Balance) -> f64| min_mean_max(balances, quantity).map(|k| k * 1e-6);
+    let (free, held) = (per_um(Balance::free_stiffness), per_um(Balance::held_stiffness));
+    let zone = min_mean_max(balances, |balance| balance.load_zone.to_degrees());
+    let line = |name: &str, [least, mean, greatest]: [f64; 3], unit: &str| {
+        format!("{name}: least {least:.2}, mean {mean:.2}, greatest {greatest:.2} {unit}\n")
+    };
+    let mut text = format!("load {:.1} N\n", libm::hypot(x, y));
+    text += &line("stiffness along the load", free, "N/µm");
+    text += &line("  transverse position held", held, "N/µm");
+    text += &line("load zone, half-angle", zone, "degrees");
+    let Some(bottom) = bottom else { return Ok(text) };
+    let Some(critical) = critical else {
+        return Ok(text
+            + "critical load: none; no load that the contact law covers brings the elements at the bottom of the \
+                    defect to carry\n");
+    };
+    let angles = [critical.cage_angle.to_degrees(), bottom.path * 1e6];
+    text += &format!(
+        "critical load: {:.1} N ({} at the bottom, path {:.1} µm, cage angle {:.1} degrees)\n",
+        critical.load,
+        if critical.elements == 1 { "1 element".to_owned() } else { format!("{} elements", critical.elements) },
+        angles[1],
+        angles[0]
+    );
+    if let Some(by) = bearing.sensitivity(critical)? {
+        text += &format!(
+            "  per µm of depth {:+.1} N, per µm of clearance {:+.1} N, per nm/N of compliance {:+.1} N\n",
+            by.by_depth * 1e-6,
+            by.by_clearance * 1e-6,
+            by.by_compliance * 1e-9
+        );
+    }
+    let [direction, about] = [libm::atan2(y, x), bottom.middle];
+    let aside = libm::remainder(direction - about, 2.0 * PI).to_degrees();
+    if aside.abs() > 1.0 {
+        text += &format!("  the middle of the defect is {:.1} degrees from the direction of the load\n", aside.abs());
+    }
+    Ok(text)
+}
+
+pub(crate) fn beside(stem: &Path, end: &str) -> PathBuf {
+    let mut name = stem.as_os_str().to_owned();
+    name.push(end);
+    name.into()
+}

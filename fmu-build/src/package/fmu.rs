@@ -1,0 +1,72 @@
+//! What an FMU of a scene holds, and where in it.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+
+use super::archive::Archive;
+use super::documentation;
+use super::library::Library;
+use super::model::Model;
+use crate::package::description::fmi2::CAPABILITIES;
+use crate::package::description::{fmi2, fmi3, terminals};
+use crate::shared::Version;
+use crate::shared::whole_file;
+
+const ICON: &[u8] = include_bytes!("../../assets/model.png");
+const LICENSE: &str = "Brinell is licensed under either of\n\n\
+    - the Apache License, Version 2.0 (LICENSE-APACHE), or\n\
+    - the MIT license (LICENSE-MIT)\n\nat your option.\n\n\
+    third-party.txt lists what else is compiled into the model library.\n";
+
+/// Packs a scene and the compiled library.
+pub fn pack(model: &Model, library: &Library, version: Version) -> Result<Vec<u8>> {
+    let mut archive = Archive::default();
+    match version {
+        Version::Fmi2 => {
+            archive.add("modelDescription.xml", fmi2::write(model, &CAPABILITIES)?)?;
+            archive.add("model.png", ICON)?;
+        }
+        Version::Fmi3 => {
+            archive.add("modelDescription.xml", fmi3::write(model)?)?;
+            archive.add("terminalsAndIcons/terminalsAndIcons.xml", terminals::write(model.simulation.table())?)?;
+            archive.add("terminalsAndIcons/icon.png", ICON)?;
+            if let Some(reference) = &model.reference {
+                reference.add_to(&mut archive)?;
+            }
+        }
+    }
+    for binary in library.binaries() {
+        let platform = &binary.platform;
+        let folders = match version {
+            Version::Fmi2 => &[platform.name],
+            // A library for both kinds of Mac stands in the folders of both.
+            Version::Fmi3 => platform.fmi3,
+        };
+        for folder in folders {
+            let file = format!("binaries/{folder}/{}.{}", model.scene.model_identifier(), platform.extension);
+            archive.add_compressed(file, binary.compressed()?)?;
+        }
+    }
+    archive.add("resources/scene.toml", model.scene_text.as_str())?;
+    for profile in &model.profiles {
+        archive.add(format!("resources/{}", profile.name), profile.text.as_str())?;
+    }
+    if let Some(map) = &model.map {
+        archive.add("resources/map.bin", map.as_slice())?;
+    }
+    archive.add("documentation/index.html", documentation::write(model, version))?;
+    archive.add("documentation/licenses/license.txt", LICENSE)?;
+    archive.add("documentation/licenses/LICENSE-MIT", include_str!("../../../LICENSE-MIT"))?;
+    archive.add("documentation/licenses/LICENSE-APACHE", include_str!("../../../LICENSE-APACHE"))?;
+    archive.add("documentation/licenses/third-party.txt", include_str!("../../assets/third-party.txt"))?;
+    Ok(archive.to_bytes()?)
+}
+
+/// Packs a scene and writes `<scene name>.fmu` into the folder, making it if need be. Gives the file's path.
+pub fn write(model: &Model, library: &Library, version: Version, folder: &Path) -> Result<PathBuf> {
+    let path = folder.join(format!("{}.fmu", model.scene.name));
+    let bytes = pack(model, library, version).with_context(|| path.display().to_string())?;
+    whole_file::write(&path, bytes)?;
+    Ok(path)
+}

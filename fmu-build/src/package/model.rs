@@ -1,0 +1,99 @@
+//! A scene file, read and set up: all that an FMU of it is made of, except the compiled library.
+
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use brinell::dynamics::parameters::film;
+use brinell::scene::{Remark, Scene};
+use brinell::simulation::Simulation;
+use brinell::simulation::interface::table::guid;
+
+use super::sensor_response;
+use crate::package::reference::Reference;
+use crate::shared::{Project, contact_map, shipped};
+
+/// A scene that was read, with its files' texts and a simulation of it.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// The scene.
+    pub scene: Scene,
+    /// The scene file's text, as it goes into the FMU.
+    pub scene_text: String,
+    /// The profile files that defects name, in the order of the defects.
+    pub profiles: Vec<Profile>,
+    /// The contact map, where the scene's law needs one.
+    pub map: Option<Vec<u8>>,
+    /// A simulation of the scene, not initialized.
+    pub simulation: Simulation,
+    /// The reference run, where one is to go along with the FMU.
+    pub reference: Option<Reference>,
+}
+
+/// A defect's profile file.
+#[derive(Debug, Clone)]
+pub struct Profile {
+    /// Its name, relative to the scene file.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+}
+
+/// Reads a scene file, or a shipped scene by its name: its text, with the modes of sensors' responses, and the scene.
+/// An error names the file.
+pub fn read_scene(path: &Path) -> Result<(String, Scene)> {
+    let about = || path.display().to_string();
+    let text = shipped::scene_text(path)?;
+    let resolved = sensor_response::resolved(&text, |name| shipped::text_beside(path, name));
+    let text = resolved.map_err(|error| sensor_response::beside_other_faults(error, &text)).with_context(about)?;
+    let scene = Scene::from_toml(&text).with_context(about)?;
+    Ok((text, scene))
+}
+
+/// What is possible and unusual in a scene of this text.
+pub fn remarks(text: &str, scene: &Scene) -> impl Iterator<Item = Remark> {
+    Scene::questions(text).into_iter().chain(scene.remarks()).chain(film::remark(scene))
+}
+
+/// A scene with the files that it is read from.
+#[derive(Debug)]
+pub struct SceneFiles {
+    /// Text of the scene's file.
+    pub text: String,
+    /// The scene.
+    pub scene: Scene,
+    /// The profiles that it names.
+    pub profiles: Vec<Profile>,
+}
+
+/// Reads a scene as [`read_scene`] does, and the profiles beside it; what is unusual in it is told.
+pub fn read_all(path: &Path) -> Result<SceneFiles> {
+    let (text, scene) = read_scene(path)?;
+    for remark in remarks(&text, &scene) {
+        eprintln!("note: {}: {remark}", path.display());
+    }
+    let profile = |name: &str| anyhow::Ok(Profile { name: name.to_owned(), text: shipped::text_beside(path, name)? });
+    let profiles = scene.profile_names().into_iter().map(profile).collect::<Result<_>>()?;
+    Ok(SceneFiles { text, scene, profiles })
+}
+
+impl Model {
+    /// Reads a scene file, or a shipped scene by its name, and the profile beside it. An error names the file.
+    pub fn read(path: &Path) -> Result<Self> {
+        let about = || path.display().to_string();
+        let SceneFiles { text: scene_text, scene, profiles } = read_all(path)?;
+        let texts = || profiles.iter().map(|profile| profile.text.as_str());
+        let map = contact_map::of(&scene, texts(), &Project::find()).with_context(about)?;
+        let simulation = Simulation::with_map(scene.clone(), texts(), map.as_deref()).with_context(about)?;
+        Ok(Self { scene, scene_text, profiles, map, simulation, reference: None })
+    }
+
+    /// Texts of the profile files.
+    pub fn profile_texts(&self) -> impl Iterator<Item = &str> {
+        self.profiles.iter().map(|profile| profile.text.as_str())
+    }
+
+    /// The identity that library and description agree on; it changes with every byte of scene or profile.
+    pub fn guid(&self) -> String {
+        guid(&self.scene_text, self.profile_texts())
+    }
+}

@@ -1,0 +1,109 @@
+//! The model library, compiled from source and kept by a checksum of all that it is made of.
+//!
+//! It has a build profile of its own (`fmu-library` in the workspace's `Cargo.toml`): stripped and optimised as a
+//! whole, which takes a minute or two a target. What was compiled of the same source by the same tools is taken again.
+
+use std::fs;
+use std::hash::Hasher;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use anyhow::{Context, Result, bail};
+use brinell::numerics::checksum::Checksum;
+
+use super::platform::{Platform, Target};
+use super::toolchain::Toolchain;
+use super::{toolchain, universal};
+use crate::shared::{Project, whole_file};
+
+/// What the library is compiled of, in the workspace.
+const SOURCES: [&str; 7] =
+    ["Cargo.toml", "Cargo.lock", "src", "crates/elementary", "crates/scene", "crates/fmi", ".cargo"];
+
+/// The library for one platform, compiled for each of its processors.
+pub fn platform(project: &Project, source: &Path, platform: Platform) -> Result<Vec<u8>> {
+    let parts = platform.targets.iter().map(|target| one(project, source, platform, *target));
+    match <[Vec<u8>; 1]>::try_from(parts.collect::<Result<Vec<_>>>()?) {
+        Ok([part]) => Ok(part),
+        Err(parts) => universal::join(&parts).context(platform.name),
+    }
+}
+
+/// The library for one target: the one that is kept, else compiled.
+fn one(project: &Project, source: &Path, platform: Platform, target: Target) -> Result<Vec<u8>> {
+    let toolchain = Toolchain::new(project, source, target, true)?;
+    let sum = checksum(source, target, &toolchain)?;
+    let kept = project.cache().join("libraries").join(format!("{sum:016x}-{}.{}", target.triple, platform.extension));
+    if let Ok(bytes) = fs::read(&kept) {
+        return Ok(bytes);
+    }
+    let built = build(source, platform, target, &toolchain)?;
+    let bytes = fs::read(&built).with_context(|| built.display().to_string())?;
+    whole_file::write(&kept, &bytes)?;
+    Ok(bytes)
+}
+
+/// Of every file that is compiled, the tools and how they are called.
+fn checksum(source: &Path, target: Target, toolchain: &Toolchain) -> Result<u64> {
+    let mut sum = Checksum::default();
+    let mut files = Vec::new();
+    for part in SOURCES {
+        add_files(&source.join(part), &mut files)?;
+    }
+    files.sort();
+    for file in files {
+        let name = file.strip_prefix(source).unwrap_or(&file).to_string_lossy().replace('\\', "/");
+        let bytes = fs::read(&file).with_context(|| file.display().to_string())?;
+        sum.write(format!("{name}\0{}\0", bytes.len()).as_bytes());
+        sum.write(&bytes);
+    }
+    sum.write(format!("{}\0{}\0", target.compiled_as(), toolchain.tools).as_bytes());
+    // Where programs are looked for says nothing of what they are.
+    for (name, value) in toolchain.variables.iter().filter(|(name, _)| name != "PATH") {
+        sum.write(format!("{}={}\0", name.display(), value.display()).as_bytes());
+    }
+    Ok(sum.finish())
+}
+
+fn add_files(path: &Path, files: &mut Vec<PathBuf>) -> Result<()> {
+    let about = || path.display().to_string();
+    if path.is_dir() {
+        for entry in fs::read_dir(path).with_context(about)? {
+            add_files(&entry.with_context(about)?.path(), files)?;
+        }
+    } else if path.is_file() {
+        files.push(path.to_owned());
+    }
+    Ok(())
+}
+
+fn build(source: &Path, platform: Platform, target: Target, toolchain: &Toolchain) -> Result<PathBuf> {
+    let cargo = toolchain::cargo();
+    eprintln!("compiling the model library for {} (once)", target.compiled_as());
+    let output = Command::new(&cargo)
+        .current_dir(source)
+        .args(["build", "--lib", "--package", "brinell-fmi", "--profile", "fmu-library"])
+        .args(["--target", target.compiled_as(), "--locked", "--message-format", "json-render-diagnostics"])
+        .envs(toolchain.variables.iter().map(|(name, value)| (name, value)))
+        .stderr(Stdio::inherit())
+        .output()
+        .with_context(|| format!("cannot start {} to compile the model library", cargo.display()))?;
+    if !output.status.success() {
+        bail!("{}: not compiled ({}); cargo's messages are above", platform.name, output.status);
+    }
+    let built = String::from_utf8_lossy(&output.stdout);
+    let found = built
+        .lines()
+        .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
+        .find_map(|message| artifact(&message, platform.extension));
+    found.context("cargo built no dynamic library of the package brinell-fmi")
+}
+
+/// Path of the dynamic library, when a message of cargo announces it.
+fn artifact(message: &serde_json::Value, extension: &str) -> Option<PathBuf> {
+    if message["reason"] != "compiler-artifact" || message["target"]["name"] != "brinell_fmi" {
+        return None;
+    }
+    let files = message["filenames"].as_array()?.iter().filter_map(|file| file.as_str());
+    files.map(PathBuf::from).find(|file| file.extension().is_some_and(|found| found == extension))
+}

@@ -1,0 +1,23 @@
+//! What more than one command needs.
+
+pub mod contact_map;
+pub mod csv;
+pub mod digits;
+pub mod ending;
+pub mod fmi_version;
+pub mod grid;
+pub mod numbers;
+pub mod project;
+pub mod python;
+pub mod shipped;
+pub mod whole_file;
+
+pub use ending::program;
+pub use fmi_version::Version;
+pub use grid::Grid;
+pub use project::Project;
+pub use python::Python;
+pub use whole_file::NotWritten;
+
+pub(crate) use digits::digits;
+pub(crate) use numbers::{number, seed, whole};

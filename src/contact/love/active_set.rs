@@ -1,0 +1,387 @@
+//! Direct solution of one frictionless contact on a grid of loaded rectangles.
+//!
+//! Find p ≥ 0 with K p ≥ g, complementary, where g = δ − h is the interference of the undeformed bodies and K Love's
+//! kernel. A primal–dual active set (Hintermüller, Ito and Kunisch 2002): solve K p = g on the set, drop cells that
+//! pull, add cells that interpenetrate, until nothing changes; Cholesky in between. Since K⁻¹ has no positive
+//! off-diagonal terms, starting from *all* interfering cells and only dropping also ends at the solution; that slower
+//! path is the fallback. Dropping without adding from any other start is wrong: `tests/contact/grid.rs` shows how much
+//! force it loses.
+//!
+//! The next contact starts from the last set, and the last factor is kept while the set stays the same, so a warm
+//! contact costs two triangular solutions and one product. Cells are addressed by their column on the raceway; only
+//! their differences enter K.
+
+use std::sync::Arc;
+
+use super::cholesky::{Cholesky, NotPositiveDefinite};
+use super::half_space::KernelTable;
+use super::row_pairs::{CellIndex, Image, Loaded, Mirror, PressedCell, RowPairs, Run, SEGMENT};
+use super::soft_edges::{SoftEdge, WindowEdge};
+use crate::contact::error::ContactError;
+
+/// Interpenetration below this part of the largest interference counts as touching; rounding of K p is far below.
+const TOUCHING: f64 = 1e-13;
+/// Sets tried at most.
+const MOST_SETS: usize = 100;
+
+/// Interference g = δ − h of the undeformed bodies (m) in a window of the grid.
+#[derive(Debug, Clone, Copy)]
+pub struct Window<'a> {
+    /// Column of the window's first cell.
+    pub first: i32,
+    /// Columns.
+    pub columns: usize,
+    /// `interference[row × columns + column]`.
+    pub interference: &'a [f64],
+}
+
+/// Effort spent on one contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Effort {
+    /// Sets tried.
+    pub iterations: usize,
+    /// Factorisations among them.
+    pub factorisations: usize,
+}
+
+/// What the iteration thinks of a cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum State {
+    Open,
+    Active,
+    /// Left the set just now. Its pull is still in K p, so that it is not judged before the next solution.
+    Dropped,
+}
+
+/// The solver with its workspace and the last set.
+#[derive(Debug, Clone)]
+pub struct ActiveSet {
+    /// Shared by copies of a solver.
+    pairs: Arc<RowPairs>,
+    mirror: Mirror,
+    edges: Vec<WindowEdge>,
+    factor: Cholesky,
+    factored: Vec<Run>,
+    /// The factor holds for this position only.
+    factored_there: bool,
+    runs: Vec<Run>,
+    state: Vec<State>,
+    pressure: Vec<f64>,
+    /// First columns of the segments of a row in which cells may penetrate, and what K p is there.
+    segments: Vec<i32>,
+    deflection: Vec<f64>,
+}
+
+impl ActiveSet {
+    /// Solver for `rows` rows of unknowns. The table must hold the largest offset that can occur: all columns of a
+    /// window (twice as many with left and right mirrored) and all `rows` (twice as many with front and back mirrored).
+    pub fn new(kernel: &KernelTable, rows: usize, mirror: Mirror) -> Result<Self, ContactError> {
+        let needed = if mirror.y || mirror.middle_row { 2 * rows } else { rows };
+        if kernel.rows() < needed {
+            return Err(ContactError::WrongLength {
+                quantity: "kernel table, rows",
+                length: kernel.rows(),
+                expected: needed,
+            });
+        }
+        // Room for every window, so that later contacts allocate nothing unless they are the largest so far.
+        let columns = kernel.columns();
+        Ok(Self {
+            pairs: Arc::new(RowPairs::new(kernel, rows, mirror)),
+            mirror,
+            edges: Vec::new(),
+            factor: Cholesky::default(),
+            factored: Vec::with_capacity(4 * rows),
+            factored_there: false,
+            runs: Vec::with_capacity(4 * rows),
+            state: Vec::with_capacity(rows * columns),
+            pressure: Vec::new(),
+            segments: Vec::with_capacity(columns.div_ceil(SEGMENT)),
+            deflection: Vec::with_capacity(columns.next_multiple_of(SEGMENT)),
+        })
+    }
+
+    /// With edges that make the raceway softer.
+    pub(super) fn with_edges(self, edges: Vec<SoftEdge>) -> Self {
+        Self { edges: edges.into_iter().map(|soft| WindowEdge { soft, is_felt: false }).collect(), ..self }
+    }
+
+    /// Forgets the last contact.
+    pub fn forget(&mut self) {
+        self.runs.clear();
+    }
+
+    /// Active cells of the last contact.
+    pub fn runs(&self) -> &[Run] {
+        &self.runs
+    }
+
+    /// Pressures over π E* of the last contact, in the order of the runs.
+    pub fn pressure(&self) -> &[f64] {
+        let count = self.runs.last().map_or(0, |run| run.at + run.length);
+        &self.pressure[..count]
+    }
+
+    /// Active cells of the last contact.
+    pub fn cells(&self) -> impl Iterator<Item = PressedCell> + '_ {
+        let cell = |run: &Run, k: usize| {
+            let unknown = run.at + k;
+            PressedCell { row: run.row, column: run.first + k as i32, unknown, pressure: self.pressure[unknown] }
+        };
+        self.runs.iter().flat_map(move |run| (0..run.length).map(move |k| cell(run, k)))
+    }
+
+    /// Largest |gap| where pressed and penetration where not, over the window just solved (m).
+    pub fn residual(&mut self, window: Window<'_>) -> f64 {
+        let mut worst = 0.0_f64;
+        let mut deflection = vec![0.0; window.columns.next_multiple_of(SEGMENT)];
+        let segments: Vec<i32> = (0..window.columns).step_by(SEGMENT).map(|c| window.first + c as i32).collect();
+        for row in 0..self.pairs.rows() {
+            let loaded = Loaded { runs: &self.runs, pressure: &self.pressure };
+            self.pairs.deflect(self.mirror.x, felt(&self.edges), loaded, row, &segments, &mut deflection);
+            let cells = row * window.columns..(row + 1) * window.columns;
+            for ((&g, &state), &u) in window.interference[cells.clone()].iter().zip(&self.state[cells]).zip(&deflection)
+            {
+                let open = g - u;
+                worst = worst.max(if state == State::Active { open.abs() } else { open });
+            }
+        }
+        worst
+    }
+
+    /// Replaces `b` by K⁻¹ b on the last set; `b` must have been sized with [`ActiveSet::right_hand_side`].
+    pub fn apply_inverse(&self, b: &mut [f64]) {
+        self.factor.solve(b);
+    }
+
+    /// Makes `b` a right-hand side for [`ActiveSet::apply_inverse`], all zero.
+    pub fn right_hand_side(&self, b: &mut Vec<f64>) {
+        b.clear();
+        b.resize(self.factor.solve_length(), 0.0);
+    }
+
+    /// Solves the contact; starts from the last set unless it was forgotten.
+    ///
+    /// # Errors
+    /// [`ContactError::WrongLength`] for a window wider than the kernel's table, [`ContactError::Cycles`] when the set
+    /// does not settle, [`ContactError::NotPositiveDefinite`] when rounding spoils the matrix of a set.
+    pub fn solve(&mut self, window: Window<'_>) -> Result<Effort, ContactError> {
+        let Window { first, columns, interference } = window;
+        let widest = if self.mirror.x { self.pairs.reach() / 2 } else { self.pairs.reach() };
+        if columns > widest || interference.len() != columns * self.pairs.rows() {
+            return Err(ContactError::WrongLength {
+                quantity: "contact window, columns",
+                length: columns,
+                expected: widest,
+            });
+        }
+        let largest = interference.iter().fold(0.0_f64, |m, &g| m.max(g));
+        for edge in &mut self.edges {
+            edge.is_felt = edge.soft.is_felt(first, columns);
+        }
+        self.start(first, columns, interference, largest);
+        let mut effort = Effort::default();
+        let mut only_drop = false;
+        loop {
+            self.collect_runs(first, columns);
+            if self.runs.is_empty() && largest <= 0.0 {
+                return Ok(effort);
+            }
+            effort.iterations += 1;
+            effort.factorisations += usize::from(self.refactor()?);
+            self.gather(first, columns, interference);
+            let dropped = self.drop_pulling(first, columns);
+            let added = !(only_drop && dropped) && self.add_penetrating(window, TOUCHING * largest);
+            if !(dropped || added) {
+                return Ok(effort);
+            }
+            if effort.iterations == 20 {
+                // From all interfering cells the set only shrinks: slow, and sure.
+                for (state, &g) in self.state.iter_mut().zip(interference) {
+                    *state = if g > 0.0 { State::Active } else { State::Open };
+                }
+                only_drop = true;
+            }
+            if effort.iterations == MOST_SETS {
+                return Err(ContactError::Cycles { cells: self.factor.order(), limit: MOST_SETS });
+            }
+        }
+    }
+
+    fn start(&mut self, first: i32, columns: usize, interference: &[f64], largest: f64) {
+        self.state.clear();
+        self.state.resize(interference.len(), State::Open);
+        let mut any = false;
+        for run in &self.runs {
+            for k in 0..run.length {
+                let column = run.first + k as i32 - first;
+                if column >= 0 && (column as usize) < columns {
+                    let at = run.row * columns + column as usize;
+                    if interference[at] > 0.0 {
+                        self.state[at] = State::Active;
+                        any = true;
+                    }
+                }
+            }
+        }
+        if !any {
+            // On paraboloids the contact is where the interference exceeds about half its largest value.
+            for (state, &g) in self.state.iter_mut().zip(interference) {
+                if g > 0.5 * largest {
+                    *state = State::Active;
+                }
+            }
+        }
+    }
+
+    fn collect_runs(&mut self, first: i32, columns: usize) {
+        self.runs.clear();
+        let mut at = 0;
+        for (row, states) in self.state.chunks_exact_mut(columns.max(1)).enumerate() {
+            let mut column = 0;
+            while column < columns {
+                if states[column] == State::Active {
+                    let start = column;
+                    while column < columns && states[column] == State::Active {
+                        column += 1;
+                    }
+                    let length = column - start;
+                    self.runs.push(Run { row, first: first + start as i32, length, at });
+                    at += length;
+                } else {
+                    states[column] = State::Open;
+                    column += 1;
+                }
+            }
+        }
+    }
+
+    /// The factor of another position serves as well: only differences of columns matter, unless there is a left and
+    /// a right, or an edge is felt.
+    fn same_set(&self) -> bool {
+        let shift = match (self.runs.first(), self.factored.first()) {
+            (Some(a), Some(b)) => a.first - b.first,
+            _ => return false,
+        };
+        let there = self.factored_there || felt(&self.edges).next().is_some();
+        (shift == 0 || !(self.mirror.x || there))
+            && self.runs.len() == self.factored.len()
+            && self
+                .runs
+                .iter()
+                .zip(&self.factored)
+                .all(|(a, b)| a.row == b.row && a.length == b.length && a.first == b.first + shift)
+    }
+
+    fn refactor(&mut self) -> Result<bool, ContactError> {
+        if self.same_set() {
+            return Ok(false);
+        }
+        self.factored.clear();
+        let count = self.runs.last().map_or(0, |run| run.at + run.length);
+        self.factor.resize(count);
+        let middle = self.pairs.reach() as i32 - 1;
+        for (n, source) in self.runs.iter().enumerate() {
+            for k in 0..source.length {
+                let c = source.at + k;
+                let from = source.first + k as i32;
+                let column = self.factor.column_mut(c);
+                for target in &self.runs[n..] {
+                    let skip = c.saturating_sub(target.at);
+                    let to = target.first + skip as i32;
+                    let pair = self.pairs.pair(target.row, source.row);
+                    let start = (middle + to - from) as usize;
+                    let length = target.length - skip;
+                    let out = &mut column[target.at + skip - c..target.at + target.length - c];
+                    out.copy_from_slice(&pair[start..start + length]);
+                    if self.mirror.x {
+                        let start = (middle + to + from + 1) as usize;
+                        for (out, image) in out.iter_mut().zip(&pair[start..start + length]) {
+                            *out += image;
+                        }
+                    }
+                    for edge in felt(&self.edges).filter(|edge| edge.bears(from)) {
+                        let cell = |row: usize, column: i32| CellIndex { row, column };
+                        let image = edge.on(cell(target.row, to), length, cell(source.row, from));
+                        for (out, image) in out[image.skip..].iter_mut().zip(image.values) {
+                            *out += image;
+                        }
+                    }
+                }
+            }
+        }
+        self.factor
+            .factor()
+            .map_err(|NotPositiveDefinite { pivot }| ContactError::NotPositiveDefinite { pivot, cells: count })?;
+        self.factored.clone_from(&self.runs);
+        self.factored_there = felt(&self.edges).next().is_some();
+        Ok(true)
+    }
+
+    fn gather(&mut self, first: i32, columns: usize, interference: &[f64]) {
+        let mut pressure = std::mem::take(&mut self.pressure);
+        self.right_hand_side(&mut pressure);
+        for run in &self.runs {
+            let start = run.row * columns + (run.first - first) as usize;
+            pressure[run.at..run.at + run.length].copy_from_slice(&interference[start..start + run.length]);
+        }
+        self.factor.solve(&mut pressure);
+        self.pressure = pressure;
+    }
+
+    fn drop_pulling(&mut self, first: i32, columns: usize) -> bool {
+        let mut changed = false;
+        for run in &self.runs {
+            let start = run.row * columns + (run.first - first) as usize;
+            for k in 0..run.length {
+                if self.pressure[run.at + k] < 0.0 {
+                    self.state[start + k] = State::Dropped;
+                    changed = true;
+                }
+            }
+        }
+        changed
+    }
+
+    fn add_penetrating(&mut self, window: Window<'_>, touching: f64) -> bool {
+        let columns = window.columns;
+        self.deflection.clear();
+        self.deflection.resize(columns.next_multiple_of(SEGMENT), 0.0);
+        let mut changed = false;
+        for row in 0..self.pairs.rows() {
+            let g = &window.interference[row * columns..(row + 1) * columns];
+            let state = &mut self.state[row * columns..(row + 1) * columns];
+            // Beside the contact, and not in its middle: there all cells are active.
+            self.segments.clear();
+            let mut column = 0;
+            while column < columns {
+                let open = g[column] > touching && state[column] == State::Open;
+                if open {
+                    self.segments.push(window.first + column as i32);
+                }
+                column += if open { SEGMENT } else { 1 };
+            }
+            if self.segments.is_empty() {
+                continue;
+            }
+            let out = &mut self.deflection[..SEGMENT * self.segments.len()];
+            let loaded = Loaded { runs: &self.runs, pressure: &self.pressure };
+            self.pairs.deflect(self.mirror.x, felt(&self.edges), loaded, row, &self.segments, out);
+            for (&segment, deflection) in self.segments.iter().zip(out.chunks_exact(SEGMENT)) {
+                let from = (segment - window.first) as usize;
+                for (c, &u) in (from..columns).zip(deflection) {
+                    if state[c] == State::Open && g[c] - u > touching {
+                        state[c] = State::Active;
+                        changed = true;
+                    }
+                }
+            }
+        }
+        changed
+    }
+}
+
+/// The edges that the window under way feels.
+fn felt(edges: &[WindowEdge]) -> impl Iterator<Item = &SoftEdge> + Clone {
+    edges.iter().filter(|edge| edge.is_felt).map(|edge| &edge.soft)
+}

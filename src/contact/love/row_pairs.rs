@@ -1,0 +1,236 @@
+//! Influence of rows of cells on each other, and its product with the pressures on the cells that are in contact.
+//!
+//! Entries depend on the difference of columns only: one line of Love's kernel for each pair of rows, with the image of
+//! the second row added where front and back mirror each other. Products are asked for on segments of [`SEGMENT`]
+//! columns; the sum for each cell runs over the pressures in a fixed order, whichever segment it is in.
+
+use pulp::{Arch, NullaryFnOnce};
+
+use super::half_space::KernelTable;
+
+/// Columns of a segment.
+pub(super) const SEGMENT: usize = 8;
+/// Segments treated side by side: a sum that waits for itself leaves room for three others.
+const TOGETHER: usize = 4;
+/// Noughts behind a line of the kernel, for segments that end beyond it.
+const BEYOND: usize = 32;
+
+/// Which halves of the contact mirror each other, so that only one of them is unknown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Mirror {
+    /// Left and right: column 0 is right of the middle.
+    pub x: bool,
+    /// Front and back: row 0 is behind the middle.
+    pub y: bool,
+    /// Front and back, and the middle runs along row 0, of which one half is an unknown: its interference is to be
+    /// halved.
+    pub middle_row: bool,
+}
+
+impl Mirror {
+    /// How many cells of the whole contact one unknown stands for.
+    pub fn images(self) -> f64 {
+        f64::from((1 + u8::from(self.x)) * (1 + u8::from(self.y)))
+    }
+}
+
+/// Row and column of a cell in a window.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CellIndex {
+    pub(super) row: usize,
+    pub(super) column: i32,
+}
+
+/// The influence of a cell on consecutive cells of a row.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Influence<'a> {
+    /// How many of them do not feel it before the first that does.
+    pub(super) skip: usize,
+    /// On that one and those after it, in the kernel's unit.
+    pub(super) values: &'a [f64],
+}
+
+/// Active cells, run by run, with their pressures over π E*.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Loaded<'a> {
+    pub(super) runs: &'a [Run],
+    pub(super) pressure: &'a [f64],
+}
+
+/// What an edge adds to the influence of cells on each other.
+pub(super) trait Image {
+    /// Whether a column is of the raceway that ends there.
+    fn bears(&self, column: i32) -> bool;
+
+    /// Influence of the cell `source`, which is of that raceway, on `length` cells of a row from `first` on.
+    fn on(&self, first: CellIndex, length: usize, source: CellIndex) -> Influence<'_>;
+}
+
+/// Influence of rows of cells on each other, the mirrored half added.
+#[derive(Debug, Clone)]
+pub(super) struct RowPairs {
+    reach: usize,
+    rows: usize,
+    mirrored: bool,
+    width: usize,
+    values: Vec<f64>,
+}
+
+impl RowPairs {
+    /// Pairs of `rows` rows.
+    pub(in crate::contact) fn new(kernel: &KernelTable, rows: usize, mirror: Mirror) -> Self {
+        let mirrored = mirror.y || mirror.middle_row;
+        let reach = kernel.columns();
+        let width = 2 * reach - 1 + BEYOND;
+        let pairs = if mirrored { rows * rows } else { rows };
+        let mut values = vec![0.0; pairs * width];
+        for (index, out) in values.chunks_exact_mut(width).enumerate() {
+            if mirrored {
+                let (j, k) = (index / rows, index % rows);
+                let other = if mirror.middle_row { j + k } else { j + k + 1 };
+                // Halves of a row in the middle: of both its force and its image.
+                let part = match (j, k) {
+                    (0, 0) if mirror.middle_row => 0.25,
+                    (0, _) | (_, 0) if mirror.middle_row => 0.5,
+                    _ => 1.0,
+                };
+                for ((out, direct), image) in out.iter_mut().zip(kernel.row(j.abs_diff(k))).zip(kernel.row(other)) {
+                    *out = part * (direct + image);
+                }
+            } else {
+                out[..2 * reach - 1].copy_from_slice(kernel.row(index));
+            }
+        }
+        Self { reach, rows, mirrored, width, values }
+    }
+
+    /// Columns of the kernel's table.
+    pub(in crate::contact) fn reach(&self) -> usize {
+        self.reach
+    }
+
+    /// Rows.
+    pub(super) fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// K p on segments of one row: `firsts` are the first columns of the segments, whose cells go into `out` one
+    /// segment after the other. `edges` are those that the window feels.
+    pub(super) fn deflect<'a, I: Image + 'a>(
+        &self,
+        mirror_x: bool,
+        edges: impl Iterator<Item = &'a I> + Clone,
+        Loaded { runs, pressure }: Loaded,
+        row: usize,
+        firsts: &[i32],
+        out: &mut [f64],
+    ) {
+        Arch::new().dispatch(Deflect { pairs: self, mirror_x, edges, runs, pressure, row, firsts, out });
+    }
+
+    /// Line of the kernel between two rows; difference 0 is at index `reach` − 1.
+    #[inline(always)]
+    pub(super) fn pair(&self, j: usize, k: usize) -> &[f64] {
+        let index = if self.mirrored { j * self.rows + k } else { j.abs_diff(k) };
+        &self.values[index * self.width..(index + 1) * self.width]
+    }
+}
+
+/// Consecutive active cells of one row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Run {
+    /// Row.
+    pub row: usize,
+    /// Column of the first cell.
+    pub first: i32,
+    /// Number of cells.
+    pub length: usize,
+    /// Index of the first cell's unknown.
+    pub at: usize,
+}
+
+/// A cell of the contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PressedCell {
+    /// Row.
+    pub row: usize,
+    /// Column on the raceway.
+    pub column: i32,
+    /// Index of its unknown.
+    pub unknown: usize,
+    /// Pressure over π E*.
+    pub pressure: f64,
+}
+
+/// K p on segments of one row.
+struct Deflect<'a, E> {
+    pairs: &'a RowPairs,
+    mirror_x: bool,
+    edges: E,
+    runs: &'a [Run],
+    pressure: &'a [f64],
+    row: usize,
+    firsts: &'a [i32],
+    out: &'a mut [f64],
+}
+
+impl<'e, I: Image + 'e, E: Iterator<Item = &'e I> + Clone> NullaryFnOnce for Deflect<'_, E> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(mut self) {
+        let out = std::mem::take(&mut self.out);
+        for (firsts, out) in self.firsts.chunks(TOGETHER).zip(out.chunks_mut(TOGETHER * SEGMENT)) {
+            match *firsts {
+                [a] => self.on([a], out),
+                [a, b] => self.on([a, b], out),
+                [a, b, c] => self.on([a, b, c], out),
+                [a, b, c, d] => self.on([a, b, c, d], out),
+                _ => {}
+            }
+        }
+    }
+}
+
+impl<'e, I: Image + 'e, E: Iterator<Item = &'e I> + Clone> Deflect<'_, E> {
+    #[inline(always)]
+    fn on<const N: usize>(&self, firsts: [i32; N], out: &mut [f64]) {
+        let middle = self.pairs.reach as i32 - 1;
+        let mut sums = [[0.0_f64; SEGMENT]; N];
+        for run in self.runs {
+            let pair = self.pairs.pair(self.row, run.row);
+            let pressure = &self.pressure[run.at..run.at + run.length];
+            for (k, &p) in pressure.iter().enumerate() {
+                let from = run.first + k as i32;
+                for (sum, first) in sums.iter_mut().zip(firsts) {
+                    accumulate(sum, pair, middle + first - from, p);
+                    if self.mirror_x {
+                        accumulate(sum, pair, middle + first + from + 1, p);
+                    }
+                }
+                for edge in self.edges.clone().filter(|edge| edge.bears(from)) {
+                    let source = CellIndex { row: run.row, column: from };
+                    for (sum, first) in sums.iter_mut().zip(firsts) {
+                        let image = edge.on(CellIndex { row: self.row, column: first }, SEGMENT, source);
+                        for (sum, image) in sum[image.skip..].iter_mut().zip(image.values) {
+                            *sum = image.mul_add(p, *sum);
+                        }
+                    }
+                }
+            }
+        }
+        for (out, sum) in out.chunks_exact_mut(SEGMENT).zip(&sums) {
+            out.copy_from_slice(sum);
+        }
+    }
+}
+
+#[inline(always)]
+fn accumulate(sum: &mut [f64; SEGMENT], pair: &[f64], start: i32, p: f64) {
+    // Cells of a segment beyond the table are nobody's: they stay as they are.
+    if let Some(k) = pair.get(start as usize..start as usize + SEGMENT) {
+        for l in 0..SEGMENT {
+            sum[l] = k[l].mul_add(p, sum[l]);
+        }
+    }
+}

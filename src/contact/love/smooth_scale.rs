@@ -1,0 +1,100 @@
+//! The smooth raceway's energy on a grid, and its inverse: from the energy of any contact to the equivalent approach.
+
+use libm::pow;
+
+use crate::contact::equivalent::EquivalentApproach;
+
+/// Energy of the grid and its derivatives, without the factor π E* × cell area.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Energy {
+    pub(super) w: f64,
+    pub(in crate::contact) u: f64,
+    pub(super) s: f64,
+    pub(super) uu: f64,
+    pub(super) us: f64,
+}
+
+impl Energy {
+    /// Adds a part of another.
+    pub(in crate::contact) fn add(&mut self, other: &Self, part: f64) {
+        self.w += part * other.w;
+        self.u += part * other.u;
+        self.s += part * other.s;
+        self.uu += part * other.uu;
+        self.us += part * other.us;
+    }
+}
+
+/// Δ as a function of V = W^p, p = 2/5 of balls and 9/19 of rollers, cubic Hermite between nodes [V, Δ, dΔ/dV].
+#[derive(Debug, Clone, Default)]
+pub(super) struct SmoothScale {
+    nodes: Vec<[f64; 3]>,
+    /// p
+    power: f64,
+}
+
+impl SmoothScale {
+    /// From ascending nodes, V being this power of W.
+    pub(in crate::contact) fn new(nodes: Vec<[f64; 3]>, power: f64) -> Self {
+        Self { nodes, power }
+    }
+
+    /// Smallest Δ (m) that the grid resolves.
+    pub(super) fn onset(&self) -> f64 {
+        self.nodes.first().map_or(0.0, |node| node[1])
+    }
+
+    /// Equivalent approach of an energy.
+    pub(super) fn equivalent(&self, e: Energy) -> EquivalentApproach {
+        if e.w <= 0.0 {
+            return EquivalentApproach::default();
+        }
+        let v = pow(e.w, self.power);
+        // V as a function of u and s.
+        let per_w = self.power * v / e.w;
+        let bend = (self.power - 1.0) * per_w / e.w;
+        let (v_u, v_s) = (per_w * e.u, per_w * e.s);
+        let v_uu = per_w * e.uu + bend * e.u * e.u;
+        let v_us = per_w * e.us + bend * e.u * e.s;
+        let [value, slope, curvature] = self.at(v);
+        EquivalentApproach {
+            value,
+            du: slope * v_u,
+            ds: slope * v_s,
+            duu: slope * v_uu + curvature * v_u * v_u,
+            dus: slope * v_us + curvature * v_u * v_s,
+        }
+    }
+
+    /// Δ, dΔ/dV, d²Δ/dV².
+    fn at(&self, v: f64) -> [f64; 3] {
+        let last = self.nodes.len().saturating_sub(1);
+        let (Some(start), Some(end)) = (self.nodes.first(), self.nodes.last()) else {
+            return [f64::NAN; 3];
+        };
+        if v <= start[0] {
+            return [start[1] * v / start[0], start[1] / start[0], 0.0];
+        }
+        let (low, high) = (start[0].sqrt(), end[0].sqrt());
+        let guess = (last as f64 * (v.sqrt() - low) / (high - low)) as usize;
+        let mut k = guess.min(last - 1);
+        while k > 0 && v < self.nodes[k][0] {
+            k -= 1;
+        }
+        while k < last - 1 && v >= self.nodes[k + 1][0] {
+            k += 1;
+        }
+        let ([v0, d0, m0], [v1, d1, m1]) = (self.nodes[k], self.nodes[k + 1]);
+        let width = v1 - v0;
+        let t = (v - v0) / width;
+        let secant = (d1 - d0) / width;
+        // The cubic of `numerics::hermite` adds its terms in another order: every run over a defect would have other
+        // bits.
+        let (c2, c3) = (3.0 * secant - 2.0 * m0 - m1, m0 + m1 - 2.0 * secant);
+        [
+            d0 + width * t * (m0 + t * (c2 + t * c3)),
+            m0 + t * (2.0 * c2 + 3.0 * t * c3),
+            (2.0 * c2 + 6.0 * t * c3) / width,
+        ]
+    }
+}

@@ -1,0 +1,17 @@
+//! Law `map`: the elastic contact near a defect, solved beforehand on nodes and looked up inside the step.
+
+mod build;
+mod cells;
+mod checks;
+mod contact_maps;
+mod format;
+pub mod lookup;
+mod patch_plan;
+mod plan;
+mod specification;
+
+pub use contact_maps::ContactMaps;
+pub use format::{HEAD, TAIL};
+pub use lookup::ContactMap;
+pub use plan::{MapPlan, Unmapped};
+pub use specification::{MapSpecification, Runner, Sequential};

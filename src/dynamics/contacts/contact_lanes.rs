@@ -1,0 +1,299 @@
+//! Contacts of several elements at a time: everything of the right-hand side that is the same for all elements.
+//!
+//! The equations are those of [`super::forces`], in the same grouping. An element near the defect, and every element of
+//! a bearing whose outer raceway yields, has outer stiffness 0 here; its outer contact has been worked out before.
+//!
+//! A lane without an element has stiffness 0 and no derivative.
+
+use super::gap_lanes::{Distance, dot, radial};
+use crate::contact::law::{DampedLaw, Elastic, Line, Point, SqueezeFilm};
+use crate::dynamics::parameters::{ElementBlock, Kinematics, Model, Stage};
+use crate::numerics::lanes::row::Row;
+use crate::numerics::lanes::{Kernel, Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, sum_of};
+use crate::numerics::plane::{Vector, turned};
+
+/// The smooth contacts of elements at one instant.
+struct Smooth<'a, E> {
+    model: &'a Model,
+    elastic: E,
+    now: &'a Kinematics,
+    offset: Vector,
+    drift: Vector,
+    /// Acceleration of an element by gravity, and that of its w as the outer ring moves along the raceway (m/s²).
+    body: Vector,
+    /// As [`Model::nearly_concentric`] has it.
+    series: bool,
+    /// Time (s) by which paths are still to be moved on along their rates.
+    ahead: Option<f64>,
+    /// The oil films of the inner and of the outer raceway.
+    films: Option<[SqueezeFilm; 2]>,
+    clearance: f64,
+}
+
+/// What follows for some elements.
+struct Found<S: Wide> {
+    path_rate: Lanes<S>,
+    acceleration: Lanes<S>,
+    inner: Lanes<S>,
+    normal: [Lanes<S>; 2],
+    outer: Lanes<S>,
+    approach: Lanes<S>,
+    pushing: [Lanes<S>; 2],
+}
+
+/// Forces on the inner ring along x and y, then on the outer, by lanes.
+#[derive(Default)]
+pub(in crate::dynamics) struct Sums {
+    lanes: [[f64; WIDEST]; 4],
+    /// Where the next group of four belongs.
+    upper: bool,
+}
+
+impl Sums {
+    #[inline(always)]
+    pub(in crate::dynamics) fn add<S: Wide>(&mut self, forces: [Lanes<S>; 4]) {
+        for (lanes, force) in self.lanes.iter_mut().zip(forces) {
+            force.add_to(lanes, self.upper);
+        }
+        self.upper = S::F64_LANES == QUAD && !self.upper;
+    }
+
+    /// Force on the inner ring, then on the outer, of the forces on elements that were added.
+    #[inline(always)]
+    pub(in crate::dynamics) fn on_rings(&self) -> [f64; 4] {
+        let [shaft_x, shaft_y, housing_x, housing_y] = self.lanes;
+        [-sum_of(shaft_x), -sum_of(shaft_y), sum_of(housing_x), sum_of(housing_y)]
+    }
+}
+
+/// What is kept of each contact, for whoever wants to know more than the sums. Its lists are made once.
+#[derive(Debug, Clone, Default)]
+pub struct Record {
+    /// Force of the inner contact Q_i of each element (N).
+    pub inner: Row,
+    /// Direction of q of each element, its radial part.
+    pub normal_radial: Row,
+    /// Direction of q of each element, its tangential part.
+    pub normal_tangential: Row,
+    /// Force of the outer contact of each element (N).
+    pub outer: Row,
+    /// Outer contact force on each element, inwards (N).
+    pub outer_radial: Row,
+    /// Outer contact force on each element, counter-clockwise (N).
+    pub outer_tangential: Row,
+    /// Approach of the inner contact (m): negative when there is a gap.
+    pub inner_approach: Row,
+    /// Equivalent approach of the outer contact (m).
+    pub outer_approach: Row,
+    /// How clearly the inner contact pushes ([`crate::contact::law::ForceLaw::pushing`]) (m).
+    pub inner_pushing: Row,
+    /// How clearly the outer contact pushes (m).
+    pub outer_pushing: Row,
+    /// u' of each element (m/s).
+    pub path_rate: Row,
+    /// Path u (m) and absolute radial velocity w (m/s) of each element that is in balance at every instant; empty for
+    /// others, whose state has them.
+    pub balanced: [Row; 2],
+}
+
+impl Record {
+    /// Room for `slots` elements.
+    pub(in crate::dynamics) fn new(slots: usize) -> Self {
+        let zeros = || Row::zeros(slots);
+        Self {
+            inner: zeros(),
+            normal_radial: zeros(),
+            normal_tangential: zeros(),
+            outer: zeros(),
+            outer_radial: zeros(),
+            outer_tangential: zeros(),
+            inner_approach: zeros(),
+            outer_approach: zeros(),
+            inner_pushing: zeros(),
+            outer_pushing: zeros(),
+            path_rate: zeros(),
+            balanced: [Row::zeros(0), Row::zeros(0)],
+        }
+    }
+}
+
+impl Model {
+    /// Smooth contacts of all elements: their part of the derivative, and, if `RECORD`, each of them. Gives their force
+    /// on the inner ring and on the outer. If `SPECIAL`, each element has a speed of its own and contacts may have
+    /// films.
+    #[inline(always)]
+    pub(in crate::dynamics) fn smooth_contacts<S: Wide, const RECORD: bool, const SPECIAL: bool>(
+        &self,
+        simd: S,
+        now: &Kinematics,
+        stage: &Stage,
+        derivative: &mut [f64],
+        elements: &[ElementBlock],
+        contacts: &mut Record,
+    ) -> [f64; 4] {
+        // A function of its own, so that nothing of it is in the way of balls.
+        if let Some(line) = self.inner.contact.law.elasticity.line() {
+            return simd.outlined(Rollers::<RECORD, SPECIAL> {
+                model: self,
+                line,
+                now: &{ *now },
+                stage,
+                derivative,
+                elements,
+                contacts,
+            });
+        }
+        self.contacts_of::<S, Point, RECORD, SPECIAL>(simd, Point, now, stage, derivative, (elements, contacts))
+    }
+
+    /// As [`smooth_contacts`](Self::smooth_contacts), for contacts of one elasticity.
+    #[inline(always)]
+    fn contacts_of<S: Wide, E: Elastic, const RECORD: bool, const SPECIAL: bool>(
+        &self,
+        simd: S,
+        elastic: E,
+        now: &Kinematics,
+        stage: &Stage,
+        derivative: &mut [f64],
+        (elements, contacts): (&[ElementBlock], &mut Record),
+    ) -> [f64; 4] {
+        let start = self.layout.radial_velocity;
+        let (offset, v, omega) = (now.offset(), now.housing.velocity, now.cage.speed);
+        let series = self.nearly_concentric(offset);
+        // Of elements with speeds of their own the second part is theirs.
+        let omega = if SPECIAL { 0.0 } else { omega };
+        let body = Vector::new(self.gravity.x + omega * v.y, self.gravity.y - omega * v.x);
+        let drift = now.drift();
+        let films = if SPECIAL { self.films.as_ref().map(|films| films.squeeze()) } else { None };
+        let clearance = if SPECIAL { self.clearance() } else { self.radial_clearance };
+        let ahead = stage.ahead;
+        let smooth = Smooth { model: self, elastic, now, offset, drift, body, series, ahead, films, clearance };
+        let mut sums = Sums::default();
+        if RECORD {
+            contacts.outer_tangential.fill(0.0);
+        }
+        let (state, derivative) = (blocks(stage.state), blocks_mut(derivative));
+        for (k, block) in elements.iter().enumerate() {
+            let w = start / WIDEST + k;
+            for part in 0..WIDEST / S::F64_LANES {
+                if (k * WIDEST + part * S::F64_LANES) >= self.element_count {
+                    break;
+                }
+                let of = |numbers: &[f64; WIDEST]| Lanes::part(simd, numbers, part);
+                let found = smooth.contacts::<S, SPECIAL>(simd, of(&state[k]), of(&state[w]), block, of, &mut sums);
+                found.path_rate.put(&mut derivative[k], part);
+                found.acceleration.put(&mut derivative[w], part);
+                if RECORD {
+                    found.keep(contacts, of(&state[k]), k, part);
+                }
+            }
+        }
+        sums.on_rings()
+    }
+}
+
+impl<S: Wide> Found<S> {
+    /// Puts what is kept into `contacts`; the outer contact is that on the smooth raceway, at path `u`.
+    #[inline(always)]
+    fn keep(&self, contacts: &mut Record, u: Lanes<S>, block: usize, part: usize) {
+        for (list, value) in [
+            (&mut contacts.inner, self.inner),
+            (&mut contacts.normal_radial, self.normal[0]),
+            (&mut contacts.normal_tangential, self.normal[1]),
+            (&mut contacts.outer, self.outer),
+            (&mut contacts.outer_radial, self.outer),
+            (&mut contacts.inner_approach, self.approach),
+            (&mut contacts.outer_approach, u),
+            (&mut contacts.inner_pushing, self.pushing[0]),
+            (&mut contacts.outer_pushing, self.pushing[1]),
+            (&mut contacts.path_rate, self.path_rate),
+        ] {
+            value.put(&mut blocks_mut(list)[block], part);
+        }
+    }
+}
+
+impl<E: Elastic> Smooth<'_, E> {
+    /// Of elements at the paths `u` (m) and absolute radial velocities `w` (m/s).
+    #[inline(always)]
+    fn contacts<S: Wide, const SPECIAL: bool>(
+        &self,
+        simd: S,
+        u: Lanes<S>,
+        w: Lanes<S>,
+        block: &ElementBlock,
+        of: impl Fn(&[f64; WIDEST]) -> Lanes<S>,
+        sums: &mut Sums,
+    ) -> Found<S> {
+        let (model, now) = (self.model, self.now);
+        let present = of(&block.present);
+        let e_r = radial(simd, now.cage.direction, block, &of);
+        let path_rate = w - dot(simd, now.housing.velocity, e_r);
+        let u = self.ahead.map_or(u, |ahead| u + Lanes::splat(simd, ahead) * path_rate);
+        let rho = Lanes::splat(simd, model.outer_centre_radius) + u;
+
+        let (p, t) = (dot(simd, self.offset, e_r), dot(simd, -turned(self.offset), e_r));
+        let number = |number: f64| Lanes::splat(simd, number);
+        let Distance { longer, n: [n_r, n_t] } = Distance::of(simd, rho + p, t, self.series);
+        let delta = number(-self.clearance) - u - p - longer;
+        let pace = number(now.cage.speed);
+        let speed = if SPECIAL { of(&block.pace) * pace } else { pace };
+        let along = dot(simd, -turned(self.drift), e_r) + rho * speed;
+        let opening = n_r * (dot(simd, self.drift, e_r) + path_rate) + n_t * along;
+
+        let law = DampedLaw::new(model.inner.contact.law.damping, self.elastic, number);
+        let mut inner = law.force(of(&block.inner), delta, -opening);
+        let mut outer = law.force(of(&block.outer), u, path_rate);
+        if SPECIAL && let Some([inside, outside]) = &self.films {
+            // Constants of contacts are far above 1, or 0 for what is no smooth contact.
+            let [on_inner, on_outer] = [&block.inner, &block.outer].map(|constant| of(constant).at_most(number(1.0)));
+            inner = inner + on_inner * inside.force(number, delta, -opening);
+            outer = outer + on_outer * outside.force(number, u, path_rate);
+        }
+        let mut turning = rho * (speed * speed);
+        if SPECIAL {
+            turning = turning + speed * dot(simd, -turned(now.housing.velocity), e_r);
+        }
+        let acceleration = (inner * n_r - outer) * of(&block.per_mass)
+            + of(&block.other)
+            + (dot(simd, self.body, e_r) + turning) * present;
+
+        sums.add([
+            inner * (n_r * e_r[0] - n_t * e_r[1]),
+            inner * (n_r * e_r[1] + n_t * e_r[0]),
+            outer * e_r[0],
+            outer * e_r[1],
+        ]);
+
+        Found {
+            path_rate: path_rate * present,
+            acceleration,
+            inner,
+            normal: [n_r, n_t],
+            outer,
+            approach: delta * present,
+            pushing: [law.pushing(delta, -opening) * present, law.pushing(u, path_rate) * present],
+        }
+    }
+}
+
+/// The smooth contacts of rollers.
+struct Rollers<'a, const RECORD: bool, const SPECIAL: bool> {
+    model: &'a Model,
+    line: Line<'a>,
+    now: &'a Kinematics,
+    stage: &'a Stage<'a>,
+    derivative: &'a mut [f64],
+    elements: &'a [ElementBlock],
+    contacts: &'a mut Record,
+}
+
+impl<const RECORD: bool, const SPECIAL: bool> Kernel for Rollers<'_, RECORD, SPECIAL> {
+    type Output = [f64; 4];
+
+    #[inline(always)]
+    fn run<S: Wide>(self, simd: S) -> [f64; 4] {
+        let Self { model, line, now, stage, derivative, elements, contacts } = self;
+        model.contacts_of::<S, Line, RECORD, SPECIAL>(simd, line, now, stage, derivative, (elements, contacts))
+    }
+}

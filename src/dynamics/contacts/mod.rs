@@ -1,0 +1,15 @@
+//! The contacts of the elements with both raceways, and the forces in them.
+
+pub mod contact_lanes;
+mod element_contacts;
+mod forces;
+mod gap_lanes;
+mod other_contacts;
+
+pub use contact_lanes::Record;
+pub use forces::{Forces, UnsolvedContact};
+
+pub(in crate::dynamics) use contact_lanes::Sums;
+pub(in crate::dynamics) use element_contacts::{InnerGap, Meeting};
+pub(in crate::dynamics) use gap_lanes::{Distance, dot, radial};
+pub(in crate::dynamics) use other_contacts::OtherOuter;

@@ -1,0 +1,7 @@
+//! The static equilibrium in which a run begins, and how it changes with an input.
+
+mod error;
+pub mod search;
+pub mod variation;
+
+pub use search::EquilibriumError;

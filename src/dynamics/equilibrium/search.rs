@@ -1,0 +1,362 @@
+//! Static equilibrium: the load distribution from which a run starts.
+//!
+//! Rings are at rest or move as prescribed, elements keep their distance from the outer ring (u' = 0) and go round with
+//! the cage: they feel gravity, the centrifugal force and the contacts' damping at those rates, so that no acceleration
+//! is left at the start. Each element's radial balance is solved inside (its force falls monotonically with u), then
+//! the internal rings' by Newton's method on the elastic [tangent](crate::dynamics::derivatives::tangent), after many
+//! steps on that of the damped contacts, with a shift that keeps a loose ring's step bounded, and a search along the
+//! step for the point at which the residual no longer pushes forward: in a convex potential that is the minimum along
+//! the line.
+//!
+//! An element that nothing pushes rests against the outer raceway without force.
+
+pub use super::error::EquilibriumError;
+use crate::contact::rolling::RacewaySide;
+use crate::dynamics::contacts::Meeting;
+use crate::dynamics::derivatives::{Bends, Linearized, RadialForce, Rings, stacked};
+use crate::dynamics::parameters::{
+    Cells, Drive, Frame, FramedKinematics, Kinematics, Model, PathMotion, Quadratic, SMOOTH,
+};
+use crate::dynamics::quasi_static::PathSearch;
+use crate::numerics::plane::Vector;
+
+/// Share of the largest force in play that may remain as residual: a few roundings of a sum of Z forces.
+const RESIDUAL: f64 = 1e-12;
+/// Residual that counts as none (N), for bearings without load: rounding of positions times contact stiffness.
+const SMALLEST_RESIDUAL: f64 = 1e-12;
+/// Share of the largest force beyond which an element is not in balance: its own search ends a thousand times below.
+const UNBALANCED: f64 = 1e-6;
+/// How far from where a search ended a contact law is asked for an answer (m): far above the rounding of paths.
+const FURTHER: f64 = 1e-15;
+/// Share of the forces on an element that may remain as residual: far above rounding, far below what matters.
+const ELEMENT_RESIDUAL: f64 = 1e-9;
+/// Share of an element's distance to which its position is known: some roundings.
+const ROUNDING: f64 = 1e-14;
+/// First step of an element's search that its last path does not begin (m).
+const FIRST_STRIDE: f64 = 1e-6;
+/// Longest step of a ring between two iterations at first (m); a soft support may have a long way to go.
+const LONGEST_STEP: f64 = 50e-6;
+/// Iterations after which the longest step doubles, rings may go together as far as their supports let them, and the
+/// tangent is that of the damped contacts.
+const DOUBLING: i32 = 50;
+const ITERATIONS: i32 = 500;
+/// Times that cells are looked up anew for the equilibrium found.
+const CELLS: u32 = 8;
+
+impl Model {
+    /// Writes the static equilibrium under `drive` at τ = 0 into `state`; velocities are those of rings at rest, or of
+    /// prescribed rings that carry the elements along.
+    pub fn equilibrium(&self, drive: &Drive, cells: &Cells, state: &mut [f64]) -> Result<(), EquilibriumError> {
+        state.fill(0.0);
+        let mut u = vec![0.0; self.element_count];
+        let given = Given { drive, cells, still: self.kinematics(drive, 0.0, state) };
+        let mut rings = stacked(given.still.shaft.position, given.still.housing.position);
+        let mut balance = self.balance(&given, rings, &mut u);
+        let mut iteration = 0;
+        // An element without a balance where the rings are to begin with is told by the checks below.
+        while balance.residual() > balance.limit && balance.residual().is_finite() {
+            iteration += 1;
+            let step = self.newton_step(&given, rings, &u, &balance, iteration);
+            let next = self.along(&given, rings, &mut u, &balance, step).filter(|_| iteration <= ITERATIONS);
+            let Some(next) = next else {
+                if balance.residual() <= balance.rounding {
+                    // As near as roundings let it come: back to the paths of these rings.
+                    self.balance(&given, rings, &mut u);
+                    break;
+                }
+                // A step that cannot be taken may end where a contact has no answer.
+                let tried = rings + step;
+                self.balance(&given, tried, &mut u);
+                self.check_contacts(&given, tried, &u)?;
+                return Err(EquilibriumError::NotFound { residual: balance.residual(), limit: balance.limit });
+            };
+            (rings, balance) = next;
+        }
+        self.check_contacts(&given, rings, &u)?;
+        self.check_elements(&given, rings, &u)?;
+        self.write(drive, rings, &u, state);
+        Ok(())
+    }
+
+    /// As [`equilibrium`](Self::equilibrium), the cells of all contacts found with it: in which cell an inner contact
+    /// is depends on where the rings come to rest.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn equilibrium_with_cells(&self, drive: &Drive, state: &mut [f64]) -> Result<Cells, EquilibriumError> {
+        state.fill(0.0);
+        let mut cells = self.cells_at(drive, 0.0, state);
+        for _ in 0..CELLS {
+            self.equilibrium(drive, &cells, state)?;
+            let there = self.cells_at(drive, 0.0, state);
+            // A contact on a knot may be in either cell.
+            if there == cells || !self.has_inner_defects() {
+                break;
+            }
+            cells = there;
+        }
+        Ok(cells)
+    }
+
+    /// The path (m) of element `j` (from 0) where it rests against the outer raceway without force, with element 1 at
+    /// `cage_angle` (rad) and all else as at the start.
+    pub fn resting_path(&self, j: usize, cage_angle: f64) -> f64 {
+        let now = FramedKinematics::at_rest(cage_angle, Vector::zeros());
+        let cell = self.outer.defects.cell_at(self.element_angle(j, &now.cage));
+        self.touching_path(j, [cell, SMOOTH], &now)
+    }
+
+    /// How much farther (m) element `j` (from 0) comes inwards than on the smooth inner raceway before it touches a
+    /// defect of that, with element 1 at `cage_angle` and the inner ring at `shaft_angle` (rad), rings concentric.
+    pub fn resting_opening(&self, j: usize, cage_angle: f64, shaft_angle: f64) -> f64 {
+        let mut now = FramedKinematics::at_rest(cage_angle, Vector::zeros());
+        now.frames.0[Frame::Shaft as usize].angle = shaft_angle;
+        let direction = self.element_angle(j, &now.cage);
+        let cell = self.inner.defects.cell_at(direction - shaft_angle);
+        if cell == SMOOTH {
+            return 0.0;
+        }
+        let distance = self.outer_centre_radius - self.clearance();
+        let mut at = Meeting { element: j, cells: [cell, SMOOTH], u: 0.0, direction, distance };
+        for _ in 0..20 {
+            let near = self.approach(RacewaySide::Inner, &at, &now.frames).approach;
+            let step = near.value / near.by_path;
+            (at.u, at.distance) = (at.u - step, at.distance + step);
+            if step.abs() < 1e-15 {
+                break;
+            }
+        }
+        at.u
+    }
+
+    /// Element `j` in radial balance, and its path, looked for from `guess` on.
+    fn balanced_element(
+        &self,
+        j: usize,
+        cells: [[u32; 2]; 2],
+        guess: f64,
+        now: &FramedKinematics,
+    ) -> (f64, Linearized) {
+        // u' = 0. Without second derivatives of the approach the slope is that of another damping, which Newton's
+        // method bears.
+        let element = |u: f64| {
+            let element = self.linearized_at(j, cells, PathMotion::at_rest(u), now, Bends::LeftOut);
+            (self.radial_push(&element), element)
+        };
+        let touch = if cells[1] == [SMOOTH; 2] { 0.0 } else { self.touching_path(j, cells[1], now) };
+        let (RadialForce { force: at_touch, .. }, touching) = element(touch);
+        if at_touch == 0.0 {
+            return (touch, touching);
+        }
+        let (low, high) = if at_touch > 0.0 { (touch, f64::INFINITY) } else { (f64::NEG_INFINITY, touch) };
+        let mut u = if guess > low && guess < high { guess } else { touch + FIRST_STRIDE.copysign(at_touch) };
+        let mut search = PathSearch::between(low, high, FIRST_STRIDE);
+        let mut found = element(u);
+        for _ in 0..300 {
+            let (RadialForce { force, slope }, _) = found;
+            let newton = u - force / slope;
+            // A millionth of a millionth of a nanometre: the rounding of micrometre paths.
+            if force == 0.0 || (newton - u).abs() < 1e-21 {
+                break;
+            }
+            let Some(next) = search.next(u, force, newton) else { break };
+            u = next;
+            found = element(u);
+        }
+        (u, found.1)
+    }
+
+    /// Refuses elements whose balance lies where the contact law near the defect has no answer: their search ends
+    /// there.
+    fn check_contacts(&self, given: &Given, rings: Rings, u: &[f64]) -> Result<(), EquilibriumError> {
+        let now = given.with_rings(rings);
+        for (j, &u) in u.iter().enumerate() {
+            let cells = self.cells_of(given.cells, j);
+            let gap = self.inner_gap(u - FURTHER, now.offset(), self.direction(j, &now.cage));
+            let inner = self.inner_meeting(j, cells[0], &gap, self.element_angle(j, &now.cage));
+            let outer = Meeting { u: u + FURTHER, ..self.outer_meeting(j, cells[1], u, &now.cage) };
+            for (side, at) in [(RacewaySide::Outer, outer), (RacewaySide::Inner, inner)] {
+                if at.cells == [SMOOTH; 2] {
+                    continue;
+                }
+                let (Err(cause), _) = self.near_defect(side, &at, &now.frames) else { continue };
+                // The search may have ended on the far side, where all is no number.
+                let element = self.linearized_at(j, cells, PathMotion::at_rest(u - FURTHER), &now, Bends::LeftOut);
+                let residual = self.radial_balance(&element).force;
+                if !(residual.abs() <= UNBALANCED * element.inner.norm()) {
+                    let angle_deg = self.angle_from_defect(side, &at, &now.frames).to_degrees();
+                    return Err(EquilibriumError::Contact { element: j + 1, angle_deg, residual, cause });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses a balance of the rings in which an element has none: the search for its path ends wherever it got to.
+    fn check_elements(&self, given: &Given, rings: Rings, u: &[f64]) -> Result<(), EquilibriumError> {
+        let now = given.with_rings(rings);
+        for (j, &path) in u.iter().enumerate() {
+            let along = PathMotion::at_rest(path);
+            let element = self.linearized_at(j, self.cells_of(given.cells, j), along, &now, Bends::LeftOut);
+            let RadialForce { force, slope } = self.radial_balance(&element);
+            let [omega, _] = self.element_speed(j, &now.cage);
+            let body = self.element_mass * (self.gravity.norm() + element.rho * omega * omega);
+            let contacts = element.inner.norm() + element.outer.x.abs();
+            let limit = ELEMENT_RESIDUAL * (body + contacts) + ROUNDING * element.rho * slope.abs();
+            if !(force.abs() <= limit && path.abs() <= self.element_radius) {
+                return Err(EquilibriumError::Element { element: j + 1, path, force });
+            }
+        }
+        Ok(())
+    }
+
+    /// Balances all elements for given rings and sums the forces on the rings.
+    fn balance(&self, given: &Given, rings: Rings, u: &mut [f64]) -> Balance {
+        let Given { drive, cells, .. } = given;
+        let now = given.with_rings(rings);
+        let (mut force, mut largest, mut contact_sum, mut rounding) = (Rings::zeros(), 0.0f64, 0.0, 0.0);
+        let play = now.offset().norm() + self.clearance().abs();
+        for j in 0..self.element_count {
+            let in_cells = self.cells_of(cells, j);
+            let (path, element) = if self.elements_in_balance() {
+                let found = self.in_balance(j, in_cells, u[j], &now);
+                let [shaft, housing] = found.exerted().rings;
+                force += stacked(shaft, housing);
+                (found.path, found.elastic)
+            } else {
+                let (path, element) = self.balanced_element(j, in_cells, u[j], &now);
+                force += stacked(-element.inner, element.on_housing());
+                (path, element)
+            };
+            u[j] = path;
+            rounding += self.radial_balance(&element).slope.abs() * (path.abs() + play) * 4.0 * f64::EPSILON;
+            contact_sum += element.inner.norm();
+            largest = largest.max(element.inner.amax()).max(element.outer.amax());
+        }
+        let load = |axis: &Quadratic| axis.at(0.0);
+        let loads = Rings::from_iterator(drive.shaft_load.iter().chain(&drive.housing_load).map(load));
+        let supports = Rings::from(self.supports.ring_stiffnesses()).component_mul(&rings);
+        force += loads - supports;
+        largest = largest.max(loads.amax()).max(supports.amax());
+        let limit = RESIDUAL * largest + SMALLEST_RESIDUAL;
+        Balance { force: self.free_rings(force), contact_sum, limit, rounding }
+    }
+
+    /// A step of the free rings from the condensed tangent: (−J + μ) step = force.
+    fn newton_step(&self, given: &Given, rings: Rings, u: &[f64], balance: &Balance, iteration: i32) -> Rings {
+        let now = given.with_rings(rings);
+        // Where a host draws the rings apart so fast that dampers leave nothing of their contacts' forces, the elastic
+        // tangent is far too stiff.
+        let jacobian = if iteration > DOUBLING {
+            self.ring_jacobian_at(u, given.cells, &now)
+        } else {
+            self.ring_jacobian(u, given.cells, &now)
+        };
+        // The turning of contact forces makes a lightly held ring's tangent indefinite; its bound ΣQ/|q| takes that
+        // out. The second term lets a loose ring move by the longest step, and vanishes with the residual.
+        let longest = longest_step(iteration);
+        let (turning, free) = (balance.contact_sum / self.outer_centre_radius, balance.residual() / longest);
+        let solve = |share: f64| {
+            let mut matrix = self.free_rings_matrix(&jacobian, share * (turning + free));
+            if iteration > DOUBLING {
+                // What turns a force is the rings' offset. Preloaded rings that soft supports let go together would
+                // creep.
+                self.couple(&mut matrix, -share * turning);
+            }
+            let solved = matrix.lu().solve(&balance.force);
+            solved.filter(|step| step.iter().all(|part| part.is_finite()) && step.dot(&balance.force) > 0.0)
+        };
+        // |q| is less than the centres' radius by some of the clearance: on top of an element a little is left of the
+        // turning.
+        let step = solve(1.0).or_else(|| solve(2.0));
+        let step = step.unwrap_or_else(|| balance.force / balance.residual() * longest);
+        let length = step.amax();
+        if length > longest { step * (longest / length) } else { step }
+    }
+
+    /// Goes along a step as far as the residual pushes forward.
+    fn along(
+        &self,
+        given: &Given,
+        rings: Rings,
+        u: &mut [f64],
+        start: &Balance,
+        step: Rings,
+    ) -> Option<(Rings, Balance)> {
+        let push_0 = start.force.dot(&step);
+        let (mut low, mut high) = (0.0, f64::INFINITY);
+        let mut share = 1.0;
+        for _ in 0..100 {
+            let next = rings + step * share;
+            let balance = self.balance(given, next, u);
+            let push = balance.force.dot(&step);
+            if balance.residual() <= balance.limit || push.abs() <= 0.5 * push_0 || (push > 0.0 && high.is_infinite()) {
+                return Some((next, balance));
+            }
+            if push > 0.0 {
+                low = share
+            } else {
+                high = share
+            }
+            share = 0.5 * (low + high);
+        }
+        None
+    }
+
+    fn write(&self, drive: &Drive, rings: Rings, u: &[f64], state: &mut [f64]) {
+        let w = self.layout.radial_velocity;
+        state[..self.element_count].copy_from_slice(u);
+        for (index, first) in [(self.layout.shaft, 0), (self.layout.housing, 2)] {
+            if let Some(i) = index {
+                state[i..i + 2].copy_from_slice(&rings.as_slice()[first..first + 2]);
+            }
+        }
+        // At rest against the outer ring: u' = 0.
+        let Kinematics { cage, housing, .. } = self.kinematics(drive, 0.0, state).motion;
+        for j in 0..self.element_count {
+            state[w + j] = housing.velocity.dot(&self.direction(j, &cage));
+        }
+        for (sensor, i) in self.supports.sensors.iter().zip(self.layout.sensor_indices()) {
+            let e = sensor.direction;
+            (state[i], state[i + 1]) = (housing.position.dot(&e), housing.velocity.dot(&e));
+        }
+    }
+}
+
+/// Longest step of a ring in an iteration (m): after all of them it may have moved by metres.
+fn longest_step(iteration: i32) -> f64 {
+    LONGEST_STEP * f64::from(1 << (iteration / DOUBLING).min(16))
+}
+
+/// What the search is given. Velocities in `still` stay; where the rings are follows in each iteration.
+struct Given<'a> {
+    drive: &'a Drive,
+    cells: &'a Cells,
+    still: FramedKinematics,
+}
+
+impl Given<'_> {
+    /// The instant `still` with the rings there.
+    fn with_rings(&self, rings: Rings) -> FramedKinematics {
+        let mut now = self.still;
+        (now.shaft.position, now.housing.position) = (Vector::new(rings[0], rings[1]), Vector::new(rings[2], rings[3]));
+        now
+    }
+}
+
+/// Net force on the free rings.
+struct Balance {
+    force: Rings,
+    /// Σ|Q_i| (N)
+    contact_sum: f64,
+    limit: f64,
+    /// What roundings of the positions make of the forces (N); more than the limit where a damper is steep.
+    rounding: f64,
+}
+
+impl Balance {
+    /// Infinite where an element found no balance: nalgebra's largest passes over what is no number.
+    fn residual(&self) -> f64 {
+        if self.force.iter().all(|force| force.is_finite()) { self.force.amax() } else { f64::INFINITY }
+    }
+}

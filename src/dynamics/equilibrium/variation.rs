@@ -1,0 +1,57 @@
+//! How the static equilibrium moves when an input does: the implicit function theorem.
+//!
+//! At the start each element is in radial balance with u' = 0, and so is each internal ring. A change of inputs and
+//! rings moves each path as its [balance](crate::dynamics::derivatives::tangent) asks, and the internal rings by the
+//! solution of what is then left of theirs, four equations at most.
+//!
+//! An element that nothing touches and nothing moves stays where it is. Rings without any stiffness against them have
+//! no equilibrium of their own; their derivative does not exist.
+
+use crate::dynamics::derivatives::{Bends, ElementVariation, Linearized, RingJacobian, Rings, Variation};
+use crate::dynamics::parameters::{Cells, Drive, FramedKinematics, Model};
+
+impl Model {
+    /// Completes a change of inputs at the equilibrium `state` by what it does to rings and elements. `by` comes with
+    /// the changes of prescribed rings and of the cage speed; `loads` are those of the external loads on both rings
+    /// (N). `None` if the rings have no stiffness against them.
+    pub fn vary_equilibrium(
+        &self,
+        drive: &Drive,
+        cells: &Cells,
+        state: &[f64],
+        loads: Rings,
+        by: &mut Variation,
+    ) -> Option<()> {
+        if self.elements_in_balance() {
+            return self.vary_equilibrium_in_balance(drive, cells, state, loads, by);
+        }
+        let now = self.kinematics(drive, 0.0, state);
+        let given = ElementVariation {
+            offset: by.offset(),
+            drift: by.drift(),
+            cage_speed: by.cage_speed,
+            clearance: by.clearance,
+            frames: by.frames,
+            ..ElementVariation::default()
+        };
+        let (mut jacobian, mut force) = (RingJacobian::zeros(), loads);
+        for j in 0..self.element_count {
+            let element = self.at_start(j, cells, state, &now);
+            self.add_balanced(&element, &mut jacobian);
+            force += self.balanced(&element, &given).rings;
+        }
+        by.move_rings(&self.balancing_motion(&jacobian, force)?);
+        let whole = ElementVariation { offset: by.offset(), ..given };
+        for j in 0..self.element_count {
+            let element = self.at_start(j, cells, state, &now);
+            by.path[j] = self.balanced(&element, &whole).path;
+            by.radial_velocity[j] = by.housing.velocity.dot(&element.e_r);
+        }
+        Some(())
+    }
+
+    fn at_start(&self, j: usize, cells: &Cells, state: &[f64], now: &FramedKinematics) -> Linearized {
+        let cells = self.cells_of(cells, j);
+        self.linearized(j, cells, state[j], state[self.layout.radial_velocity + j], now, Bends::Wanted)
+    }
+}

@@ -1,0 +1,108 @@
+//! The right-hand side of a bearing whose elements are in balance at every instant: rings and sensors move, elements
+//! are where rings and time say.
+//!
+//! Elements on smooth raceways are found [side by side](crate::dynamics::quasi_static::balance_lanes), those with a
+//! contact near a defect, or on a raceway that yields, [one by one](crate::dynamics::quasi_static::element_balance).
+
+use crate::dynamics::contacts::{Forces, Record};
+use crate::dynamics::derivatives::Linearized;
+use crate::dynamics::parameters::{FramedKinematics, Kinematics, Model, SMOOTH, Stage, moved};
+use crate::dynamics::quasi_static::{BodyTorque, InBalance, SmoothElements};
+use crate::numerics::lanes::{Lanes, Wide};
+use crate::numerics::plane::Vector;
+
+impl Model {
+    /// As [`Model::derivative_on`] of a bearing whose elements are in balance. The derivative of a path is its rate,
+    /// that of a radial velocity 0: from them follows where the next stage's search begins, and nothing else.
+    #[inline(always)]
+    pub(super) fn balanced_derivative<S: Wide, const RECORD: bool>(
+        &self,
+        simd: S,
+        stage: &Stage,
+        derivative: &mut [f64],
+        forces: &mut Forces,
+    ) {
+        let Stage { drive, cage, .. } = *stage;
+        self.begin(drive);
+        self.update_uneven(drive, cage, &mut forces.elements);
+        let now = self.kinematics_of(stage);
+        derivative[self.layout.radial_velocity..2 * self.layout.radial_velocity].fill(0.0);
+        let mut rings =
+            simd.outlined(SmoothElements::<RECORD> { model: self, now: &{ now }, stage, derivative, forces });
+        if !forces.searched.is_empty() {
+            if self.has_frames {
+                forces.frames = drive.frames_at(cage.tau);
+            }
+            let found = self.searched_elements::<RECORD>(&now, stage, derivative, forces);
+            rings.iter_mut().zip(found).for_each(|(sum, force)| *sum += force);
+        }
+        Lanes::of(simd, rings).store(&mut forces.rings, 0);
+        self.body_rates(simd, stage, &now, rings, derivative);
+    }
+
+    /// The elements whose balance is looked for one by one; gives their force on the inner and on the outer ring.
+    #[inline(never)]
+    fn searched_elements<const RECORD: bool>(
+        &self,
+        now: &Kinematics,
+        stage: &Stage,
+        derivative: &mut [f64],
+        forces: &mut Forces,
+    ) -> [f64; 4] {
+        let now = FramedKinematics { motion: *now, frames: forces.frames };
+        let mut rings = [Vector::zeros(); 2];
+        if RECORD {
+            forces.torques = [0.0; 3];
+        }
+        for i in 0..forces.searched.len() {
+            let (j, cells) = (forces.searched[i].element, forces.searched[i].cells);
+            let e_r = self.direction(j, &now.cage);
+            let along = now.housing.velocity.dot(&e_r);
+            let guess = moved(stage.state[j], stage.state[self.layout.radial_velocity + j] - along, stage.ahead);
+            let found = self.in_balance(j, cells, guess, &now);
+            forces.defect_lookups +=
+                found.evaluations * cells.iter().filter(|cells| **cells != [SMOOTH; 2]).count() as u64;
+            if !found.is_found()
+                && let Some(unsolved) = self.contact_without_answer(j, cells, found.path, &now)
+            {
+                forces.unsolved = Some(unsolved);
+            }
+            let exerted = found.exerted();
+            for (sum, force) in rings.iter_mut().zip(exerted.rings) {
+                *sum += force;
+            }
+            derivative[j] = found.path_rate;
+            if RECORD {
+                for BodyTorque { frame, torque } in exerted.torques {
+                    forces.torques[frame as usize] += torque;
+                }
+                self.record_balanced(j, &found, along, &mut forces.contacts);
+            }
+        }
+        let [shaft, housing] = rings;
+        [shaft.x, shaft.y, housing.x, housing.y]
+    }
+
+    /// Keeps an element's contacts; `along` is the outer ring's velocity in its radial direction (m/s).
+    fn record_balanced(&self, j: usize, found: &InBalance, along: f64, record: &mut Record) {
+        let Linearized { e_r, e_t, n, approaches, .. } = found.elastic;
+        let (inner, outer) = (found.inner.norm(), found.outer.norm());
+        let direction = if inner > 0.0 { found.inner / inner } else { n };
+        for (list, value) in [
+            (&mut record.inner, inner),
+            (&mut record.normal_radial, direction.dot(&e_r)),
+            (&mut record.normal_tangential, direction.dot(&e_t)),
+            (&mut record.outer, outer),
+            (&mut record.outer_radial, found.outer.x),
+            (&mut record.outer_tangential, found.outer.y),
+            (&mut record.inner_approach, approaches[0]),
+            (&mut record.outer_approach, approaches[1]),
+            (&mut record.inner_pushing, self.inner.contact.pushing(approaches[0], 0.0)),
+            (&mut record.outer_pushing, self.outer.contact.pushing(approaches[1], 0.0)),
+            (&mut record.path_rate, found.path_rate),
+        ] {
+            list[j] = value;
+        }
+        (record.balanced[0][j], record.balanced[1][j]) = (found.path, found.path_rate + along);
+    }
+}

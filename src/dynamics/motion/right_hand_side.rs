@@ -1,0 +1,171 @@
+//! The right-hand side of the equations of motion.
+//!
+//! With e_r, e_t the radial and tangential directions of an element, q from the inner ring's centre to the element's,
+//! n = q/|q|, v_o, v_i the rings' velocities and ω the cage speed:
+//! ```text
+//! u'  = w − e_r·v_o
+//! w'  = (Q_i n·e_r − F_r)/m + g·e_r + ω (v_o·e_t + ρ ω)
+//! δ_i = R_i + r − |q|,   δ̇_i = −n·(v_o + u' e_r + ρ ω e_t − v_i)
+//! m_i x_i'' = F_i − Σ Q_i n − c_s v_i − k_s x_i
+//! m_o x_o'' = F_o + Σ (F_r e_r − F_t e_t) − c_p v_o − k_p x_o + Σ f_s e_s,   m_s s'' = −f_s
+//! ```
+//! F_r and F_t are what the outer raceway exerts on the element, inwards and counter-clockwise; on the smooth raceway
+//! F_r = Q(u, u') and F_t = 0. Near a defect of the inner raceway, or of the element on its inner side, Q_i n gives way
+//! to Q (R n + T t), with the direction (R, T) of that contact and t = ẑ×n. As w is the element's *absolute* radial
+//! velocity, no ring acceleration enters. The cage is kinematic: it takes up every tangential force on the elements.
+//! What it takes is the cage torque.
+
+use crate::dynamics::contacts::{Forces, OtherOuter};
+use crate::dynamics::parameters::{Cells, Drive, Frame, Model, Stage};
+use crate::numerics::lanes::{Kernel, Lanes, Wide, dispatch};
+use crate::numerics::plane::{Vector, turned};
+
+impl Model {
+    /// Derivative of `state` at `tau`, and each contact; `cells` says in which cell each contact is.
+    pub fn derivative(
+        &self,
+        drive: &Drive,
+        tau: f64,
+        cells: &Cells,
+        state: &[f64],
+        derivative: &mut [f64],
+        forces: &mut Forces,
+    ) {
+        forces.enter(self, cells);
+        let stage = Stage { drive, cage: &drive.cage_at(tau), state, ahead: None };
+        dispatch(Derivative { model: self, stage, derivative, forces });
+    }
+
+    /// As [`Self::derivative`] inside a kernel, for the cells that `forces` have last seen there. Each contact is kept
+    /// only if `RECORD`, which takes a stage whose positions are not still to be moved on.
+    #[inline(always)]
+    pub(crate) fn derivative_on<S: Wide, const RECORD: bool>(
+        &self,
+        simd: S,
+        stage: &Stage,
+        derivative: &mut [f64],
+        forces: &mut Forces,
+    ) {
+        // Before anything else, so that nothing of it is in the way of dry contacts in even cages.
+        if self.is_special() {
+            return simd.outlined(SpecialDerivative::<RECORD>(Derivative {
+                model: self,
+                stage: *stage,
+                derivative,
+                forces,
+            }));
+        }
+        self.derivative_in::<S, RECORD, false>(simd, stage, derivative, forces);
+    }
+
+    /// As [`Self::derivative_on`]; if `SPECIAL`, in an uneven cage or with oil films.
+    #[inline(always)]
+    fn derivative_in<S: Wide, const RECORD: bool, const SPECIAL: bool>(
+        &self,
+        simd: S,
+        stage: &Stage,
+        derivative: &mut [f64],
+        forces: &mut Forces,
+    ) {
+        let Stage { drive, cage, state, ahead } = *stage;
+        if SPECIAL {
+            self.begin(drive);
+            self.update_uneven(drive, cage, &mut forces.elements);
+        }
+        let (now, tau) = (self.kinematics_of(stage), cage.tau);
+        let [outer, inner] = [forces.other_outer.is_empty(), forces.other_inner.is_empty()].map(|none| !none);
+        let (mut on_shaft, mut on_housing) = (Vector::zeros(), Vector::zeros());
+        if outer || inner {
+            if self.has_frames {
+                forces.frames = drive.frames_at(tau);
+            }
+            if RECORD {
+                forces.torques = [0.0; 3];
+            }
+            // A copy for each call, so that what is known of the instant can stay in registers: what is written to
+            // memory in parts and read together soon after is read late.
+            if outer {
+                on_housing = simd.outlined(OtherOuter::<RECORD> {
+                    model: self,
+                    now: &{ now },
+                    state,
+                    ahead,
+                    forces: &mut *forces,
+                });
+            }
+            if inner {
+                on_shaft = self.other_inner_contacts::<RECORD>(&{ now }, state, ahead, forces);
+            }
+        }
+        let [shaft_x, shaft_y, housing_x, housing_y] = self.smooth_contacts::<S, RECORD, SPECIAL>(
+            simd,
+            &now,
+            stage,
+            derivative,
+            &forces.elements,
+            &mut forces.contacts,
+        );
+        let (shaft_x, shaft_y) = (shaft_x + on_shaft.x, shaft_y + on_shaft.y);
+        let (housing_x, housing_y) = (housing_x + on_housing.x, housing_y + on_housing.y);
+        if RECORD && (outer || inner) {
+            forces.record_others();
+        }
+        Lanes::of(simd, [shaft_x, shaft_y, housing_x, housing_y]).store(&mut forces.rings, 0);
+        self.body_rates(simd, stage, &now, [shaft_x, shaft_y, housing_x, housing_y], derivative);
+    }
+
+    /// Torque of the elements on the cage about the outer ring's centre (N m), counter-clockwise.
+    ///
+    /// The kinematic cage forces each element to the tangential acceleration a_o·e_t + 2 u' ω + ρ ω'; what contacts and
+    /// gravity do not supply, it does. It also takes up the torque of an element's defect on that element, whose spin
+    /// is forced as well. `acceleration` is the outer ring's (m/s²).
+    pub fn cage_torque(&self, drive: &Drive, tau: f64, state: &[f64], acceleration: Vector, forces: &Forces) -> f64 {
+        self.begin(drive);
+        let cage = drive.cage_at(tau);
+        let of_paths: f64 = (0..self.element_count)
+            .map(|j| {
+                let e_t = turned(self.direction(j, &cage));
+                let [speed, alpha] = self.element_speed(j, &cage);
+                let rho = self.outer_centre_radius + forces.paths(self, state)[j];
+                let contacts = &forces.contacts;
+                let inertia = acceleration.dot(&e_t) + 2.0 * contacts.path_rate[j] * speed + rho * alpha;
+                let contacts = contacts.inner[j] * contacts.normal_tangential[j] + contacts.outer_tangential[j];
+                rho * (contacts + self.element_mass * (self.gravity.dot(&e_t) - inertia))
+            })
+            .sum();
+        of_paths + forces.torque_on(Frame::Spin)
+    }
+}
+/// The whole right-hand side.
+struct Derivative<'a> {
+    model: &'a Model,
+    stage: Stage<'a>,
+    derivative: &'a mut [f64],
+    forces: &'a mut Forces,
+}
+
+impl Kernel for Derivative<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Wide>(self, simd: S) {
+        let Self { model, stage, derivative, forces } = self;
+        model.derivative_on::<S, true>(simd, &stage, derivative, forces);
+    }
+}
+
+/// As [`Derivative`], in an uneven cage or with oil films.
+struct SpecialDerivative<'a, const RECORD: bool>(Derivative<'a>);
+
+impl<const RECORD: bool> Kernel for SpecialDerivative<'_, RECORD> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Wide>(self, simd: S) {
+        let Derivative { model, stage, derivative, forces } = self.0;
+        if model.elements_in_balance() {
+            return model.balanced_derivative::<S, RECORD>(simd, &stage, derivative, forces);
+        }
+        model.derivative_in::<S, RECORD, true>(simd, &stage, derivative, forces);
+    }
+}

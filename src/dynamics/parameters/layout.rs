@@ -1,0 +1,122 @@
+//! The layout of the state vector.
+//!
+//! The state is `[u_1…u_Z, w_1…w_Z, shaft x y vx vy, housing x y vx vy, sensor s vs …]`; a ring that is not internal
+//! and absent sensors take no slot. The lists of u and w are filled up with zeros to a multiple of eight slots, the
+//! rings' part to a multiple of four, so that they are treated several at a time. u is the roller path (ρ − (R_o − r),
+//! ρ the distance of the element's centre from the *outer ring's* centre), w the radial component of the element's
+//! absolute velocity.
+
+use crate::numerics::lanes::{Partition, QUAD, padded};
+use crate::scene::{ElementInertia, Motion, Scene};
+
+/// Where a state is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Layout {
+    /// Number of elements Z; `u` starts at 0.
+    pub element_count: usize,
+    /// Start of `w`.
+    pub radial_velocity: usize,
+    /// Start of the inner ring's x, y, vx, vy.
+    pub shaft: Option<usize>,
+    /// Start of the outer ring's.
+    pub housing: Option<usize>,
+    /// Start of the first sensor's displacement and velocity along its direction; the next one's are [`QUAD`] on.
+    pub sensors: usize,
+    /// Number of sensors.
+    pub sensor_count: usize,
+    /// Whether elements are in balance at every instant: u and w are then no states, but where a search for the balance
+    /// begins.
+    pub elements_in_balance: bool,
+    /// Number of states.
+    pub len: usize,
+}
+
+impl Layout {
+    /// Of a scene.
+    pub(in crate::dynamics) fn new(scene: &Scene) -> Self {
+        let radial_velocity = padded(scene.bearing.element_count);
+        let mut len = 2 * radial_velocity;
+        let mut take = |wanted: bool, count: usize| {
+            wanted.then(|| {
+                len += count;
+                len - count
+            })
+        };
+        let shaft = take(scene.shaft.motion == Motion::Internal, 4);
+        let housing = take(scene.housing.motion == Motion::Internal, 4);
+        let sensor_count = scene.sensors.len();
+        let sensors = take(true, 0).unwrap_or_default();
+        len = sensors + QUAD * sensor_count;
+        let element_count = scene.bearing.element_count;
+        Self {
+            element_count,
+            radial_velocity,
+            shaft,
+            housing,
+            sensors,
+            sensor_count,
+            elements_in_balance: scene.bearing.element_inertia == ElementInertia::None,
+            len: len.next_multiple_of(QUAD),
+        }
+    }
+
+    /// Whether state `i` is a position; otherwise it is a velocity.
+    #[inline]
+    pub fn is_position(&self, i: usize) -> bool {
+        let within = |start: Option<usize>, count: usize| start.is_some_and(|s| i >= s && i < s + count);
+        i < self.radial_velocity
+            || within(self.shaft, 2)
+            || within(self.housing, 2)
+            || self.sensor_indices().any(|start| i == start)
+    }
+
+    /// Index of the displacement of each sensor; its velocity is the next.
+    pub fn sensor_indices(&self) -> impl Iterator<Item = usize> + use<> {
+        let start = self.sensors;
+        (0..self.sensor_count).map(move |k| start + k * QUAD)
+    }
+
+    /// The lists that the state is made up of.
+    pub fn partition(&self) -> Partition {
+        Partition { count: self.element_count, rest: self.len - 2 * self.radial_velocity }
+    }
+
+    /// Whether slot `i` is a state's, not one that only fills a list up.
+    pub fn is_used(&self, i: usize) -> bool {
+        let within = |start: usize, count: usize| i >= start && i < start + count;
+        within(0, self.element_count)
+            || within(self.radial_velocity, self.element_count)
+            || [self.shaft, self.housing].into_iter().flatten().any(|start| within(start, 4))
+            || self.sensor_indices().any(|start| within(start, 2))
+    }
+
+    /// Whether slot `i` is a state's that is integrated: an element in balance has none.
+    pub fn is_integrated(&self, i: usize) -> bool {
+        self.is_used(i) && !(self.elements_in_balance && i < 2 * self.radial_velocity)
+    }
+
+    /// Number of states that are integrated.
+    pub fn count(&self) -> usize {
+        (0..self.len).filter(|&i| self.is_integrated(i)).count()
+    }
+
+    /// Name of state `i` for messages.
+    pub fn name(&self, i: usize) -> String {
+        let w = self.radial_velocity;
+        if i < w {
+            return format!("the path of element {}", i + 1);
+        }
+        if i < 2 * w {
+            return format!("the radial velocity of element {}", i - w + 1);
+        }
+        let ring = |start: Option<usize>, count: usize| start.filter(|&s| i >= s && i < s + count).map(|s| i - s);
+        let part = ["x", "y", "vx", "vy"];
+        if let Some(k) = ring(self.shaft, 4) {
+            format!("shaft.{}", part[k])
+        } else if let Some(k) = ring(self.housing, 4) {
+            format!("housing.{}", part[k])
+        } else {
+            "the sensor's motion".to_owned()
+        }
+    }
+}

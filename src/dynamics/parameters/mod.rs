@@ -1,0 +1,28 @@
+//! What a bearing is made of, as numbers of the equations, and what acts on it.
+
+mod drive;
+mod element_block;
+pub mod film;
+mod irregularity;
+mod kinematics;
+mod layout;
+mod model;
+mod raceway;
+mod ring_motion;
+mod sensor_modes;
+mod supports;
+
+pub use drive::{Cubic, Drive, Frame, Frames, Quadratic, Turn, Turning, WholeAngle};
+pub use irregularity::{Irregularity, Lead};
+pub use kinematics::{CageState, FramedKinematics, Kinematics, RingState};
+pub use layout::Layout;
+pub use model::Model;
+pub use raceway::{Ahead, Cells, Centred, DefectiveElement, Defects, Near, Raceway, SMOOTH, SurfaceDefect};
+pub use sensor_modes::SensorModes;
+pub use supports::{BODIES, Bodies, BodyMatrix, FEW_BODIES, SensorSupport, Support, Supports};
+
+pub(crate) use kinematics::Stage;
+pub(crate) use sensor_modes::StepEnds;
+
+pub(in crate::dynamics) use element_block::ElementBlock;
+pub(in crate::dynamics) use kinematics::{PathMotion, moved, prescribed_rate};

@@ -1,0 +1,280 @@
+//! The parameters of the equations of motion, worked out once from a scene.
+
+use super::drive::{Drive, Frame};
+use super::element_block::{ElementBlock, blocks};
+use super::film::Films;
+use super::irregularity::{Irregularity, Lead};
+use super::kinematics::CageState;
+use super::layout::Layout;
+use super::raceway::{Cells, DefectiveElement, Defects, Raceway};
+use super::sensor_modes::SensorModes;
+use super::supports::Supports;
+use crate::contact::law::{CompliantContact, smooth_laws};
+use crate::geometry::kinematics::Ratios;
+use crate::numerics::lanes::WIDEST;
+use crate::numerics::plane::{Vector, turned_by};
+use crate::numerics::sin_cos;
+use crate::scene::{Damping, ElementInertia, Ring, Scene};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// Parameters of the equations of motion.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// Number of elements Z.
+    pub element_count: usize,
+    /// Mass of one element (kg).
+    pub element_mass: f64,
+    /// 1/mass of one element (1/kg).
+    pub(in crate::dynamics) inverse_element_mass: f64,
+    /// Radius of one element (m).
+    pub element_radius: f64,
+    /// R_o − r (m), the distance ρ of an element that touches the smooth outer raceway.
+    pub outer_centre_radius: f64,
+    /// Radial clearance G_r (m) without oil films, which take some of it ([`Self::clearance`]).
+    pub radial_clearance: f64,
+    /// The inner raceway.
+    pub inner: Raceway,
+    /// The outer raceway.
+    pub outer: Raceway,
+    /// Elements with defects.
+    pub defective: Vec<DefectiveElement>,
+    /// Gravity on the elements (m/s²).
+    pub gravity: Vector,
+    /// The inner ring.
+    pub shaft: Ring,
+    /// The outer ring.
+    pub housing: Ring,
+    /// What holds rings and sensor.
+    pub supports: Supports,
+    /// What lies between the outer ring and the sensors.
+    pub sensor_modes: SensorModes,
+    /// Speeds of cage and elements per speed of the rings.
+    pub ratios: Ratios,
+    /// Layout of the state vector.
+    pub layout: Layout,
+    /// Whether the scene has a defect that contacts with the inner raceway meet, be it computed yet or not.
+    pub may_have_inner_defects: bool,
+    /// Angle of each element ahead of the cage (rad).
+    offsets: Vec<f64>,
+    /// How elements and cage run ahead and lag behind; `None` where each keeps its angle ahead of a cage that turns
+    /// evenly.
+    pub(super) irregularity: Option<Box<Irregularity>>,
+    /// Oil films; `None` for dry contacts.
+    pub films: Option<Box<Films>>,
+    /// The contacts with the raceways with their damping, of elements that are in balance without it at every instant;
+    /// `None` for elements with inertia, whose contacts are damped themselves.
+    pub(in crate::dynamics) dampers: Option<Box<[CompliantContact; 2]>>,
+    /// Whether any contact asks for the frames of defects: all but those of an outer ring that does not turn.
+    pub has_frames: bool,
+    /// What differs from element to element, eight at a time.
+    pub(in crate::dynamics) elements: Arc<[ElementBlock]>,
+}
+
+impl Model {
+    /// Works the parameters out. `defects` are those of the inner and of the outer raceway, under the scene's contact
+    /// law, and of `defective` elements.
+    pub fn new(scene: &Scene, [inner, outer]: [Defects; 2], defective: Vec<DefectiveElement>) -> Self {
+        let bearing = &scene.bearing;
+        let in_balance = bearing.element_inertia == ElementInertia::None;
+        let damped = smooth_laws(bearing, scene.contact.damping);
+        let dampers = in_balance.then(|| {
+            let [inner, outer] = damped.clone();
+            let compliance = bearing.outer_compliance;
+            Box::new([CompliantContact { law: inner, compliance: 0.0 }, CompliantContact { law: outer, compliance }])
+        });
+        let [inner_law, outer_law] = if in_balance { smooth_laws(bearing, Damping::HuntCrossley(0.0)) } else { damped };
+        let stiffness = [inner_law.stiffness, outer_law.stiffness];
+        let raceway = |law, compliance, defects| Raceway { contact: CompliantContact { law, compliance }, defects };
+        let element_radius = bearing.element_radius();
+        let (turns, layout) = (scene.turns(), Layout::new(scene));
+        let count = bearing.element_count;
+        let mut offsets: Vec<f64> = (0..count).map(|j| j as f64 * TAU / count as f64).collect();
+        if let Some(cage) = &scene.cage.irregularity {
+            offsets.iter_mut().zip(&cage.offsets).for_each(|(offset, by)| *offset += by);
+        }
+        let irregularity = scene.cage.irregularity.as_ref();
+        let irregularity =
+            irregularity.and_then(|cage| Irregularity::new(cage, count, scene.cage.initial_angle)).map(Box::new);
+        let has_frames = turns && !(inner.is_empty() && outer.is_empty() && defective.is_empty());
+        Self {
+            element_count: bearing.element_count,
+            element_mass: bearing.mass_of_element(),
+            inverse_element_mass: 1.0 / bearing.mass_of_element(),
+            element_radius,
+            outer_centre_radius: bearing.outer_raceway_radius() - element_radius,
+            radial_clearance: bearing.radial_clearance,
+            inner: raceway(inner_law, 0.0, inner),
+            outer: raceway(outer_law, bearing.outer_compliance, outer),
+            defective,
+            gravity: scene.gravity.into(),
+            shaft: scene.shaft,
+            housing: scene.housing,
+            supports: Supports::new(scene),
+            sensor_modes: SensorModes::new(scene, layout.sensors),
+            ratios: Ratios::new(bearing, scene.cage.slip, scene.cage.spin_slip),
+            layout,
+            may_have_inner_defects: scene.has_defect_inside(),
+            has_frames,
+            elements: blocks(&offsets, 1.0 / bearing.mass_of_element(), stiffness).into(),
+            offsets,
+            irregularity,
+            films: Films::of(scene).map(Box::new),
+            dampers,
+        }
+    }
+
+    /// The scene's model without its defects.
+    pub fn smooth(scene: &Scene) -> Self {
+        Self::new(scene, [Frame::Shaft, Frame::Housing].map(|frame| Defects::new(frame, [])), Vec::new())
+    }
+
+    /// Makes contacts near defects independent of what was computed before, rounding included.
+    pub fn forget_contacts(&self) {
+        self.all_defects().for_each(Defects::forget);
+    }
+
+    /// The defects of all bodies.
+    pub fn all_defects(&self) -> impl Iterator<Item = &Defects> {
+        [&self.inner.defects, &self.outer.defects]
+            .into_iter()
+            .chain(self.defective.iter().flat_map(|element| &element.defects))
+    }
+
+    /// Whether contacts near any defect are solved on grids inside the step.
+    pub fn solves_grids(&self) -> bool {
+        self.all_defects().flat_map(Defects::iter).any(|defect| defect.surface.solves_grids())
+    }
+
+    /// Whether the model has all of these cells.
+    pub fn has_cells(&self, cells: &Cells) -> bool {
+        let own = self.defective.iter().zip(&cells.own);
+        cells.inner.iter().all(|&cell| self.inner.defects.has_cell(cell))
+            && cells.outer.iter().all(|&cell| self.outer.defects.has_cell(cell))
+            && own.into_iter().all(|(own, cells)| own.defects.iter().zip(cells).all(|(on, &cell)| on.has_cell(cell)))
+    }
+
+    /// Number of contacts of elements with raceways.
+    pub fn contact_count(&self) -> usize {
+        2 * self.element_count
+    }
+
+    /// Whether what a defect meets depends on where the rings are, and not on time alone.
+    pub fn has_inner_defects(&self) -> bool {
+        !self.inner.defects.is_empty() || !self.defective.is_empty()
+    }
+
+    /// Whether passages over defects have to be found within steps: inside, and in an uneven cage everywhere.
+    pub fn watches_contacts(&self) -> bool {
+        self.has_inner_defects() || (self.is_uneven() && !self.outer.defects.is_empty())
+    }
+
+    /// Angle of element `j` (from 0) ahead of the cage (rad), but for what moves in it ([`lead`](Self::lead)).
+    pub fn element_offset(&self, j: usize) -> f64 {
+        self.offsets[j]
+    }
+
+    /// Whether elements are evenly spaced on a cage that turns evenly.
+    pub fn is_even(&self) -> bool {
+        self.irregularity.is_none()
+            && self.offsets.iter().enumerate().all(|(j, &offset)| offset == j as f64 * TAU / self.element_count as f64)
+    }
+
+    /// Whether elements move against each other on the cage, or the cage's speed wanders.
+    pub fn is_uneven(&self) -> bool {
+        self.irregularity.is_some()
+    }
+
+    /// Whether each element needs what the plain bearing of dry contacts in an even cage does not.
+    #[inline(always)]
+    pub(in crate::dynamics) fn is_special(&self) -> bool {
+        self.irregularity.is_some() || self.films.is_some() || self.dampers.is_some()
+    }
+
+    /// Whether elements are in radial balance at every instant, without inertia.
+    #[inline(always)]
+    pub fn elements_in_balance(&self) -> bool {
+        self.dampers.is_some()
+    }
+
+    /// Tells an uneven cage after how many turns the communication step of this drive begins, and oil films at what
+    /// speed.
+    #[inline(always)]
+    pub fn begin(&self, drive: &Drive) {
+        if let Some(uneven) = &self.irregularity {
+            uneven.begin(drive.cage_turns);
+        }
+        if let Some(films) = &self.films {
+            films.begin(drive.film_speed);
+        }
+    }
+
+    /// What element `j` is ahead of its position in a cage that turns evenly.
+    #[inline]
+    pub fn lead(&self, j: usize, cage: &CageState) -> Lead {
+        self.irregularity.as_ref().map_or(Lead::default(), |uneven| uneven.of_element(j, cage))
+    }
+
+    /// What the cage itself is ahead of one that turns evenly.
+    pub fn cage_lead(&self, cage: &CageState) -> Lead {
+        self.irregularity.as_ref().map_or(Lead::default(), |uneven| uneven.of_cage(cage))
+    }
+
+    /// Angle of element `j` about the outer ring's centre (rad).
+    #[inline(always)]
+    pub fn element_angle(&self, j: usize, cage: &CageState) -> f64 {
+        let angle = cage.angle + self.element_offset(j);
+        match &self.irregularity {
+            None => angle,
+            Some(uneven) => angle + uneven.angle_of_element(j, *cage),
+        }
+    }
+
+    /// Speed (rad/s) and acceleration (rad/s²) of element `j` about the outer ring's centre.
+    #[inline(always)]
+    pub fn element_speed(&self, j: usize, cage: &CageState) -> [f64; 2] {
+        match &self.irregularity {
+            None => [cage.speed, cage.acceleration],
+            Some(uneven) => uneven.speed_of_element(j, *cage),
+        }
+    }
+
+    /// Angle (rad) by which elements spin while the cage turns by `cage` (rad) and the rings as they must for it, the
+    /// outer one standing.
+    pub fn spin_with_cage(&self, cage: f64) -> f64 {
+        let Ratios { cage: [by_shaft, _], spin: [spin, _] } = self.ratios;
+        if by_shaft == 0.0 { 0.0 } else { cage / by_shaft * spin }
+    }
+
+    /// Angle χ (rad) by which the first defect of element `j` has turned from the direction of the element's centre,
+    /// for the angles of frames and that of the element; 0 where it faces the outer raceway, the turns since then
+    /// counted.
+    pub fn spin_angle(&self, j: usize, frames: &[f64; 3], element: f64) -> f64 {
+        let own = self.defective.iter().find(|defective| defective.element == j);
+        own.map_or(0.0, |own| own.mark) + frames[Frame::Spin as usize] - element
+    }
+
+    /// Radial direction of element `j`.
+    #[inline(always)]
+    pub(in crate::dynamics) fn direction(&self, j: usize, cage: &CageState) -> Vector {
+        let (sin, cos) = match &self.irregularity {
+            None => (self.elements[j / WIDEST].sin[j % WIDEST], self.elements[j / WIDEST].cos[j % WIDEST]),
+            Some(uneven) => uneven.direction_of_element(j, self.element_offset(j), *cage),
+        };
+        turned_by(cage.direction, sin, cos)
+    }
+
+    /// Puts where all elements of an uneven cage are at an instant, and how fast they go, into `elements`; nothing in
+    /// an even one.
+    #[inline(always)]
+    pub(in crate::dynamics) fn update_uneven(&self, drive: &Drive, cage: &CageState, elements: &mut [ElementBlock]) {
+        let Some(uneven) = &self.irregularity else { return };
+        uneven.begin(drive.cage_turns);
+        uneven.update_all(cage, elements);
+        for (block, offsets) in elements.iter_mut().zip(self.offsets.chunks(WIDEST)) {
+            for (i, &offset) in offsets.iter().enumerate() {
+                (block.sin[i], block.cos[i]) = sin_cos(offset + block.lead[i]);
+            }
+        }
+    }
+}

@@ -1,0 +1,290 @@
+//! A raceway as an element meets it, and the defects of a body: where they are, and how an element goes over them.
+//!
+//! A body that bears defects turns with its frame: the inner ring, the outer ring, or an element about its own axis.
+//! Around a defect the surface is cut at knots into cells, inside each of which the approach is smooth; a body's cells
+//! are counted through all of its defects. How the direction in which two bodies touch, frames, knots and cells belong
+//! together stands here and nowhere else. Angles are in radians, counter-clockwise; those from a defect's centre within
+//! half a turn.
+
+use super::drive::{Frame, Frames};
+use crate::contact::error::ContactError;
+use crate::contact::law::CompliantContact;
+use crate::contact::near_defect::{Approach, Lever, NearDefect};
+use crate::numerics::wrap;
+use std::f64::consts::TAU;
+
+/// Cell of a contact on smooth surfaces, away from any defect.
+pub const SMOOTH: u32 = u32::MAX;
+
+/// A raceway.
+#[derive(Debug, Clone)]
+pub struct Raceway {
+    /// Contact on its smooth part, which may yield.
+    pub contact: CompliantContact,
+    /// Its defects.
+    pub defects: Defects,
+}
+
+/// A rolling element with a defect, which meets both raceways in turn.
+#[derive(Debug, Clone)]
+pub struct DefectiveElement {
+    /// Number of the element, from 0.
+    pub element: usize,
+    /// Its defects in contact with the inner and with the outer raceway.
+    pub defects: [Defects; 2],
+    /// Angle of the centre of the first of them in contact with the outer raceway (rad), from which its spin is
+    /// counted.
+    pub mark: f64,
+}
+
+/// The defects of one body, as one contact meets them; no two of them are under one contact.
+#[derive(Debug, Clone)]
+pub struct Defects {
+    defects: Vec<SurfaceDefect>,
+    /// What they turn with.
+    pub frame: Frame,
+}
+
+/// The surface around a defect, and where on its body it is to be.
+#[derive(Debug, Clone)]
+pub struct Centred {
+    /// The surface under the scene's contact law.
+    pub surface: NearDefect,
+    /// Angle of the defect's centre (rad) in the body's frame.
+    pub centre: f64,
+}
+
+/// The surface around a defect on its body, among the others there.
+#[derive(Debug, Clone)]
+pub struct SurfaceDefect {
+    /// The surface under the scene's contact law.
+    pub surface: NearDefect,
+    /// Angle of the defect's centre (rad) in the body's frame.
+    pub centre: f64,
+    /// Number of its first cell.
+    first: u32,
+}
+
+/// The next knot on the way of a contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ahead {
+    /// Angle to it (rad); by rounding it may be a little below 0.
+    pub angle: f64,
+    /// The cell beyond it.
+    pub beyond: u32,
+}
+
+/// Approach near a defect, and the speed (rad/s) of the body that bears the defect.
+#[derive(Debug, Clone, Copy)]
+pub struct Near {
+    /// The approach; its angle is that of the contact against the body.
+    pub approach: Approach,
+    /// Speed of the body's frame (rad/s).
+    pub frame_speed: f64,
+    /// Which frame that is.
+    pub frame: Frame,
+}
+
+/// Cells in which all contacts are.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Cells {
+    /// Of the outer raceway, for each element.
+    pub outer: Vec<u32>,
+    /// Of the inner raceway, for each element.
+    pub inner: Vec<u32>,
+    /// Of each defective element, in contact with the inner and with the outer raceway.
+    pub own: Vec<[u32; 2]>,
+}
+
+impl Near {
+    /// An approach to a surface that turns with `frame`.
+    #[inline(always)]
+    pub fn new(approach: Approach, frame: Frame, frames: &Frames) -> Self {
+        Self { approach, frame_speed: frames.of(frame).speed, frame }
+    }
+
+    /// That of the smooth raceway at approach `u` (m).
+    pub fn smooth(u: f64) -> Self {
+        Self { approach: Approach::smooth(u), frame_speed: 0.0, frame: Frame::Housing }
+    }
+
+    /// No number at all: an integration that meets it takes the step back.
+    pub fn unsolved() -> Self {
+        Self { approach: Approach::unsolved(), frame_speed: 0.0, frame: Frame::Housing }
+    }
+}
+
+impl Cells {
+    /// All contacts of `count` elements, `own` of them defective, on smooth surfaces.
+    pub fn smooth(count: usize, own: usize) -> Self {
+        Self { outer: vec![SMOOTH; count], inner: vec![SMOOTH; count], own: vec![[SMOOTH; 2]; own] }
+    }
+
+    /// Each of them, in one fixed order.
+    pub fn iter(&self) -> impl Iterator<Item = &u32> {
+        self.outer.iter().chain(&self.inner).chain(self.own.as_flattened())
+    }
+
+    /// As [`iter`](Self::iter).
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut u32> {
+        self.outer.iter_mut().chain(&mut self.inner).chain(self.own.as_flattened_mut())
+    }
+
+    /// Copies the cells of another state of the same model; allocates nothing.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.outer.copy_from_slice(&other.outer);
+        self.inner.copy_from_slice(&other.inner);
+        self.own.copy_from_slice(&other.own);
+    }
+}
+
+impl Defects {
+    /// Defects of a body that turns with `frame`.
+    pub fn new(frame: Frame, surfaces: impl IntoIterator<Item = Centred>) -> Self {
+        let mut defects = Self { defects: Vec::new(), frame };
+        surfaces.into_iter().for_each(|one| defects.add(one));
+        defects
+    }
+
+    /// One more.
+    pub fn add(&mut self, Centred { surface, centre }: Centred) {
+        let first = self.defects.last().map_or(0, |last| last.first + last.cell_count());
+        self.defects.push(SurfaceDefect { surface, centre, first });
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.defects.is_empty()
+    }
+
+    /// Each of them.
+    pub fn iter(&self) -> impl Iterator<Item = &SurfaceDefect> {
+        self.defects.iter()
+    }
+
+    /// Number of knots of all of them.
+    pub fn knot_count(&self) -> usize {
+        self.defects.iter().map(|defect| defect.knots().len()).sum()
+    }
+
+    /// Whether there is such a cell.
+    pub fn has_cell(&self, cell: u32) -> bool {
+        cell == SMOOTH || self.defects.iter().any(|defect| defect.holds(cell))
+    }
+
+    /// Cell at a direction (rad) in the body's frame.
+    pub fn cell_at(&self, direction: f64) -> u32 {
+        self.defects
+            .iter()
+            .map(|defect| defect.cell_at(defect.angle(direction)))
+            .find(|&c| c != SMOOTH)
+            .unwrap_or(SMOOTH)
+    }
+
+    /// The knot that a contact in `cell` at a direction (rad) in the body's frame meets next, counter-clockwise if
+    /// `forward`. `None` without a defect.
+    pub fn ahead(&self, cell: u32, direction: f64, forward: bool) -> Option<Ahead> {
+        if cell != SMOOTH {
+            let defect = self.defects.iter().find(|defect| defect.holds(cell))?;
+            return Some(defect.ahead(cell, defect.angle(direction), forward));
+        }
+        let ahead = self.defects.iter().map(|defect| defect.ahead(SMOOTH, defect.angle(direction), forward));
+        ahead.reduce(|near, other| if other.angle < near.angle { other } else { near })
+    }
+
+    /// Approach in `cell`, which is not the smooth one, at the smooth approach `u` (m) and a direction (rad) against
+    /// the axes.
+    #[inline(always)]
+    pub fn approach(
+        &self,
+        cell: u32,
+        u: f64,
+        direction: f64,
+        frames: &Frames,
+        lever: Lever,
+    ) -> Result<Approach, ContactError> {
+        let Some(defect) = self.holding(cell) else { return Ok(Approach::smooth(u)) };
+        let angle = defect.angle(direction - frames.of(self.frame).angle);
+        defect.surface.approach((cell - defect.first) as usize, u, angle, lever)
+    }
+
+    /// The defect that a cell belongs to.
+    #[inline(always)]
+    fn holding(&self, cell: u32) -> Option<&SurfaceDefect> {
+        match &self.defects[..] {
+            [one] => Some(one),
+            several => several.iter().find(|defect| defect.holds(cell)),
+        }
+    }
+
+    /// Angle (rad) of a direction in the body's frame from the centre of the nearest defect, within half a turn; from
+    /// the frame's own axis without one.
+    pub fn angle(&self, direction: f64) -> f64 {
+        let angles = self.defects.iter().map(|defect| defect.angle(direction));
+        let nearest = angles.reduce(|near, other| if other.abs() < near.abs() { other } else { near });
+        nearest.unwrap_or_else(|| wrap(direction))
+    }
+
+    /// Makes contacts independent of what was computed before, rounding included.
+    pub fn forget(&self) {
+        for defect in &self.defects {
+            defect.surface.forget();
+        }
+    }
+}
+
+impl SurfaceDefect {
+    /// Angle from the centre of a direction (rad) in the body's frame.
+    #[inline]
+    pub fn angle(&self, direction: f64) -> f64 {
+        wrap(direction - self.centre)
+    }
+
+    /// Ends of the cells, ascending.
+    pub fn knots(&self) -> &[f64] {
+        self.surface.knots()
+    }
+
+    fn cell_count(&self) -> u32 {
+        self.knots().len() as u32 - 1
+    }
+
+    fn holds(&self, cell: u32) -> bool {
+        cell >= self.first && cell - self.first < self.cell_count()
+    }
+
+    /// Cell at an angle.
+    fn cell_at(&self, angle: f64) -> u32 {
+        let knots = self.knots();
+        match knots.partition_point(|&k| k <= angle) {
+            0 => SMOOTH,
+            above if above == knots.len() => SMOOTH,
+            above => self.first + (above - 1) as u32,
+        }
+    }
+
+    /// The knot that a contact in `cell`, one of this defect's or smooth, at `angle` meets next.
+    fn ahead(&self, cell: u32, angle: f64, forward: bool) -> Ahead {
+        let knots = self.knots();
+        let last = knots.len() - 1;
+        let (angle, beyond) = match (cell == SMOOTH, forward) {
+            (true, true) => (around(knots[0] - angle), self.first),
+            (true, false) => (around(angle - knots[last]), self.first + last as u32 - 1),
+            (false, true) => {
+                let next = cell - self.first + 1;
+                (knots[next as usize] - angle, if next as usize == last { SMOOTH } else { self.first + next })
+            }
+            (false, false) => {
+                let here = cell - self.first;
+                (angle - knots[here as usize], if here == 0 { SMOOTH } else { cell - 1 })
+            }
+        };
+        Ahead { angle, beyond }
+    }
+}
+
+/// An angle (rad) brought into [0, 2π); one that falls short of 0 by rounding is 0.
+fn around(angle: f64) -> f64 {
+    let within = angle.rem_euclid(TAU);
+    if within > TAU - 1e-9 { 0.0 } else { within }
+}

@@ -1,0 +1,80 @@
+//! How the rings of a model move: from the state where it has them, else as the host prescribes.
+
+use crate::dynamics::parameters::{
+    Cubic, Drive, FramedKinematics, Kinematics, Model, RingState, Stage, moved, prescribed_rate,
+};
+use crate::numerics::plane::Vector;
+use crate::scene::Motion;
+
+impl Model {
+    /// Cage and rings at `tau`.
+    pub fn kinematics(&self, drive: &Drive, tau: f64, state: &[f64]) -> FramedKinematics {
+        self.begin(drive);
+        let motion = self.kinematics_of(&Stage { drive, cage: &drive.cage_at(tau), state, ahead: None });
+        FramedKinematics { motion, frames: drive.frames_at(tau) }
+    }
+
+    /// As [`kinematics`](Self::kinematics), without the frames of defects.
+    #[inline(always)]
+    pub(in crate::dynamics) fn kinematics_of(&self, at: &Stage) -> Kinematics {
+        let Stage { drive, cage, state, ahead } = *at;
+        let (shaft, housing) = (self.shaft.motion, self.housing.motion);
+        Kinematics {
+            cage: *cage,
+            shaft: ring_state(self.layout.shaft, shaft, &drive.shaft, cage.tau, state, ahead),
+            housing: ring_state(self.layout.housing, housing, &drive.housing, cage.tau, state, ahead),
+        }
+    }
+
+    /// Position and velocity of the inner ring, wherever they come from.
+    #[inline(always)]
+    pub fn shaft_state(&self, drive: &Drive, tau: f64, state: &[f64]) -> RingState {
+        ring_state(self.layout.shaft, self.shaft.motion, &drive.shaft, tau, state, None)
+    }
+
+    /// Position and velocity of the outer ring, wherever they come from.
+    #[inline(always)]
+    pub fn housing_state(&self, drive: &Drive, tau: f64, state: &[f64]) -> RingState {
+        ring_state(self.layout.housing, self.housing.motion, &drive.housing, tau, state, None)
+    }
+
+    /// Velocity and acceleration of the inner and the outer ring, each in a [`RingState`] of rates: zero for a ring at
+    /// rest.
+    pub fn ring_rates(&self, drive: &Drive, tau: f64, derivative: &[f64]) -> [RingState; 2] {
+        [(self.layout.shaft, &drive.shaft), (self.layout.housing, &drive.housing)].map(
+            |(index, prescribed)| match index {
+                Some(i) => RingState {
+                    position: Vector::new(derivative[i], derivative[i + 1]),
+                    velocity: Vector::new(derivative[i + 2], derivative[i + 3]),
+                },
+                None => prescribed_rate(prescribed, tau),
+            },
+        )
+    }
+}
+
+#[inline(always)]
+fn ring_state(
+    index: Option<usize>,
+    motion: Motion,
+    prescribed: &[Cubic; 2],
+    tau: f64,
+    state: &[f64],
+    ahead: Option<f64>,
+) -> RingState {
+    match (index, motion) {
+        (Some(i), _) => {
+            let velocity = Vector::new(state[i + 2], state[i + 3]);
+            let position = Vector::new(moved(state[i], velocity.x, ahead), moved(state[i + 1], velocity.y, ahead));
+            RingState { position, velocity }
+        }
+        (None, Motion::Host) => {
+            let [x, y] = prescribed;
+            RingState {
+                position: Vector::new(x.at(tau), y.at(tau)),
+                velocity: Vector::new(x.rate_at(tau), y.rate_at(tau)),
+            }
+        }
+        _ => RingState::default(),
+    }
+}

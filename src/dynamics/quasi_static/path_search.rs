@@ -1,0 +1,55 @@
+//! The search for the path at which an element is in radial balance.
+
+use crate::dynamics::derivatives::{Linearized, RadialForce};
+use crate::dynamics::parameters::Model;
+
+/// Longest of Newton's steps (m).
+const LONGEST_STEP: f64 = 50e-6;
+/// Longest way at once where nothing brackets the balance (m).
+const LONGEST_STRIDE: f64 = 1.0;
+
+/// Newton's method within the bracket that the signs of the force give, which falls as the path grows; where it would
+/// leave that or leap, halving, or as long as there is no bracket walking on to where the element is pushed.
+pub(in crate::dynamics) struct PathSearch {
+    low: f64,
+    high: f64,
+    /// Length of the last step of a walk (m); each next one is twice as long.
+    stride: f64,
+}
+
+impl PathSearch {
+    /// A search between these paths (m); `stride`: half the first step of a walk (m).
+    pub(in crate::dynamics) fn between(low: f64, high: f64, stride: f64) -> Self {
+        Self { low, high, stride }
+    }
+
+    /// Where to look after path `u` (m), at which the element is pushed outwards with `force` (N) and Newton's method
+    /// goes to `newton` (m); nowhere if no number is left between the brackets, or none within a metre.
+    pub(in crate::dynamics) fn next(&mut self, u: f64, force: f64, newton: f64) -> Option<f64> {
+        if force > 0.0 {
+            self.low = u
+        } else {
+            self.high = u
+        }
+        let Self { low, high, .. } = *self;
+        let next = if newton > low && newton < high && (newton - u).abs() < LONGEST_STEP {
+            newton
+        } else if low.is_finite() && high.is_finite() {
+            0.5 * (low + high)
+        } else {
+            self.stride *= 2.0;
+            if force > 0.0 { u + self.stride } else { u - self.stride }
+        };
+        (next > low && next < high && self.stride <= LONGEST_STRIDE).then_some(next)
+    }
+}
+
+impl Model {
+    /// As [`Model::radial_balance`], where contacts need not have an answer: an inner contact too deep for its law
+    /// pushes outwards, whatever its force. One outside is taken for one that pushes inwards: no number is not above 0.
+    pub(in crate::dynamics) fn radial_push(&self, element: &Linearized) -> RadialForce {
+        let RadialForce { force, slope } = self.radial_balance(element);
+        let too_deep = element.inner.x.is_nan() && !element.outer.x.is_nan();
+        RadialForce { force: if too_deep { f64::INFINITY } else { force }, slope }
+    }
+}

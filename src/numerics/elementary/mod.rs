@@ -1,0 +1,5 @@
+//! Elementary functions with equal bits on every machine, where the standard library's may differ.
+
+pub mod elliptic;
+pub(in crate::numerics) mod ninth_root;
+pub(in crate::numerics) mod power;

@@ -1,0 +1,88 @@
+//! What a step that cannot be taken fails of: told by the state, the contact or the ring that it begins with, not by
+//! what follows from it.
+
+use super::progress::Progress;
+use super::workspace::{Problem, Span, Workspace};
+use crate::dynamics::contacts::UnsolvedContact;
+use crate::dynamics::parameters::{Layout, Model};
+use crate::simulation::integration::methods::{Pair, explicit, rodas};
+use crate::simulation::step_error::{SMALLEST_STEP, StepError};
+
+/// Whether a step shorter than the one of length `h` that failed is still worth trying.
+pub(super) fn check_step(
+    workspace: &mut Workspace,
+    problem: Problem,
+    span: Span,
+    error: f64,
+    progress: &Progress,
+) -> Result<(), StepError> {
+    let (Problem { model, .. }, since) = (problem, span.from);
+    // A step must move time: late in a long communication step its last digit is the limit.
+    let (step, limit) = (progress.next_step, SMALLEST_STEP.max(4.0 * f64::EPSILON * since));
+    if step >= limit {
+        return Ok(());
+    }
+    if error.is_finite() {
+        let component = worst(workspace, model, span.length, progress.choice.implicit, workspace.pair);
+        return Err(StepError::Underflow { step, limit, since, component });
+    }
+    // Rings that the host has moved apart say more than what follows from it.
+    check_rings(problem, span.end(), progress)?;
+    if let Some(UnsolvedContact { element, angle, offset, cause }) = workspace.forces.unsolved.take() {
+        let (element, angle_deg) = (element + 1, angle.to_degrees());
+        return Err(StepError::Contact { element, angle_deg, offset, since, cause });
+    }
+    Err(diverging(workspace, problem, span, step, progress))
+}
+
+/// What changes fastest where no step of length `h` has a finite end: at its start, or in Euler's step on, where
+/// all rates are finite there too. Behind that each number that is none makes others so, and which was the
+/// first cannot be told.
+fn diverging(workspace: &mut Workspace, problem: Problem, span: Span, step: f64, progress: &Progress) -> StepError {
+    let (Problem { model, drive }, Span { from: since, length: h }) = (problem, span);
+    let Workspace { room, forces, dense, scratch, weights, .. } = workspace;
+    let rates = &mut room.first;
+    model.derivative(drive, since, &progress.cells, &progress.state, rates, forces);
+    for (i, value) in dense.iter_mut().enumerate() {
+        *value = progress.state[i] + h * rates[i];
+    }
+    model.derivative(drive, since + h, &progress.cells, dense, scratch, forces);
+    let finite = |i: usize| scratch[i].is_finite();
+    let rates: &[f64] = if (0..scratch.len()).all(finite) { scratch } else { rates };
+    let fastest = first_largest(&model.layout, |i| weights[i] * rates[i]);
+    let (component, value) = (model.layout.name(fastest), progress.state[fastest]);
+    StepError::NotFinite { component, value, rate: rates[fastest], step, since }
+}
+
+/// Name of the state with the largest error in the step tried last, whose length was `h`; tried by the implicit method
+/// or, explicitly, by this pair.
+pub(super) fn worst(workspace: &Workspace, model: &Model, h: f64, implicit: bool, pair: Pair) -> String {
+    let error = |i: usize| {
+        let room = &workspace.room;
+        if implicit { rodas::error(room, i) } else { explicit::error(room, pair.error_parts(), i, h) }
+    };
+    model.layout.name(first_largest(&model.layout, |i| workspace.weights[i] * error(i)))
+}
+
+/// The state at which `size` is the largest; what is no number is larger than any.
+fn first_largest(layout: &Layout, size: impl Fn(usize) -> f64) -> usize {
+    let larger = |i: usize, than: usize| {
+        let (one, other) = (size(i).abs(), size(than).abs());
+        one > other || one.is_nan() && !other.is_nan()
+    };
+    let states = (0..layout.len).filter(|&i| layout.is_integrated(i));
+    states.fold(0, |largest, i| if larger(i, largest) { i } else { largest })
+}
+
+/// Beyond an element's radius the rings are beside each other, and a contact that is not a number would push nothing.
+pub(super) fn check_rings(problem: Problem, tau: f64, progress: &Progress) -> Result<(), StepError> {
+    let Problem { model, drive } = problem;
+    let shaft = model.shaft_state(drive, tau, &progress.state).position;
+    let housing = model.housing_state(drive, tau, &progress.state).position;
+    let (apart, limit) = (housing - shaft, model.element_radius);
+    if apart.norm_squared() <= limit * limit {
+        return Ok(());
+    }
+    let offset = libm::hypot(apart.x, apart.y);
+    Err(StepError::RingsApart { offset, limit, shaft: shaft.into(), housing: housing.into(), since: tau })
+}

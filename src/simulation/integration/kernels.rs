@@ -1,0 +1,199 @@
+//! What runs in wide registers within a step: all stages of a trial, and a probe of the step tried last.
+
+use super::progress::Progress;
+use super::workspace::{Problem, Span, Workspace};
+use crate::dynamics::contacts::Forces;
+use crate::dynamics::derivatives::Jacobian;
+use crate::dynamics::motion::Known;
+use crate::dynamics::parameters::{CageState, Drive, Model, Stage};
+use crate::numerics::lanes::{Kernel, Wide, dispatch};
+use crate::simulation::integration::methods::{
+    Arrow, LAST, Pair, RightHandSide, Room, dormand_prince, largest_error, rodas,
+};
+
+/// Tries one step with the method that is chosen, and leaves what error control asks of it.
+pub(super) fn try_step(workspace: &mut Workspace, problem: Problem, span: Span, progress: &Progress) {
+    if progress.choice.implicit {
+        workspace.linearize(problem, span.from, progress);
+        workspace.arrow.factor(&workspace.jacobian, 1.0 / (rodas::GAMMA * span.length));
+    }
+    dispatch(Trial { workspace, problem, span, progress });
+}
+
+/// Leaves the state at a share of the step tried last in `dense`, its derivative in `scratch`, and all forces there.
+pub(super) fn probe(workspace: &mut Workspace, problem: Problem, span: Span, share: f64, progress: &Progress) {
+    dispatch(Probe { workspace, problem, span, share, progress });
+}
+
+/// A step, all stages.
+struct Trial<'a> {
+    workspace: &'a mut Workspace,
+    problem: Problem<'a>,
+    span: Span,
+    progress: &'a Progress,
+}
+
+impl Kernel for Trial<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Wide>(self, simd: S) {
+        let Self { workspace, problem, span, progress } = self;
+        if progress.choice.implicit {
+            implicit(simd, workspace, problem, span, progress);
+        } else {
+            explicit(simd, workspace, problem, span, progress);
+        }
+        let Workspace { room, forces, .. } = &mut *workspace;
+        forces.settle(problem.model, &mut room.end);
+        workspace.last_force = workspace.forces.rings;
+        workspace.largest_approach = workspace.forces.largest_approach_on(simd);
+        workspace.changed = workspace.forces.pushing_differs_on(simd, &progress.pushing);
+    }
+}
+
+#[inline(always)]
+fn explicit<S: Wide>(simd: S, workspace: &mut Workspace, problem: Problem, span: Span, progress: &Progress) {
+    match workspace.pair {
+        Pair::DormandPrince => explicit_step(simd, Pair::DormandPrince, workspace, problem, span, progress),
+        Pair::PhaseFitted => explicit_step(simd, Pair::PhaseFitted, workspace, problem, span, progress),
+    }
+}
+
+/// Inlined for each method of its own.
+#[inline(always)]
+fn explicit_step<S: Wide>(
+    simd: S,
+    pair: Pair,
+    workspace: &mut Workspace,
+    problem: Problem,
+    span: Span,
+    progress: &Progress,
+) {
+    let (Problem { model, drive }, Span { from, length: h }) = (problem, span);
+    let weights = pair.weights();
+    let sum = workspace.first_force.map(|force| weights[0] * force);
+    let cages = drive.cage_after(from, pair.nodes().map(|node| node * h));
+    let mut stages = Stages { model, drive, cages, weights, forces: &mut workspace.forces, sum };
+    pair.try_step(simd, &mut workspace.room, &progress.state, h, &mut stages);
+    workspace.weighted_force = stages.sum;
+    workspace.largest_error = largest_error(simd, &workspace.room, pair.error_parts(), h, &workspace.weights);
+}
+
+#[inline(always)]
+fn implicit<S: Wide>(simd: S, workspace: &mut Workspace, problem: Problem, span: Span, progress: &Progress) {
+    let (Problem { model, drive }, Span { from, length: h }) = (problem, span);
+    let Workspace { room, forces, jacobian, arrow, by_time, largest_error, weights, .. } = workspace;
+    let cages = drive.cage_after(from, rodas::NODES.map(|node| node * h));
+    let mut system = System { model, drive, cages, forces, jacobian, arrow };
+    rodas::try_step(simd, room, &progress.state, by_time, h, &mut system);
+    *largest_error = rodas::largest_error(room, weights);
+    let Room { end, last, .. } = room;
+    let stage = Stage { drive, cage: &cages[rodas::NODES.len() - 1], state: end, ahead: None };
+    model.derivative_on::<S, true>(simd, &stage, last, forces);
+}
+
+/// The state at a share of the step tried last, its derivative, and each contact there.
+struct Probe<'a> {
+    workspace: &'a mut Workspace,
+    problem: Problem<'a>,
+    span: Span,
+    share: f64,
+    progress: &'a Progress,
+}
+
+impl Kernel for Probe<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Wide>(self, simd: S) {
+        let Self { workspace, problem: Problem { model, drive }, span: Span { from, length: h }, share, progress } =
+            self;
+        let Workspace { room, forces, dense, scratch, pair, .. } = workspace;
+        let cage = drive.cage_at(from + share * h);
+        match pair {
+            _ if progress.choice.implicit => rodas::dense(simd, room, &progress.state, share, dense),
+            Pair::DormandPrince => dormand_prince::dense(simd, room, &progress.state, h, share, dense),
+            Pair::PhaseFitted => {
+                let start = Known { cage: drive.cage_at(from), state: &progress.state, derivative: &room.first };
+                let end = Known { cage: drive.cage_at(from + h), state: &room.end, derivative: &room.last };
+                model.dense_output(drive, [start, end], h, share, &cage, dense);
+            }
+        }
+        model.derivative_on::<S, true>(simd, &Stage { drive, cage: &cage, state: dense, ahead: None }, scratch, forces);
+        forces.settle(model, dense);
+    }
+}
+
+/// The equations of motion and their linear systems during one implicit step.
+struct System<'a> {
+    model: &'a Model,
+    drive: &'a Drive,
+    cages: [CageState; 8],
+    forces: &'a mut Forces,
+    jacobian: &'a Jacobian,
+    arrow: &'a Arrow,
+}
+
+impl rodas::System for System<'_> {
+    #[inline(always)]
+    fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: &[f64], out: &mut [f64]) {
+        let stage = Stage { drive: self.drive, cage: &self.cages[stage], state, ahead: None };
+        self.model.derivative_on::<S, false>(simd, &stage, out, self.forces);
+    }
+
+    fn solve(&self, b: &mut [f64]) {
+        self.arrow.solve(self.jacobian, b);
+    }
+}
+
+/// The equations of motion during one explicit step, and what the stages add up to.
+struct Stages<'a> {
+    model: &'a Model,
+    drive: &'a Drive,
+    /// Those of the first stages; the last two are at the same time.
+    cages: [CageState; LAST],
+    /// Weights of the stages.
+    weights: [f64; LAST],
+    forces: &'a mut Forces,
+    /// Sum of weight × ring force.
+    sum: [f64; 4],
+}
+
+impl RightHandSide for Stages<'_> {
+    #[inline(always)]
+    fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: &[f64], ahead: Option<f64>, out: &mut [f64]) {
+        let (model, forces) = (self.model, &mut *self.forces);
+        let at = Stage { drive: self.drive, cage: &self.cages[stage.min(LAST - 1)], state, ahead };
+        match ahead {
+            None if stage == LAST => return simd.outlined(Evaluation::<true, false> { model, at, out, forces }),
+            None => simd.outlined(Evaluation::<false, false> { model, at, out, forces: &mut *forces }),
+            Some(_) => simd.outlined(Evaluation::<false, true> { model, at, out, forces: &mut *forces }),
+        }
+        for (sum, force) in self.sum.iter_mut().zip(forces.rings) {
+            *sum += self.weights[stage] * force;
+        }
+    }
+}
+
+/// One evaluation of the right-hand side, each contact kept if `RECORD`; if `AHEAD`, with positions that are still to
+/// be moved on by a time (s). Each is a function of its own: a step that has all of its stages written out is longer
+/// than what a processor keeps decoded.
+struct Evaluation<'a, const RECORD: bool, const AHEAD: bool> {
+    model: &'a Model,
+    at: Stage<'a>,
+    out: &'a mut [f64],
+    forces: &'a mut Forces,
+}
+
+impl<const RECORD: bool, const AHEAD: bool> Kernel for Evaluation<'_, RECORD, AHEAD> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Wide>(self, simd: S) {
+        let Self { model, at, out, forces } = self;
+        // Known when this is compiled, so that each kind is a function without the other's work.
+        let ahead = if AHEAD { Some(at.ahead.unwrap_or(0.0)) } else { None };
+        model.derivative_on::<S, RECORD>(simd, &Stage { ahead, ..at }, out, forces);
+    }
+}

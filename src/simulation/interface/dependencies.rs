@@ -1,0 +1,136 @@
+//! Which output depends on which input or parameter, at a communication point and at the start.
+//!
+//! At a communication point only what feeds through without a step counts: states do not follow inputs at once, forces
+//! follow prescribed motion. At the start the static equilibrium ties forces, positions and paths to every load and
+//! every motion that is given; but rings are at rest whatever the inputs are, and what only matters in motion does not
+//! enter.
+
+use super::quantity::{Input, Parameter, Quantity as Q, RingName};
+use crate::scene::{DefectOn, ElementInertia, Motion, Scene};
+use crate::simulation::interface::table::{Causality, Dependencies, Variable};
+
+/// The dependencies of all outputs, in the order of the table.
+pub(in crate::simulation) fn of(table: &[Variable], quantities: &[Q], scene: &Scene) -> Vec<Dependencies> {
+    let rows = || table.iter().zip(quantities);
+    let known = |variable: &Variable| matches!(variable.causality, Causality::Input | Causality::Parameter);
+    let knowns: Vec<_> = rows().filter(|(variable, _)| known(variable)).collect();
+    let defect = scene.defects.iter().any(|defect| defect.on != DefectOn::Inner);
+    rows()
+        .filter(|(variable, _)| variable.causality == Causality::Output)
+        .map(|(variable, &output)| {
+            let listed = |depends: &dyn Fn(&Variable, Q) -> bool| {
+                knowns.iter().filter(|(known, quantity)| depends(known, **quantity)).map(|(v, _)| v.reference).collect()
+            };
+            Dependencies {
+                output: variable.reference,
+                direct: listed(&|known, quantity| {
+                    let input = quantity.as_input().filter(|_| known.causality == Causality::Input);
+                    input.is_some_and(|input| follows(output, input, defect, scene))
+                }),
+                initial: listed(&|_, quantity| starts_from(output, quantity, scene)),
+            }
+        })
+        .collect()
+}
+
+/// Whether an output follows an input at the same instant.
+fn follows(output: Q, input: Input, defect: bool, scene: &Scene) -> bool {
+    use RingName::{Housing, Shaft};
+    let (position, velocity, speed) = match input {
+        Input::Position(..) => (true, false, false),
+        Input::Velocity(..) => (false, true, false),
+        Input::Speed(_) => (false, false, true),
+        Input::Load(..) | Input::Acceleration(..) => (false, false, false),
+    };
+    // Inner contacts see both rings, and the cage speed through the rate of approach.
+    let inner = position || velocity || speed;
+    // Outer contacts see the path, which is measured from the outer ring, and its rate. An element in balance hands on
+    // at once what either ring does.
+    let balanced = scene.bearing.element_inertia == ElementInertia::None;
+    let outer = if balanced { inner } else { matches!(input, Input::Velocity(Housing, _)) || (defect && speed) };
+    match output {
+        Q::Force(Shaft, _) | Q::ElementInnerForce(_) => inner,
+        Q::Force(Housing, _) | Q::ElementOuterForce(_) => outer,
+        Q::Acceleration(Shaft, axis) => inner || input == Input::Load(Shaft, axis),
+        Q::Acceleration(Housing, axis) => outer || input == Input::Load(Housing, axis),
+        Q::Stiffness(..) => position,
+        // Through its spring and damper, along its direction.
+        Q::SensorAcceleration(k) => match input {
+            Input::Position(Housing, axis) | Input::Velocity(Housing, axis) => {
+                scene.housing.motion == Motion::Host && scene.sensors[k].unit()[axis] != 0.0
+            }
+            Input::Position(Shaft, _) | Input::Velocity(Shaft, _) => false,
+            Input::Speed(_) | Input::Load(..) | Input::Acceleration(..) => false,
+        },
+        // The host's own positions; those of the state follow no input at once.
+        Q::Probe(axis) => matches!(input, Input::Position(_, along) if along == axis),
+        Q::CageSpeed => speed,
+        // Tangential parts of the inner contacts, and the elements' inertia as the outer ring accelerates.
+        Q::CageTorque => inner || matches!(input, Input::Acceleration(Housing, _) | Input::Load(Housing, _)),
+        Q::ShaftTorque => inner,
+        // With inertia it is a state.
+        Q::ElementPath(_) => balanced && (position || speed),
+        // States follow no input at once, and a mean is of the step before.
+        Q::Position(..)
+        | Q::Velocity(..)
+        | Q::MeanForce(..)
+        | Q::CageAngle
+        | Q::ElementAngle(_)
+        | Q::RingAngle(_)
+        | Q::ElementSpinAngle(_) => false,
+        Q::Speed(_) | Q::Load(..) | Q::Count(_) | Q::Parameter(_) => false,
+    }
+}
+
+/// Whether an output depends on an input or a parameter in initialization mode.
+fn starts_from(output: Q, known: Q, scene: &Scene) -> bool {
+    match output {
+        Q::CageAngle | Q::ElementAngle(_) => known == Q::Parameter(Parameter::CageInitialAngle),
+        Q::RingAngle(ring) => known == Q::Parameter(Parameter::RingInitialAngle(ring)),
+        Q::ElementSpinAngle(j) => match known {
+            Q::Parameter(Parameter::DefectAngle(index)) => scene.first_defect_of(j) == Some(index),
+            _ => false,
+        },
+        Q::CageSpeed => matches!(known, Q::Speed(_) | Q::Parameter(Parameter::CageSlip)),
+        // At rest.
+        Q::Velocity(..) | Q::Acceleration(..) | Q::SensorAcceleration(_) => false,
+        Q::Position(..)
+        | Q::Force(..)
+        | Q::MeanForce(..)
+        | Q::Stiffness(..)
+        | Q::Probe(_)
+        | Q::CageTorque
+        | Q::ShaftTorque
+        | Q::ElementPath(_)
+        | Q::ElementInnerForce(_)
+        | Q::ElementOuterForce(_)
+        | Q::Speed(_)
+        | Q::Load(..)
+        | Q::Count(_)
+        | Q::Parameter(_) => match (known, known.as_input()) {
+            (Q::Parameter(parameter), _) => balances(parameter),
+            // Only the cage's torque knows that a prescribed outer ring accelerates.
+            (_, Some(Input::Acceleration(RingName::Housing, _))) => output == Q::CageTorque,
+            (_, Some(Input::Acceleration(RingName::Shaft, _))) => false,
+            (_, Some(Input::Speed(_) | Input::Load(..) | Input::Position(..) | Input::Velocity(..))) => true,
+            (_, None) => false,
+        },
+    }
+}
+
+/// Whether the static equilibrium depends on a parameter.
+fn balances(parameter: Parameter) -> bool {
+    match parameter {
+        // Tolerance and recorder are of steps; masses and dampers of rings matter in motion.
+        Parameter::Tolerance | Parameter::RecorderFolder | Parameter::RingMass(_) | Parameter::RingDamping(_) => false,
+        Parameter::RadialClearance
+        | Parameter::ContactDamping
+        | Parameter::ContactLaw
+        | Parameter::CageSlip
+        | Parameter::CageInitialAngle
+        | Parameter::RingInitialAngle(_)
+        | Parameter::SpinSlip
+        | Parameter::DefectAngle(_)
+        | Parameter::RingStiffness(_) => true,
+    }
+}

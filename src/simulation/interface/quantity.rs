@@ -1,0 +1,143 @@
+//! What a variable stands for in the model, apart from its name.
+
+use crate::dynamics::parameters::Frame;
+
+/// One of the two rings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RingName {
+    /// The inner ring.
+    Shaft,
+    /// The outer ring.
+    Housing,
+}
+
+impl RingName {
+    /// Position in lists of both rings, the inner one first.
+    pub(in crate::simulation) fn index(self) -> usize {
+        match self {
+            Self::Shaft => 0,
+            Self::Housing => 1,
+        }
+    }
+
+    /// The frame of its defects.
+    pub(in crate::simulation) fn frame(self) -> Frame {
+        match self {
+            Self::Shaft => Frame::Shaft,
+            Self::Housing => Frame::Housing,
+        }
+    }
+}
+
+/// What a variable stands for in the model. `usize` arguments are the axis (0 is x, 1 is y) or the element (from 0).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Quantity {
+    Speed(RingName),
+    RingAngle(RingName),
+    ShaftTorque,
+    Load(RingName, usize),
+    Position(RingName, usize),
+    Velocity(RingName, usize),
+    Acceleration(RingName, usize),
+    Force(RingName, usize),
+    MeanForce(RingName, usize),
+    Stiffness(usize, usize),
+    SensorAcceleration(usize),
+    /// Displacement of the inner ring against the outer along an axis.
+    Probe(usize),
+    CageAngle,
+    CageSpeed,
+    CageTorque,
+    ElementAngle(usize),
+    ElementPath(usize),
+    ElementInnerForce(usize),
+    ElementOuterForce(usize),
+    ElementSpinAngle(usize),
+    Count(Count),
+    Parameter(Parameter),
+}
+
+/// What a host moves or loads the bearing with. `usize` is the axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::simulation) enum Input {
+    Speed(RingName),
+    Load(RingName, usize),
+    Position(RingName, usize),
+    Velocity(RingName, usize),
+    Acceleration(RingName, usize),
+}
+
+/// What the solver counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Count {
+    Steps,
+    RejectedSteps,
+    ContactSolves,
+    MapLookups,
+}
+
+/// What a host may set before the start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Parameter {
+    RadialClearance,
+    ContactDamping,
+    ContactLaw,
+    CageSlip,
+    CageInitialAngle,
+    RingInitialAngle(RingName),
+    SpinSlip,
+    DefectAngle(usize),
+    RingMass(RingName),
+    RingDamping(RingName),
+    RingStiffness(RingName),
+    Tolerance,
+    RecorderFolder,
+}
+
+impl Quantity {
+    /// The quantity as an input, if it can be one.
+    pub(in crate::simulation) fn as_input(self) -> Option<Input> {
+        match self {
+            Self::Speed(ring) => Some(Input::Speed(ring)),
+            Self::Load(ring, axis) => Some(Input::Load(ring, axis)),
+            Self::Position(ring, axis) => Some(Input::Position(ring, axis)),
+            Self::Velocity(ring, axis) => Some(Input::Velocity(ring, axis)),
+            Self::Acceleration(ring, axis) => Some(Input::Acceleration(ring, axis)),
+            Self::RingAngle(_)
+            | Self::ShaftTorque
+            | Self::Force(..)
+            | Self::MeanForce(..)
+            | Self::Stiffness(..)
+            | Self::SensorAcceleration(_)
+            | Self::Probe(_)
+            | Self::CageAngle
+            | Self::CageSpeed
+            | Self::CageTorque
+            | Self::ElementAngle(_)
+            | Self::ElementPath(_)
+            | Self::ElementInnerForce(_)
+            | Self::ElementOuterForce(_)
+            | Self::ElementSpinAngle(_)
+            | Self::Count(_)
+            | Self::Parameter(_) => None,
+        }
+    }
+}
+
+impl Input {
+    /// Highest order of the derivatives by time that act, and how the input's description says so.
+    ///
+    /// What would make a higher polynomial than [`Drive`](crate::dynamics::parameters::Drive) has is refused: the
+    /// cage's angle is a quadratic, so that the instants at which elements pass knots are roots of one.
+    pub(in crate::simulation) fn derivatives(self) -> (i32, &'static str) {
+        match self {
+            Self::Position(..) => (2, "derivatives of orders 1 and 2 act, in place of velocity and acceleration"),
+            Self::Velocity(..) => (2, "derivatives of orders 1 and 2 act, in place of acceleration and its derivative"),
+            Self::Load(..) => (2, "derivatives of orders 1 and 2 act"),
+            Self::Speed(_) | Self::Acceleration(..) => (1, "derivative of order 1 acts"),
+        }
+    }
+}

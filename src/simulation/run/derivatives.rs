@@ -1,0 +1,317 @@
+//! Derivatives of outputs: by inputs, and by time.
+//!
+//! *By inputs at a communication point* a derivative is what a host sees when it sets an input and reads an output
+//! without a step between: states stay, and only what feeds through directly moves. *In initialization mode* the output
+//! is that of the static equilibrium, which moves with the input; rings at rest stay at rest. Cage angles follow no
+//! input in either case.
+//!
+//! *By time* an output changes with the states' derivatives, the cage angle and the inputs, which go on as they would
+//! in the next step: prescribed rings by their velocity and acceleration, loads and speed by the derivatives set for
+//! them.
+//!
+//! All follow from the first-order change of [`crate::dynamics::derivatives::variation`]. Means over the last step and
+//! counts of the solver change with nothing until the next step.
+
+use super::values::{out_of_range, wrong_type};
+use crate::dynamics::derivatives::stacked;
+use crate::dynamics::parameters::{CageState, Drive, Frame, Kinematics, Lead};
+use crate::numerics::plane::Vector;
+use crate::simulation::interface::table::{Causality, Kind, Variable};
+use crate::simulation::interface::{Change, Input, Quantity, RingName, access};
+use crate::simulation::{Simulation, SimulationError, VariableError};
+
+impl Simulation {
+    /// Derivatives by time of real outputs at the present time; of order 1.
+    ///
+    /// # Errors
+    /// Before `initialize`; another order; a variable that is no real output.
+    pub fn output_derivatives(
+        &mut self,
+        references: &[u32],
+        orders: &[i32],
+        values: &mut [f64],
+    ) -> Result<(), SimulationError> {
+        for (&reference, &order) in references.iter().zip(orders) {
+            let variable = self.unknown(reference)?;
+            if order != 1 {
+                let name = variable.name.clone();
+                return Err(VariableError::OutputDerivative { name, order }.into());
+            }
+        }
+        if !self.state.started {
+            return Err(SimulationError::NotInitialized);
+        }
+        self.refresh()?;
+        let drive = self.drive(true);
+        self.model.forget_contacts();
+        let progress = &self.state.progress;
+        self.model.derivative(&drive, 0.0, &progress.cells, &progress.state, &mut self.derivative, &mut self.forces);
+        self.along_time(&drive);
+        self.finish_change(references);
+        for (value, &reference) in values.iter_mut().zip(references) {
+            *value = self.changed(self.quantities[reference as usize]);
+        }
+        Ok(())
+    }
+
+    /// The change of `unknowns`, real outputs, for a change `seed` of `knowns`, real inputs, to first order.
+    /// ```
+    /// use brinell::scene::{Bearing, Scene};
+    /// use crate::simulation::Simulation;
+    ///
+    /// let bearing = Bearing::steel_balls(9, 7.94e-3, 39.04e-3);
+    /// let scene = Scene::builder(bearing).shaft_speed(157.1).shaft_load([0.0, -1500.0]).build()?;
+    /// let mut simulation = Simulation::new(scene, None)?;
+    /// simulation.initialize(0.0)?;
+    /// // What the load does to the ring's acceleration at once: 1/m.
+    /// let (load, acceleration) = (simulation.reference("shaft.load.y")?, simulation.reference("shaft.ay")?);
+    /// let mut change = [0.0];
+    /// simulation.directional_derivative(&[acceleration], &[load], &[1.0], &mut change)?;
+    /// assert!((change[0] * simulation.get("shaft.mass")? - 1.0).abs() < 1e-12);
+    /// # Ok::<(), brinell::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Variables of another kind; before `initialize` also an equilibrium that does not exist or has no derivative.
+    pub fn directional_derivative(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+        values: &mut [f64],
+    ) -> Result<(), SimulationError> {
+        for &reference in unknowns {
+            self.unknown(reference)?;
+        }
+        for (&reference, &value) in knowns.iter().zip(seed) {
+            let variable = self.variable(reference)?;
+            if access::classes(&self.access, &[reference]) != Some(access::INPUT) {
+                return Err(VariableError::NotAKnown { name: variable.name.clone() }.into());
+            }
+            if !value.is_finite() {
+                return Err(out_of_range(variable, value, f64::MIN, f64::MAX).into());
+            }
+        }
+        self.refresh()?;
+        self.model.forget_contacts();
+        self.along_inputs(knowns, seed);
+        if !self.state.started {
+            let drive = self.drive(false);
+            let (progress, loads) = (&self.state.progress, self.change.loads);
+            let found = self.model.vary_equilibrium(
+                &drive,
+                &progress.cells,
+                &progress.state,
+                loads,
+                &mut self.change.variation,
+            );
+            found.ok_or(SimulationError::NoDerivative)?;
+        }
+        self.finish_change(unknowns);
+        for (value, &reference) in values.iter_mut().zip(unknowns) {
+            *value = self.changed(self.quantities[reference as usize]);
+        }
+        Ok(())
+    }
+
+    /// What a change of each of `knowns`, real inputs, adds to the sum of `unknowns`, real outputs, weighted by `seed`:
+    /// the seed's product with the Jacobian from the left. As many directional derivatives are computed as there are
+    /// knowns.
+    ///
+    /// # Errors
+    /// As [`directional_derivative`](Self::directional_derivative).
+    pub fn adjoint_derivative(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+        values: &mut [f64],
+    ) -> Result<(), SimulationError> {
+        for (&reference, &weight) in unknowns.iter().zip(seed) {
+            let variable = self.unknown(reference)?;
+            if !weight.is_finite() {
+                return Err(out_of_range(variable, weight, f64::MIN, f64::MAX).into());
+            }
+        }
+        let mut column = vec![0.0; unknowns.len()];
+        for (value, known) in values.iter_mut().zip(knowns) {
+            self.directional_derivative(unknowns, std::slice::from_ref(known), &[1.0], &mut column)?;
+            *value = column.iter().zip(seed).map(|(derivative, weight)| weight * derivative).sum();
+        }
+        Ok(())
+    }
+
+    /// The variable, if it is a real output.
+    fn unknown(&self, reference: u32) -> Result<&Variable, VariableError> {
+        let variable = self.variable(reference)?;
+        if !matches!(variable.kind, Kind::Real { .. }) {
+            return Err(wrong_type(variable, "Real"));
+        }
+        if variable.causality != Causality::Output {
+            return Err(VariableError::NotAnUnknown { name: variable.name.clone() });
+        }
+        Ok(variable)
+    }
+
+    /// Starts the change with that of the inputs alone.
+    fn along_inputs(&mut self, knowns: &[u32], seed: &[f64]) {
+        let change = &mut self.change;
+        change.clear();
+        // Of a step under way or behind the films stay as they are.
+        let films = self.model.films.as_ref().filter(|_| !self.state.started);
+        let films_by_speed = films.map_or(0.0, |films| films.together_by_speed());
+        for (&reference, &value) in knowns.iter().zip(seed) {
+            let Some(input) = self.quantities[reference as usize].as_input() else { continue };
+            match input {
+                Input::Speed(ring) => {
+                    let (ratios, i) = (&self.model.ratios, ring.index());
+                    change.variation.cage_speed += ratios.cage[i] * value;
+                    change.variation.frames[ring.frame() as usize][1] += value;
+                    change.variation.frames[Frame::Spin as usize][1] += ratios.spin[i] * value;
+                    let against = if ring == RingName::Shaft { value } else { -value };
+                    change.variation.clearance -= films_by_speed * against;
+                }
+                Input::Load(RingName::Shaft, axis) => change.loads[axis] += value,
+                Input::Load(RingName::Housing, axis) => change.loads[2 + axis] += value,
+                Input::Position(name, axis) => change.ring(name).position[axis] += value,
+                Input::Velocity(name, axis) => change.ring(name).velocity[axis] += value,
+                Input::Acceleration(name, axis) => change.accelerations[name.index()][axis] += value,
+            }
+        }
+    }
+
+    /// The change per second of state and inputs.
+    fn along_time(&mut self, drive: &Drive) {
+        let change = &mut self.change;
+        change.clear();
+        let layout = &self.model.layout;
+        let z = layout.element_count;
+        let variation = &mut change.variation;
+        (variation.cage_angle, variation.cage_speed) = (drive.cage.0[1], drive.cage.0[2]);
+        variation.frames = drive.frame_rates(0.0);
+        variation.path.copy_from_slice(&self.derivative[..z]);
+        variation.radial_velocity.copy_from_slice(&self.derivative[layout.radial_velocity..][..z]);
+        [variation.shaft, variation.housing] = self.model.ring_rates(drive, 0.0, &self.derivative);
+        for (sensor, i) in change.sensors.iter_mut().zip(layout.sensor_indices()) {
+            *sensor = [self.derivative[i], self.derivative[i + 1]];
+        }
+        for (k, i) in layout.sensor_indices().enumerate() {
+            change.by_sensor_modes[k] =
+                self.model.sensor_modes.rate(k, self.derivative[i + 1], &self.state.progress.sensor_modes);
+        }
+        // Those of internal rings follow from the forces' change.
+        change.accelerations = [&drive.shaft, &drive.housing].map(|[x, y]| Vector::new(x.0[3], y.0[3]));
+        for (axis, load) in drive.shaft_load.iter().chain(&drive.housing_load).enumerate() {
+            change.loads[axis] = load.rate_at(0.0);
+        }
+    }
+
+    /// From the change of state and inputs to that of forces, accelerations and, if it is asked for, stiffness.
+    fn finish_change(&mut self, unknowns: &[u32]) {
+        let drive = self.drive(false);
+        let progress = &self.state.progress;
+        let (cells, state) = (&progress.cells, &progress.state);
+        let change = &mut self.change;
+        let acceleration = self.present_acceleration;
+        if self.model.elements_in_balance() {
+            let Change { variation, forces, .. } = change;
+            self.model.vary_in_balance(&drive, cells, state, acceleration, variation, forces);
+        } else {
+            self.model.vary(&drive, cells, state, acceleration, &change.variation, &mut change.forces);
+        }
+
+        // At the start nothing accelerates, whatever the inputs are.
+        if self.state.started {
+            let (variation, forces) = (&change.variation, &change.forces);
+            let cage = drive.cage_at(0.0);
+            let (shaft, housing) = (variation.shaft, variation.housing);
+            let moved = Kinematics { cage, shaft, housing };
+            let [mut x, mut v] = moved.bodies();
+            for (k, &[of_x, of_v]) in change.sensors.iter().enumerate() {
+                (x[4 + k], v[4 + k]) = (of_x, of_v);
+            }
+            let (supports, [shaft, housing]) = (&self.model.supports, [forces.shaft, forces.housing]);
+            let contacts = stacked(shaft, housing) + change.loads;
+            let mut all = supports.forces(&x, &v);
+            let mut rings = all.fixed_rows_mut::<4>(0);
+            rings += contacts;
+            let accelerations = all.component_mul(&supports.inverse_masses());
+            for (i, acceleration) in accelerations.iter().enumerate().take(4) {
+                // What the host prescribes has been set before.
+                change.accelerations[i / 2][i % 2] += acceleration;
+            }
+            change.sensor_accelerations.copy_from_slice(&accelerations.as_slice()[4..]);
+        }
+        let by_acceleration = change.forces.torque_by_acceleration;
+        change.cage_torque = change.forces.cage_torque + by_acceleration.dot(&change.accelerations[1]);
+        let wanted = |&reference: &u32| matches!(self.quantities[reference as usize], Quantity::Stiffness(..));
+        if unknowns.iter().any(wanted) {
+            // Balances follow inputs at once, states do not.
+            let mut settled = Vec::new();
+            let state = if self.model.elements_in_balance() {
+                settled.extend_from_slice(state);
+                self.forces.settle(&self.model, &mut settled);
+                &settled[..]
+            } else {
+                state
+            };
+            change.stiffness = self.model.vary_stiffness(&drive, cells, state, &change.variation);
+        }
+    }
+
+    /// The nominal cage at the communication point.
+    fn cage_now(&self) -> CageState {
+        let drive = self.drive(false);
+        self.model.begin(&drive);
+        drive.cage_at(0.0)
+    }
+
+    /// Change of the cage's own angle and speed.
+    fn cage_change(&self) -> [f64; 2] {
+        let (cage, variation) = (self.cage_now(), &self.change.variation);
+        let Lead { rate, bend, .. } = self.model.cage_lead(&cage);
+        let share = 1.0 + rate;
+        let speed = share * variation.cage_speed + bend * cage.speed * variation.cage_angle;
+        [share * variation.cage_angle, speed]
+    }
+
+    /// Change of the angle of element `j`.
+    fn element_turn(&self, j: usize) -> f64 {
+        (1.0 + self.model.lead(j, &self.cage_now()).rate) * self.change.variation.cage_angle
+    }
+
+    /// What the change makes of one output.
+    fn changed(&self, quantity: Quantity) -> f64 {
+        let Change { variation, forces, .. } = &self.change;
+        let ring = |name: RingName| match name {
+            RingName::Shaft => (0, &variation.shaft, forces.shaft),
+            RingName::Housing => (1, &variation.housing, forces.housing),
+        };
+        match quantity {
+            Quantity::Position(name, axis) => ring(name).1.position[axis],
+            Quantity::Velocity(name, axis) => ring(name).1.velocity[axis],
+            Quantity::Acceleration(name, axis) => self.change.accelerations[ring(name).0][axis],
+            Quantity::Force(name, axis) => ring(name).2[axis],
+            // Before the first step the mean is the force itself.
+            Quantity::MeanForce(name, axis) if !self.state.started => ring(name).2[axis],
+            Quantity::Stiffness(row, column) => -self.change.stiffness[(row, column)],
+            Quantity::SensorAcceleration(k) => {
+                self.model.sensor_modes.direct(k) * self.change.sensor_accelerations[k] + self.change.by_sensor_modes[k]
+            }
+            Quantity::Probe(axis) => variation.shaft.position[axis] - variation.housing.position[axis],
+            Quantity::CageAngle => self.cage_change()[0],
+            Quantity::ElementAngle(j) => self.element_turn(j),
+            Quantity::CageSpeed => self.cage_change()[1],
+            Quantity::CageTorque => self.change.cage_torque,
+            Quantity::ShaftTorque => forces.shaft_torque,
+            Quantity::RingAngle(name) => variation.frames[name.frame() as usize][0],
+            // The spin angle is that of the defect against the element's own direction.
+            Quantity::ElementSpinAngle(j) => variation.frames[Frame::Spin as usize][0] - self.element_turn(j),
+            Quantity::ElementPath(j) => variation.path[j],
+            Quantity::ElementInnerForce(j) => forces.inner[j],
+            Quantity::ElementOuterForce(j) => forces.outer[j],
+            Quantity::MeanForce(..) | Quantity::Count(_) => 0.0,
+            Quantity::Speed(_) | Quantity::Load(..) | Quantity::Parameter(_) => 0.0,
+        }
+    }
+}

@@ -1,0 +1,18 @@
+//! The life of one bearing: set up, initialized, stepped, saved and restored.
+
+mod arrays;
+mod derivatives;
+mod driving;
+mod life;
+mod refresh;
+mod samples;
+mod state;
+mod state_bytes;
+mod stepping;
+mod values;
+
+pub use arrays::{ElementArray, of_all_elements};
+pub use life::Simulation;
+pub use samples::{Sample, Samples};
+pub use state::State;
+pub use stepping::{Inspection, StepUnderWay};

@@ -1,0 +1,80 @@
+//! Outputs are computed when somebody reads them.
+
+use super::life::{Fresh, Simulation};
+use crate::simulation::error::SimulationError;
+use crate::simulation::interface::{Outputs, Quantity, Solution};
+
+impl Simulation {
+    /// Computes all outputs but the stiffness, unless they are still those of the values set.
+    pub(in crate::simulation) fn refresh(&mut self) -> Result<(), SimulationError> {
+        if self.fresh >= Fresh::Outputs {
+            return Ok(());
+        }
+        if !self.state.started && self.fresh < Fresh::State {
+            self.find_equilibrium()?;
+        }
+        let drive = self.drive(false);
+        let progress = &self.state.progress;
+        // Outputs must not depend on what was computed before, or a restored state would show other roundings.
+        self.model.forget_contacts();
+        self.model.derivative(&drive, 0.0, &progress.cells, &progress.state, &mut self.derivative, &mut self.forces);
+        if !self.state.started {
+            self.rest();
+        }
+        let progress = &self.state.progress;
+        let solution = Solution {
+            drive: &drive,
+            tau: 0.0,
+            state: &progress.state,
+            derivative: &self.derivative,
+            sensor_modes: &progress.sensor_modes,
+        };
+        let outputs = Outputs::new(&self.model, solution, &self.forces, self.state.angles());
+        self.present_acceleration = outputs.housing_acceleration();
+        let solves_grids = self.model.solves_grids();
+        for (i, quantity) in self.quantities.iter().enumerate().skip(self.inputs.count) {
+            let value = match *quantity {
+                Quantity::MeanForce(ring, axis) => Some(progress.mean_force[2 * ring.index() + axis]),
+                Quantity::Count(count) => {
+                    let count = progress.count(count, solves_grids);
+                    self.state.integers[i] = i32::try_from(count).unwrap_or(i32::MAX);
+                    None
+                }
+                other => outputs.value(other),
+            };
+            if let Some(value) = value {
+                self.state.reals[i] = value;
+            }
+        }
+        self.fresh = Fresh::Outputs;
+        Ok(())
+    }
+
+    /// The start is a static equilibrium: what rounding leaves of accelerations is none.
+    fn rest(&mut self) {
+        let layout = &self.model.layout;
+        for start in [layout.shaft, layout.housing].into_iter().flatten() {
+            self.derivative[start + 2..start + 4].fill(0.0);
+        }
+        for i in layout.sensor_indices() {
+            self.derivative[i + 1] = 0.0;
+        }
+    }
+
+    /// Computes the tangent stiffness of the inner ring, −∂F/∂x with the elements in static balance (N/m).
+    pub(in crate::simulation) fn refresh_stiffness(&mut self) {
+        if self.fresh < Fresh::Stiffness {
+            let drive = self.drive(false);
+            let progress = &self.state.progress;
+            let now = self.model.kinematics(&drive, 0.0, &progress.state);
+            let cells = &progress.cells;
+            let jacobian = self.model.ring_jacobian(self.forces.paths(&self.model, &progress.state), cells, &now);
+            for (value, quantity) in self.state.reals.iter_mut().zip(self.quantities.iter()) {
+                if let Quantity::Stiffness(row, column) = *quantity {
+                    *value = -jacobian[(row, column)];
+                }
+            }
+            self.fresh = Fresh::Stiffness;
+        }
+    }
+}

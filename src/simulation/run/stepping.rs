@@ -1,0 +1,232 @@
+//! A communication step, at once or one integration step after the other.
+//!
+//! Between two integration steps one may *inspect* it: the simulation then stands where the step has come to, as if it
+//! ended there, and shows its outputs. That changes no bit of what follows, but for law `love`, whose contacts are
+//! solved anew from there on: equal within what the solver leaves. Whoever sets an input meanwhile ends the part of the
+//! step before, and begins another with the inputs as they are.
+
+use super::driving;
+use super::life::{Fresh, Simulation};
+use super::state::Ended;
+use crate::dynamics::parameters::{Drive, WholeAngle};
+use crate::simulation::Method;
+use crate::simulation::error::SimulationError;
+use crate::simulation::integration::{Advance, Control, Problem, Stepper};
+use crate::simulation::recorder::Due;
+use crate::simulation::step_error::StepError;
+
+/// Speeds of both rings, and position, velocity and acceleration of each along two axes.
+const MOST_INPUTS: usize = 2 + 2 * 6;
+
+/// Inputs with their derivatives; slots beyond the last input are not used.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct InputValues {
+    values: [f64; MOST_INPUTS],
+    rates: [[Option<f64>; 2]; MOST_INPUTS],
+}
+
+/// A communication step that has begun.
+#[derive(Debug, Clone)]
+pub struct StepUnderWay {
+    drive: Drive,
+    control: Control,
+    advance: Advance,
+}
+
+/// An inspection of where a step has come to: what the simulation has to forget of it.
+#[derive(Debug)]
+#[must_use = "the step goes on from `resume`"]
+pub struct Inspection {
+    time: f64,
+    cage: WholeAngle,
+    frames: [WholeAngle; 3],
+    ended: Ended,
+    inputs: InputValues,
+    /// The inputs where the step has brought them.
+    arrived: InputValues,
+}
+
+impl StepUnderWay {
+    /// Whether it has come to its end.
+    pub fn is_done(&self) -> bool {
+        self.advance.is_done()
+    }
+
+    /// How far it has come (s).
+    pub fn elapsed(&self) -> f64 {
+        self.advance.elapsed()
+    }
+
+    /// Lets it end `elapsed` (s) after its beginning, if that is earlier than it would, and no earlier than where it
+    /// is.
+    pub fn bring_forward(&mut self, elapsed: f64) {
+        self.advance.bring_forward(elapsed);
+    }
+}
+
+impl Simulation {
+    /// Advances by exactly `step` (s).
+    pub fn step(&mut self, step: f64) -> Result<(), SimulationError> {
+        let control = self.prepare(step)?;
+        let drive = self.drive(true);
+        let advanced = self.stepper(&drive, control).advance(step);
+        advanced.map_err(|cause| self.failed(cause))?;
+        self.arrive(&drive, step);
+        Ok(())
+    }
+
+    /// Begins a communication step of `step` (s).
+    /// ```
+    /// use brinell::scene::{Bearing, Scene};
+    /// use crate::simulation::life::Simulation;
+    ///
+    /// let bearing = Bearing::steel_balls(9, 7.94e-3, 39.04e-3);
+    /// let scene = Scene::builder(bearing).shaft_speed(157.1).shaft_load([0.0, -1500.0]).build()?;
+    /// let mut simulation = Simulation::new(scene, None)?;
+    /// simulation.initialize(0.0)?;
+    /// // A step in parts, watched, and ended where the load on element 1 is gone.
+    /// let force = simulation.reference("element[1].force.outer")?;
+    /// let mut under_way = simulation.begin_step(1e-2)?;
+    /// while !under_way.is_done() {
+    ///     simulation.go_on(&mut under_way)?;
+    ///     let inspection = simulation.inspect(&under_way);
+    ///     let mut value = [0.0];
+    ///     simulation.reals(&[force], &mut value)?;
+    ///     simulation.resume(&mut under_way, inspection)?;
+    ///     if value[0] == 0.0 {
+    ///         break;
+    ///     }
+    /// }
+    /// simulation.end_step(under_way);
+    /// assert!(simulation.time() <= 1e-2);
+    /// # Ok::<(), brinell::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A step that is not finite and above 0, or before `initialize`; what cannot be integrated.
+    pub fn begin_step(&mut self, step: f64) -> Result<StepUnderWay, SimulationError> {
+        let control = self.prepare(step)?;
+        let drive = self.drive(true);
+        let begun = self.stepper(&drive, control).start(step);
+        let advance = begun.map_err(|cause| self.failed(cause))?;
+        Ok(StepUnderWay { drive, control, advance })
+    }
+
+    /// Takes one integration step of a communication step.
+    ///
+    /// # Errors
+    /// What cannot be integrated; the communication step is then lost.
+    pub fn go_on(&mut self, under_way: &mut StepUnderWay) -> Result<(), SimulationError> {
+        let StepUnderWay { drive, control, advance } = under_way;
+        let taken = self.stepper(drive, *control).go_on(advance);
+        taken.map_err(|cause| self.failed(cause))
+    }
+
+    /// Ends a communication step where it has come to.
+    pub fn end_step(&mut self, under_way: StepUnderWay) {
+        let StepUnderWay { drive, control, advance } = under_way;
+        self.stepper(&drive, control).finish(&advance);
+        self.arrive(&drive, advance.tau);
+    }
+
+    /// Stands where a step has come to, as it would if it ended there, except for what belongs to the step as a whole:
+    /// mean forces and counts. Until [`resume`](Self::resume) outputs and their derivatives may be read and inputs be
+    /// set, no more.
+    pub fn inspect(&mut self, under_way: &StepUnderWay) -> Inspection {
+        let state = &self.state;
+        let (time, cage, frames, ended) = (state.time, state.cage, state.frames, state.ended);
+        let inputs = self.input_values();
+        self.arrive(&under_way.drive, under_way.advance.tau);
+        Inspection { time, cage, frames, ended, inputs, arrived: self.input_values() }
+    }
+
+    /// Ends an inspection. If inputs have been set to other values than the step had brought them to, they act from
+    /// here on.
+    ///
+    /// # Errors
+    /// What cannot be integrated from here on.
+    pub fn resume(&mut self, under_way: &mut StepUnderWay, inspection: Inspection) -> Result<(), SimulationError> {
+        self.fresh = Fresh::State;
+        if self.input_values() != inspection.arrived && !under_way.is_done() {
+            let StepUnderWay { drive, control, advance } = &*under_way;
+            self.stepper(drive, *control).finish_part(advance);
+            let mut next = self.begin_step(advance.end - advance.tau)?;
+            next.advance.follow(advance);
+            *under_way = next;
+            return Ok(());
+        }
+        let count = self.inputs.count;
+        let state = &mut self.state;
+        (state.time, state.cage, state.frames, state.ended) =
+            (inspection.time, inspection.cage, inspection.frames, inspection.ended);
+        state.reals[..count].copy_from_slice(&inspection.inputs.values[..count]);
+        state.input_rates.copy_from_slice(&inspection.inputs.rates[..count]);
+        // Whether anybody has read anything makes no difference.
+        self.model.forget_contacts();
+        Ok(())
+    }
+
+    /// Checks a step, and readies for it what goes along with the integration.
+    #[inline]
+    fn prepare(&mut self, step: f64) -> Result<Control, SimulationError> {
+        if !(step > 0.0 && step.is_finite()) {
+            return Err(SimulationError::CommunicationStep(step));
+        }
+        if !self.state.started {
+            return Err(SimulationError::NotInitialized);
+        }
+        self.fresh = Fresh::State;
+        self.begin_films()?;
+        self.model.forget_contacts();
+        match self.recorder.as_mut().filter(|recorder| recorder.is_on()) {
+            Some(recorder) => recorder.begin(self.state.time, self.state.angles()),
+            // What is not sampled cannot be made up for: whoever records on from here begins anew.
+            None => self.state.progress.due = Due::default(),
+        }
+        let method = match self.method {
+            Method::Automatic | Method::Rodas if self.model.elements_in_balance() => Method::Explicit,
+            method => method,
+        };
+        Ok(Control {
+            tolerance: self.inputs.tolerance.map_or(self.scene.tolerance, |i| self.state.reals[i]),
+            max_steps: self.scene.max_steps,
+            method,
+        })
+    }
+
+    #[inline]
+    fn stepper<'a>(&'a mut self, drive: &'a Drive, control: Control) -> Stepper<'a> {
+        Stepper {
+            problem: Problem { model: &self.model, drive },
+            control,
+            workspace: &mut self.workspace,
+            progress: &mut self.state.progress,
+            recorder: self.recorder.as_mut().filter(|recorder| recorder.is_on()),
+        }
+    }
+
+    /// Time, angles and inputs move on by `step` (s).
+    #[inline]
+    fn arrive(&mut self, drive: &Drive, step: f64) {
+        self.state.cage = self.state.cage.advanced(drive.cage.at(step));
+        if self.inputs.frames {
+            for (angle, turning) in self.state.frames.iter_mut().zip(&drive.frames) {
+                *angle = angle.advanced(turning.since.at(step));
+            }
+        }
+        self.state.time += step;
+        driving::follow(&mut self.state, &self.inputs, &self.model.ratios, drive, step);
+    }
+
+    fn input_values(&self) -> InputValues {
+        let count = self.inputs.count;
+        let mut inputs = InputValues { values: [0.0; MOST_INPUTS], rates: [[None; 2]; MOST_INPUTS] };
+        inputs.values[..count].copy_from_slice(&self.state.reals[..count]);
+        inputs.rates[..count].copy_from_slice(&self.state.input_rates);
+        inputs
+    }
+
+    fn failed(&self, cause: StepError) -> SimulationError {
+        SimulationError::Step { time: self.state.time, cause }
+    }
+}

@@ -1,0 +1,151 @@
+//! The contact maps that a scene needs, made or taken from where they are stored.
+
+use std::borrow::Cow;
+
+use super::arrangement::{arranged, largest_approach, largest_force, sides, softness_of_edges};
+use crate::contact::element_on_raceway::ElementOnRaceway;
+use crate::contact::love::Resolution;
+use crate::contact::map::{ContactMap, ContactMaps, MapSpecification, Runner};
+use crate::contact::rolling::RacewaySide;
+use crate::scene::{Bearing, ContactLaw, Scene};
+use crate::simulation::SimulationError;
+use crate::surface::Surface;
+
+/// Error of a contact map that is still taken when the scene asks for none in particular: below what a real edge's
+/// shape leaves open.
+const TOLERATED: f64 = 0.02;
+
+/// Contact maps are made for clearances that are multiples of this (µm). What lies between changes a raceway's radius
+/// by a ten thousandth, and forces by less than a hundredth of a map's own error; a bearing whose clearance is swept
+/// has few maps then.
+const CLEARANCE_UM: f64 = 5.0;
+
+/// The bearing for which the contacts near a scene's defects are prepared.
+pub(super) fn prepared(scene: &Scene) -> Bearing {
+    let mut bearing = scene.bearing.clone();
+    if scene.contact.law == ContactLaw::Map {
+        // In micrometres, as files give it: a multiple keeps its bits.
+        bearing.radial_clearance = CLEARANCE_UM * (bearing.radial_clearance * 1e6 / CLEARANCE_UM).round() / 1e6;
+    }
+    bearing
+}
+
+/// What the contact map of a scene covers on one raceway: forces up to the [`largest_force`]. Outside Δ counts the
+/// rings' and seats' compliance as well. An accuracy that the scene asks for is held; the usual one may be missed, in
+/// defects deeper than they are long, by what `TOLERATED` says.
+pub fn map_specification(scene: &Scene, side: RacewaySide) -> MapSpecification {
+    let largest = largest_approach(&prepared(scene), side, largest_force(scene));
+    let usual = if scene.bearing.roller().is_some() {
+        MapSpecification::of_roller(largest)
+    } else {
+        MapSpecification::new(largest)
+    };
+    MapSpecification {
+        accuracy: scene.contact.map_accuracy.unwrap_or(usual.accuracy),
+        tolerated: if scene.contact.map_accuracy.is_none() { Some(TOLERATED) } else { None },
+        resolution: scene
+            .contact
+            .cells
+            .map_or(usual.resolution, |[columns, rows]| Resolution { columns: columns as usize, rows: rows as usize }),
+        edges: softness_of_edges(scene),
+        ..usual
+    }
+}
+
+/// A contact map that a scene needs.
+#[derive(Debug, Clone)]
+pub struct NeededMap<'s> {
+    surface: Cow<'s, Surface>,
+    element: ElementOnRaceway,
+    specification: MapSpecification,
+    /// Fingerprint of all that it depends on.
+    pub fingerprint: u64,
+}
+
+impl NeededMap<'_> {
+    /// Computes it. `runner` says on how many cores.
+    ///
+    /// # Errors
+    /// Where a contact cannot be solved or the accuracy is not reached.
+    pub fn build(&self, runner: &mut impl Runner) -> Result<ContactMap, SimulationError> {
+        Ok(ContactMap::build(&self.surface, self.element, self.specification, runner)?)
+    }
+}
+
+/// The contact maps that a scene with these surfaces of its defects needs under law `map`: each surface on each raceway
+/// that it meets, equal ones once.
+///
+/// # Errors
+/// Defects that overlap.
+pub fn needed_maps<'s>(scene: &Scene, surfaces: &'s [Surface]) -> Result<Vec<NeededMap<'s>>, SimulationError> {
+    let mut maps: Vec<NeededMap> = Vec::new();
+    let bearing = prepared(scene);
+    for spot in arranged(scene, surfaces)? {
+        for &side in sides(spot.on) {
+            let (element, specification) = (ElementOnRaceway::of(&bearing, side), map_specification(scene, side));
+            let fingerprint = ContactMap::fingerprint_of(&spot.surface, element, specification);
+            if !maps.iter().any(|map| map.fingerprint == fingerprint) {
+                maps.push(NeededMap { surface: spot.surface.clone(), element, specification, fingerprint });
+            }
+        }
+    }
+    Ok(maps)
+}
+
+/// Computes the contact maps of a scene with these surfaces of its defects, `None` where its law needs none. `runner`
+/// says on how many cores.
+///
+/// Maps take seconds, and serve every simulation of the scene: keep their bytes, in a file or in memory, and hand them
+/// to [`Simulation::with_map`](crate::simulation::Simulation::with_map) at each start.
+/// ```
+/// use crate::contact::map::lookup::specification::Sequential;
+/// use brinell::scene::{Bearing, Scene};
+/// use crate::simulation::Simulation;
+/// use crate::simulation::setup::build_map;
+/// use brinell::surface::Surface;
+///
+/// // Coarse, so that it takes a moment here: leave cells and accuracy out.
+/// let scene = Scene::builder(Bearing::steel_balls(9, 7.94e-3, 39.04e-3))
+///     .shaft_load([0.0, -1500.0])
+///     .spall(-std::f64::consts::FRAC_PI_2, 2e-3, 50e-6)
+///     .contact_cells([8, 8])
+///     .map_accuracy(0.1)
+///     .build()?;
+/// let surfaces = Surface::load_all(&scene, None)?;
+/// // One column after the other; the closure may show how far it is.
+/// let map = build_map(&scene, &surfaces, &mut Sequential(|_done, _of| {}))?;
+/// let bytes = map.map(|map| map.to_bytes());
+///
+/// let mut simulation = Simulation::with_map(scene, None, bytes.as_deref())?;
+/// simulation.initialize(0.0)?;
+/// assert!(simulation.get("shaft.y")? < 0.0);
+/// # Ok::<(), brinell::Error>(())
+/// ```
+///
+/// # Errors
+/// Defects that overlap; where a contact cannot be solved or the accuracy is not reached.
+pub fn build_map(
+    scene: &Scene,
+    surfaces: &[Surface],
+    runner: &mut impl Runner,
+) -> Result<Option<ContactMaps>, SimulationError> {
+    if scene.contact.law != ContactLaw::Map || surfaces.is_empty() {
+        return Ok(None);
+    }
+    let maps = needed_maps(scene, surfaces)?.iter().map(|map| map.build(runner)).collect::<Result<Vec<_>, _>>()?;
+    Ok(Some(ContactMaps::new(maps)))
+}
+
+/// Fingerprint of all that the contact maps of a scene depend on.
+///
+/// # Errors
+/// Defects that overlap.
+pub fn map_fingerprint(scene: &Scene, surfaces: &[Surface]) -> Result<u64, SimulationError> {
+    let each: Vec<u64> = needed_maps(scene, surfaces)?.iter().map(|map| map.fingerprint).collect();
+    Ok(ContactMaps::fingerprint_of(&each))
+}
+
+/// Maps that were stored with the scene; refused when they are damaged or belong to something else.
+pub fn stored_map(scene: &Scene, surfaces: &[Surface], bytes: &[u8]) -> Result<ContactMaps, SimulationError> {
+    Ok(ContactMaps::from_bytes(bytes, map_fingerprint(scene, surfaces)?)?)
+}

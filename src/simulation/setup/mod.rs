@@ -1,0 +1,13 @@
+//! From a scene to the parameters of its equations and the contact maps that they need.
+
+mod arrangement;
+mod maps;
+mod model;
+mod parameters;
+
+pub use arrangement::largest_force;
+pub use maps::{NeededMap, build_map, map_fingerprint, map_specification, needed_maps, stored_map};
+pub use model::build_model;
+
+pub(in crate::simulation) use arrangement::arranged;
+pub(in crate::simulation) use parameters::{parameter, start_values, with_parameters};

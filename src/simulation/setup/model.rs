@@ -1,0 +1,113 @@
+//! From a scene and the surfaces of its defects to the parameters of its equations.
+
+use std::sync::Arc;
+
+use super::arrangement::{Spot, arranged};
+use super::maps::{map_specification, prepared};
+use crate::contact::element_on_raceway::ElementOnRaceway;
+use crate::contact::love::{Arcs, check_ends};
+use crate::contact::map::{ContactMap, ContactMaps, MapPlan, Sequential};
+use crate::contact::near_defect::{NearDefect, NearLove, NearMap};
+use crate::contact::rolled_path::RigidPath;
+use crate::contact::rolling::{RacewaySide, Rolling};
+use crate::dynamics::parameters::{CageState, Centred, DefectiveElement, Defects, Frame, Model};
+use crate::scene::{ContactLaw, DefectOn, Scene};
+use crate::simulation::SimulationError;
+use crate::surface::roller_profile::unread;
+use crate::surface::{Surface, SurfaceError};
+use std::f64::consts::PI;
+
+/// The surface of a spot in contact with one raceway; a map that is not among those stored is computed, once.
+fn near(
+    scene: &Scene,
+    spot: &Spot,
+    side: RacewaySide,
+    stored: Option<&Arc<ContactMaps>>,
+    computed: &mut Vec<Arc<ContactMap>>,
+) -> Result<NearDefect, SimulationError> {
+    let surface = &*spot.surface;
+    let rolling = Rolling::of(&scene.bearing, side, matches!(spot.on, DefectOn::Element { .. }));
+    let (element, specification) = (ElementOnRaceway::of(&prepared(scene), side), map_specification(scene, side));
+    let near = match (scene.contact.law, surface) {
+        (ContactLaw::Hertz, Surface::Profile(profile)) => NearDefect::Hertz(RigidPath::new(profile.points(), rolling)?),
+        (ContactLaw::Hertz, Surface::Topography(_)) => {
+            return Err(SimulationError::LawNotAvailable { law: scene.contact.law });
+        }
+        (ContactLaw::Map, _) => {
+            let wanted = ContactMap::fingerprint_of(surface, element, specification);
+            let known = stored.and_then(|stored| stored.find(wanted));
+            let map = match known.or_else(|| computed.iter().find(|map| map.fingerprint() == wanted)) {
+                Some(map) => Arc::clone(map),
+                None => {
+                    let built = ContactMap::build(surface, element, specification, &mut Sequential(|_, _| {}))?;
+                    let map = Arc::new(built);
+                    computed.push(Arc::clone(&map));
+                    map
+                }
+            };
+            NearDefect::Map(NearMap::new(map, rolling.bearer_radius()))
+        }
+        (ContactLaw::Love, _) => {
+            let grid = MapPlan::new(surface, element, specification)?.into_love();
+            NearDefect::Love(Box::new(NearLove::new(grid, rolling.bearer_radius())))
+        }
+    };
+    let (knots, radius) = (near.knots(), rolling.bearer_radius());
+    if let (Some(first), Some(last)) = (knots.first(), knots.last()) {
+        // The contact's own check is for a raceway; an element is shorter around.
+        let felt = Arcs { first: first * radius, last: last * radius };
+        check_ends(Arcs::of(surface), felt, radius, "where contacts reach it")?;
+    }
+    Ok(near)
+}
+
+/// The equations' parameters, with what the contact law needs near the defects, whose surfaces are given in the scene's
+/// order; none for a model without them.
+///
+/// # Errors
+/// Defects that overlap, and whatever keeps the contact law from being prepared for a surface.
+pub fn build_model(
+    scene: &Scene,
+    surfaces: &[Surface],
+    map: Option<&Arc<ContactMaps>>,
+) -> Result<Model, SimulationError> {
+    if let Some(name) = unread(scene) {
+        return Err(SurfaceError::no_crown(name).into());
+    }
+    if surfaces.is_empty() {
+        return Ok(Model::smooth(scene));
+    }
+    let mut computed = Vec::new();
+    let (mut rings, mut defective) = ([Vec::new(), Vec::new()], Vec::<DefectiveElement>::new());
+    for spot in &arranged(scene, surfaces)? {
+        let mut near = |side| near(scene, spot, side, map, &mut computed);
+        match spot.on {
+            DefectOn::Inner => rings[0].push(Centred { surface: near(RacewaySide::Inner)?, centre: spot.centre }),
+            DefectOn::Outer => rings[1].push(Centred { surface: near(RacewaySide::Outer)?, centre: spot.centre }),
+            DefectOn::Element { element, .. } => {
+                // At the start the defect is at its angle from the direction of its element, and the spin is counted
+                // from there; the inner raceway is met with the opposite side.
+                // In an irregular cage it is the model that knows where that is.
+                let start = CageState::at_rest(scene.cage.initial_angle);
+                let facing = Model::smooth(scene).element_angle(element, &start);
+                let centre = facing + spot.centre;
+                let both = [
+                    Centred { surface: near(RacewaySide::Inner)?, centre: centre - PI },
+                    Centred { surface: near(RacewaySide::Outer)?, centre },
+                ];
+                match defective.iter_mut().find(|other| other.element == element) {
+                    Some(other) => {
+                        other.defects.iter_mut().zip(both).for_each(|(defects, one)| defects.add(one));
+                    }
+                    None => {
+                        let first = scene.first_defect_of(element).map_or(spot.centre, |k| scene.defects[k].angle);
+                        let defects = both.map(|one| Defects::new(Frame::Spin, [one]));
+                        defective.push(DefectiveElement { element, defects, mark: facing + first });
+                    }
+                }
+            }
+        }
+    }
+    let [inner, outer] = rings;
+    Ok(Model::new(scene, [Defects::new(Frame::Shaft, inner), Defects::new(Frame::Housing, outer)], defective))
+}

@@ -1,0 +1,70 @@
+//! Parameters that a host may set: their start values, and the scene with the values set.
+
+use crate::scene::{ContactLaw, Damping, Ring, Scene};
+use crate::simulation::SimulationError;
+use crate::simulation::interface::table::{Kind, Variable};
+use crate::simulation::interface::{Parameter, Quantity, RingName};
+
+/// Start values of the table: reals, and beside them integers.
+pub(in crate::simulation) fn start_values(table: &[Variable]) -> (Vec<f64>, Vec<i32>) {
+    table
+        .iter()
+        .map(|variable| match variable.kind {
+            Kind::Real { start, .. } => (start.unwrap_or(0.0), 0),
+            Kind::Enumeration { start, .. } => (0.0, start),
+            Kind::Integer | Kind::Text { .. } => (0.0, 0),
+        })
+        .unzip()
+}
+
+/// Value of a real parameter, if the scene has it.
+pub(in crate::simulation) fn parameter(quantities: &[Quantity], values: &[f64], wanted: Parameter) -> Option<f64> {
+    quantities.iter().position(|&q| q == Quantity::Parameter(wanted)).map(|i| values[i])
+}
+
+/// The scene with the parameters that the host has set, checked again.
+pub(in crate::simulation) fn with_parameters(
+    scene: &Scene,
+    quantities: &[Quantity],
+    values: &[f64],
+    integers: &[i32],
+) -> Result<Scene, SimulationError> {
+    let mut changed = scene.clone();
+    for ((&quantity, &value), &integer) in quantities.iter().zip(values).zip(integers) {
+        let Quantity::Parameter(parameter) = quantity else { continue };
+        match parameter {
+            Parameter::RadialClearance => changed.bearing.radial_clearance = value,
+            Parameter::ContactDamping => {
+                changed.contact.damping = match changed.contact.damping {
+                    Damping::HuntCrossley(_) => Damping::HuntCrossley(value),
+                    Damping::Proportional(_) => Damping::Proportional(value),
+                }
+            }
+            Parameter::ContactLaw => {
+                // Other numbers were refused when they were set.
+                changed.contact.law = ContactLaw::numbered(integer).unwrap_or(changed.contact.law);
+            }
+            Parameter::CageSlip => changed.cage.slip = value,
+            Parameter::CageInitialAngle => changed.cage.initial_angle = value,
+            Parameter::SpinSlip => changed.cage.spin_slip = value,
+            Parameter::RingInitialAngle(RingName::Shaft) => changed.shaft_initial_angle = value,
+            Parameter::RingInitialAngle(RingName::Housing) => changed.housing_initial_angle = value,
+            Parameter::DefectAngle(index) => changed.defects[index].angle = value,
+            Parameter::RingMass(ring) => ring_of(&mut changed, ring).mass = value,
+            Parameter::RingDamping(ring) => ring_of(&mut changed, ring).damping = value,
+            Parameter::RingStiffness(ring) => ring_of(&mut changed, ring).stiffness = value,
+            Parameter::Tolerance => changed.tolerance = value,
+            // The recorder is no part of the model.
+            Parameter::RecorderFolder => {}
+        }
+    }
+    changed.check()?;
+    Ok(changed)
+}
+
+fn ring_of(scene: &mut Scene, ring: RingName) -> &mut Ring {
+    match ring {
+        RingName::Shaft => &mut scene.shaft,
+        RingName::Housing => &mut scene.housing,
+    }
+}
