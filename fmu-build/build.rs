@@ -1,5 +1,8 @@
 //! Lists what is compiled into the program: the scenes of the repository and, where `BRINELL_LIBRARIES` names a folder,
-//! the model libraries in it. With them the program needs neither Rust nor this source.
+//! the model libraries in it. With them the program needs neither Rust nor this source. And tells it by which code it
+//! computes contact maps.
+
+mod map_sources;
 
 use std::env;
 use std::error::Error;
@@ -22,6 +25,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let source = if libraries.is_empty() { fs::canonicalize(&root)? } else { PathBuf::new() };
     println!("cargo::rustc-env=BRINELL_SOURCE={}", source.display());
     text += &constant("LIBRARIES", "[u8]", &libraries)?;
+    println!("cargo::rustc-env=BRINELL_MAP_SOURCES={}", map_sources::fingerprint(&root)?);
+    for source in map_sources::SOURCES {
+        println!("cargo::rerun-if-changed={}", root.join(source).display());
+    }
     fs::write(PathBuf::from(env::var("OUT_DIR")?).join("shipped.rs"), text)?;
     Ok(())
 }

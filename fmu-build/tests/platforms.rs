@@ -84,7 +84,7 @@ impl Machine {
         for name in scenes.chain(BY_PATH.map(|name| name.to_owned() + AS_SHIPPED)) {
             let case = Case::golden(&name);
             let folder = self.folder.join(&name);
-            case.lay(&folder);
+            common::lay(&case.model, &folder);
             let job = format!("library {}\nuri {}\n{}", self.path(&self.library), uri(&self.path(&folder)), case.job);
             let found = self.run(&job).unwrap_or_else(|why| panic!("{name}: {why}"));
             assert_eq!(found.len(), case.wanted.len(), "{name}");
@@ -134,18 +134,6 @@ impl Case {
             }
         }
         Self { model, job, wanted }
-    }
-
-    /// Writes the resources into a folder.
-    fn lay(&self, folder: &Path) {
-        fs::create_dir_all(folder).unwrap();
-        fs::write(folder.join("scene.toml"), &self.model.scene_text).unwrap();
-        for profile in &self.model.profiles {
-            fs::write(folder.join(&profile.name), &profile.text).unwrap();
-        }
-        if let Some(map) = &self.model.map {
-            fs::write(folder.join("map.bin"), map).unwrap();
-        }
     }
 }
 
@@ -209,7 +197,7 @@ mod all_platforms {
         fs::rename(&machine.library, odd.join("Wälzlager.dll")).unwrap();
         machine.library = odd.join("Wälzlager.dll");
         for folder in [&odd, &long] {
-            case.lay(folder);
+            common::lay(&case.model, folder);
             let windows = machine.path(folder);
             let slashes = windows.replace('\\', "/");
             let escaped = uri(&windows);

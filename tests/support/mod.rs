@@ -2,11 +2,13 @@
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used)] // each test program uses a part of this
 
 pub mod defects;
+#[path = "../../fmu-build/map_sources.rs"]
+mod map_sources;
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::hash::Hasher;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock};
 
 use brinell::contact::error::ContactError;
@@ -54,9 +56,7 @@ pub fn profile_of(scene: &Scene) -> Option<String> {
 static MAPS: Mutex<BTreeMap<u64, Arc<OnceLock<Vec<u8>>>>> = Mutex::new(BTreeMap::new());
 
 /// The contact maps of a scene, each computed once for all test programs and kept where `cargo fmu` keeps and finds
-/// maps as well.
-///
-/// Beside it a fingerprint of the sources that compute maps is kept, so that none outlives a change of them.
+/// maps as well, under the same name: none outlives a change of the sources that compute it.
 pub fn map_of<'p>(scene: &Scene, profiles: impl IntoIterator<Item = &'p str>) -> Option<Vec<u8>> {
     if scene.defects.is_empty() || scene.contact.law != ContactLaw::Map {
         return None;
@@ -71,20 +71,16 @@ fn one_map(needed: &NeededMap) -> Vec<u8> {
     let map = Arc::clone(MAPS.lock().unwrap().entry(needed.fingerprint).or_default());
     let bytes = map.get_or_init(|| {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).with_file_name("maps");
-        let [file, made_by] = ["bin", "sources"].map(|end| folder.join(format!("{:016x}.{end}", needed.fingerprint)));
-        let sources = format!("{:016x}", map_sources());
-        if fs::read_to_string(&made_by).is_ok_and(|found| found == sources)
-            && let Ok(bytes) = fs::read(&file)
-        {
+        let sources = map_sources::fingerprint(brinell_tests::root()).unwrap();
+        let file = folder.join(format!("{:016x}-{sources}.bin", needed.fingerprint));
+        if let Ok(bytes) = fs::read(&file) {
             return bytes;
         }
         let bytes = needed.build(&mut Cores).unwrap().to_bytes();
         fs::create_dir_all(&folder).unwrap();
-        for (path, content) in [(&file, &bytes[..]), (&made_by, sources.as_bytes())] {
-            let partial = path.with_extension(format!("{}.part", std::process::id()));
-            fs::write(&partial, content).unwrap();
-            fs::rename(&partial, path).unwrap();
-        }
+        let partial = file.with_extension(format!("{}.part", std::process::id()));
+        fs::write(&partial, &bytes).unwrap();
+        fs::rename(&partial, &file).unwrap();
         bytes
     });
     bytes.clone()
@@ -101,20 +97,6 @@ impl Runner for Cores {
     ) -> Result<Vec<T>, ContactError> {
         (0..count).into_par_iter().with_max_len(1).map(job).collect()
     }
-}
-
-/// Fingerprint of the sources on which the bits of a map depend.
-fn map_sources() -> u64 {
-    let layers = ["crates/elementary/src", "src/numerics", "src/geometry", "src/surface", "src/contact"];
-    let mut files: Vec<PathBuf> =
-        layers.iter().flat_map(|layer| files_below(&brinell_tests::root().join(layer))).collect();
-    files.sort();
-    fingerprint(files.iter().flat_map(|file| fs::read(file).unwrap()).map(u64::from))
-}
-
-fn files_below(folder: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    entries.flat_map(|path| if path.is_dir() { files_below(&path) } else { vec![path] }).collect()
 }
 
 /// A simulation with access by name.

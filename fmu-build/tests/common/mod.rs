@@ -65,6 +65,18 @@ pub(crate) fn folder(name: &str) -> PathBuf {
     folder
 }
 
+/// Writes the resources of a scene's FMU into a folder.
+pub(crate) fn lay(model: &Model, folder: &Path) {
+    fs::create_dir_all(folder).unwrap();
+    fs::write(folder.join("scene.toml"), &model.scene_text).unwrap();
+    for profile in &model.profiles {
+        fs::write(folder.join(&profile.name), &profile.text).unwrap();
+    }
+    if let Some(map) = &model.map {
+        fs::write(folder.join("map.bin"), map).unwrap();
+    }
+}
+
 /// The FMU of a shipped scene in a folder.
 pub(crate) fn fmu_of(name: &str, folder: &Path) -> PathBuf {
     packed(name, Version::Fmi2, folder)

@@ -150,8 +150,10 @@ impl Each<7, 0> for Errors {
     #[inline(always)]
     fn each<S: Wide>(&self, simd: S, [weight, stages @ ..]: [Lanes<S>; 7], found: &mut Found) -> [Lanes<S>; 0] {
         let mut sum = Lanes::splat(simd, self.0[0]) * stages[0];
-        for (stage, part) in stages.into_iter().zip(self.0).skip(1) {
-            sum = sum + Lanes::splat(simd, part) * stage;
+        // By index: a chain of iterators over these arrays is not resolved when the library is optimised as a whole,
+        // and calls a function for each stage.
+        for n in 1..self.0.len() {
+            sum = sum + Lanes::splat(simd, self.0[n]) * stages[n];
         }
         let error = (weight * sum).abs();
         (Lanes::splat(simd, 0.0) * error).add_to(&mut found.poison, false);
