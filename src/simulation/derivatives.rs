@@ -16,7 +16,7 @@ use super::access;
 use super::change::Change;
 use super::instance::Simulation;
 use super::quantity::{Input, Quantity, RingName};
-use super::values::{out_of_range, wrong_type};
+use super::values::{as_many, out_of_range, wrong_type};
 use super::variables::{Causality, Kind, Variable};
 use super::{SimulationError, VariableError};
 use crate::dynamics::drive::{Drive, Frame};
@@ -36,6 +36,8 @@ impl Simulation {
         orders: &[i32],
         values: &mut [f64],
     ) -> Result<(), SimulationError> {
+        as_many(references.len(), orders.len())?;
+        as_many(references.len(), values.len())?;
         for (&reference, &order) in references.iter().zip(orders) {
             let variable = self.unknown(reference)?;
             if order != 1 {
@@ -85,6 +87,8 @@ impl Simulation {
         seed: &[f64],
         values: &mut [f64],
     ) -> Result<(), SimulationError> {
+        as_many(knowns.len(), seed.len())?;
+        as_many(unknowns.len(), values.len())?;
         for &reference in unknowns {
             self.unknown(reference)?;
         }
@@ -132,6 +136,8 @@ impl Simulation {
         seed: &[f64],
         values: &mut [f64],
     ) -> Result<(), SimulationError> {
+        as_many(unknowns.len(), seed.len())?;
+        as_many(knowns.len(), values.len())?;
         for (&reference, &weight) in unknowns.iter().zip(seed) {
             let variable = self.unknown(reference)?;
             if !weight.is_finite() {
