@@ -22,7 +22,7 @@ use super::entry::{self, Entry};
 use super::events::{self, Impact, Told};
 use super::load_zone::MODULATED;
 use super::measured::Measured;
-use super::passages;
+use super::passages::{self, RESAMPLINGS};
 use super::raceway::{self, Raceway};
 use super::report::Fault;
 use super::statistics::{self, Random};
@@ -52,8 +52,7 @@ const ANSWER: f64 = 7.3e-5;
 const MACHINES: f64 = 0.05;
 /// Share of the length beyond which its 95 % interval says nothing.
 pub(super) const UNCERTAIN: f64 = 1.0 / 3.0;
-/// Resamplings of the passages, and share of them in which entry and impacts must be found again.
-const RESAMPLINGS: usize = 60;
+/// Share of the resamplings in which entry and impacts must be found again.
 const STABLE: f64 = 0.8;
 /// Consecutive stretches that are laid beside each other, and passages in one: each must be sized by itself.
 const STRETCHES: usize = 4;

@@ -12,7 +12,7 @@
 //! [`synthesis`]: super::synthesis
 
 use super::measured::Measured;
-use super::passages;
+use super::passages::{self, RESAMPLINGS};
 use super::raceway::{self, Raceway};
 use super::statistics::{self, Random};
 use super::synthesis::{POINTS, Rig, Run, Trial, below_cut, best_shift, similarity};
@@ -37,8 +37,6 @@ const STEP: f64 = 1.0;
 const BEGINNINGS: usize = 4;
 /// Similarity at the top of a climb after which no other is tried.
 const UNMISTAKABLE: f64 = 0.97;
-/// Resamplings of the passages.
-const RESAMPLINGS: usize = 60;
 
 /// Length by similarity. Angles in degrees of the outer raceway.
 #[derive(Debug, Clone, PartialEq)]
