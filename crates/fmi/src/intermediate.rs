@@ -9,7 +9,7 @@ use super::boundary;
 use super::c_types::Bool;
 use super::clock::Clock;
 use super::failure::Failure;
-use super::handles::Borrowed;
+use super::handles::{Borrowed, GivenUp};
 use super::mode::Mode;
 
 /// Where a step has ended.
@@ -74,14 +74,15 @@ fn update(instance: &mut Borrowed, at: Instants, is_done: bool) -> Result<Option
     instance.clock = clock.map(|clock| Clock { time, ..clock });
     instance.mode = Mode::IntermediateUpdate;
     let (mut wanted, mut at): (Bool, f64) = (0, time);
-    let returned = boundary::guard(|| {
-        instance.lend(|| {
+    let returned = instance.lend(|| {
+        boundary::guard(|| {
             let (wanted, at) = (&raw mut wanted, &raw mut at);
             // SAFETY: the host promises a callable function for as long as the instance lives (FMI 3.0,
             // fmi3InstantiateCoSimulation); the variables are ours and outlive the call.
             unsafe { callback(environment, time, may_set.into(), 1, 1, can_return.into(), wanted, at) };
-        });
+        })
     });
+    let returned = returned.map_err(|GivenUp| Failure::GivenUp)?;
     instance.mode = Mode::StepComplete;
     instance.clock = clock;
     returned.map_err(Failure::UpdateUnwound)?;
