@@ -13,6 +13,7 @@
 //! the spall: above the critical load, at which the element in the middle touches both rings again, stiffness cannot
 //! tell the two kinds.
 
+use super::critical_load::NoCriticalLoad;
 use super::spectrum;
 use super::static_bearing::{StaticBearing, StaticError};
 use super::synthesis::{self, Rig, Trial};
@@ -76,11 +77,11 @@ fn upper_frequency(scene: &Scene, stiffness: f64) -> f64 {
     (0.5 * (a + b) + (0.25 * (a - b) * (a - b) + coupling).sqrt()).sqrt() / TAU
 }
 
-/// Smallest load (N) at which elements at the bottom of the spall carry some of it.
+/// Smallest load (N) at which elements at the bottom of the spall carry some of it, or why there is none.
 ///
 /// # Errors
 /// Those of the static balance.
-pub fn critical_load(scene: &Scene, trial: Trial) -> Result<Option<f64>, StaticError> {
+pub fn critical_load(scene: &Scene, trial: Trial) -> Result<Result<f64, NoCriticalLoad>, StaticError> {
     Ok(StaticBearing::new(&synthesis::with_spall(scene, trial), None)?.critical_load()?.map(|critical| critical.load))
 }
 
