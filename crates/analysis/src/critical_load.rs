@@ -92,6 +92,8 @@ const INTERVALS: usize = 500;
 /// Approach of a contact, in radii of an element, up to which a load is sought. There a circle is 5 % deeper than the
 /// parabola that Hertz takes for it, and steel has long yielded.
 const LARGEST_APPROACH: f64 = 0.1;
+/// Factor between a load with a balance and a greater one without, both to the power 2/3, at which the search ends.
+const CLOSE: f64 = 1.001;
 
 impl StaticBearing {
     /// Where the path of an unloaded element is deepest.
@@ -245,10 +247,17 @@ fn crossing(function: impl Fn(f64) -> Result<f64, Ended>, scale: f64) -> Result<
         return Ok(0.0);
     }
     let mut high = low;
+    let mut factor = 3.0f64;
     while high.1 < 0.0 {
         low = high;
-        let x = 3.0 * high.0;
-        high = (x, function(load(x))?);
+        high = loop {
+            let x = factor * low.0;
+            match function(load(x)) {
+                // It may cross 0 before there is no balance any more.
+                Err(Ended::Without(NoCriticalLoad::NoBalance { .. })) if factor > CLOSE => factor = factor.sqrt(),
+                value => break (x, value?),
+            }
+        };
     }
     let mut last_moved_low = None;
     for _ in 0..200 {
