@@ -1,8 +1,8 @@
-//! How many instructions the library inside an FMU needs for a step. A count has no noise: what makes the library slower
-//! is seen however busy the machine is, and a loop that is no longer unrolled costs more than the limit.
+//! How many instructions the library inside an FMU needs for a step. A count has no noise: what makes the library
+//! slower is seen however busy the machine is, and a loop that is no longer unrolled costs more than the limit.
 //!
-//! Counted by Valgrind's callgrind within `fmi2DoStep` and `fmi2GetReal`, which the test program calls itself, started a
-//! second time under Valgrind. Valgrind has AVX2 and no AVX-512: the path for registers of four numbers is counted.
+//! Counted by Valgrind's callgrind within `fmi2DoStep` and `fmi2GetReal`, which the test program calls itself, started
+//! a second time under Valgrind. Valgrind has AVX2 and no AVX-512: the path for registers of four numbers is counted.
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #![allow(clippy::unwrap_used)]
 

@@ -86,6 +86,14 @@ pub enum VariableError {
         /// The variable whose name is spelt most like it, if any is.
         near: Option<String>,
     },
+    /// A list that does not have as many entries as there are value references.
+    #[error("{references} value references with a list of {given} for them: there must be as many of both")]
+    Lengths {
+        /// Number of value references.
+        references: usize,
+        /// Length of the list.
+        given: usize,
+    },
     /// The variable has another type.
     #[error("variable {name} (value reference {reference}) is not of type {wanted}")]
     WrongType {

@@ -7,7 +7,7 @@ use brinell::contact::rolling::RacewaySide;
 use brinell::geometry::line_contact::logarithmic_depth;
 use brinell::scene::{Bearing, ContactLaw, Crown, Roller, RollerProfile, RollingElement, Scene};
 use brinell::simulation::Simulation;
-use brinell_analysis::statics::StaticBearing;
+use brinell_analysis::statics::{NoCriticalLoad, StaticBearing};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, PI, TAU};
 use std::fmt::Write;
 use std::sync::Arc;
@@ -221,7 +221,7 @@ fn a_crowned_roller_just_past_an_edge_has_its_critical_load() {
     let bearing = StaticBearing::new(&scene, None).unwrap();
     let bottom = bearing.bottom().unwrap();
     let edge = bottom.middle + 0.5 * bearing.defect_length().unwrap();
-    let load = |past: f64| bearing.critical_load_at(edge - past).unwrap().map(|found| found.load);
+    let load = |past: f64| bearing.critical_load_at(edge - past).unwrap().map(|found| found.load).ok();
     // From 4e-17 m below the edge on: far less than the crown's first lamina carries with. On its way in an element is
     // squeezed by any load at all.
     let loads = [3e-8, 1e-6, 1e-5, 1e-3].map(|past| load(past).unwrap());
@@ -232,7 +232,8 @@ fn a_crowned_roller_just_past_an_edge_has_its_critical_load() {
         let bearing = bearing.with_depth_times(factor).unwrap();
         for i in 0..=200 {
             let found = bearing.critical_load_at(edge - 0.5 + f64::from(i) * 2.5e-3);
-            assert!(found.is_ok(), "{factor} {i}: {}", found.unwrap_err());
+            let is_said = matches!(found, Ok(Ok(_) | Err(NoCriticalLoad::NoneInside)));
+            assert!(is_said, "{factor} {i}: {found:?}");
         }
     }
 }

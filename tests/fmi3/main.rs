@@ -9,6 +9,7 @@ mod derivatives;
 mod host;
 mod instantiate;
 mod modes;
+mod outliving;
 mod saved_states;
 mod steps;
 #[path = "../fmi2/host.rs"]

@@ -88,3 +88,37 @@ fn a_second_start_is_as_the_first_but_for_its_inputs() {
         assert_eq!(values(&mut once), values(&mut twice), "{scene} after a step");
     }
 }
+
+#[test]
+fn lists_of_unequal_lengths_are_refused_and_nothing_is_set_or_read() {
+    let recorder = Some(Recorder { rate: 51_200.0, filter: RecorderFilter::None });
+    let mut bearing = Simulation::new(Scene { recorder, ..shipped("er16k-tb1") }, None).unwrap();
+    let [x, y, law, folder, steps] = ["shaft.load.x", "shaft.load.y", "contact.law", "recorder.folder", "solver.steps"]
+        .map(|name| bearing.reference(name).unwrap());
+    let before = [bearing.get("shaft.load.x").unwrap(), bearing.get("shaft.load.y").unwrap()];
+    let told = "2 value references with a list of 1 for them: there must be as many of both";
+    assert_eq!(bearing.set_reals(&[x, y], &[1.0]).unwrap_err().to_string(), told);
+    assert_eq!(bearing.set_integers(&[law, law], &[1]).unwrap_err().to_string(), told);
+    assert_eq!(bearing.set_strings(&[folder, folder], &["here"]).unwrap_err().to_string(), told);
+    let (orders, rates) = ([[1].as_slice(), &[1, 1]], [[1.0].as_slice(), &[1.0, 1.0]]);
+    for (orders, rates) in [(orders[0], rates[1]), (orders[1], rates[0])] {
+        assert_eq!(bearing.set_input_derivatives(&[x, y], orders, rates).unwrap_err().to_string(), told);
+    }
+    let mut real = [7.0];
+    assert_eq!(bearing.reals(&[x, y], &mut real).unwrap_err().to_string(), told);
+    assert_eq!(bearing.integers(&[law, law], &mut [7]).unwrap_err().to_string(), told);
+    assert_eq!(bearing.counts(&[steps, steps], &mut [7]).unwrap_err().to_string(), told);
+    assert_eq!(bearing.set_reals(&[], &[1.0]).unwrap_err().to_string(), told.replace('2', "0"));
+    let force = bearing.reference("shaft.force.y").unwrap();
+    assert_eq!(bearing.directional_derivative(&[force], &[x, y], &[1.0], &mut real).unwrap_err().to_string(), told);
+    assert_eq!(bearing.directional_derivative(&[force; 2], &[x], &[1.0], &mut real).unwrap_err().to_string(), told);
+    assert_eq!(bearing.adjoint_derivative(&[force], &[x, y], &[1.0], &mut real).unwrap_err().to_string(), told);
+    bearing.initialize(0.0).unwrap();
+    assert_eq!(bearing.output_derivatives(&[force; 2], &[1, 1], &mut real).unwrap_err().to_string(), told);
+    assert_eq!(real, [7.0]);
+    assert_eq!([bearing.get("shaft.load.x").unwrap(), bearing.get("shaft.load.y").unwrap()], before);
+    assert_eq!(bearing.strings(&[folder]).unwrap(), [""]);
+    // A counter among others of another type: nothing is read either.
+    let mut counts = [7, 7];
+    assert!(bearing.counts(&[steps, x], &mut counts).is_err() && counts == [7, 7]);
+}

@@ -20,6 +20,7 @@ mod rollers_in_motion;
 mod sensor_modes;
 mod sensors;
 mod several_defects;
+mod starts;
 mod stiffness;
 #[path = "../support/mod.rs"]
 mod support;

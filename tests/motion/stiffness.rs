@@ -253,3 +253,63 @@ fn what_cannot_be_asked_is_refused() {
     assert!(matches!(found, Err(StaticError::NoLoad { .. })), "{found:?}");
     assert_eq!(bearing(&healthy()).critical_load(), Err(StaticError::NoDefect));
 }
+
+/// Spalled bearings of three to six elements.
+fn sparse(seed: u64) -> Scene {
+    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ 0xD1B5_4A32_D192_ED03;
+    let mut draw = |low: f64, high: f64| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        low + (high - low) * ((state >> 11) as f64 / (1u64 << 53) as f64)
+    };
+    let count = draw(3.0, 7.0) as usize;
+    let diameter = draw(4e-3, 12e-3);
+    let pitch = diameter * draw(2.6, 6.0);
+    let mut bearing = Bearing::steel_balls(count, diameter, pitch);
+    bearing.radial_clearance = draw(0.0, 20e-6);
+    let angle = draw(-PI, PI);
+    let outer = 0.5 * (pitch + diameter);
+    let length = outer * draw(2.0, 60.0).to_radians();
+    let builder = Scene::builder(bearing).shaft_load([0.0, -draw(50.0, 5000.0)]).shaft_speed(60.0);
+    let mut scene = builder.spall(angle, length, draw(5e-6, 200e-6)).build().unwrap();
+    scene.contact.law = brinell::scene::ContactLaw::Hertz;
+    scene
+}
+
+#[test]
+fn spalled_bearings_of_few_elements_have_their_stiffness_and_a_critical_load_or_the_reason_for_none() {
+    let (mut given, mut none) = (0, 0);
+    for seed in 0..40 {
+        let scene = sparse(seed);
+        let bearing = bearing(&scene);
+        assert!(sweep(&bearing, -FRAC_PI_2, 20).is_ok(), "{seed}");
+        let angles = (0..20).map(|i| f64::from(i) / 20.0 * bearing.spacing());
+        let found =
+            angles.map(|angle| bearing.critical_load_at(angle).unwrap()).chain([bearing.critical_load().unwrap()]);
+        for found in found {
+            match found {
+                Ok(critical) => {
+                    let balance = bearing.balance(critical.cage_angle, [0.0, -critical.load.max(1.0)]).unwrap();
+                    let most = balance.elements.iter().map(|element| element.inner_approach).fold(0.0, f64::max);
+                    assert!(most <= 0.1 * scene.bearing.element_radius(), "{seed}: {critical:?}");
+                    given += 1;
+                }
+                Err(NoCriticalLoad::BeyondElastic { load, gap_um, approach_um, limit_um }) => {
+                    assert!(load.is_finite() && gap_um >= 0.0 && approach_um > limit_um, "{seed}");
+                    none += 1;
+                }
+                Err(NoCriticalLoad::NoneInside) => {}
+                Err(why) => panic!("{seed}, {scene:?}: {why}"),
+            }
+        }
+    }
+    assert!(given > 50 && none > 50, "{given} {none}");
+}
+
+#[test]
+fn a_spall_opposite_the_load_says_why_no_load_brings_its_elements_to_carry() {
+    let mut scene = shipped("er16k-tb1");
+    scene.defects[0].angle = FRAC_PI_2;
+    let why = bearing(&scene).critical_load().unwrap().unwrap_err().to_string();
+    // Balls of 7.94 mm; the ring goes away from the spall.
+    assert!(why.contains("um to go") && why.contains("at most 397.0 um, a tenth of an element's radius"), "{why}");
+}

@@ -1,7 +1,7 @@
 //! Solves one stored contact problem and prints one line of JSON.
 //!
-//! `cargo run --release -p brinell-analysis --example contact_case -- CASE.json [--solver active-set|cg] [--repeat N] [--force N]
-//! [--residual R]`
+//! `cargo run --release -p brinell-analysis --example contact_case -- CASE.json [--solver active-set|cg] [--repeat N]
+//! [--force N] [--residual R]`
 //!
 //! CASE.json, SI units: `nx, ny, cell_x, cell_y` (full sides), `x_first_centre, y_first_centre, delta, Estar, hx[nx],
 //! hy[ny]`: undeformed gap h(i,j) = hx[i] + hy[j]. `seconds` is the best of N cold solutions; kernel and transforms are

@@ -31,14 +31,24 @@ where
         let failure = Failure::OutOfMode { mode: instance.mode, function };
         return fail(&mut instance, function, failure);
     }
-    match catch_unwind(AssertUnwindSafe(|| body(&mut instance))) {
+    let outcome = catch_unwind(AssertUnwindSafe(|| body(&mut instance)));
+    if instance.is_given_up() {
+        // The call that is in the instance now says so: its logger is not this one's any more.
+        return Status::Error;
+    }
+    let status = match outcome {
         Ok(Ok(())) => Status::Ok,
         Ok(Err(failure)) => fail(&mut instance, function, failure),
         Err(payload) => {
             instance.damaged = true;
             fail(&mut instance, function, Failure::Panic(words(payload)))
         }
+    };
+    if instance.mode == Mode::IntermediateUpdate && instance.is_abandoned() {
+        instance.mode = Mode::Error;
+        return fail(&mut instance, function, Failure::OutlivesUpdate);
     }
+    status
 }
 
 /// Logs a failure, and puts the instance into error if the failure is one.

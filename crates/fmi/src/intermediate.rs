@@ -7,7 +7,7 @@
 
 use crate::boundary;
 use crate::c_interface::Bool;
-use crate::instance::{Borrowed, Clock, Failure, Mode};
+use crate::instance::{Borrowed, Clock, Failure, GivenUp, Mode};
 
 /// Where a step has ended.
 #[derive(Debug, Clone, Copy)]
@@ -71,14 +71,15 @@ fn update(instance: &mut Borrowed, at: Instants, is_done: bool) -> Result<Option
     instance.clock = clock.map(|clock| Clock { time, ..clock });
     instance.mode = Mode::IntermediateUpdate;
     let (mut wanted, mut at): (Bool, f64) = (0, time);
-    let returned = boundary::guard(|| {
-        instance.lend(|| {
+    let returned = instance.lend(|| {
+        boundary::guard(|| {
             let (wanted, at) = (&raw mut wanted, &raw mut at);
             // SAFETY: the host promises a callable function for as long as the instance lives (FMI 3.0,
             // fmi3InstantiateCoSimulation); the variables are ours and outlive the call.
             unsafe { callback(environment, time, may_set.into(), 1, 1, can_return.into(), wanted, at) };
-        });
+        })
     });
+    let returned = returned.map_err(|GivenUp| Failure::GivenUp)?;
     instance.mode = Mode::StepComplete;
     instance.clock = clock;
     returned.map_err(Failure::UpdateUnwound)?;

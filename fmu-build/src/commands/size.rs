@@ -96,6 +96,7 @@ fn write(report: &Report, folder: &Path) -> Result<Vec<PathBuf>> {
         eprintln!("{}", passage.display());
         let mut found = serde_json::to_value(recording)?;
         found["critical_load_n"] = serde_json::json!(report.critical_load_n);
+        found["critical_load_reason"] = serde_json::json!(report.critical_load_reason);
         found["kind"] = serde_json::json!(report.kind);
         let about = with_ending(&stem, ".json");
         whole_file::write(&about, serde_json::to_string_pretty(&found)? + "\n")?;

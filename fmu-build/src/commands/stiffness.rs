@@ -6,9 +6,10 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
-use brinell::dynamics::equilibrium::EquilibriumError;
 use brinell::scene::{Bearing, ContactLaw, DefectOn, Scene};
-use brinell_analysis::statics::{Balance, Bottom, CriticalLoad, StaticBearing, StaticError, min_mean_max, sweep};
+use brinell_analysis::statics::{
+    Balance, Bottom, CriticalLoad, NoCriticalLoad, StaticBearing, StaticError, min_mean_max, sweep,
+};
 
 use crate::package::Model;
 use crate::shared::{Project, Python, contact_map, csv, whole_file};
@@ -74,8 +75,8 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
         println!("{}", path.display());
     }
 
-    let critical = if bottom.is_some() { covered(plain.critical_load())? } else { None };
-    if let (Some(bottom), Some(critical)) = (&bottom, &critical) {
+    let critical = bottom.as_ref().map(|bottom| anyhow::Ok((bottom, plain.critical_load()?))).transpose()?;
+    if let Some((bottom, Ok(critical))) = &critical {
         let path = beside(&stem, "-critical-load.csv");
         let Bearing { radial_clearance, outer_compliance, .. } = model.scene.bearing;
         whole_file::write_with(&path, |mut out| {
@@ -83,7 +84,8 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
         })?;
         println!("{}", path.display());
     }
-    print!("{}", summary(&plain, &balances, bottom.as_ref(), critical.as_ref())?);
+    let critical = critical.as_ref().map(|(bottom, critical)| (*bottom, critical.as_ref()));
+    print!("{}", summary(&plain, &balances, critical)?);
     if options.figure {
         let python = Python::prepare(project)?;
         print!("{}", python.run("stiffness.py", [stem])?);
@@ -100,14 +102,6 @@ fn plain(bearing: &StaticBearing, model: &Model, load: Option<f64>) -> Result<St
         Ok(plain) => loaded(plain, load),
         // Law `hertz` knows no topography.
         Err(_) => Ok(bearing.clone()),
-    }
-}
-
-/// A critical load, or `None` where it needs forces that the contact map does not cover.
-fn covered(found: Result<Option<CriticalLoad>, StaticError>) -> Result<Option<CriticalLoad>> {
-    match found {
-        Err(StaticError::Equilibrium { cause: EquilibriumError::Contact { .. }, .. }) => Ok(None),
-        found => Ok(found?),
     }
 }
 
@@ -171,7 +165,7 @@ fn write_sweep(
     csv::header(out, names.iter().map(|(name, unit)| (name.as_str(), *unit)))?;
     for balance in balances {
         let without = healthy.balance(balance.cage_angle, balance.load)?;
-        let critical = covered(plain.critical_load_at(balance.cage_angle))?.map_or(f64::NAN, |found| found.load);
+        let critical = plain.critical_load_at(balance.cage_angle)?.map_or(f64::NAN, |found| found.load);
         let [[xx, xy], [yx, yy]] = balance.stiffness;
         let ([x, y], [load_x, load_y]) = (balance.displacement, balance.load);
         let mut row =
@@ -218,7 +212,7 @@ fn write_variations(
     let names = [("varied", "1"), ("path", "m"), ("clearance", "m"), ("compliance", "m/N"), ("critical_load", "N")];
     csv::header(out, names.into_iter())?;
     let mut row = |varied: f64, path: f64, clearance: f64, compliance: f64, bearing: &StaticBearing| -> Result<()> {
-        let found = covered(bearing.critical_load())?.map_or(f64::NAN, |found| found.load);
+        let found = bearing.critical_load()?.map_or(f64::NAN, |found| found.load);
         Ok(csv::row(out, [varied, path, clearance, compliance, found].into_iter())?)
     };
     for factor in DEPTHS {
@@ -235,7 +229,7 @@ fn write_variations(
         let clearance = widest * part(i);
         row(1.0, bottom.path, clearance, compliance, &bearing.with_clearance(clearance))?;
     }
-    let rigid = covered(bearing.with_outer_compliance(0.0).critical_load())?.map_or(critical.load, |found| found.load);
+    let rigid = bearing.with_outer_compliance(0.0).critical_load()?.map_or(critical.load, |found| found.load);
     let softest = (4.0 * bottom.path / rigid).max(2.0 * compliance);
     for i in 0..VARIATIONS {
         let compliance = softest * part(i);
@@ -247,8 +241,7 @@ fn write_variations(
 fn summary(
     bearing: &StaticBearing,
     balances: &[Balance],
-    bottom: Option<&Bottom>,
-    critical: Option<&CriticalLoad>,
+    critical: Option<(&Bottom, Result<&CriticalLoad, &NoCriticalLoad>)>,
 ) -> Result<String> {
     let [x, y] = bearing.load();
     let per_um = |quantity: fn(&Balance) -> f64| min_mean_max(balances, quantity).map(|k| k * 1e-6);
@@ -261,11 +254,10 @@ fn summary(
     text += &line("stiffness along the load", free, "N/µm");
     text += &line("  transverse position held", held, "N/µm");
     text += &line("load zone, half-angle", zone, "degrees");
-    let Some(bottom) = bottom else { return Ok(text) };
-    let Some(critical) = critical else {
-        return Ok(text
-            + "critical load: none; no load that the contact law covers brings the elements at the bottom of the \
-                    defect to carry\n");
+    let Some((bottom, critical)) = critical else { return Ok(text) };
+    let critical = match critical {
+        Ok(critical) => critical,
+        Err(why) => return Ok(text + &format!("critical load: none; {why}\n")),
     };
     let angles = [critical.cage_angle.to_degrees(), bottom.path * 1e6];
     text += &format!(

@@ -20,7 +20,9 @@ use variables::{listed, variables};
 pub const LIMITS: [&str; 8] = [
     "Rolling elements are balls or cylindrical rollers. Rollers do not tilt and carry no axial load; their law was \
      measured on steel.",
-    "One defect, on a raceway or on a rolling element; a defective ball turns about an axis parallel to the bearing's.",
+    "Defects, one or several, are on raceways and rolling elements; those of one body do not overlap. Where a raceway's \
+     defect and an element's own are under one contact, the deeper one counts. A defective ball turns about an axis \
+     parallel to the bearing's.",
     "Love's half-space at a vertical edge ignores the corner's own compliance unless the scene has \
      <code>contact.edge = \"step\"</code>: at the edge of a spall 100 µm deep the \
      force is 12 to 16 % too large, of one 15 to 30 µm deep 2 to 5 %, and the pressure at the edge diverges.",
@@ -338,6 +340,15 @@ mod tests {
     fn the_page_says_balls_and_outer_raceway() {
         let page = page("6205-healthy");
         assert!(page.contains("<td>9 balls</td>") && page.contains("Rolling elements are balls or"));
-        assert!(page.contains("One defect, on a raceway or on a rolling element"));
+    }
+
+    #[test]
+    fn the_page_of_two_defects_has_both_and_does_not_say_that_there_is_one() {
+        let page = page("6205-two-defects");
+        assert!(!page.contains("One defect"));
+        assert!(page.contains("Defects, one or several, are on raceways and rolling elements"));
+        for number in ["defect[1].angle", "defect[2].angle"] {
+            assert!(page.contains(number), "{number}");
+        }
     }
 }

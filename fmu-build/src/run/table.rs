@@ -19,10 +19,10 @@ use crate::shared::csv;
 use crate::shared::whole_file;
 
 /// Rows in a group: what is kept in memory while a file is written.
-const GROUP: usize = 1 << 15;
+pub(crate) const GROUP: usize = 1 << 15;
 
 /// How much time is spent on packing, of 9: more makes files a hundredth smaller.
-const PACKING: u32 = 4;
+pub(crate) const PACKING: u32 = 4;
 
 /// What a table is written as.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]

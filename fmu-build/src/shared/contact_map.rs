@@ -92,12 +92,12 @@ impl Runner for Cores {
 }
 
 #[cfg(test)]
-#[path = "../map_sources.rs"]
+#[path = "../../map_sources.rs"]
 mod map_sources;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model;
+    use crate::package::model;
 
     /// A scene whose map takes little time.
     fn scene(folder: &std::path::Path) -> Scene {

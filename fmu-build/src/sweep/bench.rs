@@ -85,10 +85,10 @@ impl Bench<'_> {
     /// The row of a run, whatever becomes of it.
     ///
     /// # Errors
-    /// Only what is no run's fault: a disk that is full.
+    /// Only what is no run's fault: a disk that is full, a column that the table does not have.
     pub(super) fn row(&self, run: &Run, maps: &Maps, fingerprints: &[u64]) -> Result<Row> {
         let mut row = Row::of(self.columns, run.index);
-        self.put_values(&mut row, run);
+        self.put_values(&mut row, run)?;
         let made = panic::catch_unwind(AssertUnwindSafe(|| self.fill(&mut row, run, maps, fingerprints)));
         let error = match made {
             Ok(Ok(())) => return Ok(row),
@@ -96,12 +96,12 @@ impl Bench<'_> {
             Ok(Err(error)) => format!("{error:#}"),
             Err(_) => "the run ended in a fault of the program; standard error says where".to_owned(),
         };
-        row.put(self.columns, "error", Cell::Text(error));
+        row.put(self.columns, "error", Cell::Text(error))?;
         Ok(row)
     }
 
     /// What a run was given.
-    fn put_values(&self, row: &mut Row, run: &Run) {
+    fn put_values(&self, row: &mut Row, run: &Run) -> Result<()> {
         let mut put = |name: &str, cell: Cell| row.put(self.columns, name, cell);
         for (key, value) in &run.values {
             let cell = match (value, self.columns.iter().find(|column| column.name == *key).map(|column| column.kind)) {
@@ -110,22 +110,23 @@ impl Bench<'_> {
                 (Value::String(text), _) => Cell::Text(text.clone()),
                 (value, _) => Cell::Text(value.to_string()),
             };
-            put(key, cell);
+            put(key, cell)?;
         }
         if let Some(kind) = run.kind {
-            put("kind", Cell::Text(kind.word().to_owned()));
+            put("kind", Cell::Text(kind.word().to_owned()))?;
         }
         if let Some(profile) = run.profile {
-            put("speed_profile", Cell::Text(self.sweep.speed_profiles[profile].clone()));
+            put("speed_profile", Cell::Text(self.sweep.speed_profiles[profile].clone()))?;
         }
         if let Some(noise) = run.noise {
-            put("noise_db", Cell::Number(noise.ratio));
+            put("noise_db", Cell::Number(noise.ratio))?;
         }
+        Ok(())
     }
 
     fn fill(&self, row: &mut Row, run: &Run, maps: &Maps, fingerprints: &[u64]) -> Result<()> {
         let Ready { scene, table, texts } = self.ready(run)?;
-        self.label(row, &scene, &table, run);
+        self.label(row, &scene, &table, run)?;
         let map = maps.take(fingerprints)?;
         let mut simulation = Simulation::with_shared_map(scene.clone(), texts.iter().map(|text| &**text), map)?;
         let profile = run.profile.map(|profile| &self.speeds[profile]);
@@ -187,25 +188,25 @@ impl Bench<'_> {
     }
 
     /// What the run is a run of.
-    fn label(&self, row: &mut Row, scene: &Scene, table: &toml::Table, run: &Run) {
+    fn label(&self, row: &mut Row, scene: &Scene, table: &toml::Table, run: &Run) -> Result<()> {
         let mut put = |name: &str, cell: Cell| row.put(self.columns, name, cell);
         let (kind, shape) = match &scene.defects[..] {
             [] => (Fault::Healthy.word(), None),
             [defect] => (kind_of(defect.on).word(), Some(defect)),
             _ => ("several", None),
         };
-        put("label_kind", Cell::Text(kind.to_owned()));
+        put("label_kind", Cell::Text(kind.to_owned()))?;
         if let Some(defect) = shape {
             if let DefectShape::Spall { length, depth, .. } = defect.shape {
-                put("label_length_mm", Cell::Number(rounded(length * 1e3)));
-                put("label_depth_um", Cell::Number(rounded(depth * 1e6)));
+                put("label_length_mm", Cell::Number(rounded(length * 1e3)))?;
+                put("label_depth_um", Cell::Number(rounded(depth * 1e6)))?;
             }
             // As the file has it, in degrees.
             let angle = Base::value(table, "defect.angle_deg").and_then(super::file::number);
-            put("label_angle_deg", Cell::Number(angle.unwrap_or(rounded(defect.angle.to_degrees()))));
+            put("label_angle_deg", Cell::Number(angle.unwrap_or(rounded(defect.angle.to_degrees()))))?;
         }
         let load = [scene.shaft.load, scene.housing.load].map(|load| load[0].hypot(load[1]));
-        put("label_load_n", Cell::Number(rounded(load[0].max(load[1]))));
+        put("label_load_n", Cell::Number(rounded(load[0].max(load[1]))))?;
         let speed = match run.profile.map(|profile| &self.speeds[profile]) {
             None => rounded(scene.shaft_speed / TAU),
             Some(profile) => {
@@ -214,7 +215,7 @@ impl Bench<'_> {
                 sum / count
             }
         };
-        put("label_speed_hz", Cell::Number(speed));
+        put("label_speed_hz", Cell::Number(speed))
     }
 
     /// Statistics of the first sensor, passage of the defect, and steps.
@@ -231,12 +232,12 @@ impl Bench<'_> {
         let late = cage.iter().zip(time).filter(|(_, t)| **t > self.sweep.settle).map(|(speed, _)| *speed);
         let mut put = |name: &str, cell: Cell| row.put(self.columns, name, cell);
         let mut number = |name: &str, value: f64| put(name, Cell::Number(value));
-        number("bpfo_hz", count as f64 * mean(&late.collect::<Vec<_>>()) / TAU);
-        number("rms_m_s2", found.rms);
-        number("peak_m_s2", found.peak);
-        number("kurtosis", found.kurtosis);
+        number("bpfo_hz", count as f64 * mean(&late.collect::<Vec<_>>()) / TAU)?;
+        number("rms_m_s2", found.rms)?;
+        number("peak_m_s2", found.peak)?;
+        number("kurtosis", found.kurtosis)?;
         for (k, line) in found.envelope.into_iter().enumerate() {
-            number(&envelope_name(k + 1), line);
+            number(&envelope_name(k + 1), line)?;
         }
         if let Some(defect) = passes_outer_defect(scene) {
             let element = |j: usize| {
@@ -245,13 +246,13 @@ impl Bench<'_> {
             };
             let elements = (1..=count).map(element).collect::<Result<Vec<_>>>()?;
             if let Some(passage) = Passage::first(time, &elements, defect, self.sweep.settle) {
-                number("unloaded_s", passage.unloaded);
-                number("loaded_again_s", passage.loaded_again);
-                number("unloaded_deg", passage.turned.to_degrees());
+                number("unloaded_s", passage.unloaded)?;
+                number("loaded_again_s", passage.loaded_again)?;
+                number("unloaded_deg", passage.turned.to_degrees())?;
             }
         }
         for (name, variable) in [("steps", "solver.steps"), ("rejected_steps", "solver.rejected_steps")] {
-            put(name, Cell::Whole(column(variable)?.last().copied().unwrap_or(0.0) as i64));
+            put(name, Cell::Whole(column(variable)?.last().copied().unwrap_or(0.0) as i64))?;
         }
         Ok(())
     }

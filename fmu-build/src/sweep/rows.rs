@@ -59,13 +59,18 @@ impl Row {
         }
     }
 
-    /// Puts a value into the column of this name, if there is one. What is not finite is missing.
-    pub(super) fn put(&mut self, columns: &[Column], name: &str, cell: Cell) {
-        let Some(position) = columns.iter().position(|column| column.name == name) else { return };
+    /// Puts a value into the column of this name. What is not finite is missing.
+    ///
+    /// # Errors
+    /// No such column.
+    pub(super) fn put(&mut self, columns: &[Column], name: &str, cell: Cell) -> Result<()> {
+        let position = columns.iter().position(|column| column.name == name);
+        let position = position.with_context(|| format!("a sweep's table has no column {name}"))?;
         self.0[position] = match cell {
             Cell::Number(number) if !number.is_finite() => Cell::Missing,
             cell => cell,
         };
+        Ok(())
     }
 
     /// As a line of the journal.
@@ -162,8 +167,8 @@ mod tests {
 
     fn row(run: u64) -> Row {
         let mut row = Row::of(&columns(), run);
-        row.put(&columns(), "rms", Cell::Number(0.1 * run as f64));
-        row.put(&columns(), "error", Cell::Text(format!("a \"quoted\"\ttext\nof {run} µm \\ \u{1b}'")));
+        row.put(&columns(), "rms", Cell::Number(0.1 * run as f64)).unwrap();
+        row.put(&columns(), "error", Cell::Text(format!("a \"quoted\"\ttext\nof {run} µm \\ \u{1b}'"))).unwrap();
         row
     }
 
@@ -187,5 +192,12 @@ mod tests {
         damaged[ends[0] + 25] ^= 1;
         fs::write(folder.path().join("rows.log"), damaged).unwrap();
         assert_eq!(Journal::open(folder.path(), running.path(), &columns()).unwrap().1, [row(2), row(3)]);
+    }
+    #[test]
+    fn a_value_for_a_column_that_the_table_does_not_have_is_an_error() {
+        let mut row = Row::of(&columns(), 3);
+        let error = row.put(&columns(), "rms_m_s2", Cell::Number(1.0)).unwrap_err();
+        assert_eq!(error.to_string(), "a sweep's table has no column rms_m_s2");
+        assert_eq!(row, Row::of(&columns(), 3));
     }
 }

@@ -11,12 +11,8 @@ use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
 
 use super::rows::{Cell, Column, Kind, Row};
+use crate::run::table::{GROUP, PACKING};
 use crate::shared::whole_file;
-
-/// Rows in a group.
-const GROUP: usize = 1 << 15;
-/// How much time is spent on packing, of 9.
-const PACKING: u32 = 4;
 
 /// Writes the rows, whole or not at all.
 pub(super) fn write(path: &Path, columns: &[Column], rows: &[Row]) -> Result<()> {

@@ -69,3 +69,25 @@ fn a_load_that_is_no_load_is_refused() {
         assert!(error.to_string().contains("above 0"), "{error}");
     }
 }
+
+#[test]
+fn a_bearing_without_a_critical_load_has_its_table_and_is_told_why() {
+    let folder = common::folder("stiffness-without-critical-load");
+    let text = fs::read_to_string(common::root().join("scenes/er16k-tb1.toml")).unwrap();
+    // Opposite the load: the ring goes away from the spall.
+    let text = text.replace("law = \"map\"", "law = \"hertz\"").replace("\nangle_deg = -90.0", "\nangle_deg = 90.0");
+    let scene = folder.join("above.toml");
+    fs::write(&scene, text).unwrap();
+    let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_brinell"));
+    let output = program.args(["stiffness", "--no-figure", "--points", "10", "-o"]).arg(&folder).arg(&scene).output();
+    let output = output.unwrap();
+    let told = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(told.contains("stiffness along the load: least"), "{told}");
+    assert!(told.contains("critical load: none; under ") && told.contains("a tenth of an element's radius"), "{told}");
+    let (header, rows) = read(&folder.join("er16k-tb1-stiffness.csv"));
+    let column = |name: &str| header.iter().position(|cell| cell.starts_with(name)).unwrap();
+    assert!(rows.len() > 10 && rows.iter().all(|row| row[column("stiffness.free")] > 0.0));
+    assert!(rows.iter().all(|row| row[column("critical_load")].is_nan()));
+    assert!(!folder.join("er16k-tb1-critical-load.csv").exists());
+}

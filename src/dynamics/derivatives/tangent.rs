@@ -53,7 +53,7 @@ impl Model {
     /// a spall 100 µm deep by 6e-3. A force that grows outwards would leave it two balances in its clearance where it
     /// about cancels its weight.
     #[inline(always)]
-    pub(super) fn centrifugal_radius(&self, rho: f64) -> (f64, f64) {
+    pub(in crate::dynamics) fn centrifugal_radius(&self, rho: f64) -> (f64, f64) {
         if self.elements_in_balance() { (self.outer_centre_radius, 0.0) } else { (rho, 1.0) }
     }
 

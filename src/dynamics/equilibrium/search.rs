@@ -9,6 +9,14 @@
 //! the line.
 //!
 //! An element that nothing pushes rests against the outer raceway without force.
+//!
+//! *A balance between two paths.* Where a damped raceway comes towards an element at a rate δ̇ > 0, its force near δ =
+//! 0 is that of the damper, n τ δ̇ S(δ) under proportional damping: K n τ δ̇ δ^(1/9) of a straight roller. What
+//! balances a weight G is δ = (G/(K n τ δ̇))^9. For an NU 205's roller (K 1.2e9 N/m^(10/9), G 0.03 N, τ 1.25e-5 s) that
+//! is 3e-16 m at 0.1 mm/s and 1e-21 m at 0.4 mm/s, while paths of 30 µm are numbers 3e-21 m apart: from one number to
+//! the next the force goes from less than the weight to more. (A ball's δ is above 1e-13 m up to 0.1 m/s.) The balance
+//! then lies between the two paths; forces are those of the way between them at which nothing is left, and the state is
+//! the path at which less is.
 
 pub use super::error::EquilibriumError;
 use crate::contact::rolling::RacewaySide;
@@ -28,10 +36,6 @@ const SMALLEST_RESIDUAL: f64 = 1e-12;
 const UNBALANCED: f64 = 1e-6;
 /// How far from where a search ended a contact law is asked for an answer (m): far above the rounding of paths.
 const FURTHER: f64 = 1e-15;
-/// Share of the forces on an element that may remain as residual: far above rounding, far below what matters.
-const ELEMENT_RESIDUAL: f64 = 1e-9;
-/// Share of an element's distance to which its position is known: some roundings.
-const ROUNDING: f64 = 1e-14;
 /// First step of an element's search that its last path does not begin (m).
 const FIRST_STRIDE: f64 = 1e-6;
 /// Longest step of a ring between two iterations at first (m); a soft support may have a long way to go.
@@ -73,7 +77,7 @@ impl Model {
             (rings, balance) = next;
         }
         self.check_contacts(&given, rings, &u)?;
-        self.check_elements(&given, rings, &u)?;
+        self.check_elements(&given, rings, &mut u)?;
         self.write(drive, rings, &u, state);
         Ok(())
     }
@@ -129,14 +133,8 @@ impl Model {
         at.u
     }
 
-    /// Element `j` in radial balance, and its path, looked for from `guess` on.
-    fn balanced_element(
-        &self,
-        j: usize,
-        cells: [[u32; 2]; 2],
-        guess: f64,
-        now: &FramedKinematics,
-    ) -> (f64, Linearized) {
+    /// Element `j` in radial balance, looked for from path `guess` on.
+    fn balanced_element(&self, j: usize, cells: [[u32; 2]; 2], guess: f64, now: &FramedKinematics) -> ElementAtRest {
         // u' = 0. Without second derivatives of the approach the slope is that of another damping, which Newton's
         // method bears.
         let element = |u: f64| {
@@ -146,24 +144,41 @@ impl Model {
         let touch = if cells[1] == [SMOOTH; 2] { 0.0 } else { self.touching_path(j, cells[1], now) };
         let (RadialForce { force: at_touch, .. }, touching) = element(touch);
         if at_touch == 0.0 {
-            return (touch, touching);
+            return ElementAtRest { path: touch, element: touching, nearer: None };
         }
         let (low, high) = if at_touch > 0.0 { (touch, f64::INFINITY) } else { (f64::NEG_INFINITY, touch) };
         let mut u = if guess > low && guess < high { guess } else { touch + FIRST_STRIDE.copysign(at_touch) };
         let mut search = PathSearch::between(low, high, FIRST_STRIDE);
         let mut found = element(u);
         for _ in 0..300 {
-            let (RadialForce { force, slope }, _) = found;
+            let (RadialForce { force, slope }, there) = found;
             let newton = u - force / slope;
             // A millionth of a millionth of a nanometre: the rounding of micrometre paths.
-            if force == 0.0 || (newton - u).abs() < 1e-21 {
-                break;
+            if force == 0.0 || ((newton - u).abs() < 1e-21 && force.abs() <= self.no_force(&there)) {
+                return ElementAtRest { path: u, element: there, nearer: None };
             }
             let Some(next) = search.next(u, force, newton) else { break };
             u = next;
             found = element(u);
         }
-        (u, found.1)
+        let (RadialForce { force, slope }, here) = found;
+        if force.abs() <= self.no_force(&here) || !force.is_finite() {
+            return ElementAtRest { path: u, element: here, nearer: None };
+        }
+        let beside = search.neighbour(force).map(|path| (path, element(path)));
+        match beside {
+            Some((path, (other, there))) if force * other.force < 0.0 && other.force.is_finite() => {
+                let share = force / (force - other.force);
+                let mut between = here;
+                between.inner += (there.inner - here.inner) * share;
+                between.outer += (there.outer - here.outer) * share;
+                let nearer = if force.abs() <= other.force.abs() { u } else { path };
+                // Where it pushes its tangent is that of what it does between the two.
+                let path = if slope.abs() >= other.slope.abs() { u } else { path };
+                ElementAtRest { path, element: between, nearer: Some(nearer) }
+            }
+            _ => ElementAtRest { path: u, element: here, nearer: None },
+        }
     }
 
     /// Refuses elements whose balance lies where the contact law near the defect has no answer: their search ends
@@ -192,19 +207,20 @@ impl Model {
         Ok(())
     }
 
-    /// Refuses a balance of the rings in which an element has none: the search for its path ends wherever it got to.
-    fn check_elements(&self, given: &Given, rings: Rings, u: &[f64]) -> Result<(), EquilibriumError> {
+    /// Refuses a balance of the rings in which an element has none: the search for its path ends wherever it got to. Of
+    /// two paths between which a balance lies, takes the one at which less force is left.
+    fn check_elements(&self, given: &Given, rings: Rings, u: &mut [f64]) -> Result<(), EquilibriumError> {
         let now = given.with_rings(rings);
-        for (j, &path) in u.iter().enumerate() {
-            let along = PathMotion::at_rest(path);
-            let element = self.linearized_at(j, self.cells_of(given.cells, j), along, &now, Bends::LeftOut);
+        for (j, path) in u.iter_mut().enumerate() {
+            let cells = self.cells_of(given.cells, j);
+            let element = self.linearized_at(j, cells, PathMotion::at_rest(*path), &now, Bends::LeftOut);
             let RadialForce { force, slope } = self.radial_balance(&element);
-            let [omega, _] = self.element_speed(j, &now.cage);
-            let body = self.element_mass * (self.gravity.norm() + element.rho * omega * omega);
-            let contacts = element.inner.norm() + element.outer.x.abs();
-            let limit = ELEMENT_RESIDUAL * (body + contacts) + ROUNDING * element.rho * slope.abs();
-            if !(force.abs() <= limit && path.abs() <= self.element_radius) {
-                return Err(EquilibriumError::Element { element: j + 1, path, force });
+            let is_steep = !self.elements_in_balance() && !(force.abs() <= self.no_force(&element));
+            let nearer = is_steep.then(|| self.balanced_element(j, cells, *path, &now).nearer).flatten();
+            *path = nearer.unwrap_or(*path);
+            let is_balanced = nearer.is_some() || force.abs() <= self.no_force_at(&element, slope);
+            if !(is_balanced && path.abs() <= self.element_radius) {
+                return Err(EquilibriumError::Element { element: j + 1, path: *path, force });
             }
         }
         Ok(())
@@ -218,18 +234,20 @@ impl Model {
         let play = now.offset().norm() + self.clearance().abs();
         for j in 0..self.element_count {
             let in_cells = self.cells_of(cells, j);
-            let (path, element) = if self.elements_in_balance() {
+            let ElementAtRest { path, element, nearer } = if self.elements_in_balance() {
                 let found = self.in_balance(j, in_cells, u[j], &now);
                 let [shaft, housing] = found.exerted().rings;
                 force += stacked(shaft, housing);
-                (found.path, found.elastic)
+                ElementAtRest { path: found.path, element: found.elastic, nearer: None }
             } else {
-                let (path, element) = self.balanced_element(j, in_cells, u[j], &now);
-                force += stacked(-element.inner, element.on_housing());
-                (path, element)
+                let found = self.balanced_element(j, in_cells, u[j], &now);
+                force += stacked(-found.element.inner, found.element.on_housing());
+                found
             };
             u[j] = path;
-            rounding += self.radial_balance(&element).slope.abs() * (path.abs() + play) * 4.0 * f64::EPSILON;
+            if nearer.is_none() {
+                rounding += self.radial_balance(&element).slope.abs() * (path.abs() + play) * 4.0 * f64::EPSILON;
+            }
             contact_sum += element.inner.norm();
             largest = largest.max(element.inner.amax()).max(element.outer.amax());
         }
@@ -326,6 +344,16 @@ impl Model {
 /// Longest step of a ring in an iteration (m): after all of them it may have moved by metres.
 fn longest_step(iteration: i32) -> f64 {
     LONGEST_STEP * f64::from(1 << (iteration / DOUBLING).min(16))
+}
+
+/// An element in radial balance.
+struct ElementAtRest {
+    /// Its path (m).
+    path: f64,
+    /// Its contacts, with the forces of the balance.
+    element: Linearized,
+    /// Where the balance lies between this path and the next number: that of the two at which less force is left.
+    nearer: Option<f64>,
 }
 
 /// What the search is given. Velocities in `still` stay; where the rings are follows in each iteration.

@@ -38,10 +38,6 @@ const FIRST_STRIDE: f64 = 1e-8;
 const MOST_EVALUATIONS: u64 = 300;
 /// Evaluations of a contact in balance: one each without and with damping, and four for its second derivatives.
 const EVALUATIONS_AT_BALANCE: u64 = 6;
-/// Share of the forces on an element that may be left of its balance: far above rounding, far below what matters.
-const RESIDUAL: f64 = 1e-9;
-/// Share of an element's distance to which its position is known: some roundings.
-const ROUNDING: f64 = 1e-14;
 
 /// An element in balance.
 #[derive(Debug, Clone, Copy)]
@@ -123,16 +119,13 @@ impl Model {
         let FoundPath { path, evaluations } = self.balanced_path(j, cells, guess, now);
         let elastic = self.linearized_at(j, cells, PathMotion::at_rest(path), now, Bends::Wanted);
         let RadialForce { force, slope } = self.radial_balance(&elastic);
-        let body = self.element_mass * (self.gravity.norm() + self.outer_centre_radius * elastic.omega * elastic.omega);
-        let limit =
-            RESIDUAL * (body + elastic.inner.norm() + elastic.outer.x.abs()) + ROUNDING * elastic.rho * slope.abs();
         let path_rate = self.balance_rate(j, &elastic, now);
         let dampers = self.dampers.as_deref().map(|[inner, outer]| [inner, outer]);
         let contacts = dampers.unwrap_or([&self.inner.contact, &self.outer.contact]);
         let damped =
             self.linearized_with(contacts, j, cells, PathMotion { path, rate: path_rate }, now, Bends::LeftOut);
         let ElementChange { inner, outer } = damping(&elastic, &damped);
-        let known = if force.abs() <= limit { 1.0 } else { f64::NAN };
+        let known = if force.abs() <= self.no_force_at(&elastic, slope) { 1.0 } else { f64::NAN };
         InBalance {
             path,
             path_rate,

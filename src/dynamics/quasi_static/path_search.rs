@@ -7,6 +7,10 @@ use crate::dynamics::parameters::Model;
 const LONGEST_STEP: f64 = 50e-6;
 /// Longest way at once where nothing brackets the balance (m).
 const LONGEST_STRIDE: f64 = 1.0;
+/// Share of the forces on an element that may be left of its balance: far above rounding, far below what matters.
+const RESIDUAL: f64 = 1e-9;
+/// Share of an element's distance to which its position is known: some roundings.
+const ROUNDING: f64 = 1e-14;
 
 /// Newton's method within the bracket that the signs of the force give, which falls as the path grows; where it would
 /// leave that or leap, halving, or as long as there is no bracket walking on to where the element is pushed.
@@ -42,6 +46,14 @@ impl PathSearch {
         };
         (next > low && next < high && self.stride <= LONGEST_STRIDE).then_some(next)
     }
+
+    /// The other end of the bracket, seen from one at which the element is pushed outwards with `force` (N), if no path
+    /// is left between the two.
+    pub(in crate::dynamics) fn neighbour(&self, force: f64) -> Option<f64> {
+        let Self { low, high, .. } = *self;
+        let middle = 0.5 * (low + high);
+        (middle == low || middle == high).then_some(if force > 0.0 { high } else { low })
+    }
 }
 
 impl Model {
@@ -51,5 +63,17 @@ impl Model {
         let RadialForce { force, slope } = self.radial_balance(element);
         let too_deep = element.inner.x.is_nan() && !element.outer.x.is_nan();
         RadialForce { force: if too_deep { f64::INFINITY } else { force }, slope }
+    }
+
+    /// Radial force (N) on an element that counts as none where its path resolves its forces.
+    pub(in crate::dynamics) fn no_force(&self, element: &Linearized) -> f64 {
+        let (radius, _) = self.centrifugal_radius(element.rho);
+        let body = self.element_mass * (self.gravity.norm() + radius * element.omega * element.omega);
+        RESIDUAL * (body + element.inner.norm() + element.outer.x.abs())
+    }
+
+    /// Radial force (N) that counts as none on an element whose force changes by `slope` (N/m) with its path.
+    pub(in crate::dynamics) fn no_force_at(&self, element: &Linearized, slope: f64) -> f64 {
+        self.no_force(element) + ROUNDING * element.rho * slope.abs()
     }
 }

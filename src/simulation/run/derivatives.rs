@@ -12,7 +12,7 @@
 //! All follow from the first-order change of [`crate::dynamics::derivatives::variation`]. Means over the last step and
 //! counts of the solver change with nothing until the next step.
 
-use super::values::{out_of_range, wrong_type};
+use super::values::{as_many, out_of_range, wrong_type};
 use crate::dynamics::derivatives::stacked;
 use crate::dynamics::parameters::{CageState, Drive, Frame, Kinematics, Lead};
 use crate::numerics::plane::Vector;
@@ -31,6 +31,8 @@ impl Simulation {
         orders: &[i32],
         values: &mut [f64],
     ) -> Result<(), SimulationError> {
+        as_many(references.len(), orders.len())?;
+        as_many(references.len(), values.len())?;
         for (&reference, &order) in references.iter().zip(orders) {
             let variable = self.unknown(reference)?;
             if order != 1 {
@@ -80,6 +82,8 @@ impl Simulation {
         seed: &[f64],
         values: &mut [f64],
     ) -> Result<(), SimulationError> {
+        as_many(knowns.len(), seed.len())?;
+        as_many(unknowns.len(), values.len())?;
         for &reference in unknowns {
             self.unknown(reference)?;
         }
@@ -127,6 +131,8 @@ impl Simulation {
         seed: &[f64],
         values: &mut [f64],
     ) -> Result<(), SimulationError> {
+        as_many(unknowns.len(), seed.len())?;
+        as_many(knowns.len(), values.len())?;
         for (&reference, &weight) in unknowns.iter().zip(seed) {
             let variable = self.unknown(reference)?;
             if !weight.is_finite() {

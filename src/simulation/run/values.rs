@@ -3,7 +3,7 @@
 use super::life::{Fresh, Simulation};
 use super::state::Ended;
 use crate::simulation::interface::table::{Causality, Kind, Variable};
-use crate::simulation::interface::{Quantity, access};
+use crate::simulation::interface::{Count, Quantity, access};
 use crate::simulation::{SimulationError, VariableError};
 
 impl Simulation {
@@ -43,8 +43,9 @@ impl Simulation {
         }
     }
 
-    /// Sets reals; all or none. Inputs at any time, parameters before `initialize`.
+    /// Sets reals, a value for each reference; all or none. Inputs at any time, parameters before `initialize`.
     pub fn set_reals(&mut self, references: &[u32], values: &[f64]) -> Result<(), VariableError> {
+        as_many(references.len(), values.len())?;
         let writable = if self.state.started { access::INPUT } else { access::INPUT | access::PARAMETER };
         let Some(classes) = access::can_set(&self.access, writable, references, values) else {
             return references
@@ -62,8 +63,25 @@ impl Simulation {
         Ok(())
     }
 
-    /// Reads reals. Outputs are computed if something has changed since they were last.
+    /// Makes the relative tolerance of the time integration this one, or the smallest that a scene may have; a smaller
+    /// one stays.
+    ///
+    /// # Errors
+    /// After `initialize`, unless the present one stays.
+    pub fn tighten_tolerance(&mut self, tolerance: f64) -> Result<(), VariableError> {
+        let Some(index) = self.inputs.tolerance.filter(|&index| tolerance < self.state.reals[index]) else {
+            return Ok(());
+        };
+        let least = match self.table[index].kind {
+            Kind::Real { min: Some(min), .. } => min,
+            _ => 0.0,
+        };
+        self.set_reals(&[index as u32], &[tolerance.max(least)])
+    }
+
+    /// Reads reals, one for each place in `values`. Outputs are computed if something has changed since they were last.
     pub fn reals(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), SimulationError> {
+        as_many(references.len(), values.len())?;
         let Some(classes) = access::classes(&self.access, references) else {
             return Err(self.not_real(references).into());
         };
@@ -81,6 +99,7 @@ impl Simulation {
 
     /// Sets integers (the enumeration `contact.law`); all or none; before `initialize`.
     pub fn set_integers(&mut self, references: &[u32], values: &[i32]) -> Result<(), VariableError> {
+        as_many(references.len(), values.len())?;
         for (&reference, &value) in references.iter().zip(values) {
             let variable = self.variable(reference)?;
             let Kind::Enumeration { items, .. } = variable.kind else {
@@ -110,6 +129,7 @@ impl Simulation {
 
     /// Reads integers and enumerations.
     pub fn integers(&mut self, references: &[u32], values: &mut [i32]) -> Result<(), SimulationError> {
+        as_many(references.len(), values.len())?;
         let mut outputs = false;
         for &reference in references {
             let variable = self.variable(reference)?;
@@ -130,17 +150,25 @@ impl Simulation {
     /// Reads what the solver has counted, as far as it has counted.
     ///
     /// # Errors
-    /// Variables that are no counters.
+    /// Variables that are no counters; not as many values as references.
     pub fn counts(&self, references: &[u32], values: &mut [u64]) -> Result<(), VariableError> {
+        as_many(references.len(), values.len())?;
+        for &reference in references {
+            self.counter(reference)?;
+        }
         let solves_grids = self.model.solves_grids();
         for (value, &reference) in values.iter_mut().zip(references) {
-            let variable = self.variable(reference)?;
-            *value = match self.quantities[reference as usize] {
-                Quantity::Count(count) => self.state.progress.count(count, solves_grids),
-                _ => return Err(wrong_type(variable, "UInt64")),
-            };
+            *value = self.state.progress.count(self.counter(reference)?, solves_grids);
         }
         Ok(())
+    }
+
+    fn counter(&self, reference: u32) -> Result<Count, VariableError> {
+        let variable = self.variable(reference)?;
+        match self.quantities[reference as usize] {
+            Quantity::Count(count) => Ok(count),
+            _ => Err(wrong_type(variable, "UInt64")),
+        }
     }
 
     /// Derivatives of real inputs by time, for the next step only; all or none. A variable's description says which
@@ -154,6 +182,8 @@ impl Simulation {
         orders: &[i32],
         values: &[f64],
     ) -> Result<(), VariableError> {
+        as_many(references.len(), orders.len())?;
+        as_many(references.len(), values.len())?;
         for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
             let variable = self.variable(reference)?;
             let name = || variable.name.clone();
@@ -226,6 +256,7 @@ impl Simulation {
     /// Sets strings; all or none; before `initialize`. Strings are no part of the state: a state that is restored
     /// elsewhere does not write into this host's folder.
     pub fn set_strings(&mut self, references: &[u32], values: &[&str]) -> Result<(), VariableError> {
+        as_many(references.len(), values.len())?;
         for &reference in references {
             self.folder(reference)?;
             if self.state.started {
@@ -246,6 +277,12 @@ impl Simulation {
             _ => Err(wrong_type(variable, "String")),
         }
     }
+}
+
+/// Refuses a list of another length than that of the value references to which it belongs.
+#[inline]
+pub(super) fn as_many(references: usize, given: usize) -> Result<(), VariableError> {
+    if given == references { Ok(()) } else { Err(VariableError::Lengths { references, given }) }
 }
 
 /// Why what is no input and no parameter cannot be set.

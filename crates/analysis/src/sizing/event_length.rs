@@ -18,7 +18,7 @@
 //! is the way from the entry's onset to its extreme, an upper bound that holds in any case.
 
 use crate::sizing::measured::Measured;
-use crate::sizing::passages::{Break, Entry, Impact, MODULATED, Told, entry, events, fold};
+use crate::sizing::passages::{Break, Entry, Impact, MODULATED, RESAMPLINGS, Told, entry, events, fold};
 use crate::sizing::raceway;
 use crate::sizing::raceway::Raceway;
 use crate::sizing::unresolved::Unresolved;
@@ -50,8 +50,7 @@ const ANSWER: f64 = 7.3e-5;
 const MACHINES: f64 = 0.05;
 /// Share of the length beyond which its 95 % interval says nothing.
 pub(super) const UNCERTAIN: f64 = 1.0 / 3.0;
-/// Resamplings of the passages, and share of them in which entry and impacts must be found again.
-const RESAMPLINGS: usize = 60;
+/// Share of the resamplings in which entry and impacts must be found again.
 const STABLE: f64 = 0.8;
 /// Consecutive stretches that are laid beside each other, and passages in one: each must be sized by itself.
 const STRETCHES: usize = 4;

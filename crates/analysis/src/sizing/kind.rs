@@ -16,6 +16,7 @@ use super::ringing::{self, Ringing};
 use crate::sizing::passages::fold;
 use crate::sizing::waveform::{CUT, POINTS, Rig, Trial, WaveformLength};
 use crate::spectrum::{Band, Spectrum};
+use crate::statics::NoCriticalLoad;
 use brinell::scene::{ContactLaw, Motion, Scene};
 
 /// Difference of similarity by which one kind of spall is preferred to the other.
@@ -43,8 +44,8 @@ pub(super) struct Judged {
     pub(crate) ringing: Option<Ringing>,
     /// Of a line spall, and of an extended one, of the scene's rig.
     pub(crate) expected: Option<[Ringing; 2]>,
-    /// Of the spall that fits best (N), with its depth (m).
-    pub(crate) critical_load: Option<f64>,
+    /// Of the spall that fits best (N), or why it has none; with its depth (m).
+    pub(crate) critical_load: Option<Result<f64, NoCriticalLoad>>,
     depth: Option<f64>,
     /// Depth at which the load is the critical load of the extended spall with these events (m); where the depth is
     /// unknown.
@@ -69,11 +70,10 @@ impl Judged {
             Some([of(way)?, of(way + spacing)?])
         });
         let by_ringing = by_ringing(ringing, expected);
-        let critical_load =
-            waveform.and_then(|w| ringing::critical_load(scene, trial(w.length, w.depth)).ok().flatten());
+        let critical_load = waveform.and_then(|w| ringing::critical_load(scene, trial(w.length, w.depth)).ok());
         // Above the critical load ringing is no witness.
-        let heard =
-            if critical_load.is_some_and(|critical| load(scene) >= critical) { Kind::Undecided } else { by_ringing };
+        let is_above = matches!(critical_load, Some(Ok(critical)) if load(scene) >= critical);
+        let heard = if is_above { Kind::Undecided } else { by_ringing };
         let kind = waveform.map_or(by_ringing, |w| by_similarity(w, spacing, heard));
         // With two elements in the spall, or heard to swing on fewer elements, it is no question.
         let critical_depth = crossing
@@ -100,7 +100,9 @@ impl Judged {
                 &format!("; an extended spall, longer by one element spacing of {spacing:.1} degrees, is not excluded");
         }
         let load = load(scene);
-        if let Some((critical, depth)) = self.critical_load.zip(self.depth).filter(|&(critical, _)| load >= critical) {
+        if let (Some(Ok(critical)), Some(depth)) = (&self.critical_load, self.depth)
+            && load >= *critical
+        {
             text += &format!(
                 "; WARNING: the load of {load:.0} N is above the critical load of {critical:.0} N (at the depth that \
                  fits best, {:.0} um): elements inside the spall carry load, and stiffness does not tell an extended \
@@ -133,7 +135,7 @@ fn critical_depth(scene: &Scene, length: f64) -> Option<f64> {
     for _ in 0..HALVINGS {
         let depth = (low * high).sqrt();
         let critical = ringing::critical_load(scene, Trial { length, depth, law: ContactLaw::Hertz }).ok()?;
-        if critical.is_none_or(|critical| critical > load) { high = depth } else { low = depth }
+        if critical.is_ok_and(|critical| critical <= load) { low = depth } else { high = depth }
     }
     (high < DEPTHS.1).then_some(high)
 }

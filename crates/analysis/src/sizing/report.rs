@@ -75,6 +75,8 @@ pub struct Report {
     pub method: Option<Method>,
     /// Smallest load at which elements inside the spall carry load again (N), where the scene's rig could be used.
     pub critical_load_n: Option<f64>,
+    /// Why there is none, where the scene's rig could be used.
+    pub critical_load_reason: Option<String>,
     /// Depth of an extended spall with these events below which the load is above its critical load (µm), where the
     /// depth is unknown.
     pub critical_depth_um: Option<f64>,

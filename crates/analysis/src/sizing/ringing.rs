@@ -15,7 +15,7 @@
 
 use crate::sizing::waveform::{Rig, Trial, synthesis};
 use crate::spectrum;
-use crate::statics::{StaticBearing, StaticError};
+use crate::statics::{NoCriticalLoad, StaticBearing, StaticError};
 use brinell::scene::Scene;
 use std::f64::consts::TAU;
 
@@ -76,11 +76,11 @@ fn upper_frequency(scene: &Scene, stiffness: f64) -> f64 {
     (0.5 * (a + b) + (0.25 * (a - b) * (a - b) + coupling).sqrt()).sqrt() / TAU
 }
 
-/// Smallest load (N) at which elements at the bottom of the spall carry some of it.
+/// Smallest load (N) at which elements at the bottom of the spall carry some of it, or why there is none.
 ///
 /// # Errors
 /// Those of the static balance.
-pub fn critical_load(scene: &Scene, trial: Trial) -> Result<Option<f64>, StaticError> {
+pub fn critical_load(scene: &Scene, trial: Trial) -> Result<Result<f64, NoCriticalLoad>, StaticError> {
     Ok(StaticBearing::new(&synthesis::with_spall(scene, trial), None)?.critical_load()?.map(|critical| critical.load))
 }
 

@@ -107,6 +107,7 @@ pub fn size_with(
         reason: String::new(),
         method: None,
         critical_load_n: None,
+        critical_load_reason: None,
         critical_depth_um: None,
         recordings: sized.iter().map(Sized::report).collect(),
         figures: sized.iter().map(|s| s.figure(&scene.bearing)).collect(),
@@ -120,15 +121,17 @@ pub fn size_with(
         }
         Ok(Combined { length, uncertainty }) => {
             let radius = Raceway::of(report.fault).radius(&scene.bearing);
-            let millimetres = 1e3 * radius * length.to_radians() / length;
+            let mm_per_degree = 1e3 * radius * 1f64.to_radians();
             report.verdict = Verdict::Resolved;
             report.standing = Some(standing(&sized));
             report.length_deg = Some(length);
-            report.length_mm = Some(length * millimetres);
-            report.uncertainty_mm = Some(COVERAGE * uncertainty * millimetres);
+            report.length_mm = Some(length * mm_per_degree);
+            report.uncertainty_mm = Some(COVERAGE * uncertainty * mm_per_degree);
             report.kind = common_kind(&lengths);
             report.method = lengths.first().map(|l| l.method);
-            report.critical_load_n = sized.iter().find_map(|s| s.judged.critical_load);
+            let critical = sized.iter().find_map(|s| s.judged.critical_load.as_ref());
+            report.critical_load_n = critical.and_then(|found| found.as_ref().ok().copied());
+            report.critical_load_reason = critical.and_then(|found| found.as_ref().err().map(ToString::to_string));
             report.critical_depth_um = sized.iter().find_map(|s| s.judged.critical_depth).map(|depth| 1e6 * depth);
             report.reason = basis(&report, &sized, scene);
         }

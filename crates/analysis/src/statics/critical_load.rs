@@ -18,6 +18,7 @@
 
 use super::static_bearing::{StaticBearing, StaticError};
 use brinell::contact::law::{Elasticity, ForceLaw};
+use brinell::dynamics::equilibrium::EquilibriumError;
 use brinell::scene::DefectOn;
 
 /// A critical load and where it belongs.
@@ -29,6 +30,38 @@ pub struct CriticalLoad {
     pub cage_angle: f64,
     /// Number of elements at the greatest depth.
     pub elements: usize,
+}
+
+/// Why there is no critical load.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NoCriticalLoad {
+    /// No element is in a defect deep enough to carry nothing.
+    #[error("no element has gone down into the defect")]
+    NoneInside,
+    /// The elements outside leave the elastic range before.
+    #[error(
+        "under {load:.0} N, where the elements at the bottom of the defect have {gap_um:.1} um to go, others are \
+         pressed in by {approach_um:.1} um: at most {limit_um:.1} um, a tenth of an element's radius, are elastic"
+    )]
+    BeyondElastic {
+        /// Load (N).
+        load: f64,
+        /// Least distance of an element at the bottom from the inner raceway (µm).
+        gap_um: f64,
+        /// Greatest approach of an inner contact (µm).
+        approach_um: f64,
+        /// Limit of the approach (µm).
+        limit_um: f64,
+    },
+    /// There is no balance under a load at which the elements would carry, or might.
+    #[error("under {load:.0} N: {cause}")]
+    NoBalance {
+        /// Load (N).
+        load: f64,
+        /// The reason.
+        cause: EquilibriumError,
+    },
 }
 
 /// Derivatives of the critical load at its cage angle.
@@ -55,8 +88,11 @@ pub struct Bottom {
 const BOTTOM: f64 = 0.99;
 /// Number of intervals of the defect at whose ends its path is sampled.
 const INTERVALS: usize = 500;
-/// Approach beyond which the search for a load is given up, in depths.
-const ENDLESS: f64 = 1e3;
+/// Approach of a contact, in radii of an element, up to which a load is sought. There a circle is 5 % deeper than the
+/// parabola that Hertz takes for it, and steel has long yielded.
+const LARGEST_APPROACH: f64 = 0.1;
+/// Factor between a load with a balance and a greater one without, both to the power 2/3, at which the search ends.
+const CLOSE: f64 = 1.001;
 
 impl StaticBearing {
     /// Where the path of an unloaded element is deepest.
@@ -84,43 +120,56 @@ impl StaticBearing {
         Ok(Bottom { path, middle: angle(deepest) })
     }
 
-    /// The critical load, with elements symmetrically about the middle of the bottom; `None` where no load brings them
-    /// to carry.
+    /// The critical load, with elements symmetrically about the middle of the bottom, or why there is none.
     ///
     /// # Errors
-    /// A bearing without defect or direction of load; a balance that is not found.
-    pub fn critical_load(&self) -> Result<Option<CriticalLoad>, StaticError> {
+    /// A bearing without defect or direction of load.
+    pub fn critical_load(&self) -> Result<Result<CriticalLoad, NoCriticalLoad>, StaticError> {
         let bottom = self.bottom()?;
-        let mut least: Option<CriticalLoad> = None;
+        let mut least: Result<CriticalLoad, _> = Err(NoCriticalLoad::NoneInside);
         for cage_angle in [bottom.middle, bottom.middle - 0.5 * self.spacing()] {
             if !(0..self.element_count()).any(|j| self.sunk(j, cage_angle) >= BOTTOM * bottom.path) {
                 continue;
             }
             let found = self.critical_load_at(cage_angle)?;
-            if found.is_some_and(|new| least.is_none_or(|old| new.load < old.load)) {
-                least = found;
-            }
+            least = match (&least, &found) {
+                (Ok(old), Ok(new)) if new.load < old.load => found,
+                (Err(_), _) => found,
+                (Ok(_), _) => least,
+            };
         }
         Ok(least)
     }
 
-    /// The load at which the first of the deepest elements in the defect carries, with element 1 at `cage_angle` (rad);
-    /// `None` where no element has gone down, or no load brings it to carry.
+    /// The load at which the first of the deepest elements in the defect carries, with element 1 at `cage_angle` (rad),
+    /// or why there is none.
     ///
     /// # Errors
-    /// A bearing without direction of load; a balance that is not found.
-    pub fn critical_load_at(&self, cage_angle: f64) -> Result<Option<CriticalLoad>, StaticError> {
+    /// A bearing without direction of load.
+    pub fn critical_load_at(&self, cage_angle: f64) -> Result<Result<CriticalLoad, NoCriticalLoad>, StaticError> {
         let paths: Vec<f64> = (0..self.element_count()).map(|j| self.sunk(j, cage_angle)).collect();
         let deepest = paths.iter().copied().fold(0.0, f64::max);
         if deepest <= 0.0 {
-            return Ok(None);
+            return Ok(Err(NoCriticalLoad::NoneInside));
         }
         let inside: Vec<usize> = (0..paths.len()).filter(|&j| paths[j] >= BOTTOM * deepest).collect();
         let [x, y] = self.load();
         let length = (x * x + y * y).sqrt();
-        let squeeze = |load: f64| -> Result<f64, StaticError> {
+        let limit = LARGEST_APPROACH * self.model.element_radius;
+        // Greatest approaches of the elements at the bottom and of all.
+        let approaches = |load: f64| -> Result<[f64; 2], Ended> {
             let balance = self.balance(cage_angle, [x / length * load, y / length * load])?;
-            Ok(inside.iter().map(|&j| balance.elements[j].inner_approach).fold(f64::NEG_INFINITY, f64::max))
+            let greatest = |most: f64, j: usize| balance.elements[j].inner_approach.max(most);
+            let all = (0..paths.len()).fold(f64::NEG_INFINITY, greatest);
+            Ok([inside.iter().copied().fold(f64::NEG_INFINITY, greatest), all])
+        };
+        let beyond = |load: f64, [own, all]: [f64; 2]| {
+            let [gap_um, approach_um, limit_um] = [(-own).max(0.0), all, limit].map(|length| length * 1e6);
+            Ended::Without(NoCriticalLoad::BeyondElastic { load, gap_um, approach_um, limit_um })
+        };
+        let squeeze = |load: f64| match approaches(load)? {
+            [own, all] if own < 0.0 && !(all <= limit) => Err(beyond(load, [own, all])),
+            [own, _] => Ok(own),
         };
         // That of one contact squeezed by the depth: the scale of loads here. The crown of a roller that is barely
         // inside carries nothing yet.
@@ -129,8 +178,18 @@ impl StaticBearing {
             Elasticity::Crowned(_) => ForceLaw { elasticity: Elasticity::Line, ..law }.elastic(deepest),
             Elasticity::Point | Elasticity::Line => law.elastic(deepest),
         };
-        let load = crossing(squeeze, scale)?;
-        Ok(load.map(|load| CriticalLoad { load, cage_angle, elements: inside.len() }))
+        let found = crossing(squeeze, scale).and_then(|load| match load {
+            0.0 => Ok(load),
+            _ => match approaches(load)? {
+                [_, all] if all <= limit => Ok(load),
+                there => Err(beyond(load, there)),
+            },
+        });
+        match found {
+            Ok(load) => Ok(Ok(CriticalLoad { load, cage_angle, elements: inside.len() })),
+            Err(Ended::Without(why)) => Ok(Err(why)),
+            Err(Ended::Wrong(error)) => Err(error),
+        }
     }
 
     /// How the critical load answers to depth, clearance and compliance, the cage angle held.
@@ -157,24 +216,47 @@ impl StaticBearing {
     }
 }
 
-/// The load (N) at which an ascending function crosses 0, if it does; 0 where it is positive at a thousandth of
-/// `scale`.
+/// Why a search for a load has ended without one.
+enum Ended {
+    /// There is none.
+    Without(NoCriticalLoad),
+    /// It could not be looked for.
+    Wrong(StaticError),
+}
+
+impl From<StaticError> for Ended {
+    fn from(error: StaticError) -> Self {
+        match error {
+            StaticError::Equilibrium { load, cause, .. } => {
+                Self::Without(NoCriticalLoad::NoBalance { load: libm::hypot(load[0], load[1]), cause })
+            }
+            error => Self::Wrong(error),
+        }
+    }
+}
+
+/// The load (N) at which an ascending function crosses 0, which has to end where it does not; 0 where it is positive at
+/// a thousandth of `scale`.
 ///
 /// Approaches grow about as load^(2/3), so that is what the Illinois form of the false position runs over.
-fn crossing(function: impl Fn(f64) -> Result<f64, StaticError>, scale: f64) -> Result<Option<f64>, StaticError> {
+fn crossing(function: impl Fn(f64) -> Result<f64, Ended>, scale: f64) -> Result<f64, Ended> {
     let load = |x: f64| scale * x * x.sqrt();
     let mut low = (1e-2, function(load(1e-2))?);
     if low.1 >= 0.0 {
-        return Ok(Some(0.0));
+        return Ok(0.0);
     }
     let mut high = low;
+    let mut factor = 3.0f64;
     while high.1 < 0.0 {
-        if high.0 > ENDLESS {
-            return Ok(None);
-        }
         low = high;
-        let x = 3.0 * high.0;
-        high = (x, function(load(x))?);
+        high = loop {
+            let x = factor * low.0;
+            match function(load(x)) {
+                // It may cross 0 before there is no balance any more.
+                Err(Ended::Without(NoCriticalLoad::NoBalance { .. })) if factor > CLOSE => factor = factor.sqrt(),
+                value => break (x, value?),
+            }
+        };
     }
     let mut last_moved_low = None;
     for _ in 0..200 {
@@ -199,8 +281,8 @@ fn crossing(function: impl Fn(f64) -> Result<f64, StaticError>, scale: f64) -> R
         }
         last_moved_low = Some(moves_low);
         if value.abs() < 1e-18 {
-            return Ok(Some(load(x)));
+            return Ok(load(x));
         }
     }
-    Ok(Some(load(high.0)))
+    Ok(load(high.0))
 }

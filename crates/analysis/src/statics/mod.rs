@@ -4,7 +4,7 @@ mod critical_load;
 mod static_bearing;
 mod stiffness;
 
-pub use critical_load::{Bottom, CriticalLoad, Sensitivity};
+pub use critical_load::{Bottom, CriticalLoad, NoCriticalLoad, Sensitivity};
 pub use static_bearing::{Balance, LoadedElement, StaticBearing, StaticError};
 pub use stiffness::{min_mean_max, sweep};
 

@@ -90,6 +90,15 @@ pub(crate) enum Failure {
     /// The host's function for intermediate updates has unwound.
     #[error("intermediateUpdate did not return: {0}; the step is lost")]
     UpdateUnwound(String),
+    /// The step has ended without its instance.
+    #[error("intermediateUpdate returned while another call was in the instance; the step is lost")]
+    GivenUp,
+    /// A call within the host's intermediate update that has not ended with it.
+    #[error(
+        "intermediateUpdate returned before this call within it did: the step is lost; end calls in other threads \
+         before intermediateUpdate returns"
+    )]
+    OutlivesUpdate,
     /// A call in the host's intermediate update has failed.
     #[error("a call inside the intermediate update at {0:?} s has failed; the step is lost")]
     FailedInUpdate(f64),

@@ -6,8 +6,12 @@
 //! instead of aliasing it. The standard allows neither, so turning away is all that is owed.
 //!
 //! ```text
-//! key and handle:  generation (44 bits) | slot (16 bits) | 1 (live) | 00 | 0 (in use)
+//! key and handle:  generation (44 bits) | slot (16 bits) | 1 (live) | 0 | 0 (abandoned) | 0 (in use)
 //! ```
+//! A step that lends its instance to calls of the host never waits for one to end: the standard wants them to have
+//! ended when the host's function returns. If one has not, the step gives the instance up and fails, and the call
+//! leaves the instance in error.
+//!
 //! The table is zero-initialised memory of the library: it costs pages only as far as slots are used, and goes
 //! away with the library.
 
@@ -16,9 +20,12 @@ use std::ptr;
 use std::sync::atomic::{AtomicPtr, AtomicU64, AtomicUsize, Ordering};
 
 use super::life::Instance;
+use super::mode::Mode;
 use crate::c_interface::Component;
 
 const IN_USE: u64 = 1;
+/// The step that had lent the instance has given it up to the call that is in it.
+const ABANDONED: u64 = 2;
 const LIVE: u64 = 8;
 const SLOT_SHIFT: u32 = 4;
 const GENERATION_SHIFT: u32 = 20;
@@ -50,27 +57,58 @@ pub(crate) enum Refused {
 pub(crate) struct Borrowed {
     slot: &'static Slot,
     key: u64,
+    /// Null once it has been given up.
     instance: *mut Instance,
 }
+
+/// A call was still in the instance when the function to whose calls it had been lent returned.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct GivenUp;
 
 impl Borrowed {
     /// Lets the host's own calls have the instance while `f` runs. The mode decides which of them may; it must be one
     /// in which nobody can free the instance.
-    pub(crate) fn lend<R>(&mut self, f: impl FnOnce() -> R) -> R {
+    ///
+    /// # Errors
+    /// Another thread is in the instance when `f` returns: it is no longer this one's, which may not use it again.
+    pub(crate) fn lend<R>(&mut self, f: impl FnOnce() -> R) -> Result<R, GivenUp> {
         /// Takes the instance back, also when `f` unwinds.
-        struct TakeBack<'b>(&'b Borrowed);
+        struct TakeBack<'b>(&'b mut Borrowed);
         impl Drop for TakeBack<'_> {
             fn drop(&mut self) {
-                let Borrowed { slot, key, .. } = *self.0;
-                // A second thread that is in the instance, against the standard, leaves it in a moment.
-                while slot.key.compare_exchange(key, key | IN_USE, Ordering::Acquire, Ordering::Relaxed).is_err() {
-                    std::thread::yield_now();
-                }
+                self.0.take_back();
             }
         }
         self.slot.key.store(self.key, Ordering::Release);
-        let _taken_back = TakeBack(self);
-        f()
+        let taken_back = TakeBack(self);
+        let result = f();
+        drop(taken_back);
+        if self.is_given_up() { Err(GivenUp) } else { Ok(result) }
+    }
+
+    /// Whether the instance has been given up.
+    #[inline]
+    pub(crate) fn is_given_up(&self) -> bool {
+        self.instance.is_null()
+    }
+
+    /// Whether the step that had lent the instance has given it up to this call.
+    #[inline]
+    pub(crate) fn is_abandoned(&self) -> bool {
+        self.slot.key.load(Ordering::Relaxed) & ABANDONED != 0
+    }
+
+    /// Takes the instance back, or gives it up to the call that is in it. It waits for nobody: each exchange fails only
+    /// if that call has just begun or ended.
+    fn take_back(&mut self) {
+        let Self { slot, key, .. } = *self;
+        let exchange = |from, to| slot.key.compare_exchange(from, to, Ordering::Acquire, Ordering::Relaxed).is_ok();
+        while !exchange(key, key | IN_USE) {
+            if exchange(key | IN_USE, key | IN_USE | ABANDONED) {
+                self.instance = ptr::null_mut();
+                return;
+            }
+        }
     }
 }
 
@@ -78,8 +116,9 @@ impl Deref for Borrowed {
     type Target = Instance;
     #[inline]
     fn deref(&self) -> &Instance {
+        assert!(!self.is_given_up(), "an instance that was given up is used");
         // SAFETY: the slot's key is marked in use by this value alone, so the box that `insert` leaked is neither freed
-        // nor borrowed elsewhere until it is dropped.
+        // nor borrowed elsewhere until it is dropped or given up.
         unsafe { &*self.instance }
     }
 }
@@ -87,6 +126,7 @@ impl Deref for Borrowed {
 impl DerefMut for Borrowed {
     #[inline]
     fn deref_mut(&mut self) -> &mut Instance {
+        assert!(!self.is_given_up(), "an instance that was given up is used");
         // SAFETY: as in `deref`; `&mut self` makes it exclusive.
         unsafe { &mut *self.instance }
     }
@@ -95,6 +135,17 @@ impl DerefMut for Borrowed {
 impl Drop for Borrowed {
     #[inline]
     fn drop(&mut self) {
+        if self.is_given_up() {
+            return;
+        }
+        // Only a call within an update can have been abandoned.
+        if self.mode == Mode::IntermediateUpdate {
+            let (from, to) = (self.key | IN_USE, self.key);
+            if self.slot.key.compare_exchange(from, to, Ordering::Release, Ordering::Relaxed).is_ok() {
+                return;
+            }
+            self.mode = Mode::Error;
+        }
         self.slot.key.store(self.key, Ordering::Release);
     }
 }

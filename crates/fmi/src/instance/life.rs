@@ -12,11 +12,7 @@ use super::snapshots::Snapshots;
 use crate::c_interface::{FmuState, Logger, Status, ValueReference, c_string};
 use crate::resources::SharedModel;
 use brinell::recording::{Recording, Unstored};
-use brinell::simulation::interface::table::Kind;
 use brinell::simulation::{Simulation, VariableError};
-
-/// Name by which the tolerance of the time integration is found in the variable table.
-const TOLERANCE: &str = "solver.tolerance";
 
 /// One instance of the FMU.
 #[derive(Debug)]
@@ -134,20 +130,7 @@ impl Instance {
         if !(tolerance > 0.0 && tolerance.is_finite()) {
             return Err(Failure::Tolerance(tolerance));
         }
-        let Some(variable) = self.simulation.table().iter().find(|variable| variable.name == TOLERANCE) else {
-            return Ok(());
-        };
-        let reference = variable.reference;
-        let least = match variable.kind {
-            Kind::Real { min: Some(min), .. } => min,
-            _ => 0.0,
-        };
-        let mut present = [0.0];
-        self.simulation.reals(&[reference], &mut present)?;
-        if tolerance < present[0] {
-            self.simulation.set_reals(&[reference], &[tolerance.max(least)])?;
-        }
-        Ok(())
+        Ok(self.simulation.tighten_tolerance(tolerance)?)
     }
 
     /// Changes the mode, and says so.

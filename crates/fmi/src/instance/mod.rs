@@ -14,7 +14,7 @@ pub(crate) mod snapshots;
 pub(crate) use addressing::{Addressing, ValueCount};
 pub(crate) use clock::Clock;
 pub(crate) use failure::Failure;
-pub(crate) use handles::Borrowed;
+pub(crate) use handles::{Borrowed, GivenUp};
 pub(crate) use intermediate_updates::IntermediateUpdates;
 pub(crate) use life::{Instance, finite};
 pub(crate) use mode::{Function, Mode, Modes, Version, modes};

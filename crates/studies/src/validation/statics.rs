@@ -50,7 +50,7 @@ pub fn fill(project: &Project, values: &mut Values) -> Result<()> {
     values.set("compliances", table)?;
     let mut table = String::new();
     for (label, bearing) in [("100 µm", &deep), ("30 µm", &shallow)] {
-        let critical = bearing.critical_load()?.context("no critical load")?;
+        let critical = bearing.critical_load()??;
         let by = bearing.sensitivity(&critical)?.context("no sensitivity")?;
         writeln!(
             table,

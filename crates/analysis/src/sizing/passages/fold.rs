@@ -13,6 +13,8 @@ use crate::statistics;
 
 /// Points per element spacing at which shifts are sought; parabolas refine them.
 pub(crate) const GRID: usize = 400;
+/// Resamplings of the passages from which the uncertainty of a length is read.
+pub(crate) const RESAMPLINGS: usize = 60;
 /// Largest distance of a passage from its neighbours' (grid points).
 const NEAR: isize = 20;
 /// Largest shift when they are known already (grid points).

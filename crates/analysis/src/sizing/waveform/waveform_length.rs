@@ -14,7 +14,7 @@
 use super::synthesis::{POINTS, Rig, Run, Trial, below_cut, best_shift, similarity};
 use super::trial_search::{FINE, Fit, OwnLaw, Peak, Search, lengths, top};
 use crate::sizing::measured::Measured;
-use crate::sizing::passages::fold;
+use crate::sizing::passages::{RESAMPLINGS, fold};
 use crate::sizing::raceway;
 use crate::sizing::raceway::Raceway;
 use crate::statistics;
@@ -39,8 +39,6 @@ const STEP: f64 = 1.0;
 const BEGINNINGS: usize = 4;
 /// Similarity at the top of a climb after which no other is tried.
 const UNMISTAKABLE: f64 = 0.97;
-/// Resamplings of the passages.
-const RESAMPLINGS: usize = 60;
 
 /// Length by similarity. Angles in degrees of the outer raceway.
 #[derive(Debug, Clone, PartialEq)]
