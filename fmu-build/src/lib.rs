@@ -19,6 +19,7 @@ pub mod ending;
 pub mod fmi_version;
 pub mod fmu;
 pub mod grid;
+mod interrupt;
 pub mod library;
 pub mod model;
 pub mod model_description;
