@@ -252,7 +252,7 @@ def with_ross(machine, fmus, speed, h, stop, seen=(), tolerance=1e-5, stand_in=T
     rows, given = [coupled.see(seen)], []
 
     # ROSS 3 tells `args` besides, and gives a third value at the end.
-    def beyond(step, time_step, disp_resp, **_):
+    def beyond(step, time_step, disp_resp, velc_resp, **_):
         if step != len(rows):
             raise RuntimeError(f"ROSS asked for step {step} after {len(rows) - 1}: not once per step")
         given.append(disp_resp[node].copy())

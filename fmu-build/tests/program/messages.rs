@@ -139,10 +139,10 @@ fn a_value_that_may_be_meant_is_asked_about_and_the_run_goes_on() {
 #[test]
 fn depths_of_a_profile_that_may_be_meant_in_millimetres_are_asked_about() {
     let folder = common::folder("depths");
-    let scene = with_defect(&folder, "profile = \"dent.csv\"");
-    let text = fs::read_to_string(&scene).unwrap();
-    let law = text.lines().find(|line| line.starts_with("law = ")).unwrap();
-    fs::write(&scene, text.replace(law, "law = \"hertz\"")).unwrap();
+    let healthy = fs::read_to_string(common::root().join("scenes/6205-healthy.toml")).unwrap();
+    let scene = folder.join("dented.toml").display().to_string();
+    let healthy = healthy.replace("[contact]", "[contact]\nlaw = \"hertz\"");
+    fs::write(&scene, healthy + "\n[[defect]]\nangle_deg = -90.0\nprofile = \"dent.csv\"\n").unwrap();
     let out = folder.join("out").display().to_string();
     let said = |depth: &str| {
         let rows = format!("arc_mm,depth_um\n-0.5,0\n-0.4,{depth}\n0.4,{depth}\n0.5,0\n");
