@@ -219,8 +219,7 @@ impl Planned {
         let Some(base) = base.filter(|_| faults.is_empty()) else {
             return Err(Faults(faults)).with_context(about);
         };
-        let grid =
-            Grid::even(&Experiment { stop: sweep.stop, step: 1.0 / sweep.rate }).with_context(about)?;
+        let grid = Grid::even(&Experiment { stop: sweep.stop, step: 1.0 / sweep.rate }).with_context(about)?;
         let speed = |name: &String| {
             let path = file.parent().unwrap_or(Path::new("")).join(name);
             let profile = SpeedProfile::read(&path)?;
@@ -288,7 +287,8 @@ impl Folders {
         // What a sweep has left that was killed.
         let _ = fs::remove_dir_all(&running);
         let made = || fs::create_dir_all(&running).map(|()| running.clone());
-        let (_temporary, running) = Temporary::made(made, PathBuf::as_path).with_context(|| running.display().to_string())?;
+        let (_temporary, running) =
+            Temporary::made(made, PathBuf::as_path).with_context(|| running.display().to_string())?;
         if options.signals.is_some() {
             fs::create_dir_all(&signals).with_context(|| signals.display().to_string())?;
         }

@@ -77,8 +77,7 @@ impl Layout {
 
     fn text(&self, rows: u64) -> String {
         let shape = format!("({rows},)");
-        let mut text =
-            format!("{{'descr': [{}], 'fortran_order': False, 'shape': {shape:<24}}}", self.fields.as_str());
+        let mut text = format!("{{'descr': [{}], 'fortran_order': False, 'shape': {shape:<24}}}", self.fields.as_str());
         // With magic, version and length a multiple of 64, ending in a new line.
         let before = MAGIC.len() + size_of::<u32>();
         let length = (before + text.len() + 1).next_multiple_of(64) - before;
@@ -123,7 +122,10 @@ mod tests {
             assert_eq!((header.len() % 64, layout.header(u64::MAX).len()), (0, header.len()), "{elements}");
             assert!(header.len() <= 12 + LONGEST, "{elements}: {}", header.len());
             let text = String::from_utf8_lossy(&header[12..]).into_owned();
-            assert!(text.contains("('shaft.x', '<f8'), ") && text.contains("'element[3].spin_angle', '<f8'), "), "{text}");
+            assert!(
+                text.contains("('shaft.x', '<f8'), ") && text.contains("'element[3].spin_angle', '<f8'), "),
+                "{text}"
+            );
             let mut sorted = layout.order().to_vec();
             sorted.sort_unstable();
             assert!(sorted.iter().enumerate().all(|(at, &index)| at == index), "{elements}: each name once");

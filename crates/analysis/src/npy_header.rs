@@ -97,7 +97,9 @@ fn field(literal: &Literal) -> Result<Field, String> {
             [Literal::Text(name), Literal::Text(kind), Literal::List(shape)] if entries(shape).is_some() => {
                 Ok(Field { name: name.clone(), kind: kind.clone(), count: entries(shape) })
             }
-            [Literal::Text(name), ..] => Err(format!("field '{name}' is neither a number nor a row of numbers for each sample")),
+            [Literal::Text(name), ..] => {
+                Err(format!("field '{name}' is neither a number nor a row of numbers for each sample"))
+            }
             _ => Err("a field with a title is not read".to_owned()),
         },
         other => Err(format!("field {other:?} has no name")),
@@ -168,7 +170,10 @@ mod tests {
     fn plain_and_structured_headers_are_understood() {
         let plain = Header::parse("{'descr': '<f4', 'fortran_order': True, 'shape': (3, 2), }   \n").unwrap();
         let field = |name: &str, kind: &str| Field { name: name.to_owned(), kind: kind.to_owned(), count: None };
-        assert_eq!(plain, Header { fields: vec![field("", "<f4")], structured: false, fortran: true, shape: vec![3, 2] });
+        assert_eq!(
+            plain,
+            Header { fields: vec![field("", "<f4")], structured: false, fortran: true, shape: vec![3, 2] }
+        );
         let text = r#"{"shape": (7,), 'descr': [('it\'s [m]', '<f8'), ("b, c", '>i2')], 'fortran_order': False}"#;
         let structured = Header::parse(text).unwrap();
         assert_eq!(structured.fields, [field("it's [m]", "<f8"), field("b, c", ">i2")]);

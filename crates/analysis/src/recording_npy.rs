@@ -161,7 +161,8 @@ mod tests {
 
     #[test]
     fn a_field_that_is_an_array_is_a_column_for_each_entry() {
-        let header = "{'descr': [('t', '<f8'), ('element.path', '<f8', (2,))], 'fortran_order': False, 'shape': (2,), }\n";
+        let header =
+            "{'descr': [('t', '<f8'), ('element.path', '<f8', (2,))], 'fortran_order': False, 'shape': (2,), }\n";
         let data = [0.0, 1.0, 2.0, 0.5, 3.0, 4.0].map(f64::to_le_bytes).concat();
         let (names, found) = columns(&npy_bytes(header, &data)).unwrap();
         assert_eq!(names, ["t", "element[1].path", "element[2].path"]);

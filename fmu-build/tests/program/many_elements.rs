@@ -36,9 +36,7 @@ fn numpy_loads_tables_and_recordings_of_many_elements_and_figure_and_page_are_dr
     let folder = common::folder("many-elements");
     let scene = folder.join("many.toml");
     let mut text = fs::read_to_string(common::root().join("scenes/6205-healthy.toml")).unwrap();
-    for (key, value) in
-        [("name", "\"many\""), ("element_count", &*count.to_string()), ("pitch_diameter_mm", "400.0")]
-    {
+    for (key, value) in [("name", "\"many\""), ("element_count", &*count.to_string()), ("pitch_diameter_mm", "400.0")] {
         let line = text.lines().find(|line| line.starts_with(key)).unwrap().to_owned();
         text = text.replace(&line, &format!("{key} = {value}"));
     }

@@ -107,7 +107,8 @@ fn the_module_hands_on_columns_speed_and_noise_and_tells_all_faults_of_a_scene()
     fs::write(&script, MODULE).unwrap();
     let module = Path::new(env!("CARGO_MANIFEST_DIR")).join("module");
     let python = common::python().clone().with_variable("BRINELL_PROGRAM", env!("CARGO_BIN_EXE_brinell"));
-    let said = python.run_file(&script, [&*module, &*folder, common::root()]).unwrap_or_else(|error| panic!("{error:#}"));
+    let said =
+        python.run_file(&script, [&*module, &*folder, common::root()]).unwrap_or_else(|error| panic!("{error:#}"));
     assert!(said.contains("handed on"), "{said}");
 }
 
