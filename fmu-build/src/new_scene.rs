@@ -86,7 +86,7 @@ load_n = {vector:<28} # assumed: 5 % of the static rating {formula} in N and mm;
 # mass_kg, damping_n_s_m, stiffness_n_m: without them those of a published model of a test rig
 
 [housing]
-motion = "internal"                   # or "host", or "fixed"
+motion = "internal"                   # or "host"; or "fixed", then without [sensor]
 
 [sensor]                              # an accelerometer on the housing, upwards
 mass_kg = 0.03                        # assumed: 15 kHz, 5 % of critical damping
@@ -148,9 +148,13 @@ mod tests {
         for line in own.lines().filter(offers) {
             for word in line.split('#').nth(1).unwrap().split('"').skip(1).step_by(2) {
                 let mut changed = own.replace(line, &format!("motion = \"{word}\""));
-                if line.contains("without load_n") {
+                if line.contains(&format!("\"{word}\", then without load_n")) {
                     let load = own.lines().find(|line| line.starts_with("load_n")).unwrap();
                     changed = changed.replace(load, "");
+                }
+                if line.contains(&format!("\"{word}\", then without [sensor]")) {
+                    let (before, after) = changed.split_once("[sensor]").unwrap();
+                    changed = format!("{before}[experiment]{}", after.split_once("[experiment]").unwrap().1);
                 }
                 assert!(Scene::from_toml(&changed).is_ok(), "{word}: {line}");
                 tried.push(word);
