@@ -103,14 +103,19 @@ def toml(value):
 
 
 def program():
-    """The words that call this project's program: `cargo fmu`, or what BRINELL_FMU says."""
-    return shlex.split(os.environ.get("BRINELL_FMU", "cargo fmu"))
+    """The words that call this project's program: what BRINELL_FMU says, else `brinell` if it is installed, else
+    `cargo fmu`, which compiles it."""
+    if "BRINELL_FMU" in os.environ:
+        return shlex.split(os.environ["BRINELL_FMU"])
+    installed = shutil.which("brinell")
+    return [installed] if installed else ["cargo", "fmu"]
 
 
 def executable():
     """The same without cargo, once it is built."""
-    if "BRINELL_FMU" in os.environ:
-        return program()
+    words = program()
+    if words[0] != "cargo":
+        return words
     target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
     return [str(target / "release" / ("brinell-studies.exe" if os.name == "nt" else "brinell-studies"))]
 

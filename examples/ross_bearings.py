@@ -251,7 +251,8 @@ def with_ross(machine, fmus, speed, h, stop, seen=(), tolerance=1e-5, stand_in=T
     node = np.concatenate([indices(n) for n in machine.nodes])
     rows, given = [coupled.see(seen)], []
 
-    def beyond(step, time_step, disp_resp, velc_resp, accl_resp):
+    # ROSS 3 tells `args` besides, and gives a third value at the end.
+    def beyond(step, time_step, disp_resp, velc_resp, **_):
         if step != len(rows):
             raise RuntimeError(f"ROSS asked for step {step} after {len(rows) - 1}: not once per step")
         given.append(disp_resp[node].copy())
@@ -264,7 +265,7 @@ def with_ross(machine, fmus, speed, h, stop, seen=(), tolerance=1e-5, stand_in=T
         return out
 
     with contextlib.redirect_stdout(io.StringIO()):
-        _, motion = rotor.integrate_system(speed, force, t, add_to_RHS=beyond)
+        motion = rotor.integrate_system(speed, force, t, add_to_RHS=beyond)[1]
     coupled.close()
     if len(given) != len(t) - 1 or not np.array_equal(given, motion[:-1, node]):
         raise RuntimeError("ROSS asked with another state than the last accepted one")

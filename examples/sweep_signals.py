@@ -67,7 +67,10 @@ def run_one(instance, values, options, index=0, folder=None):
     t = np.arange(1, len(table) + 1) / options["rate"]
     late = t > options["settle"]
     # How many elements have passed a point of the outer raceway.
-    passages = count / (2 * np.pi * options["rate"]) * np.cumsum(table[:, 1])
+    # An outer ring that turns goes along with the cage, or towards it.
+    outer = instance.read(["housing.speed"])[0] if "housing.speed" in instance.reference else 0.0
+    past = table[:, 1] - outer
+    passages = count / (2 * np.pi * options["rate"]) * np.cumsum(past)
     signal, at = table[late, 0], t[late]
     if options.get("filter"):
         recorded = recording(instance, folder)
@@ -75,7 +78,7 @@ def run_one(instance, values, options, index=0, folder=None):
         signal, at = recorded["sensor.acceleration"], recorded["time"]
     if values.get("noise_db") is not None:
         signal = with_noise(signal, values["noise_db"], options["seed"], index)
-    bpfo = count * float(np.mean(table[late, 1])) / (2 * np.pi)
+    bpfo = count * float(np.mean(np.abs(past[late]))) / (2 * np.pi)
     row = features(signal, np.interp(at, t, passages), bpfo)
     # Where elements pass a defect of the outer raceway is known from their angles alone.
     outer = "defect.angle" in instance.reference and not {"shaft.angle", "housing.angle"} & set(instance.reference)
@@ -142,8 +145,11 @@ def features(signal, passages, bpfo):
     window = np.hanning(len(signal))
     row = {"bpfo_hz": bpfo, "rms_m_s2": rms, "kurtosis": float(np.mean(signal**4) / rms**4)}
     weighed = window * (envelope - envelope.mean()) * 2 / window.sum()
+    # A signal shorter than a passage has no lines.
+    passed = np.abs(np.diff(passages)).sum() >= 1.0
     for k in range(1, HARMONICS + 1):
-        row[f"envelope_{k}_bpfo_m_s2"] = float(np.abs(weighed @ np.exp(-2j * np.pi * k * passages)))
+        line = float(np.abs(weighed @ np.exp(-2j * np.pi * k * passages))) if passed else None
+        row[f"envelope_{k}_bpfo_m_s2"] = line
     return row
 
 

@@ -1,16 +1,18 @@
 //! The recording: the recorder's samples in a file that `numpy.load` reads.
 //!
 //! One NumPy array with a named field for the time and for each signal ([format 2.0][npy]), so
-//! `numpy.load("bearing.npy")["sensor.acceleration"]` is a signal. The header is written anew with the number of rows
-//! after each write, so the file can be read at any time. Samples that a host takes back by restoring a state are
-//! written over. A file has one writer (`claim`).
+//! `numpy.load("bearing.npy")["sensor.acceleration"]` is a signal; where a bearing has many elements, with arrays over
+//! them ([`Layout`]). The header is written anew with the number of rows after each write, so the file can be read at
+//! any time. Samples that a host takes back by restoring a state are written over. A file has one writer (`claim`).
 //!
 //! [npy]: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html
 
 mod claim;
 mod error;
+mod layout;
 
 pub use error::RecordingError;
+pub use layout::Layout;
 
 use std::fs;
 use std::io::{self, Seek, SeekFrom, Write};
@@ -36,7 +38,7 @@ pub struct Unstored {
 pub struct Recording {
     path: PathBuf,
     claim: Claim,
-    names: Vec<String>,
+    layout: Layout,
     /// Length of the header (bytes).
     header: u64,
     /// Number of the first row in the file.
@@ -65,8 +67,9 @@ impl Recording {
             return Err(RecordingError::Unwritable { path, cause });
         }
         let claim = Claim::new(&path, name)?;
-        let header = npy_header(&names, 0).len() as u64;
-        let mut recording = Self { path, claim, names, header, first: recorder.samples().first, rows: 0 };
+        let layout = Layout::of(&names);
+        let header = layout.header(0).len() as u64;
+        let mut recording = Self { path, claim, layout, header, first: recorder.samples().first, rows: 0 };
         recording.count(0).map_err(|cause| recording.failed(cause))?;
         recording.write(simulation)?;
         Ok(Some(recording))
@@ -124,7 +127,9 @@ impl Recording {
         for _ in self.rows..start {
             bytes.extend(std::iter::repeat_n(f64::NAN.to_le_bytes(), samples.width).flatten());
         }
-        bytes.extend(samples.values.iter().flat_map(|value| value.to_le_bytes()));
+        for row in samples.values.chunks_exact(samples.width) {
+            bytes.extend(self.layout.order().iter().flat_map(|&index| row[index].to_le_bytes()));
+        }
         let end = self.end(self.rows);
         let file = &mut self.claim.file;
         if let Err(cause) = file.seek(SeekFrom::Start(end)).and_then(|_| file.write_all(&bytes)) {
@@ -139,7 +144,7 @@ impl Recording {
     fn count(&mut self, rows: u64) -> io::Result<()> {
         let file = &mut self.claim.file;
         file.seek(SeekFrom::Start(0))?;
-        file.write_all(&npy_header(&self.names, rows))?;
+        file.write_all(&self.layout.header(rows))?;
         self.rows = rows;
         let end = self.end(rows);
         self.claim.file.set_len(end)
@@ -147,7 +152,7 @@ impl Recording {
 
     /// Length of a file of so many rows (bytes).
     fn end(&self, rows: u64) -> u64 {
-        self.header + 8 * self.names.len() as u64 * rows
+        self.header + 8 * self.layout.order().len() as u64 * rows
     }
 }
 
@@ -159,20 +164,4 @@ impl Unstored {
         let from = *times.next()?;
         Some(Self { count: samples.values.len() / samples.width, from, to: *times.next_back().unwrap_or(&from) })
     }
-}
-
-/// The header of a NumPy file of `rows` rows with a number for each of these names; its length does not depend on
-/// `rows`.
-pub fn npy_header(names: &[String], rows: u64) -> Vec<u8> {
-    let fields: String = names.iter().map(|name| format!("('{name}', '<f8'), ")).collect();
-    let shape = format!("({rows},)");
-    let mut text = format!("{{'descr': [{fields}], 'fortran_order': False, 'shape': {shape:<24}}}");
-    // Magic, version and length take 12 bytes; the whole is a multiple of 64 and ends in a new line.
-    let length = (12 + text.len() + 1).next_multiple_of(64) - 12;
-    text.extend(std::iter::repeat_n(' ', length - 1 - text.len()));
-    text.push('\n');
-    let mut bytes = b"\x93NUMPY\x02\x00".to_vec();
-    bytes.extend((length as u32).to_le_bytes());
-    bytes.extend(text.as_bytes());
-    bytes
 }

@@ -76,6 +76,21 @@ def read_csv(path):
     return {name: values[:, index] for index, name in enumerate(names)}
 
 
+def signals(path):
+    """Signals of a NumPy file of this program by their names, read where they are used."""
+    # Of our own file the header may be of any length, which this lets pass.
+    data = np.load(path, mmap_mode="r", allow_pickle=True)
+    found = {}
+    for name in data.dtype.names:
+        if data.dtype[name].subdtype is None:
+            found[name] = data[name]
+            continue
+        # An array over the elements.
+        first, _, rest = name.partition(".")
+        found.update({f"{first}[{j + 1}].{rest}": data[name][:, j] for j in range(data[name].shape[1])})
+    return found
+
+
 @contextlib.contextmanager
 def whole(path):
     """A file to write that takes the name `path` when all is written: a full disk leaves what was there before."""

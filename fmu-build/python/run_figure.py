@@ -12,8 +12,7 @@ import plotting
 from plotting import BLUE, GREEN, ORANGE, PURPLE, VERMILION, plt
 
 path = Path(sys.argv[2])
-data = np.load(sys.argv[1])
-data = {name: data[name] for name in data.dtype.names}
+data = plotting.signals(sys.argv[1])
 in_seconds = data["time"][-1] > 2.0
 time = data["time"] * (1.0 if in_seconds else 1e3)
 

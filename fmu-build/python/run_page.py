@@ -42,19 +42,27 @@ def extremes(values, every):
     return np.append(pairs, [rest.min(), rest.max()]) if rest.size else pairs
 
 
+def even(signals):
+    """Without the last sample, if that comes after a shorter step than the others."""
+    time = signals["time"]
+    if len(time) > 2 and time[-1] - time[-2] < (1 - 1e-6) * (time[1] - time[0]):
+        return {name: values[:-1] for name, values in signals.items()}
+    return signals
+
+
 class Run:
     """Signals of a run by name: those of the recorder where it filters them, else those at communication points."""
 
     def __init__(self, about):
-        self.table = np.load(about["signals"], mmap_mode="r")
-        self.recording = np.load(about["recording"], mmap_mode="r") if about["recording"] else None
+        self.table = even(plotting.signals(about["signals"]))
+        self.recording = plotting.signals(about["recording"]) if about["recording"] else {"time": []}
 
     def source(self, name):
-        recorded = self.recording is not None and name in self.recording.dtype.names and len(self.recording) > 1
+        recorded = name in self.recording and len(self.recording["time"]) > 1
         return self.recording if recorded else self.table
 
     def has(self, name):
-        return name in self.table.dtype.names
+        return name in self.table
 
     def moves(self, name):
         return self.has(name) and np.ptp(self.table[name]) > 0
@@ -66,8 +74,7 @@ class Run:
 
 def panels(run, count):
     """Panels of signals: unit, and name and factor of each signal."""
-    names = run.table.dtype.names
-    sensors = [name for name in names if name.startswith("sensor")]
+    sensors = [name for name in run.table if name.startswith("sensor")]
     yield "m/s²", [(name, 1.0) for name in sensors]
     yield "µm", [(name, 1e6) for name in ("probe.x", "probe.y")]
     yield "m/s²", [(f"{ring}.ay", 1.0) for ring in ("housing", "shaft")]
@@ -84,7 +91,7 @@ def signals(run, count):
         for unit, of in panels(run, count)
     ]
     chosen = [(unit, of) for unit, of in chosen if of]
-    total = sum(len(run.source(name)) for _, of in chosen for name, _ in of)
+    total = sum(len(run.source(name)["time"]) for _, of in chosen for name, _ in of)
     every = 1 if total <= MOST_NUMBERS else int(np.ceil(2 * total / MOST_NUMBERS))
     shown, words = [], {}
     for unit, of in chosen:

@@ -7,6 +7,7 @@
 pub mod cli;
 pub mod commands;
 pub mod host;
+mod interrupt;
 pub mod package;
 pub mod platforms;
 pub mod run;

@@ -27,7 +27,7 @@ use signals::Signals;
 use spectra::{Acceleration, Spectra};
 use speed_profile::SpeedProfile;
 use table::{Column, Format};
-use wav::Wav;
+use wav::{Loudness, Wav};
 
 /// Rate of a recorder that a sound or a page needs and the scene does not have (Hz).
 const USUAL_RATE: f64 = 51_200.0;
@@ -82,9 +82,17 @@ pub fn command(project: &Project, model: Model, options: &Options, folder: &Path
     println!("{}", path.display());
     if let (Some(wav), Some(recording), Some(recorder)) = (&options.wav, &done.recording, model.scene.recorder) {
         let path = folder.join(format!("{}.wav", model.scene.name));
-        let largest = wav.write(recording, &sensors(recording), recorder.rate, &path)?;
+        let Loudness { largest, clipped } = wav.write(recording, &sensors(recording), recorder.rate, &path)?;
         println!("{}", path.display());
         eprintln!("note: {} Hz, 1 is {} m/s2, the largest sample {largest:.3}", recorder.rate, wav.scale);
+        if clipped > 0.0 {
+            let (share, enough) = (digits(100.0 * clipped), digits(wav.scale * largest));
+            eprintln!(
+                "warning: {}: {share} % of the samples are beyond 1, where players clip: --wav-scale above {enough} \
+                 keeps them below",
+                path.display()
+            );
+        }
     }
     if options.figure || options.page {
         draw(project, &model, options, &done, folder)?;
@@ -161,7 +169,11 @@ fn draw(project: &Project, model: &Model, options: &Options, done: &Done, folder
         true => source.indices(|name| name == "housing.ay"),
         false => source.indices(|name| name == scene.sensor_variable(0)),
     };
-    let samples = indices.first().map_or(Ok(Vec::new()), |&index| source.column(index))?;
+    let mut samples = indices.first().map_or(Ok(Vec::new()), |&index| source.column(index))?;
+    if source.path() == done.signals.path() && options.grid.ends_short() {
+        // Spectra are of even times.
+        samples.pop();
+    }
     let acceleration = Acceleration { samples, rate };
     let spectra = Spectra::new(scene, options.profile.as_ref(), acceleration);
     let envelope = spectra.write_envelope(folder)?;

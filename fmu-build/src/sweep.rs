@@ -25,6 +25,7 @@ use anyhow::{Context, Result, bail};
 use brinell::scene::Experiment;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::interrupt::{Held, Interrupted, Temporary};
 use crate::run::speed_profile::SpeedProfile;
 use crate::shared::{Grid, NotWritten, Project, whole_file};
 use bench::Bench;
@@ -68,7 +69,7 @@ pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder:
     let _lock = lock(folder)?;
     record.claim(folder)?;
     let columns = bench::columns(sweep, &|key| planned.is_whole(key));
-    let [running, signals] = folders(folder, options)?;
+    let Folders { running, signals, _temporary } = Folders::make(folder, options)?;
     let (mut journal, mut rows) = Journal::open(folder, &running, &columns)?;
     if let Some(beyond) = rows.iter().filter_map(Row::run).find(|run| *run >= sweep.runs) {
         bail!("{} holds run {beyond}: runs must be at least {}", folder.display(), beyond + 1);
@@ -84,43 +85,96 @@ pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder:
         running: &running,
         texts: Mutex::default(),
     };
-    let done: BTreeSet<u64> = rows.iter().filter_map(Row::run).collect();
-    let missing: Vec<u64> = (0..sweep.runs).filter(|run| !done.contains(run)).collect();
-    let (maps, fingerprints) = prepare(project, &planned, &bench, &missing, options.jobs)?;
-    let write = |rows: &mut Vec<Row>| {
-        rows.sort_by_key(Row::run);
-        // Beside the runs under way, whence it is moved when it is whole.
-        let whole = running.join(TABLE);
-        table::write(&whole, &columns, rows)?;
-        whole_file::take_out(&whole, folder)
-    };
-    let bar = bar(sweep.runs, done.len() as u64);
+    let table = Table { path: folder.join(TABLE), columns: &columns, running: &running };
+    if !rows.is_empty() {
+        table.write(&mut rows)?;
+    }
+    let missing = Missing::of(&rows, &bench);
+    let (maps, fingerprints) = prepare(project, &planned, &bench, &missing.runs, options.jobs)?;
+    let _held = Held::new();
+    let bar = bar(sweep.runs, sweep.runs - missing.runs.len() as u64);
     // The table is written now and then, whenever there is a quarter more of it.
     let mut next = rows.len() + rows.len() / 4 + 100;
-    let mut failed = 0;
-    let job = |k: usize| bench.row(&planned.run(missing[k]), &maps, &fingerprints[k]);
-    workers::each(options.jobs, missing.len(), job, |_, row| {
-        let row = row?;
-        journal.add(&row)?;
-        failed += usize::from(error_of(&row).is_some());
-        rows.push(row);
-        bar.set_message(if failed > 0 { format!(", {failed} failed") } else { String::new() });
+    let mut counts = Counts { made: 0, again: 0, failed: 0 };
+    let job = |k: usize| bench.row(&planned.run(missing.runs[k]), &maps, &fingerprints[k]);
+    workers::each(options.jobs, missing.runs.len(), job, |k, row| {
+        let row = match row {
+            // Of a run under way when the user ended the sweep nothing is kept.
+            Err(error) if error.is::<Interrupted>() => return Ok(()),
+            row => row?,
+        };
+        let again = missing.again.contains(&missing.runs[k]);
+        counts.add(&row, again);
+        if !again {
+            journal.add(&row)?;
+            rows.push(row);
+        }
+        bar.set_message(if counts.failed > 0 { format!(", {} failed", counts.failed) } else { String::new() });
         bar.inc(1);
         if rows.len() >= next {
             next = rows.len() + rows.len() / 4 + 100;
-            write(&mut rows)?;
+            table.write(&mut rows)?;
         }
         Ok(())
     })?;
     bar.finish_and_clear();
-    let table = write(&mut rows)?;
+    table.write(&mut rows)?;
     let _ = fs::remove_dir_all(&running);
-    println!("{}", table.display());
+    println!("{}", table.path.display());
     if options.signals.is_some() {
         println!("{}", signals.display());
     }
-    tell(&rows, missing.len());
-    Ok(())
+    tell(&rows, &counts, missing.runs.len())
+}
+
+/// The table of a sweep.
+struct Table<'a> {
+    path: PathBuf,
+    columns: &'a [rows::Column],
+    running: &'a Path,
+}
+
+impl Table<'_> {
+    /// Writes it beside the runs under way, whence it is moved when it is whole.
+    fn write(&self, rows: &mut [Row]) -> Result<()> {
+        rows.sort_by_key(Row::run);
+        let whole = self.running.join(TABLE);
+        table::write(&whole, self.columns, rows)?;
+        whole_file::take_out(&whole, self.path.parent().unwrap_or(Path::new(""))).map(drop)
+    }
+}
+
+/// Runs that are to be made.
+struct Missing {
+    runs: Vec<u64>,
+    /// Those of them that have a row and whose signals somebody has taken away.
+    again: BTreeSet<u64>,
+}
+
+impl Missing {
+    fn of(rows: &[Row], bench: &Bench<'_>) -> Self {
+        let done: BTreeSet<u64> = rows.iter().filter_map(Row::run).collect();
+        let sound = rows.iter().filter(|row| error_of(row).is_none()).filter_map(Row::run);
+        let again: BTreeSet<u64> = sound.filter(|run| bench.lacks_signals(*run)).collect();
+        let runs = (0..bench.sweep.runs).filter(|run| !done.contains(run) || again.contains(run)).collect();
+        Self { runs, again }
+    }
+}
+
+/// Runs that were made now.
+struct Counts {
+    made: usize,
+    /// For their signals alone.
+    again: usize,
+    failed: usize,
+}
+
+impl Counts {
+    fn add(&mut self, row: &Row, again: bool) {
+        self.made += usize::from(!again);
+        self.again += usize::from(again);
+        self.failed += usize::from(error_of(row).is_some());
+    }
 }
 
 /// Prints the scene of a run as a file that `brinell run` takes.
@@ -163,8 +217,7 @@ impl Planned {
         let Some(base) = base.filter(|_| faults.is_empty()) else {
             return Err(Faults(faults)).with_context(about);
         };
-        let grid =
-            Grid::new(&Experiment { stop: sweep.stop, step: 1.0 / sweep.rate }, None, None).with_context(about)?;
+        let grid = Grid::even(&Experiment { stop: sweep.stop, step: 1.0 / sweep.rate }).with_context(about)?;
         let speed = |name: &String| {
             let path = file.parent().unwrap_or(Path::new("")).join(name);
             let profile = SpeedProfile::read(&path)?;
@@ -218,15 +271,27 @@ fn prepare<'p>(
     Ok((maps, fingerprints))
 }
 
-/// Where signals grow, empty, and where they go.
-fn folders(folder: &Path, options: &Options) -> Result<[PathBuf; 2]> {
-    let (running, signals) = (folder.join("running"), folder.join("signals"));
-    // What an interrupted sweep has left.
-    let _ = fs::remove_dir_all(&running);
-    for made in [Some(&running), options.signals.map(|_| &signals)].into_iter().flatten() {
-        fs::create_dir_all(made).with_context(|| made.display().to_string())?;
+/// Where signals grow, and where they go.
+struct Folders {
+    /// Empty at first, and removed at the end.
+    running: PathBuf,
+    signals: PathBuf,
+    _temporary: Temporary,
+}
+
+impl Folders {
+    fn make(folder: &Path, options: &Options) -> Result<Self> {
+        let (running, signals) = (folder.join("running"), folder.join("signals"));
+        // What a sweep has left that was killed.
+        let _ = fs::remove_dir_all(&running);
+        let made = || fs::create_dir_all(&running).map(|()| running.clone());
+        let (_temporary, running) =
+            Temporary::made(made, PathBuf::as_path).with_context(|| running.display().to_string())?;
+        if options.signals.is_some() {
+            fs::create_dir_all(&signals).with_context(|| signals.display().to_string())?;
+        }
+        Ok(Self { running, signals, _temporary })
     }
-    Ok([running, signals])
 }
 
 /// Keeps other programs from sweeping in the same folder.
@@ -255,12 +320,25 @@ fn error_of(row: &Row) -> Option<&str> {
 }
 
 /// Says what a reader of the table must know.
-fn tell(rows: &[Row], made: usize) {
+///
+/// # Errors
+/// That the user has interrupted, where some of the `wanted` runs are missing for it.
+fn tell(rows: &[Row], counts: &Counts, wanted: usize) -> Result<()> {
     let mut errors = rows.iter().filter_map(|row| Some((row.run()?, error_of(row)?)));
     let first = errors.next();
     let failed = usize::from(first.is_some()) + errors.count();
-    eprintln!("note: {} runs, {made} of them made now, {failed} failed", rows.len());
+    eprintln!("note: {} runs, {} of them made now, {failed} failed", rows.len(), counts.made);
+    if counts.again > 0 {
+        eprintln!("note: the signals of {} runs were gone and were made again", counts.again);
+    }
     if let Some((run, error)) = first {
         eprintln!("note: run {run}: {error}");
+    }
+    match wanted - counts.made - counts.again {
+        0 => Ok(()),
+        left => {
+            eprintln!("note: interrupted: what is in the table is kept; the same command makes the other {left} runs");
+            Err(Interrupted.into())
+        }
     }
 }

@@ -14,11 +14,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use brinell::simulation::variables::{Causality, Kind};
-use fmu_build::library::{Choice, Library};
-use fmu_build::model::Model;
-use fmu_build::project::Project;
-use fmu_build::slave::Slave;
+use brinell::simulation::interface::table::{Causality, Kind};
+use fmu_build::host::Slave;
+use fmu_build::package::Model;
+use fmu_build::package::{Choice, Library};
+use fmu_build::shared::Project;
 
 /// Balls on smooth raceways, a spall under a map, rollers. The rollers of `nu205-healthy` are made straight: Valgrind
 /// 3.19 lacks an instruction (`vmovq` between registers, opcode D6) that compilers use for the table of crowned ones.

@@ -2,8 +2,10 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::support::{profile_of, shipped};
-use brinell::scene::{DefectOn, DefectShape, Scene};
-use brinell_analysis::statics::{Balance, CriticalLoad, StaticBearing, StaticError, min_mean_max, sweep};
+use brinell::scene::{Bearing, DefectOn, DefectShape, Scene};
+use brinell_analysis::statics::{
+    Balance, CriticalLoad, NoCriticalLoad, StaticBearing, StaticError, min_mean_max, sweep,
+};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -3,6 +3,7 @@
 use super::Scene;
 use super::plain::Plain;
 use super::unit_hint::UnitQuestion;
+use super::usual::Dimensions;
 use std::fmt;
 
 /// Largest groove conformity of ball bearings that are built, self-aligning ones aside; ISO 281 rates up to 0.53.
@@ -32,6 +33,11 @@ pub enum Remark {
         /// The question.
         question: UnitQuestion,
     },
+    /// A file of depths that are far from what is usual, and usual if they were meant in another unit.
+    OtherDepths {
+        /// The question about the deepest.
+        question: UnitQuestion,
+    },
 }
 
 impl fmt::Display for Remark {
@@ -50,16 +56,20 @@ impl fmt::Display for Remark {
                  tighter"
             ),
             Self::OtherUnit { line, question } => {
-                let UnitQuestion { key, value, unit, usual, source, .. } = question;
-                let [least, most] = usual.map(|value| Plain(format!("{value:.1e}").parse().unwrap_or(value)));
-                write!(
-                    f,
-                    "line {line}: {key} = {}: {question} Usual are {least} to {most} {unit} ({source})",
-                    Plain(*value)
-                )
+                write!(f, "line {line}: {} = {}: {}", question.key, Plain(question.value), asked(question))
+            }
+            Self::OtherDepths { question } => {
+                write!(f, "its depths reach {} {}: {}", Plain(question.value), question.unit, asked(question))
             }
         }
     }
+}
+
+/// The question, and what is usual.
+fn asked(question: &UnitQuestion) -> String {
+    let UnitQuestion { unit, usual, source, .. } = question;
+    let [least, most] = usual.map(|value| Plain(format!("{value:.1e}").parse().unwrap_or(value)));
+    format!("{question} Usual are {least} to {most} {unit} ({source})")
 }
 
 impl Scene {
@@ -69,5 +79,11 @@ impl Scene {
         let balls = self.bearing.roller().is_none();
         let open = grooves.into_iter().filter(|(_, conformity)| balls && *conformity > USUAL_CONFORMITY);
         open.map(|(ring, conformity)| Remark::OpenGroove { ring, conformity }).collect()
+    }
+
+    /// What there is to ask about a file of depths in micrometres whose deepest is so many.
+    pub fn remark_on_depths(&self, deepest_um: f64) -> Option<Remark> {
+        let question = Dimensions::of_bearing(&self.bearing).question("defect.depth_um", deepest_um)?;
+        Some(Remark::OtherDepths { question })
     }
 }

@@ -1,6 +1,7 @@
 //! Which sizes of values are usual, by practice or by the bearing's own dimensions: what is far off and would be usual
 //! in another unit is asked about. Nothing is refused for it.
 
+use super::Bearing;
 use super::catalogue::{Inside, catalogued};
 use super::unit_hint::{Meant, UnitQuestion, meant};
 use std::f64::consts::PI;
@@ -158,6 +159,16 @@ impl Dimensions {
             diameter: number("element_diameter_mm").or(inside.map(|inside| inside.element_diameter)),
             pitch: number("pitch_diameter_mm").or(inside.map(|inside| inside.pitch_diameter)),
             length: number("roller_length_mm").or(inside.and_then(|inside| inside.roller_length)),
+        }
+    }
+
+    /// Those of a bearing that was read.
+    pub(super) fn of_bearing(bearing: &Bearing) -> Self {
+        Self {
+            count: Some(bearing.element_count as f64),
+            diameter: Some(1e3 * bearing.element_diameter),
+            pitch: Some(1e3 * bearing.pitch_diameter),
+            length: bearing.roller().map(|roller| 1e3 * roller.length),
         }
     }
 

@@ -6,7 +6,7 @@
 
 Everything is computed by the program ``brinell``, which this package brings along; ``brinell --help`` has more. A
 scene is the path of a TOML file, or the name of a shipped scene (:func:`scenes`). All signals are in SI units. What
-goes wrong is a :class:`BrinellError` with the program's own words.
+goes wrong is a :class:`BrinellError` with the program's own words; what it remarks is a :class:`BrinellWarning`.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ import subprocess
 import sys
 import sysconfig
 import tempfile
+import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, Union
@@ -25,7 +26,7 @@ from typing import Any, Union
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["BrinellError", "Run", "build", "program", "run", "scenes", "size"]
+__all__ = ["BrinellError", "BrinellWarning", "Run", "build", "program", "run", "scenes", "size"]
 
 PathLike = Union[str, "os.PathLike[str]"]
 Signal = npt.NDArray[np.float64]
@@ -33,6 +34,10 @@ Signal = npt.NDArray[np.float64]
 
 class BrinellError(RuntimeError):
     """The program refused or failed; the text is what it said."""
+
+
+class BrinellWarning(UserWarning):
+    """What the program remarks, as a value that was probably meant in another unit; the result is there."""
 
 
 class Run(Mapping[str, Signal]):
@@ -179,4 +184,9 @@ def _ask(*words: str) -> str:
         # Notes may stand before it; of a scene's faults each has its line.
         _, _, said = ("\n" + done.stderr.strip()).rpartition("\nerror: ")
         raise BrinellError(said or "it said nothing")
+    for line in done.stderr.splitlines():
+        kind, _, said = line.partition(": ")
+        if kind in ("note", "warning"):
+            # Of the line that called this package: the caller of whoever asks here.
+            warnings.warn(said, BrinellWarning, stacklevel=3)
     return done.stdout

@@ -80,13 +80,13 @@ catalogue = {name_of_bearing:<25} # gives the keys below; a key given beside it 
 {roller}radial_clearance_um = 5.0             # assumed; or internal_clearance_um, as catalogues count: twice as much
 {defect}
 [shaft]
-motion = "internal"                   # or "host": an FMU's host gives its position
+motion = "internal"                   # or "host", then without load_n: an FMU's host gives its position
 speed_hz = 25.0                       # assumed
 load_n = {vector:<28} # assumed: 5 % of the static rating {formula} in N and mm; downwards
 # mass_kg, damping_n_s_m, stiffness_n_m: without them those of a published model of a test rig
 
 [housing]
-motion = "internal"                   # or "host", or "fixed"
+motion = "internal"                   # or "host"; or "fixed", then without [sensor]
 
 [sensor]                              # an accelerometer on the housing, upwards
 mass_kg = 0.03                        # assumed: 15 kHz, 5 % of critical damping
@@ -138,6 +138,29 @@ mod tests {
                 assert_eq!(scene.defects.len(), usize::from(spall.is_some()));
             }
         }
+    }
+
+    #[test]
+    fn each_motion_that_a_scene_offers_is_taken_as_its_comment_says() {
+        let own = text("mine", &catalogued("6205").unwrap(), None);
+        let offers = |line: &&str| line.starts_with("motion = ");
+        let mut tried = Vec::new();
+        for line in own.lines().filter(offers) {
+            for word in line.split('#').nth(1).unwrap().split('"').skip(1).step_by(2) {
+                let mut changed = own.replace(line, &format!("motion = \"{word}\""));
+                if line.contains(&format!("\"{word}\", then without load_n")) {
+                    let load = own.lines().find(|line| line.starts_with("load_n")).unwrap();
+                    changed = changed.replace(load, "");
+                }
+                if line.contains(&format!("\"{word}\", then without [sensor]")) {
+                    let (before, after) = changed.split_once("[sensor]").unwrap();
+                    changed = format!("{before}[experiment]{}", after.split_once("[experiment]").unwrap().1);
+                }
+                assert!(Scene::from_toml(&changed).is_ok(), "{word}: {line}");
+                tried.push(word);
+            }
+        }
+        assert_eq!(tried, ["host", "host", "fixed"]);
     }
 
     #[test]

@@ -22,7 +22,7 @@ const STEPS: u32 = 100;
 /// The command: one line for each thing that was tried; the first that fails ends it.
 pub fn command(project: &Project, path: &Path) -> Result<()> {
     let about = || path.display().to_string();
-    let folder = tempfile::tempdir().context("temporary folder")?;
+    let folder = crate::shared::whole_file::folder_in(&std::env::temp_dir()).context("temporary folder")?;
     let entries = unzip(path, folder.path()).with_context(about)?;
     println!("archive: {entries} files, deflate or store, plain names");
     let text = fs::read_to_string(folder.path().join("modelDescription.xml"))

@@ -20,9 +20,9 @@ use variables::{listed, variables};
 pub const LIMITS: [&str; 8] = [
     "Rolling elements are balls or cylindrical rollers. Rollers do not tilt and carry no axial load; their law was \
      measured on steel.",
-    "Defects, one or several, are on raceways and rolling elements; those of one body do not overlap. Where a raceway's \
-     defect and an element's own are under one contact, the deeper one counts. A defective ball turns about an axis \
-     parallel to the bearing's.",
+    "Defects, one or several, are on raceways and rolling elements; those of one body do not overlap. Where a \
+     raceway's defect and an element's own are under one contact, the deeper one counts. A defective ball turns about \
+     an axis parallel to the bearing's.",
     "Love's half-space at a vertical edge ignores the corner's own compliance unless the scene has \
      <code>contact.edge = \"step\"</code>: at the edge of a spall 100 µm deep the \
      force is 12 to 16 % too large, of one 15 to 30 µm deep 2 to 5 %, and the pressure at the edge diverges.",

@@ -4,9 +4,10 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 use brinell::dynamics::parameters::film;
-use brinell::scene::{Remark, Scene};
+use brinell::scene::{Defect, DefectShape, Remark, Scene};
 use brinell::simulation::Simulation;
 use brinell::simulation::interface::table::guid;
+use brinell::surface::Surface;
 
 use super::sensor_response;
 use crate::package::reference::Reference;
@@ -54,6 +55,21 @@ pub fn remarks(text: &str, scene: &Scene) -> impl Iterator<Item = Remark> {
     Scene::questions(text).into_iter().chain(scene.remarks()).chain(film::remark(scene))
 }
 
+/// Asks about the depths of a profile that were probably meant in another unit. What is wrong with it is told where it
+/// is read.
+pub(crate) fn tell_depths(scene: &Scene, name: &str, text: &str) {
+    let names = |defect: &&Defect| matches!(&defect.shape, DefectShape::Profile(named) if named == name);
+    let Some(defect) = scene.defects.iter().find(names) else { return };
+    let deepest = match Surface::load(defect, Some(text), &scene.bearing) {
+        Ok(Surface::Profile(profile)) => profile.points().iter().map(|point| point.1.abs()).fold(0.0, f64::max),
+        Ok(Surface::Topography(surface)) => surface.depths().iter().map(|depth| depth.abs()).fold(0.0, f64::max),
+        Err(_) => return,
+    };
+    if let Some(remark) = scene.remark_on_depths(1e6 * deepest) {
+        eprintln!("note: {name}: {remark}");
+    }
+}
+
 /// A scene with the files that it is read from.
 #[derive(Debug)]
 pub struct SceneFiles {
@@ -72,7 +88,10 @@ pub fn read_all(path: &Path) -> Result<SceneFiles> {
         eprintln!("note: {}: {remark}", path.display());
     }
     let profile = |name: &str| anyhow::Ok(Profile { name: name.to_owned(), text: shipped::text_beside(path, name)? });
-    let profiles = scene.profile_names().into_iter().map(profile).collect::<Result<_>>()?;
+    let profiles = scene.profile_names().into_iter().map(profile).collect::<Result<Vec<_>>>()?;
+    for Profile { name, text } in &profiles {
+        tell_depths(&scene, name, text);
+    }
     Ok(SceneFiles { text, scene, profiles })
 }
 

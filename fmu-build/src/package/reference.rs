@@ -15,7 +15,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
-use brinell::scene::{Motion, Scene};
+use brinell::scene::{Experiment, Motion, Scene};
 use brinell::simulation::Simulation;
 use brinell::simulation::interface::table::{Causality, Kind};
 
@@ -77,7 +77,7 @@ impl Reference {
         let rows = rows(&mut simulation, &stimuli, &references, grid).context("reference run")?;
         results += &String::from_utf8(rows)?;
         let inputs = if stimuli.names.is_empty() { None } else { Some(stimuli.csv(grid)?) };
-        let stop = grid.count as f64 * grid.step;
+        let stop = grid.end();
         let options = format!(
             "StartTime, 0.0\nStopTime, {stop:?}\nStepSize, {:?}\nRelTol, {:?}\nOutputIntervalLength, {:?}\n",
             grid.step, scene.tolerance, grid.step
@@ -153,9 +153,9 @@ impl Reference {
 
 /// The scene's default experiment, by as many of its steps at once as keep the files small.
 fn grid(scene: &Scene) -> Result<Grid> {
-    let whole = Grid::new(&scene.experiment, None, None)?;
+    let whole = Grid::even(&scene.experiment)?;
     let together = (whole.count as f64 / MOST_STEPS).ceil();
-    Grid::new(&scene.experiment, None, Some(whole.step * together))
+    Grid::even(&Experiment { step: whole.step * together, ..scene.experiment })
 }
 
 /// The outputs that are compared: name and reference. Those of elements are arrays in FMI 3.0, and not among them.
@@ -188,7 +188,7 @@ impl Stimuli {
             start: Vec::new(),
             down: None,
             depth: scene.bearing.radial_clearance.max(0.0) + PRESSED * scene.bearing.element_diameter,
-            period: grid.count as f64 * grid.step,
+            period: grid.end(),
         };
         for row in simulation.table().iter().filter(|row| row.causality == Causality::Input) {
             if let Kind::Real { start: Some(start), .. } = row.kind {

@@ -10,6 +10,7 @@ use brinell::simulation::Simulation;
 use super::columns::Columns;
 use super::signals::{Growing, Signals};
 use super::speed_profile::SpeedProfile;
+use crate::interrupt::{self, Interrupted};
 use crate::shared::{Grid, NotWritten};
 
 /// When a run communicates, and how fast its shaft turns.
@@ -59,7 +60,10 @@ impl Course<'_> {
         let mut row = vec![0.0; units.len()];
         for index in 0..=self.grid.count {
             if index > 0 {
-                self.step(simulation, shaft_speed)?;
+                if interrupt::came() {
+                    return Err(Interrupted.into());
+                }
+                self.step(simulation, shaft_speed, index)?;
                 if let Some(recording) = &mut recording {
                     recording.keep_up(simulation)?;
                 }
@@ -82,9 +86,11 @@ impl Course<'_> {
         Ok(Done { signals, units, recording })
     }
 
-    /// One communication step, with the speed going straight from the profile's value at its start to that at its end.
-    fn step(&self, simulation: &mut Simulation, shaft_speed: u32) -> Result<()> {
-        let (at, step) = (simulation.time(), self.grid.step);
+    /// Communication step `number`, with the speed going straight from the profile's value at its start to that at its
+    /// end.
+    fn step(&self, simulation: &mut Simulation, shaft_speed: u32, number: u64) -> Result<()> {
+        let at = simulation.time();
+        let step = self.grid.length(number, at);
         if let Some(profile) = self.profile {
             let (from, to) = (profile.at(at), profile.at(at + step));
             simulation.set_reals(&[shaft_speed], &[from])?;

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use brinell::numerics::bytes::Reader;
-use brinell::recording::npy_header;
+use brinell::recording::Layout;
 
 /// Rows that are read or changed at once.
 const BLOCK: usize = 4096;
@@ -29,9 +29,9 @@ pub struct Growing {
 }
 
 impl Growing {
-    /// A file for so many rows.
+    /// A file for so many rows, with a field for each name however many there are.
     pub fn create(path: &Path, names: Vec<String>, rows: u64) -> io::Result<Self> {
-        let header = npy_header(&names, rows);
+        let header = Layout::flat(&names).header(rows);
         let mut out = BufWriter::new(File::create(path)?);
         out.write_all(&header)?;
         let signals = Signals { path: path.to_owned(), names, header: header.len() as u64, rows };
@@ -51,9 +51,11 @@ impl Growing {
 }
 
 impl Signals {
-    /// A file that a recorder has written, with these names.
+    /// A file that a recorder has written of these names, which stand here in the file's order.
     pub fn of_recording(path: &Path, names: Vec<String>) -> Result<Self> {
-        let header = npy_header(&names, 0).len() as u64;
+        let layout = Layout::of(&names);
+        let names: Vec<String> = layout.order().iter().map(|&index| names[index].clone()).collect();
+        let header = layout.header(0).len() as u64;
         let length = path.metadata().with_context(|| path.display().to_string())?.len();
         let rows = (length - header.min(length)) / (8 * names.len() as u64);
         Ok(Self { path: path.to_owned(), names, header, rows })

@@ -125,7 +125,8 @@ impl<'a> Spectra<'a> {
                 return None;
             }
         }
-        Some((envelope_spectrum::frequencies(&scene)?, scene.shaft_speed.abs() / TAU))
+        let found = Frequencies::of(&scene);
+        (found.bpfo > 0.0 && found.bpfi > 0.0).then_some((found, scene.shaft_speed.abs() / TAU))
     }
 
     /// Where the shaft has turned by equal angles.

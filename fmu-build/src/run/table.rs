@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::Result;
-use brinell::recording::npy_header;
+use brinell::recording::Layout;
 use clap::ValueEnum;
 use parquet::basic::{Compression, Encoding, GzipLevel, Repetition, Type as Physical};
 use parquet::data_type::DoubleType;
@@ -30,7 +30,7 @@ pub enum Format {
     /// Text, a line for each communication point
     #[default]
     Csv,
-    /// NumPy's file, a field for each column
+    /// NumPy's file, a field for each column; of many elements arrays, as element.path
     Npy,
     /// Apache Parquet, packed
     Parquet,
@@ -73,8 +73,10 @@ fn as_csv(signals: &Signals, columns: &[Column], mut out: &mut (dyn Write + Send
 
 fn as_npy(signals: &Signals, columns: &[Column], out: &mut (dyn Write + Send)) -> Result<()> {
     let names: Vec<String> = columns.iter().map(|column| signals.names()[column.index].clone()).collect();
-    out.write_all(&npy_header(&names, signals.rows()))?;
-    signals.each_row(|row| Ok(columns.iter().try_for_each(|column| out.write_all(&row[column.index].to_le_bytes()))?))
+    let layout = Layout::of(&names);
+    out.write_all(&layout.header(signals.rows()))?;
+    let order: Vec<usize> = layout.order().iter().map(|&k| columns[k].index).collect();
+    signals.each_row(|row| Ok(order.iter().try_for_each(|&index| out.write_all(&row[index].to_le_bytes()))?))
 }
 
 /// Doubles with their bytes sorted by significance, which then pack well; each column's unit stands in the file's own

@@ -20,6 +20,15 @@ pub struct Wav {
     pub scale: f64,
 }
 
+/// How loud the samples of a file are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Loudness {
+    /// The largest size of a sample.
+    pub largest: f64,
+    /// Share of the samples beyond 1, which the file holds and players clip.
+    pub clipped: f64,
+}
+
 impl Wav {
     /// Refuses what no WAV file can be.
     pub fn check(&self) -> Result<()> {
@@ -32,8 +41,8 @@ impl Wav {
         Ok(())
     }
 
-    /// Writes the signals at these indices, sampled at `rate` (Hz). Gives the largest sample.
-    pub fn write(&self, signals: &Signals, indices: &[usize], rate: f64, path: &Path) -> Result<f64> {
+    /// Writes the signals at these indices, sampled at `rate` (Hz).
+    pub fn write(&self, signals: &Signals, indices: &[usize], rate: f64, path: &Path) -> Result<Loudness> {
         let length = 4 * signals.rows() * indices.len() as u64;
         if length > LARGEST {
             bail!("{length} bytes of samples: a WAV file holds at most {LARGEST}; take a shorter run or a lower rate");
@@ -44,13 +53,14 @@ impl Wav {
             bits_per_sample: 32,
             sample_format: hound::SampleFormat::Float,
         };
-        let mut largest = 0.0f64;
+        let (mut largest, mut beyond) = (0.0f64, 0u64);
         let mut bytes = Cursor::new(Vec::with_capacity(length as usize + 128));
         let mut writer = hound::WavWriter::new(&mut bytes, spec)?;
         signals.each_row(|row| {
             for &index in indices {
                 let sample = row[index] / self.scale;
                 largest = largest.max(sample.abs());
+                beyond += u64::from(sample.abs() > 1.0);
                 writer.write_sample(sample as f32)?;
             }
             Ok(())
@@ -60,7 +70,8 @@ impl Wav {
             bail!("largest sample {largest}: it must be below {:e}; --wav-scale makes it smaller", f32::MAX);
         }
         whole_file::write_with(path, |out| Ok(out.write_all(bytes.get_ref())?))?;
-        Ok(largest)
+        let count = signals.rows() * indices.len() as u64;
+        Ok(Loudness { largest, clipped: beyond as f64 / count.max(1) as f64 })
     }
 }
 

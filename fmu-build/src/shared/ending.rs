@@ -1,9 +1,12 @@
-//! How the programs end: with what was wrong on one line, and without a word where nobody reads any more.
+//! How the programs end: with what was wrong on one line, without a word where nobody reads any more, and in order
+//! where a signal ends them.
 
 use std::panic::{self, PanicHookInfo};
 use std::process::{self, ExitCode};
 
 use anyhow::Result;
+
+use crate::interrupt::{self, Interrupted};
 
 /// What systems call writing into a pipe that nobody reads: Unix's `EPIPE`; Windows' `ERROR_BROKEN_PIPE` and
 /// `ERROR_NO_DATA`.
@@ -19,9 +22,16 @@ pub fn program(work: impl FnOnce() -> Result<()>) -> ExitCode {
         }
         usual(panic);
     }));
+    if let Err(error) = interrupt::watch() {
+        eprintln!("note: Ctrl-C will leave temporary files: {error}");
+    }
     match work() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
+            interrupt::wait_if_ending();
+            if error.is::<Interrupted>() {
+                process::exit(interrupt::status_of_interrupted());
+            }
             eprintln!("error: {error:#}");
             ExitCode::FAILURE
         }

@@ -1,7 +1,7 @@
 //! Files that are whole or not there: a disk that fills up, or a run that fails, leaves a file of that name as it was.
 //!
 //! Everything is written into a temporary file in the same folder, which takes the name when its last byte is on the
-//! disk. It is removed on the way out of every failure.
+//! disk. It is removed on the way out of every failure, and where a signal ends the program.
 
 use std::fs;
 use std::io::{self, BufWriter, Write};
@@ -9,6 +9,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use tempfile::{NamedTempFile, TempDir};
+
+use crate::interrupt::Temporary;
 
 /// Why a file was not written; the file of that name is what it was before.
 #[derive(Debug, thiserror::Error)]
@@ -44,7 +46,8 @@ pub fn write_with(path: &Path, fill: impl FnOnce(&mut (dyn Write + Send)) -> Res
         _ => Path::new("."),
     };
     fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
-    let mut out = BufWriter::new(beside(path, folder).map_err(failed)?);
+    let (_temporary, file) = Temporary::made(|| beside(path, folder), NamedTempFile::path).map_err(failed)?;
+    let mut out = BufWriter::new(file);
     if let Err(error) = fill(&mut out) {
         // Only what went wrong with writing is the disk's.
         return Err(match error.downcast::<io::Error>() {
@@ -59,11 +62,27 @@ pub fn write_with(path: &Path, fill: impl FnOnce(&mut (dyn Write + Send)) -> Res
     Ok(())
 }
 
-/// A folder for files that grow, in `folder`, which is made where it is missing. It is removed with all that is left
-/// in it.
-pub fn folder_in(folder: &Path) -> Result<TempDir> {
-    fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
-    tempfile::Builder::new().suffix(".part").tempdir_in(folder).with_context(|| folder.display().to_string())
+/// A folder for files that grow, which is removed with all that is left in it.
+#[derive(Debug)]
+pub struct GrowingIn {
+    folder: TempDir,
+    _temporary: Temporary,
+}
+
+impl GrowingIn {
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        self.folder.path()
+    }
+}
+
+/// A folder for files that grow, in `folder`, which is made where it is missing.
+pub fn folder_in(folder: &Path) -> Result<GrowingIn> {
+    let about = || folder.display().to_string();
+    fs::create_dir_all(folder).with_context(about)?;
+    let made = || tempfile::Builder::new().suffix(".part").tempdir_in(folder);
+    let (_temporary, folder) = Temporary::made(made, TempDir::path).with_context(about)?;
+    Ok(GrowingIn { folder, _temporary })
 }
 
 /// Moves a file that is whole into `folder`, in place of one of its name, and gives its path there.

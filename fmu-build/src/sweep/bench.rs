@@ -7,7 +7,8 @@ use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use anyhow::{Context, Result, bail};
-use brinell::scene::{DefectOn, DefectShape, Scene};
+use brinell::geometry::kinematics::passage_frequency;
+use brinell::scene::{DefectOn, DefectShape, Motion, Scene};
 use brinell::simulation::Simulation;
 use brinell_analysis::statistics::mean;
 use clap::ValueEnum;
@@ -18,7 +19,9 @@ use super::file::{Kind as Fault, Sweep};
 use super::maps::Maps;
 use super::rows::{Cell, Column, Kind, Row};
 use super::scenes::{Base, run_name};
-use super::statistics::{HARMONICS, OneElement, Passage, Statistics};
+use super::statistics::{HARMONICS, OneElement, Passage, Statistics, passages};
+use crate::interrupt::Interrupted;
+use crate::package::model::tell_depths;
 use crate::run::columns::Columns;
 use crate::run::course::{Course, Done};
 use crate::run::noise::Noise;
@@ -37,6 +40,18 @@ pub(crate) enum Written {
     Parquet,
     /// Sound, a channel for each sensor; 1 is 1 m/s²
     Wav,
+}
+
+impl Written {
+    /// Name of the file of a run.
+    fn file(self, name: &str) -> String {
+        let ending = match self {
+            Self::Npy => "npy",
+            Self::Parquet => "parquet",
+            Self::Wav => "wav",
+        };
+        format!("{name}.{ending}")
+    }
 }
 
 /// All that runs share.
@@ -62,22 +77,28 @@ pub(super) struct Ready {
 }
 
 impl Bench<'_> {
+    /// Whether the signals of a run that did not fail are wanted and not there.
+    pub(super) fn lacks_signals(&self, run: u64) -> bool {
+        self.written.is_some_and(|written| !self.signals.join(written.file(&run_name(run))).exists())
+    }
+
     /// The scene of a run.
     pub(super) fn ready(&self, run: &Run) -> Result<Ready> {
         let (scene, table) = self.base.scene(self.sweep, run)?;
         if scene.sensors.is_empty() {
             bail!("the scene has no [sensor]: a sweep is about what sensors show");
         }
-        let texts = scene.profile_names().into_iter().map(|name| self.text(name)).collect::<Result<_>>()?;
+        let texts = scene.profile_names().into_iter().map(|name| self.text(&scene, name)).collect::<Result<_>>()?;
         Ok(Ready { scene, table, texts })
     }
 
-    fn text(&self, name: &str) -> Result<Arc<str>> {
+    fn text(&self, scene: &Scene, name: &str) -> Result<Arc<str>> {
         let mut texts = self.texts.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(text) = texts.get(name) {
             return Ok(Arc::clone(text));
         }
         let text: Arc<str> = shipped::text_beside(&self.base.path, name)?.into();
+        tell_depths(scene, name, &text);
         texts.insert(name.to_owned(), Arc::clone(&text));
         Ok(text)
     }
@@ -85,14 +106,15 @@ impl Bench<'_> {
     /// The row of a run, whatever becomes of it.
     ///
     /// # Errors
-    /// Only what is no run's fault: a disk that is full, a column that the table does not have.
+    /// Only what is no run's fault: a disk that is full, a column that the table does not have, a user who ends the
+    /// sweep.
     pub(super) fn row(&self, run: &Run, maps: &Maps, fingerprints: &[u64]) -> Result<Row> {
         let mut row = Row::of(self.columns, run.index);
         self.put_values(&mut row, run)?;
         let made = panic::catch_unwind(AssertUnwindSafe(|| self.fill(&mut row, run, maps, fingerprints)));
         let error = match made {
             Ok(Ok(())) => return Ok(row),
-            Ok(Err(error)) if error.is::<NotWritten>() => return Err(error),
+            Ok(Err(error)) if error.is::<NotWritten>() || error.is::<Interrupted>() => return Err(error),
             Ok(Err(error)) => format!("{error:#}"),
             Err(_) => "the run ended in a fault of the program; standard error says where".to_owned(),
         };
@@ -152,6 +174,9 @@ impl Bench<'_> {
     fn wanted(&self, scene: &Scene, simulation: &Simulation) -> Result<Columns> {
         let mut names = vec!["cage.speed".to_owned(), "solver.steps".to_owned(), "solver.rejected_steps".to_owned()];
         names.extend((0..scene.sensors.len()).map(|number| scene.sensor_variable(number)));
+        if !carries_shaft_load(scene) {
+            names.extend(["shaft.force.x".to_owned(), "shaft.force.y".to_owned()]);
+        }
         if passes_outer_defect(scene).is_some() {
             names.extend(["element[*].angle".to_owned(), "element[*].force.outer".to_owned()]);
         }
@@ -205,8 +230,9 @@ impl Bench<'_> {
             let angle = Base::value(table, "defect.angle_deg").and_then(super::file::number);
             put("label_angle_deg", Cell::Number(angle.unwrap_or(rounded(defect.angle.to_degrees()))))?;
         }
-        let load = [scene.shaft.load, scene.housing.load].map(|load| load[0].hypot(load[1]));
-        put("label_load_n", Cell::Number(rounded(load[0].max(load[1]))))?;
+        if carries_shaft_load(scene) {
+            put("label_load_n", Cell::Number(rounded(scene.shaft.load[0].hypot(scene.shaft.load[1]))))?;
+        }
         let speed = match run.profile.map(|profile| &self.speeds[profile]) {
             None => rounded(scene.shaft_speed / TAU),
             Some(profile) => {
@@ -227,16 +253,22 @@ impl Bench<'_> {
             anyhow::Ok(columns[index].as_slice())
         };
         let (time, cage) = (column("time")?, column("cage.speed")?);
-        let count = scene.bearing.element_count;
-        let found = Statistics::of(&kept.column(1)?, &self.passages(cage, count as f64, &kept.column(0)?));
-        let late = cage.iter().zip(time).filter(|(_, t)| **t > self.sweep.settle).map(|(speed, _)| *speed);
+        let (count, outer) = (scene.bearing.element_count, scene.housing_speed.unwrap_or(0.0));
+        let against_outer: Vec<f64> = cage.iter().map(|cage| cage - outer).collect();
+        let found = Statistics::of(&kept.column(1)?, &passages(time, &against_outer, count, &kept.column(0)?));
+        let late = cage.iter().zip(time).filter(|(_, t)| **t > self.sweep.settle);
+        let bpfo = late.map(|(cage, _)| passage_frequency(count, cage / TAU, outer / TAU)).collect::<Vec<_>>();
         let mut put = |name: &str, cell: Cell| row.put(self.columns, name, cell);
         let mut number = |name: &str, value: f64| put(name, Cell::Number(value));
-        number("bpfo_hz", count as f64 * mean(&late.collect::<Vec<_>>()) / TAU)?;
+        number("bpfo_hz", mean(&bpfo))?;
         number("rms_m_s2", found.rms)?;
         number("peak_m_s2", found.peak)?;
         number("kurtosis", found.kurtosis)?;
-        for (k, line) in found.envelope.into_iter().enumerate() {
+        if !carries_shaft_load(scene) {
+            let [x, y] = [column("shaft.force.x")?, column("shaft.force.y")?].map(|force| force[0]);
+            number("label_load_n", x.hypot(y))?;
+        }
+        for (k, line) in found.envelope.into_iter().flatten().enumerate() {
             number(&envelope_name(k + 1), line)?;
         }
         if let Some(defect) = passes_outer_defect(scene) {
@@ -257,32 +289,13 @@ impl Bench<'_> {
         Ok(())
     }
 
-    /// How many elements have passed a point of the outer raceway at these times, by the cage's speed at each step.
-    fn passages(&self, cage: &[f64], count: f64, times: &[f64]) -> Vec<f64> {
-        let mut passed = vec![0.0];
-        for speed in cage {
-            passed.push(passed[passed.len() - 1] + count * self.grid.step * speed / TAU);
-        }
-        let between = |t: &f64| {
-            let along = (t / self.grid.step).clamp(0.0, (passed.len() - 1) as f64);
-            let first = (along as usize).min(passed.len() - 2);
-            passed[first] + (along - first as f64) * (passed[first + 1] - passed[first])
-        };
-        times.iter().map(between).collect()
-    }
-
     /// Writes the signals beside where they grew, whence they are moved when they are whole: a program that is ended
     /// leaves nothing in their folder.
     fn write(&self, written: Written, kept: &Signals, name: &str) -> Result<()> {
         let unit = |k: usize| if k == 0 { "s" } else { "m/s2" };
         let column = |index: usize| table::Column { index, unit: unit(index) };
         let columns: Vec<_> = (0..kept.names().len()).map(column).collect();
-        let ending = match written {
-            Written::Npy => "npy",
-            Written::Parquet => "parquet",
-            Written::Wav => "wav",
-        };
-        let whole = kept.path().with_file_name(format!("{name}.{ending}"));
+        let whole = kept.path().with_file_name(written.file(name));
         match written {
             Written::Npy => std::fs::rename(kept.path(), &whole).map_err(|error| NotWritten::new(&whole, error))?,
             Written::Parquet => Format::Parquet.write(kept, &columns, &whole)?,
@@ -362,6 +375,12 @@ fn passes_outer_defect(scene: &Scene) -> Option<f64> {
         [defect] if defect.on == DefectOn::Outer && scene.housing_speed.is_none() => Some(defect.angle),
         _ => None,
     }
+}
+
+/// Whether the bearing carries the shaft's load and nothing else: of a shaft that only the bearing holds. Otherwise its
+/// load is its force on the shaft at the start, where rings and elements are in balance.
+fn carries_shaft_load(scene: &Scene) -> bool {
+    scene.shaft.motion == Motion::Internal && scene.shaft.stiffness == 0.0
 }
 
 /// Without the last digits, which a change of units leaves.

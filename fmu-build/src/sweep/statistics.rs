@@ -18,13 +18,14 @@ pub(super) struct Statistics {
     pub(super) peak: f64,
     /// Fourth moment over the squared second one: 3 for normal noise.
     pub(super) kurtosis: f64,
-    /// Amplitudes of the envelope at multiples of the passage frequency (m/s²).
-    pub(super) envelope: [f64; HARMONICS],
+    /// Amplitudes of the envelope at multiples of the passage frequency (m/s²); none of a signal shorter than a
+    /// passage.
+    pub(super) envelope: Option<[f64; HARMONICS]>,
 }
 
 impl Statistics {
     /// Those of a signal at even times; `passages` is how many elements have passed a point of the outer raceway at
-    /// each sample, so that with a speed that changes the lines stay where they are.
+    /// each sample ([`passages`]), so that with a speed that changes the lines stay where they are.
     pub(super) fn of(signal: &[f64], passages: &[f64]) -> Self {
         let middle = mean(signal);
         let signal: Vec<f64> = signal.iter().map(|value| value - middle).collect();
@@ -47,9 +48,26 @@ impl Statistics {
             }
             2.0 * sum[0].hypot(sum[1]) / total
         };
-        let envelope = std::array::from_fn(|k| line(k + 1));
+        let passed: f64 = passages.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
+        let envelope = (passed >= 1.0).then(|| std::array::from_fn(|k| line(k + 1)));
         Self { rms, peak, kurtosis: fourth / (rms * rms * rms * rms), envelope }
     }
+}
+
+/// How many of `count` elements have passed a point of the outer raceway at these `times` (s), by the cage's speed
+/// against that ring (rad/s) at the instants `at` (s), between which it changes evenly.
+pub(super) fn passages(at: &[f64], speed: &[f64], count: usize, times: &[f64]) -> Vec<f64> {
+    let mut passed = vec![0.0];
+    for (at, speed) in at.windows(2).zip(speed.windows(2)) {
+        let turned = 0.5 * (speed[0] + speed[1]) * (at[1] - at[0]);
+        passed.push(passed[passed.len() - 1] + count as f64 * turned / TAU);
+    }
+    let between = |t: &f64| {
+        let after = at.partition_point(|at| at <= t).clamp(1, at.len() - 1);
+        let along = (t - at[after - 1]) / (at[after] - at[after - 1]);
+        passed[after - 1] + along * (passed[after] - passed[after - 1])
+    };
+    times.iter().map(between).collect()
 }
 
 /// What one element does at each sample.
@@ -94,6 +112,8 @@ impl Passage {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
+
     use super::*;
 
     #[test]
@@ -106,14 +126,32 @@ mod tests {
             (0..count).zip(&passages).map(|(i, &p)| swing(p) * sin_cos(TAU * (0.2 * f64::from(i)).fract()).1).collect();
         let found = Statistics::of(&signal, &passages);
         // The Hann window's side lobes, 1/100³ of a line.
-        assert!((found.envelope[0] - 1.5).abs() < 1e-4, "{found:?}");
-        assert!(found.envelope[1..].iter().all(|&line| line < 1e-4), "{found:?}");
+        let envelope = found.envelope.unwrap();
+        assert!((envelope[0] - 1.5).abs() < 1e-4, "{found:?}");
+        assert!(envelope[1..].iter().all(|&line| line < 1e-4), "{found:?}");
         // √(9 (1 + 1/8)/2), and for a sine of amplitude a: <a⁴> 3/8 over (<a²>/2)²; <a²> = 9·9/8, <a⁴> = 81·(1 + 3/4 +
         // 3/128).
         assert!((found.rms - (9.0_f64 * 1.125 / 2.0).sqrt()).abs() < 1e-4, "{found:?}");
         let fourth = 81.0 * (1.0 + 0.75 + 3.0 / 128.0) * 3.0 / 8.0;
         assert!((found.kurtosis - fourth / (81.0 * 1.125 * 1.125 / 4.0)).abs() < 1e-3, "{found:?}");
         assert!((found.peak - 4.5).abs() < 1e-2, "{found:?}");
+    }
+
+    #[test]
+    fn a_signal_shorter_than_a_passage_has_no_lines_whichever_way_the_cage_turns() {
+        let signal: Vec<f64> = (0..1000).map(|i| sin_cos(0.3 * f64::from(i)).0).collect();
+        let times: Vec<f64> = (0..1000).map(|i| 1e-3 * f64::from(i)).collect();
+        for (hertz, has) in [(0.9 / 9.0, false), (1.1 / 9.0, true), (-1.1 / 9.0, true), (0.0, false)] {
+            let passed = passages(&times, &[TAU * hertz; 1000], 9, &times);
+            assert_eq!(Statistics::of(&signal, &passed).envelope.is_some(), has, "{hertz} Hz");
+        }
+        // From 1 to 3 Hz in 0.999 s: half of that many times 4 Hz, and at half of the time 0.4995 (1 + 2)/2.
+        let speed: Vec<f64> = times.iter().map(|t| TAU * (1.0 + 2.0 * t / 0.999)).collect();
+        let passed = passages(&times, &speed, 9, &[0.0, 0.4995, 0.999]);
+        for (found, expected) in passed.iter().zip([0.0, 9.0 * 0.4995 * 1.5, 9.0 * 0.999 * 2.0]) {
+            // Between two instants the count goes straight: 9 · 2/0.999 · (1 ms)²/8.
+            assert!((found - expected).abs() < 3e-6, "{found} {expected}");
+        }
     }
 
     #[test]

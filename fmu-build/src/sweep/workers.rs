@@ -6,8 +6,10 @@ use std::thread;
 
 use anyhow::Result;
 
+use crate::interrupt;
+
 /// Does `job(0)` … `job(count − 1)` on so many threads; `take` has the results, in no order. Where it fails no further
-/// job begins, and its error is the answer.
+/// job begins, and its error is the answer; nor does one begin once the user has interrupted.
 pub(super) fn each<T: Send>(
     threads: usize,
     count: usize,
@@ -22,7 +24,7 @@ pub(super) fn each<T: Send>(
             let give = give.clone();
             scope.spawn(|| {
                 let give = give;
-                while !stopped.load(Ordering::Relaxed) {
+                while !stopped.load(Ordering::Relaxed) && !interrupt::came() {
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     if index >= count || give.send((index, job(index))).is_err() {
                         break;

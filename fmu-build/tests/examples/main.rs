@@ -199,6 +199,29 @@ fn an_fmu_bears_its_scenes_name_whatever_its_files_is() {
     assert_eq!(said.trim(), "6205-healthy.fmu True");
 }
 
+#[cfg(unix)]
+#[test]
+fn examples_call_the_installed_program_and_cargo_only_where_there_is_none() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = common::folder("example-program");
+    let script = folder.join("program.py");
+    let text = "import sys\nsys.path.insert(0, sys.argv[1])\nimport bearing\n\
+                print(bearing.program(), bearing.executable())";
+    fs::write(&script, text).unwrap();
+    let said = |python: Python| {
+        let python = python.with_variable("PATH", &folder);
+        python.run_file(&script, [common::root().join("examples")]).unwrap_or_else(|error| panic!("{error:#}"))
+    };
+    assert!(said(common::python().clone()).starts_with("['cargo', 'fmu'] ["));
+    let installed = folder.join("brinell");
+    fs::write(&installed, "#!/bin/sh\n").unwrap();
+    fs::set_permissions(&installed, fs::Permissions::from_mode(0o755)).unwrap();
+    let words = format!("['{}']", installed.display());
+    assert_eq!(said(common::python().clone()).trim(), format!("{words} {words}"));
+    let named = common::python().clone().with_variable("BRINELL_FMU", "mine --quiet");
+    assert_eq!(said(named).trim(), "['mine', '--quiet'] ['mine', '--quiet']");
+}
+
 #[test]
 fn two_bearings_carry_a_rigid_rotor() {
     let folder = common::folder("example-rigid");

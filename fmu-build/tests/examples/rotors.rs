@@ -70,6 +70,19 @@ fn ross_integrates_the_rotor_itself_and_asks_as_assumed() {
 
 #[test]
 #[ignore = "needs the environment of the examples, half a gigabyte"]
+fn ross_may_tell_more_and_give_more_as_its_version_3_does() {
+    if !has_ross() {
+        return;
+    }
+    let folder = common::folder("example-ross-3");
+    let script = folder.join("as_of_3.py");
+    fs::write(&script, AS_OF_3).unwrap();
+    let said = with_all_packages().run_file(&script, [common::root().join("examples"), folder]);
+    assert_eq!(said.unwrap_or_else(|error| panic!("{error:#}")).trim(), "equal bits");
+}
+
+#[test]
+#[ignore = "needs the environment of the examples, half a gigabyte"]
 fn a_rotors_run_writes_the_columns_that_are_asked_for_and_no_others() {
     if !has_ross() {
         return;
@@ -151,6 +164,36 @@ fn the_cost_of_a_step_is_told_apart() {
         assert!(parts.iter().all(|&part| part > 0.0), "{host}: {parts:?}");
     }
 }
+
+/// ROSS 3 tells `args` to `add_to_RHS`, and `integrate_system` gives three values.
+const AS_OF_3: &str = r#"
+import sys
+from pathlib import Path
+
+sys.path.insert(0, sys.argv[1])
+import numpy as np
+from rotor_ross import fmus_in, ross, shown, simulate
+
+machine, fmu = shown(), fmus_in(Path(sys.argv[2]))[0]
+
+
+def run():
+    found = simulate(machine.rotor, machine.nodes, [fmu], 314.0, 1e-3, 1e-5, loads=machine.loads, host="ross")
+    return found.motion
+
+
+plain, own = run(), ross.Rotor.integrate_system
+
+
+def as_of_3(rotor, speed, force, t, add_to_RHS):
+    told = lambda step, **state: add_to_RHS(step, **{**state, "args": None})
+    return (*own(rotor, speed, force, t, add_to_RHS=told)[:2], [])
+
+
+ross.Rotor.integrate_system = as_of_3
+assert np.array_equal(run(), plain) and len(plain) == 101 and np.ptp(plain) > 0
+print("equal bits")
+"#;
 
 /// The same bits in every format.
 const COLUMNS: &str = r#"

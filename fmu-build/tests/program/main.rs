@@ -4,6 +4,7 @@
 mod common;
 mod contact;
 mod hours;
+mod many_elements;
 mod messages;
 mod modes;
 mod notebooks;

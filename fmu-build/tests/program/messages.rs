@@ -137,6 +137,26 @@ fn a_value_that_may_be_meant_is_asked_about_and_the_run_goes_on() {
 }
 
 #[test]
+fn depths_of_a_profile_that_may_be_meant_in_millimetres_are_asked_about() {
+    let folder = common::folder("depths");
+    let healthy = fs::read_to_string(common::root().join("scenes/6205-healthy.toml")).unwrap();
+    let scene = folder.join("dented.toml").display().to_string();
+    let healthy = healthy.replace("[contact]", "[contact]\nlaw = \"hertz\"");
+    fs::write(&scene, healthy + "\n[[defect]]\nangle_deg = -90.0\nprofile = \"dent.csv\"\n").unwrap();
+    let out = folder.join("out").display().to_string();
+    let said = |depth: &str| {
+        let rows = format!("arc_mm,depth_um\n-0.5,0\n-0.4,{depth}\n0.4,{depth}\n0.5,0\n");
+        fs::write(folder.join("dent.csv"), rows).unwrap();
+        let output = program(&["run", &scene, "--stop", "1e-4", "--no-figure", "-o", &out]);
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.success(), "{said}");
+        said
+    };
+    once(&said("0.05"), "note: dent.csv: its depths reach 0.05 um: 50 um given in millimetres? Usual are 0.5 to");
+    assert!(!said("50").contains("dent.csv: its depths"));
+}
+
+#[test]
 fn a_shaft_that_is_too_fast_is_asked_about_and_a_step_that_fails_tells_its_time_once() {
     let folder = common::folder("too-fast");
     let scene = with_defect(&folder, "length_deg = 15.8");

@@ -106,12 +106,14 @@ fn the_module_hands_on_columns_speed_and_noise_and_tells_all_faults_of_a_scene()
     fs::write(&script, MODULE).unwrap();
     let module = Path::new(env!("CARGO_MANIFEST_DIR")).join("module");
     let python = common::python().clone().with_variable("BRINELL_PROGRAM", env!("CARGO_BIN_EXE_brinell"));
-    let said = python.run_file(&script, [module, folder]).unwrap_or_else(|error| panic!("{error:#}"));
+    let said =
+        python.run_file(&script, [&*module, &*folder, common::root()]).unwrap_or_else(|error| panic!("{error:#}"));
     assert!(said.contains("handed on"), "{said}");
 }
 
 const MODULE: &str = r#"
 import sys
+import warnings
 from pathlib import Path
 
 sys.path.insert(0, sys.argv[1])
@@ -130,6 +132,17 @@ noise = {"speed_profile": profile, "noise_db": 20}
 noisy = [brinell.run("6205-healthy", columns=names, **noise, noise_seed=s) for s in (1, 1, 2)]
 first, again, other = (run["sensor.acceleration"] for run in noisy)
 assert np.array_equal(first, again) and not np.array_equal(first, other)
+with warnings.catch_warnings(record=True) as told:
+    warnings.simplefilter("always")
+    quiet = brinell.run("6205-healthy", stop=1e-4)
+    assert not told, told
+    text = (Path(sys.argv[3]) / "scenes/6205-healthy.toml").read_text(encoding="utf-8")
+    scene = folder / "asked.toml"
+    scene.write_text(text.replace("load_n = [0.0, -1500.0]", "load_n = [0.0, -1.5]"), encoding="utf-8")
+    assert len(brinell.run(scene, stop=1e-4)["time"]) == len(quiet["time"])
+[asked] = told
+assert asked.category is brinell.BrinellWarning and asked.filename == __file__, asked
+assert "shaft.load_n = -1.5: -1500 N given in kN?" in str(asked.message), asked
 scene = folder / "bad.toml"
 scene.write_text("name = 'bad'\ncolour = 1\n")
 try:

@@ -234,6 +234,42 @@ fn sound_is_what_the_recorder_filters_at_the_rate_and_scale_that_are_asked_for()
 }
 
 #[test]
+fn sound_that_players_clip_is_warned_of_with_the_share_that_they_clip() {
+    let folder = common::folder("run-clipped");
+    let scene = shipped(QUICK);
+    let said = run(&scene, &folder, &["--stop", "0.05", "--wav", "--wav-scale", "0.1"]);
+    let mut reader = hound::WavReader::open(folder.join("6205-healthy.wav")).unwrap();
+    let samples: Vec<f32> = reader.samples::<f32>().map(Result::unwrap).collect();
+    let beyond = samples.iter().filter(|sample| sample.abs() > 1.0).count() as f64;
+    assert!(beyond > 0.0 && beyond < samples.len() as f64, "{beyond} of {}", samples.len());
+    let warning = said.lines().find(|line| line.starts_with("warning: ")).unwrap_or_else(|| panic!("{said}"));
+    let share: f64 = warning.split(" %").next().unwrap().rsplit(' ').next().unwrap().parse().unwrap();
+    // Six digits are told.
+    assert!((share / (100.0 * beyond / samples.len() as f64) - 1.0).abs() < 1e-5, "{warning}");
+    let enough: f64 = warning.split("--wav-scale above ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+    let said = run(&scene, &folder, &["--stop", "0.05", "--wav", "--wav-scale", &(1.0001 * enough).to_string()]);
+    assert!(!said.contains("warning"), "{said}");
+}
+
+#[test]
+fn a_run_ends_at_its_stop_time_with_a_shorter_step_where_that_is_no_multiple_of_the_step() {
+    let folder = common::folder("run-stop");
+    run(&shipped(QUICK), &folder, &["--stop", "0.05", "--step", "7e-3"]);
+    let time = column(&csv(&folder.join("6205-healthy.csv")), "time");
+    assert_eq!((time.len(), time[8]), (9, 0.05));
+    assert!((time[7] - 0.049).abs() < 1e-15, "{time:?}");
+    // A profile is run to its end.
+    let profile = folder.join("speeds.csv");
+    fs::write(&profile, "time_s,speed_hz\n0,10\n0.0105,20\n").unwrap();
+    run(&shipped(QUICK), &folder, &["--speed-profile", profile.to_str().unwrap(), "--step", "1e-3"]);
+    let table = csv(&folder.join("6205-healthy.csv"));
+    let (time, speed) = (column(&table, "time"), column(&table, "shaft.speed"));
+    assert_eq!((time.len(), time[11]), (12, 0.0105));
+    // The mean of the whole: rounding of a dozen sums.
+    assert!((speed[11] / TAU - 20.0).abs() < 1e-12, "{}", speed[11] / TAU);
+}
+
+#[test]
 fn sound_that_cannot_be_is_refused() {
     let folder = common::folder("run-no-wav");
     let out = folder.join("out");

@@ -1,7 +1,9 @@
 //! `brinell sweep` as a program: equal bits however it is run, rows for runs that fail, faults with their lines.
 #![allow(clippy::unwrap_used)]
 
+mod ends;
 mod files;
+mod rings;
 
 use crate::common;
 use std::fs::{self, File};

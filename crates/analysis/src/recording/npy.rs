@@ -1,8 +1,9 @@
 //! NumPy's `.npy` files. Numbers of one or two dimensions are read, in C or Fortran order, and arrays of one dimension
-//! with named fields, as the recorder of an FMU writes them. Of two dimensions the shorter one counts channels.
+//! with named fields, each a number or a row of numbers, as the recorder of an FMU writes them. Of two dimensions the
+//! shorter one counts channels.
 
 use super::interleaving::deinterleaved;
-use super::npy_header::Header;
+use super::npy_header::{Field, Header};
 
 /// Names, empty where there are none, and the columns.
 type Columns = (Vec<String>, Vec<Vec<f64>>);
@@ -29,7 +30,8 @@ pub(crate) fn columns(bytes: &[u8]) -> Result<Columns, String> {
     };
     let end = start + length.ok_or_else(short)?;
     let header = Header::parse(&String::from_utf8_lossy(bytes.get(start..end).ok_or_else(short)?))?;
-    let row: usize = header.fields.iter().map(|(_, kind)| size(kind)).sum::<Result<_, _>>()?;
+    let bytes_of = |field: &Field| Ok::<_, String>(size(&field.kind)? * field.count.unwrap_or(1));
+    let row: usize = header.fields.iter().map(bytes_of).sum::<Result<_, _>>()?;
     let needed = header.shape.iter().try_fold(row, |product, &n| product.checked_mul(n));
     let data = &bytes[end..];
     if needed != Some(data.len()) {
@@ -48,14 +50,17 @@ fn fields(header: &Header, row: usize, data: &[u8]) -> Result<Columns, String> {
         return Err(format!("{} dimensions of named fields: 1 is read", header.shape.len()));
     }
     let (mut names, mut columns, mut at) = (Vec::new(), Vec::new(), 0);
-    for (name, kind) in &header.fields {
-        let from = at;
-        at += size(kind)?;
-        // Bytes that fill a row up have no type.
-        if !kind.contains('V') {
-            let kind = Kind::parse(kind).map_err(|why| format!("field '{name}': {why}"))?;
-            names.push(name.clone());
-            columns.push(data.chunks_exact(row.max(1)).map(|row| kind.value(&row[from..at])).collect());
+    for field in &header.fields {
+        let size = size(&field.kind)?;
+        for name in field.names() {
+            let from = at;
+            at += size;
+            // Bytes that fill a row up have no type.
+            if !field.kind.contains('V') {
+                let kind = Kind::parse(&field.kind).map_err(|why| format!("field '{}': {why}", field.name))?;
+                names.push(name);
+                columns.push(data.chunks_exact(row.max(1)).map(|row| kind.value(&row[from..at])).collect());
+            }
         }
     }
     Ok((names, columns))
@@ -63,7 +68,7 @@ fn fields(header: &Header, row: usize, data: &[u8]) -> Result<Columns, String> {
 
 /// Channels of a plain array.
 fn channels(header: &Header, data: &[u8]) -> Result<Vec<Vec<f64>>, String> {
-    let kind = Kind::parse(&header.fields[0].1)?;
+    let kind = Kind::parse(&header.fields[0].kind)?;
     let values: Vec<f64> = data.chunks_exact(kind.size).map(|bytes| kind.value(bytes)).collect();
     let (rows, width) = match header.shape[..] {
         [rows] => (rows, 1),
@@ -152,6 +157,16 @@ mod tests {
             let found = columns(&npy_bytes(&header, &values.map(f32::to_le_bytes).concat())).unwrap().1;
             assert_eq!(found, [[1.0, 2.0, 3.0], [10.0, 20.0, 30.0]]);
         }
+    }
+
+    #[test]
+    fn a_field_that_is_an_array_is_a_column_for_each_entry() {
+        let header =
+            "{'descr': [('t', '<f8'), ('element.path', '<f8', (2,))], 'fortran_order': False, 'shape': (2,), }\n";
+        let data = [0.0, 1.0, 2.0, 0.5, 3.0, 4.0].map(f64::to_le_bytes).concat();
+        let (names, found) = columns(&npy_bytes(header, &data)).unwrap();
+        assert_eq!(names, ["t", "element[1].path", "element[2].path"]);
+        assert_eq!(found, [[0.0, 0.5], [1.0, 3.0], [2.0, 4.0]]);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! {'descr': '<f8', 'fortran_order': False, 'shape': (204800, 2), }
-//! {'descr': [('time', '<f8'), ('sensor.acceleration', '<f8'), ], 'fortran_order': False, 'shape': (51201,), }
+//! {'descr': [('time', '<f8'), ('element.path', '<f8', (100,)), ], 'fortran_order': False, 'shape': (51201,), }
 //! ```
 //!
 //! [npy]: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html
@@ -13,14 +13,33 @@ const DEEPEST: usize = 8;
 /// What a header says.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Header {
-    /// Name and type of each field; one without a name in a plain array.
-    pub(super) fields: Vec<(String, String)>,
+    /// The fields; one without a name in a plain array.
+    pub(super) fields: Vec<Field>,
     /// Whether fields have names.
     pub(super) structured: bool,
     /// Whether the first index runs fastest.
     pub(super) fortran: bool,
     /// Number of elements along each dimension.
     pub(crate) shape: Vec<usize>,
+}
+
+/// A field of a row.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Field {
+    pub(super) name: String,
+    /// Type of a number.
+    pub(super) kind: String,
+    /// How many numbers, where it is an array.
+    pub(super) count: Option<usize>,
+}
+
+impl Field {
+    /// Names of its numbers: `element[1].path` and so on of an array `element.path`.
+    pub(super) fn names(&self) -> Vec<String> {
+        let Some(count) = self.count else { return vec![self.name.clone()] };
+        let (first, rest) = self.name.split_at(self.name.find('.').unwrap_or(self.name.len()));
+        (1..=count).map(|entry| format!("{first}[{entry}]{rest}")).collect()
+    }
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -48,7 +67,7 @@ impl Header {
             found.map(|pair| &pair[1]).ok_or_else(|| format!("no {key} in the header"))
         };
         let (fields, structured) = match entry("descr")? {
-            Literal::Text(kind) => (vec![(String::new(), kind.clone())], false),
+            Literal::Text(kind) => (vec![Field { name: String::new(), kind: kind.clone(), count: None }], false),
             Literal::List(fields) => (fields.iter().map(field).collect::<Result<_, _>>()?, true),
             other => return Err(format!("element type {other:?} is not understood")),
         };
@@ -62,11 +81,25 @@ impl Header {
     }
 }
 
-fn field(literal: &Literal) -> Result<(String, String), String> {
+/// Entries of an array that are read: a hostile file must not exhaust the memory by names.
+const MOST_ENTRIES: usize = 1 << 16;
+
+fn field(literal: &Literal) -> Result<Field, String> {
+    let entries = |shape: &[Literal]| match shape {
+        [Literal::Word(digits)] => digits.parse().ok().filter(|count| (1..=MOST_ENTRIES).contains(count)),
+        _ => None,
+    };
     match literal {
         Literal::List(parts) => match &parts[..] {
-            [Literal::Text(name), Literal::Text(kind)] => Ok((name.clone(), kind.clone())),
-            [Literal::Text(name), ..] => Err(format!("field '{name}' is not a number for each sample")),
+            [Literal::Text(name), Literal::Text(kind)] => {
+                Ok(Field { name: name.clone(), kind: kind.clone(), count: None })
+            }
+            [Literal::Text(name), Literal::Text(kind), Literal::List(shape)] if entries(shape).is_some() => {
+                Ok(Field { name: name.clone(), kind: kind.clone(), count: entries(shape) })
+            }
+            [Literal::Text(name), ..] => {
+                Err(format!("field '{name}' is neither a number nor a row of numbers for each sample"))
+            }
             _ => Err("a field with a title is not read".to_owned()),
         },
         other => Err(format!("field {other:?} has no name")),
@@ -136,22 +169,24 @@ mod tests {
     #[test]
     fn plain_and_structured_headers_are_understood() {
         let plain = Header::parse("{'descr': '<f4', 'fortran_order': True, 'shape': (3, 2), }   \n").unwrap();
-        let kind = vec![(String::new(), "<f4".to_owned())];
-        assert_eq!(plain, Header { fields: kind, structured: false, fortran: true, shape: vec![3, 2] });
+        let field = |name: &str, kind: &str| Field { name: name.to_owned(), kind: kind.to_owned(), count: None };
+        assert_eq!(
+            plain,
+            Header { fields: vec![field("", "<f4")], structured: false, fortran: true, shape: vec![3, 2] }
+        );
         let text = r#"{"shape": (7,), 'descr': [('it\'s [m]', '<f8'), ("b, c", '>i2')], 'fortran_order': False}"#;
         let structured = Header::parse(text).unwrap();
-        let field = |name: &str, kind: &str| (name.to_owned(), kind.to_owned());
         assert_eq!(structured.fields, [field("it's [m]", "<f8"), field("b, c", ">i2")]);
         assert!(structured.structured && !structured.fortran && structured.shape == [7]);
     }
 
     #[test]
     fn what_is_no_such_header_is_refused_at_any_length() {
-        let text = "{'descr': [('time', '<f8'), ('a', '<f8', (3,))], 'fortran_order': False, 'shape': (7,)}";
+        let text = "{'descr': [('time', '<f8'), ('a', '<f8', (3, 2))], 'fortran_order': False, 'shape': (7,)}";
         for end in 0..text.len() {
             assert!(Header::parse(&text[..end]).is_err(), "{end}");
         }
-        assert!(Header::parse(text).is_err_and(|e| e.contains("'a' is not a number")));
+        assert!(Header::parse(text).is_err_and(|e| e.contains("'a' is neither a number")));
         assert!(Header::parse(&"(".repeat(100_000)).is_err_and(|e| e.contains("nested")));
         assert!(Header::parse("{'descr': '<f8', 'fortran_order': False, 'shape': (-1,)}").is_err());
         assert!(Header::parse("{'descr': '<f8', 'fortran_order': False, 'shape': 5}").is_err());

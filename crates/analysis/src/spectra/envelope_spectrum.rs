@@ -15,9 +15,7 @@ use super::fault::Combs;
 use super::order_spectrum::EvenAngles;
 use crate::spectrum::{Band, Spectrum};
 use crate::{spectrum, statistics};
-use brinell::geometry::kinematics::{Frequencies, Ratios};
-use brinell::scene::Scene;
-use std::f64::consts::TAU;
+use brinell::geometry::kinematics::Frequencies;
 
 /// Fewest passages over the outer raceway that make a spectrum: a line is then half as wide as BPFO.
 pub const FEWEST_PASSAGES: f64 = 8.0;
@@ -37,32 +35,6 @@ pub struct EnvelopeSpectrum {
     pub frequency: Vec<f64>,
     /// Amplitudes, as shares of the envelope's mean.
     pub amplitude: Vec<f64>,
-}
-
-/// Characteristic frequencies of a scene with its slip (Hz), either ring turning or not; `None` where nothing turns.
-/// ```
-/// use brinell::scene::{Bearing, Scene};
-/// use super::envelope_spectrum::frequencies;
-///
-/// let speed = std::f64::consts::TAU * 10.0;
-/// let scene = Scene::builder(Bearing::steel_balls(9, 7.94e-3, 39.32e-3)).shaft_speed(speed).build()?;
-/// // An ER16K at 10 Hz.
-/// assert!((frequencies(&scene).unwrap().bpfo - 35.913).abs() < 1e-3);
-/// # Ok::<(), brinell::scene::SceneError>(())
-/// ```
-pub fn frequencies(scene: &Scene) -> Option<Frequencies> {
-    let ratios = Ratios::new(&scene.bearing, scene.cage.slip, scene.cage.spin_slip);
-    let (inner, outer) = (scene.shaft_speed / TAU, scene.housing_speed.unwrap_or(0.0) / TAU);
-    let of = |ratios: [f64; 2]| ratios[0] * inner + ratios[1] * outer;
-    let (cage, spin) = (of(ratios.cage), of(ratios.spin));
-    let count = scene.bearing.element_count as f64;
-    let found = Frequencies {
-        bpfo: count * (cage - outer).abs(),
-        bpfi: count * (inner - cage).abs(),
-        bsf: (spin - cage).abs(),
-        ftf: cage.abs(),
-    };
-    (found.bpfo > 0.0 && found.bpfi > 0.0).then_some(found)
 }
 
 impl EnvelopeSpectrum {
@@ -123,6 +95,7 @@ impl EnvelopeSpectrum {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::TAU;
 
     #[test]
     fn a_modulated_resonance_has_its_line_where_and_as_high_as_it_was_modulated() {
@@ -142,34 +115,5 @@ mod tests {
         assert!((found.amplitude[peak] - 0.5 / 1.03125).abs() < 0.005, "{}", found.amplitude[peak]);
         assert!(*found.frequency.last().unwrap() < 3.7 * 54.2);
         assert_eq!(EnvelopeSpectrum::of(&signal[..11_000], rate, characteristic, 10.0), None);
-    }
-
-    #[test]
-    fn frequencies_of_a_turning_outer_ring_are_those_of_the_relative_motion() {
-        let mut scene = Scene::from_toml(include_str!("../../../../scenes/6205-inner-5deg.toml")).unwrap();
-        let standing = frequencies(&scene).unwrap();
-        let known = brinell::geometry::kinematics::frequencies(&scene.bearing, 0.0, 10.0);
-        for (a, b) in [
-            (standing.bpfo, known.bpfo),
-            (standing.bpfi, known.bpfi),
-            (standing.bsf, known.bsf),
-            (standing.ftf, known.ftf),
-        ] {
-            assert!((a / b - 1.0).abs() < 1e-12);
-        }
-        // Both rings forward by 3 Hz: elements pass as before, the cage goes 3 Hz faster.
-        scene.shaft_speed = TAU * 13.0;
-        scene.housing_speed = Some(TAU * 3.0);
-        let turning = frequencies(&scene).unwrap();
-        for (a, b) in [
-            (turning.bpfo, known.bpfo),
-            (turning.bpfi, known.bpfi),
-            (turning.bsf, known.bsf),
-            (turning.ftf, known.ftf + 3.0),
-        ] {
-            assert!((a / b - 1.0).abs() < 1e-12, "{a} {b}");
-        }
-        (scene.shaft_speed, scene.housing_speed) = (0.0, None);
-        assert_eq!(frequencies(&scene), None);
     }
 }

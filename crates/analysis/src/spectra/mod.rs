@@ -7,7 +7,7 @@ mod frequency_response;
 mod order_spectrum;
 
 pub use combs::{Comb, Pattern, SIGNIFICANT, find_combs};
-pub use envelope_spectrum::{EnvelopeSpectrum, frequencies};
+pub use envelope_spectrum::EnvelopeSpectrum;
 pub use fault::{CombReport, Combs, CombsReport, Fault};
 pub use frequency_response::{Fit, FrequencyResponse, ResponseError, response};
 pub use order_spectrum::{EvenAngles, OrderSpectrum};
