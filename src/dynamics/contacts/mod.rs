@@ -4,6 +4,7 @@ pub mod contact_lanes;
 mod element_contacts;
 mod forces;
 mod gap_lanes;
+mod linearized;
 mod other_contacts;
 
 pub use contact_lanes::Record;
@@ -12,4 +13,5 @@ pub use forces::{Forces, UnsolvedContact};
 pub(in crate::dynamics) use contact_lanes::Sums;
 pub(in crate::dynamics) use element_contacts::{InnerGap, Meeting};
 pub(in crate::dynamics) use gap_lanes::{Distance, dot, radial};
+pub(in crate::dynamics) use linearized::{Bends, DIFFERENCE, ElementChange, ElementVariation, Linearized};
 pub(in crate::dynamics) use other_contacts::OtherOuter;

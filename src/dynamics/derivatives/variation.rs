@@ -8,12 +8,12 @@
 //! equilibrium, and by time along the motion. Derivatives are those of the branch that each contact is in; at the
 //! onset of a contact there are two.
 
-use super::linearized::{Bends, DIFFERENCE, ElementChange, ElementVariation, Linearized};
-use super::tangent::Rings;
 use crate::contact::rolling::RacewaySide;
+use crate::dynamics::contacts::{Bends, DIFFERENCE, ElementChange, ElementVariation, Linearized};
 use crate::dynamics::parameters::{
     CageState, Cells, Drive, Frame, FramedKinematics, Lead, Model, PathMotion, RingState, SMOOTH,
 };
+use crate::dynamics::quasi_static::Rings;
 use crate::numerics::plane::{Matrix, Vector, turned};
 
 /// A small change of state and inputs.

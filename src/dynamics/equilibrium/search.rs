@@ -3,7 +3,7 @@
 //! Rings are at rest or move as prescribed, elements keep their distance from the outer ring (u' = 0) and go round with
 //! the cage: they feel gravity, the centrifugal force and the contacts' damping at those rates, so that no acceleration
 //! is left at the start. Each element's radial balance is solved inside (its force falls monotonically with u), then
-//! the internal rings' by Newton's method on the elastic [tangent](crate::dynamics::derivatives::tangent), after many
+//! the internal rings' by Newton's method on the elastic [tangent](crate::dynamics::quasi_static::tangent), after many
 //! steps on that of the damped contacts, with a shift that keeps a loose ring's step bounded, and a search along the
 //! step for the point at which the residual no longer pushes forward: in a convex potential that is the minimum along
 //! the line.
@@ -21,11 +21,12 @@
 pub use super::error::EquilibriumError;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::Meeting;
-use crate::dynamics::derivatives::{Bends, Linearized, RadialForce, Rings, stacked};
+use crate::dynamics::contacts::{Bends, Linearized};
 use crate::dynamics::parameters::{
     Cells, Drive, Frame, FramedKinematics, Kinematics, Model, PathMotion, Quadratic, SMOOTH,
 };
-use crate::dynamics::quasi_static::PathSearch;
+use crate::dynamics::quasi_static::RadialForce;
+use crate::dynamics::quasi_static::{PathSearch, Rings, stacked};
 use crate::numerics::plane::Vector;
 
 /// Share of the largest force in play that may remain as residual: a few roundings of a sum of Z forces.

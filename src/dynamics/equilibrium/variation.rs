@@ -1,14 +1,16 @@
 //! How the static equilibrium moves when an input does: the implicit function theorem.
 //!
 //! At the start each element is in radial balance with u' = 0, and so is each internal ring. A change of inputs and
-//! rings moves each path as its [balance](crate::dynamics::derivatives::tangent) asks, and the internal rings by the
+//! rings moves each path as its [balance](crate::dynamics::quasi_static::tangent) asks, and the internal rings by the
 //! solution of what is then left of theirs, four equations at most.
 //!
 //! An element that nothing touches and nothing moves stays where it is. Rings without any stiffness against them have
 //! no equilibrium of their own; their derivative does not exist.
 
-use crate::dynamics::derivatives::{Bends, ElementVariation, Linearized, RingJacobian, Rings, Variation};
+use crate::dynamics::contacts::{Bends, ElementVariation, Linearized};
+use crate::dynamics::derivatives::Variation;
 use crate::dynamics::parameters::{Cells, Drive, FramedKinematics, Model};
+use crate::dynamics::quasi_static::{RingJacobian, Rings};
 
 impl Model {
     /// Completes a change of inputs at the equilibrium `state` by what it does to rings and elements. `by` comes with

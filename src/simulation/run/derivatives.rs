@@ -13,8 +13,8 @@
 //! counts of the solver change with nothing until the next step.
 
 use super::values::{as_many, out_of_range, wrong_type};
-use crate::dynamics::derivatives::stacked;
 use crate::dynamics::parameters::{CageState, Drive, Frame, Kinematics, Lead};
+use crate::dynamics::quasi_static::stacked;
 use crate::numerics::plane::Vector;
 use crate::simulation::interface::table::{Causality, Kind, Variable};
 use crate::simulation::interface::{Change, Input, Quantity, RingName, access};

@@ -1,8 +1,9 @@
 //! One element's contacts to first order: the one source of their derivatives.
 //!
-//! From it are assembled the [Jacobian](super::jacobian) of stiff steps, the elements' and rings' balance of the
-//! [start](crate::dynamics::equilibrium::search) and how that [moves](crate::dynamics::equilibrium::variation), the
-//! [tangent stiffness](super::tangent), and the derivatives of [outputs](super::variation).
+//! From it are assembled the [Jacobian](crate::dynamics::derivatives::jacobian) of stiff steps, the elements' and
+//! rings' balance of the [start](crate::dynamics::equilibrium::search) and how that
+//! [moves](crate::dynamics::equilibrium::variation), the [tangent stiffness](crate::dynamics::quasi_static::tangent),
+//! and the derivatives of [outputs](crate::dynamics::derivatives::variation).
 //!
 //! With f the inner contact's force on the element,
 //! ```text
@@ -39,7 +40,7 @@ use crate::dynamics::parameters::{Frame, FramedKinematics, Model, Near, PathMoti
 use crate::numerics::plane::{Matrix, Vector, turned};
 
 /// How far apart along path and raceway the approach near the defect is sampled for its second derivatives (m).
-pub(super) const DIFFERENCE: f64 = 1e-9;
+pub(in crate::dynamics) const DIFFERENCE: f64 = 1e-9;
 
 /// Whether second derivatives of the outer approach are wanted, which the change of path or position needs while
 /// something moves; each costs four more samples at the defect.
@@ -61,8 +62,8 @@ pub(in crate::dynamics) struct Linearized {
     pub(in crate::dynamics) path_rate: f64,
     /// Force of the inner contact on the element (N), and its derivatives G, D.
     pub(in crate::dynamics) inner: Vector,
-    pub(super) by_q: Matrix,
-    pub(super) by_q_rate: Matrix,
+    pub(in crate::dynamics) by_q: Matrix,
+    pub(in crate::dynamics) by_q_rate: Matrix,
     /// Its derivatives by angle and speed of the body that bears the defect.
     by_inner_frame: [Vector; 2],
     /// The frames of the bodies that bear the defects under the inner and the outer contact.
@@ -139,12 +140,12 @@ impl ElementVariation {
     }
 
     /// Of u' alone.
-    pub(super) fn of_path_rate() -> Self {
+    pub(in crate::dynamics) fn of_path_rate() -> Self {
         Self { path_rate: 1.0, ..Self::default() }
     }
 
     /// Of the rings' offset along one axis alone.
-    pub(super) fn of_offset(axis: usize) -> Self {
+    pub(in crate::dynamics) fn of_offset(axis: usize) -> Self {
         let mut offset = Vector::zeros();
         offset[axis] = 1.0;
         Self { offset, ..Self::default() }
@@ -178,7 +179,7 @@ impl Linearized {
     }
 
     /// The change of the outer force's magnitude (N).
-    pub(super) fn outer_amount(&self, by: &ElementVariation) -> f64 {
+    pub(in crate::dynamics) fn outer_amount(&self, by: &ElementVariation) -> f64 {
         let (amount, turn) = self.outer_change(by);
         let length = self.direction.norm().max(f64::MIN_POSITIVE);
         amount * length + self.amount * self.direction.dot(&turn) / length
@@ -387,7 +388,7 @@ struct InnerContact {
     approach: f64,
     force: Vector,
     by_q: Matrix,
-    by_q_rate: Matrix,
+    pub(in crate::dynamics) by_q_rate: Matrix,
     by_frame: [Vector; 2],
     frame: Frame,
 }

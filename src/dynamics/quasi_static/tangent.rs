@@ -6,7 +6,7 @@
 //!
 //! An element that nothing touches does not answer.
 
-use super::linearized::{Bends, ElementVariation, Linearized};
+use crate::dynamics::contacts::{Bends, ElementVariation, Linearized};
 use crate::dynamics::parameters::{Cells, FramedKinematics, Model, PathMotion};
 use crate::numerics::plane::Vector;
 use crate::scene::Motion;
