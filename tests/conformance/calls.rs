@@ -28,7 +28,7 @@ pub(super) const RULES: &[Rule] = &[
     ),
     (
         "Steps",
-        "Steps that are zero, negative, infinite or no number are errors.",
+        "Steps that are zero, negative, infinite or NaN are errors.",
         &[T("a_step_that_is_not_above_zero_and_finite_is_an_error")],
     ),
     (
