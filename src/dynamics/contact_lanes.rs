@@ -6,6 +6,7 @@
 //! A lane without an element has stiffness 0 and no derivative.
 
 use super::element_block::ElementBlock;
+use super::film::FilmsNow;
 use super::gap_lanes::{Distance, dot, radial};
 use super::kinematics::{Kinematics, Stage};
 use super::model::Model;
@@ -132,6 +133,7 @@ impl Model {
         now: &Kinematics,
         stage: &Stage,
         derivative: &mut [f64],
+        films: Option<&FilmsNow>,
         elements: &[ElementBlock],
         contacts: &mut Record,
     ) -> [f64; 4] {
@@ -147,7 +149,7 @@ impl Model {
                 contacts,
             });
         }
-        self.contacts_of::<S, Point, RECORD, SPECIAL>(simd, Point, now, stage, derivative, (elements, contacts))
+        self.contacts_of::<S, Point, RECORD, SPECIAL>(simd, Point, now, stage, derivative, films, (elements, contacts))
     }
 
     /// As [`smooth_contacts`](Self::smooth_contacts), for contacts of one elasticity.
@@ -159,6 +161,7 @@ impl Model {
         now: &Kinematics,
         stage: &Stage,
         derivative: &mut [f64],
+        films: Option<&FilmsNow>,
         (elements, contacts): (&[ElementBlock], &mut Record),
     ) -> [f64; 4] {
         let start = self.layout.radial_velocity;
@@ -168,8 +171,8 @@ impl Model {
         let omega = if SPECIAL { 0.0 } else { omega };
         let body = Vector::new(self.gravity.x + omega * v.y, self.gravity.y - omega * v.x);
         let drift = now.drift();
-        let films = if SPECIAL { self.films.as_ref().map(|films| films.squeeze()) } else { None };
-        let clearance = if SPECIAL { self.clearance() } else { self.radial_clearance };
+        let clearance = if SPECIAL { self.clearance(films) } else { self.radial_clearance };
+        let films = if SPECIAL { films.map(|films| films.squeeze) } else { None };
         let ahead = stage.ahead;
         let smooth = Smooth { model: self, elastic, now, offset, drift, body, series, ahead, films, clearance };
         let mut sums = Sums::default();
@@ -298,6 +301,7 @@ impl<const RECORD: bool, const SPECIAL: bool> Kernel for Rollers<'_, RECORD, SPE
     #[inline(always)]
     fn run<S: Wide>(self, simd: S) -> [f64; 4] {
         let Self { model, line, now, stage, derivative, elements, contacts } = self;
-        model.contacts_of::<S, Line, RECORD, SPECIAL>(simd, line, now, stage, derivative, (elements, contacts))
+        // Films are those of balls.
+        model.contacts_of::<S, Line, RECORD, SPECIAL>(simd, line, now, stage, derivative, None, (elements, contacts))
     }
 }

@@ -1,12 +1,10 @@
-//! Where an element stands to the two raceways: its gap to the inner one, its approach to either near a defect, and
-//! what oil films resist with.
+//! Where an element stands to the two raceways: its gap to the inner one, and its approach to either near a defect.
 
 use super::drive::{Drive, Frame, Frames};
 use super::kinematics::{CageState, FramedKinematics, Kinematics};
 use super::model::Model;
 use super::raceway::{Cells, Defects, Near, Raceway, SMOOTH};
 use crate::contact::error::ContactError;
-use crate::contact::force_law::Force;
 use crate::contact::near_defect::{Approach, Lever};
 use crate::contact::rolling::RacewaySide;
 use crate::numerics::plane::{Vector, turned};
@@ -47,37 +45,17 @@ impl InnerGap {
 
 impl Model {
     /// Where an element at path `u` in direction `e_r` is seen from the inner ring, whose centre is `offset` before the
-    /// outer ring's.
+    /// outer ring's, with this `clearance` between the raceways.
     #[inline]
-    pub(super) fn inner_gap(&self, u: f64, offset: Vector, e_r: Vector) -> InnerGap {
+    pub(super) fn inner_gap(&self, u: f64, offset: Vector, e_r: Vector, clearance: f64) -> InnerGap {
         // |q| = √((ρ+p)² + t²), written so that δ_i loses no digits to the radii's 20 mm.
         let (p, t) = (offset.dot(&e_r), offset.dot(&turned(e_r)));
         let q_r = self.outer_centre_radius + u + p;
         let distance = (q_r * q_r + t * t).sqrt();
-        let approach = -self.clearance() - u - p - t * t / (distance + q_r);
+        let approach = -clearance - u - p - t * t / (distance + q_r);
         InnerGap { approach, n: Vector::new(q_r / distance, t / distance), distance }
     }
 
-    /// What separates a raceway from an element pressed to the other (m), films included.
-    #[inline(always)]
-    pub fn clearance(&self) -> f64 {
-        match &self.films {
-            None => self.radial_clearance,
-            Some(films) => self.radial_clearance - films.together(),
-        }
-    }
-
-    /// Force of the film of one raceway (N) at an approach (m) and its rate (m/s).
-    #[inline(always)]
-    pub(super) fn film_force(&self, side: RacewaySide, approach: f64, rate: f64) -> f64 {
-        self.films.as_ref().map_or(0.0, |films| films.squeeze()[side as usize].force(|x| x, approach, rate))
-    }
-
-    /// As [`Self::film_force`], with its derivatives.
-    pub(super) fn film_force_with_derivatives(&self, side: RacewaySide, approach: f64, rate: f64) -> Force {
-        let films = self.films.as_ref();
-        films.map_or(Force::default(), |films| films.squeeze()[side as usize].with_derivatives(approach, rate))
-    }
 
     /// Direction φ (rad) of element `j` at path `u` from the inner ring's centre.
     pub fn inner_direction_of(&self, j: usize, u: f64, now: &Kinematics) -> f64 {
@@ -86,7 +64,8 @@ impl Model {
 
     /// What that direction is ahead of the element's angle θ about the outer ring's centre (rad).
     pub fn inner_lead(&self, j: usize, u: f64, now: &Kinematics) -> f64 {
-        self.inner_gap(u, now.offset(), self.direction(j, &now.cage)).lead()
+        // The direction alone, of which the clearance is no part.
+        self.inner_gap(u, now.offset(), self.direction(j, &now.cage), self.radial_clearance).lead()
     }
 
     /// Element `j` at path `u` where it meets the outer raceway.

@@ -35,7 +35,7 @@ impl Model {
             offset: by.offset(),
             drift: by.drift(),
             cage_speed: by.cage_speed,
-            clearance: by.clearance,
+            film_speed: by.film_speed,
             frames: by.frames,
             ..ElementVariation::default()
         };

@@ -3,6 +3,7 @@
 use super::contact_lanes::Record;
 use super::drive::{Frame, Frames};
 use super::element_block::ElementBlock;
+use super::film::FilmsNow;
 use super::model::Model;
 use super::raceway::{Cells, Defects, SMOOTH};
 use crate::contact::error::ContactError;
@@ -31,6 +32,8 @@ pub struct Forces {
     pub rings: [f64; 4],
     /// The frames of defects, where any contact asks for them.
     pub(super) frames: Frames,
+    /// The oil films.
+    pub(super) films: Option<FilmsNow>,
     /// Torques of contacts near defects on the bodies that bear them (N m): on the inner ring, on the outer ring, each
     /// about its centre, and on elements about their own axes.
     pub(super) torques: [f64; 3],

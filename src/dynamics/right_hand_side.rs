@@ -75,6 +75,7 @@ impl Model {
         if SPECIAL {
             self.begin(drive);
             self.update_uneven(drive, cage, &mut forces.elements);
+            forces.films = self.films_at(drive, cage.tau);
         }
         let (now, tau) = (self.kinematics_of(stage), cage.tau);
         let [outer, inner] = [forces.other_outer.is_empty(), forces.other_inner.is_empty()].map(|none| !none);
@@ -106,6 +107,7 @@ impl Model {
             &now,
             stage,
             derivative,
+            forces.films.as_ref(),
             &forces.elements,
             &mut forces.contacts,
         );

@@ -9,6 +9,7 @@
 //! onset of a contact there are two.
 
 use super::drive::{Drive, Frame};
+use super::film::FilmsNow;
 use super::irregularity::Lead;
 use super::kinematics::{CageState, FramedKinematics, PathMotion, RingState};
 use super::linearized::{Bends, DIFFERENCE, ElementChange, ElementVariation, Linearized};
@@ -25,8 +26,8 @@ pub struct Variation {
     pub cage_angle: f64,
     /// Of the nominal cage speed (rad/s).
     pub cage_speed: f64,
-    /// Of the clearance, by oil films (m).
-    pub clearance: f64,
+    /// Of the speed that oil films follow (rad/s).
+    pub film_speed: f64,
     /// Of angle (rad) and speed (rad/s) of the frames of defects, in the order of [`super::drive::Frame`].
     pub frames: [[f64; 2]; 3],
     /// Of the inner ring.
@@ -67,7 +68,7 @@ impl Variation {
     /// Makes it no change again; allocates nothing.
     pub fn clear(&mut self) {
         (self.cage_angle, self.cage_speed, self.frames) = (0.0, 0.0, [[0.0; 2]; 3]);
-        self.clearance = 0.0;
+        self.film_speed = 0.0;
         (self.shaft, self.housing) = (RingState::default(), RingState::default());
         self.path.fill(0.0);
         self.radial_velocity.fill(0.0);
@@ -155,7 +156,7 @@ impl Model {
                 path_rate,
                 cage_angle: turn,
                 cage_speed: speed_change,
-                clearance: by.clearance,
+                film_speed: by.film_speed,
                 frames: by.frames,
             };
             let d = element.change(&seen);
@@ -202,7 +203,9 @@ impl Model {
     /// a small change at the instant τ = 0 of `drive`.
     pub fn vary_stiffness(&self, drive: &Drive, cells: &Cells, state: &[f64], by: &Variation) -> Matrix {
         let now = self.kinematics(drive, 0.0, state);
-        let (still, offset) = (now.standing(), now.offset());
+        let still = now.standing();
+        // What films gain a gap loses.
+        let narrower = still.films.as_ref().map_or(0.0, FilmsNow::together_by_speed) * by.film_speed;
         let mut sum = Matrix::zeros();
         for j in 0..self.element_count {
             let (in_cells, u) = (self.cells_of(cells, j), state[j]);
@@ -216,8 +219,8 @@ impl Model {
             let Linearized { e_r, e_t, by_q: g, .. } = element;
             let q = by.offset() + e_r * by.path[j] + e_t * (rho * turn);
             let dg = match in_cells[0] {
-                [SMOOTH, SMOOTH] => self.vary_inner_stiffness(u, offset, e_r, q + element.n * by.clearance),
-                _ => self.vary_near_inner_stiffness(j, in_cells, u, &still, by, element.n),
+                [SMOOTH, SMOOTH] => self.vary_inner_stiffness(u, &still, e_r, q - element.n * narrower),
+                _ => self.vary_near_inner_stiffness(j, in_cells, u, &still, by, element.n * -narrower),
             };
             let across = g * e_r;
             let d_across = dg * e_r + g * e_t * turn;
@@ -230,7 +233,8 @@ impl Model {
         sum
     }
 
-    /// As [`Self::vary_inner_stiffness`] near a defect, by a central difference along the change.
+    /// As [`Self::vary_inner_stiffness`] near a defect, by a central difference along the change, in which the gap gets
+    /// `wider` (m) along its normal.
     fn vary_near_inner_stiffness(
         &self,
         j: usize,
@@ -238,11 +242,11 @@ impl Model {
         u: f64,
         still: &FramedKinematics,
         by: &Variation,
-        n: Vector,
+        wider: Vector,
     ) -> Matrix {
         // As long as a change of any part of it stays within a difference.
         let turns = by.frames.iter().map(|turn| turn[0].abs()).fold(by.cage_angle.abs(), f64::max);
-        let offset = by.offset() + n * by.clearance;
+        let offset = by.offset() + wider;
         let length = offset.norm() + by.path[j].abs() + self.outer_centre_radius * turns;
         if length == 0.0 {
             return Matrix::zeros();
@@ -263,8 +267,8 @@ impl Model {
     }
 
     /// Change of G = −(k + Q/|q|) n nᵀ + Q/|q| of an inner contact when the element moves by `q` from the inner ring.
-    fn vary_inner_stiffness(&self, u: f64, offset: Vector, e_r: Vector, q: Vector) -> Matrix {
-        let gap = self.inner_gap(u, offset, e_r);
+    fn vary_inner_stiffness(&self, u: f64, still: &FramedKinematics, e_r: Vector, q: Vector) -> Matrix {
+        let gap = self.inner_gap(u, still.offset(), e_r, self.clearance(still.films.as_ref()));
         if gap.approach <= 0.0 {
             return Matrix::zeros();
         }

@@ -162,9 +162,6 @@ impl Simulation {
     fn along_inputs(&mut self, knowns: &[u32], seed: &[f64]) {
         let change = &mut self.change;
         change.clear();
-        // Of a step under way or behind the films stay as they are.
-        let films = self.model.films.as_ref().filter(|_| !self.state.started);
-        let films_by_speed = films.map_or(0.0, |films| films.together_by_speed());
         for (&reference, &value) in knowns.iter().zip(seed) {
             let Some(input) = self.quantities[reference as usize].as_input() else { continue };
             match input {
@@ -173,8 +170,7 @@ impl Simulation {
                     change.variation.cage_speed += ratios.cage[i] * value;
                     change.variation.frames[ring.frame() as usize][1] += value;
                     change.variation.frames[Frame::Spin as usize][1] += ratios.spin[i] * value;
-                    let against = if ring == RingName::Shaft { value } else { -value };
-                    change.variation.clearance -= films_by_speed * against;
+                    change.variation.film_speed += if ring == RingName::Shaft { value } else { -value };
                 }
                 Input::Load(RingName::Shaft, axis) => change.loads[axis] += value,
                 Input::Load(RingName::Housing, axis) => change.loads[2 + axis] += value,
@@ -194,6 +190,7 @@ impl Simulation {
         let variation = &mut change.variation;
         (variation.cage_angle, variation.cage_speed) = (drive.cage.0[1], drive.cage.0[2]);
         variation.frames = drive.frame_rates(0.0);
+        variation.film_speed = drive.relative_speed.rate_at(0.0);
         variation.path.copy_from_slice(&self.derivative[..z]);
         variation.radial_velocity.copy_from_slice(&self.derivative[layout.radial_velocity..][..z]);
         [variation.shaft, variation.housing] = self.model.ring_rates(drive, 0.0, &self.derivative);

@@ -15,8 +15,6 @@ pub struct State {
     /// Angles of the frames of defects, in the order of [`crate::dynamics::drive::Frame`].
     pub(super) frames: [WholeAngle; 3],
     pub(super) ended: Ended,
-    /// Speed of the inner ring against the outer (rad/s) where the last communication step began: oil films follow it.
-    pub(super) film_speed: f64,
     pub(super) progress: Progress,
     /// Values of the table's real variables, by index; outputs are those computed last.
     pub(super) reals: Vec<f64>,
@@ -44,9 +42,9 @@ impl State {
 
     /// Copies another state of the same model; allocates nothing.
     pub(super) fn copy_from(&mut self, other: &Self) {
-        let Self { time, started, cage, frames, ended, film_speed, progress, reals, integers, input_rates } = self;
+        let Self { time, started, cage, frames, ended, progress, reals, integers, input_rates } = self;
         (*time, *started, *ended) = (other.time, other.started, other.ended);
-        (*cage, *frames, *film_speed) = (other.cage, other.frames, other.film_speed);
+        (*cage, *frames) = (other.cage, other.frames);
         progress.copy_from(&other.progress);
         reals.copy_from_slice(&other.reals);
         integers.copy_from_slice(&other.integers);

@@ -52,7 +52,7 @@ impl State {
             real(&mut angle.rest, field)?;
         }
         let [x, y] = &mut self.ended.housing;
-        for value in [&mut self.ended.cage, x, y, &mut self.film_speed] {
+        for value in [&mut self.ended.cage, x, y] {
             real(value, field)?;
         }
         for value in [&mut progress.next_step, &mut progress.last_error, &mut progress.due.delay] {
@@ -138,7 +138,7 @@ impl Simulation {
         let progress = &state.progress;
         let numbers = [
             &[state.time, state.cage.rest, progress.last_error][..],
-            &[state.ended.cage, state.film_speed],
+            &[state.ended.cage],
             &state.frames.map(|frame| frame.rest),
             &state.ended.housing,
             &[progress.choice.gained, progress.choice.stable_step],
