@@ -99,11 +99,11 @@ impl ForceChange {
 }
 
 /// How an element goes round with the cage, to first order.
-struct Going {
+pub(super) struct Going {
     /// Change of its angle (rad).
     turn: f64,
     /// Change of its speed (rad/s).
-    speed: f64,
+    pub(super) speed: f64,
     /// Its acceleration (rad/s²).
     alpha: f64,
     /// Change of its acceleration (rad/s²).
@@ -112,7 +112,7 @@ struct Going {
 
 impl Model {
     /// How element `j` goes round as the nominal cage's angle and speed change.
-    fn going(&self, j: usize, cage: &CageState, by: &Variation) -> Going {
+    pub(super) fn going(&self, j: usize, cage: &CageState, by: &Variation) -> Going {
         let Lead { rate, bend, twist, .. } = self.lead(j, cage);
         let (omega, share) = (cage.speed, 1.0 + rate);
         Going {

@@ -120,7 +120,7 @@ fn starts_from(output: Q, known: Q, scene: &Scene) -> bool {
 }
 
 /// Whether the static equilibrium depends on a parameter.
-fn balances(parameter: Parameter) -> bool {
+pub(super) fn balances(parameter: Parameter) -> bool {
     match parameter {
         // Tolerance and recorder are of steps; masses and dampers of rings matter in motion.
         Parameter::Tolerance | Parameter::RecorderFolder | Parameter::RingMass(_) | Parameter::RingDamping(_) => false,

@@ -5,6 +5,9 @@
 //! is that of the static equilibrium, which moves with the input; rings at rest stay at rest. Cage angles follow no
 //! input in either case.
 //!
+//! *By parameters*, in initialization mode only, a derivative is a difference of two starts: parameters shape the model
+//! itself, down to radii and contact laws.
+//!
 //! *By time* an output changes with the states' derivatives, the cage angle and the inputs, which go on as they would
 //! in the next step: prescribed rings by their velocity and acceleration, loads and speed by the derivatives set for
 //! them.
@@ -14,9 +17,10 @@
 
 use super::access;
 use super::change::Change;
-use super::instance::Simulation;
-use super::quantity::{Input, Quantity, RingName};
-use super::values::{out_of_range, wrong_type};
+use super::dependencies;
+use super::instance::{Fresh, Simulation};
+use super::quantity::{Input, Parameter, Quantity, RingName};
+use super::values::out_of_range;
 use super::variables::{Causality, Kind, Variable};
 use super::{SimulationError, VariableError};
 use crate::dynamics::drive::{Drive, Frame};
@@ -24,6 +28,31 @@ use crate::dynamics::irregularity::Lead;
 use crate::dynamics::kinematics::{CageState, Kinematics};
 use crate::dynamics::tangent::stacked;
 use crate::numerics::plane::Vector;
+
+/// How far a parameter is moved for the difference of two starts. Forces of a start are known to 1e-12 of the load, and
+/// this moves them by 1e-8 to 1e-3 of it; on the way to a defect's edge it is 20 nm.
+fn difference(parameter: Parameter, nominal: f64) -> f64 {
+    match parameter {
+        Parameter::RadialClearance => 1e-9,
+        // A force changes by χ δ̇ = 1e-4 χ or by 1.5 τ δ̇/δ = 30/s τ of itself.
+        Parameter::ContactDamping => 1e-2 * nominal,
+        Parameter::CageSlip | Parameter::SpinSlip => 1e-3,
+        Parameter::RingStiffness(_) => 1e3,
+        _ => 1e-6,
+    }
+}
+
+/// Steps at which to look, and shares of what is there in the derivative times a step: on both sides, or where a limit
+/// is nearer than a step all on the other. The error is of second order.
+fn quotient(at: f64, step: f64, [min, max]: [Option<f64>; 2]) -> [(f64, f64); 3] {
+    if min.is_some_and(|min| at - step < min) {
+        [(0.0, -1.5), (1.0, 2.0), (2.0, -0.5)]
+    } else if max.is_some_and(|max| at + step > max) {
+        [(0.0, 1.5), (-1.0, -2.0), (-2.0, 0.5)]
+    } else {
+        [(-1.0, -0.5), (0.0, 0.0), (1.0, 0.5)]
+    }
+}
 
 impl Simulation {
     /// Derivatives by time of real outputs at the present time; of order 1.
@@ -59,7 +88,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// The change of `unknowns`, real outputs, for a change `seed` of `knowns`, real inputs, to first order.
+    /// The change of `unknowns`, real outputs, for a change `seed` of `knowns`, real inputs or before `initialize` real
+    /// parameters, to first order.
     /// ```
     /// use brinell::scene::{Bearing, Scene};
     /// use brinell::simulation::Simulation;
@@ -90,7 +120,8 @@ impl Simulation {
         }
         for (&reference, &value) in knowns.iter().zip(seed) {
             let variable = self.variable(reference)?;
-            if access::classes(&self.access, &[reference]) != Some(access::INPUT) {
+            let class = access::classes(&self.access, &[reference]);
+            if class != Some(access::INPUT) && (self.state.started || class != Some(access::PARAMETER)) {
                 return Err(VariableError::NotAKnown { name: variable.name.clone() }.into());
             }
             if !value.is_finite() {
@@ -115,6 +146,37 @@ impl Simulation {
         self.finish_change(unknowns);
         for (value, &reference) in values.iter_mut().zip(unknowns) {
             *value = self.changed(self.quantities[reference as usize]);
+        }
+        for (&known, &weight) in knowns.iter().zip(seed) {
+            if let Quantity::Parameter(parameter) = self.quantities[known as usize]
+                && dependencies::balances(parameter)
+            {
+                self.along_parameter(unknowns, (known, parameter), weight, values)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the derivative of `unknowns` at the start by a parameter, `weight` times, to `values`.
+    fn along_parameter(
+        &self,
+        unknowns: &[u32],
+        (known, parameter): (u32, Parameter),
+        weight: f64,
+        values: &mut [f64],
+    ) -> Result<(), SimulationError> {
+        let Kind::Real { min, max, nominal, .. } = self.variable(known)?.kind else { return Ok(()) };
+        let (at, step) = (self.state.reals[known as usize], difference(parameter, nominal));
+        let mut start = self.clone();
+        let mut found = vec![0.0; unknowns.len()];
+        for (steps, share) in quotient(at, step, [min, max]).into_iter().filter(|&(_, share)| share != 0.0) {
+            start.state.reals[known as usize] = at + steps * step;
+            start.outdate(Fresh::Nothing);
+            // A start beside one that exists: where there is none, the limit of what exists has no derivative.
+            start.reals(unknowns, &mut found).map_err(|_| SimulationError::NoDerivative)?;
+            for (value, found) in values.iter_mut().zip(&found) {
+                *value += weight * share / step * found;
+            }
         }
         Ok(())
     }
@@ -149,10 +211,7 @@ impl Simulation {
     /// The variable, if it is a real output.
     fn unknown(&self, reference: u32) -> Result<&Variable, VariableError> {
         let variable = self.variable(reference)?;
-        if !matches!(variable.kind, Kind::Real { .. }) {
-            return Err(wrong_type(variable, "Real"));
-        }
-        if variable.causality != Causality::Output {
+        if !matches!(variable.kind, Kind::Real { .. }) || variable.causality != Causality::Output {
             return Err(VariableError::NotAnUnknown { name: variable.name.clone() });
         }
         Ok(variable)

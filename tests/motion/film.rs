@@ -230,7 +230,7 @@ fn outputs_change_with_time_as_the_films_do() {
     let mut bearing = Simulation::new(Scene { film: Some(Film { viscosity: 0.4, ..OIL }), ..oiled() }, None).unwrap();
     bearing.initialize(0.0).unwrap();
     let speed = bearing.reference("shaft.speed").unwrap();
-    let mut go = |bearing: &mut Simulation, step: f64| {
+    let go = |bearing: &mut Simulation, step: f64| {
         bearing.set_input_derivatives(&[speed], &[1], &[1.2e4]).unwrap();
         bearing.step(step).unwrap();
     };
@@ -345,25 +345,9 @@ fn miss(a: &[f64], b: &[f64]) -> f64 {
 #[test]
 fn a_run_up_in_oil_is_the_same_with_any_communication_step() {
     for viscosity in [0.04, 0.4] {
-        let finest = run_up(viscosity, 13.0, 0.05, 1e-5);
-        for step in [1e-3, 1e-4] {
-            let miss = miss(&run_up(viscosity, 13.0, 0.05, step), &finest);
-            // The scene's tolerance is 1e-5 of the contacts' approaches; films that stand still within a step miss by
-            // 20 % and more.
-            assert!(miss < 2e-3, "{viscosity} Pa s, {step} s: {miss}");
-        }
-    }
-}
-
-#[test]
-#[ignore = "scratch"]
-fn scratch() {
-    for eta in [0.04, 0.4] {
-        let finest = run_up(eta, 40.0, 0.5, 1e-5);
-        for step in [1e-3, 1e-4] {
-            let from = std::time::Instant::now();
-            let run = run_up(eta, 40.0, 0.5, step);
-            println!("{eta} {step}: {} in {:?}", miss(&run, &finest), from.elapsed());
-        }
+        let [coarse, fine] = [1e-3, 1e-4].map(|step| run_up(viscosity, 40.0, 0.5, step));
+        let miss = miss(&coarse, &fine);
+        // The scene's tolerance of 1e-5 leaves 5e-5 and 4e-4; films that stood still within a step missed by 0.2 and 2.
+        assert!(miss < 2e-3, "{viscosity} Pa s: {miss}");
     }
 }

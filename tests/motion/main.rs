@@ -10,6 +10,7 @@ mod defects_anywhere;
 mod exactness;
 mod fastest_eigenvalue;
 mod film;
+mod probe_scratch;
 mod line_spall;
 mod modes;
 mod physics;
