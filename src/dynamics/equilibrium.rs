@@ -252,7 +252,7 @@ impl Model {
         let jacobian = if iteration > DOUBLING {
             self.ring_jacobian_at(u, given.cells, &now)
         } else {
-            self.ring_jacobian(u, given.cells, &now)
+            self.ring_jacobian_at(u, given.cells, &now.standing())
         };
         // The turning of contact forces makes a lightly held ring's tangent indefinite; its bound ΣQ/|q| takes that
         // out. The second term lets a loose ring move by the longest step, and vanishes with the residual.

@@ -211,7 +211,7 @@ impl Model {
             let (in_cells, u) = (self.cells_of(cells, j), state[j]);
             let turn = self.going(j, &now.cage, by).turn;
             let rho = self.outer_centre_radius + u;
-            let element = self.linearized_at(j, in_cells, PathMotion::at_rest(u), &still, Bends::LeftOut);
+            let element = self.at_rest(j, in_cells, u, &still);
             let radial = self.radial_balance(&element).slope;
             if radial == 0.0 {
                 continue;
@@ -222,13 +222,13 @@ impl Model {
                 [SMOOTH, SMOOTH] => self.vary_inner_stiffness(u, &still, e_r, q - element.n * narrower),
                 _ => self.vary_near_inner_stiffness(j, in_cells, u, &still, by, element.n * -narrower),
             };
-            let across = g * e_r;
-            let d_across = dg * e_r + g * e_t * turn;
-            let d_radial = e_t.dot(&across) * turn + e_r.dot(&d_across)
+            // G is symmetric but where a law directs the force otherwise than its energy does.
+            let (down, along) = (g * e_r, g.tr_mul(&e_r));
+            let (d_down, d_along) = (dg * e_r + g * e_t * turn, dg.tr_mul(&e_r) + g.tr_mul(&e_t) * turn);
+            let d_radial = e_t.dot(&down) * turn + e_r.dot(&d_down)
                 - self.vary_outer_stiffness(j, in_cells, u, &still, by, turn);
-            let mixed = d_across * across.transpose();
-            sum += dg - (mixed + mixed.transpose()) / radial
-                + across * across.transpose() * (d_radial / (radial * radial));
+            sum += dg - (d_down * along.transpose() + down * d_along.transpose()) / radial
+                + down * along.transpose() * (d_radial / (radial * radial));
         }
         sum
     }
@@ -260,8 +260,7 @@ impl Model {
             for (turn, by) in moved.frames.0.iter_mut().zip(by.frames) {
                 turn.angle += share * by[0];
             }
-            let along = PathMotion::at_rest(u + share * by.path[j]);
-            self.linearized_at(j, cells, along, &moved, Bends::LeftOut).by_q
+            self.at_rest(j, cells, u + share * by.path[j], &moved).by_q
         };
         (at(step) - at(-step)) / (2.0 * step)
     }
