@@ -56,7 +56,6 @@ impl Model {
         InnerGap { approach, n: Vector::new(q_r / distance, t / distance), distance }
     }
 
-
     /// Direction φ (rad) of element `j` at path `u` from the inner ring's centre.
     pub fn inner_direction_of(&self, j: usize, u: f64, now: &Kinematics) -> f64 {
         self.element_angle(j, &now.cage) + self.inner_lead(j, u, now)

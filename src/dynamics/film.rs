@@ -9,9 +9,9 @@
 //! part. To the contact's own damper h' would add χ h' of its force: 2e-7 of it where h grows by 0.3 µm in half a
 //! second, which is left out.
 
-use crate::contact::squeeze_film::{ROUGHNESS, SqueezeFilm};
 use crate::contact::force_law::Force;
 use crate::contact::rolling::RacewaySide;
+use crate::contact::squeeze_film::{ROUGHNESS, SqueezeFilm};
 use crate::geometry::film_thickness::{LubricatedContact, SPEED_EXPONENT, rolling_speed_ratio, speed_factor};
 use crate::scene::{Remark, Scene};
 

@@ -196,9 +196,11 @@ impl Linearized {
     fn outer_change(&self, by: &ElementVariation) -> (f64, Vector) {
         let [angle, speed] = by.frames[self.frames[1] as usize];
         let (angle, speed) = (by.cage_angle - angle, by.cage_speed - speed);
-        let amount =
-            self.by_path * by.path + self.by_path_rate * by.path_rate + self.by_angle * angle + self.by_speed * speed
-                + self.by_film_speed.1 * by.film_speed;
+        let amount = self.by_path * by.path
+            + self.by_path_rate * by.path_rate
+            + self.by_angle * angle
+            + self.by_speed * speed
+            + self.by_film_speed.1 * by.film_speed;
         let turn = self.direction_by_path * by.path + self.direction_by_angle * angle;
         (amount, turn)
     }

@@ -3,8 +3,8 @@
 
 use super::drive::{Frame, Frames};
 use super::element_block::ElementBlock;
-use super::film::{FilmsNow, film_force};
 use super::element_contacts::{InnerGap, Meeting};
+use super::film::{FilmsNow, film_force};
 use super::forces::{Forces, Other, OtherContact, UnsolvedContact};
 use super::kinematics::{Kinematics, moved};
 use super::model::Model;
@@ -202,13 +202,7 @@ impl Model {
     }
 
     /// An inner contact at this approach, q changing at `q_rate` (radial and tangential as seen from the outer ring).
-    fn inner_contact(
-        &self,
-        near: &Near,
-        gap: &InnerGap,
-        q_rate: [f64; 2],
-        films: Option<&FilmsNow>,
-    ) -> OtherContact {
+    fn inner_contact(&self, near: &Near, gap: &InnerGap, q_rate: [f64; 2], films: Option<&FilmsNow>) -> OtherContact {
         let Near { approach: near, frame_speed, frame } = near;
         let (n, [radial, tangential]) = (gap.n, q_rate);
         let opening = n.x * radial + n.y * tangential;

@@ -225,8 +225,8 @@ impl Model {
             // G is symmetric but where a law directs the force otherwise than its energy does.
             let (down, along) = (g * e_r, g.tr_mul(&e_r));
             let (d_down, d_along) = (dg * e_r + g * e_t * turn, dg.tr_mul(&e_r) + g.tr_mul(&e_t) * turn);
-            let d_radial = e_t.dot(&down) * turn + e_r.dot(&d_down)
-                - self.vary_outer_stiffness(j, in_cells, u, &still, by, turn);
+            let d_radial =
+                e_t.dot(&down) * turn + e_r.dot(&d_down) - self.vary_outer_stiffness(j, in_cells, u, &still, by, turn);
             sum += dg - (d_down * along.transpose() + down * d_along.transpose()) / radial
                 + down * along.transpose() * (d_radial / (radial * radial));
         }

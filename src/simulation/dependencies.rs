@@ -48,7 +48,8 @@ fn follows(output: Q, input: Input, defect: bool, scene: &Scene) -> bool {
     // at once what either ring does. Oil films follow the speed.
     let balanced = scene.bearing.element_inertia == ElementInertia::None;
     let film = scene.film.is_some();
-    let outer = if balanced { inner } else { matches!(input, Input::Velocity(Housing, _)) || ((defect || film) && speed) };
+    let outer =
+        if balanced { inner } else { matches!(input, Input::Velocity(Housing, _)) || ((defect || film) && speed) };
     match output {
         Q::Force(Shaft, _) | Q::ElementInnerForce(_) => inner,
         Q::Force(Housing, _) | Q::ElementOuterForce(_) => outer,

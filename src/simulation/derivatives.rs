@@ -42,15 +42,15 @@ fn difference(parameter: Parameter, nominal: f64) -> f64 {
     }
 }
 
-/// Steps at which to look, and shares of what is there in the derivative times a step: on both sides, or where a limit
-/// is nearer than a step all on the other. The error is of second order.
-fn quotient(at: f64, step: f64, [min, max]: [Option<f64>; 2]) -> [(f64, f64); 3] {
+/// Steps at which to look, and shares of the changes until there in the derivative times a step: on both sides, or where
+/// a limit is nearer than a step all on the other. The error is of second order.
+fn quotient(at: f64, step: f64, [min, max]: [Option<f64>; 2]) -> [(f64, f64); 2] {
     if min.is_some_and(|min| at - step < min) {
-        [(0.0, -1.5), (1.0, 2.0), (2.0, -0.5)]
+        [(1.0, 2.0), (2.0, -0.5)]
     } else if max.is_some_and(|max| at + step > max) {
-        [(0.0, 1.5), (-1.0, -2.0), (-2.0, 0.5)]
+        [(-1.0, -2.0), (-2.0, 0.5)]
     } else {
-        [(-1.0, -0.5), (0.0, 0.0), (1.0, 0.5)]
+        [(-1.0, -0.5), (1.0, 0.5)]
     }
 }
 
@@ -167,15 +167,16 @@ impl Simulation {
     ) -> Result<(), SimulationError> {
         let Kind::Real { min, max, nominal, .. } = self.variable(known)?.kind else { return Ok(()) };
         let (at, step) = (self.state.reals[known as usize], difference(parameter, nominal));
-        let mut start = self.clone();
-        let mut found = vec![0.0; unknowns.len()];
-        for (steps, share) in quotient(at, step, [min, max]).into_iter().filter(|&(_, share)| share != 0.0) {
+        let (mut start, mut here) = (self.clone(), vec![0.0; unknowns.len()]);
+        start.reals(unknowns, &mut here)?;
+        let mut there = here.clone();
+        for (steps, share) in quotient(at, step, [min, max]) {
             start.state.reals[known as usize] = at + steps * step;
             start.outdate(Fresh::Nothing);
             // A start beside one that exists: where there is none, the limit of what exists has no derivative.
-            start.reals(unknowns, &mut found).map_err(|_| SimulationError::NoDerivative)?;
-            for (value, found) in values.iter_mut().zip(&found) {
-                *value += weight * share / step * found;
+            start.reals(unknowns, &mut there).map_err(|_| SimulationError::NoDerivative)?;
+            for ((value, there), here) in values.iter_mut().zip(&there).zip(&here) {
+                *value += weight * share / step * (there - here);
             }
         }
         Ok(())

@@ -152,7 +152,7 @@ pub(super) const RULES: &[Rule] = &[
         "Derivatives",
         "Other unknowns and knowns are errors; a derivative that does not exist is discarded.",
         &[
-            T("unknowns_are_real_outputs_and_knowns_real_inputs_or_the_call_is_an_error"),
+            T("what_is_no_unknown_or_no_known_is_refused_and_the_run_goes_on"),
             T("a_loose_ring_has_an_output_but_no_derivative_in_initialization_mode"),
         ],
     ),

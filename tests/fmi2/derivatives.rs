@@ -259,9 +259,8 @@ fn derivatives_by_every_known_listed_of_initial_unknowns_are_differences_of_two_
             if !is_real(&known) {
                 continue;
             }
-            let listed = |unknown: u32| {
-                dependencies.iter().any(|d| d.output == unknown && d.initial.contains(&known.reference))
-            };
+            let listed =
+                |unknown: u32| dependencies.iter().any(|d| d.output == unknown && d.initial.contains(&known.reference));
             let given = host.directional(&unknowns, &[known.reference], &[1.0]).unwrap();
             let (at, step) = (host.get(&[known.reference]).unwrap()[0], nudge_of(known));
             let look = |value: f64| {
@@ -311,8 +310,8 @@ fn a_parameter_at_its_limit_has_a_derivative_into_what_may_be_set() {
     let found = host.directional(&[speed], &[slip], &[1.0]).unwrap()[0];
     assert!((found + at[2]).abs() < 1e-9 * at[2].abs(), "{found} {}", at[2]);
     // A spring of 1 N/m takes 1 N/m times the ring's position off the load.
-    let [by_spring, by_load] = [stiffness, host.reference("shaft.load.y")]
-        .map(|known| host.directional(&[y], &[known], &[1.0]).unwrap()[0]);
+    let [by_spring, by_load] =
+        [stiffness, host.reference("shaft.load.y")].map(|known| host.directional(&[y], &[known], &[1.0]).unwrap()[0]);
     assert!((by_spring + at[3] * by_load).abs() < 1e-5 * by_spring.abs(), "{by_spring} {}", at[3] * by_load);
 }
 

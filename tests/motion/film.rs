@@ -43,7 +43,8 @@ fn films(speed: f64) -> [(f64, f64); 2] {
     let bearing = oiled().bearing;
     // Rings that stand have no load: the smallest that the formula is asked for.
     let rolling = rolling_speed_ratio(&bearing) * speed;
-    LubricatedContact::of(&bearing, &OIL, 0.0).map(|contact| (contact.squeeze, contact.thickness(speed_factor(rolling))))
+    LubricatedContact::of(&bearing, &OIL, 0.0)
+        .map(|contact| (contact.squeeze, contact.thickness(speed_factor(rolling))))
 }
 
 #[test]

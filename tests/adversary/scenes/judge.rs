@@ -10,9 +10,9 @@ use crate::oracle::run::{Pace, Run, Stop};
 use crate::oracle::signals::{Kind, signals};
 use crate::oracle::surfaces::closest;
 use crate::oracle::{Bearing, ELEMENTS, SENSOR};
-use crate::turning::quadratic;
 use crate::random_case::fastest;
 use crate::subject::Subject;
+use crate::turning::quadratic;
 use crate::units::{HORIZON, LIMIT, differences, largest_force, position_error, rounding, slope_error, units};
 use brinell::contact::error::ContactError;
 use brinell::simulation::SimulationError;
@@ -250,7 +250,9 @@ fn compare(
         }
         let sample = match subject.step(case, i) {
             Ok(sample) => sample,
-            Err(error @ SimulationError::ThickFilms { .. }) if oracles.films_press(step.length) => return Verdict::Refused(error),
+            Err(error @ SimulationError::ThickFilms { .. }) if oracles.films_press(step.length) => {
+                return Verdict::Refused(error);
+            }
             Err(error) => return Verdict::Failed(format!("step {i} fails where the oracle does not: {error}")),
         };
         time += step.length;
