@@ -24,9 +24,10 @@
 
 use super::drive::Frame;
 use super::element_contacts::Meeting;
+use super::element_variation::ElementVariation;
 use super::forces::UnsolvedContact;
 use super::kinematics::{FramedKinematics, PathMotion};
-use super::linearized::{Bends, ElementChange, ElementVariation, Linearized};
+use super::linearized::{Bends, ElementChange, Linearized};
 use super::model::Model;
 use super::path_search::PathSearch;
 use super::raceway::SMOOTH;

@@ -8,8 +8,9 @@
 //! no equilibrium of their own; their derivative does not exist.
 
 use super::drive::Drive;
+use super::element_variation::ElementVariation;
 use super::kinematics::FramedKinematics;
-use super::linearized::{Bends, ElementVariation, Linearized};
+use super::linearized::{Bends, Linearized};
 use super::model::Model;
 use super::raceway::Cells;
 use super::tangent::{RingJacobian, Rings};

@@ -14,9 +14,10 @@
 //! The derivatives are those of the branch that the state is in; at the onset of a contact there are two.
 
 use super::drive::Drive;
+use super::element_variation::ElementVariation;
 use super::kinematics::{FramedKinematics, Kinematics, RingState, prescribed_rate};
 use super::layout::Layout;
-use super::linearized::{Bends, ElementVariation, Linearized};
+use super::linearized::{Bends, Linearized};
 use super::model::Model;
 use super::raceway::Cells;
 use super::supports::{BODIES, Bodies, BodyMatrix};

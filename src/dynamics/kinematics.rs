@@ -114,8 +114,8 @@ impl CageState {
 }
 
 impl FramedKinematics {
-    /// Nothing moves and contacts are dry; the outer ring's centre is `offset` (m) from the inner's, frames are at their
-    /// angles of the start.
+    /// Nothing moves and contacts are dry; the outer ring's centre is `offset` (m) from the inner's, frames are at
+    /// their angles of the start.
     pub fn at_rest(cage_angle: f64, offset: Vector) -> Self {
         let housing = RingState { position: offset, ..RingState::default() };
         let (cage, shaft) = (CageState::at_rest(cage_angle), RingState::default());

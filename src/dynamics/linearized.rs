@@ -33,6 +33,7 @@
 
 use super::drive::Frame;
 use super::element_contacts::{InnerGap, Meeting};
+use super::element_variation::ElementVariation;
 use super::film::{FilmsNow, Resistance, resistance};
 use super::kinematics::{FramedKinematics, PathMotion};
 use super::model::Model;
@@ -93,23 +94,6 @@ pub(super) struct Linearized {
     by_speed: f64,
 }
 
-/// A small change of what one element sees.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct ElementVariation {
-    /// Of the outer ring's position less that of the inner.
-    pub(super) offset: Vector,
-    /// Of the outer ring's velocity less that of the inner.
-    pub(super) drift: Vector,
-    pub(super) path: f64,
-    pub(super) path_rate: f64,
-    pub(super) cage_angle: f64,
-    pub(super) cage_speed: f64,
-    /// Of the speed that oil films follow.
-    pub(super) film_speed: f64,
-    /// Of angle and speed of the frames of defects, in the order of [`Frame`].
-    pub(super) frames: [[f64; 2]; 3],
-}
-
 /// Change of one element's contact forces, in the directions of [`Linearized::inner`] and [`Linearized::outer`].
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ElementChange {
@@ -136,25 +120,6 @@ impl ElementChange {
     #[inline]
     pub(super) fn radial(&self, element: &Linearized) -> f64 {
         self.inner.dot(&element.e_r) - self.outer.x
-    }
-}
-
-impl ElementVariation {
-    /// Of the path alone.
-    pub(super) fn of_path() -> Self {
-        Self { path: 1.0, ..Self::default() }
-    }
-
-    /// Of u' alone.
-    pub(super) fn of_path_rate() -> Self {
-        Self { path_rate: 1.0, ..Self::default() }
-    }
-
-    /// Of the rings' offset along one axis alone.
-    pub(super) fn of_offset(axis: usize) -> Self {
-        let mut offset = Vector::zeros();
-        offset[axis] = 1.0;
-        Self { offset, ..Self::default() }
     }
 }
 

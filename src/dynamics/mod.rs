@@ -13,6 +13,7 @@ pub mod drive;
 mod element_balance;
 mod element_block;
 mod element_contacts;
+mod element_variation;
 pub mod equilibrium;
 mod equilibrium_error;
 pub mod equilibrium_variation;

@@ -6,8 +6,9 @@
 //!
 //! An element that nothing touches does not answer.
 
+use super::element_variation::ElementVariation;
 use super::kinematics::{FramedKinematics, PathMotion};
-use super::linearized::{Bends, ElementVariation, Linearized};
+use super::linearized::{Bends, Linearized};
 use super::model::Model;
 use super::raceway::{Cells, SMOOTH};
 use crate::numerics::plane::Vector;

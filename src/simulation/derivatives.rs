@@ -42,8 +42,8 @@ fn difference(parameter: Parameter, nominal: f64) -> f64 {
     }
 }
 
-/// Steps at which to look, and shares of the changes until there in the derivative times a step: on both sides, or where
-/// a limit is nearer than a step all on the other. The error is of second order.
+/// Steps at which to look, and shares of the changes until there in the derivative times a step: on both sides, or
+/// where a limit is nearer than a step all on the other. The error is of second order.
 fn quotient(at: f64, step: f64, [min, max]: [Option<f64>; 2]) -> [(f64, f64); 2] {
     if min.is_some_and(|min| at - step < min) {
         [(1.0, 2.0), (2.0, -0.5)]
