@@ -133,8 +133,7 @@ impl Model {
         now: &Kinematics,
         stage: &Stage,
         derivative: &mut [f64],
-        films: Option<&FilmsNow>,
-        elements: &[ElementBlock],
+        (elements, films): (&[ElementBlock], Option<&FilmsNow>),
         contacts: &mut Record,
     ) -> [f64; 4] {
         // A function of its own, so that nothing of it is in the way of balls.
@@ -149,7 +148,7 @@ impl Model {
                 contacts,
             });
         }
-        self.contacts_of::<S, Point, RECORD, SPECIAL>(simd, Point, now, stage, derivative, films, (elements, contacts))
+        self.contacts_of::<S, Point, RECORD, SPECIAL>(simd, Point, now, stage, derivative, (elements, films, contacts))
     }
 
     /// As [`smooth_contacts`](Self::smooth_contacts), for contacts of one elasticity.
@@ -161,8 +160,7 @@ impl Model {
         now: &Kinematics,
         stage: &Stage,
         derivative: &mut [f64],
-        films: Option<&FilmsNow>,
-        (elements, contacts): (&[ElementBlock], &mut Record),
+        (elements, films, contacts): (&[ElementBlock], Option<&FilmsNow>, &mut Record),
     ) -> [f64; 4] {
         let start = self.layout.radial_velocity;
         let (offset, v, omega) = (now.offset(), now.housing.velocity, now.cage.speed);
@@ -302,6 +300,6 @@ impl<const RECORD: bool, const SPECIAL: bool> Kernel for Rollers<'_, RECORD, SPE
     fn run<S: Wide>(self, simd: S) -> [f64; 4] {
         let Self { model, line, now, stage, derivative, elements, contacts } = self;
         // Films are those of balls.
-        model.contacts_of::<S, Line, RECORD, SPECIAL>(simd, line, now, stage, derivative, None, (elements, contacts))
+        model.contacts_of::<S, Line, RECORD, SPECIAL>(simd, line, now, stage, derivative, (elements, None, contacts))
     }
 }

@@ -107,8 +107,7 @@ impl Model {
             &now,
             stage,
             derivative,
-            forces.films.as_ref(),
-            &forces.elements,
+            (&forces.elements, forces.films.as_ref()),
             &mut forces.contacts,
         );
         let (shaft_x, shaft_y) = (shaft_x + on_shaft.x, shaft_y + on_shaft.y);

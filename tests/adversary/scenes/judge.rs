@@ -9,10 +9,11 @@ use crate::oracle::balance;
 use crate::oracle::run::{Pace, Run, Stop};
 use crate::oracle::signals::{Kind, signals};
 use crate::oracle::surfaces::closest;
+use crate::oracle::turning::quadratic;
 use crate::oracle::{Bearing, ELEMENTS, SENSOR};
 use crate::random_case::fastest;
 use crate::subject::Subject;
-use crate::turning::quadratic;
+
 use crate::units::{HORIZON, LIMIT, differences, largest_force, position_error, rounding, slope_error, units};
 use brinell::contact::error::ContactError;
 use brinell::simulation::SimulationError;
