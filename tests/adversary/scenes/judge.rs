@@ -13,7 +13,6 @@ use crate::oracle::turning::quadratic;
 use crate::oracle::{Bearing, ELEMENTS, SENSOR};
 use crate::random_case::fastest;
 use crate::subject::Subject;
-
 use crate::units::{HORIZON, LIMIT, differences, largest_force, position_error, rounding, slope_error, units};
 use brinell::contact::error::ContactError;
 use brinell::simulation::SimulationError;
