@@ -4,9 +4,17 @@ use crate::host::Host;
 use brinell::simulation::variables::{Causality, Dependencies, Kind, Unit, Variable};
 use brinell_fmi::fmi2::*;
 
-/// All that may move: rings inside, one ring or both from the host, sound, spalled, spalled and compliant.
-pub(crate) const SCENES: [&str; 6] =
-    ["6205-healthy", "6205-hosted", "6205-epps", "er16k-tb1", "er16k-tb1-hosted-shaft", "er16k-tb2-compliant"];
+/// All that may move: rings inside, one ring or both from the host, sound, spalled, spalled in oil, spalled and
+/// compliant.
+pub(crate) const SCENES: [&str; 7] = [
+    "6205-healthy",
+    "6205-hosted",
+    "6205-epps",
+    "er16k-tb1",
+    "er16k-tb1-hosted-shaft",
+    "er16k-tb1-oil",
+    "er16k-tb2-compliant",
+];
 
 pub(crate) fn is_real(variable: &&Variable) -> bool {
     matches!(variable.kind, Kind::Real { .. })
@@ -89,7 +97,8 @@ fn nudge(input: &Variable) -> f64 {
         Kind::Real { unit: Unit::Metre, .. } => 1e-11,
         Kind::Real { unit: Unit::MetrePerSecond, .. } => 1e-6,
         Kind::Real { unit: Unit::MetrePerSecondSquared, .. } => 1.0,
-        Kind::Real { unit: Unit::Newton, .. } => 0.05,
+        // 0.1 nm of way, where an oil film of 0.1 µm changes the slope of its force.
+        Kind::Real { unit: Unit::Newton, .. } => 0.01,
         _ => 1e-3,
     }
 }
