@@ -30,7 +30,7 @@ pub fn remark(scene: &Scene) -> Option<Remark> {
 }
 
 /// The films of both raceways.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Films {
     contacts: [LubricatedContact; 2],
     layer: Option<f64>,
@@ -41,6 +41,8 @@ pub struct Films {
 /// The films of the inner and of the outer raceway at one speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FilmsNow {
+    /// What they are the films of.
+    of: Films,
     /// What resists.
     pub squeeze: [SqueezeFilm; 2],
     /// Thickness (m), which is 0 where nothing turns.
@@ -65,9 +67,18 @@ impl Films {
         let grown = speed_factor(self.ratio * speed.abs());
         let thickness = [0, 1].map(|side: usize| self.contacts[side].thickness(grown));
         FilmsNow {
+            of: *self,
             squeeze: [0, 1].map(|side| SqueezeFilm::new(self.contacts[side].squeeze, thickness[side], self.layer)),
             thickness,
             speed,
+        }
+    }
+
+    /// Makes `now` the films at this speed. What is that already stays: the power in it costs as much as some elements.
+    #[inline(always)]
+    pub(super) fn renew(&self, now: &mut Option<FilmsNow>, speed: f64) {
+        if now.is_none_or(|now| now.of != *self || now.speed.to_bits() != speed.to_bits()) {
+            *now = Some(self.at(speed));
         }
     }
 }

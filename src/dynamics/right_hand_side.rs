@@ -75,7 +75,9 @@ impl Model {
         if SPECIAL {
             self.begin(drive);
             self.update_uneven(drive, cage, &mut forces.elements);
-            forces.films = self.films_at(drive, cage.tau);
+            if let Some(films) = &self.films {
+                films.renew(&mut forces.films, drive.relative_speed.at(cage.tau));
+            }
         }
         let (now, tau) = (self.kinematics_of(stage), cage.tau);
         let [outer, inner] = [forces.other_outer.is_empty(), forces.other_inner.is_empty()].map(|none| !none);
