@@ -145,6 +145,7 @@ impl Model {
                 stage,
                 derivative,
                 elements,
+                films,
                 contacts,
             });
         }
@@ -290,6 +291,7 @@ struct Rollers<'a, const RECORD: bool, const SPECIAL: bool> {
     stage: &'a Stage<'a>,
     derivative: &'a mut [f64],
     elements: &'a [ElementBlock],
+    films: Option<&'a FilmsNow>,
     contacts: &'a mut Record,
 }
 
@@ -298,8 +300,7 @@ impl<const RECORD: bool, const SPECIAL: bool> Kernel for Rollers<'_, RECORD, SPE
 
     #[inline(always)]
     fn run<S: Wide>(self, simd: S) -> [f64; 4] {
-        let Self { model, line, now, stage, derivative, elements, contacts } = self;
-        // Films are those of balls.
-        model.contacts_of::<S, Line, RECORD, SPECIAL>(simd, line, now, stage, derivative, (elements, None, contacts))
+        let Self { model, line, now, stage, derivative, elements, films, contacts } = self;
+        model.contacts_of::<S, Line, RECORD, SPECIAL>(simd, line, now, stage, derivative, (elements, films, contacts))
     }
 }

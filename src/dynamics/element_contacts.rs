@@ -9,6 +9,9 @@ use crate::contact::near_defect::{Approach, Lever};
 use crate::contact::rolling::RacewaySide;
 use crate::numerics::plane::{Vector, turned};
 
+/// How far apart along path and raceway the approach near the defect is sampled for its second derivatives (m).
+pub(super) const DIFFERENCE: f64 = 1e-9;
+
 /// An element seen from the inner ring's centre.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct InnerGap {
@@ -156,6 +159,16 @@ impl Model {
         }
         let (near, frame) = self.near_defect(side, at, frames);
         near.map_or_else(|_| Near::unsolved(), |approach| Near::new(approach, frame, frames))
+    }
+
+    /// Change (1/m) of the direction of an inner contact near a defect as its gap narrows and the element stays, along
+    /// and across its direction from the ring's centre.
+    pub(super) fn direction_by_gap(&self, at: &Meeting, frames: &Frames) -> Vector {
+        let direction = |by: f64| {
+            let near = self.approach(RacewaySide::Inner, &Meeting { u: at.u + by, ..*at }, frames).approach;
+            Vector::new(near.radial, near.tangential)
+        };
+        (direction(DIFFERENCE) - direction(-DIFFERENCE)) / (2.0 * DIFFERENCE)
     }
 
     /// Angle (rad) of a contact from the centre of the defect that it is at, or else of the raceway's nearest.

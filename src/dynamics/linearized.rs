@@ -32,7 +32,7 @@
 //! damping enters.
 
 use super::drive::Frame;
-use super::element_contacts::{InnerGap, Meeting};
+use super::element_contacts::{DIFFERENCE, InnerGap, Meeting};
 use super::element_variation::ElementVariation;
 use super::film::{FilmsNow, Resistance, resistance};
 use super::kinematics::{FramedKinematics, PathMotion};
@@ -43,9 +43,6 @@ use crate::contact::force_law::ForceLaw;
 use crate::contact::near_defect::Approach;
 use crate::contact::rolling::RacewaySide;
 use crate::numerics::plane::{Matrix, Vector, turned};
-
-/// How far apart along path and raceway the approach near the defect is sampled for its second derivatives (m).
-pub(super) const DIFFERENCE: f64 = 1e-9;
 
 /// Whether second derivatives of the outer approach are wanted, which the change of path or position needs while
 /// something moves; each costs four more samples at the defect.
@@ -313,7 +310,9 @@ impl Model {
         let rate = -near.by_path * v_n + near.by_angle * turning;
         let film = resistance(now.films.as_ref(), RacewaySide::Inner, near.value, rate);
         let law = law.with_derivatives(near.value, rate).plus(film.force);
+        // Films take from the gap while the element stays where it is.
         let thicker = now.films.as_ref().map_or(0.0, FilmsNow::together_by_speed);
+        let turns = if thicker == 0.0 { Vector::zeros() } else { self.direction_by_gap(at, &now.frames) };
         // Δ̇ by the approach and by the angle at constant rates of both.
         let rate_by_approach = -bend.path_path * v_n + bend.path_angle * turning;
         let rate_by_angle = -bend.path_angle * v_n + bend.angle_angle * turning;
@@ -339,7 +338,7 @@ impl Model {
             by_q_rate: direction * along.transpose() * law.by_rate,
             by_film_speed: direction
                 * ((law.by_approach * near.by_path + law.by_rate * rate_by_approach) * thicker + film.by_speed)
-                + by_approach * (law.value * thicker),
+                + (n * turns.x + t * turns.y) * (law.value * thicker),
             by_frame: [-(direction * by_turn + by_angle * law.value), -direction * (law.by_rate * near.by_angle)],
             frame,
         }

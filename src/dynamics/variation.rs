@@ -9,11 +9,12 @@
 //! onset of a contact there are two.
 
 use super::drive::{Drive, Frame};
+use super::element_contacts::DIFFERENCE;
 use super::element_variation::ElementVariation;
 use super::film::FilmsNow;
 use super::irregularity::Lead;
 use super::kinematics::{CageState, FramedKinematics, PathMotion, RingState};
-use super::linearized::{Bends, DIFFERENCE, ElementChange, Linearized};
+use super::linearized::{Bends, ElementChange, Linearized};
 use super::model::Model;
 use super::raceway::{Cells, SMOOTH};
 use super::tangent::Rings;
