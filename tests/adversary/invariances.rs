@@ -223,8 +223,7 @@ fn a_scene_near_the_limit_of_speed_has_a_similar_one_below_it() {
 #[test]
 fn cutting_communication_steps_changes_nothing() {
     for_seeds(12, |_, draw| {
-        // Films stand as they are for a step.
-        let case = Case { film: None, ..scene(draw, true) };
+        let case = scene(draw, true);
         let shares: Vec<f64> = case.steps.iter().map(|_| draw.between(0.02, 0.98)).collect();
         let whole = course(&case.cut(|i| shares[i]), |_| {});
         let every_other = |samples: Vec<Vec<f64>>| samples.into_iter().step_by(2).collect();

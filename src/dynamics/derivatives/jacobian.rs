@@ -197,6 +197,8 @@ struct Shared {
     inverse_masses: Rings,
     /// Speed and acceleration of the frames of defects.
     frames: [[f64; 2]; 3],
+    /// Rate of the speed that oil films follow (rad/s²).
+    film_rate: f64,
 }
 
 impl Model {
@@ -219,6 +221,7 @@ impl Model {
             prescribed: [host(self.shaft.motion, &drive.shaft), host(self.housing.motion, &drive.housing)],
             inverse_masses: self.supports.inverse_masses().fixed_rows::<4>(0).into(),
             frames: drive.frame_rates(tau),
+            film_rate: drive.relative_speed.rate_at(tau),
         };
         self.add_supports(drive, tau, &shared, jacobian, by_time);
         if self.elements_in_balance() {
@@ -310,7 +313,7 @@ impl Model {
             path_rate,
             cage_angle: omega,
             cage_speed: alpha,
-            clearance: 0.0,
+            film_speed: shared.film_rate,
             frames: shared.frames,
         });
         by_time[j] = path_rate;

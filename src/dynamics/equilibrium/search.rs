@@ -121,7 +121,7 @@ impl Model {
         if cell == SMOOTH {
             return 0.0;
         }
-        let distance = self.outer_centre_radius - self.clearance();
+        let distance = self.outer_centre_radius - self.radial_clearance;
         let mut at = Meeting { element: j, cells: [cell, SMOOTH], u: 0.0, direction, distance };
         for _ in 0..20 {
             let near = self.approach(RacewaySide::Inner, &at, &now.frames).approach;
@@ -186,9 +186,10 @@ impl Model {
     /// there.
     fn check_contacts(&self, given: &Given, rings: Rings, u: &[f64]) -> Result<(), EquilibriumError> {
         let now = given.with_rings(rings);
+        let clearance = self.clearance(now.films.as_ref());
         for (j, &u) in u.iter().enumerate() {
             let cells = self.cells_of(given.cells, j);
-            let gap = self.inner_gap(u - FURTHER, now.offset(), self.direction(j, &now.cage));
+            let gap = self.inner_gap(u - FURTHER, now.offset(), self.direction(j, &now.cage), clearance);
             let inner = self.inner_meeting(j, cells[0], &gap, self.element_angle(j, &now.cage));
             let outer = Meeting { u: u + FURTHER, ..self.outer_meeting(j, cells[1], u, &now.cage) };
             for (side, at) in [(RacewaySide::Outer, outer), (RacewaySide::Inner, inner)] {
@@ -232,7 +233,7 @@ impl Model {
         let Given { drive, cells, .. } = given;
         let now = given.with_rings(rings);
         let (mut force, mut largest, mut contact_sum, mut rounding) = (Rings::zeros(), 0.0f64, 0.0, 0.0);
-        let play = now.offset().norm() + self.clearance().abs();
+        let play = now.offset().norm() + self.clearance(now.films.as_ref()).abs();
         for j in 0..self.element_count {
             let in_cells = self.cells_of(cells, j);
             let ElementAtRest { path, element, nearer } = if self.elements_in_balance() {
@@ -269,7 +270,7 @@ impl Model {
         let jacobian = if iteration > DOUBLING {
             self.ring_jacobian_at(u, given.cells, &now)
         } else {
-            self.ring_jacobian(u, given.cells, &now)
+            self.ring_jacobian_at(u, given.cells, &now.standing())
         };
         // The turning of contact forces makes a lightly held ring's tangent indefinite; its bound ΣQ/|q| takes that
         // out. The second term lets a loose ring move by the longest step, and vanishes with the residual.

@@ -31,22 +31,26 @@ impl Model {
         let given = ElementVariation {
             offset: by.offset(),
             drift: by.drift(),
-            cage_speed: by.cage_speed,
-            clearance: by.clearance,
+            film_speed: by.film_speed,
             frames: by.frames,
             ..ElementVariation::default()
         };
         let (mut jacobian, mut force) = (RingJacobian::zeros(), loads);
+        // In an uneven cage each element goes round at its own speed.
+        let own = |j: usize, given: ElementVariation, by: &Variation| ElementVariation {
+            cage_speed: self.going(j, &now.cage, by).speed,
+            ..given
+        };
         for j in 0..self.element_count {
             let element = self.at_start(j, cells, state, &now);
             self.add_balanced(&element, &mut jacobian);
-            force += self.balanced(&element, &given).rings;
+            force += self.balanced(&element, &own(j, given, by)).rings;
         }
         by.move_rings(&self.balancing_motion(&jacobian, force)?);
         let whole = ElementVariation { offset: by.offset(), ..given };
         for j in 0..self.element_count {
             let element = self.at_start(j, cells, state, &now);
-            by.path[j] = self.balanced(&element, &whole).path;
+            by.path[j] = self.balanced(&element, &own(j, whole, by)).path;
             by.radial_velocity[j] = by.housing.velocity.dot(&element.e_r);
         }
         Some(())

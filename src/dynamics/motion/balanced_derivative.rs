@@ -49,7 +49,7 @@ impl Model {
         derivative: &mut [f64],
         forces: &mut Forces,
     ) -> [f64; 4] {
-        let now = FramedKinematics { motion: *now, frames: forces.frames };
+        let now = FramedKinematics { motion: *now, frames: forces.frames, films: None };
         let mut rings = [Vector::zeros(); 2];
         if RECORD {
             forces.torques = [0.0; 3];

@@ -210,7 +210,7 @@ impl Model {
         path: f64,
         now: &FramedKinematics,
     ) -> Option<UnsolvedContact> {
-        let gap = self.inner_gap(path, now.offset(), self.direction(j, &now.cage));
+        let gap = self.inner_gap(path, now.offset(), self.direction(j, &now.cage), self.clearance(now.films.as_ref()));
         let inner = self.inner_meeting(j, cells[0], &gap, self.element_angle(j, &now.cage));
         let outer = self.outer_meeting(j, cells[1], path, &now.cage);
         // A search ends on the near side of where there is no answer.
