@@ -21,18 +21,14 @@ const REQUIREMENTS: &str = include_str!("../../python/requirements.txt");
 const SCRIPTS: &[(&str, &str)] = &[
     ("contact.py", include_str!("../../python/contact.py")),
     ("demo.py", include_str!("../../python/demo.py")),
-    ("elements.py", include_str!("../../python/elements.py")),
-    ("side_by_side.py", include_str!("../../python/side_by_side.py")),
     ("host.py", include_str!("../../python/host.py")),
     ("plotting.py", include_str!("../../python/plotting.py")),
-    ("report.py", include_str!("../../python/report.py")),
     ("run_figure.py", include_str!("../../python/run_figure.py")),
     ("run_page.js", include_str!("../../python/run_page.js")),
     ("run_page.py", include_str!("../../python/run_page.py")),
     ("size.py", include_str!("../../python/size.py")),
     ("modes.py", include_str!("../../python/modes.py")),
     ("stiffness.py", include_str!("../../python/stiffness.py")),
-    ("validation.py", include_str!("../../python/validation.py")),
     ("validate.py", include_str!("../../python/validate.py")),
 ];
 const INTERPRETER: &str = if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" };
