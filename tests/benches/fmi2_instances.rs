@@ -7,10 +7,10 @@
 // A benchmark stops at the first surprise.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-#[path = "../tests/fmi2/library.rs"]
+#[path = "../fmi2/library.rs"]
 #[allow(dead_code)]
 mod library;
-#[path = "../tests/support/mod.rs"]
+#[path = "../support/mod.rs"]
 mod support;
 
 use libloading::Library;
