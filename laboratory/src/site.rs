@@ -1,5 +1,5 @@
 //! The command `site`: the documentation as a book, by mdBook. The pages are those of `docs/`, as they are; the first
-//! is the README, and the list of all keys of a scene is made of the source that reads them.
+//! is the README, and the list of all keys of a scene is made of its schema.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -66,7 +66,7 @@ pub fn lay_out(source: &Path, folder: &Path) -> Result<()> {
     }
     whole_file::write(&folder.join("book.toml"), SETTINGS)?;
     let read = |name: &str| fs::read_to_string(source.join(name)).with_context(|| name.to_owned());
-    whole_file::write(&pages.join("scene.md"), scene_page(source)?)?;
+    whole_file::write(&pages.join("scene.md"), scene_page()?)?;
     for (name, page) in ABOVE {
         // In the repository they lie above the pages.
         whole_file::write(&pages.join(page), read(name)?.replace("docs/", ""))?;

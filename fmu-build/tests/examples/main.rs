@@ -119,15 +119,7 @@ fn blocks(language: &str) -> Vec<String> {
 
 #[test]
 fn every_command_of_the_guide_is_run_here() {
-    let known = [
-        RIGID,
-        ROSS,
-        ROSS_ITSELF,
-        ERROR,
-        SWEEP,
-        SYSTEMS,
-        SYSTEM,
-    ];
+    let known = [RIGID, ROSS, ROSS_ITSELF, ERROR, SWEEP, SYSTEMS, SYSTEM];
     let commands: Vec<_> =
         blocks("sh").iter().flat_map(|block| block.lines().map(str::to_owned).collect::<Vec<_>>()).collect();
     for command in &commands {

@@ -1,5 +1,5 @@
-//! A small FMI 2.0 host: just enough to try an FMU through its C interface. With [`super::fmi3`], which
-//! does the same for FMI 3.0, the only file here with `unsafe` code.
+//! A small FMI 2.0 host: just enough to step an FMU's library through its C interface where no other host runs, under
+//! Wine, QEMU and Valgrind.
 //!
 //! It trusts the library to follow the standard's binary interface; that is what loading a library means.
 
@@ -54,7 +54,7 @@ pub const FUNCTIONS: [&str; 34] = [
 /// Why an FMU's library did not do what it was asked.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum SlaveError {
+pub enum HostError {
     /// The file is no library, or lacks something.
     #[error("library")]
     Library(#[from] libloading::Error),
@@ -82,8 +82,7 @@ pub enum SlaveError {
 }
 
 type Component = *mut c_void;
-type State = *mut c_void;
-pub(crate) type Log = Mutex<Vec<String>>;
+type Log = Mutex<Vec<String>>;
 
 #[repr(C)]
 struct Callbacks {
@@ -96,7 +95,7 @@ struct Callbacks {
 
 /// One instance of a co-simulation FMU.
 #[derive(Debug)]
-pub struct Slave {
+pub struct Instance {
     // Fields drop in this order; the instance is freed in `drop`, before any of them.
     component: Component,
     library: Library,
@@ -110,26 +109,21 @@ impl std::fmt::Debug for Callbacks {
     }
 }
 
-/// A saved state; to be freed by the slave that gave it.
-#[derive(Debug)]
-pub struct SavedState(pub(crate) State);
-
 /// Takes the symbol and calls it. The signature stands beside each use, next to the standard's name.
 macro_rules! call {
-    ($slave:expr, $function:literal, ($($kind:ty),*), ($($value:expr),*)) => {{
+    ($host:expr, $function:literal, ($($kind:ty),*), ($($value:expr),*)) => {{
         // SAFETY: the symbol has the standard's signature, written here; pointers among the arguments point to
         // live slices of the lengths passed along, and the component is a living instance of this library.
         let status = unsafe {
-            let function: Symbol<'_, unsafe extern "C" fn($($kind),*) -> c_int> = $slave.library.get($function)?;
+            let function: Symbol<'_, unsafe extern "C" fn($($kind),*) -> c_int> = $host.library.get($function)?;
             function($($value),*)
         };
-        $slave.answer($function, status)
+        $host.answer($function, status)
     }};
 }
-pub(crate) use call;
 
 /// Loads a library that has all of these functions.
-pub(crate) fn loaded(path: &Path, functions: &[&str]) -> Result<Library, SlaveError> {
+fn loaded(path: &Path, functions: &[&str]) -> Result<Library, HostError> {
     // SAFETY: the user asked for this library to be run; its initialisers are his trust.
     let library = unsafe { Library::new(path)? };
     for function in functions {
@@ -141,7 +135,7 @@ pub(crate) fn loaded(path: &Path, functions: &[&str]) -> Result<Library, SlaveEr
 
 /// # Safety
 /// The pointer is null or to a zero-terminated string.
-pub(crate) unsafe fn text(pointer: *const c_char) -> String {
+unsafe fn text(pointer: *const c_char) -> String {
     if pointer.is_null() {
         return String::from("NULL");
     }
@@ -153,7 +147,7 @@ pub(crate) unsafe fn text(pointer: *const c_char) -> String {
 ///
 /// # Safety
 /// `environment` points to a living [`Log`]; `category` is null or a zero-terminated string.
-pub(crate) unsafe fn keep(environment: *mut c_void, category: *const c_char, line: &str) {
+unsafe fn keep(environment: *mut c_void, category: *const c_char, line: &str) {
     // SAFETY: this function's contract.
     let (log, category) = unsafe { (&*environment.cast::<Log>(), text(category)) };
     if let Ok(mut log) = log.lock() {
@@ -161,14 +155,14 @@ pub(crate) unsafe fn keep(environment: *mut c_void, category: *const c_char, lin
     }
 }
 
-impl Slave {
+impl Instance {
     /// Loads the library and makes an instance. `resources` is the unpacked folder of that name.
-    pub fn new(path: &Path, instance: &str, guid: &str, resources: &Path) -> Result<Self, SlaveError> {
+    pub fn new(path: &Path, instance: &str, guid: &str, resources: &Path) -> Result<Self, HostError> {
         Self::with_uri(path, instance, guid, &file_uri(resources))
     }
 
     /// The same with the folder as a URI, written as the caller likes.
-    pub fn with_uri(path: &Path, instance: &str, guid: &str, uri: &str) -> Result<Self, SlaveError> {
+    pub fn with_uri(path: &Path, instance: &str, guid: &str, uri: &str) -> Result<Self, HostError> {
         let library = loaded(path, &FUNCTIONS)?;
         let log: Box<Log> = Box::default();
         let callbacks = Box::new(Callbacks {
@@ -178,7 +172,7 @@ impl Slave {
             step_finished: None,
             environment: ptr::from_ref(&*log).cast_mut().cast(),
         });
-        let mut slave = Self { component: ptr::null_mut(), library, callbacks, log };
+        let mut made = Self { component: ptr::null_mut(), library, callbacks, log };
         let (instance, guid, uri) = (CString::new(instance)?, CString::new(guid)?, CString::new(uri)?);
         type Instantiate = unsafe extern "C" fn(
             *const c_char,
@@ -189,21 +183,21 @@ impl Slave {
             c_int,
             c_int,
         ) -> Component;
-        // SAFETY: standard's signature; the strings live through the call, the callbacks as long as the slave.
-        slave.component = unsafe {
-            let instantiate: Symbol<'_, Instantiate> = slave.library.get("fmi2Instantiate")?;
-            instantiate(instance.as_ptr(), 1, guid.as_ptr(), uri.as_ptr(), &*slave.callbacks, 0, 1)
+        // SAFETY: standard's signature; the strings live through the call, the callbacks as long as the instance.
+        made.component = unsafe {
+            let instantiate: Symbol<'_, Instantiate> = made.library.get("fmi2Instantiate")?;
+            instantiate(instance.as_ptr(), 1, guid.as_ptr(), uri.as_ptr(), &*made.callbacks, 0, 1)
         };
-        if slave.component.is_null() {
-            let log = slave.last_line();
-            return Err(SlaveError::NoInstance { function: "fmi2Instantiate", log });
+        if made.component.is_null() {
+            let log = made.last_line();
+            return Err(HostError::NoInstance { function: "fmi2Instantiate", log });
         }
-        Ok(slave)
+        Ok(made)
     }
 
     /// `fmi2SetupExperiment` with start time 0, a tolerance if there is one and no stop time; then into and out of
     /// initialization.
-    pub fn initialize(&mut self, tolerance: Option<f64>) -> Result<(), SlaveError> {
+    pub fn initialize(&mut self, tolerance: Option<f64>) -> Result<(), HostError> {
         let c = self.component;
         let (tolerance_defined, stop_defined) = (c_int::from(tolerance.is_some()), 0);
         let tolerance = tolerance.unwrap_or(0.0);
@@ -218,7 +212,7 @@ impl Slave {
     }
 
     /// `fmi2GetReal`.
-    pub fn reals(&mut self, references: &[u32]) -> Result<Vec<f64>, SlaveError> {
+    pub fn reals(&mut self, references: &[u32]) -> Result<Vec<f64>, HostError> {
         let mut values = vec![f64::NAN; references.len()];
         call!(
             self,
@@ -230,7 +224,7 @@ impl Slave {
     }
 
     /// `fmi2SetReal`.
-    pub fn set_reals(&mut self, references: &[u32], values: &[f64]) -> Result<(), SlaveError> {
+    pub fn set_reals(&mut self, references: &[u32], values: &[f64]) -> Result<(), HostError> {
         assert_eq!(references.len(), values.len(), "one value for each reference");
         call!(
             self,
@@ -241,56 +235,12 @@ impl Slave {
     }
 
     /// `fmi2DoStep`.
-    pub fn step(&mut self, from: f64, step: f64) -> Result<(), SlaveError> {
+    pub fn step(&mut self, from: f64, step: f64) -> Result<(), HostError> {
         call!(self, "fmi2DoStep", (Component, f64, f64, c_int), (self.component, from, step, 0))
     }
 
-    /// `fmi2GetFMUstate`.
-    pub fn save(&mut self) -> Result<SavedState, SlaveError> {
-        let mut state: State = ptr::null_mut();
-        call!(self, "fmi2GetFMUstate", (Component, *mut State), (self.component, &mut state))?;
-        Ok(SavedState(state))
-    }
-
-    /// `fmi2SetFMUstate`.
-    pub fn restore(&mut self, state: &SavedState) -> Result<(), SlaveError> {
-        call!(self, "fmi2SetFMUstate", (Component, State), (self.component, state.0))
-    }
-
-    /// `fmi2FreeFMUstate`.
-    pub fn free(&mut self, mut state: SavedState) -> Result<(), SlaveError> {
-        call!(self, "fmi2FreeFMUstate", (Component, *mut State), (self.component, &mut state.0))
-    }
-
-    /// `fmi2SerializeFMUstate`.
-    pub fn to_bytes(&mut self, state: &SavedState) -> Result<Vec<u8>, SlaveError> {
-        let mut size = 0;
-        let c = self.component;
-        call!(self, "fmi2SerializedFMUstateSize", (Component, State, *mut usize), (c, state.0, &mut size))?;
-        let mut bytes = vec![0; size];
-        call!(
-            self,
-            "fmi2SerializeFMUstate",
-            (Component, State, *mut u8, usize),
-            (c, state.0, bytes.as_mut_ptr(), size)
-        )?;
-        Ok(bytes)
-    }
-
-    /// `fmi2DeSerializeFMUstate`.
-    pub fn from_bytes(&mut self, bytes: &[u8]) -> Result<SavedState, SlaveError> {
-        let mut state: State = ptr::null_mut();
-        call!(
-            self,
-            "fmi2DeSerializeFMUstate",
-            (Component, *const u8, usize, *mut State),
-            (self.component, bytes.as_ptr(), bytes.len(), &mut state)
-        )?;
-        Ok(SavedState(state))
-    }
-
     /// `fmi2Terminate`.
-    pub fn terminate(&mut self) -> Result<(), SlaveError> {
+    pub fn terminate(&mut self) -> Result<(), HostError> {
         call!(self, "fmi2Terminate", (Component), (self.component))
     }
 
@@ -303,7 +253,7 @@ impl Slave {
         self.log().pop().unwrap_or_else(|| "empty".into())
     }
 
-    fn answer(&self, function: &'static str, status: c_int) -> Result<(), SlaveError> {
+    fn answer(&self, function: &'static str, status: c_int) -> Result<(), HostError> {
         let status = match status {
             0 | 1 => return Ok(()),
             2 => "fmi2Discard",
@@ -312,11 +262,11 @@ impl Slave {
             5 => "fmi2Pending",
             _ => "no status of the standard",
         };
-        Err(SlaveError::Status { function, status, log: self.last_line() })
+        Err(HostError::Status { function, status, log: self.last_line() })
     }
 }
 
-impl Drop for Slave {
+impl Drop for Instance {
     fn drop(&mut self) {
         if self.component.is_null() {
             return;
@@ -341,7 +291,7 @@ unsafe extern "C" fn note(
     first: *const c_char,
 ) {
     let variadic_like_named = cfg!(not(all(target_os = "macos", target_arch = "aarch64")));
-    // SAFETY: the standard passes zero-terminated strings; the slave passed its own log, which outlives the instance.
+    // SAFETY: the standard passes zero-terminated strings; this host passed its own log, which outlives the instance.
     unsafe {
         let mut line = text(message);
         if line == "%s" && variadic_like_named {
