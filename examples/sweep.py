@@ -48,6 +48,7 @@ def main():
                 print(f"\r{count} of {parts} parts", end="", file=sys.stderr, flush=True)
         except RuntimeError as error:
             sys.exit(f"\n{error}")
+        print(file=sys.stderr)
     joined = sweep(PROGRAM, file, folder, more)
     print(joined.stderr.strip().splitlines()[-1], file=sys.stderr)
     print(joined.stdout, end="")
