@@ -7,8 +7,7 @@ use std::path::PathBuf;
 use anyhow::{Context, Result};
 use clap::{Parser, Subcommand};
 
-use crate::commands::{catalogue, contact, demo, modes, new_scene, scenes, schema, size, stiffness};
-use crate::host::check;
+use crate::commands::{catalogue, check, contact, demo, modes, new_scene, scenes, schema, size, stiffness};
 use crate::package::{Library, Model, Reference, fmu};
 use crate::shared::Project;
 use crate::{run, sweep};

@@ -18,6 +18,7 @@ mod workers;
 
 use std::collections::{BTreeSet, HashMap};
 use std::fs::{self, File, TryLockError};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
@@ -30,6 +31,7 @@ use crate::run::speed_profile::SpeedProfile;
 use crate::shared::{Grid, NotWritten, Project, whole_file};
 use bench::Bench;
 pub(crate) use bench::Written;
+pub(crate) use design::Part;
 use faults::{Fault, Faults};
 use file::Sweep;
 use maps::Maps;
@@ -47,6 +49,8 @@ pub(crate) struct Options {
     pub(crate) jobs: usize,
     /// What each run's signals are written as; `None` for not at all.
     pub(crate) signals: Option<Written>,
+    /// The part of the runs that is made here; `None` for all.
+    pub(crate) part: Option<Part>,
 }
 
 /// A sweep that was read and can be run.
@@ -60,16 +64,19 @@ struct Planned {
     grid: Grid,
 }
 
-/// The command: `<folder>/runs.parquet` and, if wanted, a file with the signals of each run in `<folder>/signals`.
+/// The command: `<folder>/runs.parquet` and, if wanted, a file with the signals of each run in `<folder>/signals`. A part
+/// goes into a folder of its own in it; without one, rows and signals of the parts there are taken over.
 pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder: &Path) -> Result<()> {
     let planned = Planned::read(file)?;
     let Planned { sweep, base, .. } = &planned;
     let record = Record::of(sweep, base, file, &planned.text, options.signals)?;
+    let folder = &options.part.map_or(folder.to_owned(), |part| folder.join(part.folder()));
     fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
     let _lock = lock(folder)?;
     record.claim(folder)?;
     let columns = bench::columns(sweep, &|key| planned.is_whole(key));
     let Folders { running, signals, _temporary } = Folders::make(folder, options)?;
+    take_parts(folder, &record, &signals)?;
     let (mut journal, mut rows) = Journal::open(folder, &running, &columns)?;
     if let Some(beyond) = rows.iter().filter_map(Row::run).find(|run| *run >= sweep.runs) {
         bail!("{} holds run {beyond}: runs must be at least {}", folder.display(), beyond + 1);
@@ -89,10 +96,11 @@ pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder:
     if !rows.is_empty() {
         table.write(&mut rows)?;
     }
-    let missing = Missing::of(&rows, &bench);
+    let wanted: Vec<u64> = (0..sweep.runs).filter(|&run| options.part.is_none_or(|part| part.has(run))).collect();
+    let missing = Missing::of(&rows, &wanted, &bench);
     let (maps, fingerprints) = prepare(project, &planned, &bench, &missing.runs, options.jobs)?;
     let _held = Held::new();
-    let bar = bar(sweep.runs, sweep.runs - missing.runs.len() as u64);
+    let bar = bar(wanted.len() as u64, (wanted.len() - missing.runs.len()) as u64);
     // The table is written now and then, whenever there is a quarter more of it.
     let mut next = rows.len() + rows.len() / 4 + 100;
     let mut counts = Counts { made: 0, again: 0, failed: 0 };
@@ -152,11 +160,12 @@ struct Missing {
 }
 
 impl Missing {
-    fn of(rows: &[Row], bench: &Bench<'_>) -> Self {
+    fn of(rows: &[Row], wanted: &[u64], bench: &Bench<'_>) -> Self {
         let done: BTreeSet<u64> = rows.iter().filter_map(Row::run).collect();
         let sound = rows.iter().filter(|row| error_of(row).is_none()).filter_map(Row::run);
         let again: BTreeSet<u64> = sound.filter(|run| bench.lacks_signals(*run)).collect();
-        let runs = (0..bench.sweep.runs).filter(|run| !done.contains(run) || again.contains(run)).collect();
+        let missing = |run: &&u64| !done.contains(run) || again.contains(run);
+        let runs = wanted.iter().filter(missing).copied().collect();
         Self { runs, again }
     }
 }
@@ -292,6 +301,29 @@ impl Folders {
         }
         Ok(Self { running, signals, _temporary })
     }
+}
+
+/// Adds the rows of all parts in this folder to its journal, which keeps each run once, and moves their signals here.
+fn take_parts(folder: &Path, record: &Record, signals: &Path) -> Result<()> {
+    for entry in fs::read_dir(folder).with_context(|| folder.display().to_string())? {
+        let part = entry?.path();
+        let about = || part.display().to_string();
+        if !part.file_name().is_some_and(|name| name.to_string_lossy().starts_with(design::PART)) {
+            continue;
+        }
+        let _lock = lock(&part)?;
+        record.claim(&part)?;
+        for file in fs::read_dir(part.join("signals")).into_iter().flatten() {
+            let file = file.with_context(about)?;
+            fs::rename(file.path(), signals.join(file.file_name())).with_context(about)?;
+        }
+        let mut journal =
+            File::options().create(true).append(true).open(folder.join(rows::FILE)).with_context(about)?;
+        // A row that was torn must not tear another's. Rows that cannot be read are made again.
+        let rows = [b"\n", &fs::read(part.join(rows::FILE)).unwrap_or_default()[..], b"\n"].concat();
+        journal.write_all(&rows).map_err(|error| NotWritten::new(&folder.join(rows::FILE), error))?;
+    }
+    Ok(())
 }
 
 /// Keeps other programs from sweeping in the same folder.

@@ -55,7 +55,7 @@ pub fn pack(model: &Model, library: &Library, version: Version) -> Result<Vec<u8
     if let Some(map) = &model.map {
         archive.add("resources/map.bin", map.as_slice())?;
     }
-    archive.add("documentation/index.html", documentation::write(model, version))?;
+    archive.add("documentation/index.html", documentation::write(model, version)?)?;
     archive.add("documentation/licenses/license.txt", LICENSE)?;
     archive.add("documentation/licenses/LICENSE-MIT", include_str!("../../../LICENSE-MIT"))?;
     archive.add("documentation/licenses/LICENSE-APACHE", include_str!("../../../LICENSE-APACHE"))?;

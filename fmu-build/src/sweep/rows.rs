@@ -13,7 +13,7 @@ use brinell::numerics::checksum::checksum;
 use crate::shared::{NotWritten, whole_file};
 
 /// Name of the journal.
-const FILE: &str = "rows.log";
+pub(super) const FILE: &str = "rows.log";
 
 /// What a column holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
