@@ -7,6 +7,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod common;
+#[allow(dead_code, unreachable_pub, reason = "others use the rest of it")]
 #[path = "host/src/lib.rs"]
 mod host;
 
