@@ -16,7 +16,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use brinell::scene::Motion;
+use brinell::scene::{Motion, model_file};
 use brinell::simulation::interface::table::{Causality, Kind, Variable};
 use fmu_build::package::{Choice, Library, Model};
 use fmu_build::platforms::Platform;
@@ -140,6 +140,8 @@ impl Case {
     fn lay(&self, folder: &Path) {
         fs::create_dir_all(folder).unwrap();
         fs::write(folder.join("scene.toml"), &self.model.scene_text).unwrap();
+        let model = model_file::encode(&self.model.scene, &self.model.scene_text).unwrap();
+        fs::write(folder.join("model.bin"), model).unwrap();
         for profile in &self.model.profiles {
             fs::write(folder.join(&profile.name), &profile.text).unwrap();
         }

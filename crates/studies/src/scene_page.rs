@@ -7,9 +7,10 @@ use std::path::Path;
 use anyhow::{Context, Result};
 
 /// Files of the source with tables and words of the scene; the doc comment of the first says what holds without a key.
-const READER: &str = "crates/scene/src/file.rs";
-const TABLES: &str = "crates/scene/src/file";
-const WORDS: [&str; 2] = ["crates/scene/src/lib.rs", "crates/scene/src/rolling_element.rs"];
+const READER: &str = "crates/scene-file/src/tables/mod.rs";
+const TABLES: &str = "crates/scene-file/src/tables";
+const WORDS: [&str; 4] =
+    ["src/scene/mod.rs", "src/scene/contact.rs", "src/scene/ring.rs", "src/scene/bearing/rolling_element.rs"];
 
 /// Every key of a scene file: by table, whether it is needed, and what holds without it.
 pub fn scene_page(source: &Path) -> Result<String> {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 use brinell::dynamics::parameters::film;
-use brinell::scene::{Remark, Scene};
+use brinell::scene::Scene;
 use brinell::simulation::Simulation;
 use brinell::simulation::interface::table::guid;
 
@@ -45,13 +45,14 @@ pub fn read_scene(path: &Path) -> Result<(String, Scene)> {
     let text = shipped::scene_text(path)?;
     let resolved = sensor_response::resolved(&text, |name| shipped::text_beside(path, name));
     let text = resolved.map_err(|error| sensor_response::beside_other_faults(error, &text)).with_context(about)?;
-    let scene = Scene::from_toml(&text).with_context(about)?;
+    let scene = brinell_scene_file::from_toml(&text).with_context(about)?;
     Ok((text, scene))
 }
 
 /// What is possible and unusual in a scene of this text.
-pub fn remarks(text: &str, scene: &Scene) -> impl Iterator<Item = Remark> {
-    Scene::questions(text).into_iter().chain(scene.remarks()).chain(film::remark(scene))
+pub fn remarks(text: &str, scene: &Scene) -> impl Iterator<Item = String> {
+    let of_units = brinell_scene_file::unit_questions(text).into_iter().map(|remark| remark.to_string());
+    of_units.chain(scene.remarks().into_iter().chain(film::remark(scene)).map(|remark| remark.to_string()))
 }
 
 /// A scene with the files that it is read from.

@@ -146,7 +146,7 @@ mod tests {
 
     #[test]
     fn frequencies_of_a_turning_outer_ring_are_those_of_the_relative_motion() {
-        let mut scene = Scene::from_toml(include_str!("../../../../scenes/6205-inner-5deg.toml")).unwrap();
+        let mut scene = brinell_scene_file::from_toml(include_str!("../../../../scenes/6205-inner-5deg.toml")).unwrap();
         let standing = frequencies(&scene).unwrap();
         let known = brinell::geometry::kinematics::frequencies(&scene.bearing, 0.0, 10.0);
         for (a, b) in [

@@ -128,7 +128,6 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
-    use brinell::scene::Scene;
     use brinell::simulation::Method;
 
     use crate::report::integration::scene_file;
@@ -137,7 +136,7 @@ mod tests {
     /// A preloaded bearing whose contacts always push: the equations are smooth.
     fn preloaded() -> Simulation {
         let text = std::fs::read_to_string(scene_file("6205-healthy")).unwrap();
-        let mut scene = Scene::from_toml(&text).unwrap();
+        let mut scene = brinell_scene_file::from_toml(&text).unwrap();
         scene.bearing.radial_clearance = -10e-6;
         scene.tolerance = 1e-11;
         scene.sensors.clear();
