@@ -6,7 +6,7 @@
 //! Samples every 10 µs; errors are the root mean square of the outer ring's vertical acceleration against a run at a
 //! tolerance of 1e-12, over that of the acceleration. Times are those of the fastest of twenty runs that keep nothing.
 
-use brinell::scene::{ContactLaw, Recorder, RecorderFilter, Scene};
+use brinell::scene::{ContactLaw, Recorder, RecorderFilter};
 use brinell::simulation::Simulation;
 use std::error::Error;
 use std::time::Instant;
@@ -17,7 +17,7 @@ const STEP: f64 = 1e-4;
 
 fn main() -> Result<(), Box<dyn Error>> {
     for path in std::env::args().skip(1) {
-        let mut scene = Scene::from_toml(&std::fs::read_to_string(&path)?)?;
+        let mut scene = brinell_scene_file::from_toml(&std::fs::read_to_string(&path)?)?;
         scene.contact.law = ContactLaw::Hertz;
         scene.recorder = Some(Recorder { rate: 1e5, filter: RecorderFilter::None });
         let simulation = Simulation::new(scene, None)?;

@@ -3,12 +3,11 @@
 use std::fmt::Write;
 
 use anyhow::{Context, Result};
-use brinell::scene::Scene;
 use serde_json::Value;
 
 /// Every key of a scene file, by table: what it takes, what it means, what holds without it.
 pub fn scene_page() -> Result<String> {
-    let schema = serde_json::to_value(Scene::schema())?;
+    let schema = serde_json::to_value(brinell_scene_file::schema())?;
     let mut page = String::from(
         "# Keys of a scene\n\nA scene is a TOML file. Every key carries its unit. This page is made of the schema \
          that the file is read by, so it names every key there is.\n",

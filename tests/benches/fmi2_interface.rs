@@ -7,7 +7,7 @@
 // A benchmark stops at the first surprise.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-use brinell::scene::Scene;
+use brinell::scene::model_file;
 use brinell::simulation::Simulation;
 use brinell::simulation::interface::table::{Causality, Kind, Variable, guid};
 use brinell_fmi::fmi2::*;
@@ -114,10 +114,12 @@ struct Resources {
 
 impl Resources {
     fn new() -> Self {
-        let text = include_str!("../scenes/6205-healthy.toml");
+        let text = include_str!("../../scenes/6205-healthy.toml");
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("interface");
         fs::create_dir_all(&folder).unwrap();
         fs::write(folder.join("scene.toml"), text).unwrap();
+        let model = model_file::encode(&brinell_scene_file::from_toml(text).unwrap(), text).unwrap();
+        fs::write(folder.join("model.bin"), model).unwrap();
         // SAFETY: the logger ignores what it gets; leaving arguments out of a C function does no harm on the platforms
         // measured.
         let logger = unsafe { std::mem::transmute::<Logger, LoggerCallback>(ignore) };
@@ -221,7 +223,7 @@ fn main() {
     let api = Api::of(&library);
     let c = resources.instance(&api);
     api.start(c);
-    let mut simulation = Simulation::new(Scene::from_toml(resources.text).unwrap(), None).unwrap();
+    let mut simulation = Simulation::new(brinell_scene_file::from_toml(resources.text).unwrap(), None).unwrap();
     simulation.initialize(0.0).unwrap();
     reading_and_setting(&api, c, simulation.table());
     stepping(&api, c, &mut simulation);

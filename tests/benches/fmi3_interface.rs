@@ -7,7 +7,7 @@
 // A benchmark stops at the first surprise.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-use brinell::scene::Scene;
+use brinell::scene::model_file;
 use brinell::simulation::Simulation;
 use brinell::simulation::interface::table::{Causality, Kind, guid};
 use brinell_fmi::fmi2::{self, CO_SIMULATION, CallbackFunctions, FmiString, LoggerCallback, Status};
@@ -76,6 +76,8 @@ impl Unpacked {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("interface3");
         fs::create_dir_all(&folder).unwrap();
         fs::write(folder.join("scene.toml"), text).unwrap();
+        let model = model_file::encode(&brinell_scene_file::from_toml(text).unwrap(), text).unwrap();
+        fs::write(folder.join("model.bin"), model).unwrap();
         let path = folder.to_str().unwrap();
         let [identity, uri, path] =
             [guid(text, None), format!("file://{path}"), format!("{path}/")].map(|text| CString::new(text).unwrap());
@@ -129,7 +131,7 @@ fn compare(library: &Library, name: &str, text: &str) {
     println!("{name}");
     let unpacked = Unpacked::new(text);
     let (two, three) = (unpacked.two(library), unpacked.three(library, None));
-    let simulation = Simulation::new(Scene::from_toml(text).unwrap(), None).unwrap();
+    let simulation = Simulation::new(brinell_scene_file::from_toml(text).unwrap(), None).unwrap();
     // SAFETY: the standard's signatures.
     let (get2, get3, set2, set3): (Symbol<'_, Get2>, Symbol<'_, Get3>, Symbol<'_, Set2>, Symbol<'_, Set3>) = unsafe {
         (
@@ -263,7 +265,7 @@ fn main() {
     println!("{:44} {:>10} {:>10}", "", "FMI 2.0", "FMI 3.0");
     // SAFETY: loading our own library runs no code.
     let library = unsafe { Library::new(&path).unwrap() };
-    compare(&library, "6205-healthy", include_str!("../scenes/6205-healthy.toml"));
-    let spalled = include_str!("../scenes/er16k-tb1.toml").replace("law = \"map\"", "law = \"hertz\"");
+    compare(&library, "6205-healthy", include_str!("../../scenes/6205-healthy.toml"));
+    let spalled = include_str!("../../scenes/er16k-tb1.toml").replace("law = \"map\"", "law = \"hertz\"");
     compare(&library, "er16k-tb1, law hertz", &spalled);
 }

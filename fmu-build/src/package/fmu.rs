@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
+use brinell::scene::model_file;
 
 use super::archive::Archive;
 use super::documentation;
@@ -49,6 +50,7 @@ pub fn pack(model: &Model, library: &Library, version: Version) -> Result<Vec<u8
         }
     }
     archive.add("resources/scene.toml", model.scene_text.as_str())?;
+    archive.add("resources/model.bin", model_file::encode(&model.scene, &model.scene_text)?)?;
     for profile in &model.profiles {
         archive.add(format!("resources/{}", profile.name), profile.text.as_str())?;
     }

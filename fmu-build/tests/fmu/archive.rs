@@ -52,6 +52,7 @@ fn an_fmu_holds_what_the_standard_names_and_nothing_else() {
         "modelDescription.xml",
         "resources/6205-epps-trace.csv",
         "resources/map.bin",
+        "resources/model.bin",
         "resources/scene.toml",
     ];
     assert_eq!(names, expected);
@@ -76,6 +77,7 @@ fn an_fmu_of_fmi_3_holds_the_library_in_the_folder_of_every_processor_and_termin
         "modelDescription.xml",
         "resources/6205-epps-trace.csv",
         "resources/map.bin",
+        "resources/model.bin",
         "resources/scene.toml",
         "terminalsAndIcons/icon.png",
         "terminalsAndIcons/terminalsAndIcons.xml",

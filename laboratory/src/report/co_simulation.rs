@@ -4,7 +4,6 @@ use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use brinell::scene::Scene;
 
 use super::Extent;
 use super::coupling::{MASSES, Row, STEPS, study};
@@ -30,7 +29,7 @@ pub(super) fn measure(extent: Extent, data: &Path) -> Result<Vec<Coupled>> {
     for scene in SCENES {
         let path = scene_file(scene);
         let text = fs::read_to_string(&path).with_context(|| path.display().to_string())?;
-        let rows = study(&Scene::from_toml(&text)?, masses, &steps).with_context(|| scene.to_owned())?;
+        let rows = study(&brinell_scene_file::from_toml(&text)?, masses, &steps).with_context(|| scene.to_owned())?;
         found.push(Coupled { scene, rows, steps: steps.clone() });
     }
     let path = data.join("co-simulation.csv");

@@ -361,7 +361,7 @@ mod tests {
     #[test]
     fn a_host_of_three_kilograms_is_stable_and_exact_as_far_as_the_documentation_says() {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/er16k-tb1.toml");
-        let scene = Scene::from_toml(&std::fs::read_to_string(path).unwrap()).unwrap();
+        let scene = brinell_scene_file::from_toml(&std::fs::read_to_string(path).unwrap()).unwrap();
         let rows = study(&scene, &[3.0], &[1e-5, 1e-4, 3e-4, 5e-4]).unwrap();
         let error = |coupling: Coupling, step: f64| {
             rows.iter().find(|row| row.coupling == coupling && row.step == step).unwrap().error

@@ -8,7 +8,6 @@ use std::fmt::Write;
 use std::ops::Range;
 
 use anyhow::Result;
-use brinell::scene::Scene;
 use brinell_analysis::recording::{Recording, SizingError};
 use brinell_analysis::sizing;
 use brinell_analysis::sizing::{Fault, Raceway};
@@ -80,7 +79,7 @@ fn one(number: u64, raceway: Raceway, length: f64) -> Result<Found> {
     let rig = SyntheticRig::draw(&mut random);
     let (count, element, pitch) = BEARINGS[if random.uniform() < 0.5 { 0 } else { random.below(BEARINGS.len()) }];
     let load = rig.load * libm::exp(0.3 * random.normal());
-    let scene = Scene::from_toml(&format!(
+    let scene = brinell_scene_file::from_toml(&format!(
         "name = \"rig\"
         [bearing]
         element_count = {count}

@@ -27,7 +27,7 @@ impl Case {
         // Without the source the scenes are looked for where the user stands.
         let path = project.source().unwrap_or(Path::new("")).join("scenes").join(name).with_extension("toml");
         let text = fs::read_to_string(&path).with_context(|| path.display().to_string())?;
-        let scene = Scene::from_toml(&text).with_context(|| path.display().to_string())?;
+        let scene = brinell_scene_file::from_toml(&text).with_context(|| path.display().to_string())?;
         let names_profile = !scene.profile_names().is_empty();
         let profiles = if names_profile { Model::read(&path)?.profiles } else { Vec::new() };
         Ok(Self { scene, profile: profiles.into_iter().next().map(|profile| profile.text) })

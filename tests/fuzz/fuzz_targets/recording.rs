@@ -4,7 +4,6 @@
 
 use std::path::Path;
 
-use brinell::scene::Scene;
 use brinell_analysis::recording::{Recording, Source, Speed};
 use brinell_analysis::sizing::{Verdict, size};
 use libfuzzer_sys::fuzz_target;
@@ -35,7 +34,7 @@ fuzz_target!(|data: &[u8]| {
     assert!(recording.rate() > 0.0 && recording.speed() > 0.0 && !recording.samples().is_empty());
     assert!(recording.samples().iter().all(|x| x.is_finite()));
     // A scene of a hosted bearing: no rig to simulate.
-    let scene = Scene::from_toml(brinell_fuzz::SCENES[2]).unwrap();
+    let scene = brinell_scene_file::from_toml(brinell_fuzz::SCENES[2]).unwrap();
     let Ok(report) = size(&[recording], &scene) else { return };
     let found = [report.length_mm, report.uncertainty_mm];
     match report.verdict {

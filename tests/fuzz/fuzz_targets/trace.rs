@@ -2,13 +2,13 @@
 //! can roll over.
 #![no_main]
 
-use brinell::scene::{DefectOn, DefectShape, Scene};
+use brinell::scene::{DefectOn, DefectShape};
 use brinell::simulation::Simulation;
 use brinell::surface::Surface;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {
-    let mut scene = Scene::from_toml(brinell_fuzz::SCENES[0]).unwrap();
+    let mut scene = brinell_scene_file::from_toml(brinell_fuzz::SCENES[0]).unwrap();
     if let Some(defect) = scene.defects.first_mut() {
         defect.shape = DefectShape::Profile("trace.csv".to_owned());
         let element = DefectOn::Element { element: 0, tilt: 0.0 };

@@ -7,7 +7,7 @@ use std::ffi::CString;
 use std::path::PathBuf;
 use std::{fs, ptr};
 
-use brinell::scene::Scene;
+use brinell::scene::model_file;
 use brinell::simulation::Simulation;
 use brinell::simulation::interface::table::{guid, Kind, Variable};
 use brinell_fmi::fmi2::*;
@@ -42,7 +42,9 @@ impl Resources {
         let directory = std::env::temp_dir().join(format!("brinell-fuzz-{}-{number}", std::process::id()));
         fs::create_dir_all(&directory).unwrap();
         fs::write(directory.join("scene.toml"), text).unwrap();
-        let table = Simulation::new(Scene::from_toml(text).unwrap(), None).unwrap().table().to_vec();
+        let scene = brinell_scene_file::from_toml(text).unwrap();
+        fs::write(directory.join("model.bin"), model_file::encode(&scene, text).unwrap()).unwrap();
+        let table = Simulation::new(scene, None).unwrap().table().to_vec();
         Self {
             location: CString::new(format!("file://{}", directory.display())).unwrap(),
             guid: CString::new(guid(text, None)).unwrap(),
