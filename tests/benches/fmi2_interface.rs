@@ -114,7 +114,7 @@ struct Resources {
 
 impl Resources {
     fn new() -> Self {
-        let text = include_str!("../scenes/6205-healthy.toml");
+        let text = include_str!("../../scenes/6205-healthy.toml");
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("interface");
         fs::create_dir_all(&folder).unwrap();
         fs::write(folder.join("scene.toml"), text).unwrap();

@@ -263,7 +263,7 @@ fn main() {
     println!("{:44} {:>10} {:>10}", "", "FMI 2.0", "FMI 3.0");
     // SAFETY: loading our own library runs no code.
     let library = unsafe { Library::new(&path).unwrap() };
-    compare(&library, "6205-healthy", include_str!("../scenes/6205-healthy.toml"));
-    let spalled = include_str!("../scenes/er16k-tb1.toml").replace("law = \"map\"", "law = \"hertz\"");
+    compare(&library, "6205-healthy", include_str!("../../scenes/6205-healthy.toml"));
+    let spalled = include_str!("../../scenes/er16k-tb1.toml").replace("law = \"map\"", "law = \"hertz\"");
     compare(&library, "er16k-tb1, law hertz", &spalled);
 }
