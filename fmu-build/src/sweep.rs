@@ -64,8 +64,8 @@ struct Planned {
     grid: Grid,
 }
 
-/// The command: `<folder>/runs.parquet` and, if wanted, a file with the signals of each run in `<folder>/signals`. A part
-/// goes into a folder of its own in it; without one, rows and signals of the parts there are taken over.
+/// The command: `<folder>/runs.parquet` and, if wanted, a file with the signals of each run in `<folder>/signals`. A
+/// part goes into a folder of its own in it; without one, rows and signals of the parts there are taken over.
 pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder: &Path) -> Result<()> {
     let planned = Planned::read(file)?;
     let Planned { sweep, base, .. } = &planned;

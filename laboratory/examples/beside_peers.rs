@@ -1,7 +1,7 @@
 //! Our side of `laboratory/peers/integration.py`: seconds per simulated second and error over the first 20 ms under law
 //! `hertz`.
 //!
-//!     cargo run --release -p brinell-laboratory --example beside_peers -- scenes/6205-healthy.toml scenes/er16k-tb1.toml
+//!     cargo run --release -p brinell-laboratory --example beside_peers -- SCENE.toml …
 //!
 //! Samples every 10 µs; errors are the root mean square of the outer ring's vertical acceleration against a run at a
 //! tolerance of 1e-12, over that of the acceleration. Times are those of the fastest of twenty runs that keep nothing.

@@ -108,7 +108,7 @@ fn archive(source: &Path, platform: Platform, wheel: &Path, folder: &Path) -> Re
         let mut zip = Archive::default();
         files.into_iter().try_for_each(|(name, bytes)| zip.add(format!("{top}/{name}"), bytes))?;
         let path = folder.join(format!("{top}.zip"));
-        whole_file::write(&path, zip.to_bytes()?)?;
+        whole_file::write(&path, zip.to_zip()?)?;
         return Ok(path);
     }
     let path = folder.join(format!("{top}.tar.gz"));

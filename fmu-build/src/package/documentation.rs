@@ -1,5 +1,5 @@
-//! `documentation/index.html`: what a user of the FMU reads. Its text is `assets/documentation.html`; this fills in what
-//! the scene and the variable table say.
+//! `documentation/index.html`: what a user of the FMU reads. Its text is `assets/documentation.html`, filled in here by
+//! what the scene and the variable table say.
 
 mod variables;
 

@@ -62,7 +62,7 @@ pub fn pack(model: &Model, library: &Library, version: Version) -> Result<Vec<u8
     archive.add("documentation/licenses/LICENSE-MIT", include_str!("../../../LICENSE-MIT"))?;
     archive.add("documentation/licenses/LICENSE-APACHE", include_str!("../../../LICENSE-APACHE"))?;
     archive.add("documentation/licenses/third-party.txt", include_str!("../../assets/third-party.txt"))?;
-    Ok(archive.to_bytes()?)
+    Ok(archive.to_zip()?)
 }
 
 /// Packs a scene and writes `<scene name>.fmu` into the folder, making it if need be. Gives the file's path.

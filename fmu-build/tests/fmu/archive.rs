@@ -29,7 +29,7 @@ fn a_file_compressed_before_has_the_bytes_of_one_compressed_in_its_archive() {
     for archive in [&mut plain, &mut compressed] {
         archive.add("resources/scene.toml", "name = \"6205\"").unwrap();
     }
-    assert_eq!(plain.to_bytes().unwrap(), compressed.to_bytes().unwrap());
+    assert_eq!(plain.to_zip().unwrap(), compressed.to_zip().unwrap());
 }
 
 #[test]
