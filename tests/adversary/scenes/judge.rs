@@ -94,7 +94,7 @@ fn refused_start(case: &Case, error: SimulationError) -> Verdict {
 }
 
 /// The oracle's state vector from the signals at the start.
-fn start_state(case: &Case, names: &[(String, Kind)], sample: &[f64]) -> Vec<f64> {
+pub fn start_state(case: &Case, names: &[(String, Kind)], sample: &[f64]) -> Vec<f64> {
     let values: BTreeMap<&str, f64> = names.iter().map(|(name, _)| name.as_str()).zip(sample.iter().copied()).collect();
     let mut y = vec![0.0; Bearing::smooth(case).state_count()];
     for (which, name) in ["shaft", "housing"].into_iter().enumerate() {
