@@ -59,6 +59,14 @@ impl Both {
         &self.three.table()[row as usize].name
     }
 
+    /// Size of a variable by which its roundings are measured, a ten-thousandth of the usual one.
+    fn nominal(&self, row: u32) -> f64 {
+        match self.three.table()[row as usize].kind {
+            Kind::Real { nominal, .. } => 1e-4 * nominal,
+            _ => 0.0,
+        }
+    }
+
     fn outputs(&self) -> Result<Vec<f64>, String> {
         self.three.get_values(&self.unknowns, self.rows.len()).map_err(|_| self.three.last_message())
     }
@@ -146,7 +154,7 @@ impl Both {
             }
             // The pair of differences that are nearest to each other, and what is rounding in them.
             let pair = |k: &usize| {
-                let rounding = 1e-12 * middle[i].abs() / steps[k + 1];
+                let rounding = 1e-12 * middle[i].abs().max(self.nominal(row)) / steps[k + 1];
                 (quotients[*k][i] - quotients[k + 1][i]).abs() + rounding
             };
             let k = (0..steps.len() - 1).min_by(|a, b| pair(a).total_cmp(&pair(b))).unwrap();
@@ -200,7 +208,7 @@ impl Both {
                 continue;
             }
             let pair = |k: &usize| {
-                let rounding = 1e-11 * now[i].abs() / steps[k + 1];
+                let rounding = 1e-12 * now[i].abs().max(self.nominal(row)) / steps[k + 1];
                 (quotients[*k][i] - quotients[k + 1][i]).abs() + rounding
             };
             let k = (0..steps.len() - 1).min_by(|a, b| pair(a).total_cmp(&pair(b))).unwrap();

@@ -57,6 +57,8 @@ struct Linear {
     fastest: f64,
     /// How exactly an entry is known, over the largest frequency.
     own: f64,
+    /// Elements that no raceway presses on: they stay where they are, and a shape is without them.
+    loose: Vec<bool>,
 }
 
 impl Linear {
@@ -87,7 +89,10 @@ impl Linear {
         let (matrix, coarse) = (weighted(h), weighted(2.0 * h));
         let apart = matrix.iter().flatten().zip(coarse.iter().flatten()).map(|(a, b)| (a - b).abs());
         let own = apart.fold(0.0, f64::max);
-        (own <= SMOOTH).then_some(Self { matrix, masses, fastest, own })
+        let weight = oracle.mass * oracle.gravity[0].hypot(oracle.gravity[1]);
+        let loose = run.acting.contacts.iter().map(|[inner, outer]| inner.force.max(outer.force) <= 1e-3 * weight);
+        let loose = loose.collect();
+        (own <= SMOOTH).then_some(Self { matrix, masses, fastest, own, loose })
     }
 
     /// A shape and its rate go on as the mode's eigenvalue says.
@@ -101,8 +106,10 @@ impl Linear {
         let vector: Vec<[f64; 2]> =
             positions.iter().copied().chain(positions.iter().map(|x| times([re, im], *x))).collect();
         let norm = |vector: &[[f64; 2]]| vector.iter().map(|[a, b]| a * a + b * b).sum::<f64>().sqrt();
-        let left: Vec<[f64; 2]> = (self.matrix.iter().zip(&vector))
-            .map(|(row, x)| {
+        let held = |i: usize| !self.loose.get(i % self.masses.len()).is_some_and(|loose| *loose);
+        let left: Vec<[f64; 2]> = (self.matrix.iter().zip(&vector).enumerate())
+            .filter(|(i, _)| held(*i))
+            .map(|(_, (row, x))| {
                 let sum = [0, 1].map(|part| row.iter().zip(&vector).map(|(a, x)| a * x[part]).sum::<f64>());
                 let grown = times([re, im], *x);
                 [sum[0] - grown[0], sum[1] - grown[1]]
