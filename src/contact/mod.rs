@@ -3,8 +3,8 @@
 //!
 //! ```
 //! use brinell::contact::element_on_raceway::ElementOnRaceway;
-//! use crate::contact::love::love_contact::love_contact::LoveContact;
-//! use crate::contact::love::love_contact::raceway_grid::Resolution;
+//! use brinell::contact::love::LoveContact;
+//! use brinell::contact::love::Resolution;
 //! use brinell::contact::rolling::RacewaySide;
 //! use brinell::scene::Bearing;
 //! use brinell::surface::{Profile, Surface};

@@ -65,10 +65,17 @@ impl LubricatedContact {
         })
     }
 
-    /// h_c (m) at the speed ū (m/s).
-    pub fn thickness(&self, speed: f64) -> f64 {
-        if speed == 0.0 { 0.0 } else { self.thickness * libm::pow(speed, SPEED_EXPONENT) }
+    /// h_c (m) at the speed ū of which this is the [`speed_factor`].
+    #[inline]
+    pub fn thickness(&self, factor: f64) -> f64 {
+        self.thickness * factor
     }
+}
+
+/// ū^0.67 of a speed ū (m/s).
+#[inline]
+pub fn speed_factor(speed: f64) -> f64 {
+    if speed == 0.0 { 0.0 } else { libm::pow(speed, SPEED_EXPONENT) }
 }
 
 /// ū (m/s) of both raceways per speed of one ring against the other (rad/s): D_pw (1−γ²)/4.
@@ -101,9 +108,10 @@ mod tests {
         let speed = rolling_speed_ratio(&bearing) * TAU * 10.0;
         // Worked out by hand from the formulas above, to the digits given.
         assert!((speed - 0.59245).abs() < 1e-5, "{speed}");
+        let factor = speed_factor(speed);
         assert!((outer.squeeze / 1.73e-4 - 1.0).abs() < 3e-3, "{}", outer.squeeze);
-        assert!((outer.thickness(speed) / 0.155e-6 - 1.0).abs() < 4e-3, "{}", outer.thickness(speed));
-        assert!(inner.squeeze < outer.squeeze && inner.thickness(speed) < outer.thickness(speed));
-        assert_eq!(outer.thickness(0.0), 0.0);
+        assert!((outer.thickness(factor) / 0.155e-6 - 1.0).abs() < 4e-3, "{}", outer.thickness(factor));
+        assert!(inner.squeeze < outer.squeeze && inner.thickness(factor) < outer.thickness(factor));
+        assert_eq!(outer.thickness(speed_factor(0.0)), 0.0);
     }
 }

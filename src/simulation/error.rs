@@ -155,13 +155,13 @@ pub enum VariableError {
         highest: i32,
     },
     /// Derivatives are given of real outputs.
-    #[error("derivative of {name}: it is no output")]
+    #[error("derivative of {name}: it is no real output")]
     NotAnUnknown {
         /// Its name.
         name: String,
     },
-    /// Directional derivatives are taken by real inputs.
-    #[error("directional derivative by {name}: it is no real input")]
+    /// Directional derivatives are taken by real inputs, and before the start by real parameters.
+    #[error("directional derivative by {name}: it is no real input, nor a real parameter before the start")]
     NotAKnown {
         /// Its name.
         name: String,

@@ -28,7 +28,7 @@ pub(super) const RULES: &[Rule] = &[
     ),
     (
         "Steps",
-        "Steps that are zero, negative, infinite or no number are errors.",
+        "Steps that are zero, negative, infinite or NaN are errors.",
         &[T("a_step_that_is_not_above_zero_and_finite_is_an_error")],
     ),
     (
@@ -140,19 +140,21 @@ pub(super) const RULES: &[Rule] = &[
     (
         "Derivatives",
         "Directional derivatives of every real output by every input are central differences, at communication points \
-         and in initialization mode.",
+         and in initialization mode, where those by listed parameters are, too.",
         &[
             T("directional_derivatives_at_communication_points_are_central_differences"),
             T("directional_derivatives_in_initialization_mode_are_central_differences"),
             T("a_directional_derivative_is_linear_in_its_seed"),
+            T("derivatives_by_every_known_listed_of_initial_unknowns_are_differences_of_two_starts"),
+            T("a_parameter_at_its_limit_has_a_derivative_into_what_may_be_set"),
             T("directional_derivatives_of_every_shipped_fmu_are_central_differences"),
         ],
     ),
     (
         "Derivatives",
-        "Other unknowns and knowns are errors; a derivative that does not exist is discarded.",
+        "Other unknowns and knowns are discarded, and so is a derivative that does not exist; the run goes on.",
         &[
-            T("unknowns_are_real_outputs_and_knowns_real_inputs_or_the_call_is_an_error"),
+            T("what_is_no_unknown_or_no_known_is_refused_and_the_run_goes_on"),
             T("a_loose_ring_has_an_output_but_no_derivative_in_initialization_mode"),
         ],
     ),

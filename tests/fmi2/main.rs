@@ -14,6 +14,7 @@ mod logging;
 mod modes;
 mod output_derivatives;
 mod panics;
+mod parameter_derivatives;
 mod processes;
 mod recordings;
 mod saved_states;

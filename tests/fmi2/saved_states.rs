@@ -271,16 +271,16 @@ fn contents_that_no_run_leaves_behind_are_refused_with_the_reason_even_if_the_ch
     let host = Host::started("6205-healthy");
     let good = host.serialize(host.save());
     // Magic 8, format 4, checksum 8; then length 8, GUID 38, three bytes, six times; then time 8, started 1, turns and
-    // rest of the cage and of three frames, three accelerations at the end of the last step, the speed of oil films.
+    // rest of the cage and of three frames, three accelerations at the end of the last step.
     let (checked, simulation) = (20, 20 + 8 + 38 + 3 + 6 * 8);
     let cage_rest = simulation + 8 + 1 + 8;
-    let film_speed = cage_rest + 8 + 3 * 16 + 3 * 8;
-    let next_step = film_speed + 8;
+    let accelerations = cage_rest + 8 + 3 * 16;
+    let next_step = accelerations + 3 * 8;
     let gained = next_step + 3 * 8 + 1 + 4 * 4;
     let path = gained + 2 * 8 + 1 + 4 * 8;
     let velocity = path + 16 * 8;
     for (offset, value, reason) in [
-        (film_speed, f64::NAN, "not finite"),
+        (accelerations, f64::NAN, "not finite"),
         (next_step, 1e-300, "integration step is shorter"),
         (next_step, -1e-6, "integration step is shorter"),
         (next_step, f64::NAN, "not finite"),

@@ -19,7 +19,9 @@ pub(super) fn functions(text: &str) -> Vec<(String, usize)> {
 pub(super) fn name(line: &str) -> Option<String> {
     let (before, after) = line.trim_start().split_once("fn ")?;
     let words = ["pub", "pub(crate)", "pub(super)", "const", "unsafe", "extern", "\"C\"", "\"C-unwind\""];
-    if !before.split_whitespace().all(|word| words.contains(&word)) {
+    // `pub(in crate::layer)` is two words.
+    let of_layer = |word: &str| word == "pub(in" || (word.starts_with("crate::") && word.ends_with(')'));
+    if !before.split_whitespace().all(|word| words.contains(&word) || of_layer(word)) {
         return None;
     }
     Some(after.split(|letter: char| !letter.is_alphanumeric() && letter != '_').next()?.to_owned())

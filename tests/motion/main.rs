@@ -7,6 +7,7 @@ mod clearance;
 mod counting;
 mod defect_lines;
 mod defects_anywhere;
+mod derivatives;
 mod exactness;
 mod fastest_eigenvalue;
 mod film;

@@ -36,3 +36,4 @@ pub mod instance;
 pub(crate) mod instantiation;
 pub(crate) mod intermediate;
 pub mod resources;
+mod variables;

@@ -13,7 +13,7 @@ use fmu_build::shared::{Project, whole_file};
 use crate::scene_page::scene_page;
 
 /// Chapters: a heading, and the pages under it in their order. Pages that are not named come last.
-const CHAPTERS: [(&str, &[&str]); 4] = [
+const CHAPTERS: [(&str, &[&str]); 5] = [
     ("First hours", &["hour-catalogue.md", "hour-monitoring.md", "hour-data.md", "hour-rotor.md"]),
     (
         "Use",
@@ -23,13 +23,17 @@ const CHAPTERS: [(&str, &[&str]); 4] = [
             "sweeps.md",
             "systems.md",
             "platforms.md",
+            "reference/scenes.md",
             "scene.md",
+            "reference/variables.md",
+            "reference/commands.md",
             "sizing.md",
             "modes.md",
             "fmi2.md",
             "fmi3.md",
         ],
     ),
+    ("What is modelled", &["explanation/model.md"]),
     ("How right it is", &["error-vs-run-time.md", "validation.md", "signals.md", "contact.md", "stability.md"]),
     ("Behind it", &[]),
 ];
@@ -80,16 +84,19 @@ pub fn lay_out(source: &Path, folder: &Path) -> Result<()> {
 fn bring_what_is_linked(source: &Path, pages: &Path) -> Result<()> {
     for page in markdown(pages)? {
         let mut text = fs::read_to_string(&page)?;
+        let up = "../".repeat(page.strip_prefix(pages)?.components().count() - 1);
         for link in links(&text) {
-            // A page of `docs/` leads to the repository's files by `../`, one of the root without it.
-            let file = link.strip_prefix("../").unwrap_or(&link);
+            // What does not leave the page's folder is beside it.
+            let Some(above) = link.strip_prefix(&up) else { continue };
+            // A page of `docs/` leads to the repository's files by one more `../`, one of the root without it.
+            let file = above.strip_prefix("../").unwrap_or(above);
             let from = source.join(file);
             let known = ABOVE.iter().find(|(name, _)| *name == file).map(|(_, page)| *page);
             if known.is_none() && !pages.join(file).exists() && from.exists() {
                 if from.is_dir() { copy(&from, &pages.join(file))? } else { bring(&from, &pages.join(file))? }
             }
             for end in [")", "#"] {
-                text = text.replace(&format!("]({link}{end}"), &format!("]({}{end}", known.unwrap_or(file)));
+                text = text.replace(&format!("]({link}{end}"), &format!("]({up}{}{end}", known.unwrap_or(file)));
             }
         }
         fs::write(&page, text)?;
@@ -103,10 +110,18 @@ fn bring(from: &Path, to: &Path) -> Result<()> {
     Ok(())
 }
 
-/// The book's pages.
+/// The book's pages, in folders too.
 fn markdown(pages: &Path) -> Result<Vec<PathBuf>> {
-    let all = fs::read_dir(pages)?.map(|entry| Ok(entry?.path())).collect::<Result<Vec<_>>>()?;
-    Ok(all.into_iter().filter(|path| path.extension().is_some_and(|extension| extension == "md")).collect())
+    let mut found = Vec::new();
+    for entry in fs::read_dir(pages)? {
+        let path = entry?.path();
+        if path.is_dir() {
+            found.extend(markdown(&path)?);
+        } else if path.extension().is_some_and(|extension| extension == "md") {
+            found.push(path);
+        }
+    }
+    Ok(found)
 }
 
 /// Where a page leads within the repository, each once, without the position on the other page.
@@ -132,14 +147,7 @@ fn copy(from: &Path, to: &Path) -> Result<()> {
 
 /// mdBook's list of pages: every page once, by its own heading.
 fn contents(pages: &Path) -> Result<String> {
-    let mut names: Vec<String> = Vec::new();
-    for entry in fs::read_dir(pages)? {
-        let name = entry?.file_name().to_string_lossy().into_owned();
-        if name.ends_with(".md") && name != "SUMMARY.md" {
-            names.push(name);
-        }
-    }
-    names.sort();
+    let mut names = names(pages)?;
     let mut text = String::from("# Contents\n\n[Brinell](index.md)\n");
     names.retain(|name| name != "index.md");
     for (heading, first) in CHAPTERS {
@@ -155,6 +163,17 @@ fn contents(pages: &Path) -> Result<String> {
         names.retain(|name| !chapter.contains(name));
     }
     Ok(text)
+}
+
+/// Pages below the book's folder, its list of contents aside.
+fn names(pages: &Path) -> Result<Vec<String>> {
+    let mut names = Vec::new();
+    for path in markdown(pages)? {
+        names.push(path.strip_prefix(pages)?.to_string_lossy().replace('\\', "/"));
+    }
+    names.retain(|name| name != "SUMMARY.md");
+    names.sort();
+    Ok(names)
 }
 
 fn title(page: &str) -> Option<&str> {
@@ -177,15 +196,15 @@ mod tests {
         lay_out(root(), folder.path()).unwrap();
         let pages = folder.path().join("src");
         let contents = fs::read_to_string(pages.join("SUMMARY.md")).unwrap();
-        for entry in fs::read_dir(&pages).unwrap() {
-            let name = entry.unwrap().file_name().into_string().unwrap();
-            if !name.ends_with(".md") || name == "SUMMARY.md" {
-                continue;
-            }
+        let names = names(&pages).unwrap();
+        assert!(names.iter().any(|name| name.starts_with("decisions/")), "pages in folders are pages");
+        for name in names {
             assert_eq!(contents.matches(&format!("]({name})")).count(), 1, "{name} in:\n{contents}");
             assert!(!contents.contains(&format!("[{name}]")), "{name} has no heading");
             for link in links(&fs::read_to_string(pages.join(&name)).unwrap()) {
-                assert!(pages.join(&link).exists() && !link.starts_with(".."), "{name} leads to {link}");
+                let there = pages.join(&name).parent().unwrap().join(&link).canonicalize();
+                let inside = there.is_ok_and(|there| there.starts_with(pages.canonicalize().unwrap()));
+                assert!(inside, "{name} leads to {link}");
             }
         }
     }

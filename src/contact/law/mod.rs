@@ -16,3 +16,4 @@ pub use smooth_laws::{elastic_law, smooth_laws};
 pub use squeeze_film::SqueezeFilm;
 
 pub(crate) use force_law::PUSHING_LENGTH;
+pub(crate) use squeeze_film::ROUGHNESS;

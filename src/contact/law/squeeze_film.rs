@@ -72,6 +72,21 @@ impl SqueezeFilm {
         };
         Force { value: by_rate * rate, by_approach: slope * rate, by_rate }
     }
+
+    /// Change of the force with the film's thickness (N/m) at this approach.
+    pub fn by_thickness(&self, delta: f64, rate: f64) -> f64 {
+        let Force { value, by_approach, .. } = self.with_derivatives(delta, rate);
+        if delta < 0.0 {
+            // g = h − Δ
+            return -by_approach;
+        }
+        let filled = (1.0 - self.thickness * self.per_layer).or_zero();
+        if filled == 0.0 {
+            return 0.0;
+        }
+        // The gap is h itself, and Δ counts as a share of it.
+        -value * (1.0 / self.thickness + 2.0 * self.per_layer / filled) - by_approach * delta / self.thickness
+    }
 }
 
 impl Force {
@@ -150,6 +165,10 @@ mod tests {
                 prop_assert!((found.value - force(film, delta, rate)).abs() <= 1e-12 * scale * film.thickness);
                 prop_assert!((found.by_approach - by_approach).abs() < 1e-5 * scale, "{by_approach} {found:?}");
                 prop_assert!((found.by_rate - by_rate).abs() < 1e-6 * scale * film.thickness / rate);
+                let thicker = |by: f64| force(&SqueezeFilm { thickness: film.thickness + by, ..*film }, delta, rate);
+                let by_thickness = (thicker(d) - thicker(-d)) / (2.0 * d);
+                let found = film.by_thickness(delta, rate);
+                prop_assert!((found - by_thickness).abs() < 1e-5 * scale, "{by_thickness} {found}");
             }
         }
     }

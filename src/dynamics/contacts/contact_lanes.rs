@@ -7,6 +7,7 @@
 
 use super::gap_lanes::{Distance, dot, radial};
 use crate::contact::law::{DampedLaw, Elastic, Line, Point, SqueezeFilm};
+use crate::dynamics::parameters::FilmsNow;
 use crate::dynamics::parameters::{ElementBlock, Kinematics, Model, Stage};
 use crate::numerics::lanes::row::Row;
 use crate::numerics::lanes::{Kernel, Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, sum_of};
@@ -128,7 +129,7 @@ impl Model {
         now: &Kinematics,
         stage: &Stage,
         derivative: &mut [f64],
-        elements: &[ElementBlock],
+        (elements, films): (&[ElementBlock], Option<&FilmsNow>),
         contacts: &mut Record,
     ) -> [f64; 4] {
         // A function of its own, so that nothing of it is in the way of balls.
@@ -140,10 +141,11 @@ impl Model {
                 stage,
                 derivative,
                 elements,
+                films,
                 contacts,
             });
         }
-        self.contacts_of::<S, Point, RECORD, SPECIAL>(simd, Point, now, stage, derivative, (elements, contacts))
+        self.contacts_of::<S, Point, RECORD, SPECIAL>(simd, Point, now, stage, derivative, (elements, films, contacts))
     }
 
     /// As [`smooth_contacts`](Self::smooth_contacts), for contacts of one elasticity.
@@ -155,7 +157,7 @@ impl Model {
         now: &Kinematics,
         stage: &Stage,
         derivative: &mut [f64],
-        (elements, contacts): (&[ElementBlock], &mut Record),
+        (elements, films, contacts): (&[ElementBlock], Option<&FilmsNow>, &mut Record),
     ) -> [f64; 4] {
         let start = self.layout.radial_velocity;
         let (offset, v, omega) = (now.offset(), now.housing.velocity, now.cage.speed);
@@ -164,8 +166,8 @@ impl Model {
         let omega = if SPECIAL { 0.0 } else { omega };
         let body = Vector::new(self.gravity.x + omega * v.y, self.gravity.y - omega * v.x);
         let drift = now.drift();
-        let films = if SPECIAL { self.films.as_ref().map(|films| films.squeeze()) } else { None };
-        let clearance = if SPECIAL { self.clearance() } else { self.radial_clearance };
+        let clearance = if SPECIAL { self.clearance(films) } else { self.radial_clearance };
+        let films = if SPECIAL { films.map(|films| films.squeeze) } else { None };
         let ahead = stage.ahead;
         let smooth = Smooth { model: self, elastic, now, offset, drift, body, series, ahead, films, clearance };
         let mut sums = Sums::default();
@@ -285,6 +287,7 @@ struct Rollers<'a, const RECORD: bool, const SPECIAL: bool> {
     stage: &'a Stage<'a>,
     derivative: &'a mut [f64],
     elements: &'a [ElementBlock],
+    films: Option<&'a FilmsNow>,
     contacts: &'a mut Record,
 }
 
@@ -293,7 +296,7 @@ impl<const RECORD: bool, const SPECIAL: bool> Kernel for Rollers<'_, RECORD, SPE
 
     #[inline(always)]
     fn run<S: Wide>(self, simd: S) -> [f64; 4] {
-        let Self { model, line, now, stage, derivative, elements, contacts } = self;
-        model.contacts_of::<S, Line, RECORD, SPECIAL>(simd, line, now, stage, derivative, (elements, contacts))
+        let Self { model, line, now, stage, derivative, elements, films, contacts } = self;
+        model.contacts_of::<S, Line, RECORD, SPECIAL>(simd, line, now, stage, derivative, (elements, films, contacts))
     }
 }

@@ -1,14 +1,15 @@
-//! Where an element stands to the two raceways: its gap to the inner one, its approach to either near a defect, and
-//! what oil films resist with.
+//! Where an element stands to the two raceways: its gap to the inner one, and its approach to either near a defect.
 
 use crate::contact::error::ContactError;
-use crate::contact::law::Force;
 use crate::contact::near_defect::{Approach, Lever};
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::parameters::{
     CageState, Cells, Defects, Drive, Frame, FramedKinematics, Frames, Kinematics, Model, Near, Raceway, SMOOTH,
 };
 use crate::numerics::plane::{Vector, turned};
+
+/// How far apart along path and raceway the approach near the defect is sampled for its second derivatives (m).
+pub(in crate::dynamics) const DIFFERENCE: f64 = 1e-9;
 
 /// An element seen from the inner ring's centre.
 #[derive(Debug, Clone, Copy)]
@@ -46,41 +47,15 @@ impl InnerGap {
 
 impl Model {
     /// Where an element at path `u` in direction `e_r` is seen from the inner ring, whose centre is `offset` before the
-    /// outer ring's.
+    /// outer ring's, with this `clearance` between the raceways.
     #[inline]
-    pub(in crate::dynamics) fn inner_gap(&self, u: f64, offset: Vector, e_r: Vector) -> InnerGap {
+    pub(in crate::dynamics) fn inner_gap(&self, u: f64, offset: Vector, e_r: Vector, clearance: f64) -> InnerGap {
         // |q| = √((ρ+p)² + t²), written so that δ_i loses no digits to the radii's 20 mm.
         let (p, t) = (offset.dot(&e_r), offset.dot(&turned(e_r)));
         let q_r = self.outer_centre_radius + u + p;
         let distance = (q_r * q_r + t * t).sqrt();
-        let approach = -self.clearance() - u - p - t * t / (distance + q_r);
+        let approach = -clearance - u - p - t * t / (distance + q_r);
         InnerGap { approach, n: Vector::new(q_r / distance, t / distance), distance }
-    }
-
-    /// What separates a raceway from an element pressed to the other (m), films included.
-    #[inline(always)]
-    pub fn clearance(&self) -> f64 {
-        match &self.films {
-            None => self.radial_clearance,
-            Some(films) => self.radial_clearance - films.together(),
-        }
-    }
-
-    /// Force of the film of one raceway (N) at an approach (m) and its rate (m/s).
-    #[inline(always)]
-    pub(super) fn film_force(&self, side: RacewaySide, approach: f64, rate: f64) -> f64 {
-        self.films.as_ref().map_or(0.0, |films| films.squeeze()[side as usize].force(|x| x, approach, rate))
-    }
-
-    /// As [`Self::film_force`], with its derivatives.
-    pub(in crate::dynamics) fn film_force_with_derivatives(
-        &self,
-        side: RacewaySide,
-        approach: f64,
-        rate: f64,
-    ) -> Force {
-        let films = self.films.as_ref();
-        films.map_or(Force::default(), |films| films.squeeze()[side as usize].with_derivatives(approach, rate))
     }
 
     /// Direction φ (rad) of element `j` at path `u` from the inner ring's centre.
@@ -90,7 +65,8 @@ impl Model {
 
     /// What that direction is ahead of the element's angle θ about the outer ring's centre (rad).
     pub fn inner_lead(&self, j: usize, u: f64, now: &Kinematics) -> f64 {
-        self.inner_gap(u, now.offset(), self.direction(j, &now.cage)).lead()
+        // The direction alone, of which the clearance is no part.
+        self.inner_gap(u, now.offset(), self.direction(j, &now.cage), self.radial_clearance).lead()
     }
 
     /// Element `j` at path `u` where it meets the outer raceway.
@@ -182,6 +158,16 @@ impl Model {
         }
         let (near, frame) = self.near_defect(side, at, frames);
         near.map_or_else(|_| Near::unsolved(), |approach| Near::new(approach, frame, frames))
+    }
+
+    /// Change (1/m) of the direction of an inner contact near a defect as its gap narrows and the element stays, along
+    /// and across its direction from the ring's centre.
+    pub(super) fn direction_by_gap(&self, at: &Meeting, frames: &Frames) -> Vector {
+        let direction = |by: f64| {
+            let near = self.approach(RacewaySide::Inner, &Meeting { u: at.u + by, ..*at }, frames).approach;
+            Vector::new(near.radial, near.tangential)
+        };
+        (direction(DIFFERENCE) - direction(-DIFFERENCE)) / (2.0 * DIFFERENCE)
     }
 
     /// Angle (rad) of a contact from the centre of the defect that it is at, or else of the raceway's nearest.

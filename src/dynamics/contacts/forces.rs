@@ -2,6 +2,7 @@
 
 use super::contact_lanes::Record;
 use crate::contact::error::ContactError;
+use crate::dynamics::parameters::FilmsNow;
 use crate::dynamics::parameters::{Cells, Defects, ElementBlock, Frame, Frames, Model, SMOOTH};
 use crate::numerics::lanes::row::Row;
 use crate::numerics::lanes::{Each, Lanes, Lists, QUAD, WIDEST, Wide, largest_of, padded};
@@ -28,6 +29,8 @@ pub struct Forces {
     pub rings: [f64; 4],
     /// The frames of defects, where any contact asks for them.
     pub(in crate::dynamics) frames: Frames,
+    /// The oil films.
+    pub(in crate::dynamics) films: Option<FilmsNow>,
     /// Torques of contacts near defects on the bodies that bear them (N m): on the inner ring, on the outer ring, each
     /// about its centre, and on elements about their own axes.
     pub(in crate::dynamics) torques: [f64; 3],

@@ -2,14 +2,18 @@
 
 pub mod contact_lanes;
 mod element_contacts;
+mod element_variation;
 mod forces;
 mod gap_lanes;
+mod linearized;
 mod other_contacts;
 
 pub use contact_lanes::Record;
 pub use forces::{Forces, UnsolvedContact};
 
 pub(in crate::dynamics) use contact_lanes::Sums;
-pub(in crate::dynamics) use element_contacts::{InnerGap, Meeting};
+pub(in crate::dynamics) use element_contacts::{DIFFERENCE, InnerGap, Meeting};
+pub(in crate::dynamics) use element_variation::ElementVariation;
 pub(in crate::dynamics) use gap_lanes::{Distance, dot, radial};
+pub(in crate::dynamics) use linearized::{Bends, ElementChange, Linearized};
 pub(in crate::dynamics) use other_contacts::OtherOuter;

@@ -7,6 +7,7 @@ use crate::contact::error::ContactError;
 use crate::contact::near_defect::Approach;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::parameters::{ElementBlock, Frame, Frames, Kinematics, Model, Near, SMOOTH, moved};
+use crate::dynamics::parameters::{FilmsNow, film_force};
 use crate::numerics::lanes::{Kernel, WIDEST, Wide};
 use crate::numerics::plane::{Vector, turned, turned_by};
 
@@ -23,7 +24,8 @@ impl Model {
         forces: &mut Forces,
     ) -> Vector {
         let Forces { other_outer, other_contacts: [_, contacts], elements, torques, .. } = forces;
-        let (frames, defect_lookups, unsolved) = (&forces.frames, &mut forces.defect_lookups, &mut forces.unsolved);
+        let (frames, films) = (&forces.frames, forces.films.as_ref());
+        let (defect_lookups, unsolved) = (&mut forces.defect_lookups, &mut forces.unsolved);
         if RECORD {
             contacts.clear();
         }
@@ -32,7 +34,7 @@ impl Model {
             let at @ OnPath { u, path_rate, .. } = self.on_path(j, now, state, ahead, sum.elements);
             // Each way to the end with its own numbers: what is one or another is written to memory and read late.
             match cells {
-                [SMOOTH, SMOOTH] => sum.add::<RECORD>(self, &at, self.yielding_contact(u, path_rate)),
+                [SMOOTH, SMOOTH] => sum.add::<RECORD>(self, &at, self.yielding_contact(u, path_rate, films)),
                 [_, SMOOTH] => {
                     *defect_lookups += 1;
                     let [angle, speed] = self.turning(j, now, sum.elements);
@@ -41,14 +43,14 @@ impl Model {
                         self.without_answer(RacewaySide::Outer, &meeting, now, frames, cause, unsolved)
                     });
                     let turning = speed - frames.of(frame).speed;
-                    let found = self.outer_contact(&near, frame, [path_rate, turning], meeting.distance);
+                    let found = self.outer_contact(&near, frame, [path_rate, turning], meeting.distance, films);
                     sum.add::<RECORD>(self, &at, found);
                 }
                 _ => {
                     *defect_lookups += 1;
                     let [angle, speed] = self.turning(j, now, sum.elements);
                     let meeting = self.outer_meeting_at(angle, j, cells, u);
-                    let found = self.own_outer_contact(&meeting, [path_rate, speed], now, frames, unsolved);
+                    let found = self.own_outer_contact(&meeting, [path_rate, speed], now, (frames, films), unsolved);
                     sum.add::<RECORD>(self, &at, found);
                 }
             }
@@ -93,7 +95,8 @@ impl Model {
         let mut on_shaft = Vector::zeros();
         let Forces { other_inner, other_outer, other_contacts: [contacts, _], elements, .. } = forces;
         let (torques, lookups, unsolved) = (&mut forces.torques, &mut forces.defect_lookups, &mut forces.unsolved);
-        let frames = &forces.frames;
+        let (frames, films) = (&forces.frames, forces.films.as_ref());
+        let clearance = self.clearance(films);
         if RECORD {
             contacts.clear();
         }
@@ -101,7 +104,7 @@ impl Model {
             let OnPath { e_r, u, path_rate, .. } = self.on_path(j, now, state, ahead, elements);
             let [angle, speed] = self.turning(j, now, elements);
             *lookups += 1;
-            let gap = self.inner_gap(u, now.offset(), e_r);
+            let gap = self.inner_gap(u, now.offset(), e_r, clearance);
             let at = self.inner_meeting(j, cells, &gap, angle);
             let (near, frame) = self.near_defect(RacewaySide::Inner, &at, frames);
             let near =
@@ -109,7 +112,7 @@ impl Model {
             let near = Near::new(near, frame, frames);
             let around = (self.outer_centre_radius + u) * speed;
             let q_rate = [now.drift().dot(&e_r) + path_rate, now.drift().dot(&turned(e_r)) + around];
-            let found = self.inner_contact(&near, &gap, q_rate);
+            let found = self.inner_contact(&near, &gap, q_rate, films);
             let [_, f_r, f_t] = found.force;
             let acceleration = &mut elements[j / WIDEST].other[j % WIDEST];
             let of_outer = if other_outer.iter().any(|other| other.element == j) { *acceleration } else { 0.0 };
@@ -144,10 +147,10 @@ impl Model {
 
     /// The outer contact of an element on a smooth raceway that yields.
     #[inline(always)]
-    fn yielding_contact(&self, u: f64, path_rate: f64) -> OtherContact {
+    fn yielding_contact(&self, u: f64, path_rate: f64, films: Option<&FilmsNow>) -> OtherContact {
         let law = &self.outer.contact;
         let (part, part_rate) = law.of_contact(u, path_rate);
-        let force = law.law.force(part, part_rate) + self.film_force(RacewaySide::Outer, u, path_rate);
+        let force = law.law.force(part, part_rate) + film_force(films, RacewaySide::Outer, u, path_rate);
         let (force, pushing) = ([force, force, 0.0], law.law.pushing(part, part_rate));
         OtherContact { element: 0, approach: u, pushing, force, torque: 0.0, frame: Frame::Housing }
     }
@@ -159,26 +162,33 @@ impl Model {
         at: &Meeting,
         [path_rate, speed]: [f64; 2],
         now: &Kinematics,
-        frames: &Frames,
+        (frames, films): (&Frames, Option<&FilmsNow>),
         unsolved: &mut Option<UnsolvedContact>,
     ) -> OtherContact {
         let (near, frame) = self.near_defect(RacewaySide::Outer, at, frames);
         let near =
             near.unwrap_or_else(|cause| self.without_answer(RacewaySide::Outer, at, now, frames, cause, unsolved));
         let turning = speed - frames.of(frame).speed;
-        self.outer_contact(&near, frame, [path_rate, turning], at.distance)
+        self.outer_contact(&near, frame, [path_rate, turning], at.distance, films)
     }
 
     /// An outer contact at this approach and distance from the ring's centre; the path, and the angle against the body
     /// that bears the defect, change at `rates`.
     #[inline(always)]
-    fn outer_contact(&self, near: &Approach, frame: Frame, rates: [f64; 2], distance: f64) -> OtherContact {
+    fn outer_contact(
+        &self,
+        near: &Approach,
+        frame: Frame,
+        rates: [f64; 2],
+        distance: f64,
+        films: Option<&FilmsNow>,
+    ) -> OtherContact {
         let [path_rate, turning] = rates;
         let compliant = self.outer.contact.compliance != 0.0;
         let rate = near.by_path * path_rate + near.by_angle * turning;
         let (part, part_rate) =
             if compliant { self.outer.contact.of_contact(near.value, rate) } else { (near.value, rate) };
-        let film = self.film_force(RacewaySide::Outer, near.value, rate);
+        let film = film_force(films, RacewaySide::Outer, near.value, rate);
         let outer = self.outer.contact.law.force(part, part_rate) + film;
         let (f_r, f_t) = (outer * near.radial, outer * near.tangential);
         let magnitude = outer * (near.radial * near.radial + near.tangential * near.tangential).sqrt();
@@ -188,14 +198,14 @@ impl Model {
     }
 
     /// An inner contact at this approach, q changing at `q_rate` (radial and tangential as seen from the outer ring).
-    fn inner_contact(&self, near: &Near, gap: &InnerGap, q_rate: [f64; 2]) -> OtherContact {
+    fn inner_contact(&self, near: &Near, gap: &InnerGap, q_rate: [f64; 2], films: Option<&FilmsNow>) -> OtherContact {
         let Near { approach: near, frame_speed, frame } = near;
         let (n, [radial, tangential]) = (gap.n, q_rate);
         let opening = n.x * radial + n.y * tangential;
         let turning = (n.x * tangential - n.y * radial) / gap.distance;
         let rate = -near.by_path * opening + near.by_angle * (turning - frame_speed);
         let law = &self.inner.contact.law;
-        let amount = law.force(near.value, rate) + self.film_force(RacewaySide::Inner, near.value, rate);
+        let amount = law.force(near.value, rate) + film_force(films, RacewaySide::Inner, near.value, rate);
         let (along, across) = (amount * near.radial, amount * near.tangential);
         let (f_r, f_t) = (along * n.x - across * n.y, along * n.y + across * n.x);
         let magnitude = amount * (near.radial * near.radial + near.tangential * near.tangential).sqrt();

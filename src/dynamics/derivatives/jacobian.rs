@@ -13,11 +13,11 @@
 //!
 //! The derivatives are those of the branch that the state is in; at the onset of a contact there are two.
 
-use super::linearized::{Bends, ElementVariation, Linearized};
-use super::tangent::{RingJacobian, Rings, stacked};
+use crate::dynamics::contacts::{Bends, ElementVariation, Linearized};
 use crate::dynamics::parameters::{
     BODIES, Bodies, BodyMatrix, Cells, Drive, FramedKinematics, Kinematics, Layout, Model, RingState, prescribed_rate,
 };
+use crate::dynamics::quasi_static::{RingJacobian, Rings, stacked};
 use crate::numerics::plane::Vector;
 use crate::scene::{MOST_SENSORS, Motion};
 
@@ -197,6 +197,8 @@ struct Shared {
     inverse_masses: Rings,
     /// Speed and acceleration of the frames of defects.
     frames: [[f64; 2]; 3],
+    /// Rate of the speed that oil films follow (rad/s²).
+    film_rate: f64,
 }
 
 impl Model {
@@ -219,6 +221,7 @@ impl Model {
             prescribed: [host(self.shaft.motion, &drive.shaft), host(self.housing.motion, &drive.housing)],
             inverse_masses: self.supports.inverse_masses().fixed_rows::<4>(0).into(),
             frames: drive.frame_rates(tau),
+            film_rate: drive.relative_speed.rate_at(tau),
         };
         self.add_supports(drive, tau, &shared, jacobian, by_time);
         if self.elements_in_balance() {
@@ -233,9 +236,9 @@ impl Model {
     }
 
     /// What elements in balance at every instant make of the bodies' part: by positions their elastic
-    /// [tangent](super::tangent), exact; by velocities what dampers hand on. That damping changes as rings move, by χ
-    /// δ̇ of the tangent, is left out, and so is what elements make of the derivative by time: it is for the stability
-    /// of explicit steps, and at rest, for the modes, there is none of either.
+    /// [tangent](crate::dynamics::quasi_static::tangent), exact; by velocities what dampers hand on. That damping
+    /// changes as rings move, by χ δ̇ of the tangent, is left out, and so is what elements make of the derivative by
+    /// time: it is for the stability of explicit steps, and at rest, for the modes, there is none of either.
     fn add_elements_in_balance(&self, cells: &Cells, state: &[f64], shared: &Shared, jacobian: &mut Jacobian) {
         let (mut by_position, mut by_velocity) = (RingJacobian::zeros(), RingJacobian::zeros());
         for j in 0..self.element_count {
@@ -310,7 +313,7 @@ impl Model {
             path_rate,
             cage_angle: omega,
             cage_speed: alpha,
-            clearance: 0.0,
+            film_speed: shared.film_rate,
             frames: shared.frames,
         });
         by_time[j] = path_rate;

@@ -8,12 +8,13 @@
 //! equilibrium, and by time along the motion. Derivatives are those of the branch that each contact is in; at the
 //! onset of a contact there are two.
 
-use super::linearized::{Bends, DIFFERENCE, ElementChange, ElementVariation, Linearized};
-use super::tangent::Rings;
 use crate::contact::rolling::RacewaySide;
+use crate::dynamics::contacts::{Bends, DIFFERENCE, ElementChange, ElementVariation, Linearized};
+use crate::dynamics::parameters::FilmsNow;
 use crate::dynamics::parameters::{
     CageState, Cells, Drive, Frame, FramedKinematics, Lead, Model, PathMotion, RingState, SMOOTH,
 };
+use crate::dynamics::quasi_static::Rings;
 use crate::numerics::plane::{Matrix, Vector, turned};
 
 /// A small change of state and inputs.
@@ -23,8 +24,8 @@ pub struct Variation {
     pub cage_angle: f64,
     /// Of the nominal cage speed (rad/s).
     pub cage_speed: f64,
-    /// Of the clearance, by oil films (m).
-    pub clearance: f64,
+    /// Of the speed that oil films follow (rad/s).
+    pub film_speed: f64,
     /// Of angle (rad) and speed (rad/s) of the frames of defects, in the order of
     /// [`crate::dynamics::parameters::Frame`].
     pub frames: [[f64; 2]; 3],
@@ -66,7 +67,7 @@ impl Variation {
     /// Makes it no change again; allocates nothing.
     pub fn clear(&mut self) {
         (self.cage_angle, self.cage_speed, self.frames) = (0.0, 0.0, [[0.0; 2]; 3]);
-        self.clearance = 0.0;
+        self.film_speed = 0.0;
         (self.shaft, self.housing) = (RingState::default(), RingState::default());
         self.path.fill(0.0);
         self.radial_velocity.fill(0.0);
@@ -97,11 +98,11 @@ impl ForceChange {
 }
 
 /// How an element goes round with the cage, to first order.
-struct Going {
+pub(in crate::dynamics) struct Going {
     /// Change of its angle (rad).
     turn: f64,
     /// Change of its speed (rad/s).
-    speed: f64,
+    pub(in crate::dynamics) speed: f64,
     /// Its acceleration (rad/s²).
     alpha: f64,
     /// Change of its acceleration (rad/s²).
@@ -110,7 +111,7 @@ struct Going {
 
 impl Model {
     /// How element `j` goes round as the nominal cage's angle and speed change.
-    fn going(&self, j: usize, cage: &CageState, by: &Variation) -> Going {
+    pub(in crate::dynamics) fn going(&self, j: usize, cage: &CageState, by: &Variation) -> Going {
         let Lead { rate, bend, twist, .. } = self.lead(j, cage);
         let (omega, share) = (cage.speed, 1.0 + rate);
         Going {
@@ -154,7 +155,7 @@ impl Model {
                 path_rate,
                 cage_angle: turn,
                 cage_speed: speed_change,
-                clearance: by.clearance,
+                film_speed: by.film_speed,
                 frames: by.frames,
             };
             let d = element.change(&seen);
@@ -201,13 +202,15 @@ impl Model {
     /// a small change at the instant τ = 0 of `drive`.
     pub fn vary_stiffness(&self, drive: &Drive, cells: &Cells, state: &[f64], by: &Variation) -> Matrix {
         let now = self.kinematics(drive, 0.0, state);
-        let (still, offset) = (now.standing(), now.offset());
+        let still = now.standing();
+        // What films gain a gap loses.
+        let narrower = still.films.as_ref().map_or(0.0, FilmsNow::together_by_speed) * by.film_speed;
         let mut sum = Matrix::zeros();
         for j in 0..self.element_count {
             let (in_cells, u) = (self.cells_of(cells, j), state[j]);
             let turn = self.going(j, &now.cage, by).turn;
             let rho = self.outer_centre_radius + u;
-            let element = self.linearized_at(j, in_cells, PathMotion::at_rest(u), &still, Bends::LeftOut);
+            let element = self.at_rest(j, in_cells, u, &still);
             let radial = self.radial_balance(&element).slope;
             if radial == 0.0 {
                 continue;
@@ -215,21 +218,22 @@ impl Model {
             let Linearized { e_r, e_t, by_q: g, .. } = element;
             let q = by.offset() + e_r * by.path[j] + e_t * (rho * turn);
             let dg = match in_cells[0] {
-                [SMOOTH, SMOOTH] => self.vary_inner_stiffness(u, offset, e_r, q + element.n * by.clearance),
-                _ => self.vary_near_inner_stiffness(j, in_cells, u, &still, by, element.n),
+                [SMOOTH, SMOOTH] => self.vary_inner_stiffness(u, &still, e_r, q - element.n * narrower),
+                _ => self.vary_near_inner_stiffness(j, in_cells, u, &still, by, element.n * -narrower),
             };
-            let across = g * e_r;
-            let d_across = dg * e_r + g * e_t * turn;
-            let d_radial = e_t.dot(&across) * turn + e_r.dot(&d_across)
-                - self.vary_outer_stiffness(j, in_cells, u, &still, by, turn);
-            let mixed = d_across * across.transpose();
-            sum += dg - (mixed + mixed.transpose()) / radial
-                + across * across.transpose() * (d_radial / (radial * radial));
+            // G is symmetric but where a law directs the force otherwise than its energy does.
+            let (down, along) = (g * e_r, g.tr_mul(&e_r));
+            let (d_down, d_along) = (dg * e_r + g * e_t * turn, dg.tr_mul(&e_r) + g.tr_mul(&e_t) * turn);
+            let d_radial =
+                e_t.dot(&down) * turn + e_r.dot(&d_down) - self.vary_outer_stiffness(j, in_cells, u, &still, by, turn);
+            sum += dg - (d_down * along.transpose() + down * d_along.transpose()) / radial
+                + down * along.transpose() * (d_radial / (radial * radial));
         }
         sum
     }
 
-    /// As [`Self::vary_inner_stiffness`] near a defect, by a central difference along the change.
+    /// As [`Self::vary_inner_stiffness`] near a defect, by a central difference along the change, in which the gap gets
+    /// `wider` (m) along its normal.
     fn vary_near_inner_stiffness(
         &self,
         j: usize,
@@ -237,11 +241,11 @@ impl Model {
         u: f64,
         still: &FramedKinematics,
         by: &Variation,
-        n: Vector,
+        wider: Vector,
     ) -> Matrix {
         // As long as a change of any part of it stays within a difference.
         let turns = by.frames.iter().map(|turn| turn[0].abs()).fold(by.cage_angle.abs(), f64::max);
-        let offset = by.offset() + n * by.clearance;
+        let offset = by.offset() + wider;
         let length = offset.norm() + by.path[j].abs() + self.outer_centre_radius * turns;
         if length == 0.0 {
             return Matrix::zeros();
@@ -255,15 +259,14 @@ impl Model {
             for (turn, by) in moved.frames.0.iter_mut().zip(by.frames) {
                 turn.angle += share * by[0];
             }
-            let along = PathMotion::at_rest(u + share * by.path[j]);
-            self.linearized_at(j, cells, along, &moved, Bends::LeftOut).by_q
+            self.at_rest(j, cells, u + share * by.path[j], &moved).by_q
         };
         (at(step) - at(-step)) / (2.0 * step)
     }
 
     /// Change of G = −(k + Q/|q|) n nᵀ + Q/|q| of an inner contact when the element moves by `q` from the inner ring.
-    fn vary_inner_stiffness(&self, u: f64, offset: Vector, e_r: Vector, q: Vector) -> Matrix {
-        let gap = self.inner_gap(u, offset, e_r);
+    fn vary_inner_stiffness(&self, u: f64, still: &FramedKinematics, e_r: Vector, q: Vector) -> Matrix {
+        let gap = self.inner_gap(u, still.offset(), e_r, self.clearance(still.films.as_ref()));
         if gap.approach <= 0.0 {
             return Matrix::zeros();
         }

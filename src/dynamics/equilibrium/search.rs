@@ -3,7 +3,7 @@
 //! Rings are at rest or move as prescribed, elements keep their distance from the outer ring (u' = 0) and go round with
 //! the cage: they feel gravity, the centrifugal force and the contacts' damping at those rates, so that no acceleration
 //! is left at the start. Each element's radial balance is solved inside (its force falls monotonically with u), then
-//! the internal rings' by Newton's method on the elastic [tangent](crate::dynamics::derivatives::tangent), after many
+//! the internal rings' by Newton's method on the elastic [tangent](crate::dynamics::quasi_static::tangent), after many
 //! steps on that of the damped contacts, with a shift that keeps a loose ring's step bounded, and a search along the
 //! step for the point at which the residual no longer pushes forward: in a convex potential that is the minimum along
 //! the line.
@@ -21,11 +21,12 @@
 pub use super::error::EquilibriumError;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::Meeting;
-use crate::dynamics::derivatives::{Bends, Linearized, RadialForce, Rings, stacked};
+use crate::dynamics::contacts::{Bends, Linearized};
 use crate::dynamics::parameters::{
     Cells, Drive, Frame, FramedKinematics, Kinematics, Model, PathMotion, Quadratic, SMOOTH,
 };
-use crate::dynamics::quasi_static::PathSearch;
+use crate::dynamics::quasi_static::RadialForce;
+use crate::dynamics::quasi_static::{PathSearch, Rings, stacked};
 use crate::numerics::plane::Vector;
 
 /// Share of the largest force in play that may remain as residual: a few roundings of a sum of Z forces.
@@ -120,7 +121,7 @@ impl Model {
         if cell == SMOOTH {
             return 0.0;
         }
-        let distance = self.outer_centre_radius - self.clearance();
+        let distance = self.outer_centre_radius - self.radial_clearance;
         let mut at = Meeting { element: j, cells: [cell, SMOOTH], u: 0.0, direction, distance };
         for _ in 0..20 {
             let near = self.approach(RacewaySide::Inner, &at, &now.frames).approach;
@@ -185,9 +186,10 @@ impl Model {
     /// there.
     fn check_contacts(&self, given: &Given, rings: Rings, u: &[f64]) -> Result<(), EquilibriumError> {
         let now = given.with_rings(rings);
+        let clearance = self.clearance(now.films.as_ref());
         for (j, &u) in u.iter().enumerate() {
             let cells = self.cells_of(given.cells, j);
-            let gap = self.inner_gap(u - FURTHER, now.offset(), self.direction(j, &now.cage));
+            let gap = self.inner_gap(u - FURTHER, now.offset(), self.direction(j, &now.cage), clearance);
             let inner = self.inner_meeting(j, cells[0], &gap, self.element_angle(j, &now.cage));
             let outer = Meeting { u: u + FURTHER, ..self.outer_meeting(j, cells[1], u, &now.cage) };
             for (side, at) in [(RacewaySide::Outer, outer), (RacewaySide::Inner, inner)] {
@@ -231,7 +233,7 @@ impl Model {
         let Given { drive, cells, .. } = given;
         let now = given.with_rings(rings);
         let (mut force, mut largest, mut contact_sum, mut rounding) = (Rings::zeros(), 0.0f64, 0.0, 0.0);
-        let play = now.offset().norm() + self.clearance().abs();
+        let play = now.offset().norm() + self.clearance(now.films.as_ref()).abs();
         for j in 0..self.element_count {
             let in_cells = self.cells_of(cells, j);
             let ElementAtRest { path, element, nearer } = if self.elements_in_balance() {
@@ -268,7 +270,7 @@ impl Model {
         let jacobian = if iteration > DOUBLING {
             self.ring_jacobian_at(u, given.cells, &now)
         } else {
-            self.ring_jacobian(u, given.cells, &now)
+            self.ring_jacobian_at(u, given.cells, &now.standing())
         };
         // The turning of contact forces makes a lightly held ring's tangent indefinite; its bound ΣQ/|q| takes that
         // out. The second term lets a loose ring move by the longest step, and vanishes with the residual.

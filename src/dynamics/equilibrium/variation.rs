@@ -1,14 +1,16 @@
 //! How the static equilibrium moves when an input does: the implicit function theorem.
 //!
 //! At the start each element is in radial balance with u' = 0, and so is each internal ring. A change of inputs and
-//! rings moves each path as its [balance](crate::dynamics::derivatives::tangent) asks, and the internal rings by the
+//! rings moves each path as its [balance](crate::dynamics::quasi_static::tangent) asks, and the internal rings by the
 //! solution of what is then left of theirs, four equations at most.
 //!
 //! An element that nothing touches and nothing moves stays where it is. Rings without any stiffness against them have
 //! no equilibrium of their own; their derivative does not exist.
 
-use crate::dynamics::derivatives::{Bends, ElementVariation, Linearized, RingJacobian, Rings, Variation};
+use crate::dynamics::contacts::{Bends, ElementVariation, Linearized};
+use crate::dynamics::derivatives::Variation;
 use crate::dynamics::parameters::{Cells, Drive, FramedKinematics, Model};
+use crate::dynamics::quasi_static::{RingJacobian, Rings};
 
 impl Model {
     /// Completes a change of inputs at the equilibrium `state` by what it does to rings and elements. `by` comes with
@@ -29,22 +31,26 @@ impl Model {
         let given = ElementVariation {
             offset: by.offset(),
             drift: by.drift(),
-            cage_speed: by.cage_speed,
-            clearance: by.clearance,
+            film_speed: by.film_speed,
             frames: by.frames,
             ..ElementVariation::default()
         };
         let (mut jacobian, mut force) = (RingJacobian::zeros(), loads);
+        // In an uneven cage each element goes round at its own speed.
+        let own = |j: usize, given: ElementVariation, by: &Variation| ElementVariation {
+            cage_speed: self.going(j, &now.cage, by).speed,
+            ..given
+        };
         for j in 0..self.element_count {
             let element = self.at_start(j, cells, state, &now);
             self.add_balanced(&element, &mut jacobian);
-            force += self.balanced(&element, &given).rings;
+            force += self.balanced(&element, &own(j, given, by)).rings;
         }
         by.move_rings(&self.balancing_motion(&jacobian, force)?);
         let whole = ElementVariation { offset: by.offset(), ..given };
         for j in 0..self.element_count {
             let element = self.at_start(j, cells, state, &now);
-            by.path[j] = self.balanced(&element, &whole).path;
+            by.path[j] = self.balanced(&element, &own(j, whole, by)).path;
             by.radial_velocity[j] = by.housing.velocity.dot(&element.e_r);
         }
         Some(())

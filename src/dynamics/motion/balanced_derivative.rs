@@ -4,8 +4,8 @@
 //! Elements on smooth raceways are found [side by side](crate::dynamics::quasi_static::balance_lanes), those with a
 //! contact near a defect, or on a raceway that yields, [one by one](crate::dynamics::quasi_static::element_balance).
 
+use crate::dynamics::contacts::Linearized;
 use crate::dynamics::contacts::{Forces, Record};
-use crate::dynamics::derivatives::Linearized;
 use crate::dynamics::parameters::{FramedKinematics, Kinematics, Model, SMOOTH, Stage, moved};
 use crate::dynamics::quasi_static::{BodyTorque, InBalance, SmoothElements};
 use crate::numerics::lanes::{Lanes, Wide};
@@ -49,7 +49,7 @@ impl Model {
         derivative: &mut [f64],
         forces: &mut Forces,
     ) -> [f64; 4] {
-        let now = FramedKinematics { motion: *now, frames: forces.frames };
+        let now = FramedKinematics { motion: *now, frames: forces.frames, films: None };
         let mut rings = [Vector::zeros(); 2];
         if RECORD {
             forces.torques = [0.0; 3];

@@ -71,6 +71,9 @@ impl Model {
         if SPECIAL {
             self.begin(drive);
             self.update_uneven(drive, cage, &mut forces.elements);
+            if let Some(films) = &self.films {
+                films.renew(&mut forces.films, drive.relative_speed.at(cage.tau));
+            }
         }
         let (now, tau) = (self.kinematics_of(stage), cage.tau);
         let [outer, inner] = [forces.other_outer.is_empty(), forces.other_inner.is_empty()].map(|none| !none);
@@ -102,7 +105,7 @@ impl Model {
             &now,
             stage,
             derivative,
-            &forces.elements,
+            (&forces.elements, forces.films.as_ref()),
             &mut forces.contacts,
         );
         let (shaft_x, shaft_y) = (shaft_x + on_shaft.x, shaft_y + on_shaft.y);

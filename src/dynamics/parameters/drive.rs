@@ -145,9 +145,8 @@ pub struct Drive {
     pub shaft_load: [Quadratic; 2],
     /// External load on the outer ring (N).
     pub housing_load: [Quadratic; 2],
-    /// Speed of the inner ring against the outer (rad/s) that oil films follow: that at the start of the communication
-    /// step under way, or else of the last.
-    pub film_speed: f64,
+    /// Speed of the inner ring against the outer (rad/s), which oil films follow.
+    pub relative_speed: Quadratic,
 }
 
 impl Drive {

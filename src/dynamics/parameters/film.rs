@@ -1,14 +1,20 @@
 //! The oil films of a model: how much of the clearance they take, and what resists before contacts begin.
 //!
-//! Films follow the speed at which the rings turn against each other. They are worked out where a communication step
-//! begins and stay as they are within it. Their thickness on both raceways is taken off the clearance, so that paths of
-//! elements count from the film on the outer raceway; how it yields to the changing force, 0.35 % of a contact's own
-//! compliance, is left out.
+//! Films follow the speed at which the rings turn against each other at the same instant. Their thickness on both
+//! raceways is taken off the clearance, so that paths of elements count from the film on the outer raceway; how it
+//! yields to the changing force, 0.35 % of a contact's own compliance, is left out.
+//!
+//! A thickness h that changes enters positions and no rate. With the approach Δ and the gap g = h − Δ between the
+//! surfaces, g' = h' − Δ': what a closing gap resists with follows −g', the rate of the surfaces, of which h' is no
+//! part. To the contact's own damper h' would add χ h' of its force: 2e-7 of it where h grows by 0.3 µm in half a
+//! second, which is left out.
 
 use crate::contact::law::SqueezeFilm;
+use crate::contact::law::{Force, ROUGHNESS};
+use crate::contact::rolling::RacewaySide;
+use crate::geometry::film_thickness::speed_factor;
 use crate::geometry::film_thickness::{LubricatedContact, SPEED_EXPONENT, rolling_speed_ratio};
 use crate::scene::{Remark, Scene};
-use std::cell::Cell;
 
 /// Force on the most loaded of Z elements over the whole load, times Z: Stribeck's 5.
 const MOST_LOADED: f64 = crate::geometry::STRIBECK;
@@ -18,31 +24,32 @@ const UNREMARKED: f64 = 0.5;
 
 /// What is remarked upon films that take much of the clearance at the speed of the start.
 pub fn remark(scene: &Scene) -> Option<Remark> {
-    let films = Films::of(scene)?;
-    films.begin(scene.shaft_speed - scene.housing_speed.unwrap_or(0.0));
+    let films = Films::of(scene)?.at(scene.shaft_speed - scene.housing_speed.unwrap_or(0.0));
     let (together, clearance) = (films.together(), scene.bearing.radial_clearance);
     let thick = clearance > 0.0 && together > UNREMARKED * clearance;
     thick.then_some(Remark::ThickFilms { together_um: together * 1e6, clearance_um: clearance * 1e6 })
 }
 
 /// The films of both raceways.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Films {
     contacts: [LubricatedContact; 2],
     layer: Option<f64>,
     /// ū per speed of one ring against the other.
     ratio: f64,
-    now: Cell<Now>,
 }
 
-/// Films at one speed.
-#[derive(Debug, Clone, Copy)]
-struct Now {
+/// The films of the inner and of the outer raceway at one speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FilmsNow {
+    /// What they are the films of.
+    of: Films,
+    /// What resists.
+    pub squeeze: [SqueezeFilm; 2],
+    /// Thickness (m), which is 0 where nothing turns.
+    thickness: [f64; 2],
     /// Speed of the inner ring against the outer (rad/s).
     speed: f64,
-    /// Thickness of both films together (m).
-    together: f64,
-    squeeze: [SqueezeFilm; 2],
 }
 
 impl Films {
@@ -52,40 +59,81 @@ impl Films {
         let load = [scene.shaft.load, scene.housing.load].map(|[x, y]| (x * x + y * y).sqrt());
         let force = MOST_LOADED * load[0].max(load[1]) / scene.bearing.element_count as f64;
         let contacts = LubricatedContact::of(&scene.bearing, film, force);
-        let now = Cell::new(Now::at(0.0, &contacts, film.layer, 0.0));
-        Some(Self { contacts, layer: film.layer, ratio: rolling_speed_ratio(&scene.bearing), now })
+        Some(Self { contacts, layer: film.layer, ratio: rolling_speed_ratio(&scene.bearing) })
     }
 
-    /// Tells them how fast the inner ring turned against the outer (rad/s) where the communication step began.
+    /// Those while the inner ring turns at this speed against the outer (rad/s).
     #[inline(always)]
-    pub fn begin(&self, speed: f64) {
-        if self.now.get().speed.to_bits() != speed.to_bits() {
-            self.now.set(Now::at(speed, &self.contacts, self.layer, self.ratio * speed.abs()));
+    pub fn at(&self, speed: f64) -> FilmsNow {
+        let grown = speed_factor(self.ratio * speed.abs());
+        let thickness = [0, 1].map(|side: usize| self.contacts[side].thickness(grown));
+        FilmsNow {
+            of: *self,
+            squeeze: [0, 1].map(|side| SqueezeFilm::new(self.contacts[side].squeeze, thickness[side], self.layer)),
+            thickness,
+            speed,
         }
     }
 
-    /// Thickness of both films together (m).
-    pub fn together(&self) -> f64 {
-        self.now.get().together
-    }
-
-    /// Its change with the speed of the inner ring against the outer (m s/rad); 0 where nothing turns.
-    pub fn together_by_speed(&self) -> f64 {
-        let Now { speed, together, .. } = self.now.get();
-        if speed == 0.0 { 0.0 } else { SPEED_EXPONENT * together / speed }
-    }
-
-    /// What resists on the inner and on the outer raceway.
+    /// Makes `now` the films at this speed. What is that already stays: the power in it costs as much as some elements.
     #[inline(always)]
-    pub fn squeeze(&self) -> [SqueezeFilm; 2] {
-        self.now.get().squeeze
+    pub(in crate::dynamics) fn renew(&self, now: &mut Option<FilmsNow>, speed: f64) {
+        if now.is_none_or(|now| now.of != *self || now.speed.to_bits() != speed.to_bits()) {
+            *now = Some(self.at(speed));
+        }
     }
 }
 
-impl Now {
-    fn at(speed: f64, contacts: &[LubricatedContact; 2], layer: Option<f64>, rolling: f64) -> Self {
-        let thickness = contacts.map(|contact| contact.thickness(rolling));
-        let squeeze = [0, 1].map(|side: usize| SqueezeFilm::new(contacts[side].squeeze, thickness[side], layer));
-        Self { speed, together: thickness[0] + thickness[1], squeeze }
+impl FilmsNow {
+    /// Thickness of both films together (m).
+    #[inline(always)]
+    pub fn together(&self) -> f64 {
+        self.thickness[0] + self.thickness[1]
+    }
+
+    /// Its change with the speed (m s/rad); 0 where nothing turns.
+    pub fn together_by_speed(&self) -> f64 {
+        self.relative_by_speed() * self.together()
+    }
+
+    /// Relative change of a thickness with the speed (s/rad); 0 where nothing turns.
+    fn relative_by_speed(&self) -> f64 {
+        if self.speed == 0.0 { 0.0 } else { SPEED_EXPONENT / self.speed }
+    }
+
+    /// Change of what resists on one raceway with the speed (N s/rad), at an approach (m) and its rate (m/s).
+    fn resistance_by_speed(&self, side: RacewaySide, approach: f64, rate: f64) -> f64 {
+        let thickness = self.thickness[side as usize];
+        // A film below the asperities leaves the gap to them.
+        let by_speed = if thickness > ROUGHNESS { self.relative_by_speed() * thickness } else { 0.0 };
+        self.squeeze[side as usize].by_thickness(approach, rate) * by_speed
+    }
+}
+
+/// Force of the film of one raceway (N) at an approach (m) and its rate (m/s).
+#[inline(always)]
+pub(in crate::dynamics) fn film_force(films: Option<&FilmsNow>, side: RacewaySide, approach: f64, rate: f64) -> f64 {
+    films.map_or(0.0, |films| films.squeeze[side as usize].force(|x| x, approach, rate))
+}
+
+/// What a film resists with, to first order.
+pub(in crate::dynamics) struct Resistance {
+    /// By approach and rate.
+    pub(in crate::dynamics) force: Force,
+    /// By the speed that films follow (N s/rad).
+    pub(in crate::dynamics) by_speed: f64,
+}
+
+/// As [`film_force`], with its derivatives.
+pub(in crate::dynamics) fn resistance(
+    films: Option<&FilmsNow>,
+    side: RacewaySide,
+    approach: f64,
+    rate: f64,
+) -> Resistance {
+    let Some(films) = films else { return Resistance { force: Force::default(), by_speed: 0.0 } };
+    Resistance {
+        force: films.squeeze[side as usize].with_derivatives(approach, rate),
+        by_speed: films.resistance_by_speed(side, approach, rate),
     }
 }

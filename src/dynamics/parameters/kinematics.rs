@@ -4,6 +4,7 @@
 //! Rings follow from the state where it has them, else from the host.
 
 use super::drive::{Cubic, Drive, Frames};
+use super::film::FilmsNow;
 use crate::numerics::plane::Vector;
 use crate::numerics::sin_cos;
 use std::ops::{Deref, DerefMut};
@@ -60,13 +61,16 @@ pub struct Kinematics {
     pub housing: RingState,
 }
 
-/// Cage and rings at one instant, and the frames of defects, for which few contacts ask within a step's kernels.
+/// Cage and rings at one instant, and the frames of defects and oil films, for which few contacts ask within a step's
+/// kernels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FramedKinematics {
     /// Cage and rings.
     pub motion: Kinematics,
     /// The frames of defects.
     pub frames: Frames,
+    /// The oil films; `None` of dry contacts.
+    pub films: Option<FilmsNow>,
 }
 
 impl Deref for FramedKinematics {
@@ -110,12 +114,12 @@ impl CageState {
 }
 
 impl FramedKinematics {
-    /// Nothing moves; the outer ring's centre is `offset` (m) from the inner's, frames are at their angles of the
-    /// start.
+    /// Nothing moves and contacts are dry; the outer ring's centre is `offset` (m) from the inner's, frames are at
+    /// their angles of the start.
     pub fn at_rest(cage_angle: f64, offset: Vector) -> Self {
         let housing = RingState { position: offset, ..RingState::default() };
         let (cage, shaft) = (CageState::at_rest(cage_angle), RingState::default());
-        Self { motion: Kinematics { cage, shaft, housing }, frames: Frames::default() }
+        Self { motion: Kinematics { cage, shaft, housing }, frames: Frames::default(), films: None }
     }
 
     /// The same positions with nothing moving.
@@ -123,7 +127,7 @@ impl FramedKinematics {
         let still = |ring: &RingState| RingState { velocity: Vector::zeros(), ..*ring };
         let cage = CageState { speed: 0.0, acceleration: 0.0, ..self.cage };
         let motion = Kinematics { cage, shaft: still(&self.shaft), housing: still(&self.housing) };
-        Self { motion, frames: self.frames.at_rest() }
+        Self { motion, frames: self.frames.at_rest(), films: self.films }
     }
 }
 

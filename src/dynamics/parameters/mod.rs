@@ -25,4 +25,5 @@ pub(crate) use kinematics::Stage;
 pub(crate) use sensor_modes::StepEnds;
 
 pub(in crate::dynamics) use element_block::ElementBlock;
+pub(in crate::dynamics) use film::{FilmsNow, Resistance, film_force, resistance};
 pub(in crate::dynamics) use kinematics::{PathMotion, moved, prescribed_rate};

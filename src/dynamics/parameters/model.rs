@@ -2,7 +2,7 @@
 
 use super::drive::{Drive, Frame};
 use super::element_block::{ElementBlock, blocks};
-use super::film::Films;
+use super::film::{Films, FilmsNow};
 use super::irregularity::{Irregularity, Lead};
 use super::kinematics::CageState;
 use super::layout::Layout;
@@ -197,16 +197,24 @@ impl Model {
         self.dampers.is_some()
     }
 
-    /// Tells an uneven cage after how many turns the communication step of this drive begins, and oil films at what
-    /// speed.
+    /// Tells an uneven cage after how many turns the communication step of this drive begins.
     #[inline(always)]
     pub fn begin(&self, drive: &Drive) {
         if let Some(uneven) = &self.irregularity {
             uneven.begin(drive.cage_turns);
         }
-        if let Some(films) = &self.films {
-            films.begin(drive.film_speed);
-        }
+    }
+
+    /// The oil films at `tau`; `None` of dry contacts.
+    #[inline(always)]
+    pub fn films_at(&self, drive: &Drive, tau: f64) -> Option<FilmsNow> {
+        self.films.as_ref().map(|films| films.at(drive.relative_speed.at(tau)))
+    }
+
+    /// What separates a raceway from an element pressed to the other (m), films included.
+    #[inline(always)]
+    pub fn clearance(&self, films: Option<&FilmsNow>) -> f64 {
+        films.map_or(self.radial_clearance, |films| self.radial_clearance - films.together())
     }
 
     /// What element `j` is ahead of its position in a cage that turns evenly.

@@ -11,10 +11,10 @@ impl Model {
     pub fn kinematics(&self, drive: &Drive, tau: f64, state: &[f64]) -> FramedKinematics {
         self.begin(drive);
         let motion = self.kinematics_of(&Stage { drive, cage: &drive.cage_at(tau), state, ahead: None });
-        FramedKinematics { motion, frames: drive.frames_at(tau) }
+        FramedKinematics { motion, frames: drive.frames_at(tau), films: self.films_at(drive, tau) }
     }
 
-    /// As [`kinematics`](Self::kinematics), without the frames of defects.
+    /// As [`kinematics`](Self::kinematics), without the frames of defects and oil films.
     #[inline(always)]
     pub(in crate::dynamics) fn kinematics_of(&self, at: &Stage) -> Kinematics {
         let Stage { drive, cage, state, ahead } = *at;

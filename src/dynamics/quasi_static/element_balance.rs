@@ -23,9 +23,11 @@
 //! is made smaller where one would. The path is the elastic one.
 
 use super::path_search::PathSearch;
+use super::tangent::RadialForce;
+use super::tangent::{Rings, stacked};
 use crate::contact::rolling::RacewaySide;
+use crate::dynamics::contacts::{Bends, ElementChange, ElementVariation, Linearized};
 use crate::dynamics::contacts::{Meeting, UnsolvedContact};
-use crate::dynamics::derivatives::{Bends, ElementChange, ElementVariation, Linearized, RadialForce, Rings, stacked};
 use crate::dynamics::parameters::{Frame, FramedKinematics, Model, PathMotion, SMOOTH};
 use crate::numerics::plane::{Vector, turned};
 
@@ -80,7 +82,7 @@ pub(in crate::dynamics) struct Exerted {
 
 /// A path that was searched for.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct FoundPath {
+pub(in crate::dynamics) struct FoundPath {
     /// (m)
     pub(in crate::dynamics) path: f64,
     /// How often contacts were evaluated.
@@ -139,7 +141,7 @@ impl Model {
     }
 
     /// Path of the balance, looked for from `guess` (m) on.
-    pub(super) fn balanced_path(
+    pub(in crate::dynamics) fn balanced_path(
         &self,
         j: usize,
         cells: [[u32; 2]; 2],
@@ -208,7 +210,7 @@ impl Model {
         path: f64,
         now: &FramedKinematics,
     ) -> Option<UnsolvedContact> {
-        let gap = self.inner_gap(path, now.offset(), self.direction(j, &now.cage));
+        let gap = self.inner_gap(path, now.offset(), self.direction(j, &now.cage), self.clearance(now.films.as_ref()));
         let inner = self.inner_meeting(j, cells[0], &gap, self.element_angle(j, &now.cage));
         let outer = self.outer_meeting(j, cells[1], path, &now.cage);
         // A search ends on the near side of where there is no answer.

@@ -1,6 +1,7 @@
 //! The search for the path at which an element is in radial balance.
 
-use crate::dynamics::derivatives::{Linearized, RadialForce};
+use super::tangent::RadialForce;
+use crate::dynamics::contacts::Linearized;
 use crate::dynamics::parameters::Model;
 
 /// Longest of Newton's steps (m).

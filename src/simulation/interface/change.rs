@@ -1,8 +1,9 @@
 //! A small change of the bearing, of which the derivatives of outputs are made.
 
 use super::quantity::RingName;
-use crate::dynamics::derivatives::{ForceChange, Rings, Variation};
+use crate::dynamics::derivatives::{ForceChange, Variation};
 use crate::dynamics::parameters::RingState;
+use crate::dynamics::quasi_static::Rings;
 use crate::numerics::plane::{Matrix, Vector};
 use crate::scene::MOST_SENSORS;
 

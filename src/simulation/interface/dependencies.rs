@@ -45,15 +45,17 @@ fn follows(output: Q, input: Input, defect: bool, scene: &Scene) -> bool {
     // Inner contacts see both rings, and the cage speed through the rate of approach.
     let inner = position || velocity || speed;
     // Outer contacts see the path, which is measured from the outer ring, and its rate. An element in balance hands on
-    // at once what either ring does.
+    // at once what either ring does. Oil films follow the speed.
     let balanced = scene.bearing.element_inertia == ElementInertia::None;
-    let outer = if balanced { inner } else { matches!(input, Input::Velocity(Housing, _)) || (defect && speed) };
+    let film = scene.film.is_some();
+    let outer =
+        if balanced { inner } else { matches!(input, Input::Velocity(Housing, _)) || ((defect || film) && speed) };
     match output {
         Q::Force(Shaft, _) | Q::ElementInnerForce(_) => inner,
         Q::Force(Housing, _) | Q::ElementOuterForce(_) => outer,
         Q::Acceleration(Shaft, axis) => inner || input == Input::Load(Shaft, axis),
         Q::Acceleration(Housing, axis) => outer || input == Input::Load(Housing, axis),
-        Q::Stiffness(..) => position,
+        Q::Stiffness(..) => position || (film && speed),
         // Through its spring and damper, along its direction.
         Q::SensorAcceleration(k) => match input {
             Input::Position(Housing, axis) | Input::Velocity(Housing, axis) => {
@@ -119,7 +121,7 @@ fn starts_from(output: Q, known: Q, scene: &Scene) -> bool {
 }
 
 /// Whether the static equilibrium depends on a parameter.
-fn balances(parameter: Parameter) -> bool {
+pub(in crate::simulation) fn balances(parameter: Parameter) -> bool {
     match parameter {
         // Tolerance and recorder are of steps; masses and dampers of rings matter in motion.
         Parameter::Tolerance | Parameter::RecorderFolder | Parameter::RingMass(_) | Parameter::RingDamping(_) => false,

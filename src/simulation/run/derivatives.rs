@@ -5,6 +5,9 @@
 //! is that of the static equilibrium, which moves with the input; rings at rest stay at rest. Cage angles follow no
 //! input in either case.
 //!
+//! *By parameters*, in initialization mode only, a derivative is a difference of two starts: parameters shape the model
+//! itself, down to radii and contact laws.
+//!
 //! *By time* an output changes with the states' derivatives, the cage angle and the inputs, which go on as they would
 //! in the next step: prescribed rings by their velocity and acceleration, loads and speed by the derivatives set for
 //! them.
@@ -12,13 +15,39 @@
 //! All follow from the first-order change of [`crate::dynamics::derivatives::variation`]. Means over the last step and
 //! counts of the solver change with nothing until the next step.
 
-use super::values::{as_many, out_of_range, wrong_type};
-use crate::dynamics::derivatives::stacked;
+use super::life::Fresh;
+use super::values::{as_many, out_of_range};
 use crate::dynamics::parameters::{CageState, Drive, Frame, Kinematics, Lead};
+use crate::dynamics::quasi_static::stacked;
 use crate::numerics::plane::Vector;
 use crate::simulation::interface::table::{Causality, Kind, Variable};
-use crate::simulation::interface::{Change, Input, Quantity, RingName, access};
+use crate::simulation::interface::{Change, Input, Parameter, Quantity, RingName, access, dependencies};
 use crate::simulation::{Simulation, SimulationError, VariableError};
+
+/// How far a parameter is moved for the difference of two starts. Forces of a start are known to 1e-12 of the load, and
+/// this moves them by 1e-8 to 1e-3 of it; on the way to a defect's edge it is 20 nm.
+fn difference(parameter: Parameter, nominal: f64) -> f64 {
+    match parameter {
+        Parameter::RadialClearance => 1e-9,
+        // A force changes by χ δ̇ = 1e-4 χ or by 1.5 τ δ̇/δ = 30/s τ of itself.
+        Parameter::ContactDamping => 1e-2 * nominal,
+        Parameter::CageSlip | Parameter::SpinSlip => 1e-3,
+        Parameter::RingStiffness(_) => 1e3,
+        _ => 1e-6,
+    }
+}
+
+/// Steps at which to look, and shares of the changes until there in the derivative times a step: on both sides, or
+/// where a limit is nearer than a step all on the other. The error is of second order.
+fn quotient(at: f64, step: f64, [min, max]: [Option<f64>; 2]) -> [(f64, f64); 2] {
+    if min.is_some_and(|min| at - step < min) {
+        [(1.0, 2.0), (2.0, -0.5)]
+    } else if max.is_some_and(|max| at + step > max) {
+        [(-1.0, -2.0), (-2.0, 0.5)]
+    } else {
+        [(-1.0, -0.5), (1.0, 0.5)]
+    }
+}
 
 impl Simulation {
     /// Derivatives by time of real outputs at the present time; of order 1.
@@ -56,10 +85,11 @@ impl Simulation {
         Ok(())
     }
 
-    /// The change of `unknowns`, real outputs, for a change `seed` of `knowns`, real inputs, to first order.
+    /// The change of `unknowns`, real outputs, for a change `seed` of `knowns`, real inputs or before `initialize` real
+    /// parameters, to first order.
     /// ```
     /// use brinell::scene::{Bearing, Scene};
-    /// use crate::simulation::Simulation;
+    /// use brinell::simulation::Simulation;
     ///
     /// let bearing = Bearing::steel_balls(9, 7.94e-3, 39.04e-3);
     /// let scene = Scene::builder(bearing).shaft_speed(157.1).shaft_load([0.0, -1500.0]).build()?;
@@ -89,7 +119,8 @@ impl Simulation {
         }
         for (&reference, &value) in knowns.iter().zip(seed) {
             let variable = self.variable(reference)?;
-            if access::classes(&self.access, &[reference]) != Some(access::INPUT) {
+            let class = access::classes(&self.access, &[reference]);
+            if class != Some(access::INPUT) && (self.state.started || class != Some(access::PARAMETER)) {
                 return Err(VariableError::NotAKnown { name: variable.name.clone() }.into());
             }
             if !value.is_finite() {
@@ -114,6 +145,38 @@ impl Simulation {
         self.finish_change(unknowns);
         for (value, &reference) in values.iter_mut().zip(unknowns) {
             *value = self.changed(self.quantities[reference as usize]);
+        }
+        for (&known, &weight) in knowns.iter().zip(seed) {
+            if let Quantity::Parameter(parameter) = self.quantities[known as usize]
+                && dependencies::balances(parameter)
+            {
+                self.along_parameter(unknowns, (known, parameter), weight, values)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the derivative of `unknowns` at the start by a parameter, `weight` times, to `values`.
+    fn along_parameter(
+        &self,
+        unknowns: &[u32],
+        (known, parameter): (u32, Parameter),
+        weight: f64,
+        values: &mut [f64],
+    ) -> Result<(), SimulationError> {
+        let Kind::Real { min, max, nominal, .. } = self.variable(known)?.kind else { return Ok(()) };
+        let (at, step) = (self.state.reals[known as usize], difference(parameter, nominal));
+        let (mut start, mut here) = (self.clone(), vec![0.0; unknowns.len()]);
+        start.reals(unknowns, &mut here)?;
+        let mut there = here.clone();
+        for (steps, share) in quotient(at, step, [min, max]) {
+            start.state.reals[known as usize] = at + steps * step;
+            start.outdate(Fresh::Nothing);
+            // A start beside one that exists: where there is none, the limit of what exists has no derivative.
+            start.reals(unknowns, &mut there).map_err(|_| SimulationError::NoDerivative)?;
+            for ((value, there), here) in values.iter_mut().zip(&there).zip(&here) {
+                *value += weight * share / step * (there - here);
+            }
         }
         Ok(())
     }
@@ -150,10 +213,7 @@ impl Simulation {
     /// The variable, if it is a real output.
     fn unknown(&self, reference: u32) -> Result<&Variable, VariableError> {
         let variable = self.variable(reference)?;
-        if !matches!(variable.kind, Kind::Real { .. }) {
-            return Err(wrong_type(variable, "Real"));
-        }
-        if variable.causality != Causality::Output {
+        if !matches!(variable.kind, Kind::Real { .. }) || variable.causality != Causality::Output {
             return Err(VariableError::NotAnUnknown { name: variable.name.clone() });
         }
         Ok(variable)
@@ -163,9 +223,6 @@ impl Simulation {
     fn along_inputs(&mut self, knowns: &[u32], seed: &[f64]) {
         let change = &mut self.change;
         change.clear();
-        // Of a step under way or behind the films stay as they are.
-        let films = self.model.films.as_ref().filter(|_| !self.state.started);
-        let films_by_speed = films.map_or(0.0, |films| films.together_by_speed());
         for (&reference, &value) in knowns.iter().zip(seed) {
             let Some(input) = self.quantities[reference as usize].as_input() else { continue };
             match input {
@@ -174,8 +231,7 @@ impl Simulation {
                     change.variation.cage_speed += ratios.cage[i] * value;
                     change.variation.frames[ring.frame() as usize][1] += value;
                     change.variation.frames[Frame::Spin as usize][1] += ratios.spin[i] * value;
-                    let against = if ring == RingName::Shaft { value } else { -value };
-                    change.variation.clearance -= films_by_speed * against;
+                    change.variation.film_speed += if ring == RingName::Shaft { value } else { -value };
                 }
                 Input::Load(RingName::Shaft, axis) => change.loads[axis] += value,
                 Input::Load(RingName::Housing, axis) => change.loads[2 + axis] += value,
@@ -195,6 +251,7 @@ impl Simulation {
         let variation = &mut change.variation;
         (variation.cage_angle, variation.cage_speed) = (drive.cage.0[1], drive.cage.0[2]);
         variation.frames = drive.frame_rates(0.0);
+        variation.film_speed = drive.relative_speed.rate_at(0.0);
         variation.path.copy_from_slice(&self.derivative[..z]);
         variation.radial_velocity.copy_from_slice(&self.derivative[layout.radial_velocity..][..z]);
         [variation.shaft, variation.housing] = self.model.ring_rates(drive, 0.0, &self.derivative);

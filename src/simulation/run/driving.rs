@@ -35,6 +35,7 @@ pub(in crate::simulation) fn drive(state: &State, inputs: &Inputs, ratios: &Rati
         Turning { start, since: Quadratic([0.0, sum(&value), sum(&|index| rate(index, 1))]) }
     };
     let cage = turning(state.cage.rest, ratios.cage);
+    let Quadratic([_, speed, acceleration]) = turning(0.0, [1.0, -1.0]).since;
     let [shaft_frame, housing_frame, spin] = state.frames.map(|frame| frame.rest);
     let mut drive = Drive {
         cage_start: cage.start,
@@ -49,7 +50,7 @@ pub(in crate::simulation) fn drive(state: &State, inputs: &Inputs, ratios: &Rati
         housing: [motion(&housing, 0), motion(&housing, 1)],
         shaft_load: shaft.load.map(load),
         housing_load: housing.load.map(load),
-        film_speed: state.film_speed,
+        relative_speed: Quadratic([speed, acceleration, 0.0]),
     };
     if !stepping {
         drive.cage.0[2] += state.ended.cage;
@@ -90,10 +91,4 @@ pub(in crate::simulation) fn follow(state: &mut State, inputs: &Inputs, ratios: 
         let left = |axis: usize| ended.housing[axis].second_at(step) - now.housing[axis].second_at(0.0);
         state.ended = Ended { cage: ended.cage.0[2] - now.cage.0[2], housing: [left(0), left(1)] };
     }
-}
-
-/// Speed of the inner ring against the outer (rad/s) at the communication point.
-pub(super) fn relative_speed(state: &State, inputs: &Inputs) -> f64 {
-    let [shaft, housing] = inputs.speeds.map(|index| index.map_or(0.0, |i| state.reals[i]));
-    shaft - housing
 }

@@ -148,7 +148,6 @@ impl Simulation {
                 cage: WholeAngle::new(scene.cage.initial_angle),
                 frames: [scene.shaft_initial_angle, scene.housing_initial_angle, 0.0].map(WholeAngle::new),
                 ended: Ended::default(),
-                film_speed: 0.0,
                 progress,
                 reals,
                 integers,
@@ -266,7 +265,7 @@ impl Simulation {
     /// Takes the state.
     /// ```
     /// use brinell::scene::{Bearing, Scene};
-    /// use crate::simulation::life::Simulation;
+    /// use brinell::simulation::Simulation;
     ///
     /// let bearing = Bearing::steel_balls(9, 7.94e-3, 39.04e-3);
     /// let scene = Scene::builder(bearing).shaft_speed(157.1).shaft_load([0.0, -1500.0]).build()?;
@@ -325,21 +324,18 @@ impl Simulation {
         driving::drive(&self.state, &self.inputs, &self.model.ratios, stepping)
     }
 
-    /// Oil films take the speed that the rings have now.
-    pub(super) fn begin_films(&mut self) -> Result<(), SimulationError> {
-        let Some(films) = &self.model.films else { return Ok(()) };
-        let speed = driving::relative_speed(&self.state, &self.inputs);
-        films.begin(speed);
-        let (clearance, limit) = (self.model.clearance(), self.scene.bearing.smallest_radial_clearance());
+    /// Refuses oil films that are too thick at an instant.
+    pub(super) fn check_films(&self, drive: &Drive, tau: f64) -> Result<(), SimulationError> {
+        let Some(films) = self.model.films_at(drive, tau) else { return Ok(()) };
+        let (clearance, limit) = (self.model.clearance(Some(&films)), self.scene.bearing.smallest_radial_clearance());
         if !(clearance >= limit) {
             return Err(SimulationError::ThickFilms {
                 films_um: films.together() * 1e6,
-                speed_hz: speed / TAU,
+                speed_hz: drive.relative_speed.at(tau) / TAU,
                 clearance_um: clearance * 1e6,
                 limit_um: limit * 1e6,
             });
         }
-        self.state.film_speed = speed;
         Ok(())
     }
 
@@ -355,8 +351,8 @@ impl Simulation {
         ];
         self.state.cage = WholeAngle::new(cage);
         self.state.frames = [shaft, housing, 0.0].map(WholeAngle::new);
-        self.begin_films()?;
         let drive = self.drive(false);
+        self.check_films(&drive, 0.0)?;
         let progress = &mut self.state.progress;
         *progress = new_progress(&self.model, &self.recorder);
         progress.cells = self.model.equilibrium_with_cells(&drive, &mut progress.state)?;

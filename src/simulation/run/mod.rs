@@ -8,7 +8,7 @@ mod refresh;
 mod samples;
 mod state;
 mod state_bytes;
-mod stepping;
+pub mod stepping;
 mod values;
 
 pub use arrays::{ElementArray, of_all_elements};

@@ -28,7 +28,7 @@ impl Simulation {
     ///
     /// ```
     /// use brinell::scene::{Bearing, Scene};
-    /// use crate::simulation::life::Simulation;
+    /// use brinell::simulation::Simulation;
     ///
     /// let bearing = Bearing::steel_balls(9, 7.94e-3, 39.04e-3);
     /// let scene = Scene::builder(bearing).shaft_speed(157.1).shaft_load([0.0, -1500.0]).build()?;

@@ -15,8 +15,6 @@ pub struct State {
     /// Angles of the frames of defects, in the order of [`crate::dynamics::parameters::Frame`].
     pub(in crate::simulation) frames: [WholeAngle; 3],
     pub(in crate::simulation) ended: Ended,
-    /// Speed of the inner ring against the outer (rad/s) where the last communication step began: oil films follow it.
-    pub(super) film_speed: f64,
     pub(in crate::simulation) progress: Progress,
     /// Values of the table's real variables, by index; outputs are those computed last.
     pub(in crate::simulation) reals: Vec<f64>,
@@ -44,9 +42,9 @@ impl State {
 
     /// Copies another state of the same model; allocates nothing.
     pub(super) fn copy_from(&mut self, other: &Self) {
-        let Self { time, started, cage, frames, ended, film_speed, progress, reals, integers, input_rates } = self;
+        let Self { time, started, cage, frames, ended, progress, reals, integers, input_rates } = self;
         (*time, *started, *ended) = (other.time, other.started, other.ended);
-        (*cage, *frames, *film_speed) = (other.cage, other.frames, other.film_speed);
+        (*cage, *frames) = (other.cage, other.frames);
         progress.copy_from(&other.progress);
         reals.copy_from_slice(&other.reals);
         integers.copy_from_slice(&other.integers);

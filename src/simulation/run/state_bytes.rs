@@ -29,7 +29,7 @@ impl State {
     /// Number of bytes of [`to_bytes`](Self::to_bytes).
     pub fn byte_count(&self) -> usize {
         let progress = &self.progress;
-        let fixed = 8 + 1 + 4 * (8 + 8) + 4 * 8 + 2 * 8 + (1 + 4 * 4 + 2 * 8 + 1) + 4 * 8 + 4 * 8 + 2 * 8;
+        let fixed = 8 + 1 + 4 * (8 + 8) + 3 * 8 + 2 * 8 + (1 + 4 * 4 + 2 * 8 + 1) + 4 * 8 + 4 * 8 + 2 * 8;
         let real = progress.state.len() + progress.sensor_modes.len() + progress.under_way.len() + self.reals.len();
         let rates = self.input_rates.as_flattened().len();
         fixed
@@ -52,7 +52,7 @@ impl State {
             real(&mut angle.rest, field)?;
         }
         let [x, y] = &mut self.ended.housing;
-        for value in [&mut self.ended.cage, x, y, &mut self.film_speed] {
+        for value in [&mut self.ended.cage, x, y] {
             real(value, field)?;
         }
         for value in [&mut progress.next_step, &mut progress.last_error, &mut progress.due.delay] {
@@ -138,7 +138,7 @@ impl Simulation {
         let progress = &state.progress;
         let numbers = [
             &[state.time, state.cage.rest, progress.last_error][..],
-            &[state.ended.cage, state.film_speed],
+            &[state.ended.cage],
             &state.frames.map(|frame| frame.rest),
             &state.ended.housing,
             &[progress.choice.gained, progress.choice.stable_step],

@@ -67,8 +67,7 @@ impl StepUnderWay {
 impl Simulation {
     /// Advances by exactly `step` (s).
     pub fn step(&mut self, step: f64) -> Result<(), SimulationError> {
-        let control = self.prepare(step)?;
-        let drive = self.drive(true);
+        let (control, drive) = self.prepare(step)?;
         let advanced = self.stepper(&drive, control).advance(step);
         advanced.map_err(|cause| self.failed(cause))?;
         self.arrive(&drive, step);
@@ -78,7 +77,7 @@ impl Simulation {
     /// Begins a communication step of `step` (s).
     /// ```
     /// use brinell::scene::{Bearing, Scene};
-    /// use crate::simulation::life::Simulation;
+    /// use brinell::simulation::Simulation;
     ///
     /// let bearing = Bearing::steel_balls(9, 7.94e-3, 39.04e-3);
     /// let scene = Scene::builder(bearing).shaft_speed(157.1).shaft_load([0.0, -1500.0]).build()?;
@@ -105,8 +104,7 @@ impl Simulation {
     /// # Errors
     /// A step that is not finite and above 0, or before `initialize`; what cannot be integrated.
     pub fn begin_step(&mut self, step: f64) -> Result<StepUnderWay, SimulationError> {
-        let control = self.prepare(step)?;
-        let drive = self.drive(true);
+        let (control, drive) = self.prepare(step)?;
         let begun = self.stepper(&drive, control).start(step);
         let advance = begun.map_err(|cause| self.failed(cause))?;
         Ok(StepUnderWay { drive, control, advance })
@@ -168,7 +166,7 @@ impl Simulation {
 
     /// Checks a step, and readies for it what goes along with the integration.
     #[inline]
-    fn prepare(&mut self, step: f64) -> Result<Control, SimulationError> {
+    fn prepare(&mut self, step: f64) -> Result<(Control, Drive), SimulationError> {
         if !(step > 0.0 && step.is_finite()) {
             return Err(SimulationError::CommunicationStep(step));
         }
@@ -176,7 +174,11 @@ impl Simulation {
             return Err(SimulationError::NotInitialized);
         }
         self.fresh = Fresh::State;
-        self.begin_films()?;
+        let drive = self.drive(true);
+        // The speed goes straight, so that films are thickest at an end.
+        for tau in [0.0, step] {
+            self.check_films(&drive, tau)?;
+        }
         self.model.forget_contacts();
         match self.recorder.as_mut().filter(|recorder| recorder.is_on()) {
             Some(recorder) => recorder.begin(self.state.time, self.state.angles()),
@@ -187,11 +189,12 @@ impl Simulation {
             Method::Automatic | Method::Rodas if self.model.elements_in_balance() => Method::Explicit,
             method => method,
         };
-        Ok(Control {
+        let control = Control {
             tolerance: self.inputs.tolerance.map_or(self.scene.tolerance, |i| self.state.reals[i]),
             max_steps: self.scene.max_steps,
             method,
-        })
+        };
+        Ok((control, drive))
     }
 
     #[inline]

@@ -98,10 +98,10 @@ pub fn needed_maps<'s>(scene: &Scene, surfaces: &'s [Surface]) -> Result<Vec<Nee
 /// Maps take seconds, and serve every simulation of the scene: keep their bytes, in a file or in memory, and hand them
 /// to [`Simulation::with_map`](crate::simulation::Simulation::with_map) at each start.
 /// ```
-/// use crate::contact::map::lookup::specification::Sequential;
+/// use brinell::contact::map::Sequential;
 /// use brinell::scene::{Bearing, Scene};
-/// use crate::simulation::Simulation;
-/// use crate::simulation::setup::build_map;
+/// use brinell::simulation::Simulation;
+/// use brinell::simulation::setup::build_map;
 /// use brinell::surface::Surface;
 ///
 /// // Coarse, so that it takes a moment here: leave cells and accuracy out.

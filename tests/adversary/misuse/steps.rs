@@ -188,7 +188,10 @@ pub(super) fn output_derivatives(w: &mut Walker, chance: &mut Chance, kind: bool
         match chance.below(5) {
             0 => (orders[0], verdict) = (*chance.pick(&[0, 2, -1, i32::MAX]), ERROR),
             1 => (list[0], verdict) = (w.stage.unknown(chance), ERROR),
-            2 => (list[0], verdict) = (*chance.pick(&w.stage.references(|v| !outputs.contains(&v.reference))), ERROR),
+            2 => {
+                let others = w.stage.references(|v| !outputs.contains(&v.reference));
+                (list[0], verdict) = (*chance.pick(&others), DISCARD);
+            }
             _ => {}
         }
     }
@@ -213,7 +216,7 @@ pub(super) fn directional(w: &mut Walker, chance: &mut Chance, kind: bool, _: &S
         0 if !unknowns.is_empty() => (unknowns[0], verdict) = (w.stage.unknown(chance), ERROR),
         1 if !knowns.is_empty() => {
             let others = w.stage.references(|v| !is_real(v) || v.causality == Causality::Output);
-            (knowns[0], verdict) = (*chance.pick(&others), ERROR);
+            (knowns[0], verdict) = (*chance.pick(&others), DISCARD);
         }
         2 if !seed.is_empty() => {
             seed[0] = *chance.pick(&[f64::NAN, f64::INFINITY, f64::MAX, 1e300]);

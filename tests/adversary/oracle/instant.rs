@@ -9,8 +9,6 @@ pub struct Outside {
     pub turns: [[f64; 3]; 4],
     /// As in [`crate::case::Host::rings`].
     pub rings: [[[f64; 3]; 2]; 2],
-    /// Thickness of the oil films inside and outside (m).
-    pub films: [f64; 2],
 }
 
 /// Positions and velocities: rings x y vx vy each, sensor y vy, then u and u' of each element, then impulses of the

@@ -60,7 +60,7 @@ impl Bearing {
         for j in 0..self.count {
             let seat = self.seat(j, turns[0], &motions, y);
             let ([cos, sin], rho) = (seat.e_r, seat.rho);
-            let pushes = self.pushes(j, &seat, &turns, outside.films, &stretches[j]);
+            let pushes = self.pushes(j, &seat, &turns, self.films(&turns), &stretches[j]);
             let mut net = [self.mass * self.gravity[0], self.mass * self.gravity[1]];
             for (side, push) in pushes.iter().enumerate() {
                 for a in 0..2 {

@@ -68,7 +68,7 @@ impl<'a> Run<'a> {
         let mut run = Self {
             bearing,
             y,
-            outside: Outside { turns, rings, films: bearing.films(&turns) },
+            outside: Outside { turns, rings },
             acting: Acting::default(),
             stretches: vec![[[0; 2]; 2]; bearing.count],
             largest: [0.0; 2],
@@ -150,8 +150,6 @@ impl<'a> Run<'a> {
     /// Takes a communication step; the signals at its end.
     pub fn step(&mut self, length: f64, host: Option<&Host>) -> Result<Vec<f64>, Stop> {
         self.host(host);
-        // Films stand as the rings turn where the step begins.
-        self.outside.films = self.bearing.films(&self.outside.turns);
         let impulses = ELEMENTS + 2 * self.bearing.count;
         self.y[impulses..impulses + 4].fill(0.0);
         let mut from = 0.0;

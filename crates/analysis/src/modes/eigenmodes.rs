@@ -136,8 +136,8 @@ impl Assembly {
     ///
     /// ```
     /// use brinell::scene::{Bearing, Scene};
-    /// use super::assembly::Assembly;
-    /// use crate::eigenmodes::Mode;
+    /// use brinell_analysis::modes::Assembly;
+    /// use brinell_analysis::modes::Mode;
     ///
     /// let scene = Scene::builder(Bearing::steel_balls(9, 7.94e-3, 39.04e-3)).shaft_load([0.0, -1500.0]).build()?;
     /// let modes = Assembly::new(&scene, None, None)?.modes(-std::f64::consts::FRAC_PI_2)?.modes;

@@ -30,8 +30,8 @@ const FINEST: f64 = 5e-5;
 ///
 /// ```
 /// use brinell::scene::{Bearing, Scene};
-/// use super::assembly::Assembly;
-/// use crate::lines::sweep;
+/// use brinell_analysis::modes::Assembly;
+/// use brinell_analysis::modes::sweep;
 ///
 /// let bearing = Bearing::steel_balls(9, 7.94e-3, 39.04e-3);
 /// let scene = Scene::builder(bearing).shaft_load([0.0, -1500.0]).build()?;

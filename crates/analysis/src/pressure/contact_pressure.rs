@@ -122,7 +122,7 @@ impl BallOnRaceway {
     /// ```
     /// use brinell::contact::rolling::RacewaySide;
     /// use brinell::scene::{Bearing, Scene};
-    /// use super::contact_pressure::BallOnRaceway;
+    /// use brinell_analysis::pressure::BallOnRaceway;
     ///
     /// let scene = Scene::builder(Bearing::steel_balls(9, 7.94e-3, 39.04e-3)).shaft_load([0.0, -1500.0]).build()?;
     /// let ball = BallOnRaceway::of(&scene, None, RacewaySide::Outer, 0.0)?;

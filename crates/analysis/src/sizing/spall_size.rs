@@ -47,9 +47,9 @@ const FLOOR: f64 = 0.02;
 /// ```
 /// use brinell::scene::{ContactLaw, Scene};
 /// use brinell::simulation::Simulation;
-/// use crate::recording::checked::checked::Recording;
-/// use super::report::Verdict;
-/// use super::spall_size::size;
+/// use brinell_analysis::recording::Recording;
+/// use brinell_analysis::sizing::Verdict;
+/// use brinell_analysis::sizing::size;
 ///
 /// // A healthy bearing, as its sensor hears it for half a second at 25.6 kHz.
 /// let mut scene = Scene::from_toml(include_str!("../../../../scenes/6205-spall-5deg.toml"))?;

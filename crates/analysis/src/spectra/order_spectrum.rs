@@ -100,7 +100,7 @@ pub struct OrderSpectrum {
 impl OrderSpectrum {
     /// Of a signal up to the order `highest`, or to that which its samples show.
     /// ```
-    /// use super::order_spectrum::{EvenAngles, OrderSpectrum};
+    /// use brinell_analysis::spectra::{EvenAngles, OrderSpectrum};
     ///
     /// // Run up from 10 to 20 Hz in 10 s; three waves of 2 m/s² per turn.
     /// let (rate, count) = (2000.0, 20_000);

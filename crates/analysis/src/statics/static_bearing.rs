@@ -117,7 +117,7 @@ impl StaticBearing {
     ///
     /// ```
     /// use brinell::scene::{Bearing, Scene};
-    /// use super::static_bearing::StaticBearing;
+    /// use brinell_analysis::statics::StaticBearing;
     ///
     /// let load = [0.0, -1500.0];
     /// let scene = Scene::builder(Bearing::steel_balls(9, 7.94e-3, 39.04e-3)).shaft_load(load).build()?;

@@ -16,8 +16,8 @@ const NARROW: f64 = 1e-7;
 /// Of several changes between two evenly spaced angles those are found that do not undo each other.
 /// ```
 /// use brinell::scene::{Bearing, Scene};
-/// use super::static_bearing::StaticBearing;
-/// use super::stiffness::{min_mean_max, sweep};
+/// use brinell_analysis::statics::StaticBearing;
+/// use brinell_analysis::statics::{min_mean_max, sweep};
 ///
 /// let scene = Scene::builder(Bearing::steel_balls(9, 7.94e-3, 39.04e-3)).shaft_load([0.0, -1500.0]).build()?;
 /// let balances = sweep(&StaticBearing::new(&scene, None)?, 0.0, 16)?;

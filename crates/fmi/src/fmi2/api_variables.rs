@@ -6,161 +6,73 @@
 
 use super::functions;
 use super::types::{Boolean, Component, FmiString, Integer, Real, Status, ValueReference};
-use crate::arguments::{array, array_mut, disjoint, store_all, string};
-use crate::boundary;
-use crate::instance::{Failure, finite};
+use crate::instance::{Failure, Instance, finite};
+use crate::variables::{Array, get, get_strings, none, set, set_strings};
 
-/// `fmi2GetReal`.
-///
-/// # Safety
-/// `vr` and `value` are null, or point to `nvr` elements each.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetReal(c: Component, vr: *const ValueReference, nvr: usize, value: *mut Real) -> Status {
-    boundary::call(c, &functions::GET_REAL, |instance| {
-        disjoint(vr, nvr, value, nvr)?;
-        // SAFETY: this function's contract; null, misaligned and overlapping arrays are refused.
-        let (references, values) = unsafe { (array("vr", vr, nvr)?, array_mut("value", value, nvr)?) };
+/// Refuses any variable, for there is none of this type.
+fn no_boolean(instance: &Instance, references: &[ValueReference]) -> Result<(), Failure> {
+    match references {
+        [] => Ok(()),
+        [first, ..] => Err(instance.wrong_type(*first, "Boolean").into()),
+    }
+}
+
+/// Functions by what they do, their row of the table of modes, and what the model is asked for.
+macro_rules! functions {
+    ($($(#[$meaning:meta])* $access:ident $name:ident($values:ty) $row:ident $body:expr;)*) => {$(
+        $(#[$meaning])*
+        ///
+        /// # Safety
+        /// `vr` and `value` are null, or point to `nvr` elements each; strings are null or end in NUL.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $name(
+            c: Component,
+            vr: *const ValueReference,
+            nvr: usize,
+            value: $values,
+        ) -> Status {
+            let references = Array { name: "vr", pointer: vr, count: nvr };
+            let values = Array { name: "value", pointer: value, count: nvr };
+            // SAFETY: this function's contract.
+            unsafe { functions!(@ $access, c, &functions::$row, references, values, $body) }
+        }
+    )*};
+    (@ none, $c:expr, $row:expr, $references:expr, $values:expr, $body:expr) => {{
+        // What a host says about values of which there are none does not matter.
+        let _ = $values;
+        none($c, $row, $references, $body)
+    }};
+    (@ $access:ident, $($argument:expr),*) => { $access($($argument),*) };
+}
+
+functions! {
+    /// `fmi2GetReal`.
+    get fmi2GetReal(*mut Real) GET_REAL |instance, references, values| {
         instance.simulation.reals(references, values)?;
         finite(&instance.simulation, references, values)
-    })
-}
-
-/// `fmi2GetInteger`: integers and enumerations.
-///
-/// # Safety
-/// `vr` and `value` are null, or point to `nvr` elements each.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetInteger(
-    c: Component,
-    vr: *const ValueReference,
-    nvr: usize,
-    value: *mut Integer,
-) -> Status {
-    boundary::call(c, &functions::GET_INTEGER, |instance| {
-        disjoint(vr, nvr, value, nvr)?;
-        // SAFETY: this function's contract; null, misaligned and overlapping arrays are refused.
-        let (references, values) = unsafe { (array("vr", vr, nvr)?, array_mut("value", value, nvr)?) };
+    };
+    /// `fmi2GetInteger`: integers and enumerations.
+    get fmi2GetInteger(*mut Integer) GET_INTEGER |instance, references, values| {
         Ok(instance.simulation.integers(references, values)?)
-    })
-}
-
-/// `fmi2GetBoolean`: there are no Boolean variables, so only `nvr` = 0 succeeds.
-///
-/// # Safety
-/// `vr` is null, or points to `nvr` elements.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetBoolean(
-    c: Component,
-    vr: *const ValueReference,
-    nvr: usize,
-    _value: *mut Boolean,
-) -> Status {
-    boundary::call(c, &functions::GET_BOOLEAN, |instance| {
-        // SAFETY: this function's contract; null is refused.
-        match unsafe { array("vr", vr, nvr)? } {
-            [] => Ok(()),
-            [first, ..] => Err(instance.wrong_type(*first, "Boolean").into()),
-        }
-    })
-}
-
-/// `fmi2GetString`. The strings stay valid until the next call of this function on the instance.
-///
-/// # Safety
-/// `vr` and `value` are null, or point to `nvr` elements each.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetString(
-    c: Component,
-    vr: *const ValueReference,
-    nvr: usize,
-    value: *mut FmiString,
-) -> Status {
-    boundary::call(c, &functions::GET_STRING, |instance| {
-        disjoint(vr, nvr, value, nvr)?;
-        // SAFETY: this function's contract; null, misaligned and overlapping arrays are refused.
-        let references = unsafe { array("vr", vr, nvr)? };
-        let texts = instance.simulation.strings(references)?;
-        let texts: Vec<_> = instance.keep(texts).collect();
-        // SAFETY: as above.
-        unsafe { store_all("value", value, &texts) }
-    })
-}
-
-/// `fmi2SetReal`.
-///
-/// # Safety
-/// `vr` and `value` are null, or point to `nvr` elements each.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetReal(
-    c: Component,
-    vr: *const ValueReference,
-    nvr: usize,
-    value: *const Real,
-) -> Status {
-    boundary::call(c, &functions::SET_REAL, |instance| {
-        // SAFETY: this function's contract; null and misaligned arrays are refused.
-        let (references, values) = unsafe { (array("vr", vr, nvr)?, array("value", value, nvr)?) };
+    };
+    /// `fmi2GetBoolean`: there are no Boolean variables, so only `nvr` = 0 succeeds.
+    none fmi2GetBoolean(*mut Boolean) GET_BOOLEAN no_boolean;
+    /// `fmi2GetString`. The strings stay valid until the next call of this function on the instance.
+    get_strings fmi2GetString(*mut FmiString) GET_STRING |instance, references, _| {
+        Ok(instance.simulation.strings(references)?)
+    };
+    /// `fmi2SetReal`.
+    set fmi2SetReal(*const Real) SET_REAL |instance, references, values| {
         Ok(instance.simulation.set_reals(references, values)?)
-    })
-}
-
-/// `fmi2SetInteger`: enumerations; no integer can be set.
-///
-/// # Safety
-/// `vr` and `value` are null, or point to `nvr` elements each.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetInteger(
-    c: Component,
-    vr: *const ValueReference,
-    nvr: usize,
-    value: *const Integer,
-) -> Status {
-    boundary::call(c, &functions::SET_INTEGER, |instance| {
-        // SAFETY: this function's contract; null and misaligned arrays are refused.
-        let (references, values) = unsafe { (array("vr", vr, nvr)?, array("value", value, nvr)?) };
+    };
+    /// `fmi2SetInteger`: enumerations; no integer can be set.
+    set fmi2SetInteger(*const Integer) SET_INTEGER |instance, references, values| {
         Ok(instance.simulation.set_integers(references, values)?)
-    })
-}
-
-/// `fmi2SetBoolean`: there are no Boolean variables, so only `nvr` = 0 succeeds.
-///
-/// # Safety
-/// `vr` is null, or points to `nvr` elements.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetBoolean(
-    c: Component,
-    vr: *const ValueReference,
-    nvr: usize,
-    _value: *const Boolean,
-) -> Status {
-    boundary::call(c, &functions::SET_BOOLEAN, |instance| {
-        // SAFETY: this function's contract; null is refused.
-        match unsafe { array("vr", vr, nvr)? } {
-            [] => Ok(()),
-            [first, ..] => Err(instance.wrong_type(*first, "Boolean").into()),
-        }
-    })
-}
-
-/// `fmi2SetString`. The strings are copied.
-///
-/// # Safety
-/// `vr` and `value` are null, or point to `nvr` elements each; the strings are null or end in NUL.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetString(
-    c: Component,
-    vr: *const ValueReference,
-    nvr: usize,
-    value: *const FmiString,
-) -> Status {
-    boundary::call(c, &functions::SET_STRING, |instance| {
-        // SAFETY: this function's contract; null and misaligned arrays are refused.
-        let (references, values) = unsafe { (array("vr", vr, nvr)?, array("value", value, nvr)?) };
-        let texts = values
-            .iter()
-            // SAFETY: this function's contract; null is refused.
-            .map(|pointer| unsafe { string("value", *pointer) })
-            .collect::<Result<Vec<_>, Failure>>()?;
-        Ok(instance.simulation.set_strings(references, &texts)?)
-    })
+    };
+    /// `fmi2SetBoolean`: there are no Boolean variables, so only `nvr` = 0 succeeds.
+    none fmi2SetBoolean(*const Boolean) SET_BOOLEAN no_boolean;
+    /// `fmi2SetString`. The strings are copied.
+    set_strings fmi2SetString(*const FmiString) SET_STRING |instance, references, texts| {
+        Ok(instance.simulation.set_strings(references, texts)?)
+    };
 }

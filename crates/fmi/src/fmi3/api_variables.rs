@@ -1,60 +1,50 @@
-//! The exported functions that read and set variables of the types that there are: Float64, Int64 for enumerations,
-//! UInt64 for counters, String.
+//! The exported functions that read and set variables: Float64, Int64 for enumerations, UInt64 for counters, String. Of
+//! the other types there are none, and only a call for no variables succeeds.
 //!
 //! A call sets all of its variables or none.
 
 #![allow(non_snake_case)]
 
 use super::functions;
-use super::types::{FmiString, Instance, Status, ValueReference};
-use super::values::{self, check_kind, check_scalars, may_read, may_set};
-use crate::arguments::{array, array_mut, disjoint, store_all, string};
-use crate::boundary;
-use crate::instance::Failure;
+use super::types::{Binary, Bool, FmiString, Instance, Status, ValueReference};
+use super::values::{self, check_kind, check_scalars, may_read, may_set, wrong_type};
+use crate::instance::{self, Failure};
+use crate::variables::{Array, get, get_strings, none, set, set_strings};
 use brinell::simulation::VariableError;
 use brinell::simulation::interface::table::Kind;
 
-/// `fmi3GetFloat64`.
-///
-/// # Safety
-/// `valueReferences` and `values` are null, or point to as many elements as said.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetFloat64(
-    instance: Instance,
-    valueReferences: *const ValueReference,
-    nValueReferences: usize,
-    values: *mut f64,
-    nValues: usize,
-) -> Status {
-    boundary::call(instance, &functions::GET_FLOAT64, |instance| {
-        disjoint(valueReferences, nValueReferences, values, nValues)?;
-        // SAFETY: this function's contract; null, misaligned and overlapping arrays are refused.
-        let (references, values) = unsafe {
-            (array("valueReferences", valueReferences, nValueReferences)?, array_mut("values", values, nValues)?)
-        };
-        may_read(instance, references)?;
-        values::read(instance, references, values)
-    })
+/// Functions by what they do, their row of the table of modes, and what the model is asked for.
+macro_rules! functions {
+    ($($(#[$meaning:meta])* $access:ident $name:ident($values:ty) $row:ident $body:expr;)*) => {$(
+        $(#[$meaning])*
+        ///
+        /// # Safety
+        /// `valueReferences` and `values` are null, or point to as many elements as said; strings are null or end in
+        /// NUL.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $name(
+            instance: Instance,
+            valueReferences: *const ValueReference,
+            nValueReferences: usize,
+            values: $values,
+            nValues: usize,
+        ) -> Status {
+            let references = Array { name: "valueReferences", pointer: valueReferences, count: nValueReferences };
+            let values = Array { name: "values", pointer: values, count: nValues };
+            // SAFETY: this function's contract.
+            unsafe { $access(instance, &functions::$row, references, values, $body) }
+        }
+    )*};
 }
 
-/// `fmi3GetInt64`: enumerations.
-///
-/// # Safety
-/// `valueReferences` and `values` are null, or point to as many elements as said.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetInt64(
-    instance: Instance,
-    valueReferences: *const ValueReference,
-    nValueReferences: usize,
-    values: *mut i64,
-    nValues: usize,
-) -> Status {
-    boundary::call(instance, &functions::GET_INT64, |instance| {
-        disjoint(valueReferences, nValueReferences, values, nValues)?;
-        // SAFETY: this function's contract; null, misaligned and overlapping arrays are refused.
-        let (references, values) = unsafe {
-            (array("valueReferences", valueReferences, nValueReferences)?, array_mut("values", values, nValues)?)
-        };
+functions! {
+    /// `fmi3GetFloat64`.
+    get fmi3GetFloat64(*mut f64) GET_FLOAT64 |instance, references, values| {
+        may_read(instance, references)?;
+        values::read(instance, references, values)
+    };
+    /// `fmi3GetInt64`: enumerations.
+    get fmi3GetInt64(*mut i64) GET_INT64 |instance, references, values| {
         may_read(instance, references)?;
         check_kind(instance, references, "Int64", is_enumeration)?;
         check_scalars(instance, references, values.len())?;
@@ -64,99 +54,28 @@ pub unsafe extern "C" fn fmi3GetInt64(
             *value = number[0].into();
         }
         Ok(())
-    })
-}
-
-/// `fmi3GetUInt64`: counters.
-///
-/// # Safety
-/// `valueReferences` and `values` are null, or point to as many elements as said.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetUInt64(
-    instance: Instance,
-    valueReferences: *const ValueReference,
-    nValueReferences: usize,
-    values: *mut u64,
-    nValues: usize,
-) -> Status {
-    boundary::call(instance, &functions::GET_UINT64, |instance| {
-        disjoint(valueReferences, nValueReferences, values, nValues)?;
-        // SAFETY: this function's contract; null, misaligned and overlapping arrays are refused.
-        let (references, values) = unsafe {
-            (array("valueReferences", valueReferences, nValueReferences)?, array_mut("values", values, nValues)?)
-        };
+    };
+    /// `fmi3GetUInt64`: counters.
+    get fmi3GetUInt64(*mut u64) GET_UINT64 |instance, references, values| {
         may_read(instance, references)?;
         check_kind(instance, references, "UInt64", is_counter)?;
         check_scalars(instance, references, values.len())?;
         Ok(instance.simulation.counts(references, values)?)
-    })
-}
-
-/// `fmi3GetString`. The strings stay valid until the next call of this function on the instance.
-///
-/// # Safety
-/// `valueReferences` and `values` are null, or point to as many elements as said.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetString(
-    instance: Instance,
-    valueReferences: *const ValueReference,
-    nValueReferences: usize,
-    values: *mut FmiString,
-    nValues: usize,
-) -> Status {
-    boundary::call(instance, &functions::GET_STRING, |instance| {
-        disjoint(valueReferences, nValueReferences, values, nValues)?;
-        // SAFETY: this function's contract; null, misaligned and overlapping arrays are refused.
-        let references = unsafe { array("valueReferences", valueReferences, nValueReferences)? };
+    };
+    /// `fmi3GetString`. The strings stay valid until the next call of this function on the instance.
+    get_strings fmi3GetString(*mut FmiString) GET_STRING |instance, references, count| {
         may_read(instance, references)?;
         check_kind(instance, references, "String", is_text)?;
-        check_scalars(instance, references, nValues)?;
-        let texts = instance.simulation.strings(references)?;
-        let texts: Vec<_> = instance.keep(texts).collect();
-        // SAFETY: as above.
-        unsafe { store_all("values", values, &texts) }
-    })
-}
-
-/// `fmi3SetFloat64`.
-///
-/// # Safety
-/// `valueReferences` and `values` are null, or point to as many elements as said.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetFloat64(
-    instance: Instance,
-    valueReferences: *const ValueReference,
-    nValueReferences: usize,
-    values: *const f64,
-    nValues: usize,
-) -> Status {
-    boundary::call(instance, &functions::SET_FLOAT64, |instance| {
-        // SAFETY: this function's contract; null and misaligned arrays are refused.
-        let (references, values) = unsafe {
-            (array("valueReferences", valueReferences, nValueReferences)?, array("values", values, nValues)?)
-        };
+        check_scalars(instance, references, count)?;
+        Ok(instance.simulation.strings(references)?)
+    };
+    /// `fmi3SetFloat64`.
+    set fmi3SetFloat64(*const f64) SET_FLOAT64 |instance, references, values| {
         may_set(instance, references)?;
         values::set(instance, references, values)
-    })
-}
-
-/// `fmi3SetInt64`: enumerations.
-///
-/// # Safety
-/// `valueReferences` and `values` are null, or point to as many elements as said.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetInt64(
-    instance: Instance,
-    valueReferences: *const ValueReference,
-    nValueReferences: usize,
-    values: *const i64,
-    nValues: usize,
-) -> Status {
-    boundary::call(instance, &functions::SET_INT64, |instance| {
-        // SAFETY: this function's contract; null and misaligned arrays are refused.
-        let (references, values) = unsafe {
-            (array("valueReferences", valueReferences, nValueReferences)?, array("values", values, nValues)?)
-        };
+    };
+    /// `fmi3SetInt64`: enumerations.
+    set fmi3SetInt64(*const i64) SET_INT64 |instance, references, values| {
         may_set(instance, references)?;
         check_kind(instance, references, "Int64", is_enumeration)?;
         check_scalars(instance, references, values.len())?;
@@ -166,26 +85,9 @@ pub unsafe extern "C" fn fmi3SetInt64(
         });
         let numbers: Vec<i32> = numbers.collect::<Result<_, _>>()?;
         Ok(instance.simulation.set_integers(references, &numbers)?)
-    })
-}
-
-/// `fmi3SetUInt64`: counters are computed, so only no variables at all succeed.
-///
-/// # Safety
-/// `valueReferences` and `values` are null, or point to as many elements as said.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetUInt64(
-    instance: Instance,
-    valueReferences: *const ValueReference,
-    nValueReferences: usize,
-    values: *const u64,
-    nValues: usize,
-) -> Status {
-    boundary::call(instance, &functions::SET_UINT64, |instance| {
-        // SAFETY: this function's contract; null and misaligned arrays are refused.
-        let (references, values) = unsafe {
-            (array("valueReferences", valueReferences, nValueReferences)?, array("values", values, nValues)?)
-        };
+    };
+    /// `fmi3SetUInt64`: counters are computed, so only no variables at all succeed.
+    set fmi3SetUInt64(*const u64) SET_UINT64 |instance, references, values| {
         may_set(instance, references)?;
         check_kind(instance, references, "UInt64", is_counter)?;
         check_scalars(instance, references, values.len())?;
@@ -194,36 +96,65 @@ pub unsafe extern "C" fn fmi3SetUInt64(
             // It says that they are computed.
             Some(&counter) => Ok(instance.simulation.set_integers(&[counter], &[0])?),
         }
-    })
-}
-
-/// `fmi3SetString`. The strings are copied.
-///
-/// # Safety
-/// `valueReferences` and `values` are null, or point to as many elements as said; the strings are null or end in NUL.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetString(
-    instance: Instance,
-    valueReferences: *const ValueReference,
-    nValueReferences: usize,
-    values: *const FmiString,
-    nValues: usize,
-) -> Status {
-    boundary::call(instance, &functions::SET_STRING, |instance| {
-        // SAFETY: this function's contract; null and misaligned arrays are refused.
-        let (references, values) = unsafe {
-            (array("valueReferences", valueReferences, nValueReferences)?, array("values", values, nValues)?)
-        };
+    };
+    /// `fmi3SetString`. The strings are copied.
+    set_strings fmi3SetString(*const FmiString) SET_STRING |instance, references, texts| {
         may_set(instance, references)?;
         check_kind(instance, references, "String", is_text)?;
-        check_scalars(instance, references, values.len())?;
-        let texts = values
-            .iter()
-            // SAFETY: this function's contract; null is refused.
-            .map(|pointer| unsafe { string("values", *pointer) })
-            .collect::<Result<Vec<_>, Failure>>()?;
-        Ok(instance.simulation.set_strings(references, &texts)?)
-    })
+        check_scalars(instance, references, texts.len())?;
+        Ok(instance.simulation.set_strings(references, texts)?)
+    };
+}
+
+/// Functions for types of which there are no variables, by the name that the standard gives the type.
+macro_rules! absent {
+    ($($wanted:literal: $get:ident($($read:ty),*), $set:ident($($write:ty),*);)*) => {$(
+        absent!($get($($read),*), functions::reading, may_read, $wanted);
+        absent!($set($($write),*), functions::setting, may_set, $wanted);
+    )*};
+    ($name:ident($($argument:ty),*), $row:path, $may:ident, $wanted:literal) => {
+        /// There are no variables of this type.
+        ///
+        /// # Safety
+        /// `valueReferences` is null, or points to `nValueReferences` elements; the rest is not read.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $name(
+            instance: Instance,
+            valueReferences: *const ValueReference,
+            nValueReferences: usize,
+            $(_: $argument),*
+        ) -> Status {
+            const FUNCTION: &instance::Function = &$row(stringify!($name));
+            let references = Array { name: "valueReferences", pointer: valueReferences, count: nValueReferences };
+            let refusal = |instance: &instance::Instance, references: &[ValueReference]| {
+                $may(instance, references)?;
+                none_of(instance, references, $wanted)
+            };
+            // SAFETY: this function's contract.
+            unsafe { none(instance, FUNCTION, references, refusal) }
+        }
+    };
+}
+
+absent! {
+    "Float32": fmi3GetFloat32(*mut f32, usize), fmi3SetFloat32(*const f32, usize);
+    "Int8": fmi3GetInt8(*mut i8, usize), fmi3SetInt8(*const i8, usize);
+    "UInt8": fmi3GetUInt8(*mut u8, usize), fmi3SetUInt8(*const u8, usize);
+    "Int16": fmi3GetInt16(*mut i16, usize), fmi3SetInt16(*const i16, usize);
+    "UInt16": fmi3GetUInt16(*mut u16, usize), fmi3SetUInt16(*const u16, usize);
+    "Int32": fmi3GetInt32(*mut i32, usize), fmi3SetInt32(*const i32, usize);
+    "UInt32": fmi3GetUInt32(*mut u32, usize), fmi3SetUInt32(*const u32, usize);
+    "Boolean": fmi3GetBoolean(*mut Bool, usize), fmi3SetBoolean(*const Bool, usize);
+    "Binary": fmi3GetBinary(*mut usize, *mut Binary, usize), fmi3SetBinary(*const usize, *const Binary, usize);
+    "Clock": fmi3GetClock(*mut Bool), fmi3SetClock(*const Bool);
+}
+
+/// Refuses any variable, for it has another type.
+fn none_of(instance: &instance::Instance, references: &[ValueReference], wanted: &'static str) -> Result<(), Failure> {
+    match references {
+        [] => Ok(()),
+        [first, ..] => Err(wrong_type(instance, *first, wanted)?),
+    }
 }
 
 fn is_enumeration(kind: &Kind) -> bool {

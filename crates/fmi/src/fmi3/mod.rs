@@ -11,7 +11,6 @@
 //! | `values` | how scalars and arrays are read and set |
 //! | `api_*` | the exported functions, grouped as the standard groups them |
 
-mod api_absent_types;
 mod api_dependencies;
 mod api_derivatives;
 mod api_life;
@@ -25,7 +24,6 @@ mod tests;
 mod types;
 mod values;
 
-pub use api_absent_types::*;
 pub use api_dependencies::*;
 pub use api_derivatives::*;
 pub use api_life::*;

@@ -1,8 +1,8 @@
 //! What can go wrong in a call: the status that the host gets, and the line that tells its user what to do.
 //!
 //! An error condemns the instance until it is reset or restored. Discarding is kept for what a host can put right by
-//! itself: a value outside its variable's range, a status that is not known here, a derivative that does not exist
-//! or would have no effect.
+//! itself: a value outside its variable's range, a status that is not known here, a derivative that does not exist,
+//! is not given or would have no effect.
 
 use crate::c_interface::Status;
 use crate::instance::blob::BlobError;
@@ -184,7 +184,12 @@ impl Failure {
             Failure::UnknownStatus(_)
             | Failure::Variable(VariableError::OutOfRange { .. } | VariableError::UnusedDerivative { .. })
             | Failure::Simulation(
-                SimulationError::NoDerivative | SimulationError::Variable(VariableError::OutOfRange { .. }),
+                SimulationError::NoDerivative
+                | SimulationError::Variable(
+                    VariableError::OutOfRange { .. }
+                    | VariableError::NotAKnown { .. }
+                    | VariableError::NotAnUnknown { .. },
+                ),
             ) => Status::Discard,
             _ => Status::Error,
         }

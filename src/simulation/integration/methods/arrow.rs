@@ -10,8 +10,9 @@
 
 use nalgebra::{Const, LU, SMatrix};
 
-use crate::dynamics::derivatives::{BodyIndices, Jacobian, Rings, stacked};
+use crate::dynamics::derivatives::{BodyIndices, Jacobian};
 use crate::dynamics::parameters::{BODIES, Bodies, FEW_BODIES, Model};
+use crate::dynamics::quasi_static::{Rings, stacked};
 use crate::numerics::plane::{Matrix, Vector};
 
 /// Unknowns that elements see: velocities of the inner, then the outer ring.

@@ -10,7 +10,7 @@ mod load_zone;
 pub use entry::Entry;
 pub use events::{Impact, Told};
 pub use fold::Passages;
-pub(crate) use fold::RESAMPLINGS;
 
 pub(crate) use continuity::Break;
+pub(crate) use fold::RESAMPLINGS;
 pub(crate) use load_zone::{LoadZone, MODULATED};

@@ -6,7 +6,8 @@
 //!
 //! An element that nothing touches does not answer.
 
-use super::linearized::{Bends, ElementVariation, Linearized};
+use crate::dynamics::contacts::{Bends, ElementVariation, Linearized};
+use crate::dynamics::parameters::SMOOTH;
 use crate::dynamics::parameters::{Cells, FramedKinematics, Model, PathMotion};
 use crate::numerics::plane::Vector;
 use crate::scene::Motion;
@@ -83,10 +84,28 @@ impl Model {
 
     /// Elastic Jacobian of the rings' forces at the element paths `u`, everything standing where it is in `now`.
     pub fn ring_jacobian(&self, u: &[f64], cells: &Cells, now: &FramedKinematics) -> RingJacobian {
-        self.ring_jacobian_at(u, cells, &now.standing())
+        let (still, mut jacobian) = (now.standing(), RingJacobian::zeros());
+        for (j, &u) in u.iter().enumerate().take(self.element_count) {
+            self.add_balanced(&self.at_rest(j, self.cells_of(cells, j), u, &still), &mut jacobian);
+        }
+        jacobian
     }
 
-    /// The same with the dampers' part at the velocities of `now`, each u' being 0.
+    /// An element that stands `still`, as all else does, with the exact derivatives of its forces by positions: what a
+    /// ring's motion turns at a defect inside is the force as well.
+    pub(in crate::dynamics) fn at_rest(
+        &self,
+        j: usize,
+        cells: [[u32; 2]; 2],
+        u: f64,
+        still: &FramedKinematics,
+    ) -> Linearized {
+        let bends = if cells[0] == [SMOOTH; 2] { Bends::LeftOut } else { Bends::Wanted };
+        self.linearized_at(j, cells, PathMotion::at_rest(u), still, bends)
+    }
+
+    /// As [`ring_jacobian`](Self::ring_jacobian) with the dampers' part at the velocities of `now`, each u' being 0,
+    /// and without second derivatives near defects: for searches.
     pub(in crate::dynamics) fn ring_jacobian_at(
         &self,
         u: &[f64],

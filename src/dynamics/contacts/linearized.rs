@@ -1,8 +1,9 @@
 //! One element's contacts to first order: the one source of their derivatives.
 //!
-//! From it are assembled the [Jacobian](super::jacobian) of stiff steps, the elements' and rings' balance of the
-//! [start](crate::dynamics::equilibrium::search) and how that [moves](crate::dynamics::equilibrium::variation), the
-//! [tangent stiffness](super::tangent), and the derivatives of [outputs](super::variation).
+//! From it are assembled the [Jacobian](crate::dynamics::derivatives::jacobian) of stiff steps, the elements' and
+//! rings' balance of the [start](crate::dynamics::equilibrium::search) and how that
+//! [moves](crate::dynamics::equilibrium::variation), the [tangent stiffness](crate::dynamics::quasi_static::tangent),
+//! and the derivatives of [outputs](crate::dynamics::derivatives::variation).
 //!
 //! With f the inner contact's force on the element,
 //! ```text
@@ -31,15 +32,15 @@
 //! contact there are two, and where a film's gap ceases to close. At rest all of it is elastic: G is symmetric, and no
 //! damping enters.
 
+use super::element_contacts::DIFFERENCE;
+use super::element_variation::ElementVariation;
 use crate::contact::law::{CompliantContact, ForceLaw};
 use crate::contact::near_defect::Approach;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::{InnerGap, Meeting};
+use crate::dynamics::parameters::{FilmsNow, Resistance, resistance};
 use crate::dynamics::parameters::{Frame, FramedKinematics, Model, Near, PathMotion, SMOOTH};
 use crate::numerics::plane::{Matrix, Vector, turned};
-
-/// How far apart along path and raceway the approach near the defect is sampled for its second derivatives (m).
-pub(super) const DIFFERENCE: f64 = 1e-9;
 
 /// Whether second derivatives of the outer approach are wanted, which the change of path or position needs while
 /// something moves; each costs four more samples at the defect.
@@ -61,10 +62,12 @@ pub(in crate::dynamics) struct Linearized {
     pub(in crate::dynamics) path_rate: f64,
     /// Force of the inner contact on the element (N), and its derivatives G, D.
     pub(in crate::dynamics) inner: Vector,
-    pub(super) by_q: Matrix,
-    pub(super) by_q_rate: Matrix,
+    pub(in crate::dynamics) by_q: Matrix,
+    pub(in crate::dynamics) by_q_rate: Matrix,
     /// Its derivatives by angle and speed of the body that bears the defect.
     by_inner_frame: [Vector; 2],
+    /// Derivatives of the inner force, and of the outer per unit of direction, by the speed that oil films follow.
+    by_film_speed: (Vector, f64),
     /// The frames of the bodies that bear the defects under the inner and the outer contact.
     pub(in crate::dynamics) frames: [Frame; 2],
     /// Direction and length of q (m).
@@ -84,23 +87,6 @@ pub(in crate::dynamics) struct Linearized {
     by_path_rate: f64,
     by_angle: f64,
     by_speed: f64,
-}
-
-/// A small change of what one element sees.
-#[derive(Debug, Clone, Copy, Default)]
-pub(in crate::dynamics) struct ElementVariation {
-    /// Of the outer ring's position less that of the inner.
-    pub(in crate::dynamics) offset: Vector,
-    /// Of the outer ring's velocity less that of the inner.
-    pub(in crate::dynamics) drift: Vector,
-    pub(in crate::dynamics) path: f64,
-    pub(in crate::dynamics) path_rate: f64,
-    pub(in crate::dynamics) cage_angle: f64,
-    pub(in crate::dynamics) cage_speed: f64,
-    /// Of the clearance.
-    pub(in crate::dynamics) clearance: f64,
-    /// Of angle and speed of the frames of defects, in the order of [`Frame`].
-    pub(in crate::dynamics) frames: [[f64; 2]; 3],
 }
 
 /// Change of one element's contact forces, in the directions of [`Linearized::inner`] and [`Linearized::outer`].
@@ -132,25 +118,6 @@ impl ElementChange {
     }
 }
 
-impl ElementVariation {
-    /// Of the path alone.
-    pub(in crate::dynamics) fn of_path() -> Self {
-        Self { path: 1.0, ..Self::default() }
-    }
-
-    /// Of u' alone.
-    pub(super) fn of_path_rate() -> Self {
-        Self { path_rate: 1.0, ..Self::default() }
-    }
-
-    /// Of the rings' offset along one axis alone.
-    pub(super) fn of_offset(axis: usize) -> Self {
-        let mut offset = Vector::zeros();
-        offset[axis] = 1.0;
-        Self { offset, ..Self::default() }
-    }
-}
-
 impl Linearized {
     /// The forces' change.
     #[inline]
@@ -164,10 +131,10 @@ impl Linearized {
         let (amount, turn) = self.outer_change(by);
         let [angle, speed] = by.frames[self.frames[0] as usize];
         ElementChange {
-            // A wider gap is a way along n.
-            inner: self.by_q * (q + self.n * by.clearance)
+            inner: self.by_q * q
                 + self.by_q_rate * q_rate
-                + (self.by_inner_frame[0] * angle + self.by_inner_frame[1] * speed),
+                + (self.by_inner_frame[0] * angle + self.by_inner_frame[1] * speed)
+                + self.by_film_speed.0 * by.film_speed,
             outer: self.direction * amount + turn * self.amount,
         }
     }
@@ -178,7 +145,7 @@ impl Linearized {
     }
 
     /// The change of the outer force's magnitude (N).
-    pub(super) fn outer_amount(&self, by: &ElementVariation) -> f64 {
+    pub(in crate::dynamics) fn outer_amount(&self, by: &ElementVariation) -> f64 {
         let (amount, turn) = self.outer_change(by);
         let length = self.direction.norm().max(f64::MIN_POSITIVE);
         amount * length + self.amount * self.direction.dot(&turn) / length
@@ -189,8 +156,11 @@ impl Linearized {
     fn outer_change(&self, by: &ElementVariation) -> (f64, Vector) {
         let [angle, speed] = by.frames[self.frames[1] as usize];
         let (angle, speed) = (by.cage_angle - angle, by.cage_speed - speed);
-        let amount =
-            self.by_path * by.path + self.by_path_rate * by.path_rate + self.by_angle * angle + self.by_speed * speed;
+        let amount = self.by_path * by.path
+            + self.by_path_rate * by.path_rate
+            + self.by_angle * angle
+            + self.by_speed * speed
+            + self.by_film_speed.1 * by.film_speed;
         let turn = self.direction_by_path * by.path + self.direction_by_angle * angle;
         (amount, turn)
     }
@@ -238,11 +208,11 @@ impl Model {
         let [omega, _] = self.element_speed(j, &now.cage);
         let rho = self.outer_centre_radius + u;
 
-        let gap = self.inner_gap(u, now.offset(), e_r);
+        let gap = self.inner_gap(u, now.offset(), e_r, self.clearance(now.films.as_ref()));
         let n = e_r * gap.n.x + e_t * gap.n.y;
         let q_rate = now.drift() + e_r * path_rate + e_t * (rho * omega);
         let inner = match cells[0] {
-            [SMOOTH, SMOOTH] => self.smooth_inner(&contacts[0].law, &gap, n, q_rate),
+            [SMOOTH, SMOOTH] => self.smooth_inner(&contacts[0].law, &gap, n, q_rate, now.films.as_ref()),
             cells => self.near_inner(
                 &contacts[0].law,
                 &self.inner_meeting(j, cells, &gap, self.element_angle(j, &now.cage)),
@@ -259,7 +229,8 @@ impl Model {
         let Near { approach: near, frame_speed, frame } = self.approach(RacewaySide::Outer, &at, &now.frames);
         let turning = omega - frame_speed;
         let rate = near.by_path * path_rate + near.by_angle * turning;
-        let film = self.film_force_with_derivatives(RacewaySide::Outer, near.value, rate);
+        let Resistance { force: film, by_speed: film_by_speed } =
+            resistance(now.films.as_ref(), RacewaySide::Outer, near.value, rate);
         let law = contacts[1].with_derivatives(near.value, rate).plus(film);
         let direction = Vector::new(near.radial, near.tangential);
         Linearized {
@@ -272,6 +243,7 @@ impl Model {
             by_q: inner.by_q,
             by_q_rate: inner.by_q_rate,
             by_inner_frame: inner.by_frame,
+            by_film_speed: (inner.by_film_speed, film_by_speed),
             frames: [inner.frame, frame],
             n,
             distance: gap.distance,
@@ -291,10 +263,18 @@ impl Model {
     }
 
     /// The inner contact of an element on the smooth raceway, q changing at `q_rate`.
-    fn smooth_inner(&self, law: &ForceLaw, gap: &InnerGap, n: Vector, q_rate: Vector) -> InnerContact {
+    fn smooth_inner(
+        &self,
+        law: &ForceLaw,
+        gap: &InnerGap,
+        n: Vector,
+        q_rate: Vector,
+        films: Option<&FilmsNow>,
+    ) -> InnerContact {
         let rate = -n.dot(&q_rate);
-        let film = self.film_force_with_derivatives(RacewaySide::Inner, gap.approach, rate);
-        let force = law.with_derivatives(gap.approach, rate).plus(film);
+        let film = resistance(films, RacewaySide::Inner, gap.approach, rate);
+        let force = law.with_derivatives(gap.approach, rate).plus(film.force);
+        let thicker = films.map_or(0.0, FilmsNow::together_by_speed);
         // P q̇/|q| and Q/|q|
         let turn = (q_rate + n * rate) / gap.distance;
         let across = force.value / gap.distance;
@@ -305,6 +285,7 @@ impl Model {
                 - n * (n * (force.by_approach + across) + turn * force.by_rate).transpose(),
             by_q_rate: n * n.transpose() * -force.by_rate,
             by_frame: [Vector::zeros(); 2],
+            by_film_speed: n * (force.by_approach * thicker + film.by_speed),
             frame: Frame::Shaft,
         }
     }
@@ -325,8 +306,11 @@ impl Model {
         let Near { approach: near, frame_speed, frame } = self.approach(RacewaySide::Inner, at, &now.frames);
         let turning = v_t / distance - frame_speed;
         let rate = -near.by_path * v_n + near.by_angle * turning;
-        let film = self.film_force_with_derivatives(RacewaySide::Inner, near.value, rate);
-        let law = law.with_derivatives(near.value, rate).plus(film);
+        let film = resistance(now.films.as_ref(), RacewaySide::Inner, near.value, rate);
+        let law = law.with_derivatives(near.value, rate).plus(film.force);
+        // Films take from the gap while the element stays where it is.
+        let thicker = now.films.as_ref().map_or(0.0, FilmsNow::together_by_speed);
+        let turns = if thicker == 0.0 { Vector::zeros() } else { self.direction_by_gap(at, &now.frames) };
         // Δ̇ by the approach and by the angle at constant rates of both.
         let rate_by_approach = -bend.path_path * v_n + bend.path_angle * turning;
         let rate_by_angle = -bend.path_angle * v_n + bend.angle_angle * turning;
@@ -350,6 +334,9 @@ impl Model {
             force: direction * law.value,
             by_q,
             by_q_rate: direction * along.transpose() * law.by_rate,
+            by_film_speed: direction
+                * ((law.by_approach * near.by_path + law.by_rate * rate_by_approach) * thicker + film.by_speed)
+                + (n * turns.x + t * turns.y) * (law.value * thicker),
             by_frame: [-(direction * by_turn + by_angle * law.value), -direction * (law.by_rate * near.by_angle)],
             frame,
         }
@@ -387,7 +374,8 @@ struct InnerContact {
     approach: f64,
     force: Vector,
     by_q: Matrix,
-    by_q_rate: Matrix,
+    pub(in crate::dynamics) by_q_rate: Matrix,
     by_frame: [Vector; 2],
+    by_film_speed: Vector,
     frame: Frame,
 }

@@ -5,9 +5,10 @@
 //! rule covers every change. Differences are over a nanometre; what they leave out is (1 nm/δ)², 1e-7 for a contact of
 //! 5 µm, and what rounding leaves is 1e-9.
 
-use super::element_balance::{BodyTorque, InBalance};
-use crate::dynamics::derivatives::{ForceChange, Linearized, RingJacobian, Rings, Variation, stacked};
+use crate::dynamics::contacts::Linearized;
+use crate::dynamics::derivatives::variation::{ForceChange, Variation};
 use crate::dynamics::parameters::{CageState, Cells, Drive, Frame, FramedKinematics, Model};
+use crate::dynamics::quasi_static::{BodyTorque, InBalance, RingJacobian, Rings, stacked};
 use crate::numerics::plane::{Vector, turned};
 
 /// Farthest that rings are moved apart (m), and the way along the raceway by which cage and frames are turned (m).
