@@ -224,10 +224,14 @@ fn cutting_communication_steps_changes_nothing() {
     for_seeds(12, |_, draw| {
         let case = scene(draw, true);
         let shares: Vec<f64> = case.steps.iter().map(|_| draw.between(0.02, 0.98)).collect();
-        let whole = course(&case.cut(|i| shares[i]), |_| {});
-        let every_other = |samples: Vec<Vec<f64>>| samples.into_iter().step_by(2).collect();
+        let (mut cut, halvings) = (case.cut(|i| shares[i]), draw.below(4));
+        for _ in 0..halvings {
+            cut = cut.cut(|_| 0.5);
+        }
+        let whole = course(&cut, |_| {});
+        let kept = |samples: Vec<Vec<f64>>| samples.into_iter().step_by(2 << halvings).collect();
         let names = signals(&case);
-        let mut other = Course { samples: every_other(whole.samples), failed: whole.failed };
+        let mut other = Course { samples: kept(whole.samples), failed: whole.failed };
         // Means are those of the last part.
         let means: Vec<usize> = (0..names.len()).filter(|&i| names[i].0.contains("mean_force")).collect();
         let base = course(&case, |_| {});

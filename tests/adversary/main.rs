@@ -9,6 +9,7 @@
 // What helpers unwrap is the test's own set-up.
 #![allow(clippy::unwrap_used, clippy::expect_used, unreachable_pub)]
 
+mod derivatives;
 #[path = "../fmi2/host.rs"]
 #[allow(dead_code)]
 mod host;
@@ -19,7 +20,11 @@ mod scenes;
 mod subject;
 #[path = "../support/mod.rs"]
 mod support;
+#[path = "../fmi3/host.rs"]
+#[allow(dead_code)]
+mod three;
 mod units;
 
 use brinell_oracle as oracle;
 use brinell_oracle::{case, draw, random_case};
+use host as two;

@@ -1,5 +1,6 @@
 //! Random scenes against the oracle.
 
+mod commands;
 mod found;
 mod judge;
 mod report;
@@ -15,17 +16,21 @@ use brinell::contact::error::ContactError;
 use brinell::contact::near_defect::Lever;
 use brinell::dynamics::parameters::{Defects, Frames, SMOOTH};
 use brinell::simulation::SimulationError;
-use judge::judge;
+use judge::{Verdict, judge};
 use report::{Came, Entry, Tally};
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 use std::fs::{self, OpenOptions};
 use std::io::Write;
 
-/// Judges the scene of a seed.
+/// Judges the scene of a seed: its run, and what the commands say about it.
 fn judged(seed: u64) -> Entry {
     let (kind, case) = random(&mut Draw::new(seed));
-    Entry::new(seed, kind, case.tolerance, judge(&case))
+    let (verdict, compared) = match commands::compared(&case) {
+        Ok(compared) => (judge(&case), compared),
+        Err(why) => (Verdict::Failed(why), [false; 3]),
+    };
+    Entry::new(seed, kind, case.tolerance, verdict, compared)
 }
 
 /// A scene that is replayed alone, as files.

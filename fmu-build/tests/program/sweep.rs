@@ -3,6 +3,7 @@
 
 mod ends;
 mod files;
+mod oracle;
 mod rings;
 
 use crate::common;

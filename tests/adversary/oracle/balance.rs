@@ -5,7 +5,7 @@
 
 use crate::bearing::Bearing;
 use crate::case::{Case, Motion};
-use crate::instant::{Acting, ELEMENTS, Outside};
+use crate::instant::{Acting, Contact, ELEMENTS, Outside};
 use crate::run::{Pace, Run};
 use crate::surface::Stretches;
 use std::f64::consts::TAU;
@@ -22,13 +22,7 @@ struct Search<'a> {
 /// Largest net force (N) that is left on a free ring or an element at the best stable balance found, and the largest
 /// force in play.
 pub fn best(bearing: &Bearing, case: &Case) -> (f64, f64) {
-    let run = Run::new(bearing, vec![0.0; bearing.state_count()], case.steps[0].host.as_ref(), Pace::STANDING);
-    let free = (0..2).filter(|&which| case.rings[which].motion == Motion::Internal);
-    let free = free.flat_map(|which| [4 * which, 4 * which + 1]).collect();
-    // At the start the host's derivatives of loads and speed are not at work yet.
-    let mut outside = run.outside;
-    outside.turns.iter_mut().for_each(|turn| turn[2] = 0.0);
-    let mut search = Search { bearing, outside, stretches: run.stretches, free, acting: Acting::default() };
+    let mut search = Search::new(bearing, case);
     let mut best = (f64::INFINITY, 0.0);
     let soft = case.rings.iter().filter(|ring| ring.motion == Motion::Internal && ring.stiffness > 0.0);
     let sag = soft.map(|ring| ring.load[0].hypot(ring.load[1]) / ring.stiffness).fold(0.0, f64::max);
@@ -46,6 +40,40 @@ pub fn best(bearing: &Bearing, case: &Case) -> (f64, f64) {
         }
     }
     best
+}
+
+/// A bearing whose shaft is held at a position, each element in balance.
+pub struct Held {
+    /// On the shaft, its load with it (N).
+    pub force: [f64; 2],
+    /// Inner and outer contact of each element.
+    pub contacts: Vec<[Contact; 2]>,
+    pub outside: Outside,
+    pub stretches: Vec<Stretches>,
+    pub y: Vec<f64>,
+}
+
+/// How a case stands between rings of which the shaft is at `shaft` (m) and the housing fixed.
+pub fn held(bearing: &Bearing, case: &Case, shaft: [f64; 2]) -> Held {
+    let mut y = vec![0.0; bearing.state_count()];
+    y[..2].copy_from_slice(&shaft);
+    let mut search = Search::new(bearing, case);
+    let (force, _) = search.force(&mut y);
+    let Search { outside, stretches, acting, .. } = search;
+    Held { force: [force[0], force[1]], contacts: acting.contacts, outside, stretches, y }
+}
+
+impl<'a> Search<'a> {
+    fn new(bearing: &'a Bearing, case: &Case) -> Self {
+        let host = case.steps.first().and_then(|step| step.host.as_ref());
+        let run = Run::new(bearing, vec![0.0; bearing.state_count()], host, Pace::STANDING);
+        let free = (0..2).filter(|&which| case.rings[which].motion == Motion::Internal);
+        let free = free.flat_map(|which| [4 * which, 4 * which + 1]).collect();
+        // At the start the host's derivatives of loads and speed are not at work yet.
+        let mut outside = run.outside;
+        outside.turns.iter_mut().for_each(|turn| turn[2] = 0.0);
+        Self { bearing, outside, stretches: run.stretches, free, acting: Acting::default() }
+    }
 }
 
 impl Search<'_> {

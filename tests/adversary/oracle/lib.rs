@@ -21,6 +21,7 @@ pub mod growth;
 pub mod half_space;
 mod hertz;
 mod instant;
+pub mod linear;
 pub mod oil;
 pub mod random_case;
 mod rates;

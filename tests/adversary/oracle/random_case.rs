@@ -16,7 +16,7 @@ use crate::bearing::Bearing;
 use crate::case::{Case, Damping, Defect, Grooves, Motion, On, Ring, Step};
 use crate::draw::Draw;
 use inputs::Inputs;
-use parts::Elements;
+use parts::{Elements, Wish};
 use scale::Scale;
 use shape::Around;
 use space::Space;
@@ -84,8 +84,31 @@ fn scene(draw: &mut Draw, space: Space, mut parts_draw: Option<Draw>) -> (Kind, 
     let way = space.way(draw, &mut case);
     kind.outer_ring = if case.housing_hz.is_some() { "outer ring turns" } else { "outer ring does not turn" };
     let time = time(&case, &scale) * draw.log(0.03, 1.0);
-    kind.speed = motion(draw, &mut case, &scale, time, way);
+    let wish = parts_draw.as_mut().map(|parts_draw| Wish::random(parts_draw, &case)).unwrap_or_default();
+    kind.speed = motion(draw, &mut case, &scale, time, (way, wish));
     (kind, case)
+}
+
+/// Straight rollers as a user has them: loose on the unloaded side, turning slowly. Whoever asks has a damping and an
+/// angle of the cage for them.
+pub fn slow_straight_rollers(draw: &mut Draw) -> Case {
+    let (count, diameter_mm) = (5 + draw.below(16), draw.log(3.0, 30.0));
+    let load = draw.log(30.0, 3000.0);
+    let shaft = Ring { motion: Motion::Internal, load: [0.0, -load], mass: 3.0, damping: 1400.0, stiffness: 0.0 };
+    let mut case = Case {
+        gravity: [0.0, -9.81],
+        count,
+        diameter_mm,
+        pitch_mm: diameter_mm * draw.between(1.05, 1.5) / (PI / count as f64).sin(),
+        clearance_um: draw.log(1.0, 60.0),
+        rings: [shaft, Ring::FIXED],
+        speed_hz: draw.log(0.5, 8.0) * draw.sign(),
+        steps: vec![Step { length: 1e-6, host: None }],
+        ..Case::at_rest()
+    };
+    parts::rollers(draw, &mut case);
+    case.roller.iter_mut().for_each(|roller| roller.crowned = false);
+    case
 }
 
 /// A defect of a body that is no longer than so much (m).
@@ -268,7 +291,7 @@ fn time(case: &Case, scale: &Scale) -> f64 {
 }
 
 /// Speeds, steps and inputs for a run of so many seconds, in which the rings turn in these proportions.
-fn motion(draw: &mut Draw, case: &mut Case, scale: &Scale, time: f64, way: [f64; 2]) -> &'static str {
+fn motion(draw: &mut Draw, case: &mut Case, scale: &Scale, time: f64, (way, wish): ([f64; 2], Wish)) -> &'static str {
     let past = Bearing::smooth(case).past(case.defects.first().map(|defect| defect.on), way);
     // As far as the defect is long, or a part of it.
     let bearer = case.defects.first().map_or(scale.raceway, |defect| scale.bearer(defect.on));
@@ -294,7 +317,7 @@ fn motion(draw: &mut Draw, case: &mut Case, scale: &Scale, time: f64, way: [f64;
         }
     }
     let standing = draw.chance(0.05);
-    let size = if standing { 0.0 } else { size };
+    let size = if standing { 0.0 } else { wish.size.unwrap_or(size) };
     case.speed_hz = size * way[0] / TAU;
     case.housing_hz = case.housing_hz.map(|_| size * way[1] / TAU);
     let count = 2 + draw.below(12);
@@ -302,7 +325,9 @@ fn motion(draw: &mut Draw, case: &mut Case, scale: &Scale, time: f64, way: [f64;
     let shares: Vec<f64> = (0..count).map(|i| draw.log(0.05, 1.0) * (0.1 + i as f64)).collect();
     let whole: f64 = shares.iter().sum();
     let lengths: Vec<f64> = shares.into_iter().map(|share| time * share / whole).collect();
-    let way = if standing { "standing" } else { draw.pick(&["steady", "steady", "ramp", "reversal", "jumps"]) };
+    let ways = ["steady", "steady", "ramp", "reversal", "jumps"];
+    let drawn = if standing { "standing" } else { draw.pick(&ways) };
+    let way = wish.way.filter(|_| !standing).unwrap_or(drawn);
     let mut inputs = Inputs::new(draw, case, scale, time);
     for (i, length) in lengths.into_iter().enumerate() {
         let silent = i > 0 && draw.chance(0.2);

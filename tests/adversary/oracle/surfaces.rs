@@ -92,6 +92,14 @@ impl Bearing {
         };
         turn(0) - frame
     }
+
+    /// Characteristic frequencies (Hz) at the speeds of the start: how often elements pass a point of the outer ring
+    /// and of the inner one, and how often an element and the cage turn, the element against the cage.
+    pub fn frequencies(&self) -> [f64; 4] {
+        let of = |on: Option<On>| self.past(on, self.speeds).abs() / TAU;
+        let (count, element) = (self.count as f64, On::Element { element: 0, tilt_deg: 0.0 });
+        [count * of(Some(On::Outer)), count * of(Some(On::Inner)), of(Some(element)), of(None)]
+    }
 }
 
 /// The surfaces of a case; none where a topography has no envelope.

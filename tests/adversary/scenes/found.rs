@@ -1,11 +1,11 @@
 //! Scenes that have failed once, each with what was wrong.
 
 use super::judge::{Verdict, judge, start};
-use crate::case::{Case, Grooves, Motion, Ring, Step};
-use crate::draw::Draw;
+use crate::case::{Case, Damping, Grooves, Motion, Ring, Step};
+use crate::draw::{Draw, for_seeds};
 use crate::oracle::Bearing;
 use crate::oracle::signals::signals;
-use crate::random_case::{of_dry_balls, on_the_outer_raceway};
+use crate::random_case::{of_dry_balls, on_the_outer_raceway, slow_straight_rollers};
 use crate::subject::{Refusal, Subject};
 use brinell::contact::error::ContactError;
 use brinell::simulation::SimulationError;
@@ -191,6 +191,28 @@ fn a_trace_over_a_topography_is_refused_as_an_overlap() {
 #[test]
 fn a_start_without_a_load_leaves_what_counts_as_none() {
     agreed(8, judge(&of_dry_balls(&mut Draw::new(8)).1));
+}
+
+/// A damper whose force begins with an infinite slope outgrew the weight of a roller that rests on the inner ring,
+/// between two neighbouring numbers of its path: 12 to 19 of 24 cage angles were refused.
+#[test]
+fn straight_rollers_start_at_any_cage_angle_under_either_damping() {
+    for_seeds(8, |_, draw| {
+        let slow = slow_straight_rollers(draw);
+        for damping in [Damping::Proportional(draw.log(1e-7, 1e-4)), Damping::HuntCrossley(draw.log(0.01, 5.0))] {
+            for _ in 0..12 {
+                let case = Case { damping, cage_deg: draw.between(-180.0, 180.0), ..slow.clone() };
+                let why = match judge(&case) {
+                    Verdict::Agreed(_) => continue,
+                    Verdict::Refused(error) => error.to_string(),
+                    Verdict::Undecided(why) => why.to_owned(),
+                    Verdict::Failed(why) => why,
+                };
+                return Err(format!("{damping:?} at {} degrees: {why}", case.cage_deg));
+            }
+        }
+        Ok(())
+    });
 }
 
 /// The start alone, which is a balance and has the oracle's forces.

@@ -95,7 +95,7 @@ fn refused_start(case: &Case, error: SimulationError) -> Verdict {
 }
 
 /// The oracle's state vector from the signals at the start.
-fn start_state(case: &Case, names: &[(String, Kind)], sample: &[f64]) -> Vec<f64> {
+pub fn start_state(case: &Case, names: &[(String, Kind)], sample: &[f64]) -> Vec<f64> {
     let values: BTreeMap<&str, f64> = names.iter().map(|(name, _)| name.as_str()).zip(sample.iter().copied()).collect();
     let mut y = vec![0.0; Bearing::smooth(case).state_count()];
     for (which, name) in ["shaft", "housing"].into_iter().enumerate() {
@@ -136,7 +136,19 @@ pub fn start(bearing: &Bearing, case: &Case, first: &[f64], names: &[(String, Ki
         let leans = contact.force * kappa.sin().abs() * kappa.cos().powi(2) / distance;
         (contact.by_rate * over.rate.abs() + leans) * slope_error(bearing, over.surface, over.psi)
     };
-    let limits: Vec<f64> = (0..bearing.count).map(|j| limit + leaning(j, 0) + leaning(j, 1)).collect();
+    // A damper that pushes with an infinite slope at first may leap over a balance between two numbers of a path: then
+    // what is left changes its sign there.
+    let leaps = |j: usize| {
+        let left = |by: f64| {
+            let mut y = run.y.clone();
+            y[ELEMENTS + 2 * j] += by;
+            let there = Run::new(bearing, y, case.steps[0].host.as_ref(), Pace::STANDING);
+            bearing.mass * (there.rates()[ELEMENTS + 2 * j + 1] + there.carried(j))
+        };
+        let [inwards, outwards] = [-1.0, 1.0].map(|by| left(by * rounding(bearing)));
+        if inwards > 0.0 && outwards < 0.0 { inwards - outwards } else { 0.0 }
+    };
+    let limits: Vec<f64> = (0..bearing.count).map(|j| limit + leaning(j, 0) + leaning(j, 1) + leaps(j)).collect();
     let limit: f64 = limits.iter().sum();
     for j in 0..bearing.count {
         let limit = limits[j];

@@ -1,5 +1,6 @@
 //! What many random scenes came to: the section of `docs/stability.md`.
 
+use super::commands::Compared;
 use super::judge::{Measure, Verdict};
 use crate::random_case::Kind;
 use crate::subject::Refusal;
@@ -14,6 +15,8 @@ pub struct Entry {
     /// Body with the defect, its shape, motion of the rings, whether the outer one turns, speed, what rolls.
     names: [String; 6],
     tolerance: f64,
+    /// Whether the numbers of `stiffness`, its critical load and `modes` were compared.
+    compared: Compared,
     pub came: Came,
 }
 
@@ -29,7 +32,7 @@ pub enum Came {
 const QUANTILES: [f64; 4] = [0.5, 0.9, 0.99, 1.0];
 
 impl Entry {
-    pub fn new(seed: u64, kind: Kind, tolerance: f64, verdict: Verdict) -> Self {
+    pub fn new(seed: u64, kind: Kind, tolerance: f64, verdict: Verdict, compared: Compared) -> Self {
         let came = match verdict {
             Verdict::Agreed(measure) => Came::Agreed(measure),
             Verdict::Refused(error) => Came::Refused(class(&error), error.to_string()),
@@ -40,6 +43,7 @@ impl Entry {
             seed,
             names: [kind.on, kind.defect, kind.motion, kind.outer_ring, kind.speed, kind.elements].map(str::to_owned),
             tolerance,
+            compared,
             came,
         }
     }
@@ -51,6 +55,8 @@ impl Entry {
         let mut name = || fields.next().map(str::to_owned);
         let names = [name()?, name()?, name()?, name()?, name()?, name()?];
         let tolerance = fields.next()?.parse().ok()?;
+        let mut compared = [false; 3];
+        compared.iter_mut().zip(fields.next()?.chars()).for_each(|(compared, digit)| *compared = digit == '1');
         let (verdict, rest) = (fields.next()?, fields.collect::<Vec<_>>());
         let came = match (verdict, &rest[..]) {
             ("agreed", [start, error, units, judged]) => Came::Agreed(Measure {
@@ -64,13 +70,15 @@ impl Entry {
             ("failed", [why, "."]) => Came::Failed((*why).to_owned()),
             _ => return None,
         };
-        Some(Self { seed, names, tolerance, came })
+        Some(Self { seed, names, tolerance, compared, came })
     }
 }
 
 impl Display for Entry {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        let [stiffness, critical, modes] = self.compared.map(u8::from);
         write!(f, "{}\t{}\t{:e}\t", self.seed, self.names.join("\t"), self.tolerance)?;
+        write!(f, "{stiffness}{critical}{modes}\t")?;
         let one_line = |text: &str| text.replace(['\t', '\n'], " ");
         match &self.came {
             Came::Agreed(m) => write!(f, "agreed\t{:e}\t{:e}\t{:e}\t{:e}", m.start, m.error, m.units, m.judged),
@@ -126,6 +134,16 @@ impl<'a> Tally<'a> {
         );
         let whole = self.agreed.iter().filter(|(_, measure)| measure.judged > 0.999).count();
         writeln!(text, "{whole} were judged to their end, the others until bounces let nobody say more.\n").unwrap();
+        let count = |which: usize| self.entries.iter().filter(|entry| entry.compared[which]).count();
+        writeln!(
+            text,
+            "The numbers of the commands were the oracle's as well: load distribution and stiffness of {} scenes, \
+             critical loads of {}, modes of {}, and characteristic frequencies of all.\n",
+            count(0),
+            count(1),
+            count(2)
+        )
+        .unwrap();
         self.errors(&mut text);
         text += "| refused, or not judged | scenes | for example |\n|---|---:|---|\n";
         for (class, (count, example)) in refused {

@@ -5,7 +5,7 @@ use crate::bearing::Bearing;
 use crate::case::{Case, Film, Mode, Roller};
 use crate::draw::Draw;
 use crate::oil::THINNEST;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// What rolls, and in what.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,6 +21,26 @@ impl Elements {
             0..4 => Self::Rollers,
             4..6 => Self::OiledBalls,
             _ => Self::Balls,
+        }
+    }
+}
+
+/// What else than usual a scene of these elements is to do.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Wish {
+    /// Speed (rad/s) of the ring that turns.
+    pub(super) size: Option<f64>,
+    pub(super) way: Option<&'static str>,
+}
+
+impl Wish {
+    /// Oil films follow a speed that changes, and straight rollers turn as slowly as users turn them, where dampers
+    /// count beside a roller's weight.
+    pub(super) fn random(draw: &mut Draw, case: &Case) -> Self {
+        let (film, straight) = (case.film.is_some(), case.roller.is_some_and(|roller| !roller.crowned));
+        Self {
+            size: (straight && draw.chance(0.3)).then(|| TAU * draw.log(0.5, 8.0) * draw.sign()),
+            way: (film && draw.chance(0.5)).then(|| draw.pick(&["ramp", "reversal"])),
         }
     }
 }

@@ -1,0 +1,339 @@
+//! Derivatives that hosts of FMI 3.0 and 2.0 ask for, against differences: by every known of every unknown that the
+//! model description lists, in initialization mode and at a communication point, and by time; of shipped scenes and of
+//! random ones.
+//!
+//! A difference knows its own error by half its step. Where an element begins to be pressed within it, it says nothing.
+
+use crate::case::{Case, Motion, Shape};
+use crate::draw::for_seeds;
+use crate::host::Resources;
+use crate::random_case::random;
+use crate::three::{Host, reals};
+use crate::two;
+use brinell::scene::Scene;
+use brinell::simulation::Simulation;
+use brinell::simulation::interface::table::{Causality, Dependencies, Kind};
+use brinell_fmi::fmi2::fmi2GetDirectionalDerivative;
+use brinell_fmi::fmi3::{Status, fmi3GetDirectionalDerivative, fmi3GetOutputDerivatives};
+use std::sync::Arc;
+
+/// Part of a derivative that a difference's own error may be, to say anything.
+const TELLING: f64 = 1e-2;
+
+/// Both versions' instances of the same resources, and what they list.
+struct Both {
+    three: Host,
+    two: two::Host,
+    /// Outputs, arrays by their first reference, and the rows of all their values.
+    unknowns: Vec<u32>,
+    rows: Vec<u32>,
+    dependencies: Vec<Dependencies>,
+}
+
+/// How many derivatives were compared, and how many a difference said nothing about.
+#[derive(Default)]
+struct Count {
+    compared: usize,
+    untold: usize,
+}
+
+impl Both {
+    fn new(resources: Resources) -> Result<Self, String> {
+        let resources = Arc::new(resources);
+        let two = two::Host::with(Arc::clone(&resources), "instance", false);
+        let three = Host::with(resources, "instance 1", &[], None);
+        let simulation = three.simulation();
+        let is_output = |row: &u32| simulation.table()[*row as usize].causality == Causality::Output;
+        let arrays = simulation.arrays();
+        let unknowns: Vec<u32> = reals(simulation).0.into_iter().filter(is_output).collect();
+        let all = |first: &u32| match arrays.iter().find(|array| array.rows[0] == *first) {
+            Some(array) => array.rows.iter().copied().collect(),
+            None => vec![*first],
+        };
+        let rows = unknowns.iter().flat_map(all).collect();
+        let dependencies = simulation.dependencies();
+        Ok(Self { two, unknowns, rows, dependencies, three })
+    }
+
+    fn name(&self, row: u32) -> &str {
+        &self.three.table()[row as usize].name
+    }
+
+    /// Size of a variable by which its roundings are measured, a ten-thousandth of the usual one.
+    fn nominal(&self, row: u32) -> f64 {
+        match self.three.table()[row as usize].kind {
+            Kind::Real { nominal, .. } => 1e-4 * nominal,
+            _ => 0.0,
+        }
+    }
+
+    fn outputs(&self) -> Result<Vec<f64>, String> {
+        self.three.get_values(&self.unknowns, self.rows.len()).map_err(|_| self.three.last_message())
+    }
+
+    /// Derivatives of all outputs by one known, by both versions.
+    fn given(&self, known: u32) -> Result<Vec<f64>, String> {
+        let mut found = [vec![f64::NAN; self.rows.len()], vec![f64::NAN; self.rows.len()]];
+        // SAFETY: the arrays are as long as said.
+        let (of_three, of_two) = unsafe {
+            let (knowns, seed) = (&raw const known, &1.0);
+            let values = found[0].as_mut_ptr();
+            let unknowns = (self.unknowns.as_ptr(), self.unknowns.len());
+            let of_three = fmi3GetDirectionalDerivative(
+                self.three.c,
+                unknowns.0,
+                unknowns.1,
+                knowns,
+                1,
+                seed,
+                1,
+                values,
+                self.rows.len(),
+            );
+            let values = found[1].as_mut_ptr();
+            let rows = (self.rows.as_ptr(), self.rows.len());
+            (of_three, fmi2GetDirectionalDerivative(self.two.c, rows.0, rows.1, knowns, 1, seed, values))
+        };
+        let name = self.name(known);
+        if of_three != Status::Ok {
+            return Err(format!("by {name}, FMI 3.0: {of_three:?}: {}", self.three.last_message()));
+        }
+        if of_two != brinell_fmi::fmi2::Status::Ok {
+            return Err(format!("by {name}, FMI 2.0: {of_two:?}"));
+        }
+        if two::bits(&found[0]) != two::bits(&found[1]) {
+            return Err(format!("by {name} FMI 3.0 and 2.0 differ"));
+        }
+        Ok(found[0].clone())
+    }
+
+    fn set(&self, known: u32, value: f64) -> Result<(), String> {
+        let two = self.two.set(&[known], &[value]) == brinell_fmi::fmi2::Status::Ok;
+        if two && self.three.set(&[known], &[value]) == Status::Ok {
+            return Ok(());
+        }
+        Err(format!("{} = {value}: {}", self.name(known), self.three.last_message()))
+    }
+
+    /// Compares the derivatives by one known with differences of it; those of outputs that do not list it must be 0.
+    fn by(&self, known: u32, listed: impl Fn(&Dependencies) -> bool, count: &mut Count) -> Result<(), String> {
+        let Kind::Real { nominal, min, max, .. } = self.three.table()[known as usize].kind else { return Ok(()) };
+        let is_listed = |row: u32| self.dependencies.iter().any(|of| of.output == row && listed(of));
+        let mut at = self.three.get(&[known]).map_err(|_| self.three.last_message())?[0];
+        // Differences go both ways from where the known is, or from beside its limit.
+        let steps = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7].map(|part| part * if at == 0.0 { nominal } else { at.abs() });
+        let room = 2.0 * steps[0];
+        if let (Some(min), Some(max)) = (min, max)
+            && (at - min < room || max - at < room)
+        {
+            at = at.clamp(min + room, max - room);
+            self.set(known, at)?;
+        }
+        let (middle, given) = (self.outputs()?, self.given(known)?);
+        let look = |value: f64| {
+            self.set(known, value)?;
+            self.outputs()
+        };
+        let mut quotients = Vec::new();
+        for step in steps {
+            let (below, above) = (look(at - step)?, look(at + step)?);
+            quotients.push(below.iter().zip(above).map(|(a, b)| (b - a) / (2.0 * step)).collect::<Vec<f64>>());
+        }
+        self.set(known, at)?;
+        for (i, &row) in self.rows.iter().enumerate() {
+            if !is_listed(row) {
+                if given[i] != 0.0 {
+                    return Err(format!(
+                        "{} by {}, which it does not list: {}",
+                        self.name(row),
+                        self.name(known),
+                        given[i]
+                    ));
+                }
+                continue;
+            }
+            // The pair of differences that are nearest to each other, and what is rounding in them.
+            let pair = |k: &usize| {
+                let rounding = 1e-12 * middle[i].abs().max(self.nominal(row)) / steps[k + 1];
+                (quotients[*k][i] - quotients[k + 1][i]).abs() + rounding
+            };
+            let k = (0..steps.len() - 1).min_by(|a, b| pair(a).total_cmp(&pair(b))).unwrap();
+            let (expected, own) = (quotients[k + 1][i], pair(&k));
+            if own > TELLING * expected.abs().max(given[i].abs()) {
+                count.untold += 1;
+                continue;
+            }
+            count.compared += 1;
+            let limit = 1e-4 * expected.abs() + 3.0 * own;
+            if !((given[i] - expected).abs() <= limit) {
+                let (unknown, known) = (self.name(row), self.name(known));
+                return Err(format!("{unknown} by {known}: {} given, {expected} found (limit {limit:e})", given[i]));
+            }
+        }
+        Ok(())
+    }
+
+    /// Compares the derivatives by time with short steps.
+    fn by_time(&self, point: f64, count: &mut Count) -> Result<(), String> {
+        let (orders, length) = (vec![1; self.unknowns.len()], self.rows.len());
+        let mut given = vec![f64::NAN; length];
+        // SAFETY: the arrays are as long as said.
+        let status = unsafe {
+            let (unknowns, count) = (self.unknowns.as_ptr(), self.unknowns.len());
+            fmi3GetOutputDerivatives(self.three.c, unknowns, count, orders.as_ptr(), given.as_mut_ptr(), length)
+        };
+        if status != Status::Ok {
+            return Err(format!("by time: {}", self.three.last_message()));
+        }
+        let state = self.three.save();
+        let after = |step: f64| -> Result<Vec<f64>, String> {
+            self.three.do_step(point, step).map_err(|_| self.three.last_message())?;
+            let found = self.outputs();
+            assert_eq!(self.three.restore(state), Status::Ok);
+            found
+        };
+        let now = self.outputs()?;
+        // One-sided quotients of second order.
+        let mut quotients = Vec::new();
+        let steps = [4e-8, 1e-8, 2.5e-9];
+        for step in steps {
+            let (one, two) = (after(step)?, after(2.0 * step)?);
+            let all = now.iter().zip(one).zip(two);
+            quotients.push(all.map(|((f, g), h)| (4.0 * g - 3.0 * f - h) / (2.0 * step)).collect::<Vec<f64>>());
+        }
+        assert_eq!(self.three.free(state), Status::Ok);
+        for (i, &row) in self.rows.iter().enumerate() {
+            // What means and counts are of is the step behind.
+            if self.name(row).contains("mean_force") || self.name(row).starts_with("solver") {
+                continue;
+            }
+            let pair = |k: &usize| {
+                let rounding = 1e-12 * now[i].abs().max(self.nominal(row)) / steps[k + 1];
+                (quotients[*k][i] - quotients[k + 1][i]).abs() + rounding
+            };
+            let k = (0..steps.len() - 1).min_by(|a, b| pair(a).total_cmp(&pair(b))).unwrap();
+            let (expected, own) = (quotients[k + 1][i], pair(&k));
+            if own > TELLING * expected.abs().max(given[i].abs()) {
+                count.untold += 1;
+                continue;
+            }
+            count.compared += 1;
+            if !((given[i] - expected).abs() <= 1e-4 * expected.abs() + 3.0 * own) {
+                return Err(format!("{} by time: {} given, {expected} found ({own:e})", self.name(row), given[i]));
+            }
+        }
+        Ok(())
+    }
+
+    /// All that is listed: knowns of the start, inputs after some steps of this length, and time. Inputs have these
+    /// values.
+    fn agree(&self, values: &[(&str, f64)], step: f64) -> Result<Count, String> {
+        let mut count = Count::default();
+        let ok = |two: brinell_fmi::fmi2::Status, three: Status| {
+            let both = two == brinell_fmi::fmi2::Status::Ok && three == Status::Ok;
+            if both { Ok(()) } else { Err(self.three.last_message()) }
+        };
+        let inputs = self.three.table().iter().filter(|row| row.causality == Causality::Input);
+        for row in inputs.clone() {
+            if let Some((_, value)) = values.iter().find(|(name, _)| row.name == *name) {
+                self.set(row.reference, *value)?;
+            }
+        }
+        let inputs: Vec<u32> = inputs.map(|row| row.reference).collect();
+        ok(self.two.setup(None, 0.0, None), Status::Ok)?;
+        ok(self.two.enter(), self.three.enter(None, 0.0, None))?;
+        let mut knowns: Vec<u32> = self.dependencies.iter().flat_map(|of| of.initial.iter().copied()).collect();
+        knowns.sort_unstable();
+        knowns.dedup();
+        for known in knowns {
+            self.by(known, |of| of.initial.contains(&known), &mut count)
+                .map_err(|why| format!("in initialization mode, {why}"))?;
+        }
+        ok(self.two.exit(), self.three.exit())?;
+        let points = [0.0, step, 2.0 * step];
+        for point in points {
+            ok(
+                self.two.step(point, step),
+                self.three.do_step(point, step).map_or_else(|status| status, |_| Status::Ok),
+            )?;
+        }
+        for input in inputs {
+            self.by(input, |of| of.direct.contains(&input), &mut count)
+                .map_err(|why| format!("after {} s, {why}", 3.0 * step))?;
+        }
+        self.by_time(3.0 * step, &mut count)?;
+        Ok(count)
+    }
+}
+
+/// Every kind of shipped scene; one of each element, defect, law and ring.
+const SCENES: [&str; 10] = [
+    "6205-healthy",
+    "6205-hosted",
+    "6205-irregular-cage",
+    "6205-two-defects",
+    "er16k-element",
+    "er16k-tb1-oil",
+    "er16k-tb1-hosted-shaft",
+    "er16k-tb2-compliant",
+    "er16k-turning-outer",
+    "nu205-inner",
+];
+
+/// Presses the inner ring into the elements, moving and sliding a little, where the host moves it.
+const PRESSED: [(&str, f64); 4] = [("shaft.x", 3e-6), ("shaft.y", -18e-6), ("shaft.vy", 7e-4), ("housing.vx", 5e-4)];
+
+/// What the host of a case sets before its first step.
+fn hosted(case: &Case) -> Vec<(&'static str, f64)> {
+    let Some(host) = case.steps[0].host else { return Vec::new() };
+    let names = [
+        [["shaft.x", "shaft.vx", "shaft.ax"], ["shaft.y", "shaft.vy", "shaft.ay"]],
+        [["housing.x", "housing.vx", "housing.ax"], ["housing.y", "housing.vy", "housing.ay"]],
+    ];
+    let hosted = (0..2).filter(|&which| case.rings[which].motion == Motion::Host);
+    let of_rings = hosted
+        .flat_map(|which| (0..2).flat_map(move |a| (0..3).map(move |k| (names[which][a][k], host.rings[which][a][k]))));
+    of_rings.chain([("shaft.speed", host.speeds[0][0]), ("housing.speed", host.speeds[1][0])]).collect()
+}
+
+#[test]
+fn derivatives_by_all_that_a_shipped_scene_lists_are_differences() {
+    let mut failed = Vec::new();
+    for scene in SCENES {
+        match Both::new(Resources::of(scene)).and_then(|both| both.agree(&PRESSED, 1e-4)) {
+            Ok(Count { compared, untold }) => {
+                println!("{scene}: {compared} compared, {untold} untold");
+                assert!(compared > untold, "{scene}: {compared} compared, {untold} untold");
+            }
+            Err(why) => failed.push(format!("{scene}: {why}")),
+        }
+    }
+    assert!(failed.is_empty(), "{}", failed.join("\n"));
+}
+
+#[test]
+fn derivatives_by_all_that_a_random_scene_lists_are_differences() {
+    for_seeds(10, |_, draw| {
+        let (_, case) = random(draw);
+        let profiles = case.profiles();
+        let topography = case.defects.iter().any(|defect| matches!(defect.shape, Shape::Topography(_)));
+        // Resources of tests hold one profile.
+        if topography || profiles.len() > 1 {
+            return Ok(());
+        }
+        let text = case.toml();
+        let Ok(scene) = brinell_scene_file::from_toml(&text) else { return Ok(()) };
+        // What is refused, at once or at the start, is another test's.
+        let started = Simulation::new(scene.clone(), profiles.iter().map(String::as_str))
+            .and_then(|mut simulation| simulation.initialize(0.0).map(|()| simulation));
+        if started.is_err() {
+            return Ok(());
+        }
+        let profile = scene.profile_names().into_iter().next().zip(profiles.first());
+        let resources = Resources::new(&text, profile.map(|(name, text)| (name, text.as_str())), "resources");
+        let both = Both::new(resources)?;
+        let Count { compared, untold } = both.agree(&hosted(&case), case.steps[0].length)?;
+        println!("{compared} compared, {untold} untold");
+        Ok(())
+    });
+}
