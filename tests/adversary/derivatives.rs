@@ -10,7 +10,6 @@ use crate::host::Resources;
 use crate::random_case::random;
 use crate::three::{Host, reals};
 use crate::two;
-use brinell::scene::Scene;
 use brinell::simulation::Simulation;
 use brinell::simulation::interface::table::{Causality, Dependencies, Kind};
 use brinell_fmi::fmi2::fmi2GetDirectionalDerivative;
