@@ -148,7 +148,7 @@ mod all_platforms {
             ".cargo",
             "crates",
             "src",
-            "benches",
+            "laboratory",
             "tests",
             "examples",
             "fmu-build",
