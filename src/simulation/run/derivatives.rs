@@ -25,9 +25,11 @@ use crate::simulation::interface::{Change, Input, Parameter, Quantity, RingName,
 use crate::simulation::{Simulation, SimulationError, VariableError};
 
 /// How far a parameter is moved for the difference of two starts. Forces of a start are known to 1e-12 of the load, and
-/// this moves them by 1e-8 to 1e-3 of it; on the way to a defect's edge it is 20 nm.
-fn difference(parameter: Parameter, nominal: f64) -> f64 {
+/// this moves them by 1e-8 to 1e-3 of it; on the way to a defect's edge it is 20 nm. Contacts that are pressed in by
+/// `approach` (m) feel a clearance beside that.
+fn difference(parameter: Parameter, nominal: f64, approach: f64) -> f64 {
     match parameter {
+        Parameter::RadialClearance if approach > 0.0 => (1e-4 * approach).clamp(1e-12, 1e-9),
         Parameter::RadialClearance => 1e-9,
         // A force changes by χ δ̇ = 1e-4 χ or by 1.5 τ δ̇/δ = 30/s τ of itself.
         Parameter::ContactDamping => 1e-2 * nominal,
@@ -165,9 +167,10 @@ impl Simulation {
         values: &mut [f64],
     ) -> Result<(), SimulationError> {
         let Kind::Real { min, max, nominal, .. } = self.variable(known)?.kind else { return Ok(()) };
-        let (at, step) = (self.state.reals[known as usize], difference(parameter, nominal));
         let (mut start, mut here) = (self.clone(), vec![0.0; unknowns.len()]);
         start.reals(unknowns, &mut here)?;
+        let approach = start.forces.contacts.inner_approach.iter().copied().fold(0.0, f64::max);
+        let (at, step) = (self.state.reals[known as usize], difference(parameter, nominal, approach));
         let mut there = here.clone();
         for (steps, share) in quotient(at, step, [min, max]) {
             start.state.reals[known as usize] = at + steps * step;
