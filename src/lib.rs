@@ -5,7 +5,7 @@
 //!
 //! ```
 //! use brinell::scene::{Bearing, ContactLaw, Scene};
-//! use crate::simulation::Simulation;
+//! use brinell::simulation::Simulation;
 //!
 //! // A 6205 with a spall of 2 mm under its load, 25 turns a second.
 //! let scene = Scene::builder(Bearing::steel_balls(9, 7.94e-3, 39.04e-3))

@@ -99,7 +99,8 @@ pub fn write(model: &Model, version: Version) -> String {
     line(
         &mut page,
         format_args!(
-            "</ul>\n<h2>The scene file</h2>\n<p><code>resources/scene.toml</code></p>\n<pre>{}</pre>",
+            "</ul>\n<h2>The scene file</h2>\n<p><code>resources/scene.toml</code>, for people; the library reads \
+             <code>resources/model.bin</code>, made of it.</p>\n<pre>{}</pre>",
             escape(&model.scene_text)
         ),
     );
