@@ -29,7 +29,7 @@ impl Defect {
             }
             DefectShape::Profile(name) => self.check_profile(name),
         });
-        faults.told()
+        faults.into_result()
     }
 
     fn check_spall(&self, [length, depth, edge_slope]: [f64; 3], bearing: Option<&Bearing>) -> Result<(), SceneError> {
@@ -37,9 +37,9 @@ impl Defect {
         faults.passes(SPALL_DEPTH.check(depth));
         faults.passes(EDGE_SLOPE.check(edge_slope));
         // A length in degrees has become one in metres by the bearing's dimensions.
-        let Some(bearing) = bearing else { return faults.told() };
+        let Some(bearing) = bearing else { return faults.into_result() };
         faults.passes(SPALL_LENGTH.check(length));
-        faults.told()?;
+        faults.into_result()?;
         self.check_proportions([length, depth, edge_slope], bearing)
     }
 
@@ -61,7 +61,7 @@ impl Defect {
         if depth_um >= limit_um {
             faults.passes(Err(DefectError::SpallTooDeep { depth_um, limit_um, limit }.into()));
         }
-        faults.told()?;
+        faults.into_result()?;
         let met = self.on.met_length(length, bearing);
         if met <= 0.0 {
             return Err(DefectError::PitNotMet { length_mm, limit_mm: shown(self.off_track(bearing) * 1e3) }.into());

@@ -18,7 +18,7 @@ impl Faults {
     }
 
     /// An error where there was a fault.
-    pub(super) fn told(self) -> Result<(), SceneError> {
+    pub(super) fn into_result(self) -> Result<(), SceneError> {
         if self.0.is_empty() { Ok(()) } else { Err(self.into_error()) }
     }
 

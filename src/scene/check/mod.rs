@@ -68,7 +68,7 @@ impl Scene {
         faults.passes(MAX_STEPS.check(self.max_steps as f64));
         faults.passes(self.check_recorder());
         faults.passes(self.check_experiment());
-        faults.told()
+        faults.into_result()
     }
 
     /// Films and soft edges are those of balls.
@@ -121,7 +121,7 @@ impl Scene {
         if free(&self.shaft) && free(&self.housing) {
             faults.passes(Err(SceneError::NothingHolds));
         }
-        faults.told()
+        faults.into_result()
     }
 
     fn check_sensors(&self) -> Result<(), SceneError> {
@@ -136,7 +136,7 @@ impl Scene {
         for (index, sensor) in self.sensors.iter().enumerate() {
             faults.passes(sensor.check().map_err(|of| of.in_table("sensor", index, self.sensors.len())));
         }
-        faults.told()
+        faults.into_result()
     }
 
     fn check_recorder(&self) -> Result<(), SceneError> {
@@ -152,7 +152,7 @@ impl Scene {
         if possible == [true; 2] && step > stop {
             faults.passes(Err(SceneError::StepBeyondStop { step, stop }));
         }
-        faults.told()
+        faults.into_result()
     }
 }
 
@@ -170,7 +170,7 @@ impl Sensor {
         if self.name.chars().any(char::is_control) || self.name.len() > LONGEST_NAME {
             faults.passes(Err(SceneError::SensorName(self.name.clone())));
         }
-        faults.told()
+        faults.into_result()
     }
 }
 
@@ -212,7 +212,7 @@ impl Bearing {
         faults.passes(HERTZ_INNER.check_all(self.hertz_inner.as_slice()));
         faults.passes(HERTZ_OUTER.check_all(self.hertz_outer.as_slice()));
         faults.passes(OUTER_COMPLIANCE.check(self.outer_compliance));
-        faults.told()
+        faults.into_result()
     }
 
     fn check_overlap(&self) -> Result<(), SceneError> {
@@ -272,7 +272,7 @@ impl Contact {
         let cells = self.cells.map(|cells| CONTACT_CELLS.check_all(&cells.map(f64::from)));
         faults.passes(cells.unwrap_or(Ok(())));
         faults.passes(MAP_ACCURACY.check_all(self.map_accuracy.as_slice()));
-        faults.told()
+        faults.into_result()
     }
 }
 
@@ -282,7 +282,7 @@ impl Film {
         faults.passes(VISCOSITY.check(self.viscosity));
         faults.passes(PRESSURE_VISCOSITY.check(self.pressure_viscosity));
         faults.passes(FILM_LAYER.check_all(self.layer.as_slice()));
-        faults.told()
+        faults.into_result()
     }
 }
 
@@ -310,7 +310,7 @@ impl SensorMode {
         faults.passes(SENSOR_MODE_DAMPING_RATIO.check(self.damping_ratio));
         faults.passes(SENSOR_MODE_GAIN.check(self.gain));
         faults.passes(SENSOR_MODE_QUADRATURE_GAIN.check(self.quadrature_gain));
-        faults.told()
+        faults.into_result()
     }
 }
 
@@ -324,5 +324,5 @@ fn check_ring(ring: &Ring, name: &'static str, of: &RingQuantities) -> Result<()
     } else if ring.load != [0.0; 2] {
         faults.passes(Err(SceneError::LoadNotInternal { ring: name, load: ring.load }));
     }
-    faults.told()
+    faults.into_result()
 }

@@ -35,7 +35,7 @@ impl Bearing {
         {
             faults.passes(given.map_or(Ok(()), |_| Err(BearingError::OnlyBalls { key }.into())));
         }
-        faults.told()
+        faults.into_result()
     }
 }
 

@@ -1,26 +1,58 @@
-//! All tables of a scene file.
+//! All tables of a scene file and their keys, of the schema that is made of the structures which read them: no list can
+//! differ from it.
 
-use super::toml_kinds::TableOf;
-use crate::tables::*;
+use super::toml_kinds::Kind;
+use crate::schema::{schema, table};
+use serde_json::Value;
+use std::sync::LazyLock;
 
-/// All tables and the keys that each takes, as the tables themselves say.
-pub(super) fn tables() -> [TableOf; 14] {
-    [
-        TableOf::of::<SceneFile>(""),
-        TableOf::of::<BearingTable>("bearing"),
-        TableOf::of::<ContactTable>("contact"),
-        TableOf::of::<FilmTable>("film"),
-        TableOf::of::<CageTable>("cage"),
-        TableOf::of::<DefectTable>("defect"),
-        TableOf::of::<ShaftTable>("shaft"),
-        TableOf::of::<HousingTable>("housing"),
-        TableOf::of::<SensorTable>("sensor"),
-        TableOf::of::<SensorModeTable>("sensor.mode"),
-        TableOf::of::<ProbeTable>("probe"),
-        TableOf::of::<SolverTable>("solver"),
-        TableOf::of::<RecorderTable>("recorder"),
-        TableOf::of::<ExperimentTable>("experiment"),
-    ]
+/// The names, in the order in which a key's table is looked for; the empty one is the file itself.
+const NAMES: [&str; 14] = [
+    "",
+    "bearing",
+    "contact",
+    "film",
+    "cage",
+    "defect",
+    "shaft",
+    "housing",
+    "sensor",
+    "sensor.mode",
+    "probe",
+    "solver",
+    "recorder",
+    "experiment",
+];
+
+/// A table of the scene file.
+pub(super) struct TableOf {
+    /// Its name; empty for the file itself.
+    pub(super) name: &'static str,
+    /// Its keys.
+    pub(super) keys: Vec<&'static str>,
+    kinds: Vec<Option<Kind>>,
+}
+
+impl TableOf {
+    /// The kind of value that one of its keys takes.
+    pub(super) fn kind(&self, key: &str) -> Option<&Kind> {
+        self.kinds[self.keys.iter().position(|known| *known == key)?].as_ref()
+    }
+}
+
+/// All tables and the keys that each takes.
+pub(super) fn tables() -> &'static [TableOf] {
+    static SCHEMA: LazyLock<Value> = LazyLock::new(|| schema().into());
+    static TABLES: LazyLock<Vec<TableOf>> = LazyLock::new(|| {
+        let table_of = |name| {
+            let properties = table(&SCHEMA, name).and_then(|table| table["properties"].as_object());
+            let (keys, kinds) =
+                properties.into_iter().flatten().map(|(key, part)| (key.as_str(), Kind::of(&SCHEMA, part))).unzip();
+            TableOf { name, keys, kinds }
+        };
+        NAMES.map(table_of).into()
+    });
+    &TABLES
 }
 
 /// A key with its table, as it is shown; a table in brackets.

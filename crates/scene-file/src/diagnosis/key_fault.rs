@@ -27,7 +27,7 @@ pub enum KeyFault {
     /// Neither of two keys of which one is needed.
     Neither { line: usize, keys: [String; 2] },
     /// A value that is wrong whatever the rest of the file says, or keys that contradict each other.
-    Value { line: usize, said: String },
+    Value { line: usize, message: String },
 }
 
 /// What to do about an unknown key.
@@ -67,7 +67,7 @@ impl fmt::Display for KeyFault {
             Self::Neither { keys: [first, second], .. } => {
                 write!(f, "one of {first} and {second} is needed, neither is given")
             }
-            Self::Value { said, .. } => f.write_str(said),
+            Self::Value { message, .. } => f.write_str(message),
         }
     }
 }

@@ -1,10 +1,10 @@
 //! What is wrong with the keys of a scene file. Asked only of a file that was refused.
 
-use super::all_tables::{path, tables};
+use super::all_tables::{TableOf, path, tables};
 use super::key_fault::{Hint, KeyFault};
 use super::locations::{Found, Location};
 use super::not_modelled::instead_of;
-use super::toml_kinds::{Keys, TableOf};
+use super::toml_kinds::Keys;
 use super::values;
 use brinell::scene::nearest;
 use toml::de::DeValue;
@@ -38,25 +38,25 @@ const ROLLER_LENGTH: &str = "roller_length_mm";
 /// A fault, and the keys that cannot be relied on because of it.
 pub(super) struct Finding {
     pub(super) fault: KeyFault,
-    pub(super) spoils: Vec<(Location, String)>,
+    pub(super) excludes: Vec<(Location, String)>,
 }
 
 /// Faults of a table's keys and of its values by themselves; `line` gives the line of an offset in the text.
-pub(super) fn of_table(of: &TableOf, found: &Found<'_, '_>, line: &dyn Fn(usize) -> usize) -> Vec<Finding> {
-    let (name, keys, table, location) = (of.name, of.keys, found.table, found.location);
+pub(super) fn of_table(of: &'static TableOf, found: &Found<'_, '_>, line: &dyn Fn(usize) -> usize) -> Vec<Finding> {
+    let (name, keys, table, location) = (of.name, of.keys.as_slice(), found.table, found.location);
     let head = found.at.map_or(0, line);
     let mut findings = Vec::new();
-    let mut tell = |fault: KeyFault, spoilt: &[&str]| {
-        let spoils = spoilt.iter().map(|key| (location, (*key).to_owned())).collect();
-        findings.push(Finding { fault, spoils });
+    let mut keep = |fault: KeyFault, excluded: &[&str]| {
+        let excludes = excluded.iter().map(|key| (location, (*key).to_owned())).collect();
+        findings.push(Finding { fault, excludes });
     };
     // What is there under another spelling is not missing as well.
     let mut there: Vec<&str> = table.keys().map(|key| key.get_ref().as_ref()).collect();
     for (key, value) in table {
         let (line, key) = (line(key.span().start), key.get_ref().as_ref());
         if keys.contains(&key) {
-            if let Some(said) = values::fault(of, key, value.get_ref()) {
-                tell(KeyFault::Value { line, said }, &[key]);
+            if let Some(message) = values::fault(of, key, value.get_ref()) {
+                keep(KeyFault::Value { line, message }, &[key]);
             }
             continue;
         }
@@ -67,7 +67,7 @@ pub(super) fn of_table(of: &TableOf, found: &Found<'_, '_>, line: &dyn Fn(usize)
             Some(only) => KeyFault::NotModelled { line, key: shown, only },
             None => KeyFault::Unknown { line, key: shown, hint: hint(name, keys, key) },
         };
-        tell(fault, &[&[key], near.as_slice()].concat());
+        keep(fault, &[&[key], near.as_slice()].concat());
         there.extend(near);
     }
     // A bearing of the catalogue needs nothing beside its name.
@@ -78,18 +78,18 @@ pub(super) fn of_table(of: &TableOf, found: &Found<'_, '_>, line: &dyn Fn(usize)
         // Of the file itself all but the name are tables.
         let is_table = name.is_empty() && *key != "name";
         let with = if is_table { needed(key) } else { &[] };
-        tell(KeyFault::Missing { line: head, key: path(name, key, is_table), with }, &[key]);
+        keep(KeyFault::Missing { line: head, key: path(name, key, is_table), with }, &[key]);
     }
     let kind = table.get("element").filter(|_| name == "bearing").and_then(|kind| kind.get_ref().as_str());
     if kind == Some(ROLLER) && !there.contains(&ROLLER_LENGTH) {
-        tell(KeyFault::Missing { line: head, key: path(name, ROLLER_LENGTH, false), with: &[] }, &[ROLLER_LENGTH]);
+        keep(KeyFault::Missing { line: head, key: path(name, ROLLER_LENGTH, false), with: &[] }, &[ROLLER_LENGTH]);
     }
     for (_, two, instead) in ALTERNATIVES.iter().filter(|(table, ..)| *table == name) {
         if two == &GROOVES && kind.is_some_and(|kind| kind != BALL) {
             continue;
         }
         if !two.iter().chain(*instead).any(|key| there.contains(key)) {
-            tell(KeyFault::Neither { line: head, keys: two.map(|key| path(name, key, false)) }, two);
+            keep(KeyFault::Neither { line: head, keys: two.map(|key| path(name, key, false)) }, two);
         }
     }
     findings
@@ -107,7 +107,7 @@ fn needed(table: &str) -> Keys {
 }
 
 fn hint(table: &str, keys: Keys, key: &str) -> Hint {
-    let elsewhere = tables().into_iter().find(|other| other.name != table && other.keys.contains(&key));
+    let elsewhere = tables().iter().find(|other| other.name != table && other.keys.contains(&key));
     match (elsewhere, nearest(keys.iter().copied(), key)) {
         (Some(other), _) if !other.name.is_empty() => Hint::BelongsTo(other.name),
         (_, Some(near)) => Hint::DidYouMean(near),
@@ -183,25 +183,25 @@ mod tests {
     #[test]
     fn every_table_of_the_file_says_its_keys_and_what_kind_of_value_each_takes() {
         let tables = tables();
-        for TableOf { name, keys, .. } in &tables {
+        for TableOf { name, keys, .. } in tables {
             // Of a probe there is nothing to be said.
             assert!(!keys.is_empty() || ["", "probe"].contains(name), "[{name}]");
         }
         for key in tables[0].keys.iter().filter(|key| !["name", "description", "gravity_m_s2"].contains(key)) {
             assert!(tables.iter().any(|table| table.name == *key), "[{key}] is not checked");
         }
-        for table in &tables {
-            for key in table.keys {
+        for table in tables {
+            for key in &table.keys {
                 assert!(table.kind(key).is_some(), "{}.{key}", table.name);
             }
         }
         let kind = |name: &str, key: &str| tables.iter().find(|table| table.name == name).unwrap().kind(key).unwrap();
-        assert_eq!(kind("shaft", "motion"), Kind::Word(&["host", "internal", "fixed"]));
-        assert_eq!(kind("housing", "load_n"), Kind::Pair(Box::new(Kind::Number)));
-        assert_eq!(kind("contact", "cells"), Kind::Pair(Box::new(Kind::Whole(true))));
-        assert_eq!(kind("cage", "spacing_deg"), Kind::List(Box::new(Kind::Number)));
-        assert_eq!(kind("sensor", "mode"), Kind::List(Box::new(Kind::Table)));
-        assert_eq!(kind("", "sensor"), Kind::OneOrMore);
-        assert_eq!(kind("", "probe"), Kind::Table);
+        assert_eq!(kind("shaft", "motion"), &Kind::Word(vec!["host", "internal", "fixed"]));
+        assert_eq!(kind("housing", "load_n"), &Kind::Pair(Box::new(Kind::Number)));
+        assert_eq!(kind("contact", "cells"), &Kind::Pair(Box::new(Kind::Whole(true))));
+        assert_eq!(kind("cage", "spacing_deg"), &Kind::List(Box::new(Kind::Number)));
+        assert_eq!(kind("sensor", "mode"), &Kind::List(Box::new(Kind::Table)));
+        assert_eq!(kind("", "sensor"), &Kind::OneOrMore);
+        assert_eq!(kind("", "probe"), &Kind::Table);
     }
 }

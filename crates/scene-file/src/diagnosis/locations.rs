@@ -69,10 +69,10 @@ pub(super) fn table_mut<'a, 'f>(value: &'a mut Spanned<DeValue<'f>>) -> Option<&
 
 /// The keys that a message names with their tables, and the one of the file itself, in its order. The tables of which
 /// there are several are those of this number.
-pub(super) fn named(said: &str, number: [usize; 2]) -> Vec<(Location, &'static str)> {
+pub(super) fn named(message: &str, number: [usize; 2]) -> Vec<(Location, &'static str)> {
     let mut named: Vec<(Location, &'static str)> = Vec::new();
     let tables = tables();
-    for word in said.split(|c: char| !c.is_ascii_alphanumeric() && c != '_' && c != '.') {
+    for word in message.split(|c: char| !c.is_ascii_alphanumeric() && c != '_' && c != '.') {
         let word = word.trim_end_matches('.');
         let (table, key) = word.rsplit_once('.').unwrap_or(("", word));
         // Keys of the file itself are words of the language, but for one.

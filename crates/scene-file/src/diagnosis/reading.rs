@@ -2,7 +2,7 @@
 //!
 //! First the keys and each value by itself. Then what is wrong is left out, something possible put where it is needed,
 //! and the rest is read and checked as any file is; what that finds is left out in turn, until nothing is found. A
-//! fault that speaks of what was left out follows from it and is not told.
+//! fault that speaks of what was left out follows from it and is left out.
 
 use super::all_tables::{path, tables};
 use super::key_fault::{KeyFault, SceneFileError};
@@ -30,8 +30,8 @@ pub(crate) fn scene_of(text: &str) -> Result<Scene, SceneFileError> {
 
 /// Faults without lines.
 fn untold(faults: Faults) -> SceneFileError {
-    let told = |fault: TableFault| KeyFault::Value { line: 0, said: fault.to_string() };
-    SceneFileError::Keys(faults.0.into_iter().map(told).collect())
+    let value = |fault: TableFault| KeyFault::Value { line: 0, message: fault.to_string() };
+    SceneFileError::Keys(faults.0.into_iter().map(value).collect())
 }
 
 /// The error for a file that was refused with `error`: all its faults, each with its line.
@@ -39,8 +39,8 @@ fn all_faults(text: &str, file: Spanned<DeTable<'_>>, error: SceneFileError) -> 
     let mut repaired = Repaired::of(file.clone());
     let reading = Reading::new(text, file.get_ref());
     let mut faults = Vec::new();
-    for Finding { fault, spoils } in reading.findings() {
-        spoils.iter().for_each(|(location, key)| {
+    for Finding { fault, excludes } in reading.findings() {
+        excludes.iter().for_each(|(location, key)| {
             repaired.exclude(*location, key);
         });
         faults.push(fault);
@@ -51,7 +51,7 @@ fn all_faults(text: &str, file: Spanned<DeTable<'_>>, error: SceneFileError) -> 
             let of_dimensions = error.is_of_dimensions() && repaired.lacks_dimensions();
             let follows = of_dimensions || keys.iter().any(|(location, key)| repaired.is_excluded(*location, key));
             if !follows {
-                faults.push(reading.told(keys, error));
+                faults.push(reading.with_line(keys, error));
             }
         }
         let keys = errors.iter().flat_map(|(keys, _)| keys);
@@ -106,16 +106,16 @@ impl<'a, 'f> Reading<'a, 'f> {
                 findings.extend(of_table(&of, &found, &|at| self.line(at)));
             }
         }
-        for Finding { fault, spoils } in &mut findings {
-            if let KeyFault::Value { said, .. } = fault {
-                said.push_str(&self.asked(spoils.iter().map(|(location, key)| (*location, key.as_str()))));
+        for Finding { fault, excludes } in &mut findings {
+            if let KeyFault::Value { message, .. } = fault {
+                message.push_str(&self.asked(excludes.iter().map(|(location, key)| (*location, key.as_str()))));
             }
         }
         findings
     }
 
     /// A fault with its line.
-    fn told(&self, keys: &[(Location, &'static str)], fault: &TableFault) -> KeyFault {
+    fn with_line(&self, keys: &[(Location, &'static str)], fault: &TableFault) -> KeyFault {
         let of_key = keys.iter().find_map(|(location, key)| self.find(*location, key).map(|(line, _)| line));
         let of_table = || {
             let (location, _) = keys.first()?;
@@ -123,7 +123,7 @@ impl<'a, 'f> Reading<'a, 'f> {
             found.at.map(|at| self.line(at))
         };
         let asked = self.asked(keys.iter().map(|(location, key)| (*location, *key)));
-        KeyFault::Value { line: of_key.or_else(of_table).unwrap_or(0), said: fault.to_string() + &asked }
+        KeyFault::Value { line: of_key.or_else(of_table).unwrap_or(0), message: fault.to_string() + &asked }
     }
 
     /// Line and value of a key.

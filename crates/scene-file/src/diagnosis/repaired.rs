@@ -83,7 +83,7 @@ impl<'t> Repaired<'t> {
         DIMENSIONS.iter().any(|key| self.is_excluded(bearing, key))
     }
 
-    /// What is still wrong; nothing where that cannot be said.
+    /// What is still wrong; nothing where that is not known.
     pub(super) fn errors(&mut self) -> Vec<TableFault> {
         for (name, key, stand_in, instead) in STAND_INS {
             each(self.file.get_mut(), name, &mut |table| {

@@ -1,8 +1,8 @@
 //! What is wrong with single values of a scene file, whatever the rest of it says: of another kind than their key
 //! takes, a word that is not known, outside its limits. Asked only of a file that was refused.
 
-use super::all_tables::path;
-use super::toml_kinds::{Kind, TableOf};
+use super::all_tables::{TableOf, path};
+use super::toml_kinds::Kind;
 use crate::quantities::of_key;
 use brinell::scene::nearest;
 use toml::de::{DeInteger, DeValue};
@@ -18,7 +18,7 @@ pub(super) fn fault(table: &TableOf, key: &str, value: &DeValue<'_>) -> Option<S
     }
     let kind = table.kind(key).filter(|kind| !is_of(kind, value))?;
     let given = shown(value);
-    Some(match &kind {
+    Some(match kind {
         Kind::Table => format!("[{whole}] is {given}: it must be one table [{whole}]"),
         Kind::OneOrMore => format!("[{whole}] is {given}: it must be a table [{whole}], or several [[{whole}]]"),
         Kind::List(of) if **of == Kind::Table => {
@@ -34,7 +34,7 @@ pub(super) fn fault(table: &TableOf, key: &str, value: &DeValue<'_>) -> Option<S
         }
         // One that is below 0 is told like any other value of another kind.
         Kind::Number | Kind::Whole(_)
-            if value.is_integer() && (kind != Kind::Whole(true) || !given.starts_with('-')) =>
+            if value.is_integer() && (*kind != Kind::Whole(true) || !given.starts_with('-')) =>
         {
             format!("{whole} is {given}: a whole number must have at most 64 bits")
         }

@@ -50,7 +50,7 @@ impl OneOrMore<DefectTable> {
             let defect = table.into_defect(bearing).map_err(|of| of.in_table("defect", k, count));
             defects.extend(faults.take(defect));
         }
-        faults.none().map(|()| defects)
+        faults.into_result().map(|()| defects)
     }
 }
 

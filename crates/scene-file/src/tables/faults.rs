@@ -107,7 +107,7 @@ impl Faults {
     }
 
     /// An error where there was a fault.
-    pub(super) fn none(self) -> Result<(), Self> {
+    pub(super) fn into_result(self) -> Result<(), Self> {
         if self.0.is_empty() { Ok(()) } else { Err(self) }
     }
 

@@ -61,7 +61,9 @@ pub(crate) use cage::CageTable;
 pub(crate) use defects::DefectTable;
 pub(crate) use faults::{Faults, TableFault};
 pub(crate) use film::FilmTable;
-pub(crate) use rings::{HousingTable, ProbeTable, SensorModeTable, SensorTable, ShaftTable};
+#[cfg(test)]
+pub(crate) use rings::SensorModeTable;
+pub(crate) use rings::{HousingTable, ProbeTable, SensorTable, ShaftTable};
 
 use brinell::scene::{Contact, ContactEdge, ContactLaw, Damping, Experiment, Recorder, RecorderFilter, Scene};
 use one_or_more::OneOrMore;

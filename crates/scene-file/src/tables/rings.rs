@@ -91,7 +91,7 @@ fn ring(
             faults.0.push(refuse(key, value.to_string()));
         }
     }
-    faults.none()?;
+    faults.into_result()?;
     Ok(Ring { motion, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 })
 }
 
@@ -144,7 +144,7 @@ impl OneOrMore<SensorTable> {
             sensors
                 .extend(faults.take(table.into_sensor().map_err(|of| Faults::from(of).in_table("sensor", k, count))));
         }
-        faults.none().map(|()| sensors)
+        faults.into_result().map(|()| sensors)
     }
 }
 
