@@ -13,7 +13,6 @@ mod record;
 mod rows;
 mod scenes;
 mod statistics;
-mod table;
 mod workers;
 
 use std::collections::{BTreeSet, HashMap};
@@ -147,7 +146,7 @@ impl Table<'_> {
     fn write(&self, rows: &mut [Row]) -> Result<()> {
         rows.sort_by_key(Row::run);
         let whole = self.running.join(TABLE);
-        table::write(&whole, self.columns, rows)?;
+        rows::write_table(&whole, self.columns, rows)?;
         whole_file::take_out(&whole, self.path.parent().unwrap_or(Path::new(""))).map(drop)
     }
 }
