@@ -1,8 +1,9 @@
 //! Packs Brinell scenes into FMUs, checks them and runs them.
 //!
-//! A scene becomes an FMU in three steps: [`model`] reads it and asks the simulation for its variable table,
-//! [`model_description`] and [`documentation`] write that table down, [`archive`] zips them together with the
-//! one compiled [`library`] that serves every scene. No compiler is needed for a new bearing.
+//! A scene becomes an FMU in three steps: [`package::model`] reads it and asks the simulation for its variable table,
+//! [`package::description`] and [`package::documentation`] write that table down, [`package::archive`] zips them
+//! together with the one compiled [`package::library`] that serves every scene. No compiler is needed for a new
+//! bearing.
 
 pub mod cli;
 pub mod commands;

@@ -70,7 +70,7 @@ impl EvenFilter {
             }
             // Rounding leaves an imaginary part in the lines that a real signal has real, and it is refused there.
             self.lines[0].im = 0.0;
-            if self.period[0] % 2 == 0
+            if self.period[0].is_multiple_of(2)
                 && let Some(last) = self.lines.last_mut()
             {
                 last.im = 0.0;

@@ -15,7 +15,7 @@ pub(in crate::dynamics) struct ElementVariation {
     pub(in crate::dynamics) cage_speed: f64,
     /// Of the speed that oil films follow.
     pub(in crate::dynamics) film_speed: f64,
-    /// Of angle and speed of the frames of defects, in the order of [`Frame`].
+    /// Of angle and speed of the frames of defects, in the order of [`Frame`](crate::dynamics::parameters::Frame).
     pub(in crate::dynamics) frames: [[f64; 2]; 3],
 }
 

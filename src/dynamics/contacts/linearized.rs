@@ -2,7 +2,7 @@
 //!
 //! From it are assembled the [Jacobian](crate::dynamics::derivatives::jacobian) of stiff steps, the elements' and
 //! rings' balance of the [start](crate::dynamics::equilibrium::search) and how that
-//! [moves](crate::dynamics::equilibrium::variation), the [tangent stiffness](crate::dynamics::quasi_static::tangent),
+//! moves, the tangent stiffness,
 //! and the derivatives of [outputs](crate::dynamics::derivatives::variation).
 //!
 //! With f the inner contact's force on the element,

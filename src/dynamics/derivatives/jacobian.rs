@@ -236,7 +236,7 @@ impl Model {
     }
 
     /// What elements in balance at every instant make of the bodies' part: by positions their elastic
-    /// [tangent](crate::dynamics::quasi_static::tangent), exact; by velocities what dampers hand on. That damping
+    /// tangent, exact; by velocities what dampers hand on. That damping
     /// changes as rings move, by χ δ̇ of the tangent, is left out, and so is what elements make of the derivative by
     /// time: it is for the stability of explicit steps, and at rest, for the modes, there is none of either.
     fn add_elements_in_balance(&self, cells: &Cells, state: &[f64], shared: &Shared, jacobian: &mut Jacobian) {

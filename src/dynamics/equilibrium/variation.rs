@@ -1,7 +1,7 @@
 //! How the static equilibrium moves when an input does: the implicit function theorem.
 //!
 //! At the start each element is in radial balance with u' = 0, and so is each internal ring. A change of inputs and
-//! rings moves each path as its [balance](crate::dynamics::quasi_static::tangent) asks, and the internal rings by the
+//! rings moves each path as its balance asks, and the internal rings by the
 //! solution of what is then left of theirs, four equations at most.
 //!
 //! An element that nothing touches and nothing moves stays where it is. Rings without any stiffness against them have

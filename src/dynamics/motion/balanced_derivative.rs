@@ -1,8 +1,8 @@
 //! The right-hand side of a bearing whose elements are in balance at every instant: rings and sensors move, elements
 //! are where rings and time say.
 //!
-//! Elements on smooth raceways are found [side by side](crate::dynamics::quasi_static::balance_lanes), those with a
-//! contact near a defect, or on a raceway that yields, [one by one](crate::dynamics::quasi_static::element_balance).
+//! Elements on smooth raceways are found side by side (`quasi_static::balance_lanes`), those with a
+//! contact near a defect, or on a raceway that yields, one by one (`quasi_static::element_balance`).
 
 use crate::dynamics::contacts::Linearized;
 use crate::dynamics::contacts::{Forces, Record};

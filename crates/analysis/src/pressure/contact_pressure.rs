@@ -193,7 +193,7 @@ impl BallOnRaceway {
     /// Pressure under a force (N), on `resolution` cells in each direction.
     ///
     /// # Errors
-    /// For a force that is not positive, a resolution outside [`RESOLUTIONS`], and a contact that is too wide.
+    /// For a force that is not positive, a resolution outside 32 to 1024, and a contact that is too wide.
     pub fn pressed(&self, force: f64, resolution: usize) -> Result<Pressed, PressureError> {
         let refused = |quantity, value, unit, limit| Err(PressureError::OutOfRange { quantity, value, unit, limit });
         if !(force > 0.0 && force.is_finite()) {

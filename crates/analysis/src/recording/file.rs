@@ -1,6 +1,6 @@
 //! A recording's file as named columns, and which of them is what.
 //!
-//! Text ([`recording_csv`]), NumPy ([`recording_npy`]) and WAV, which
+//! Text (`csv`), NumPy (`npy`) and WAV, which
 //! goes through `hound`. Columns are chosen by name or by number from 1. Left to itself, the signal is the column
 //! whose name begins with `sensor.acceleration` or, of several sensors, `sensor[1].acceleration`, else with `acc`,
 //! `vib` or `signal`, else the only one that does not count time or samples, else, where columns have no names, the

@@ -8,7 +8,7 @@ use crate::numerics::lanes::Wide;
 /// The explicit methods.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Pair {
-    /// [`dormand_prince`]: order 5(4), for any tolerance.
+    /// `dormand_prince`: order 5(4), for any tolerance.
     #[default]
     DormandPrince,
     /// [`phase_fitted`]: order 4(3), with longer steps where something oscillates.
