@@ -12,7 +12,7 @@ import os
 import shlex
 import shutil
 import subprocess
-from ctypes import POINTER, byref, c_double, c_int, c_uint
+from ctypes import POINTER, byref, c_double, c_uint
 from pathlib import Path
 
 import fmpy
@@ -83,13 +83,6 @@ def changed_scene(base, name, changes, folder):
     return path
 
 
-def whole_numbers(base):
-    """Keys of a scene whose values are whole numbers there, as `bearing.element_count`."""
-    scene = tomllib.loads(Path(base).read_text(encoding="utf-8"))
-    tables = {name: table for name, table in scene.items() if isinstance(table, dict)}
-    return {f"{name}.{key}" for name, table in tables.items() for key, value in table.items() if type(value) is int}
-
-
 def toml(value):
     if isinstance(value, bool):
         return str(value).lower()
@@ -109,15 +102,6 @@ def program():
         return shlex.split(os.environ["BRINELL_FMU"])
     installed = shutil.which("brinell")
     return [installed] if installed else ["cargo", "fmu"]
-
-
-def executable():
-    """The same without cargo, once it is built."""
-    words = program()
-    if words[0] != "cargo":
-        return words
-    target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
-    return [str(target / "release" / ("brinell-studies.exe" if os.name == "nt" else "brinell-studies"))]
 
 
 def build(scenes, folder):
@@ -181,12 +165,6 @@ class Instance:
         self.slave.instantiate(callbacks=callbacks)
         # Without this an error would say no more than its status.
         self.slave.setDebugLogging(True, ["logStatusWarning", "logStatusDiscard", "logStatusError", "logStatusFatal"])
-        self.time = 0.0
-
-    def reset(self):
-        """As if just made, whatever happened before."""
-        self.slave.reset()
-        SAID.clear()
         self.time = 0.0
 
     def enter(self, start=None):
@@ -312,10 +290,3 @@ class Bearing(Instance):
         """Goes back to the state taken last."""
         self.call(self.slave.fmi2SetFMUstate, self.slave.component, self.state)
         self.time = self.saved_time
-
-    def solver_steps(self):
-        """The solver's steps so far."""
-        value = (c_int * 1)()
-        reference = (c_uint * 1)(self.reference["solver.steps"])
-        self.slave.fmi2GetInteger(self.slave.component, reference, 1, value)
-        return value[0]

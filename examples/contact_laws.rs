@@ -22,7 +22,7 @@ struct Run {
 fn main() -> Result<(), Box<dyn Error>> {
     let stop: f64 = std::env::args().nth(1).map_or(Ok(0.03), |text| text.parse())?;
     for name in ["er16k-tb1", "6205-epps"] {
-        let scene = Scene::from_toml(&std::fs::read_to_string(format!("scenes/{name}.toml"))?)?;
+        let scene = brinell_scene_file::from_toml(&std::fs::read_to_string(format!("scenes/{name}.toml"))?)?;
         println!("\n`{name}`, {:.0} ms\n", 1e3 * stop);
         println!(
             "| law | unloaded from | loaded again | peak force | its time | rms difference | largest difference | run \

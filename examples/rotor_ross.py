@@ -2,10 +2,6 @@
 """A ROSS rotor with one bearing computed by an FMU, healthy and spalled: motion and order spectra.
 
     python examples/rotor_ross.py [--host exact|ross] [--passes 2] [--step 5e-5] [--stop 4] [-o target/examples]
-        [--columns 'node[12].*,shaft.force.y' --format parquet]
-
-Of a run nothing is kept but what figure and spectra need, and the `--columns` that are asked for: x and y of the
-shaft's nodes from rest [m], and the FMU's outputs.
 
 The rotor: a steel shaft of 25 mm, 0.6 m long, a disk of 4.4 kg in the middle with unbalance, a light damper beside
 it, a linear bearing on the left, and the ER16K under study on the right, pressed down with 300 N. The FMU moves the
@@ -18,9 +14,7 @@ import json
 import time
 from pathlib import Path
 
-import fmpy
 import numpy as np
-import signal_table
 from bearing import SCENES, build, changed_scene
 from ross_bearings import Machine, ross, simulate, unbalance
 
@@ -110,25 +104,6 @@ def draw(bearing, disk, runs, passage, h, turns, settle, stem):
     save(figure, stem)
 
 
-def signals_of(machine, fmu):
-    """Names of all that a run can be asked for."""
-    nodes = [f"node[{node}].{axis}" for node in range(len(machine.rotor.nodes)) for axis in "xy"]
-    variables = fmpy.read_model_description(str(fmu)).modelVariables
-    return nodes + [variable.name for variable in variables if variable.causality == "output"]
-
-
-def columns_of(run, names):
-    """Time and the signals of these names."""
-    found = {"time": run.time}
-    for name in names:
-        if name.startswith("node["):
-            node, axis = int(name[5 : name.index("]")]), "xy".index(name[-1])
-            found[name] = run.at(node)[:, axis]
-        else:
-            found[name] = run.outputs[0][name]
-    return found
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--host", choices=("exact", "ross"), default="exact")
@@ -136,10 +111,6 @@ def main():
     parser.add_argument("--speed", type=float, default=50.0, help="shaft speed [Hz]")
     parser.add_argument("--step", type=float, help="communication step [s]; default 5e-5, or 1e-5 with --host ross")
     parser.add_argument("--stop", type=float, default=4.0, help="end [s]")
-    parser.add_argument("--columns", default="", help="signals to write, as 'node[12].y,shaft.force.*'; default: none")
-    parser.add_argument(
-        "--format", choices=signal_table.FORMATS, default=signal_table.FORMATS[0], help="of their table"
-    )
     parser.add_argument("-o", "--output", type=Path, default=Path("target/examples"))
     options = parser.parse_args()
     machine = shown()
@@ -147,27 +118,20 @@ def main():
     speed, settle = 2 * np.pi * options.speed, min(0.3, 0.4 * options.stop)
     h = options.step or {"exact": 5e-5, "ross": 1e-5}[options.host]
     fmus = fmus_in(options.output)
-    try:
-        asked = signal_table.chosen(filter(None, options.columns.split(",")), signals_of(machine, fmus[0]))
-    except ValueError as error:
-        parser.error(f"--columns: {error}")
     stem = options.output / f"rotor_{options.host}"
-    seen = dict.fromkeys(["housing.ay", "cage.speed", *(name for name in asked if not name.startswith("node["))])
-    runs, took, written = {}, {}, []
+    runs, took = {}, {}
     for name, fmu in zip(("healthy", "spalled"), fmus):
         begin = time.perf_counter()
         runs[name] = simulate(
             machine.rotor, machine.nodes, [fmu], speed, options.stop, h, loads=machine.loads, forces=machine.forces,
-            seen=tuple(seen), passes=options.passes, host=options.host,
+            seen=("housing.ay", "cage.speed"), passes=options.passes, host=options.host,
         )  # fmt: skip
         took[name] = round(time.perf_counter() - begin, 2)
-        if asked:
-            written.append(signal_table.write(f"{stem}-{name}", options.format, columns_of(runs[name], asked)))
     # Of an element over a point on the outer ring, per shaft turn.
     passage = 9 * runs["spalled"].outputs[0]["cage.speed"][0] / speed
     draw(bearing, disk, runs, passage, h, options.speed, settle, stem)
     found = summary(bearing, runs, passage, h, options.speed, settle)
-    print(json.dumps({**found, "seconds": took, "files": [f"{stem}.svg", f"{stem}.png", *written]}))
+    print(json.dumps({**found, "seconds": took, "files": [f"{stem}.svg", f"{stem}.png"]}))
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A bearing and an elastic rotor, two FMUs wired in an SSP file: error over master, wiring and step, as Markdown.
 
-    python examples/system_of_fmus.py [--build] [--short] [--masters ours,fmpy,libcosim,ecos] [-o target/examples]
+    python examples/system_of_fmus.py [--build] [--short] [-o target/examples]
 
 The rotor is `examples/system/rotor.c`, an overhung mass of 3 kg on a shaft of 1e7 N/m without a damper, compiled here
 with the C compiler that CC names, else `cc`. It rests in the bearing under half of its 500 N; at the start the other
@@ -15,15 +15,12 @@ Masters that read them:
   ours      parallel (Jacobi) and sequential (Gauss-Seidel, in the order of the file), inputs held, continued with the
             derivatives that the other FMU gives, or interpolated; nothing but the standard's functions
   fmpy      fmpy.ssp.simulation: parallel, held, and every input 0 in the first step
-  libcosim  libcosimpy: parallel, held      (pip install libcosimpy==0.0.6)
-  ecos      ecospy: parallel, held          (pip install ecospy==0.7.2 tbb, and LD_LIBRARY_PATH=…/lib for libtbb.so.12)
 """
 
 import argparse
 import os
 import shlex
 import subprocess
-import tempfile
 import zipfile
 from ctypes import c_int
 from pathlib import Path
@@ -255,42 +252,6 @@ def by_fmpy(ssp, h, stop):
     return np.vstack([start_of(ssp), positions[round(GRID / h) - 1 :: round(GRID / h)]])
 
 
-def by_libcosim(ssp, h, stop):
-    from libcosimpy.CosimExecution import CosimExecution
-    from libcosimpy.CosimLogging import CosimLogLevel, log_output_level
-    from libcosimpy.CosimObserver import CosimObserver
-
-    log_output_level(CosimLogLevel.ERROR)
-
-    with tempfile.TemporaryDirectory() as folder:
-        with zipfile.ZipFile(ssp) as archive:
-            archive.extractall(folder)
-        execution = CosimExecution.from_ssp_file(folder, round(h * 1e9))
-        observer = CosimObserver.create_last_value()
-        execution.add_observer(observer)
-        rotor = execution.slave_index_from_instance_name("rotor")
-        positions = [start_of(ssp)]
-        for _ in range(round(stop / GRID)):
-            if not execution.step(round(GRID / h)):
-                raise RuntimeError("libcosim: a step failed")
-            positions.append(observer.last_real_values(rotor, [2, 3]))
-    return np.array(positions)
-
-
-def by_ecos(ssp, h, stop):
-    from ecospy import EcosSimulation
-
-    with EcosSimulation(h, ssp_path=str(ssp)) as simulation:
-        # A set of parameters acts where it is named.
-        simulation.init(parameter_set="rotor")
-        positions = [start_of(ssp)]
-        for _ in range(round(stop / GRID)):
-            simulation.step(round(GRID / h))
-            positions.append([simulation.get_real("rotor::x"), simulation.get_real("rotor::y")])
-        simulation.terminate()
-    return np.array(positions)
-
-
 # Whose master, how it steps, what the rotor is told, and of which system.
 MASTERS = [
     ("ours", "parallel", "`mean_force`, held", "mean_force", ours("parallel", "held")),
@@ -300,10 +261,6 @@ MASTERS = [
     ("ours", "sequential", "`force`, interpolated", "force", ours("sequential", "interpolated")),
     ("ours", "sequential", "`mean_force`, held", "mean_force", ours("sequential", "held")),
     ("fmpy", "parallel, begins with 0", "`force`, held", "force", by_fmpy),
-    ("libcosim", "parallel", "`force`, held", "force", by_libcosim),
-    ("libcosim", "parallel", "`mean_force`, held", "mean_force", by_libcosim),
-    ("ecos", "parallel", "`force`, held", "force", by_ecos),
-    ("ecos", "parallel", "`mean_force`, held", "mean_force", by_ecos),
 ]
 
 
@@ -322,7 +279,6 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--build", action="store_true", help="write the systems, run nothing")
     parser.add_argument("--short", action="store_true", help="two steps, 5 ms")
-    parser.add_argument("--masters", default="ours,fmpy", help="whose, separated by commas [default: ours,fmpy]")
     parser.add_argument("-o", "--output", type=Path, default=Path("target/examples"))
     options = parser.parse_args()
     steps = (1e-5, 1e-4) if options.short else (1e-6, 2e-6, 5e-6, 1e-5, 2e-5, 5e-5, 1e-4)
@@ -342,7 +298,7 @@ def main():
             if options.build:
                 print(path)
         for whose, kind, told, force, run in MASTERS:
-            if not options.build and whose in options.masters.split(","):
+            if not options.build:
                 cells = [error(run, systems[force], exact, h, stop) for h in steps]
                 print(f"| {name} | {whose} | {kind} | {told} | " + " | ".join(cells) + " |", flush=True)
 

@@ -9,8 +9,7 @@ use std::path::{Path, PathBuf};
 
 /// All in the workspace on which the bits of a map depend: the layers below and up to `contact`, and versions of other
 /// people's crates. What `scene` has to do with a map are numbers, which are in the fingerprint of its inputs.
-pub(crate) const SOURCES: [&str; 6] =
-    ["Cargo.lock", "crates/elementary/src", "src/numerics", "src/geometry", "src/surface", "src/contact"];
+pub(crate) const SOURCES: [&str; 5] = ["Cargo.lock", "src/numerics", "src/geometry", "src/surface", "src/contact"];
 
 /// Of names and contents of all these files in a workspace, in hexadecimal digits.
 ///

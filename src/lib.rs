@@ -30,11 +30,10 @@ pub mod dynamics;
 pub mod geometry;
 pub mod numerics;
 pub mod recording;
+pub mod scene;
 pub mod simulation;
 pub mod surface;
 
-#[doc(inline)]
-pub use brinell_scene as scene;
 pub use simulation::SimulationError as Error;
 
 /// The example in README.md compiles and runs.

@@ -6,7 +6,6 @@
 
 pub mod cli;
 pub mod commands;
-pub mod host;
 mod interrupt;
 pub mod package;
 pub mod platforms;

@@ -7,6 +7,9 @@
 #![allow(clippy::unwrap_used)]
 
 mod common;
+#[allow(dead_code, unreachable_pub, reason = "others use the rest of it")]
+#[path = "host/src/lib.rs"]
+mod host;
 
 use std::collections::BTreeMap;
 use std::env;
@@ -15,10 +18,10 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use brinell::simulation::interface::table::{Causality, Kind};
-use fmu_build::host::Slave;
 use fmu_build::package::Model;
 use fmu_build::package::{Choice, Library};
 use fmu_build::shared::Project;
+use host::Instance;
 
 /// Balls on smooth raceways, a spall under a map, rollers. The rollers of `nu205-healthy` are made straight: Valgrind
 /// 3.19 lacks an instruction (`vmovq` between registers, opcode D6) that compilers use for the table of crowned ones.
@@ -123,11 +126,11 @@ fn run(folder: &Path) {
     }
     let read = |name: &str| fs::read_to_string(folder.join(name)).unwrap();
     let outputs: Vec<u32> = read("outputs").split(' ').map(|reference| reference.parse().unwrap()).collect();
-    let mut slave = Slave::new(&folder.with_file_name("packed.so"), "counted", &read("guid"), folder).unwrap();
-    slave.initialize(None).unwrap();
+    let mut instance = Instance::new(&folder.with_file_name("packed.so"), "counted", &read("guid"), folder).unwrap();
+    instance.initialize(None).unwrap();
     for step in 0..STEPS {
-        slave.step(step as f64 * STEP, STEP).unwrap();
-        assert!(slave.reals(&outputs).unwrap().iter().all(|value| value.is_finite()));
+        instance.step(step as f64 * STEP, STEP).unwrap();
+        assert!(instance.reals(&outputs).unwrap().iter().all(|value| value.is_finite()));
     }
 }
 

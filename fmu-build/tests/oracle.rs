@@ -10,7 +10,6 @@ use std::f64::consts::TAU;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use brinell::scene::Scene;
 use brinell::simulation::Simulation;
 
 /// One element between rings that the host moves.
@@ -198,7 +197,7 @@ fn compare(
 fn one_element_between_prescribed_rings_moves_as_the_oracle_says() {
     let [x0, y0, ax, ay, hz] = MOTION;
     let reference = Reference::stored("one-element");
-    let mut simulation = Simulation::new(Scene::from_toml(ONE_ELEMENT).unwrap(), None).unwrap();
+    let mut simulation = Simulation::new(brinell_scene_file::from_toml(ONE_ELEMENT).unwrap(), None).unwrap();
     let inputs = ["shaft.x", "shaft.y", "shaft.vx", "shaft.vy", "shaft.ax", "shaft.ay"]
         .map(|name| reference_of(&simulation, name));
     let set = |simulation: &mut Simulation, time: f64| {
@@ -225,7 +224,7 @@ fn one_element_between_prescribed_rings_moves_as_the_oracle_says() {
 #[test]
 fn nine_elements_and_a_free_shaft_move_as_the_oracle_says() {
     let reference = Reference::stored("nine-elements");
-    let mut simulation = Simulation::new(Scene::from_toml(NINE_ELEMENTS).unwrap(), None).unwrap();
+    let mut simulation = Simulation::new(brinell_scene_file::from_toml(NINE_ELEMENTS).unwrap(), None).unwrap();
     simulation.initialize(0.0).unwrap();
     let paths: Vec<String> = (1..=9).map(|j| format!("element[{j}].path")).collect();
     let paths: Vec<&str> = paths.iter().map(String::as_str).collect();
@@ -240,7 +239,7 @@ fn nine_elements_and_a_free_shaft_move_as_the_oracle_says() {
 
 /// Follows the oracle; elements within 1e-10 m and the shaft within 1e-12 m.
 fn follows(name: &str, scene: &str, reference: &Reference) {
-    let mut simulation = Simulation::new(Scene::from_toml(scene).unwrap(), None).unwrap();
+    let mut simulation = Simulation::new(brinell_scene_file::from_toml(scene).unwrap(), None).unwrap();
     simulation.initialize(0.0).unwrap();
     let paths: Vec<String> = (1..=9).map(|j| format!("element[{j}].path")).collect();
     let paths: Vec<&str> = paths.iter().map(String::as_str).collect();

@@ -1,7 +1,7 @@
 //! Deterministic elementary functions and small numerical tools that know nothing of bearings.
 //!
 //! Bits must be equal on every machine. The standard library's sine, cosine and power functions are the
-//! platform's own; those used here are compiled with the project. Those that scenes need too are a crate of their own.
+//! platform's own; those used here are compiled with the project.
 
 pub mod bytes;
 pub mod checksum;
@@ -14,6 +14,7 @@ pub mod polynomials;
 #[cfg(test)]
 pub(crate) mod trees;
 
-pub use brinell_elementary::{counter_noise, sin_cos, wrap};
+pub use elementary::counter_noise;
 pub use elementary::ninth_root::ninth_root;
 pub use elementary::power::rough_power;
+pub use elementary::trigonometry::{sin_cos, wrap};

@@ -10,7 +10,6 @@ use crate::host::Resources;
 use crate::random_case::random;
 use crate::three::{Host, reals};
 use crate::two;
-use brinell::scene::Scene;
 use brinell::simulation::Simulation;
 use brinell::simulation::interface::table::{Causality, Dependencies, Kind};
 use brinell_fmi::fmi2::fmi2GetDirectionalDerivative;
@@ -353,7 +352,7 @@ fn listed_by_a_random_scene(draw: &mut Draw) -> Result<(), String> {
         return Ok(());
     }
     let text = case.toml();
-    let Ok(scene) = Scene::from_toml(&text) else { return Ok(()) };
+    let Ok(scene) = brinell_scene_file::from_toml(&text) else { return Ok(()) };
     // What is refused, at once or at the start, is another test's.
     let started = Simulation::new(scene.clone(), profiles.iter().map(String::as_str))
         .and_then(|mut simulation| simulation.initialize(0.0).map(|()| simulation));

@@ -13,22 +13,21 @@ use crate::draw::{Draw, for_seeds};
 use crate::oracle::Bearing;
 use crate::oracle::signals::{Kind, signals};
 use crate::random_case::{on_the_outer_raceway, random};
-use crate::subject::Subject;
+use crate::subject::{Refusal, Subject};
 use crate::units::{HORIZON, LIMIT, differences, largest_force, units};
 use brinell::simulation::Method;
-use brinell::simulation::SimulationError;
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
 /// The signals at the start and after each step, up to the first that fails.
 pub struct Course {
     samples: Vec<Vec<f64>>,
-    failed: Option<SimulationError>,
+    failed: Option<Refusal>,
 }
 
 fn course(case: &Case, prepare: impl Fn(&mut Subject)) -> Course {
     let mut samples = Vec::new();
-    let mut run = || -> Result<(), SimulationError> {
+    let mut run = || -> Result<(), Refusal> {
         let mut subject = Subject::new(case)?;
         prepare(&mut subject);
         samples.push(subject.start(case)?);

@@ -11,7 +11,7 @@ use crate::oracle::Bearing;
 use crate::oracle::envelope::within_half_a_turn;
 use crate::oracle::surface::Surface;
 use crate::random_case::random;
-use crate::subject::Subject;
+use crate::subject::{Refusal, Subject};
 use brinell::contact::error::ContactError;
 use brinell::contact::near_defect::Lever;
 use brinell::dynamics::parameters::{Defects, Frames, SMOOTH};
@@ -120,9 +120,11 @@ fn random_rigid_paths_are_the_envelope() {
         }
         let simulation = match Subject::new(&case) {
             Ok(subject) => subject.simulation,
-            Err(SimulationError::Contact(ContactError::NoWayOut { .. })) if oracle.leaps() => return Ok(()),
+            Err(Refusal::Simulation(SimulationError::Contact(ContactError::NoWayOut { .. }))) if oracle.leaps() => {
+                return Ok(());
+            }
             // A bearing larger than the scene allows; defects that overlap.
-            Err(SimulationError::Scene(_) | SimulationError::Surface(_)) => return Ok(()),
+            Err(Refusal::Scene(_) | Refusal::Simulation(SimulationError::Surface(_))) => return Ok(()),
             Err(error) => return Err(error.to_string()),
         };
         if oracle.leaps() {

@@ -6,6 +6,26 @@ use crate::oracle::signals::signals;
 use brinell::scene::Scene;
 use brinell::simulation::interface::table::{Causality, Kind};
 use brinell::simulation::{Simulation, SimulationError};
+use brinell_scene_file::SceneFileError;
+use std::fmt;
+
+/// Why there is no run.
+#[derive(Clone, PartialEq, thiserror::Error)]
+pub enum Refusal {
+    #[error(transparent)]
+    Scene(#[from] SceneFileError),
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
+}
+
+impl fmt::Debug for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Scene(error) => f.debug_tuple("Scene").field(error).finish(),
+            Self::Simulation(error) => error.fmt(f),
+        }
+    }
+}
 
 pub struct Subject {
     pub simulation: Simulation,
@@ -22,11 +42,14 @@ pub struct Subject {
 pub type Parameter = (String, Result<f64, i32>);
 
 impl Subject {
-    pub fn new(case: &Case) -> Result<Self, SimulationError> {
-        let mut simulation = {
-            let profiles = case.profiles();
-            Simulation::new(Scene::from_toml(&case.toml())?, profiles.iter().map(String::as_str))?
-        };
+    pub fn new(case: &Case) -> Result<Self, Refusal> {
+        let scene = brinell_scene_file::from_toml(&case.toml())?;
+        Ok(Self::of(scene, case)?)
+    }
+
+    fn of(scene: Scene, case: &Case) -> Result<Self, SimulationError> {
+        let profiles = case.profiles();
+        let mut simulation = Simulation::new(scene, profiles.iter().map(String::as_str))?;
         if case.spin_slip != 0.0 {
             let spin_slip = simulation.reference("element.spin_slip")?;
             simulation.set_reals(&[spin_slip], &[case.spin_slip])?;

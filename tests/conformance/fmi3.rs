@@ -190,6 +190,7 @@ pub(crate) const RULES: &[Rule] = &[
         &[
             Test("directional_derivatives_are_central_differences_and_arrays_give_all_their_elements"),
             Test("adjoint_derivatives_are_the_transposed_product_of_directional_ones"),
+            Test("derivatives_by_parameters_in_initialization_mode_have_the_bits_of_fmi_2_either_way"),
             Test("derivatives_have_the_bits_of_fmi_2_and_asking_for_them_changes_nothing"),
             Test("states_derivatives_updates_and_terminals_of_every_shipped_scene_keep_to_fmi_3"),
         ],

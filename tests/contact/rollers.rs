@@ -216,7 +216,7 @@ fn a_measured_crown_of_the_standards_shape_gives_the_standards_bearing() {
 /// The sweep of `brinell stiffness` over a spall of 1.2 mm comes to such a position: it ended with a load of nothing.
 #[test]
 fn a_crowned_roller_just_past_an_edge_has_its_critical_load() {
-    let mut scene = Scene::from_toml(include_str!("../../scenes/nu205-inner.toml")).unwrap();
+    let mut scene = brinell_scene_file::from_toml(include_str!("../../scenes/nu205-inner.toml")).unwrap();
     (scene.contact.law, scene.shaft_initial_angle) = (ContactLaw::Hertz, 0.2);
     let bearing = StaticBearing::new(&scene, None).unwrap();
     let bottom = bearing.bottom().unwrap();

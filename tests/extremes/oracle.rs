@@ -136,7 +136,7 @@ fn scene(case: &toml::Table) -> Scene {
         change(key, Some(value.clone()));
     }
     change("contact.law", Some("hertz".into()));
-    Scene::from_toml(&toml::to_string(&scene).unwrap()).unwrap()
+    brinell_scene_file::from_toml(&toml::to_string(&scene).unwrap()).unwrap()
 }
 
 fn oracle(what: &str) -> Oracle {

@@ -4,6 +4,7 @@
 //! arguments that Brinell passes. On the platforms that the tests run on (System V x86-64, AArch64 Linux, Windows
 //! x64) variable arguments arrive where fixed ones do, so this is harmless; on Apple's AArch64 it is not.
 
+use brinell::scene::model_file;
 use brinell::simulation::interface::table::guid;
 use brinell_fmi::fmi2::*;
 use std::cell::RefCell;
@@ -120,6 +121,8 @@ impl Resources {
         let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(unique).join(name);
         fs::create_dir_all(&directory).unwrap();
         fs::write(directory.join("scene.toml"), scene).unwrap();
+        let model = model_file::encode(&brinell_scene_file::from_toml(scene).unwrap(), scene).unwrap();
+        fs::write(directory.join("model.bin"), model).unwrap();
         if let Some((file, text)) = profile {
             fs::write(directory.join(file), text).unwrap();
         }
@@ -347,7 +350,7 @@ impl Host {
     /// The model behind the interface, set up once more.
     pub(crate) fn simulation(&self) -> brinell::simulation::Simulation {
         let text = fs::read_to_string(self.resources.directory.join("scene.toml")).unwrap();
-        let scene = brinell::scene::Scene::from_toml(&text).unwrap();
+        let scene = brinell_scene_file::from_toml(&text).unwrap();
         let read = |file: &str| fs::read_to_string(self.resources.directory.join(file)).unwrap();
         let profiles: Vec<String> = scene.profile_names().into_iter().map(read).collect();
         brinell::simulation::Simulation::new(scene, profiles.iter().map(String::as_str)).unwrap()

@@ -1,6 +1,7 @@
 //! Instances: what makes one, what is refused, and handles.
 
 use crate::host::{Call, FORBIDDEN_CALLS, Host, Line, Resources, logger};
+use brinell::scene::model_file;
 use brinell_fmi::fmi2::*;
 use std::ffi::{CStr, c_void};
 use std::{fs, ptr};
@@ -46,9 +47,15 @@ fn a_wrong_guid_gives_null_and_a_line_with_both_guids() {
 #[test]
 fn a_guid_belongs_to_the_contents_of_the_resources() {
     let resources = Resources::of("er16k-tb1");
-    let text = fs::read_to_string(resources.directory.join("scene.toml")).unwrap();
-    fs::write(resources.directory.join("scene.toml"), text.replace("500.0", "501.0")).unwrap();
+    let text = fs::read_to_string(resources.directory.join("scene.toml")).unwrap().replace("500.0", "501.0");
+    fs::write(resources.directory.join("scene.toml"), &text).unwrap();
     let location = resources.uri();
+    let message = refusal(&good(&resources.guid, &location)).message;
+    for part in ["model.bin", "edited", "build the FMU anew"] {
+        assert!(message.contains(part), "{part}: {message}");
+    }
+    let scene = brinell_scene_file::from_toml(&text).unwrap();
+    fs::write(resources.directory.join("model.bin"), model_file::encode(&scene, &text).unwrap()).unwrap();
     assert!(refusal(&good(&resources.guid, &location)).message.contains("GUID"));
 }
 
@@ -89,9 +96,23 @@ fn unreadable_resources_give_null_and_a_line_with_the_path() {
     assert!(refusal(&good(&resources.guid, &location)).message.contains("elsewhere"));
 
     let location = resources.uri();
-    fs::write(resources.directory.join("scene.toml"), "name = \"a\"\nunknown_key = 1\n").unwrap();
-    let message = refusal(&good(&resources.guid, &location)).message;
-    assert!(message.contains("scene.toml") && message.contains("unknown_key"), "{message}");
+    let path = resources.directory.join("model.bin");
+    let sound = fs::read(&path).unwrap();
+    let with = |at: usize, byte: u8| [&sound[..at], &[byte], &sound[at + 1..]].concat();
+    let middle = sound.len() / 2;
+    for (bytes, word) in [
+        (sound[..7].to_vec(), "no model file"),
+        (with(0, b'b'), "no model file"),
+        (with(8, 99), "layout 99"),
+        (with(middle, !sound[middle]), "damaged"),
+        (sound[..sound.len() - 1].to_vec(), "damaged"),
+    ] {
+        fs::write(&path, bytes).unwrap();
+        let message = refusal(&good(&resources.guid, &location)).message;
+        assert!(message.contains("model.bin") && message.contains(word), "{word}: {message}");
+    }
+    fs::remove_file(&path).unwrap();
+    assert!(refusal(&good(&resources.guid, &location)).message.contains("model.bin"));
 
     fs::write(resources.directory.join("scene.toml"), [0xff, 0xfe]).unwrap();
     assert!(refusal(&good(&resources.guid, &location)).message.contains("scene.toml"));

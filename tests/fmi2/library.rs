@@ -1,5 +1,6 @@
 //! The compiled library as a host loads it.
 
+use brinell::scene::model_file;
 use brinell::simulation::interface::table::guid;
 use brinell_fmi::fmi2::*;
 use libloading::{Library, Symbol};
@@ -118,6 +119,8 @@ impl Scene {
         let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}-{}", std::process::id()));
         fs::create_dir_all(&directory).unwrap();
         fs::write(directory.join("scene.toml"), text).unwrap();
+        let model = model_file::encode(&brinell_scene_file::from_toml(text).unwrap(), text).unwrap();
+        fs::write(directory.join("model.bin"), model).unwrap();
         if let Some(map) = map {
             fs::write(directory.join("map.bin"), map).unwrap();
         }

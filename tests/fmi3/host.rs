@@ -347,7 +347,7 @@ pub(crate) fn reference(simulation: &Simulation, name: &str) -> u32 {
 
 pub(crate) fn simulation_of(resources: &Resources) -> Simulation {
     let text = fs::read_to_string(resources.directory.join("scene.toml")).unwrap();
-    let scene = brinell::scene::Scene::from_toml(&text).unwrap();
+    let scene = brinell_scene_file::from_toml(&text).unwrap();
     let read = |file: &str| fs::read_to_string(resources.directory.join(file)).unwrap();
     let profiles: Vec<String> = scene.profile_names().into_iter().map(read).collect();
     Simulation::new(scene, profiles.iter().map(String::as_str)).unwrap()

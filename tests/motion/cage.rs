@@ -237,7 +237,7 @@ fn keys_of_the_cage_are_read_and_refused_with_their_limits() {
     let text = include_str!("../../scenes/er16k-tb1.toml");
     let with = |keys: &str| {
         let (before, after) = text.split_once("[cage]\n").unwrap();
-        Scene::from_toml(&format!("{before}[cage]\n{keys}\n{after}"))
+        brinell_scene_file::from_toml(&format!("{before}[cage]\n{keys}\n{after}"))
     };
     let cage = |keys: &str| with(keys).unwrap().cage.irregularity;
     let refused = |keys: &str, wanted: &[&str]| {

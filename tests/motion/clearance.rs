@@ -15,7 +15,7 @@ fn scene(clearance: &str) -> Result<Scene, String> {
          density_kg_m3 = 7800\n{clearance}\n[shaft]\nmotion = \"internal\"\nspeed_hz = 0\nload_n = [0, -1000]\n\
          [housing]\nmotion = \"fixed\"\n"
     );
-    Scene::from_toml(&text).map_err(|error| error.to_string())
+    brinell_scene_file::from_toml(&text).map_err(|error| error.to_string())
 }
 
 /// Displacement of the inner ring (µm).

@@ -4,7 +4,7 @@
 use crate::support::{map_of, profiles_of, shipped, shipped_as_it_is};
 use brinell::scene::{Ring, Scene};
 use brinell::simulation::Simulation;
-use brinell::simulation::variables::{Causality, Kind, Variable};
+use brinell::simulation::interface::table::{Causality, Kind, Variable};
 
 const STIFFNESSES: [&str; 4] = ["shaft.stiffness.xx", "shaft.stiffness.xy", "shaft.stiffness.yx", "shaft.stiffness.yy"];
 

@@ -4,8 +4,8 @@
 
 use crate::support::{Named, shipped};
 use brinell::dynamics::contacts::Forces;
-use brinell::dynamics::parameters::{Cells, Drive, Model, film};
-use brinell::geometry::film_thickness::{LubricatedContact, rolling_speed_ratio};
+use brinell::dynamics::parameters::{Cells, Drive, Model, Quadratic, film};
+use brinell::geometry::film_thickness::{LubricatedContact, rolling_speed_ratio, speed_factor};
 use brinell::scene::{Film, Motion, Ring, Scene};
 use brinell::simulation::Simulation;
 use std::f64::consts::TAU;

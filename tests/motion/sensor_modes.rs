@@ -225,7 +225,7 @@ fn tables_of_modes_belong_to_the_sensor_before_them() {
     // What stands after the sensor goes with it; all of it has defaults.
     let (text, _) = include_str!("../../scenes/6205-spall-5deg.toml").split_once("\n[sensor]\n").unwrap();
     let mode = "[[sensor.mode]]\nfrequency_hz = 2300\ndamping_ratio = 0.03\ngain = 0.8\nquadrature_gain = 0.2\n";
-    let with = |tables: &str| Scene::from_toml(&format!("{text}\n{tables}"));
+    let with = |tables: &str| brinell_scene_file::from_toml(&format!("{text}\n{tables}"));
     let count =
         |tables: &str| with(tables).unwrap().sensors.iter().map(|sensor| sensor.modes.len()).collect::<Vec<_>>();
     assert_eq!(count(&format!("[sensor]\n{mode}{mode}")), [2]);

@@ -70,7 +70,7 @@ fn one_table_among_several_sensors_is_the_table_alone() {
     let text = include_str!("../../scenes/6205-spall-5deg.toml");
     assert!(text.contains("\n[sensor]\n"));
     let several = text.replace("\n[sensor]\n", "\n[[sensor]]\ndirection_deg = 90\n");
-    assert_eq!(Scene::from_toml(&several).unwrap(), Scene::from_toml(text).unwrap());
+    assert_eq!(brinell_scene_file::from_toml(&several).unwrap(), brinell_scene_file::from_toml(text).unwrap());
     // Straight upwards to the bit: the x axis has no part in it.
     assert_eq!(Sensor::default().unit(), [0.0, 1.0]);
 }
@@ -159,6 +159,6 @@ fn what_is_wrong_with_a_sensor_is_said_with_its_number() {
     assert!(refused(&scene).contains("sensor.direction_deg"));
     let text =
         include_str!("../../scenes/6205-spall-5deg.toml").replace("\n[sensor]\n", "\n[probe]\nangle = 3\n[sensor]\n");
-    let message = Scene::from_toml(&text).unwrap_err().to_string();
+    let message = brinell_scene_file::from_toml(&text).unwrap_err().to_string();
     assert!(message.contains("probe.angle"), "{message}");
 }

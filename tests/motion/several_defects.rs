@@ -133,8 +133,8 @@ fn the_order_in_which_defects_are_named_changes_no_bit() {
 fn one_table_among_several_is_the_table_alone() {
     let text = include_str!("../../scenes/er16k-inner.toml");
     assert!(text.contains("\n[defect]\n"));
-    let several = Scene::from_toml(&text.replace("\n[defect]\n", "\n[[defect]]\n")).unwrap();
-    assert_eq!(several, Scene::from_toml(text).unwrap());
+    let several = brinell_scene_file::from_toml(&text.replace("\n[defect]\n", "\n[[defect]]\n")).unwrap();
+    assert_eq!(several, brinell_scene_file::from_toml(text).unwrap());
 }
 
 #[test]
@@ -192,7 +192,7 @@ fn what_is_wrong_with_one_of_several_defects_is_said_with_its_number() {
         let spall = "on = \"outer\"\nangle_deg = 10\nlength_mm = 1\ndepth_um = 20\n";
         format!("{before}\n[[defect]]\n{spall}\n[[defect]]\n{second}\n\n[[defect]]\n{after}")
     };
-    let message = |second: &str| Scene::from_toml(&both(second)).unwrap_err().to_string();
+    let message = |second: &str| brinell_scene_file::from_toml(&both(second)).unwrap_err().to_string();
     let deep = message("angle_deg = 0\nlength_mm = 1\ndepth_um = 9000");
     assert!(deep.contains("[[defect]] number 2") && deep.contains("9000"), "{deep}");
     // Keys that are missing or unknown, with the lines of the table in question.

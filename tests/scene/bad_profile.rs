@@ -1,10 +1,10 @@
 //! Every measured surface that cannot be used is refused with the line or position, the value and the limit.
 
-use brinell::scene::{Bearing, Defect, DefectShape, Scene};
+use brinell::scene::{Bearing, Defect, DefectShape};
 use brinell::surface::{Profile, Surface};
 
 fn er16k() -> Bearing {
-    match Scene::from_toml(include_str!("../../scenes/er16k-tb1.toml")) {
+    match brinell_scene_file::from_toml(include_str!("../../scenes/er16k-tb1.toml")) {
         Ok(scene) => scene.bearing,
         Err(error) => panic!("{error}"),
     }

@@ -59,7 +59,7 @@ step_s = 1e-4
 #[track_caller]
 fn message(old: &str, new: &str) -> String {
     assert_eq!(GOOD.matches(old).count(), 1, "`{old}` must stand once in the good scene");
-    match Scene::from_toml(&GOOD.replace(old, new)) {
+    match brinell_scene_file::from_toml(&GOOD.replace(old, new)) {
         Ok(_) => panic!("`{new}` was accepted"),
         Err(error) => error.to_string(),
     }
@@ -76,7 +76,7 @@ fn refused(old: &str, new: &str, parts: &[&str]) {
 #[track_caller]
 fn accepted(old: &str, new: &str) -> Scene {
     assert_eq!(GOOD.matches(old).count(), 1, "`{old}` must stand once in the good scene");
-    match Scene::from_toml(&GOOD.replace(old, new)) {
+    match brinell_scene_file::from_toml(&GOOD.replace(old, new)) {
         Ok(scene) => scene,
         Err(error) => panic!("`{new}` was refused: {error}"),
     }
@@ -84,7 +84,7 @@ fn accepted(old: &str, new: &str) -> Scene {
 
 #[test]
 fn the_scene_that_every_test_here_spoils_is_good() {
-    Scene::from_toml(GOOD).unwrap();
+    brinell_scene_file::from_toml(GOOD).unwrap();
 }
 
 #[test]
@@ -138,7 +138,7 @@ fn a_recorder_that_filters_has_a_lowest_rate_and_a_known_filter() {
     let rate = GOOD.lines().find(|line| line.starts_with("rate_hz")).unwrap();
     refused(rate, "rate_hz = 99.0", &["recorder.rate_hz", "linear-phase", "is 99", "at least 100"]);
     refused(rate, &format!("{rate}\nfilter = \"butterworth\""), &["butterworth", "linear-phase", "none"]);
-    assert!(Scene::from_toml(&GOOD.replace(rate, "rate_hz = 99.0\nfilter = \"none\"")).is_ok());
+    assert!(brinell_scene_file::from_toml(&GOOD.replace(rate, "rate_hz = 99.0\nfilter = \"none\"")).is_ok());
 }
 
 #[test]
@@ -227,7 +227,7 @@ fn a_clearance_above_the_elements_radius_is_refused() {
 #[test]
 fn a_pitch_circle_without_room_for_an_inner_raceway_is_refused() {
     let text = GOOD.replace("element_count = 9", "element_count = 2").replace("39.32", "7.941");
-    let message = Scene::from_toml(&text).unwrap_err().to_string();
+    let message = brinell_scene_file::from_toml(&text).unwrap_err().to_string();
     assert!(message.contains("(bearing.pitch_diameter_mm) is 7.941") && message.contains("above 7.945"), "{message}");
 }
 
@@ -291,7 +291,7 @@ fn a_load_on_a_ring_that_is_not_internal_is_refused() {
         let parts = ["shaft.load_n = [0.0, -500.0]", &format!("shaft.motion is \"{motion}\""), "\"internal\""];
         refused("motion = \"internal\"\nspeed_hz", &format!("motion = \"{motion}\"\nspeed_hz"), &parts);
     }
-    let mut scene = Scene::from_toml(GOOD).unwrap();
+    let mut scene = brinell_scene_file::from_toml(GOOD).unwrap();
     scene.shaft.motion = brinell::scene::Motion::Host;
     let message = scene.check().unwrap_err().to_string();
     assert!(message.contains("(shaft.load_n) is [0, -500]: it must be [0, 0]"), "{message}");
@@ -375,7 +375,7 @@ fn a_shaft_may_stand_or_turn_backwards() {
 
 #[test]
 fn a_parameter_that_a_host_spoils_is_refused() {
-    let mut scene = Scene::from_toml(GOOD).unwrap();
+    let mut scene = brinell_scene_file::from_toml(GOOD).unwrap();
     scene.bearing.radial_clearance = f64::NAN;
     let message = scene.check().unwrap_err().to_string();
     assert!(message.contains("radial clearance (bearing.radial_clearance_um) is NaN"), "{message}");

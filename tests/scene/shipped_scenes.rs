@@ -1,6 +1,5 @@
 //! Every scene in `scenes/` can be read, is named like its file and sources its numbers.
 
-use brinell::scene::Scene;
 use brinell::surface::{Profile, Surface};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -35,7 +34,7 @@ fn every_shipped_scene_can_be_read_and_is_named_like_its_file() {
     let scenes = scenes();
     assert!(scenes.len() >= 6, "{}", scenes.len());
     for (name, text) in scenes {
-        let scene = Scene::from_toml(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let scene = brinell_scene_file::from_toml(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
         assert_eq!(scene.name, name);
         assert!(!scene.description.is_empty(), "{name}");
     }
@@ -44,7 +43,7 @@ fn every_shipped_scene_can_be_read_and_is_named_like_its_file() {
 #[test]
 fn every_surface_of_a_shipped_scene_can_be_loaded() {
     for (name, text) in scenes() {
-        let scene = Scene::from_toml(&text).unwrap();
+        let scene = brinell_scene_file::from_toml(&text).unwrap();
         let profiles: Vec<_> =
             scene.profile_names().iter().map(|file| fs::read_to_string(folder().join(file)).unwrap()).collect();
         let surfaces = Surface::load_all(&scene, profiles.iter().map(String::as_str));

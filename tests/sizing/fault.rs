@@ -5,7 +5,7 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::machine::{RATE, Spall, scene, signal, signal_of};
-use brinell::scene::{ContactLaw, Scene};
+use brinell::scene::ContactLaw;
 use brinell::simulation::Simulation;
 use brinell_analysis::recording::Recording;
 use brinell_analysis::sizing::{Fault, Report, Standing, Verdict, size};
@@ -137,7 +137,7 @@ fn the_interval_holds_what_is_picked_in_resamples_too() {
 
 /// What the sensor of the shipped inner scene records at a speed (Hz), by the cheap law, with noise 30 dB below it.
 fn simulated(speed: f64, seconds: f64) -> Vec<f64> {
-    let mut scene = Scene::from_toml(include_str!("../../scenes/6205-inner-5deg.toml")).unwrap();
+    let mut scene = brinell_scene_file::from_toml(include_str!("../../scenes/6205-inner-5deg.toml")).unwrap();
     scene.shaft_speed = TAU * speed;
     scene.contact.law = ContactLaw::Hertz;
     let mut simulation = Simulation::new(scene, None).unwrap();

@@ -137,7 +137,7 @@ fn recorded(scene: Scene, seconds: f64) -> Vec<f64> {
 }
 
 fn rig(speed: f64) -> Scene {
-    let mut scene = Scene::from_toml(include_str!("../../scenes/er16k-tb1.toml")).unwrap();
+    let mut scene = brinell_scene_file::from_toml(include_str!("../../scenes/er16k-tb1.toml")).unwrap();
     scene.shaft_speed = TAU * speed;
     scene
 }
@@ -157,7 +157,7 @@ fn the_scenes_own_rig_does_not_resolve_what_is_too_short_for_an_element_to_get_f
 #[test]
 fn the_scenes_own_bearing_without_a_spall_is_healthy_although_its_elements_are_heard() {
     // Under a light load elements take up their load and lose it again once in each period, like one in a spall.
-    let mut rig = Scene::from_toml(include_str!("../../scenes/6205-spall-5deg.toml")).unwrap();
+    let mut rig = brinell_scene_file::from_toml(include_str!("../../scenes/6205-spall-5deg.toml")).unwrap();
     rig.contact.law = ContactLaw::Hertz;
     let signal = recorded(Scene { defects: Vec::new(), ..rig.clone() }, 1.2);
     let report = sized(signal, 10.0, &rig);

@@ -13,7 +13,7 @@ pub const RATE: f64 = 51_200.0;
 
 /// A 6205 under 49 N whose rig is not described: nothing to simulate.
 pub fn scene() -> Scene {
-    Scene::from_toml(
+    brinell_scene_file::from_toml(
         r#"
         name = "rig"
         [bearing]

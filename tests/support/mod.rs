@@ -31,7 +31,7 @@ pub fn shipped(name: &str) -> Scene {
 pub fn shipped_as_it_is(name: &str) -> Scene {
     let path = brinell_tests::root().join("scenes").join(format!("{name}.toml"));
     let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
-    Scene::from_toml(&text).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+    brinell_scene_file::from_toml(&text).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
 
 /// Checksum of numbers.

@@ -1,7 +1,6 @@
 //! Sizes the spall in recordings of one bearing and prints the report as JSON:
 //! `cargo run --release -p brinell-analysis --example size -- SCENE RATE_HZ FILE@SPEED_HZ…`
 
-use brinell::scene::Scene;
 use brinell_analysis::recording::{Recording, Source, Speed};
 use brinell_analysis::sizing::size;
 use std::error::Error;
@@ -10,7 +9,7 @@ use std::path::Path;
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().collect();
     let [_, scene, rate, files @ ..] = &arguments[..] else { return Err("SCENE RATE_HZ FILE@SPEED_HZ…".into()) };
-    let scene = Scene::from_toml(&std::fs::read_to_string(scene)?)?;
+    let scene = brinell_scene_file::from_toml(&std::fs::read_to_string(scene)?)?;
     let rate: f64 = rate.parse()?;
     let mut recordings = Vec::new();
     for file in files {

@@ -135,6 +135,9 @@ pub struct Sweep {
     /// Write the signals of each run as well [default format: npy]
     #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, default_missing_value = "npy")]
     pub(super) signals: Option<sweep::Written>,
+    /// Make part K of N only, on any machine; the same command without it joins all parts in the folder
+    #[arg(long, value_name = "K/N")]
+    pub(super) part: Option<sweep::Part>,
     /// Print the scene of one run, which `brinell run` takes, and run nothing
     #[arg(long, value_name = "RUN", allow_negative_numbers = true, value_parser = seed)]
     pub(super) scene_of: Option<u64>,
@@ -143,7 +146,11 @@ pub struct Sweep {
 impl Sweep {
     pub(super) fn options(&self) -> sweep::Options {
         let cores = || std::thread::available_parallelism().map_or(1, usize::from);
-        sweep::Options { jobs: self.jobs.map_or_else(cores, |jobs| jobs as usize), signals: self.signals }
+        sweep::Options {
+            jobs: self.jobs.map_or_else(cores, |jobs| jobs as usize),
+            signals: self.signals,
+            part: self.part,
+        }
     }
 }
 

@@ -1,7 +1,8 @@
 //! The command `catalogue`: which bearings a scene may name, and where their dimensions come from.
 
 use anyhow::{Result, bail};
-use brinell::scene::{Inside, catalogue, catalogued, nearest};
+use brinell::scene::nearest;
+use brinell_scene_file::{Inside, catalogue, catalogued};
 
 /// The command: one line for each bearing whose name begins with `filter`; or for the one that a scene finds by it, as
 /// NU205 by NJ205 and 6205 by 6205-2RS.

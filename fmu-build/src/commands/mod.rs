@@ -1,6 +1,7 @@
 //! The commands that print what a scene or a recording says, one file each.
 
 pub mod catalogue;
+pub mod check;
 pub mod contact;
 pub mod demo;
 pub mod modes;

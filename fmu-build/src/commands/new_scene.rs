@@ -4,7 +4,7 @@ use std::path::Path;
 use std::str::FromStr;
 
 use anyhow::{Context, Result, bail};
-use brinell::scene::{BearingError, CatalogueBearing, Scene, catalogued};
+use brinell_scene_file::{CatalogueBearing, NotInCatalogue, catalogued};
 
 use super::schema;
 use crate::shared::whole_file;
@@ -38,10 +38,11 @@ impl FromStr for Spall {
 /// The command: writes `<folder>/<name>.toml`.
 pub(crate) fn command(name: &str, bearing: &str, spall: Option<&Spall>, folder: &Path) -> Result<()> {
     let Some(bearing) = catalogued(bearing) else {
-        bail!(BearingError::NotInCatalogue { name: bearing.to_owned() });
+        bail!(NotInCatalogue { name: bearing.to_owned() });
     };
     let text = text(name, &bearing, spall);
-    Scene::from_toml(&text).with_context(|| format!("a scene {name} of this bearing and defect is not possible"))?;
+    brinell_scene_file::from_toml(&text)
+        .with_context(|| format!("a scene {name} of this bearing and defect is not possible"))?;
     let path = folder.join(format!("{name}.toml"));
     if path.exists() {
         bail!("{} is there already and stays as it is", path.display());
@@ -126,14 +127,14 @@ edge_slope_deg = 90.0                 # assumed: sharp edges
 #[cfg(test)]
 mod tests {
     use super::*;
-    use brinell::scene::catalogue;
+    use brinell_scene_file::catalogue;
 
     #[test]
     fn every_bearing_with_every_kind_of_defect_gives_a_scene() {
         for bearing in catalogue() {
             for spall in [None, Some("outer:5deg"), Some("inner:0.5mm"), Some("element:0.4mm")] {
                 let spall: Option<Spall> = spall.map(|text| text.parse().unwrap());
-                let scene = Scene::from_toml(&text("mine", &bearing, spall.as_ref())).unwrap();
+                let scene = brinell_scene_file::from_toml(&text("mine", &bearing, spall.as_ref())).unwrap();
                 assert_eq!(scene.bearing.element_count, bearing.inside.element_count);
                 assert_eq!(scene.defects.len(), usize::from(spall.is_some()));
             }
@@ -156,7 +157,7 @@ mod tests {
                     let (before, after) = changed.split_once("[sensor]").unwrap();
                     changed = format!("{before}[experiment]{}", after.split_once("[experiment]").unwrap().1);
                 }
-                assert!(Scene::from_toml(&changed).is_ok(), "{word}: {line}");
+                assert!(brinell_scene_file::from_toml(&changed).is_ok(), "{word}: {line}");
                 tried.push(word);
             }
         }

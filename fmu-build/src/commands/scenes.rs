@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
-use brinell::scene::Scene;
 
 use super::schema;
 use crate::shared::shipped;
@@ -14,7 +13,8 @@ pub fn command(names: &[String], folder: &Path) -> Result<()> {
     if names.is_empty() {
         let width = shipped::scenes().map(str::len).max().unwrap_or(0);
         for name in shipped::scenes() {
-            let scene = Scene::from_toml(&shipped::scene_text(Path::new(name))?).with_context(|| name.to_owned())?;
+            let scene = brinell_scene_file::from_toml(&shipped::scene_text(Path::new(name))?)
+                .with_context(|| name.to_owned())?;
             println!("{name:width$}  {}", scene.description);
         }
     }

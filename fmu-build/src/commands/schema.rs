@@ -4,7 +4,6 @@
 use std::path::Path;
 
 use anyhow::Result;
-use brinell::scene::Scene;
 
 use crate::shared::whole_file;
 
@@ -13,7 +12,7 @@ const NAME: &str = "scene.schema.json";
 
 /// The schema as a text.
 pub(crate) fn text() -> Result<String> {
-    Ok(serde_json::to_string_pretty(&Scene::schema())? + "\n")
+    Ok(serde_json::to_string_pretty(&brinell_scene_file::schema())? + "\n")
 }
 
 /// Writes the schema into a folder, unless a file of its name is there: it may be somebody's.

@@ -71,7 +71,7 @@ impl Archive {
     }
 
     /// The zip file.
-    pub fn to_bytes(&self) -> Result<Vec<u8>, ArchiveError> {
+    pub fn to_zip(&self) -> Result<Vec<u8>, ArchiveError> {
         let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
         for (name, contents) in &self.files {
             match contents {

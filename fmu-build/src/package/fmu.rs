@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
+use brinell::scene::model_file;
 
 use super::archive::Archive;
 use super::documentation;
@@ -49,18 +50,19 @@ pub fn pack(model: &Model, library: &Library, version: Version) -> Result<Vec<u8
         }
     }
     archive.add("resources/scene.toml", model.scene_text.as_str())?;
+    archive.add("resources/model.bin", model_file::encode(&model.scene, &model.scene_text)?)?;
     for profile in &model.profiles {
         archive.add(format!("resources/{}", profile.name), profile.text.as_str())?;
     }
     if let Some(map) = &model.map {
         archive.add("resources/map.bin", map.as_slice())?;
     }
-    archive.add("documentation/index.html", documentation::write(model, version))?;
+    archive.add("documentation/index.html", documentation::write(model, version)?)?;
     archive.add("documentation/licenses/license.txt", LICENSE)?;
     archive.add("documentation/licenses/LICENSE-MIT", include_str!("../../../LICENSE-MIT"))?;
     archive.add("documentation/licenses/LICENSE-APACHE", include_str!("../../../LICENSE-APACHE"))?;
     archive.add("documentation/licenses/third-party.txt", include_str!("../../assets/third-party.txt"))?;
-    Ok(archive.to_bytes()?)
+    Ok(archive.to_zip()?)
 }
 
 /// Packs a scene and writes `<scene name>.fmu` into the folder, making it if need be. Gives the file's path.

@@ -4,10 +4,11 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 use brinell::dynamics::parameters::film;
-use brinell::scene::{Defect, DefectShape, Remark, Scene};
+use brinell::scene::{Defect, DefectShape, Scene};
 use brinell::simulation::Simulation;
 use brinell::simulation::interface::table::guid;
 use brinell::surface::Surface;
+use brinell_scene_file::DepthRemark;
 
 use super::sensor_response;
 use crate::package::reference::Reference;
@@ -46,13 +47,14 @@ pub fn read_scene(path: &Path) -> Result<(String, Scene)> {
     let text = shipped::scene_text(path)?;
     let resolved = sensor_response::resolved(&text, |name| shipped::text_beside(path, name));
     let text = resolved.map_err(|error| sensor_response::beside_other_faults(error, &text)).with_context(about)?;
-    let scene = Scene::from_toml(&text).with_context(about)?;
+    let scene = brinell_scene_file::from_toml(&text).with_context(about)?;
     Ok((text, scene))
 }
 
 /// What is possible and unusual in a scene of this text.
-pub fn remarks(text: &str, scene: &Scene) -> impl Iterator<Item = Remark> {
-    Scene::questions(text).into_iter().chain(scene.remarks()).chain(film::remark(scene))
+pub fn remarks(text: &str, scene: &Scene) -> impl Iterator<Item = String> {
+    let of_units = brinell_scene_file::unit_questions(text).into_iter().map(|remark| remark.to_string());
+    of_units.chain(scene.remarks().into_iter().chain(film::remark(scene)).map(|remark| remark.to_string()))
 }
 
 /// Asks about the depths of a profile that were probably meant in another unit. What is wrong with it is told where it
@@ -65,7 +67,7 @@ pub(crate) fn tell_depths(scene: &Scene, name: &str, text: &str) {
         Ok(Surface::Topography(surface)) => surface.depths().iter().map(|depth| depth.abs()).fold(0.0, f64::max),
         Err(_) => return,
     };
-    if let Some(remark) = scene.remark_on_depths(1e6 * deepest) {
+    if let Some(remark) = DepthRemark::of(&scene.bearing, 1e6 * deepest) {
         eprintln!("note: {name}: {remark}");
     }
 }

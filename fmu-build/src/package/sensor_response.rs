@@ -3,8 +3,9 @@
 //! is told with the line that it has in the file.
 
 use anyhow::{Context, Error, Result, anyhow, bail};
-use brinell::scene::{Scene, SceneError, SensorMode};
+use brinell::scene::SensorMode;
 use brinell_analysis::spectra::{Fit, FrequencyResponse};
+use brinell_scene_file::SceneFileError;
 
 /// A scene's text with modes in place of every response; `read` gives the text of the file that a response names.
 pub(crate) fn resolved(text: &str, read: impl Fn(&str) -> Result<String>) -> Result<String> {
@@ -38,7 +39,7 @@ pub(crate) fn resolved(text: &str, read: impl Fn(&str) -> Result<String>) -> Res
 
 /// What is wrong with a response, and beside it all else that is wrong with the scene.
 pub(crate) fn beside_other_faults(error: Error, text: &str) -> Error {
-    let Err(SceneError::Keys(mut faults)) = Scene::from_toml(text) else { return error };
+    let Err(SceneFileError::Keys(mut faults)) = brinell_scene_file::from_toml(text) else { return error };
     // That it was not fitted is what `error` says.
     faults.retain(|fault| !fault.to_string().contains("sensor.response"));
     if faults.is_empty() {
@@ -91,20 +92,20 @@ mod tests {
         let named = |line: &str| SCENE.replace("\n[sensor]\n", &format!("\n[sensor]\n{line}\n"));
         let read = |name: &str| if name == "frf.csv" { Ok(table()) } else { bail!("no {name}") };
         let text = resolved(&named("response = \"frf.csv\" # measured"), read).unwrap();
-        let scene = Scene::from_toml(&text).unwrap();
+        let scene = brinell_scene_file::from_toml(&text).unwrap();
         let mode = scene.sensors[0].modes[0];
         assert!(scene.sensors[0].modes.len() == 1 && (mode.frequency - MODE.frequency).abs() < 1e-6, "{mode:?}");
         assert!(text.contains("1 modes fitted to \"frf.csv\"") && text.contains("\n[solver]"), "{text}");
         // What follows is told with its line in the file.
         let spoilt = named("response = \"frf.csv\"").replace("stop_s = ", "stop_s = -");
         let line = 1 + spoilt.lines().position(|line| line.starts_with("stop_s")).unwrap();
-        let said = Scene::from_toml(&resolved(&spoilt, read).unwrap()).unwrap_err().to_string();
+        let said = brinell_scene_file::from_toml(&resolved(&spoilt, read).unwrap()).unwrap_err().to_string();
         assert!(said.contains(&format!("line {line}: stop time")), "{said}");
         // Whatever has no response stays as it is.
         assert_eq!(resolved(SCENE, read).unwrap(), SCENE);
         assert!(resolved(&named("response = \"other.csv\""), read).unwrap_err().to_string().contains("other.csv"));
         assert!(resolved(&named("response = \"../frf.csv\""), read).unwrap_err().to_string().contains("beside"));
-        let raw = Scene::from_toml(&named("response = \"frf.csv\"")).unwrap_err().to_string();
+        let raw = brinell_scene_file::from_toml(&named("response = \"frf.csv\"")).unwrap_err().to_string();
         assert!(raw.contains("sensor.response") && raw.contains("frf.csv"), "{raw}");
     }
 }

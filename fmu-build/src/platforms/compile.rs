@@ -17,8 +17,7 @@ use super::{toolchain, universal};
 use crate::shared::{Project, whole_file};
 
 /// What the library is compiled of, in the workspace.
-const SOURCES: [&str; 7] =
-    ["Cargo.toml", "Cargo.lock", "src", "crates/elementary", "crates/scene", "crates/fmi", ".cargo"];
+const SOURCES: [&str; 5] = ["Cargo.toml", "Cargo.lock", "src", "crates/fmi", ".cargo"];
 
 /// The library for one platform, compiled for each of its processors.
 pub fn platform(project: &Project, source: &Path, platform: Platform) -> Result<Vec<u8>> {

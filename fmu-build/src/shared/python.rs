@@ -10,7 +10,7 @@ use std::env;
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Child, Command, Output, Stdio};
 
 use anyhow::{Context, Result, bail};
 
@@ -19,20 +19,17 @@ use super::whole_file;
 
 const REQUIREMENTS: &str = include_str!("../../python/requirements.txt");
 const SCRIPTS: &[(&str, &str)] = &[
+    ("check.py", include_str!("../../python/check.py")),
     ("contact.py", include_str!("../../python/contact.py")),
     ("demo.py", include_str!("../../python/demo.py")),
-    ("elements.py", include_str!("../../python/elements.py")),
-    ("side_by_side.py", include_str!("../../python/side_by_side.py")),
     ("host.py", include_str!("../../python/host.py")),
     ("plotting.py", include_str!("../../python/plotting.py")),
-    ("report.py", include_str!("../../python/report.py")),
     ("run_figure.py", include_str!("../../python/run_figure.py")),
     ("run_page.js", include_str!("../../python/run_page.js")),
     ("run_page.py", include_str!("../../python/run_page.py")),
     ("size.py", include_str!("../../python/size.py")),
     ("modes.py", include_str!("../../python/modes.py")),
     ("stiffness.py", include_str!("../../python/stiffness.py")),
-    ("validation.py", include_str!("../../python/validation.py")),
     ("validate.py", include_str!("../../python/validate.py")),
 ];
 const INTERPRETER: &str = if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" };
@@ -129,21 +126,39 @@ impl Python {
 
     /// Runs a script file, which can import this program's scripts, and gives its standard output.
     pub fn run_file<A: AsRef<OsStr>>(&self, script: &Path, arguments: impl IntoIterator<Item = A>) -> Result<String> {
+        let about = || self.interpreter.display().to_string();
+        let output = self.command(script).args(arguments).output().with_context(about)?;
+        if !output.status.success() {
+            bail!("{}: {}", script.display(), said(&output));
+        }
+        Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+    }
+
+    /// Runs one of this program's scripts, whose lines are shown as they come; the end of what it says of a failure is
+    /// the error.
+    pub fn show<A: AsRef<OsStr>>(&self, script: &str, arguments: impl IntoIterator<Item = A>) -> Result<()> {
+        let about = || self.interpreter.display().to_string();
+        let mut command = self.command(&self.scripts.join(script));
+        let child = command.args(arguments).stdout(Stdio::inherit()).stderr(Stdio::piped()).spawn();
+        let output = child.and_then(Child::wait_with_output).with_context(about)?;
+        match said(&output) {
+            _ if output.status.success() => Ok(()),
+            silent if silent.is_empty() => bail!("{script} ended without a word: {}", output.status),
+            why => bail!(why),
+        }
+    }
+
+    fn command(&self, script: &Path) -> Command {
+        let mut command = Command::new(&self.interpreter);
         // What a script imports is compiled once for all that follow, and beside nobody's sources.
-        let output = Command::new(&self.interpreter)
+        command
             .env("PYTHONPATH", &self.scripts)
             .env("PYTHONPYCACHEPREFIX", self.bytecode())
             .env_remove("PYTHONDONTWRITEBYTECODE")
             .env("MPLBACKEND", "Agg")
             .envs(self.variables.iter().map(|(name, value)| (name, value)))
-            .arg(script)
-            .args(arguments)
-            .output()
-            .with_context(|| self.interpreter.display().to_string())?;
-        if !output.status.success() {
-            bail!("{}: {}", script.display(), said(&output));
-        }
-        Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+            .arg(script);
+        command
     }
 }
 

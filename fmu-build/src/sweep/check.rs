@@ -3,7 +3,7 @@
 //! First one run whose values are each the first on the grid and the lower end of its range, then, key by key, the
 //! others. What only some runs with random values meet is found when they are run, and told in their rows.
 
-use brinell::scene::{Scene, SceneError};
+use brinell_scene_file::SceneFileError;
 use toml::Value;
 
 use super::design::{Point, Run};
@@ -93,9 +93,9 @@ fn said(base: &Base, sweep: &Sweep, run: &Run) -> Vec<String> {
         Ok(text) => text,
         Err(error) => return vec![error.to_string()],
     };
-    match Scene::from_toml(&text) {
+    match brinell_scene_file::from_toml(&text) {
         Ok(_) => Vec::new(),
-        Err(SceneError::Keys(faults)) => faults
+        Err(SceneFileError::Keys(faults)) => faults
             .iter()
             .map(|fault| {
                 let said = fault.to_string();

@@ -2,6 +2,9 @@
 //! values that depend on the seed, the key and i alone: a longer sweep begins with the shorter one, and a further key
 //! changes nothing of the others.
 
+use std::path::PathBuf;
+use std::str::FromStr;
+
 use brinell::numerics::checksum::checksum;
 use brinell::numerics::counter_noise::{bits, uniform};
 use toml::Value;
@@ -11,6 +14,8 @@ use super::file::{Kind, Sweep};
 /// Random numbers of a sweep that are no key's.
 const NOISE_RATIO: &str = "noise_db";
 const NOISE: &str = "noise";
+/// What names of parts' folders begin with.
+pub(super) const PART: &str = "part-";
 
 /// Noise added to a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,6 +36,38 @@ pub(super) struct Run {
     /// Keys of the scene from the grid, then those drawn at random.
     pub(super) values: Vec<(String, Value)>,
     pub(super) noise: Option<RunNoise>,
+}
+
+/// One of several parts of a sweep, for machines that share the work: every `count`-th run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Part {
+    /// From 1 to `count`.
+    number: u64,
+    count: u64,
+}
+
+impl Part {
+    /// Whether a run belongs to it.
+    pub(super) fn has(self, run: u64) -> bool {
+        run % self.count == self.number - 1
+    }
+
+    /// Its folder in that of the sweep.
+    pub(super) fn folder(self) -> PathBuf {
+        format!("{PART}{}-of-{}", self.number, self.count).into()
+    }
+}
+
+impl FromStr for Part {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers = text.split_once('/').and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
+        match numbers {
+            Some((number, count)) if 1 <= number && number <= count => Ok(Self { number, count }),
+            _ => Err("it must be K/N, as 2/8: part K of N, with K from 1 to N".to_owned()),
+        }
+    }
 }
 
 /// A point of the grid.

@@ -2,7 +2,8 @@
 
 use std::ops::RangeInclusive;
 
-use brinell::scene::{nearest, toml_fault};
+use brinell::scene::nearest;
+use brinell_scene_file::toml_fault;
 use toml::de::{DeTable, DeValue};
 use toml::{Table, Value};
 

@@ -1,11 +1,18 @@
-//! Rows of a sweep's table: one for each run, kept in a journal as they come.
+//! Rows of a sweep: one for each run, kept in a journal as they come and written as one table.
 //!
 //! A line of the journal is a row with a checksum before it. A program that is ended while it writes leaves at most a
 //! line that its checksum does not fit; that run is made again.
 
+use crate::run::table::{GROUP, PACKING};
+use parquet::basic::{Compression, GzipLevel, LogicalType, Repetition, Type as Physical};
+use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+use parquet::schema::types::Type;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use anyhow::{Context, Result};
 use brinell::numerics::checksum::checksum;
@@ -13,7 +20,7 @@ use brinell::numerics::checksum::checksum;
 use crate::shared::{NotWritten, whole_file};
 
 /// Name of the journal.
-const FILE: &str = "rows.log";
+pub(super) const FILE: &str = "rows.log";
 
 /// What a column holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -152,6 +159,67 @@ impl Journal {
         let written = self.file.write_all(row.line().as_bytes());
         Ok(written.map_err(|error| NotWritten::new(&self.path, error))?)
     }
+}
+
+/// Writes the rows as Apache Parquet, whole or not at all: a row for each run, in their order; what a run does not have
+/// is null.
+pub(super) fn write_table(path: &Path, columns: &[Column], rows: &[Row]) -> Result<()> {
+    let field = |column: &Column| {
+        let (physical, logical) = match column.kind {
+            Kind::Number => (Physical::DOUBLE, None),
+            Kind::Whole => (Physical::INT64, None),
+            Kind::Text => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
+        };
+        let built = Type::primitive_type_builder(&column.name, physical).with_repetition(Repetition::OPTIONAL);
+        Ok(Arc::new(built.with_logical_type(logical).build()?))
+    };
+    let fields = columns.iter().map(field).collect::<Result<Vec<_>>>()?;
+    let schema = Arc::new(Type::group_type_builder("sweep").with_fields(fields).build()?);
+    let properties =
+        WriterProperties::builder().set_compression(Compression::GZIP(GzipLevel::try_new(PACKING)?)).build();
+    whole_file::write_with(path, |out| {
+        let mut writer = SerializedFileWriter::new(out, schema, Arc::new(properties))?;
+        for rows in rows.chunks(GROUP) {
+            let mut group = writer.next_row_group()?;
+            for (position, column) in columns.iter().enumerate() {
+                let cells = rows.iter().map(|row| &row.0[position]);
+                match column.kind {
+                    Kind::Number => put::<DoubleType, _>(&mut group, cells, |cell| match cell {
+                        Cell::Number(number) => Some(*number),
+                        Cell::Whole(whole) => Some(*whole as f64),
+                        _ => None,
+                    })?,
+                    Kind::Whole => put::<Int64Type, _>(&mut group, cells, |cell| match cell {
+                        Cell::Whole(whole) => Some(*whole),
+                        _ => None,
+                    })?,
+                    Kind::Text => put::<ByteArrayType, _>(&mut group, cells, |cell| match cell {
+                        Cell::Text(text) => Some(ByteArray::from(text.as_str())),
+                        _ => None,
+                    })?,
+                }
+            }
+            group.close()?;
+        }
+        writer.close()?;
+        Ok(())
+    })
+}
+
+/// Writes the next column.
+fn put<'c, T: DataType, W: std::io::Write + Send>(
+    group: &mut SerializedRowGroupWriter<'_, W>,
+    cells: impl Iterator<Item = &'c Cell>,
+    value: impl Fn(&Cell) -> Option<T::T>,
+) -> Result<()> {
+    let values: Vec<Option<T::T>> = cells.map(value).collect();
+    let there: Vec<i16> = values.iter().map(|value| i16::from(value.is_some())).collect();
+    let values: Vec<T::T> = values.into_iter().flatten().collect();
+    if let Some(mut column) = group.next_column()? {
+        column.typed::<T>().write_batch(&values, Some(&there), None)?;
+        column.close()?;
+    }
+    Ok(())
 }
 
 #[cfg(test)]

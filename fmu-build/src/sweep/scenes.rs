@@ -88,7 +88,7 @@ impl Base {
     /// What is wrong with the scene.
     pub(super) fn scene(&self, sweep: &Sweep, run: &Run) -> Result<(Scene, Table)> {
         let mut table = self.changed(sweep, run).map_err(anyhow::Error::msg)?;
-        let mut scene = Scene::from_toml(&toml::to_string(&table)?)?;
+        let mut scene = brinell_scene_file::from_toml(&toml::to_string(&table)?)?;
         if scene.contact.law == ContactLaw::Map && !scene.defects.is_empty() {
             let force = *scene.contact.largest_force.get_or_insert(force_of_map(&scene, sweep));
             let accuracy = *scene.contact.map_accuracy.get_or_insert(MAP_ACCURACY);

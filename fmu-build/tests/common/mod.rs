@@ -1,6 +1,7 @@
 //! What the tests of this crate share: the shipped scenes, a compiled library, one Python environment.
 #![allow(dead_code, clippy::unwrap_used)] // each test binary uses a part of this
 
+use brinell::scene::model_file;
 use std::collections::BTreeMap;
 use std::env;
 use std::fs;
@@ -69,6 +70,8 @@ pub(crate) fn folder(name: &str) -> PathBuf {
 pub(crate) fn lay(model: &Model, folder: &Path) {
     fs::create_dir_all(folder).unwrap();
     fs::write(folder.join("scene.toml"), &model.scene_text).unwrap();
+    let scene = model_file::encode(&model.scene, &model.scene_text).unwrap();
+    fs::write(folder.join("model.bin"), scene).unwrap();
     for profile in &model.profiles {
         fs::write(folder.join(&profile.name), &profile.text).unwrap();
     }

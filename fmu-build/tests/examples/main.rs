@@ -19,33 +19,15 @@ use serde_json::Value;
 const RIGID: &str = "python examples/step_by_step.py --stop 0.06";
 const ROSS: &str = "python examples/rotor_ross.py --stop 1";
 const ROSS_ITSELF: &str = "python examples/rotor_ross.py --host ross --stop 0.2";
-const LINEAR: &str = "python examples/rotor_linear.py --short";
 const ERROR: &str = "python examples/coupling_error.py --short";
-const MASTERS: &str = "python examples/masters.py --short";
+const SWEEP: &str = "python examples/sweep.py examples/sweep.toml -o target/labelled";
 const SYSTEMS: &str = "python examples/system_of_fmus.py --build";
 const SYSTEM: &str = "python examples/system_of_fmus.py --short";
-const COST: &str = "python examples/step_cost.py --steps 200";
-const SWEEP: &str =
-    "python examples/sweep.py --runs 8 --stop 0.1 --grid defect.length_deg=15.8 --random shaft.speed_hz=10:40";
-const LABELLED: &str = "python examples/sweep.py --kinds healthy,outer,inner,element --law hertz --runs 8 --stop 0.1 \
-                        --settle 0.02 --signals -o target/labelled";
-const MEASURED: &str = "python examples/sweep.py --kinds healthy,outer,inner --law hertz --runs 12 --stop 0.2 --settle \
-                        0.02 --speed-profile up.csv --noise-db 10:30 --rate 12800 --filter --write wav,npy --signals \
-                        --grid bearing.element_count=8,9 --grid defect.length_mm=1.2 -o target/measured";
-const SIZED: &str = "python examples/sweep.py --runs 1 --stop 0.6 --grid defect.length_deg=15.8 --random \
-                     shaft.speed_hz=10:40 --size -o target/sized";
-const SCHEDULER: &str = "dask scheduler --host 127.0.0.1 --port 8786 --no-dashboard";
-const WORKER: &str = "dask worker tcp://127.0.0.1:8786 --nworkers 2 --nthreads 1 --no-dashboard";
-const CLUSTER: &str = "python examples/sweep.py --scheduler tcp://127.0.0.1:8786 --runs 8 --stop 0.1 --grid \
-                       defect.length_deg=15.8 --random shaft.speed_hz=10:40";
 /// What this file's environment or another test does.
-const SET_UP: [&str; 8] = [
+const SET_UP: [&str; 6] = [
     "python3 -m venv target/examples-env",
     ". target/examples-env/bin/activate",
     "pip install -r examples/requirements.txt",
-    // Packages that only this page of measurements needs.
-    "pip install libcosimpy==0.0.6 ecospy==0.7.2 tbb",
-    "LD_LIBRARY_PATH=target/examples-env/lib python examples/system_of_fmus.py --masters ours,fmpy,libcosim,ecos",
     // tests/fmu/reference.rs runs it, with all scenes.
     "brinell build er16k-tb1 --reference",
     "brinell build er16k-tb1 --reference --fmi 3",
@@ -93,12 +75,6 @@ fn run_in(python: &Python, command: &str, folder: &Path) -> String {
     python.run_file(&script, words.chain(["-o".into(), folder.into()])).unwrap_or_else(|error| panic!("{error:#}"))
 }
 
-/// What an example says that refuses its arguments.
-fn refused_in(python: &Python, command: &str, folder: &Path) -> String {
-    let (script, words) = parts(command);
-    python.run_file(&script, words.map(OsString::from).chain(["-o".into(), folder.into()])).unwrap_err().to_string()
-}
-
 /// The script of a command, and its arguments.
 fn parts(command: &str) -> (PathBuf, impl Iterator<Item = &str>) {
     let mut words = command.strip_prefix("python ").unwrap().split(' ');
@@ -143,24 +119,7 @@ fn blocks(language: &str) -> Vec<String> {
 
 #[test]
 fn every_command_of_the_guide_is_run_here() {
-    let known = [
-        RIGID,
-        ROSS,
-        ROSS_ITSELF,
-        LINEAR,
-        ERROR,
-        MASTERS,
-        COST,
-        SWEEP,
-        LABELLED,
-        MEASURED,
-        SYSTEMS,
-        SYSTEM,
-        SIZED,
-        SCHEDULER,
-        WORKER,
-        CLUSTER,
-    ];
+    let known = [RIGID, ROSS, ROSS_ITSELF, ERROR, SWEEP, SYSTEMS, SYSTEM];
     let commands: Vec<_> =
         blocks("sh").iter().flat_map(|block| block.lines().map(str::to_owned).collect::<Vec<_>>()).collect();
     for command in &commands {
@@ -234,33 +193,6 @@ fn two_bearings_carry_a_rigid_rotor() {
         assert!((found / expected - 1.0).abs() < 0.05, "{name}: {found}, expected {expected}");
     }
     assert!(said["largest_sensor_m_s2"].as_f64().unwrap() > 1.0, "the spall is felt: {said}");
-}
-
-#[test]
-fn each_master_is_as_exact_with_each_force_as_the_guide_says() {
-    let rows = table(&run(MASTERS, &common::folder("example-masters")), 3);
-    assert_eq!(rows.len(), 14);
-    let guide = page("guide.md");
-    for (words, _) in &rows {
-        let row = words.replacen(' ', " | ", 2);
-        assert!(guide.contains(&format!("| {row} |")), "not in the guide: {row}");
-    }
-    let at = |row: &str, column: usize| {
-        let (_, cells) = rows.iter().find(|(words, _)| words == row).unwrap();
-        percent(&cells[column])
-    };
-    for bearing in ["healthy", "spalled"] {
-        // Steps of 10 µs over the first 5 ms: a quarter of the guide's time, and less error. Limits: two to three times
-        // what was found.
-        let found = |told: &str| at(&format!("{bearing} {told}"), 0);
-        let (held, derivative) = (found("parallel `force`, held"), found("parallel `force` and its derivative"));
-        let (late, sequential) = (found("parallel `mean_force`, held"), found("sequential `mean_force`, held"));
-        assert!(derivative < 0.06 && sequential < 0.03, "{bearing}: {derivative} %, {sequential} %");
-        // A force that comes a whole step late instead of half a one: twice the error, and more as it grows.
-        assert!(late > 1.8 * held && held > 20.0 * derivative, "{bearing}: {late} %, {held} %, {derivative} %");
-        let same = found("parallel `mean_force` and its derivative, which is 0");
-        assert_eq!(same, late, "{bearing}: the mean's derivative is not 0");
-    }
 }
 
 #[test]

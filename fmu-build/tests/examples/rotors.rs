@@ -3,8 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use super::{COST, ERROR, LINEAR, ROSS, ROSS_ITSELF, common, has_figure, last, percent, run_in, table};
-use super::{refused_in, with_all_packages};
+use super::{ERROR, ROSS, ROSS_ITSELF, common, has_figure, last, percent, run_in, table, with_all_packages};
 
 /// ROSS does not run on Python 3.9, whatever it says of itself: there the example must say so.
 fn has_ross() -> bool {
@@ -83,43 +82,6 @@ fn ross_may_tell_more_and_give_more_as_its_version_3_does() {
 
 #[test]
 #[ignore = "needs the environment of the examples, half a gigabyte"]
-fn a_rotors_run_writes_the_columns_that_are_asked_for_and_no_others() {
-    if !has_ross() {
-        return;
-    }
-    let folder = common::folder("example-rotor-columns");
-    let asked = "--stop 0.05 --columns node[12].y,shaft.force.* --format npy";
-    let said = last(&run_in(with_all_packages(), &format!("python examples/rotor_ross.py {asked}"), &folder));
-    assert_eq!(said["files"].as_array().unwrap().len(), 4, "figure twice, a table of each run: {said}");
-    let script = folder.join("columns.py");
-    fs::write(&script, COLUMNS).unwrap();
-    let said = with_all_packages()
-        .run_file(&script, [&folder, &common::root().join("examples")])
-        .unwrap_or_else(|error| panic!("{error:#}"));
-    assert_eq!(said.trim(), "time, node[12].y, shaft.force.x, shaft.force.y of 1001 rows");
-    let refused =
-        refused_in(with_all_packages(), "python examples/rotor_ross.py --stop 0.05 --columns shaft.force.z", &folder);
-    assert!(refused.contains("'shaft.force.z'") && refused.contains("shaft.force.y"), "{refused}");
-}
-
-#[test]
-#[ignore = "runs for a minute; the table of coupling errors has the same host"]
-fn small_motion_of_a_ross_rotor_is_that_with_a_linear_bearing() {
-    if !has_ross() {
-        return;
-    }
-    let folder = common::folder("example-linear");
-    let said = last(&run_in(with_all_packages(), LINEAR, &folder));
-    has_figure(folder.join("rotor_linear"));
-    // What is asked of the coupling: response 2 %, frequency of the free decay 0.5 %.
-    for (name, limit) in [("largest_error_disk", 0.02), ("largest_error_bearing", 0.02), ("decay_hz_error", 0.005)] {
-        let found = said[name].as_f64().unwrap().abs();
-        assert!(found < limit, "{name}: {found}, limit {limit}");
-    }
-}
-
-#[test]
-#[ignore = "needs the environment of the examples, half a gigabyte"]
 fn the_coupling_is_as_exact_as_the_guide_says() {
     if !has_ross() {
         return;
@@ -147,22 +109,6 @@ fn the_coupling_is_as_exact_as_the_guide_says() {
         assert!(found.0 < short && found.1 < long, "{row}: {found:?} %, limits {short} and {long} %");
     }
     assert!(at("healthy ROSS, no stand-in", 1).is_infinite(), "without the stand-in 100 µs are unstable: {rows:?}");
-}
-
-#[test]
-#[ignore = "measures; what it steps is stepped in the table of coupling errors"]
-fn the_cost_of_a_step_is_told_apart() {
-    if !has_ross() {
-        return;
-    }
-    let rows = table(&run_in(with_all_packages(), COST, &common::folder("example-cost")), 2);
-    assert_eq!(rows.len(), 8);
-    for (host, cells) in rows {
-        let parts: Vec<f64> = cells.iter().map(|cell| cell.split(" µs").next().unwrap().parse().unwrap()).collect();
-        // Printed with a tenth of a microsecond; the whole without decimals.
-        assert!((parts[1..].iter().sum::<f64>() - parts[0]).abs() < 1.0, "{host}: {parts:?}");
-        assert!(parts.iter().all(|&part| part > 0.0), "{host}: {parts:?}");
-    }
 }
 
 /// ROSS 3 tells `args` to `add_to_RHS`, and `integrate_system` gives three values.
@@ -193,27 +139,4 @@ def as_of_3(rotor, speed, force, t, add_to_RHS):
 ross.Rotor.integrate_system = as_of_3
 assert np.array_equal(run(), plain) and len(plain) == 101 and np.ptp(plain) > 0
 print("equal bits")
-"#;
-
-/// The same bits in every format.
-const COLUMNS: &str = r#"
-import sys
-from pathlib import Path
-
-import numpy as np
-import pyarrow.parquet as parquet
-
-sys.path.insert(0, sys.argv[2])
-import signal_table
-
-folder = Path(sys.argv[1])
-healthy, spalled = (np.load(folder / f"rotor_exact-{name}.npy") for name in ("healthy", "spalled"))
-assert healthy.dtype == spalled.dtype and np.ptp(spalled["node[12].y"]) > np.ptp(healthy["node[12].y"]) > 0
-columns = {name: spalled[name] for name in spalled.dtype.names}
-csv = np.genfromtxt(signal_table.write(folder / "same", "csv", columns), delimiter=",", skip_header=1)
-packed = parquet.read_table(signal_table.write(folder / "same", "parquet", columns))
-assert packed.column_names == list(columns)
-for k, (name, values) in enumerate(columns.items()):
-    assert np.array_equal(csv[:, k], values) and np.array_equal(packed[name].to_numpy(), values), name
-print(", ".join(columns), "of", len(spalled), "rows")
 "#;

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use brinell::scene::Experiment;
-use fmu_build::host::check;
+use fmu_build::commands::check;
 use fmu_build::package::Model;
 use fmu_build::run;
 use fmu_build::run::table::Format;

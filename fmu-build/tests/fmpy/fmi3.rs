@@ -5,7 +5,7 @@
 use crate::common;
 use std::path::{Path, PathBuf};
 
-use fmu_build::host::check;
+use fmu_build::commands::check;
 use fmu_build::shared::Project;
 
 fn all_fmus(folder: &Path) -> Vec<PathBuf> {

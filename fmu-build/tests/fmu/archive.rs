@@ -29,7 +29,7 @@ fn a_file_compressed_before_has_the_bytes_of_one_compressed_in_its_archive() {
     for archive in [&mut plain, &mut compressed] {
         archive.add("resources/scene.toml", "name = \"6205\"").unwrap();
     }
-    assert_eq!(plain.to_bytes().unwrap(), compressed.to_bytes().unwrap());
+    assert_eq!(plain.to_zip().unwrap(), compressed.to_zip().unwrap());
 }
 
 #[test]
@@ -52,6 +52,7 @@ fn an_fmu_holds_what_the_standard_names_and_nothing_else() {
         "modelDescription.xml",
         "resources/6205-epps-trace.csv",
         "resources/map.bin",
+        "resources/model.bin",
         "resources/scene.toml",
     ];
     assert_eq!(names, expected);
@@ -76,6 +77,7 @@ fn an_fmu_of_fmi_3_holds_the_library_in_the_folder_of_every_processor_and_termin
         "modelDescription.xml",
         "resources/6205-epps-trace.csv",
         "resources/map.bin",
+        "resources/model.bin",
         "resources/scene.toml",
         "terminalsAndIcons/icon.png",
         "terminalsAndIcons/terminalsAndIcons.xml",

@@ -8,9 +8,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use brinell::scene::Scene;
-
-/// Scenes that the schema refuses as [`Scene::from_toml`] does: what is replaced in a scene, and by what.
+/// Scenes that the schema refuses as [`brinell_scene_file::from_toml`] does: what is replaced in a scene, and by what.
 const BAD: [(&str, &str); 13] = [
     ("element_count = 9", "element_cout = 9"),
     ("element_count = 9", "element_count = \"nine\""),
@@ -58,7 +56,7 @@ fn the_schema_takes_every_scene_and_refuses_wrong_keys_types_and_words() {
     for (k, (old, new)) in BAD.iter().enumerate() {
         assert_eq!(scene.matches(old).count(), 1, "{old}");
         let text = scene.replace(old, new);
-        assert!(Scene::from_toml(&text).is_err(), "{new}");
+        assert!(brinell_scene_file::from_toml(&text).is_err(), "{new}");
         texts.push((format!("bad-{k}"), text));
     }
     let files: Vec<String> = texts.iter().map(|(name, text)| as_json(&folder, name, text)).collect();
@@ -167,7 +165,7 @@ fn bounds(schema: &serde_json::Value) -> Vec<(String, String, f64, bool, bool)> 
 
 #[test]
 fn every_bound_of_the_schema_is_refused_just_outside_by_the_program() {
-    Scene::from_toml(WHOLE).unwrap();
+    brinell_scene_file::from_toml(WHOLE).unwrap();
     let schema: serde_json::Value = serde_json::from_str(&program(&["schema"])).unwrap();
     let bounds = bounds(&schema);
     for (path, bound, value, whole, is_list) in &bounds {
@@ -192,8 +190,8 @@ fn every_bound_of_the_schema_is_refused_just_outside_by_the_program() {
             None => text = format!("{key} = {shown}\n{text}"),
             Some(head) => text = text.replacen(head, &format!("{head}{key} = {shown}\n"), 1),
         }
-        let said =
-            Scene::from_toml(&text).map_or_else(|error| error.to_string(), |_| panic!("{path} = {shown} was accepted"));
+        let said = brinell_scene_file::from_toml(&text)
+            .map_or_else(|error| error.to_string(), |_| panic!("{path} = {shown} was accepted"));
         assert!(said.contains(key), "{path} = {shown}: {said}");
     }
     assert!(bounds.len() > 110, "{} bounds", bounds.len());
@@ -208,7 +206,11 @@ fn every_bound_of_the_schema_is_refused_just_outside_by_the_program() {
             true => whole.clone() + &table.repeat(count),
             false => format!("{whole}[[sensor]]\n{}", table.repeat(count)),
         };
-        assert!(Scene::from_toml(&text(most)).is_ok() && Scene::from_toml(&text(most + 1)).is_err(), "{definition}");
+        assert!(
+            brinell_scene_file::from_toml(&text(most)).is_ok()
+                && brinell_scene_file::from_toml(&text(most + 1)).is_err(),
+            "{definition}"
+        );
     }
 }
 

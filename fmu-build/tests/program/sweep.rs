@@ -101,6 +101,32 @@ fn same_bits(one: &Path, other: &Path) {
 }
 
 #[test]
+fn parts_of_a_sweep_made_anywhere_join_to_the_bits_of_one_run() {
+    let folder = common::folder("sweep-parts");
+    let path = file(&folder, QUICK);
+    let (one, parts) = (folder.join("one"), folder.join("parts"));
+    sweep(&path, &one, &["--signals"]);
+    for (part, runs) in [("2/5", 5), ("5/5", 4), ("1/5", 5), ("4/5", 5)] {
+        let told = sweep(&path, &parts, &["--signals", "--part", part]);
+        assert!(told.contains(&format!("{runs} runs, {runs} of them made now")), "{part}: {told}");
+    }
+    assert_eq!(table(&parts.join("part-2-of-5")).1, [1, 6, 11, 16, 21].map(|run| table(&one).1[run].clone()));
+    // A row that was torn, and a part that nobody made, are made by the run that joins.
+    let journal = parts.join("part-4-of-5/rows.log");
+    let torn = fs::read(&journal).unwrap();
+    fs::write(&journal, &torn[..torn.len() - 9]).unwrap();
+    assert!(sweep(&path, &parts, &["--signals"]).contains("24 runs, 6 of them made now"));
+    same_bits(&one, &parts);
+    // Parts of another sweep are none of this one.
+    file(&folder, &QUICK.replace("seed = 3", "seed = 4"));
+    fs::remove_file(parts.join("design.txt")).unwrap();
+    assert!(refused(&path, &parts, &["--signals"]).contains("part-"));
+    for wrong in ["0/3", "4/3", "2", "a/b", "1/0", "-1/2"] {
+        assert!(refused(&path, &parts, &[&format!("--part={wrong}")]).contains("K/N"), "{wrong}");
+    }
+}
+
+#[test]
 fn a_sweep_has_the_same_bits_on_any_number_of_threads_and_a_longer_one_begins_with_it() {
     let folder = common::folder("sweep-threads");
     let path = file(&folder, QUICK);

@@ -11,7 +11,7 @@ directional derivatives of the force by position and velocity: dF/da = F_x H^2/6
 a adds. Elements do not stand still through a step, so this derivative is not exact, and the iteration is a damped one.
 Without iteration, one pass a step, the scheme is the plain one of the guide.
 
-Arguments: FMU of er16k-tb1, FMU of er16k-tb1-hosted-shaft, and where to put table and figure, if they are wanted.
+Arguments: FMU of er16k-tb1, FMU of er16k-tb1-hosted-shaft.
 """
 
 import sys
@@ -93,7 +93,7 @@ def main():
     own, hosted = sys.argv[1:3]
     schemes = ["one pass", "fixed point", "newton"]
     steps = [5e-5, 2.5e-5, 1.25e-5]
-    found, table = {}, []
+    found = {}
     for step in steps:
         expected = monolithic(own, step)
         sag = np.abs(expected[:, :2] - expected[0, :2]).max()
@@ -102,7 +102,6 @@ def main():
             whole = len(rows) == len(expected)
             error = np.sqrt(np.mean((rows[:, :2] - expected[: len(rows), :2]) ** 2)) / sag if whole else np.inf
             found[scheme, step] = (rows, expected, error, passes)
-            table.append((scheme, step, error, passes.mean(), passes.max()))
             print(
                 f"{scheme:12} H = {step:.2e} s: error {error:.2e} of the largest excursion, {passes.mean():.2f} passes"
             )
@@ -119,37 +118,6 @@ def main():
         assert found["newton", step][3].mean() <= found["fixed point", step][3].mean(), "Newton takes more passes"
     errors = [found["newton", step][2] for step in steps]
     assert errors[0] < 0.1 and errors[2] < 0.5 * errors[0], f"the error does not fall with the step: {errors}"
-    if len(sys.argv) > 3:
-        draw(found, table, sys.argv[3])
-
-
-def draw(found, table, stem):
-    import matplotlib.pyplot as plt
-
-    import plotting
-
-    rows, expected, _, _ = found["newton", 5e-5]
-    time = 1e3 * 5e-5 * np.arange(len(expected))
-    figure, (motion, passes) = plt.subplots(2, 1, figsize=(plotting.WIDTH, 5.0), sharex=True)
-    motion.plot(time, 1e6 * expected[:, 1], color="black", label="one FMU")
-    motion.plot(time, 1e6 * rows[:, 1], ".", color=plotting.VERMILION, ms=3, label="host and FMU, iterated, H = 50 µs")
-    motion.set_ylabel("shaft.y (µm)")
-    motion.set_title("A shaft of 0.1 kg moved by the host, over a spall")
-    motion.legend()
-    for scheme, colour in [("fixed point", plotting.ORANGE), ("newton", plotting.BLUE)]:
-        count = found[scheme, 5e-5][3]
-        passes.step(time[1 : len(count) + 1], count, color=colour, label=scheme.replace("newton", "Newton"))
-    passes.set_ylabel("passes in a step")
-    passes.set_xlabel("time (ms)")
-    passes.legend()
-    plotting.save(figure, stem)
-    with open(f"{stem}.md", "w", encoding="utf-8", newline="\n") as file:
-        file.write(
-            "| scheme | step (µs) | error / largest excursion | passes, mean | passes, most |\n|---|---|---|---|---|\n"
-        )
-        for scheme, step, error, mean, most in table:
-            shown = "unstable" if not np.isfinite(error) or error > 1 else f"{error:.1e}"
-            file.write(f"| {scheme} | {1e6 * step:g} | {shown} | {mean:.2f} | {most} |\n")
 
 
 main()

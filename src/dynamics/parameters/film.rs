@@ -6,7 +6,7 @@
 //!
 //! A thickness h that changes enters positions and no rate. With the approach Δ and the gap g = h − Δ between the
 //! surfaces, g' = h' − Δ': what a closing gap resists with follows −g', the rate of the surfaces, of which h' is no
-//! part. To the contact's own damper h' would add χ h' of its force: 2e-7 of it where h grows by 0.3 µm in half a
+//! part. To the contact's own damper h' would add χ h' of its force: 3e-7 of it where h grows by 0.3 µm in half a
 //! second, which is left out.
 
 use crate::contact::law::SqueezeFilm;

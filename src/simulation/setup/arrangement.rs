@@ -227,7 +227,7 @@ mod tests {
 
     /// The largest force of a bearing of ten balls whose shaft carries `load` (N).
     fn of_load(load: f64) -> f64 {
-        let mut scene = Scene::from_toml(include_str!("../../../scenes/er16k-tb1.toml")).unwrap();
+        let mut scene = Scene::er16k();
         (scene.bearing.element_count, scene.shaft.load) = (10, [0.6 * load, -0.8 * load]);
         largest_force(&scene)
     }
@@ -244,7 +244,7 @@ mod tests {
 
     #[test]
     fn a_force_that_the_scene_names_is_taken_as_it_is() {
-        let mut scene = Scene::from_toml(include_str!("../../../scenes/er16k-tb1.toml")).unwrap();
+        let mut scene = Scene::er16k();
         scene.contact.largest_force = Some(1111.0);
         assert_eq!(largest_force(&scene), 1111.0);
     }

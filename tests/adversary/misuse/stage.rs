@@ -4,7 +4,6 @@ use super::chance::Chance;
 use super::disk;
 use crate::host::{Host, Resources};
 use crate::support;
-use brinell::scene::Scene;
 use brinell::simulation::interface::table::{Causality, Kind, Variable};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -48,7 +47,7 @@ pub(super) fn stages() -> Vec<Stage> {
     };
     let text = bounded(include_str!("../../../scenes/er16k-tb1.toml").to_owned());
     let mapped = Resources::new(&text, None, "resources");
-    let map = support::map_of(&Scene::from_toml(&text).unwrap(), None).unwrap();
+    let map = support::map_of(&brinell_scene_file::from_toml(&text).unwrap(), None).unwrap();
     fs::write(mapped.directory.join("map.bin"), map).unwrap();
     let mapped = Stage::new("er16k-tb1 with its contact map", mapped);
     list.into_iter().map(stage).chain([mapped]).collect()

@@ -66,7 +66,7 @@ fn decimal_commas_keep_their_fractions_and_what_can_be_read_in_two_ways_is_refus
 /// What the recorder of a scene writes in 20 ms, and its folder.
 fn recorded(scene_text: &str) -> Vec<u8> {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("recorder-{}", std::process::id()));
-    let scene = brinell::scene::Scene::from_toml(scene_text).unwrap();
+    let scene = brinell_scene_file::from_toml(scene_text).unwrap();
     let mut simulation = Simulation::new(scene, None).unwrap();
     simulation.record_into(folder.to_str().unwrap());
     simulation.initialize(0.0).unwrap();

@@ -27,7 +27,7 @@ const SMOOTH: f64 = 1e-4;
 pub fn compared(case: &Case) -> Result<Compared, String> {
     let profiles = case.profiles();
     let profiles = || profiles.iter().map(String::as_str);
-    let Ok(scene) = Scene::from_toml(&case.toml()) else { return Ok([false; 3]) };
+    let Ok(scene) = brinell_scene_file::from_toml(&case.toml()) else { return Ok([false; 3]) };
     if Subject::new(case).is_err() {
         return Ok([false; 3]);
     }

@@ -6,7 +6,7 @@ use crate::draw::{Draw, for_seeds};
 use crate::oracle::Bearing;
 use crate::oracle::signals::signals;
 use crate::random_case::{of_dry_balls, on_the_outer_raceway, slow_straight_rollers};
-use crate::subject::Subject;
+use crate::subject::{Refusal, Subject};
 use brinell::contact::error::ContactError;
 use brinell::simulation::SimulationError;
 use brinell::surface::SurfaceError;
@@ -108,7 +108,11 @@ fn scene_of(seed: u64) -> Case {
 fn a_defect_that_no_element_can_leave_is_refused_at_once() {
     let case = scene_of(517);
     match judge(&case) {
-        Verdict::Refused(SimulationError::Contact(ContactError::NoWayOut { depth_mm, limit_mm, .. })) => {
+        Verdict::Refused(Refusal::Simulation(SimulationError::Contact(ContactError::NoWayOut {
+            depth_mm,
+            limit_mm,
+            ..
+        }))) => {
             let bearing = Bearing::smooth(&case);
             let raceway = bearing.rho_0 + bearing.r;
             // The element's side meets the edge: its centre is r beside it.
@@ -179,7 +183,8 @@ fn a_spike_half_way_around_from_the_next_defect_is_felt() {
 #[test]
 fn a_trace_over_a_topography_is_refused_as_an_overlap() {
     let verdict = judge(&of_dry_balls(&mut Draw::new(26)).1);
-    assert!(matches!(verdict, Verdict::Refused(SimulationError::Surface(SurfaceError::Overlap { .. }))));
+    let Verdict::Refused(Refusal::Simulation(error)) = verdict else { panic!("not refused") };
+    assert!(matches!(error, SimulationError::Surface(SurfaceError::Overlap { .. })));
 }
 
 /// One element of 58 µm that nothing loads: what is left on it at the start is below what the search counts as none.

@@ -12,7 +12,7 @@ use crate::oracle::surfaces::closest;
 use crate::oracle::turning::quadratic;
 use crate::oracle::{Bearing, ELEMENTS, SENSOR};
 use crate::random_case::fastest;
-use crate::subject::Subject;
+use crate::subject::{Refusal, Subject};
 use crate::units::{HORIZON, LIMIT, differences, largest_force, position_error, rounding, slope_error, units};
 use brinell::contact::error::ContactError;
 use brinell::simulation::SimulationError;
@@ -27,7 +27,7 @@ const WORK: f64 = 8e5;
 pub enum Verdict {
     Agreed(Measure),
     /// The simulation gave an error.
-    Refused(SimulationError),
+    Refused(Refusal),
     /// The oracle cannot say.
     Undecided(&'static str),
     Failed(String),
@@ -49,14 +49,14 @@ pub fn judge(case: &Case) -> Verdict {
     let names = signals(case);
     let mut subject = match Subject::new(case) {
         Ok(subject) => subject,
-        Err(error @ SimulationError::Contact(ContactError::NoWayOut { .. })) => {
+        Err(error @ Refusal::Simulation(SimulationError::Contact(ContactError::NoWayOut { .. }))) => {
             return if Bearing::new(case).leaps() {
                 Verdict::Refused(error)
             } else {
                 Verdict::Failed(format!("no edge is so steep: {error}"))
             };
         }
-        Err(error @ SimulationError::Surface(SurfaceError::Overlap { .. })) => {
+        Err(error @ Refusal::Simulation(SimulationError::Surface(SurfaceError::Overlap { .. }))) => {
             let gap = closest(&Bearing::smooth(case), case);
             // Roundings of the arcs.
             return if gap < 1e-6 + 1e-13 {
@@ -76,7 +76,7 @@ pub fn judge(case: &Case) -> Verdict {
     let first = match subject.start(case) {
         Ok(first) => first,
         Err(error @ SimulationError::Equilibrium(_)) => return refused_start(case, error),
-        Err(error) => return Verdict::Refused(error),
+        Err(error) => return Verdict::Refused(error.into()),
     };
     let bearing = Bearing::new(case);
     match start(&bearing, case, &first, &names) {
@@ -91,7 +91,7 @@ fn refused_start(case: &Case, error: SimulationError) -> Verdict {
     if left <= 1e-6 * largest {
         return Verdict::Failed(format!("refused, but {left:e} N of {largest:e} N is all that is left: {error}"));
     }
-    Verdict::Refused(error)
+    Verdict::Refused(error.into())
 }
 
 /// The oracle's state vector from the signals at the start.
@@ -246,7 +246,7 @@ fn compare(
             Err(Stop::Lost) => return measure.or("the oracle's own error"),
             Err(Stop::Left) => {
                 return match subject.step(case, i) {
-                    Err(error) => Verdict::Refused(error),
+                    Err(error) => Verdict::Refused(error.into()),
                     Ok(_) => {
                         Verdict::Failed(format!("step {i}: by the oracle an element or a ring leaves, here they stay"))
                     }
@@ -263,7 +263,7 @@ fn compare(
         let sample = match subject.step(case, i) {
             Ok(sample) => sample,
             Err(error @ SimulationError::ThickFilms { .. }) if oracles.films_press(step.length) => {
-                return Verdict::Refused(error);
+                return Verdict::Refused(error.into());
             }
             Err(error) => return Verdict::Failed(format!("step {i} fails where the oracle does not: {error}")),
         };

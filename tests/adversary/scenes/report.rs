@@ -3,6 +3,7 @@
 use super::commands::Compared;
 use super::judge::{Measure, Verdict};
 use crate::random_case::Kind;
+use crate::subject::Refusal;
 use brinell::simulation::SimulationError;
 use std::collections::BTreeMap;
 use std::fmt::{self, Display, Formatter, Write};
@@ -205,11 +206,11 @@ impl<'a> Tally<'a> {
 }
 
 /// What kind of error it is, for counting.
-fn class(error: &SimulationError) -> String {
+fn class(error: &Refusal) -> String {
     let word = |text: &str| text.split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default().to_owned();
     let text = format!("{error:?}");
     match error {
-        SimulationError::Step { cause, .. } => format!("step: {}", word(&format!("{cause:?}"))),
+        Refusal::Simulation(SimulationError::Step { cause, .. }) => format!("step: {}", word(&format!("{cause:?}"))),
         _ => match text.split_once('(') {
             Some((outer, inner)) => format!("{outer}: {}", word(inner)),
             None => word(&text),

@@ -1,7 +1,6 @@
 //! All faults of a file in one answer: of keys, kinds, words, names, limits and of values that belong together.
 
 use super::GOOD;
-use brinell::scene::Scene;
 
 /// What is said of the good scene with these changes.
 #[track_caller]
@@ -10,7 +9,7 @@ fn said(changes: &[(&str, &str)]) -> Vec<String> {
         assert_eq!(text.matches(old).count(), 1, "`{old}` must stand once");
         text.replace(old, new)
     });
-    let message = match Scene::from_toml(&text) {
+    let message = match brinell_scene_file::from_toml(&text) {
         Ok(_) => panic!("{changes:?} were accepted"),
         Err(error) => error.to_string(),
     };
@@ -144,7 +143,7 @@ fn of_a_file_that_is_not_toml_the_first_fault_is_told_and_shown() {
         ("poissons_ratio = 0.3", "poissons_ratio = 0,3\nspeed_hz 10.0", "TOML parse error at line 11, column 19\n"),
     ] {
         assert_eq!(GOOD.matches(good).count(), 1, "{good}");
-        let message = Scene::from_toml(&GOOD.replace(good, bad)).unwrap_err().to_string();
+        let message = brinell_scene_file::from_toml(&GOOD.replace(good, bad)).unwrap_err().to_string();
         assert!(message.starts_with(&format!("scene file: {told}")), "`{told}` is not: {message}");
         // Where, an empty line, the line itself, a caret below what is wrong in it, and why.
         assert_eq!(message.lines().count(), 5, "{message}");

@@ -1,7 +1,6 @@
 //! Oil films that cannot exist.
 
 use super::{GOOD, accepted, refused};
-use brinell::scene::Scene;
 
 /// The good scene's cage, after a film with these lines.
 fn film(lines: &str) -> String {
@@ -34,7 +33,7 @@ fn a_film_between_elements_without_inertia_is_refused() {
     accepted("element_count = 9", dry);
     let text = GOOD.replace("element_count = 9", dry);
     let text = text.replace("[cage]", &film("viscosity_pa_s = 0.04\npressure_viscosity_1_pa = 2e-8"));
-    let said = Scene::from_toml(&text).unwrap_err().to_string();
+    let said = brinell_scene_file::from_toml(&text).unwrap_err().to_string();
     assert!(said.contains("[film] is given and bearing.element_inertia is \"none\""), "{said}");
 }
 

@@ -1,7 +1,6 @@
 //! Keys that are unknown, missing, or ask for what is not modelled: all of them at once, with what was meant.
 
 use super::{GOOD, refused};
-use brinell::scene::Scene;
 
 #[test]
 fn an_unknown_key_is_refused_with_its_line_and_name() {
@@ -23,7 +22,7 @@ fn all_unknown_and_missing_keys_are_told_at_once() {
         .replace("slip = 0.0", "slipp = 0.0")
         .replace("depth_um = 100.0\n", "")
         .replace("[housing]\nmotion = \"internal\"\nstiffness_n_m = 1.51056e7\n", "");
-    let message = Scene::from_toml(&text).unwrap_err().to_string();
+    let message = brinell_scene_file::from_toml(&text).unwrap_err().to_string();
     let lines: Vec<&str> = message.lines().collect();
     let expected = [
         "scene file: 6 faults",
@@ -40,7 +39,7 @@ fn all_unknown_and_missing_keys_are_told_at_once() {
 
 #[test]
 fn an_empty_file_is_told_all_that_it_needs() {
-    let message = Scene::from_toml("").unwrap_err().to_string();
+    let message = brinell_scene_file::from_toml("").unwrap_err().to_string();
     for part in
         ["4 faults", "name is missing", "[bearing] is missing, it needs at least element_count, ", "motion, speed_hz"]
     {
@@ -144,7 +143,7 @@ const OF_VALUES: [&str; 6] = [
 
 #[test]
 fn all_values_outside_their_limits_are_told_at_once() {
-    let message = Scene::from_toml(&spoilt()).unwrap_err().to_string();
+    let message = brinell_scene_file::from_toml(&spoilt()).unwrap_err().to_string();
     let lines: Vec<&str> = message.lines().collect();
     assert_eq!(lines[0], "scene file: 6 faults", "{message}");
     assert_eq!(lines[1..], OF_VALUES, "{message}");
@@ -156,7 +155,7 @@ fn wrong_keys_do_not_hide_wrong_values_nor_values_wrong_keys() {
         .replace("edge_slope_deg", "edge_slop_deg")
         .replace("speed_hz = 10.0\n", "")
         .replace("mass_kg = 1.0", "mass_kg = \"1.0\"");
-    let message = Scene::from_toml(&text).unwrap_err().to_string();
+    let message = brinell_scene_file::from_toml(&text).unwrap_err().to_string();
     let parts = [
         "9 faults",
         "defect.edge_slop_deg is unknown: did you mean edge_slope_deg?",
@@ -175,7 +174,7 @@ fn faults_that_concern_several_values_are_told_beside_one_another() {
         .replace("depth_um = 100.0", "depth_um = 5000.0")
         .replace("stop_s = 0.1", "stop_s = 1e-5")
         .replace("stiffness_n_m = 1.51056e7", "stiffness_n_m = 0.0");
-    let message = Scene::from_toml(&text).unwrap_err().to_string();
+    let message = brinell_scene_file::from_toml(&text).unwrap_err().to_string();
     let parts =
         ["4 faults", "spall length (", "spall depth (", "it must be at most 0.00001", "nothing holds the bearing"];
     for part in parts {
@@ -186,7 +185,7 @@ fn faults_that_concern_several_values_are_told_beside_one_another() {
         .replace("groove_diameter_mm = 8.19", "groove_diameter_mm = 8.19\nconformity_inner = 0.52")
         .replace("motion = \"internal\"\nspeed_hz", "motion = \"host\"\nmass_kg = 3.0\nspeed_hz")
         .replace("tolerance = 1e-5", "tolerance = 1.0");
-    let message = Scene::from_toml(&text).unwrap_err().to_string();
+    let message = brinell_scene_file::from_toml(&text).unwrap_err().to_string();
     for part in [
         "4 faults",
         "bearing.groove_diameter_mm and bearing.conformity_inner exclude each other",
@@ -202,7 +201,7 @@ fn faults_that_concern_several_values_are_told_beside_one_another() {
 fn one_fault_is_told_with_its_line_and_what_follows_from_it_is_not() {
     // The diameter alone: groove, clearance and overlap would be wrong because of it.
     let text = GOOD.replace("element_diameter_mm = 7.94", "element_diameter_mm = -1.5");
-    let message = Scene::from_toml(&text).unwrap_err().to_string();
+    let message = brinell_scene_file::from_toml(&text).unwrap_err().to_string();
     let wanted = "scene file: line 6: element diameter (bearing.element_diameter_mm) is -1.5: it must be";
     assert!(message.starts_with(wanted), "{message}");
     assert_eq!(message.lines().count(), 1, "{message}");

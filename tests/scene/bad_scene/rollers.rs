@@ -10,7 +10,7 @@ const ROLLERS: &str = "element = \"cylindrical-roller\"\nroller_length_mm = 9.0"
 fn read(old: &str, new: &str) -> Result<Scene, String> {
     let rollers = GOOD.replace(BALLS, ROLLERS);
     assert_eq!(rollers.matches(old).count(), 1, "`{old}` must stand once");
-    Scene::from_toml(&rollers.replace(old, new)).map_err(|error| error.to_string())
+    brinell_scene_file::from_toml(&rollers.replace(old, new)).map_err(|error| error.to_string())
 }
 
 #[track_caller]
@@ -60,7 +60,8 @@ fn a_measured_crown_has_a_plain_name_and_near_a_defect_the_law_hertz() {
     assert!(read("roller_length_mm = 9.0", &crowned("crown.csv")).is_ok());
     refused("roller_length_mm = 9.0", &crowned("../crown.csv"), &["bearing.roller_profile", "without a folder"]);
     let law = GOOD.replace(BALLS, ROLLERS).replace("roller_length_mm = 9.0", &crowned("crown.csv"));
-    let message = Scene::from_toml(&law.replace("law = \"hertz\"", "law = \"map\"")).unwrap_err().to_string();
+    let message =
+        brinell_scene_file::from_toml(&law.replace("law = \"hertz\"", "law = \"map\"")).unwrap_err().to_string();
     assert!(message.contains("contact.law is \"map\"") && message.contains("crown.csv"), "{message}");
 }
 
@@ -78,7 +79,7 @@ fn grooves_and_hertz_constants_of_balls_are_refused_with_rollers() {
 fn keys_of_rollers_are_refused_with_balls() {
     for line in ["roller_length_mm = 9.0", "roller_profile = \"log\"", "roller_laminae = 40"] {
         let text = GOOD.replace(BALLS, &format!("{BALLS}\n{line}"));
-        let message = Scene::from_toml(&text).unwrap_err().to_string();
+        let message = brinell_scene_file::from_toml(&text).unwrap_err().to_string();
         let key = format!("bearing.{}", line.split(' ').next().unwrap());
         assert!(message.contains(&key) && message.contains("cylindrical-roller"), "{message}");
     }
@@ -134,7 +135,7 @@ fn a_roller_bearing_of_the_catalogue_needs_nothing_beside_its_name() {
     let named = |keys: &str| {
         let from = GOOD.find("element_count").unwrap();
         let to = GOOD.find("[contact]").unwrap();
-        Scene::from_toml(&format!("{}{keys}\n{}", &GOOD[..from], &GOOD[to..])).map(|scene| scene.bearing)
+        brinell_scene_file::from_toml(&format!("{}{keys}\n{}", &GOOD[..from], &GOOD[to..])).map(|scene| scene.bearing)
     };
     let bearing = named("catalogue = \"NU 205 ECP\"").unwrap();
     let roller = bearing.roller().unwrap();

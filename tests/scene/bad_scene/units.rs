@@ -1,13 +1,12 @@
 //! Values in another unit than their key's: asked about, with the value that was probably meant.
 
 use super::{GOOD, accepted, refused};
-use brinell::scene::Scene;
 
 /// What is asked about the good scene with `old` replaced by `new`, all in one text.
 #[track_caller]
 fn asked(old: &str, new: &str) -> String {
     accepted(old, new);
-    let asked = Scene::questions(&GOOD.replace(old, new));
+    let asked = brinell_scene_file::unit_questions(&GOOD.replace(old, new));
     asked.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
@@ -137,7 +136,7 @@ fn a_bearing_of_the_catalogue_has_the_dimensions_by_which_is_asked() {
     let asked = asked(bearing, "catalogue = \"NU205\"\nradial_clearance_um = 0.02\n");
     assert!(asked.contains("20 um given in millimetres?"), "{asked}");
     let text = GOOD.replace(bearing, "catalogue = \"6205\"\n").replace("-500.0", "-1.5");
-    let asked = Scene::questions(&text);
+    let asked = brinell_scene_file::unit_questions(&text);
     assert!(asked.len() == 1 && asked[0].to_string().contains("-1500 N given in kN?"), "{asked:?}");
 }
 

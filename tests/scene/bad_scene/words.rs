@@ -94,7 +94,7 @@ fn what_kind_of_value_a_key_takes_is_said_in_plain_words() {
     let text = GOOD
         .replace("name = \"er16k-tb1\"", "name = \"er16k-tb1\"\nprobe = 3\nsensor = 1")
         .replace("[sensor]\nmass_kg = 1.0\n", "");
-    let said = brinell::scene::Scene::from_toml(&text).unwrap_err().to_string();
+    let said = brinell_scene_file::from_toml(&text).unwrap_err().to_string();
     assert!(said.contains("line 3: [probe] is 3: it must be one table [probe]"), "{said}");
     assert!(said.contains("line 4: [sensor] is 1: it must be a table [sensor], or several [[sensor]]"), "{said}");
 }
@@ -119,7 +119,7 @@ fn no_message_has_words_of_the_language_that_the_program_is_written_in() {
         let (key, _) = line.split_once(" = ").unwrap();
         for value in spoilt {
             let text = GOOD.replacen(&format!("\n{line}\n"), &format!("\n{key} = {value}\n"), 1);
-            let Err(error) = brinell::scene::Scene::from_toml(&text) else { continue };
+            let Err(error) = brinell_scene_file::from_toml(&text) else { continue };
             let said = error.to_string();
             for word in [
                 "f64",
@@ -148,9 +148,9 @@ fn a_whole_number_has_at_most_64_bits_and_a_seed_may_have_all_of_them() {
         &["line 28", "shaft.load_n", "at most 1e9"],
     );
     let seed = |seed: &str| GOOD.replace("[cage]", &format!("[cage]\nseed = {seed}"));
-    assert!(brinell::scene::Scene::from_toml(&seed("18446744073709551615")).is_ok());
+    assert!(brinell_scene_file::from_toml(&seed("18446744073709551615")).is_ok());
     // Beside another fault it is as right as alone.
-    let said = |text: &str| brinell::scene::Scene::from_toml(text).unwrap_err().to_string();
+    let said = |text: &str| brinell_scene_file::from_toml(text).unwrap_err().to_string();
     let spoilt = seed("18446744073709551615").replace("motion = \"internal\"", "motoin = \"internal\"");
     assert!(said(&spoilt).contains("motoin") && !said(&spoilt).contains("seed"), "{}", said(&spoilt));
     let long = said(&seed("18446744073709551616"));

@@ -52,7 +52,7 @@ const FLOOR: f64 = 0.02;
 /// use brinell_analysis::sizing::size;
 ///
 /// // A healthy bearing, as its sensor hears it for half a second at 25.6 kHz.
-/// let mut scene = Scene::from_toml(include_str!("../../../../scenes/6205-spall-5deg.toml"))?;
+/// let mut scene = brinell_scene_file::from_toml(include_str!("../../../../scenes/6205-spall-5deg.toml"))?;
 /// scene.contact.law = ContactLaw::Hertz;
 /// let mut simulation = Simulation::new(Scene { defects: Vec::new(), ..scene.clone() }, None)?;
 /// simulation.initialize(0.0)?;

@@ -13,6 +13,7 @@ use std::{env, fs, ptr};
 
 use super::*;
 use crate::resources::SCENE;
+use brinell::scene::model_file;
 use brinell::simulation::interface::table::guid;
 
 /// Unpacked resources, deleted when dropped.
@@ -23,6 +24,8 @@ impl Resources {
         let directory = env::temp_dir().join(format!("brinell-fmi2-{name}-{}", std::process::id()));
         fs::create_dir_all(&directory).unwrap();
         fs::write(directory.join("scene.toml"), SCENE).unwrap();
+        let model = model_file::encode(&brinell_scene_file::from_toml(SCENE).unwrap(), SCENE).unwrap();
+        fs::write(directory.join("model.bin"), model).unwrap();
         Self(directory)
     }
 
@@ -115,7 +118,7 @@ fn an_instance_lives_through_raw_pointers_and_memory_that_is_not_initialised() {
 fn integers_strings_and_derivatives_go_into_memory_that_is_not_initialised() {
     let resources = Resources::new("kinds");
     let c = resources.instance("kinds");
-    let table = brinell::simulation::interface::table::rows(&brinell::scene::Scene::from_toml(SCENE).unwrap());
+    let table = brinell::simulation::interface::table::rows(&brinell_scene_file::from_toml(SCENE).unwrap());
     let named = |name: &str| table.iter().find(|(row, _)| row.name == name).unwrap().0.reference;
     let (steps, folder) = (named("solver.steps"), named("recorder.folder"));
     let (output, input) = (named("shaft.force.y"), named("shaft.speed"));

@@ -10,6 +10,7 @@ use std::{env, fs, ptr};
 
 use super::*;
 use crate::resources::SCENE;
+use brinell::scene::model_file;
 use brinell::simulation::interface::table::guid;
 
 /// Unpacked resources, deleted when dropped.
@@ -20,6 +21,8 @@ impl Resources {
         let directory = env::temp_dir().join(format!("brinell-fmi3-{name}-{}", std::process::id()));
         fs::create_dir_all(&directory).unwrap();
         fs::write(directory.join("scene.toml"), SCENE).unwrap();
+        let model = model_file::encode(&brinell_scene_file::from_toml(SCENE).unwrap(), SCENE).unwrap();
+        fs::write(directory.join("model.bin"), model).unwrap();
         Self(directory)
     }
 
@@ -62,7 +65,7 @@ impl Drop for Resources {
 
 /// Reference of the array whose first element has this name.
 fn reference(name: &str) -> u32 {
-    let table = brinell::simulation::interface::table::rows(&brinell::scene::Scene::from_toml(SCENE).unwrap());
+    let table = brinell::simulation::interface::table::rows(&brinell_scene_file::from_toml(SCENE).unwrap());
     table.iter().find(|(row, _)| row.name == name).unwrap().0.reference
 }
 

@@ -1,4 +1,5 @@
-//! The FMU's `resources/` directory: `scene.toml`, the profile that the scene names, and the contact map `map.bin`.
+//! The FMU's `resources/` directory: the scene `model.bin`, the profiles that it names, and the contact map `map.bin`.
+//! Of `scene.toml`, which is for people, only the bytes count: the model belongs to them.
 //!
 //! The one place in the FMU that reads files, and only when an instance is made.
 
@@ -7,15 +8,16 @@ use std::path::{Component, Path, PathBuf};
 
 use super::error::ResourceError;
 use super::shared_models::SharedModel;
-use brinell::scene::Scene;
+use brinell::scene::model_file;
 use brinell::simulation::Simulation;
 use brinell::simulation::interface::table::guid;
 
 /// The model that the resources in a directory describe.
 pub(crate) fn load(directory: &Path) -> Result<SharedModel, ResourceError> {
-    let path = directory.join("scene.toml");
-    let text = read(&path)?;
-    let scene = Scene::from_toml(&text).map_err(|cause| ResourceError::Scene { path, cause })?;
+    let text = read(&directory.join("scene.toml"))?;
+    let path = directory.join("model.bin");
+    let model = fs::read(&path).map_err(|cause| ResourceError::unreadable(&path, cause))?;
+    let scene = model_file::decode(&model, &text).map_err(|cause| ResourceError::Model { path, cause })?;
     let profile = |name| read(&beside(directory, name)?);
     let profiles: Vec<String> = scene.profile_names().into_iter().map(profile).collect::<Result<_, _>>()?;
     let guid = guid(&text, profiles.iter().map(String::as_str));

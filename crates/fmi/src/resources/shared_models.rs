@@ -151,12 +151,11 @@ impl Drop for SharedModel {
 mod tests {
     use super::*;
     use crate::resources::small_scene::SCENE;
-    use brinell::scene::Scene;
     use std::fs;
     use std::path::PathBuf;
 
     fn user(guid: &str, map: &Path) -> Result<SharedModel, ResourceError> {
-        let set_up = |_| Simulation::new(Scene::from_toml(SCENE).unwrap(), None);
+        let set_up = |_| Simulation::new(brinell_scene_file::from_toml(SCENE).unwrap(), None);
         SharedModel::obtain(guid.to_owned(), map, set_up)
     }
 

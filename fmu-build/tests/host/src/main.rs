@@ -4,15 +4,11 @@
 //! run and unloaded), `step` (s), `outputs` and `inputs` (value references), and for each step one `row` of input
 //! values, as the hexadecimal bits of floating-point numbers. The first row is also set before initialization.
 
-#[path = "../../../src/slave.rs"]
-#[allow(dead_code, clippy::unwrap_used)]
-mod slave;
-
 use std::error::Error;
 use std::fs;
 use std::path::Path;
 
-use slave::Slave;
+use host::Instance;
 
 /// What is to be done.
 #[derive(Default)]
@@ -51,23 +47,23 @@ impl Job {
 
     /// Runs once and gives the outputs at every communication point.
     fn run(&self) -> Result<Vec<Vec<f64>>, Box<dyn Error>> {
-        let mut slave = Slave::with_uri(Path::new(&self.library), "host", &self.guid, &self.uri)?;
+        let mut instance = Instance::with_uri(Path::new(&self.library), "host", &self.guid, &self.uri)?;
         if let Some(row) = self.rows.first().filter(|row| !row.is_empty()) {
-            slave.set_reals(&self.inputs, row)?;
+            instance.set_reals(&self.inputs, row)?;
         }
         if cfg!(windows) && fs::remove_file(&self.library).is_ok() {
             return Err("a library that is loaded could be removed: nothing is seen of whether it is unloaded".into());
         }
-        slave.initialize(None)?;
-        let mut points = vec![slave.reals(&self.outputs)?];
+        instance.initialize(None)?;
+        let mut points = vec![instance.reals(&self.outputs)?];
         for (index, row) in self.rows.iter().enumerate() {
             if !row.is_empty() {
-                slave.set_reals(&self.inputs, row)?;
+                instance.set_reals(&self.inputs, row)?;
             }
-            slave.step(index as f64 * self.step, self.step)?;
-            points.push(slave.reals(&self.outputs)?);
+            instance.step(index as f64 * self.step, self.step)?;
+            points.push(instance.reals(&self.outputs)?);
         }
-        slave.terminate()?;
+        instance.terminate()?;
         Ok(points)
     }
 }

@@ -38,7 +38,7 @@ pub(crate) fn lively_with(
     damping: Damping,
     cage_angle: f64,
 ) -> (Model, Drive) {
-    let mut scene = Scene::from_toml(include_str!("../../../../scenes/er16k-tb1.toml")).unwrap();
+    let mut scene = Scene::er16k();
     scene.bearing.element = element.clone();
     scene.bearing.element_inertia = inertia;
     scene.contact.damping = damping;

@@ -8,6 +8,7 @@ use crate::oracle::linear::Freedom;
 use crate::oracle::run::{Pace, Run};
 use crate::oracle::signals::signals;
 use crate::subject::Subject;
+use crate::units::rounding;
 use brinell::simulation::SimulationError;
 use brinell_analysis::modes::{Assembly, Kind, Mode};
 use std::f64::consts::PI;
@@ -24,7 +25,8 @@ pub(super) fn agree(case: &Case, assembly: &Assembly) -> Result<bool, String> {
     let steps = vec![Step { length: 1e-6, host: None }];
     let case = Case { speed_hz: 0.0, housing_hz: case.housing_hz.map(|_| 0.0), steps, ..case.clone() };
     let names = signals(&case);
-    let first = match Subject::new(&case).and_then(|mut subject| subject.start(&case)) {
+    let mut subject = Subject::new(&case).map_err(|error| format!("at rest: {error}"))?;
+    let first = match subject.start(&case) {
         Ok(first) => first,
         Err(SimulationError::Equilibrium(_)) => return Ok(false),
         Err(error) => return Err(format!("at rest: {error}")),
@@ -88,7 +90,8 @@ impl Linear {
         };
         let (matrix, coarse) = (weighted(h), weighted(2.0 * h));
         let apart = matrix.iter().flatten().zip(coarse.iter().flatten()).map(|(a, b)| (a - b).abs());
-        let own = apart.fold(0.0, f64::max);
+        // Elements stand where they stand to a rounding, beside which a roller is pressed in by next to nothing.
+        let own = apart.fold(rounding(oracle) / least, f64::max);
         let weight = oracle.mass * oracle.gravity[0].hypot(oracle.gravity[1]);
         let loose = run.acting.contacts.iter().map(|[inner, outer]| inner.force.max(outer.force) <= 1e-3 * weight);
         let loose = loose.collect();

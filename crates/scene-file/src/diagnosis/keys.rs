@@ -1,0 +1,207 @@
+//! What is wrong with the keys of a scene file. Asked only of a file that was refused.
+
+use super::all_tables::{TableOf, path, tables};
+use super::key_fault::{Hint, KeyFault};
+use super::locations::{Found, Location};
+use super::not_modelled::instead_of;
+use super::toml_kinds::Keys;
+use super::values;
+use brinell::scene::nearest;
+use toml::de::DeValue;
+
+/// Keys that a table cannot be without. The file itself is the table without a name.
+const NEEDED: [(&str, Keys); 8] = [
+    ("", &["name", "bearing", "shaft", "housing"]),
+    ("bearing", &["element_count", "element_diameter_mm", "pitch_diameter_mm", "youngs_modulus_gpa", "poissons_ratio"]),
+    ("film", &["viscosity_pa_s", "pressure_viscosity_1_pa"]),
+    ("defect", &["angle_deg"]),
+    ("shaft", &["motion", "speed_hz"]),
+    ("housing", &["motion"]),
+    ("sensor.mode", &["frequency_hz", "damping_ratio", "gain"]),
+    ("recorder", &["rate_hz"]),
+];
+
+/// Table, two keys of which one is needed, and keys that go without both.
+const ALTERNATIVES: [(&str, [&str; 2], Keys); 4] = [
+    ("bearing", GROOVES, &["conformity_outer"]),
+    ("bearing", ["density_kg_m3", "element_mass_g"], &[]),
+    ("defect", ["length_deg", "length_mm"], &["profile"]),
+    ("defect", ["depth_um", "profile"], &[]),
+];
+
+/// Two keys of which balls need one, and the key that rollers need instead, with the words for both.
+const GROOVES: [&str; 2] = ["groove_diameter_mm", "conformity_inner"];
+const BALL: &str = "ball";
+const ROLLER: &str = "cylindrical-roller";
+const ROLLER_LENGTH: &str = "roller_length_mm";
+
+/// A fault, and the keys that cannot be relied on because of it.
+pub(super) struct Finding {
+    pub(super) fault: KeyFault,
+    pub(super) excludes: Vec<(Location, String)>,
+}
+
+/// Faults of a table's keys and of its values by themselves; `line` gives the line of an offset in the text.
+pub(super) fn of_table(of: &'static TableOf, found: &Found<'_, '_>, line: &dyn Fn(usize) -> usize) -> Vec<Finding> {
+    let (name, keys, table, location) = (of.name, of.keys.as_slice(), found.table, found.location);
+    let head = found.at.map_or(0, line);
+    let mut findings = Vec::new();
+    let mut keep = |fault: KeyFault, excluded: &[&str]| {
+        let excludes = excluded.iter().map(|key| (location, (*key).to_owned())).collect();
+        findings.push(Finding { fault, excludes });
+    };
+    // What is there under another spelling is not missing as well.
+    let mut there: Vec<&str> = table.keys().map(|key| key.get_ref().as_ref()).collect();
+    for (key, value) in table {
+        let (line, key) = (line(key.span().start), key.get_ref().as_ref());
+        if keys.contains(&key) {
+            if let Some(message) = values::fault(of, key, value.get_ref()) {
+                keep(KeyFault::Value { line, message }, &[key]);
+            }
+            continue;
+        }
+        let (shown, near) = (path(name, key, is_table(value.get_ref())), nearest(keys.iter().copied(), key));
+        // A slip of the pen in a key of rollers asks for nothing that there is not.
+        let slip = key.starts_with("roller_") && near.is_some();
+        let fault = match instead_of(name, key).filter(|_| !slip) {
+            Some(only) => KeyFault::NotModelled { line, key: shown, only },
+            None => KeyFault::Unknown { line, key: shown, hint: hint(name, keys, key) },
+        };
+        keep(fault, &[&[key], near.as_slice()].concat());
+        there.extend(near);
+    }
+    // A bearing of the catalogue needs nothing beside its name.
+    if there.contains(&"catalogue") {
+        return findings;
+    }
+    for key in needed(name).iter().filter(|key| !there.contains(key)) {
+        // Of the file itself all but the name are tables.
+        let is_table = name.is_empty() && *key != "name";
+        let with = if is_table { needed(key) } else { &[] };
+        keep(KeyFault::Missing { line: head, key: path(name, key, is_table), with }, &[key]);
+    }
+    let kind = table.get("element").filter(|_| name == "bearing").and_then(|kind| kind.get_ref().as_str());
+    if kind == Some(ROLLER) && !there.contains(&ROLLER_LENGTH) {
+        keep(KeyFault::Missing { line: head, key: path(name, ROLLER_LENGTH, false), with: &[] }, &[ROLLER_LENGTH]);
+    }
+    for (_, two, instead) in ALTERNATIVES.iter().filter(|(table, ..)| *table == name) {
+        if two == &GROOVES && kind.is_some_and(|kind| kind != BALL) {
+            continue;
+        }
+        if !two.iter().chain(*instead).any(|key| there.contains(key)) {
+            keep(KeyFault::Neither { line: head, keys: two.map(|key| path(name, key, false)) }, two);
+        }
+    }
+    findings
+}
+
+/// Whether a value is a table, or several of them.
+fn is_table(value: &DeValue<'_>) -> bool {
+    let all_tables =
+        |values: &toml::de::DeArray<'_>| !values.is_empty() && values.iter().all(|value| value.get_ref().is_table());
+    value.is_table() || value.as_array().is_some_and(all_tables)
+}
+
+fn needed(table: &str) -> Keys {
+    NEEDED.iter().find(|(name, _)| *name == table).map_or(&[], |(_, keys)| keys)
+}
+
+fn hint(table: &str, keys: Keys, key: &str) -> Hint {
+    let elsewhere = tables().iter().find(|other| other.name != table && other.keys.contains(&key));
+    match (elsewhere, nearest(keys.iter().copied(), key)) {
+        (Some(other), _) if !other.name.is_empty() => Hint::BelongsTo(other.name),
+        (_, Some(near)) => Hint::DidYouMean(near),
+        _ => Hint::Takes(keys),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::toml_kinds::Kind;
+    use super::*;
+    use crate::tables::*;
+    use serde::Deserialize;
+    use toml::de::{Deserializer, Error};
+
+    fn read<T: for<'a> Deserialize<'a>>(text: &str) -> Result<T, Error> {
+        T::deserialize(Deserializer::parse(text).unwrap())
+    }
+
+    #[test]
+    fn tables_say_themselves_which_keys_they_cannot_be_without() {
+        // serde names the first that is missing; the files below lack one each.
+        let lines =
+            |table: &str| needed(table).iter().map(|key| format!("{key} = {}\n", value_of(key))).collect::<Vec<_>>();
+        for TableOf { name: table, keys, .. } in tables().iter().filter(|table| !table.name.is_empty()) {
+            let whole = lines(table);
+            assert_eq!(refusal(table, &whole.concat()), None, "[{table}] asks for more than is listed");
+            for (i, key) in needed(table).iter().enumerate() {
+                assert!(keys.contains(key), "[{table}] has no {key}");
+                let without: String =
+                    whole.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, line)| line.as_str()).collect();
+                let why = refusal(table, &without).unwrap_or_default();
+                assert!(why.contains(key) && why.contains("missing"), "[{table}] without {key}: {why}");
+            }
+        }
+    }
+
+    fn value_of(key: &str) -> &'static str {
+        match key {
+            "element_count" => "9",
+            "motion" => "\"internal\"",
+            _ => "1.0",
+        }
+    }
+
+    fn refusal(table: &str, text: &str) -> Option<String> {
+        fn of<T: for<'a> Deserialize<'a>>(text: &str) -> Option<String> {
+            read::<T>(text).err().map(|error| error.message().to_owned())
+        }
+        match table {
+            // What it lacks the catalogue may give, so that its own reader says so.
+            "bearing" => {
+                let more = "conformity_inner = 0.52\nconformity_outer = 0.52\ndensity_kg_m3 = 7800\n";
+                let text = text.to_owned() + more;
+                let keys: BearingTable = read(&text).unwrap();
+                keys.into_bearing().err().map(|faults| faults.0[0].to_string())
+            }
+            "contact" => of::<ContactTable>(text),
+            "film" => of::<FilmTable>(text),
+            "cage" => of::<CageTable>(text),
+            "defect" => of::<DefectTable>(text),
+            "shaft" => of::<ShaftTable>(text),
+            "housing" => of::<HousingTable>(text),
+            "sensor" => of::<SensorTable>(text),
+            "sensor.mode" => of::<SensorModeTable>(text),
+            "probe" => of::<ProbeTable>(text),
+            "solver" => of::<SolverTable>(text),
+            "recorder" => of::<RecorderTable>(text),
+            _ => of::<ExperimentTable>(text),
+        }
+    }
+
+    #[test]
+    fn every_table_of_the_file_says_its_keys_and_what_kind_of_value_each_takes() {
+        let tables = tables();
+        for TableOf { name, keys, .. } in tables {
+            // Of a probe there is nothing to be said.
+            assert!(!keys.is_empty() || ["", "probe"].contains(name), "[{name}]");
+        }
+        for key in tables[0].keys.iter().filter(|key| !["name", "description", "gravity_m_s2"].contains(key)) {
+            assert!(tables.iter().any(|table| table.name == *key), "[{key}] is not checked");
+        }
+        for table in tables {
+            for key in &table.keys {
+                assert!(table.kind(key).is_some(), "{}.{key}", table.name);
+            }
+        }
+        let kind = |name: &str, key: &str| tables.iter().find(|table| table.name == name).unwrap().kind(key).unwrap();
+        assert_eq!(kind("shaft", "motion"), &Kind::Word(vec!["host", "internal", "fixed"]));
+        assert_eq!(kind("housing", "load_n"), &Kind::Pair(Box::new(Kind::Number)));
+        assert_eq!(kind("contact", "cells"), &Kind::Pair(Box::new(Kind::Whole(true))));
+        assert_eq!(kind("cage", "spacing_deg"), &Kind::List(Box::new(Kind::Number)));
+        assert_eq!(kind("sensor", "mode"), &Kind::List(Box::new(Kind::Table)));
+        assert_eq!(kind("", "sensor"), &Kind::OneOrMore);
+        assert_eq!(kind("", "probe"), &Kind::Table);
+    }
+}

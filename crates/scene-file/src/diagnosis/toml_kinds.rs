@@ -1,0 +1,103 @@
+//! What kind of value a key takes, as the schema of the file says.
+
+use serde_json::Value;
+use std::fmt;
+
+/// Names of keys.
+pub(super) type Keys = &'static [&'static str];
+
+/// What kind of value a key takes.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Kind {
+    /// A number.
+    Number,
+    /// A whole number; with `true` none below 0.
+    Whole(bool),
+    /// Any text.
+    Text,
+    /// One of these words.
+    Word(Vec<&'static str>),
+    /// Two values of a kind.
+    Pair(Box<Kind>),
+    /// Any number of values of a kind.
+    List(Box<Kind>),
+    /// A table.
+    Table,
+    /// One table, or several of the name.
+    OneOrMore,
+}
+
+impl Kind {
+    /// The kind that a part of the schema describes.
+    pub(super) fn of(schema: &'static Value, part: &'static Value) -> Option<Self> {
+        if let Some(path) = part["$ref"].as_str() {
+            return Self::of(schema, schema.pointer(path.strip_prefix('#')?)?);
+        }
+        match part["anyOf"].as_array().map(Vec::as_slice) {
+            // A key that may be left out.
+            Some([one, none]) if none["type"] == "null" => return Self::of(schema, one),
+            Some(_) => return Some(Self::OneOrMore),
+            None => {}
+        }
+        if let Some(words) = words(part) {
+            return Some(Self::Word(words));
+        }
+        let name = if part["type"].is_array() { &part["type"][0] } else { &part["type"] };
+        match name.as_str()? {
+            "number" => Some(Self::Number),
+            "integer" => Some(Self::Whole(part["format"].as_str()?.starts_with('u'))),
+            "string" => Some(Self::Text),
+            "object" => Some(Self::Table),
+            "array" => {
+                let of = Box::new(Self::of(schema, &part["items"])?);
+                Some(if part["minItems"] == 2 && part["maxItems"] == 2 { Self::Pair(of) } else { Self::List(of) })
+            }
+            _ => None,
+        }
+    }
+
+    fn several(&self) -> &'static str {
+        match self {
+            Self::Number => "numbers",
+            Self::Whole(_) => "whole numbers",
+            Self::Text | Self::Word(_) => "texts in quotes",
+            Self::Pair(_) | Self::List(_) => "lists",
+            Self::Table | Self::OneOrMore => "tables",
+        }
+    }
+}
+
+/// The words of which a value must be one: all together, or each beside what it means.
+fn words(part: &'static Value) -> Option<Vec<&'static str>> {
+    if let Some(words) = part["enum"].as_array() {
+        return Some(words.iter().filter_map(Value::as_str).collect());
+    }
+    let each = part["oneOf"].as_array()?.iter();
+    Some(
+        each.flat_map(|one| one["const"].as_str().map(|word| vec![word]).or_else(|| words(one)).unwrap_or_default())
+            .collect(),
+    )
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number => f.write_str("a number"),
+            Self::Whole(true) => f.write_str("a whole number, 0 or more"),
+            Self::Whole(false) => f.write_str("a whole number"),
+            Self::Text => f.write_str("a text in quotes"),
+            Self::Word(words) => match words.as_slice() {
+                [only] => write!(f, "\"{only}\""),
+                [rest @ .., last] => {
+                    rest.iter().try_for_each(|word| write!(f, "\"{word}\", "))?;
+                    write!(f, "or \"{last}\"")
+                }
+                [] => Ok(()),
+            },
+            Self::Pair(kind) => write!(f, "a list of two {}", kind.several()),
+            Self::List(kind) => write!(f, "a list of {}", kind.several()),
+            Self::Table => f.write_str("one table"),
+            Self::OneOrMore => f.write_str("a table, or several"),
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! The table `[defect]` of the scene file, or several of them as `[[defect]]`.
+
+use super::faults::{Faults, TableFault};
+use super::one_or_more::OneOrMore;
+use brinell::scene::{Bearing, Defect, DefectError, DefectOn, DefectShape, SceneError};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// A defect.
+#[derive(JsonSchema, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct DefectTable {
+    /// The body that bears it.
+    #[serde(default)]
+    on: Body,
+    /// Which element, from 1.
+    element: Option<i64>,
+    /// How far the defect of a ball lies off its rolling track.
+    tilt_deg: Option<f64>,
+    /// Where its middle is at the start, counter-clockwise from +x; on an element 0 faces the outer raceway.
+    angle_deg: f64,
+    /// Length as an angle about the centre of the body.
+    length_deg: Option<f64>,
+    /// Length of the arc; instead of the angle.
+    length_mm: Option<f64>,
+    /// Depth of the floor.
+    depth_um: Option<f64>,
+    /// Slope of the edges; 90 without it.
+    edge_slope_deg: Option<f64>,
+    /// File of a measured trace or topography, instead of length and depth.
+    profile: Option<String>,
+}
+
+/// The body that bears a defect.
+#[derive(JsonSchema, Deserialize, Default, Clone, Copy, PartialEq)]
+#[serde(rename_all = "kebab-case")]
+enum Body {
+    #[default]
+    Outer,
+    Inner,
+    Element,
+}
+
+impl OneOrMore<DefectTable> {
+    pub(super) fn into_defects(self, bearing: &Bearing) -> Result<Vec<Defect>, Faults> {
+        let count = self.0.len();
+        let mut faults = Faults::default();
+        let mut defects = Vec::new();
+        for (k, table) in self.0.into_iter().enumerate() {
+            let defect = table.into_defect(bearing).map_err(|of| of.in_table("defect", k, count));
+            defects.extend(faults.take(defect));
+        }
+        faults.into_result().map(|()| defects)
+    }
+}
+
+impl DefectTable {
+    fn on(&self, bearing: &Bearing) -> Result<DefectOn, Faults> {
+        if self.on != Body::Element {
+            let given =
+                [("defect.element", self.element.map(|number| number as f64)), ("defect.tilt_deg", self.tilt_deg)];
+            if let Some((key, value)) = given.into_iter().find_map(|(key, value)| value.map(|value| (key, value))) {
+                return Err(TableFault::NotOnElement { key, value }.into());
+            }
+        }
+        Ok(match self.on {
+            Body::Outer => DefectOn::Outer,
+            Body::Inner => DefectOn::Inner,
+            Body::Element => {
+                const MISSING: TableFault =
+                    TableFault::Missing { key: "defect.element", why: "defect.on is \"element\"" };
+                let (number, count) = (self.element.ok_or(MISSING)?, bearing.element_count);
+                let element = usize::try_from(number).ok().filter(|number| (1..=count).contains(number));
+                let none = DefectError::NoSuchElement { element: number, count };
+                let element = element.ok_or(SceneError::from(none))? - 1;
+                DefectOn::Element { element, tilt: self.tilt_deg.unwrap_or(0.0).to_radians() }
+            }
+        })
+    }
+
+    pub(super) fn into_defect(self, bearing: &Bearing) -> Result<Defect, Faults> {
+        let on = self.on(bearing)?;
+        let angle = self.angle_deg.to_radians();
+        let shape = match self.profile {
+            Some(name) => {
+                let given = [
+                    ("defect.length_deg", self.length_deg),
+                    ("defect.length_mm", self.length_mm),
+                    ("defect.depth_um", self.depth_um),
+                    ("defect.edge_slope_deg", self.edge_slope_deg),
+                ];
+                if let Some((second, _)) = given.into_iter().find(|(_, value)| value.is_some()) {
+                    return Err(TableFault::Both { first: "defect.profile", second }.into());
+                }
+                DefectShape::Profile(name)
+            }
+            None => DefectShape::Spall {
+                length: spall_length(self.length_deg, self.length_mm, on.radius(bearing))?,
+                depth: self
+                    .depth_um
+                    .ok_or(TableFault::Neither { first: "defect.depth_um", second: "defect.profile" })?
+                    / 1e6,
+                edge_slope: self.edge_slope_deg.unwrap_or(90.0).to_radians(),
+            },
+        };
+        Ok(Defect { on, angle, shape })
+    }
+}
+
+fn spall_length(degrees: Option<f64>, millimetres: Option<f64>, radius: f64) -> Result<f64, TableFault> {
+    const DEGREES: &str = "defect.length_deg";
+    const MILLIMETRES: &str = "defect.length_mm";
+    match (degrees, millimetres) {
+        (Some(degrees), None) => Ok(degrees.to_radians() * radius),
+        (None, Some(millimetres)) => Ok(millimetres / 1e3),
+        (Some(_), Some(_)) => Err(TableFault::Both { first: DEGREES, second: MILLIMETRES }),
+        (None, None) => Err(TableFault::Neither { first: DEGREES, second: MILLIMETRES }),
+    }
+}

@@ -1,0 +1,166 @@
+//! The commands: what a user types, and the order of work behind each.
+
+mod options;
+
+use std::path::PathBuf;
+
+use anyhow::{Context, Result};
+use clap::{Parser, Subcommand};
+
+use crate::commands::{catalogue, check, contact, demo, modes, new_scene, scenes, schema, size, stiffness};
+use crate::package::{Library, Model, Reference, fmu};
+use crate::shared::Project;
+use crate::{run, sweep};
+use options::{Build, Catalogue, Check, Contact, Demo, Modes, New, Run, Scenes, Size, Stiffness, Sweep};
+
+/// Rolling bearings with a real surface defect as FMI co-simulation units.
+#[derive(Debug, Parser)]
+#[command(name = "brinell", version, max_term_width = 100)]
+pub struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// What a user can ask for.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Builds the FMU of each scene
+    Build(Build),
+    /// Simulates a scene without a host and writes its signals, a figure, sound, an HTML page
+    Run(Run),
+    /// Runs a scene thousands of times over grids and random values, on all cores: one Parquet table
+    Sweep(Sweep),
+    /// Unzips, validates, loads and steps an FMU
+    Check(Check),
+    /// Static stiffness, load distribution and critical load over the cage angle: CSV, figure and summary
+    Stiffness(Stiffness),
+    /// Natural frequencies, damping ratios and mode shapes over the cage angle: JSON, figure and summary
+    Modes(Modes),
+    /// Pressure of one ball on a raceway as measured, and the stresses below: JSON on standard output, CSV, figure
+    Contact(Contact),
+    /// Length of a spall from recordings of one bearing, or why there is none: JSON on standard output, figures
+    Size(Size),
+    /// Builds the FMU of a spalled 6205 bearing, drives it with fmpy and draws what happens
+    Demo(Demo),
+    /// Lists the shipped scenes, or writes the files of those that are named
+    Scenes(Scenes),
+    /// Writes a commented scene of a bearing of the catalogue that runs as it is
+    New(New),
+    /// Lists bearings that a scene can name: dimensions with their source, assumed ones marked
+    Catalogue(Catalogue),
+    /// Prints the JSON schema of scene files, by which editors complete and explain their keys
+    Schema,
+}
+
+impl Arguments {
+    /// Does what was asked. An error is one line for the user.
+    pub fn execute(self) -> Result<()> {
+        self.command.execute(&Project::of_user())
+    }
+}
+
+impl Command {
+    /// Does what was asked. An error is one line for the user.
+    pub fn execute(self, project: &Project) -> Result<()> {
+        match self {
+            Command::Build(options) => build(project, options),
+            Command::Run(options) => {
+                let model = Model::read(&options.scene)?;
+                let wanted = options.options(&model.scene.experiment)?;
+                let folder = options.output.unwrap_or_else(|| project.results("run"));
+                run::command(project, model, &wanted, &folder)
+            }
+            Command::Sweep(options) => {
+                if let Some(run) = options.scene_of {
+                    return sweep::print_scene(&options.file, run);
+                }
+                let wanted = options.options();
+                let folder = options.output.unwrap_or_else(|| {
+                    project.results("sweep").join(options.file.file_stem().unwrap_or_else(|| "sweep".as_ref()))
+                });
+                sweep::command(project, &options.file, &wanted, &folder)
+            }
+            Command::Check(options) => check::command(project, &options.fmu),
+            Command::Stiffness(options) => {
+                let model = Model::read(&options.scene)?;
+                let folder = options.output.unwrap_or_else(|| project.results("stiffness"));
+                let wanted = swept(options.load, options.points, options.no_figure);
+                stiffness::command(project, &model, wanted, &folder)
+            }
+            Command::Modes(options) => {
+                let model = Model::read(&options.scene)?;
+                let folder = options.output.unwrap_or_else(|| project.results("modes"));
+                let wanted = swept(options.load, options.points, options.no_figure);
+                modes::command(project, &model, wanted, &folder)
+            }
+            Command::Contact(options) => {
+                let wanted = contact::Options {
+                    on: options.on,
+                    angle_deg: options.angle,
+                    force: options.force,
+                    resolution: options.resolution,
+                    figure: !options.no_figure,
+                };
+                let folder = options.output.unwrap_or_else(|| project.results("contact"));
+                contact::command(project, &options.scene, &wanted, &folder)
+            }
+            Command::Size(options) => {
+                let wanted = size::Options {
+                    rate: options.rate,
+                    speeds: options.speeds(),
+                    column: options.column.clone(),
+                    figure: !options.no_figure,
+                };
+                let folder = options.output.unwrap_or_else(|| project.results("size"));
+                size::command(project, &options.scene, &options.recordings, &wanted, &folder)
+            }
+            Command::Demo(options) => {
+                let folder = options.output.unwrap_or_else(|| project.results("demo"));
+                demo::command(project, &options.library.into(), &folder)
+            }
+            Command::Scenes(options) => scenes::command(&options.names, &options.output.unwrap_or_default()),
+            Command::New(options) => {
+                let folder = options.output.unwrap_or_default();
+                new_scene::command(&options.name, &options.bearing, options.defect.as_ref(), &folder)
+            }
+            Command::Catalogue(options) => catalogue::command(&options.filter),
+            Command::Schema => {
+                print!("{}", schema::text()?);
+                Ok(())
+            }
+        }
+    }
+}
+
+fn build(project: &Project, options: Build) -> Result<()> {
+    let read = |path: &PathBuf| {
+        let mut model = Model::read(path)?;
+        if options.reference {
+            let reference = Reference::of(&model.scene, model.simulation.clone());
+            model.reference = Some(reference.with_context(|| path.display().to_string())?);
+        }
+        Ok(model)
+    };
+    // Scenes first: a typing error should not wait for a compiler.
+    let models = options.scenes.iter().map(read).collect::<Result<Vec<_>>>()?;
+    let library = Library::obtain(project, &options.library.into())?;
+    for line in library.describe() {
+        println!("{line}");
+    }
+    let folder = options.output.unwrap_or_else(|| project.results("fmu"));
+    for model in &models {
+        if let Some(reference) = &model.reference {
+            for path in reference.write(&folder)? {
+                println!("{}", path.display());
+            }
+        }
+        let path = fmu::write(model, &library, options.fmi, &folder)?;
+        println!("{}", path.display());
+    }
+    Ok(())
+}
+
+/// What the commands that sweep the cage angle are told.
+fn swept(load: Option<f64>, points: Option<u32>, no_figure: bool) -> stiffness::Options {
+    stiffness::Options { load, points: points.map(|count| count as usize), figure: !no_figure }
+}

@@ -1,0 +1,375 @@
+//! The command `sweep`: thousands of runs of one scene over grids and random values, on all cores, into one table.
+//!
+//! Each run is a scene of its own, a function of the file and the run's number alone, and is stepped as `run` steps any
+//! scene. So rows have the same bits on any number of threads, in any order, and after a sweep was interrupted.
+
+mod bench;
+mod check;
+mod design;
+mod faults;
+mod file;
+mod maps;
+mod record;
+mod rows;
+mod scenes;
+mod statistics;
+mod workers;
+
+use std::collections::{BTreeSet, HashMap};
+use std::fs::{self, File, TryLockError};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+use anyhow::{Context, Result, bail};
+use brinell::scene::Experiment;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::interrupt::{Held, Interrupted, Temporary};
+use crate::run::speed_profile::SpeedProfile;
+use crate::shared::{Grid, NotWritten, Project, whole_file};
+use bench::Bench;
+pub(crate) use bench::Written;
+pub(crate) use design::Part;
+use faults::{Fault, Faults};
+use file::Sweep;
+use maps::Maps;
+use record::Record;
+use rows::{Journal, Row};
+use scenes::Base;
+
+/// The table of a sweep.
+const TABLE: &str = "runs.parquet";
+
+/// What the user says beside the file.
+#[derive(Debug, Clone)]
+pub(crate) struct Options {
+    /// Runs at once.
+    pub(crate) jobs: usize,
+    /// What each run's signals are written as; `None` for not at all.
+    pub(crate) signals: Option<Written>,
+    /// The part of the runs that is made here; `None` for all.
+    pub(crate) part: Option<Part>,
+}
+
+/// A sweep that was read and can be run.
+struct Planned {
+    sweep: Sweep,
+    base: Base,
+    text: String,
+    /// Keys that take whole numbers only.
+    whole: BTreeSet<String>,
+    speeds: Vec<SpeedProfile>,
+    grid: Grid,
+}
+
+/// The command: `<folder>/runs.parquet` and, if wanted, a file with the signals of each run in `<folder>/signals`. A
+/// part goes into a folder of its own in it; without one, rows and signals of the parts there are taken over.
+pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder: &Path) -> Result<()> {
+    let planned = Planned::read(file)?;
+    let Planned { sweep, base, .. } = &planned;
+    let record = Record::of(sweep, base, file, &planned.text, options.signals)?;
+    let folder = &options.part.map_or(folder.to_owned(), |part| folder.join(part.folder()));
+    fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
+    let _lock = lock(folder)?;
+    record.claim(folder)?;
+    let columns = bench::columns(sweep, &|key| planned.is_whole(key));
+    let Folders { running, signals, _temporary } = Folders::make(folder, options)?;
+    take_parts(folder, &record, &signals)?;
+    let (mut journal, mut rows) = Journal::open(folder, &running, &columns)?;
+    if let Some(beyond) = rows.iter().filter_map(Row::run).find(|run| *run >= sweep.runs) {
+        bail!("{} holds run {beyond}: runs must be at least {}", folder.display(), beyond + 1);
+    }
+    let bench = Bench {
+        sweep,
+        base,
+        columns: &columns,
+        speeds: &planned.speeds,
+        grid: planned.grid,
+        written: options.signals,
+        signals: &signals,
+        running: &running,
+        texts: Mutex::default(),
+    };
+    let table = Table { path: folder.join(TABLE), columns: &columns, running: &running };
+    if !rows.is_empty() {
+        table.write(&mut rows)?;
+    }
+    let wanted: Vec<u64> = (0..sweep.runs).filter(|&run| options.part.is_none_or(|part| part.has(run))).collect();
+    let missing = Missing::of(&rows, &wanted, &bench);
+    let (maps, fingerprints) = prepare(project, &planned, &bench, &missing.runs, options.jobs)?;
+    let _held = Held::new();
+    let bar = bar(wanted.len() as u64, (wanted.len() - missing.runs.len()) as u64);
+    // The table is written now and then, whenever there is a quarter more of it.
+    let mut next = rows.len() + rows.len() / 4 + 100;
+    let mut counts = Counts { made: 0, again: 0, failed: 0 };
+    let job = |k: usize| bench.row(&planned.run(missing.runs[k]), &maps, &fingerprints[k]);
+    workers::each(options.jobs, missing.runs.len(), job, |k, row| {
+        let row = match row {
+            // Of a run under way when the user ended the sweep nothing is kept.
+            Err(error) if error.is::<Interrupted>() => return Ok(()),
+            row => row?,
+        };
+        let again = missing.again.contains(&missing.runs[k]);
+        counts.add(&row, again);
+        if !again {
+            journal.add(&row)?;
+            rows.push(row);
+        }
+        bar.set_message(if counts.failed > 0 { format!(", {} failed", counts.failed) } else { String::new() });
+        bar.inc(1);
+        if rows.len() >= next {
+            next = rows.len() + rows.len() / 4 + 100;
+            table.write(&mut rows)?;
+        }
+        Ok(())
+    })?;
+    bar.finish_and_clear();
+    table.write(&mut rows)?;
+    let _ = fs::remove_dir_all(&running);
+    println!("{}", table.path.display());
+    if options.signals.is_some() {
+        println!("{}", signals.display());
+    }
+    tell(&rows, &counts, missing.runs.len())
+}
+
+/// The table of a sweep.
+struct Table<'a> {
+    path: PathBuf,
+    columns: &'a [rows::Column],
+    running: &'a Path,
+}
+
+impl Table<'_> {
+    /// Writes it beside the runs under way, whence it is moved when it is whole.
+    fn write(&self, rows: &mut [Row]) -> Result<()> {
+        rows.sort_by_key(Row::run);
+        let whole = self.running.join(TABLE);
+        rows::write_table(&whole, self.columns, rows)?;
+        whole_file::take_out(&whole, self.path.parent().unwrap_or(Path::new(""))).map(drop)
+    }
+}
+
+/// Runs that are to be made.
+struct Missing {
+    runs: Vec<u64>,
+    /// Those of them that have a row and whose signals somebody has taken away.
+    again: BTreeSet<u64>,
+}
+
+impl Missing {
+    fn of(rows: &[Row], wanted: &[u64], bench: &Bench<'_>) -> Self {
+        let done: BTreeSet<u64> = rows.iter().filter_map(Row::run).collect();
+        let sound = rows.iter().filter(|row| error_of(row).is_none()).filter_map(Row::run);
+        let again: BTreeSet<u64> = sound.filter(|run| bench.lacks_signals(*run)).collect();
+        let missing = |run: &&u64| !done.contains(run) || again.contains(run);
+        let runs = wanted.iter().filter(missing).copied().collect();
+        Self { runs, again }
+    }
+}
+
+/// Runs that were made now.
+struct Counts {
+    made: usize,
+    /// For their signals alone.
+    again: usize,
+    failed: usize,
+}
+
+impl Counts {
+    fn add(&mut self, row: &Row, again: bool) {
+        self.made += usize::from(!again);
+        self.again += usize::from(again);
+        self.failed += usize::from(error_of(row).is_some());
+    }
+}
+
+/// Prints the scene of a run as a file that `brinell run` takes.
+pub(crate) fn print_scene(file: &Path, run: u64) -> Result<()> {
+    let planned = Planned::read(file)?;
+    if run >= planned.sweep.runs {
+        bail!("run {run}: the sweep has runs 0 to {}", planned.sweep.runs - 1);
+    }
+    let (_, table) = planned.base.scene(&planned.sweep, &planned.run(run))?;
+    print!("{}", toml::to_string(&table)?);
+    Ok(())
+}
+
+impl Planned {
+    /// Reads a sweep and all that it names.
+    ///
+    /// # Errors
+    /// All that is wrong with the file, also with its values in the scene.
+    fn read(file: &Path) -> Result<Self> {
+        let about = || file.display().to_string();
+        let text = fs::read_to_string(file).with_context(about)?;
+        let (sweep, mut faults) = Sweep::read(&text).with_context(about)?;
+        let base = if sweep.scene.is_empty() { None } else { Some(Base::read(&sweep.scene, file)) };
+        let mut whole = BTreeSet::new();
+        let base = match base {
+            None => None,
+            Some(Err(error)) => {
+                let line = 1 + text.lines().take_while(|line| !line.trim_start().starts_with("scene")).count();
+                faults.push(Fault { line, said: format!("scene: {error:#}") });
+                None
+            }
+            Some(Ok(base)) => {
+                let keys = sweep.lines().map(|(key, _)| key);
+                whole.extend(keys.filter(|key| check::takes_whole_numbers(&base, &sweep, key)).map(str::to_owned));
+                faults.extend(check::faults(&base, &sweep, &|key| whole.contains(key)));
+                Some(base)
+            }
+        };
+        faults.sort_by_key(|fault| fault.line);
+        let Some(base) = base.filter(|_| faults.is_empty()) else {
+            return Err(Faults(faults)).with_context(about);
+        };
+        let grid = Grid::even(&Experiment { stop: sweep.stop, step: 1.0 / sweep.rate }).with_context(about)?;
+        let speed = |name: &String| {
+            let path = file.parent().unwrap_or(Path::new("")).join(name);
+            let profile = SpeedProfile::read(&path)?;
+            profile.check_covers(grid.end()).with_context(|| path.display().to_string())?;
+            anyhow::Ok(profile)
+        };
+        let speeds = sweep.speed_profiles.iter().map(speed).collect::<Result<_>>()?;
+        Ok(Self { sweep, base, text, whole, speeds, grid })
+    }
+
+    fn is_whole(&self, key: &str) -> bool {
+        self.whole.contains(key)
+    }
+
+    fn run(&self, index: u64) -> design::Run {
+        self.sweep.run(index, &|key| self.is_whole(key))
+    }
+}
+
+/// Computes the contact maps that the runs need, and says which run needs which. A scene that cannot be needs none: its
+/// run will say so.
+fn prepare<'p>(
+    project: &'p Project,
+    planned: &Planned,
+    bench: &Bench<'_>,
+    missing: &[u64],
+    jobs: usize,
+) -> Result<(Maps<'p>, Vec<Vec<u64>>)> {
+    let mut fingerprints = vec![Vec::new(); missing.len()];
+    let needed = |k: usize| {
+        let ready = bench.ready(&planned.run(missing[k])).ok()?;
+        maps::needed(&ready.scene, &ready.texts).ok()
+    };
+    workers::each(jobs, missing.len(), needed, |k, found| {
+        fingerprints[k] = found.unwrap_or_default();
+        Ok(())
+    })?;
+    let mut uses: HashMap<u64, usize> = HashMap::new();
+    let mut first = Vec::new();
+    for (k, all) in fingerprints.iter().enumerate() {
+        if all.iter().any(|one| !uses.contains_key(one)) {
+            first.push(k);
+        }
+        all.iter().for_each(|&one| *uses.entry(one).or_default() += 1);
+    }
+    let mut maps = Maps::new(project, uses);
+    for k in first {
+        let ready = bench.ready(&planned.run(missing[k]))?;
+        maps.prepare(&ready.scene, &ready.texts, jobs)?;
+    }
+    Ok((maps, fingerprints))
+}
+
+/// Where signals grow, and where they go.
+struct Folders {
+    /// Empty at first, and removed at the end.
+    running: PathBuf,
+    signals: PathBuf,
+    _temporary: Temporary,
+}
+
+impl Folders {
+    fn make(folder: &Path, options: &Options) -> Result<Self> {
+        let (running, signals) = (folder.join("running"), folder.join("signals"));
+        // What a sweep has left that was killed.
+        let _ = fs::remove_dir_all(&running);
+        let made = || fs::create_dir_all(&running).map(|()| running.clone());
+        let (_temporary, running) =
+            Temporary::made(made, PathBuf::as_path).with_context(|| running.display().to_string())?;
+        if options.signals.is_some() {
+            fs::create_dir_all(&signals).with_context(|| signals.display().to_string())?;
+        }
+        Ok(Self { running, signals, _temporary })
+    }
+}
+
+/// Adds the rows of all parts in this folder to its journal, which keeps each run once, and moves their signals here.
+fn take_parts(folder: &Path, record: &Record, signals: &Path) -> Result<()> {
+    for entry in fs::read_dir(folder).with_context(|| folder.display().to_string())? {
+        let part = entry?.path();
+        let about = || part.display().to_string();
+        if !part.file_name().is_some_and(|name| name.to_string_lossy().starts_with(design::PART)) {
+            continue;
+        }
+        let _lock = lock(&part)?;
+        record.claim(&part)?;
+        for file in fs::read_dir(part.join("signals")).into_iter().flatten() {
+            let file = file.with_context(about)?;
+            fs::rename(file.path(), signals.join(file.file_name())).with_context(about)?;
+        }
+        let mut journal =
+            File::options().create(true).append(true).open(folder.join(rows::FILE)).with_context(about)?;
+        // A row that was torn must not tear another's. Rows that cannot be read are made again.
+        let rows = [b"\n", &fs::read(part.join(rows::FILE)).unwrap_or_default()[..], b"\n"].concat();
+        journal.write_all(&rows).map_err(|error| NotWritten::new(&folder.join(rows::FILE), error))?;
+    }
+    Ok(())
+}
+
+/// Keeps other programs from sweeping in the same folder.
+fn lock(folder: &Path) -> Result<File> {
+    let path: PathBuf = folder.join("lock");
+    let file = File::create(&path).map_err(|error| NotWritten::new(&path, error))?;
+    match file.try_lock() {
+        Ok(()) => Ok(file),
+        Err(TryLockError::WouldBlock) => bail!("{}: another program sweeps in this folder", folder.display()),
+        Err(TryLockError::Error(error)) => Err(error).with_context(|| path.display().to_string()),
+    }
+}
+
+fn bar(runs: u64, done: u64) -> ProgressBar {
+    let style = ProgressStyle::with_template("sweep [{bar:30}] {pos}/{len} runs{msg}, {per_sec}, {eta} left");
+    let bar = ProgressBar::new(runs).with_position(done);
+    bar.reset_eta();
+    if let Ok(style) = style { bar.with_style(style) } else { bar }
+}
+
+fn error_of(row: &Row) -> Option<&str> {
+    match row.0.last() {
+        Some(rows::Cell::Text(error)) => Some(error),
+        _ => None,
+    }
+}
+
+/// Says what a reader of the table must know.
+///
+/// # Errors
+/// That the user has interrupted, where some of the `wanted` runs are missing for it.
+fn tell(rows: &[Row], counts: &Counts, wanted: usize) -> Result<()> {
+    let mut errors = rows.iter().filter_map(|row| Some((row.run()?, error_of(row)?)));
+    let first = errors.next();
+    let failed = usize::from(first.is_some()) + errors.count();
+    eprintln!("note: {} runs, {} of them made now, {failed} failed", rows.len(), counts.made);
+    if counts.again > 0 {
+        eprintln!("note: the signals of {} runs were gone and were made again", counts.again);
+    }
+    if let Some((run, error)) = first {
+        eprintln!("note: run {run}: {error}");
+    }
+    match wanted - counts.made - counts.again {
+        0 => Ok(()),
+        left => {
+            eprintln!("note: interrupted: what is in the table is kept; the same command makes the other {left} runs");
+            Err(Interrupted.into())
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! The command line of the repository, `cargo fmu`: what users run, and the studies behind the pages in `docs/`.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+use clap::{Args, Parser, Subcommand};
+use fmu_build::cli::Command as UserCommand;
+use fmu_build::shared::Project;
+
+use crate::{dist, report, site, validation};
+
+/// Turns bearing scenes into FMI 2.0 or 3.0 co-simulation FMUs and runs them; computes the pages in docs/ anew. Where a
+/// command speaks of the current folder, results go into target/ here.
+#[derive(Debug, Parser)]
+#[command(name = "cargo fmu", bin_name = "cargo fmu", version, max_term_width = 100)]
+pub struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    #[command(flatten)]
+    User(UserCommand),
+    /// Error against run time, measured on this machine: Markdown, CSV and figures
+    Report(Report),
+    /// Computes every claim of the paper anew: docs/validation.md and its figures
+    Validate(Validate),
+    /// Makes what users install, for all platforms: wheels and archives of the program with the libraries inside
+    Dist(Dist),
+    /// The documentation as a book: docs/ as it is, and every key of a scene; needs mdBook
+    Site(Site),
+}
+
+#[derive(Debug, Args)]
+struct Site {
+    /// Folder for the book and what it is made of [default: target/site]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+struct Dist {
+    /// Platforms to make wheels and archives for; each holds the libraries of all
+    #[arg(long, value_name = "PLATFORM,…", value_delimiter = ',')]
+    platforms: Vec<String>,
+    /// Only the libraries, for a program compiled with BRINELL_LIBRARIES set to their folder
+    #[arg(long)]
+    only_libraries: bool,
+    /// Folder for libraries, wheels and archives [default: target/dist]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+struct Report {
+    /// Two scenes and few tolerances only
+    #[arg(long)]
+    short: bool,
+    /// Folder for the page, its figures and its data [default: docs; target/report with --short]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+struct Validate {
+    /// Recordings to be sized, as FILE@HZ=DEGREES with the shaft's speed and the nominal length, 0 if healthy, with an
+    /// i behind it of the inner raceway, or FILE@HZ=ball; FILE@HZ/RATE=... where the sampling rate is another; without
+    /// them the table of recordings stays as it was
+    #[arg(value_name = "RECORDING")]
+    recordings: Vec<String>,
+    /// Sampling rate of the recordings in hertz
+    #[arg(long, value_name = "HZ", default_value_t = 51_200.0)]
+    rate: f64,
+    /// Compute this part alone; the other tables are those of the last run
+    #[arg(long, value_enum, value_name = "PART")]
+    only: Option<validation::Part>,
+    /// Folder for validation.md and figures [default: docs]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Leave the figures out; no Python is needed then
+    #[arg(long)]
+    no_figure: bool,
+}
+
+impl Arguments {
+    /// Does what was asked. An error is one line for the user.
+    pub fn execute(self) -> Result<()> {
+        let project = Project::find();
+        match self.command {
+            Command::User(command) => command.execute(&project),
+            Command::Report(options) => {
+                let folder = if options.short {
+                    project.results("report")
+                } else {
+                    project.source().unwrap_or(Path::new(".")).join("docs")
+                };
+                let folder = options.output.unwrap_or(folder);
+                let extent = if options.short { report::Extent::Short } else { report::Extent::Full };
+                report::command(&project, extent, &folder)
+            }
+            Command::Dist(options) => {
+                let folder = options.output.unwrap_or_else(|| project.results("dist"));
+                dist::command(&project, &options.platforms, options.only_libraries, &folder)
+            }
+            Command::Site(options) => {
+                site::command(&project, &options.output.unwrap_or_else(|| project.results("site")))
+            }
+            Command::Validate(options) => {
+                let known = options.recordings.iter().map(|text| validation::recordings::Known::parse(text));
+                let wanted = validation::Options {
+                    recordings: known.collect::<Result<_>>()?,
+                    rate: options.rate,
+                    only: options.only,
+                    figures: !options.no_figure,
+                };
+                let docs = project.source().unwrap_or(Path::new("")).join("docs");
+                validation::command(&project, &wanted, &options.output.unwrap_or(docs))
+            }
+        }
+    }
+}

@@ -1,0 +1,236 @@
+//! Error against CPU time of the time integration, for every shipped scene and every method.
+//!
+//! Errors are against the automatic method at a tolerance of 1e-12. How far that itself can be trusted is measured in
+//! two ways: against the other method of the pair, and, where `tests/oracle` has the same equations, against SciPy's
+//! DOP853 there.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use brinell::scene::ContactLaw;
+use brinell::simulation::{Method, Simulation, StepCounts};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::Extent;
+use super::machine::fastest;
+use super::run::{Deviation, RATE, Signals, Subject};
+use fmu_build::package::Model;
+use fmu_build::shared::{Python, whole_file};
+
+/// Simulated time (s): long enough for an element to pass the spall of the ER16K, short enough for elements that bounce
+/// freely not to have lost all memory of the start.
+const STOP: f64 = 0.025;
+/// Simulated time of the cross-check with SciPy (s).
+const CHECKED: f64 = 0.02;
+/// Tolerances asked for.
+const TOLERANCES: [f64; 9] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
+/// The reference's tolerance.
+const REFERENCE: f64 = 1e-12;
+
+/// Errors and cost of one run.
+#[derive(Debug, Clone)]
+pub(super) struct Row {
+    pub(super) scene: String,
+    pub(super) method: &'static str,
+    /// Tolerance.
+    pub(super) setting: f64,
+    /// CPU seconds per simulated second.
+    pub(super) cost: f64,
+    /// Accepted steps per simulated second.
+    pub(super) steps: f64,
+    /// Share of them that were implicit.
+    pub(super) implicit: f64,
+    pub(super) deviation: Deviation,
+}
+
+/// How well a reference is known.
+#[derive(Debug, Clone)]
+pub(super) struct Check {
+    pub(super) scene: String,
+    /// Signal whose error is called the acceleration's.
+    pub(super) signal: &'static str,
+    /// The other method of the pair against the reference.
+    pub(super) pair: Deviation,
+    /// SciPy's DOP853 against the same scene with law `hertz`.
+    pub(super) oracle: Option<Deviation>,
+}
+
+/// What was found.
+#[derive(Debug, Clone)]
+pub(super) struct Integration {
+    pub(super) rows: Vec<Row>,
+    pub(super) checks: Vec<Check>,
+    /// Simulated time (s).
+    pub(super) stop: f64,
+}
+
+const METHODS: [(&str, Method); 4] = [
+    ("automatic", Method::Automatic),
+    ("phase-fitted only", Method::PhaseFitted),
+    ("DP5 only", Method::DormandPrince),
+    ("Rodas5P only", Method::Rodas),
+];
+
+/// Measures and writes `integration.csv`.
+pub(super) fn measure(python: &Python, extent: Extent, data: &Path) -> Result<Integration> {
+    let names: &[&str] = match extent {
+        Extent::Full => &[
+            "6205-hosted",
+            "6205-healthy",
+            "6205-epps",
+            "6205-spall-5deg",
+            "er16k-tb1-hosted-shaft",
+            "er16k-tb1",
+            "er16k-tb2",
+            "er16k-tb2-30um",
+            "er16k-tb2-compliant",
+        ],
+        Extent::Short => &["6205-healthy", "er16k-tb1-hosted-shaft"],
+    };
+    let tolerances = if extent == Extent::Full { &TOLERANCES[..] } else { &TOLERANCES[1..4] };
+    let bar = bar((names.len() * (2 + METHODS.len() * tolerances.len())) as u64);
+    let mut found = Integration { rows: Vec::new(), checks: Vec::new(), stop: STOP };
+    for name in names {
+        let model = Model::read(&scene_file(name))?;
+        let subject = Subject::new(&model, (*name).to_owned(), STOP)?;
+        bar.set_message(format!("{name}: reference"));
+        let reference = subject.signals(Method::Automatic, REFERENCE)?;
+        bar.inc(1);
+        let other = subject.signals(Method::Rodas, 10.0 * REFERENCE)?;
+        bar.inc(1);
+        let oracle = if extent == Extent::Full { oracle(python, &model, data)? } else { None };
+        found.checks.push(Check {
+            scene: subject.name.clone(),
+            signal: subject.signal(),
+            pair: other.deviation(&reference),
+            oracle,
+        });
+        for (label, method) in METHODS {
+            for &tolerance in tolerances {
+                bar.set_message(format!("{name}: {label}, {tolerance:e}"));
+                found.rows.push(controlled(&subject, label, method, tolerance, &reference)?);
+                bar.inc(1);
+            }
+        }
+    }
+    bar.finish_and_clear();
+    write(&data.join("integration.csv"), &found.rows)?;
+    Ok(found)
+}
+
+fn bar(length: u64) -> ProgressBar {
+    let bar = ProgressBar::new(length);
+    match ProgressStyle::with_template("integration [{bar:30}] {pos}/{len}, {elapsed} {msg}") {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar,
+    }
+}
+
+fn controlled(
+    subject: &Subject,
+    label: &'static str,
+    method: Method,
+    tolerance: f64,
+    reference: &Signals,
+) -> Result<Row> {
+    let signals = subject.signals(method, tolerance)?;
+    let start = subject.start(method, tolerance)?;
+    let mut counts = StepCounts::default();
+    let seconds = fastest(
+        || start.clone(),
+        |simulation: &mut Simulation| {
+            subject.finish(simulation)?;
+            counts = simulation.step_counts();
+            anyhow::Ok(())
+        },
+    )?;
+    Ok(Row {
+        scene: subject.name.clone(),
+        method: label,
+        setting: tolerance,
+        cost: seconds / subject.stop,
+        steps: counts.all as f64 / subject.stop,
+        implicit: counts.implicit as f64 / counts.all as f64,
+        deviation: signals.deviation(reference),
+    })
+}
+
+/// The same scene with law `hertz` against `tests/oracle`; `None` where that has not all of the scene's parts.
+fn oracle(python: &Python, model: &Model, data: &Path) -> Result<Option<Deviation>> {
+    use brinell::scene::Motion::Internal;
+    let scene = &model.scene;
+    let parts = (scene.shaft.motion, scene.housing.motion) == (Internal, Internal) && model.profiles.is_empty();
+    if !parts || scene.bearing.outer_compliance != 0.0 {
+        return Ok(None);
+    }
+    let mut hertz = model.clone();
+    hertz.scene.contact.law = ContactLaw::Hertz;
+    let subject = Subject::new(&hertz, scene.name.clone(), CHECKED)?;
+    let ours = subject.signals(Method::Automatic, REFERENCE)?;
+    let folder = tempfile::tempdir()?;
+    let (input, output) = (folder.path().join("scene.toml"), folder.path().join("oracle.csv"));
+    fs::write(&input, &model.scene_text)?;
+    let step = (1.0 / RATE).to_string();
+    let options = ["--stop", &CHECKED.to_string(), "--step", &step, "-o"].map(std::ffi::OsString::from);
+    let arguments = [input.into_os_string()].into_iter().chain(options).chain([output.clone().into_os_string()]);
+    python
+        .run_file(&root().join("tests/oracle/reference.py"), arguments)
+        .with_context(|| data.display().to_string())?;
+    Ok(Some(read_oracle(&fs::read_to_string(output)?, &ours)))
+}
+
+/// The oracle's rows beside ours; its last one, at the very end, is no sample of ours.
+fn read_oracle(text: &str, ours: &Signals) -> Deviation {
+    let mut lines = text.lines();
+    let names: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
+    let mut theirs = Signals { acceleration: Vec::new(), paths: Vec::new() };
+    for line in lines.take(ours.acceleration.len()) {
+        for (name, value) in names.iter().zip(line.split(',')) {
+            let value = value.parse().unwrap_or(f64::NAN);
+            if *name == "housing.ay" {
+                theirs.acceleration.push(value);
+            } else if name.ends_with(".path") {
+                theirs.paths.push(value);
+            }
+        }
+    }
+    theirs.deviation(ours)
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().map(Path::to_path_buf).unwrap_or_default()
+}
+
+/// A shipped scene's file.
+pub(super) fn scene_file(name: &str) -> PathBuf {
+    root().join("scenes").join(name).with_extension("toml")
+}
+
+fn write(path: &Path, rows: &[Row]) -> Result<()> {
+    whole_file::write_with(path, |out| {
+        writeln!(
+            out,
+            "scene,method,setting,cpu_s_per_s,steps_per_s,implicit_share,acceleration_rms,acceleration_max,path_rms_m,\
+             path_max_m"
+        )?;
+        for row in rows {
+            let d = row.deviation;
+            writeln!(
+                out,
+                "{},{},{:e},{:.4e},{:.4e},{:.3},{:.2e},{:.2e},{:.2e},{:.2e}",
+                row.scene,
+                row.method,
+                row.setting,
+                row.cost,
+                row.steps,
+                row.implicit,
+                d.acceleration_rms,
+                d.acceleration_max,
+                d.path_rms,
+                d.path_max
+            )?;
+        }
+        Ok(())
+    })
+}

@@ -1,0 +1,74 @@
+//! The bearing: its dimensions, its material and what rolls in it.
+
+mod rolling_element;
+
+pub use rolling_element::{Crown, ElementInertia, Roller, RollerProfile, RollingElement};
+
+use serde::{Deserialize, Serialize};
+
+/// Dimensions and material of the bearing.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Bearing {
+    /// What rolls.
+    pub element: RollingElement,
+    /// Number of rolling elements Z.
+    pub element_count: usize,
+    /// Rolling element diameter D_w (m).
+    pub element_diameter: f64,
+    /// Pitch diameter D_pw (m).
+    pub pitch_diameter: f64,
+    /// Groove conformity of the inner ring f_i = r_gi/D_w, above 0.5; infinite with rollers, whose raceways are
+    /// straight.
+    pub conformity_inner: f64,
+    /// Groove conformity of the outer ring f_o = r_go/D_w, above 0.5; infinite with rollers.
+    pub conformity_outer: f64,
+    /// Radial internal clearance G_r (m); negative is a preload.
+    pub radial_clearance: f64,
+    /// Young's modulus of rings and elements (Pa).
+    pub youngs_modulus: f64,
+    /// Poisson's ratio of rings and elements.
+    pub poissons_ratio: f64,
+    /// Density of the elements (kg/m³).
+    pub density: f64,
+    /// Mass of one element (kg), when it overrides the solid element's.
+    pub element_mass: Option<f64>,
+    /// Hertz constant of the inner contact (N/m^1.5), when it overrides the computed one.
+    pub hertz_inner: Option<f64>,
+    /// Hertz constant of the outer contact (N/m^1.5), when it overrides the computed one.
+    pub hertz_outer: Option<f64>,
+    /// Compliance in series with each outer contact (m/N): how far the outer raceway yields under an element, by the
+    /// ring's and its seat's own deformation, for each newton that this element carries. 0 for a rigid assembly.
+    pub outer_compliance: f64,
+    /// Whether an element's mass resists its radial acceleration.
+    pub element_inertia: ElementInertia,
+}
+
+impl Bearing {
+    /// Radius of an element (m).
+    pub fn element_radius(&self) -> f64 {
+        0.5 * self.element_diameter
+    }
+
+    /// Radius of the outer raceway at the groove's bottom, R_o = (D_pw + D_w + G_r)/2 (m).
+    pub fn outer_raceway_radius(&self) -> f64 {
+        (self.pitch_diameter + self.element_diameter + self.radial_clearance) / 2.0
+    }
+
+    /// Radius of the inner raceway at the groove's bottom, R_i = (D_pw − D_w − G_r)/2 (m).
+    pub fn inner_raceway_radius(&self) -> f64 {
+        (self.pitch_diameter - self.element_diameter - self.radial_clearance) / 2.0
+    }
+
+    /// Mass of one element (kg): the scene's, or a solid ball's or roller's.
+    pub fn mass_of_element(&self) -> f64 {
+        self.element_mass.unwrap_or_else(|| self.element.volume(self.element_diameter) * self.density)
+    }
+
+    /// The roller; `None` of a ball bearing.
+    pub fn roller(&self) -> Option<&Roller> {
+        match &self.element {
+            RollingElement::Ball => None,
+            RollingElement::CylindricalRoller(roller) => Some(roller),
+        }
+    }
+}

@@ -1,0 +1,362 @@
+//! Scenes made by a Rust program. What is not said has the value that a scene file gives it.
+
+use super::{
+    Bearing, Cage, CageIrregularity, Contact, ContactEdge, ContactLaw, Damping, Defect, DefectShape, ElementInertia,
+    Experiment, Film, Motion, Recorder, Ring, Roller, RollerProfile, RollingElement, Scene, SceneError, Sensor,
+};
+use std::f64::consts::FRAC_PI_2;
+
+/// A scene under construction; [`build`](Self::build) checks it.
+#[derive(Debug, Clone)]
+pub struct SceneBuilder {
+    scene: Scene,
+    /// `None` for the map with a defect and Hertz's law without.
+    law: Option<ContactLaw>,
+}
+
+impl Scene {
+    /// Begins a scene with this bearing: healthy, shaft and housing with mass on supports, no load, standing still.
+    ///
+    /// ```
+    /// use brinell::scene::{Bearing, Scene};
+    ///
+    /// let scene = Scene::builder(Bearing::steel_balls(9, 7.94e-3, 39.04e-3))
+    ///     .name("6205-spall")
+    ///     .shaft_speed(157.1)
+    ///     .shaft_load([0.0, -1500.0])
+    ///     .spall(-std::f64::consts::FRAC_PI_2, 2e-3, 50e-6)
+    ///     .build()?;
+    /// assert_eq!(scene.bearing.element_count, 9);
+    /// # Ok::<(), brinell::scene::SceneError>(())
+    /// ```
+    pub fn builder(bearing: Bearing) -> SceneBuilder {
+        let scene = Self {
+            name: "bearing".to_owned(),
+            description: String::new(),
+            gravity: [0.0, -9.81],
+            bearing,
+            contact: Contact {
+                law: ContactLaw::Hertz,
+                damping: Damping::HuntCrossley(0.5),
+                largest_force: None,
+                cells: None,
+                map_accuracy: None,
+                edge: ContactEdge::HalfSpace,
+            },
+            film: None,
+            cage: Cage { slip: 0.0, spin_slip: 0.0, initial_angle: -FRAC_PI_2, irregularity: None },
+            defects: Vec::new(),
+            shaft: Ring::default_shaft(),
+            shaft_speed: 0.0,
+            shaft_initial_angle: 0.0,
+            housing: Ring::default_housing(),
+            housing_speed: None,
+            housing_initial_angle: 0.0,
+            sensors: Vec::new(),
+            probe: false,
+            tolerance: 1e-5,
+            max_steps: 10_000_000,
+            recorder: None,
+            experiment: Experiment { stop: 0.5, step: 1e-4 },
+        };
+        SceneBuilder { scene, law: None }
+    }
+}
+
+impl Bearing {
+    /// A ball bearing of steel: `count` balls of a diameter (m) on a pitch diameter (m). Conformities 0.52, radial
+    /// clearance 5 µm, Young's modulus 207 GPa, Poisson's ratio 0.3, density 7800 kg/m³: all of them assumed, usual
+    /// values.
+    pub fn steel_balls(count: usize, element_diameter: f64, pitch_diameter: f64) -> Self {
+        Self {
+            element: RollingElement::Ball,
+            element_count: count,
+            element_diameter,
+            pitch_diameter,
+            conformity_inner: 0.52,
+            conformity_outer: 0.52,
+            radial_clearance: 5e-6,
+            youngs_modulus: 207e9,
+            poissons_ratio: 0.3,
+            density: 7800.0,
+            element_mass: None,
+            hertz_inner: None,
+            hertz_outer: None,
+            outer_compliance: 0.0,
+            element_inertia: ElementInertia::Full,
+        }
+    }
+
+    /// A cylindrical roller bearing of steel: `count` rollers of a diameter and an effective length (m) on a pitch
+    /// diameter (m), with the logarithmic crown of ISO/TS 16281. The rest as [`steel_balls`](Self::steel_balls) has it.
+    pub fn steel_rollers(count: usize, element_diameter: f64, length: f64, pitch_diameter: f64) -> Self {
+        let roller = Roller { length, profile: RollerProfile::Logarithmic, laminae: Roller::LAMINAE };
+        Self {
+            element: RollingElement::CylindricalRoller(roller),
+            conformity_inner: f64::INFINITY,
+            conformity_outer: f64::INFINITY,
+            ..Self::steel_balls(count, element_diameter, pitch_diameter)
+        }
+    }
+}
+
+impl Ring {
+    /// The inner ring with its shaft: a free mass. Values of published models of a bearing test rig with five degrees
+    /// of freedom (attributed to Sawalhi and Randall 2008), but for the stiffness: a shaft that is held to the ground
+    /// as stiffly as a bearing is stiff would carry the load itself.
+    pub fn default_shaft() -> Self {
+        Self { motion: Motion::Internal, load: [0.0; 2], mass: 3.2638, damping: 1376.8, stiffness: 0.0 }
+    }
+
+    /// The outer ring with its pedestal: a mass on a support, from the same models.
+    pub fn default_housing() -> Self {
+        Self { motion: Motion::Internal, load: [0.0; 2], mass: 6.638, damping: 2210.7, stiffness: 1.51056e7 }
+    }
+
+    /// A ring whose position and velocity the host gives at each communication point.
+    pub const fn hosted() -> Self {
+        Self { motion: Motion::Host, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 }
+    }
+
+    /// A ring that stands still.
+    pub const fn fixed() -> Self {
+        Self { motion: Motion::Fixed, ..Self::hosted() }
+    }
+}
+
+impl Default for Sensor {
+    /// A resonator of 15 kHz with 5 % of critical damping that measures along y, from the same models as the rings'
+    /// supports.
+    fn default() -> Self {
+        let (name, modes) = (String::new(), Vec::new());
+        Self { name, direction: FRAC_PI_2, mass: 1.0, stiffness: 8.8826e9, damping: 9424.8, modes }
+    }
+}
+
+impl SceneBuilder {
+    /// Name, which becomes that of the FMU: letters, digits, `-` and `_`.
+    #[must_use]
+    pub fn name(mut self, name: &str) -> Self {
+        name.clone_into(&mut self.scene.name);
+        self
+    }
+
+    /// One line about it for the reader.
+    #[must_use]
+    pub fn description(mut self, description: &str) -> Self {
+        description.clone_into(&mut self.scene.description);
+        self
+    }
+
+    /// Gravity (m/s²), x and y.
+    #[must_use]
+    pub fn gravity(mut self, gravity: [f64; 2]) -> Self {
+        self.scene.gravity = gravity;
+        self
+    }
+
+    /// Shaft speed (rad/s), counter-clockwise.
+    #[must_use]
+    pub fn shaft_speed(mut self, speed: f64) -> Self {
+        self.scene.shaft_speed = speed;
+        self
+    }
+
+    /// Angle of the inner ring at the start (rad), from which its defects are counted.
+    #[must_use]
+    pub fn shaft_initial_angle(mut self, angle: f64) -> Self {
+        self.scene.shaft_initial_angle = angle;
+        self
+    }
+
+    /// Load on the inner ring (N), x and y.
+    #[must_use]
+    pub fn shaft_load(mut self, load: [f64; 2]) -> Self {
+        self.scene.shaft.load = load;
+        self
+    }
+
+    /// The inner ring and who moves it; its load with it.
+    #[must_use]
+    pub fn shaft(mut self, ring: Ring) -> Self {
+        self.scene.shaft = ring;
+        self
+    }
+
+    /// The outer ring and who moves it; its load with it.
+    #[must_use]
+    pub fn housing(mut self, ring: Ring) -> Self {
+        self.scene.housing = ring;
+        self
+    }
+
+    /// Speed of the outer ring (rad/s), counter-clockwise; without it the ring does not turn and has no such input.
+    #[must_use]
+    pub fn housing_speed(mut self, speed: f64) -> Self {
+        self.scene.housing_speed = Some(speed);
+        self
+    }
+
+    /// Angle of the outer ring at the start (rad), from which its defects are counted.
+    #[must_use]
+    pub fn housing_initial_angle(mut self, angle: f64) -> Self {
+        self.scene.housing_initial_angle = angle;
+        self
+    }
+
+    /// A spall of the outer raceway with vertical edges: angle of its centre (rad), length (m) and depth (m).
+    #[must_use]
+    pub fn spall(self, angle: f64, length: f64, depth: f64) -> Self {
+        self.defect(Defect::outer(angle, DefectShape::Spall { length, depth, edge_slope: FRAC_PI_2 }))
+    }
+
+    /// One defect more, of either raceway or of an element.
+    #[must_use]
+    pub fn defect(mut self, defect: Defect) -> Self {
+        self.scene.defects.push(defect);
+        self
+    }
+
+    /// Law of the contacts near the defect.
+    #[must_use]
+    pub fn law(mut self, law: ContactLaw) -> Self {
+        self.law = Some(law);
+        self
+    }
+
+    /// Damping of the contacts.
+    #[must_use]
+    pub fn damping(mut self, damping: Damping) -> Self {
+        self.scene.contact.damping = damping;
+        self
+    }
+
+    /// What laws `map` and `love` take a sharp edge to be.
+    #[must_use]
+    pub fn contact_edge(mut self, edge: ContactEdge) -> Self {
+        self.scene.contact.edge = edge;
+        self
+    }
+
+    /// Cells of the contact grid of laws `map` and `love` along and across Hertz's ellipse at the largest force.
+    #[must_use]
+    pub fn contact_cells(mut self, cells: [u32; 2]) -> Self {
+        self.scene.contact.cells = Some(cells);
+        self
+    }
+
+    /// Largest force on an element near a defect (N) that laws `map` and `love` are prepared for; without it the loads
+    /// say.
+    #[must_use]
+    pub fn largest_force(mut self, force: f64) -> Self {
+        self.scene.contact.largest_force = Some(force);
+        self
+    }
+
+    /// Largest error of the contact map, relative to the largest force.
+    #[must_use]
+    pub fn map_accuracy(mut self, accuracy: f64) -> Self {
+        self.scene.contact.map_accuracy = Some(accuracy);
+        self
+    }
+
+    /// An oil film in the contacts, which are dry without it.
+    #[must_use]
+    pub fn film(mut self, film: Film) -> Self {
+        self.scene.film = Some(film);
+        self
+    }
+
+    /// The cage: its slip, and the angle of element 1 at the start (rad).
+    #[must_use]
+    pub fn cage(mut self, slip: f64, initial_angle: f64) -> Self {
+        self.scene.cage = Cage { slip, initial_angle, ..self.scene.cage };
+        self
+    }
+
+    /// The elements' lag behind the spin of pure rolling, which counts where one bears a defect.
+    #[must_use]
+    pub fn spin_slip(mut self, slip: f64) -> Self {
+        self.scene.cage.spin_slip = slip;
+        self
+    }
+
+    /// What makes passages uneven.
+    #[must_use]
+    pub fn irregularity(mut self, irregularity: CageIrregularity) -> Self {
+        self.scene.cage.irregularity = Some(irregularity);
+        self
+    }
+
+    /// One accelerometer more on the housing.
+    #[must_use]
+    pub fn sensor(mut self, sensor: Sensor) -> Self {
+        self.scene.sensors.push(sensor);
+        self
+    }
+
+    /// A probe of the displacement between the rings.
+    #[must_use]
+    pub fn probe(mut self) -> Self {
+        self.scene.probe = true;
+        self
+    }
+
+    /// A recorder of outputs inside the step.
+    #[must_use]
+    pub fn recorder(mut self, recorder: Recorder) -> Self {
+        self.scene.recorder = Some(recorder);
+        self
+    }
+
+    /// Relative tolerance of the time integration.
+    #[must_use]
+    pub fn tolerance(mut self, tolerance: f64) -> Self {
+        self.scene.tolerance = tolerance;
+        self
+    }
+
+    /// Most integration steps in one communication step.
+    #[must_use]
+    pub fn max_steps(mut self, steps: u64) -> Self {
+        self.scene.max_steps = steps;
+        self
+    }
+
+    /// The default run: its stop time and its communication step (s).
+    #[must_use]
+    pub fn experiment(mut self, stop: f64, step: f64) -> Self {
+        self.scene.experiment = Experiment { stop, step };
+        self
+    }
+
+    /// The scene, checked.
+    ///
+    /// # Errors
+    /// Whatever [`Scene::check`] refuses.
+    pub fn build(self) -> Result<Scene, SceneError> {
+        let Self { mut scene, law } = self;
+        let usual = if scene.defects.is_empty() { ContactLaw::Hertz } else { ContactLaw::Map };
+        scene.contact.law = law.unwrap_or(usual);
+        scene.check()?;
+        Ok(scene)
+    }
+}
+
+#[cfg(test)]
+impl Scene {
+    /// The shipped scene `er16k-tb1`, for unit tests.
+    pub(crate) fn er16k() -> Self {
+        let conformity = 8.19 / (2.0 * 7.94);
+        let bearing = Bearing {
+            conformity_inner: conformity,
+            conformity_outer: conformity,
+            ..Bearing::steel_balls(9, 7.94e-3, 39.32e-3)
+        };
+        let length = 15.8f64.to_radians() * bearing.outer_raceway_radius();
+        let scene = Self::builder(bearing).name("er16k-tb1").cage(0.0, (-105.1f64).to_radians());
+        let scene = scene.spall(-FRAC_PI_2, length, 100e-6).shaft_speed(20.0 * std::f64::consts::PI);
+        let built = scene.shaft_load([0.0, -500.0]).sensor(Sensor::default()).experiment(0.1, 1e-4).build();
+        built.unwrap_or_else(|error| panic!("{error}"))
+    }
+}

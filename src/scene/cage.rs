@@ -1,0 +1,54 @@
+//! The cage: how fast it turns, and what makes passages uneven.
+
+use crate::numerics::counter_noise::gaussian;
+use serde::{Deserialize, Serialize};
+
+/// Kinematics of the cage.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Cage {
+    /// Slip: the cage's lag behind pure rolling, 0 for none, 1 for a cage that stands.
+    pub slip: f64,
+    /// The elements' lag behind the spin of pure rolling.
+    pub spin_slip: f64,
+    /// Angle of element 1 at the start (rad), counter-clockwise from +x; in an irregular cage that of its position
+    /// in an even one.
+    pub initial_angle: f64,
+    /// What makes passages uneven; `None` for an even cage that turns evenly.
+    pub irregularity: Option<CageIrregularity>,
+}
+
+/// What makes passages uneven.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CageIrregularity {
+    /// Angle of each element ahead of even spacing (rad), their sum 0.
+    pub offsets: Vec<f64>,
+    /// Root mean square of each element's stationary motion about its position (rad).
+    pub jitter: f64,
+    /// Root mean square of the slow part of slip, as a share of the cage's speed.
+    pub wander: f64,
+    /// Of the random courses.
+    pub seed: u64,
+}
+
+impl CageIrregularity {
+    /// Root mean squares that recordings of two test rigs with 6205 bearings show, in shares of the element spacing,
+    /// and the wander as a share of the cage's speed: 0.3 to 1.6 % repeat with the cage's turn, at most 0.3 to 0.6 %
+    /// are stationary, and the mean speed wanders by 0.1 to 0.7 % in 5 s.
+    pub const RECORDED: [f64; 3] = [0.006, 0.004, 0.003];
+
+    /// Offsets of `count` elements drawn with a seed, of this root mean square (rad) and of sum 0.
+    pub fn drawn_offsets(count: usize, rms: f64, seed: u64) -> Vec<f64> {
+        let drawn: Vec<f64> = (0..count).map(|j| gaussian(seed, 0, j as i64)).collect();
+        let centred = Self::centred(&drawn);
+        let present = (centred.iter().map(|x| x * x).sum::<f64>() / count as f64).sqrt();
+        // One element alone has nothing to be uneven against.
+        let scale = if present > 0.0 { rms / present } else { 0.0 };
+        centred.iter().map(|x| scale * x).collect()
+    }
+
+    /// Offsets (rad) less their mean, so that their sum is 0.
+    pub fn centred(offsets: &[f64]) -> Vec<f64> {
+        let mean = offsets.iter().sum::<f64>() / offsets.len() as f64;
+        offsets.iter().map(|x| x - mean).collect()
+    }
+}

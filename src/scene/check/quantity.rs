@@ -1,0 +1,232 @@
+//! The quantities of a scene: what each is called, its key in a scene file, its unit there and the limits that depend on
+//! nothing else.
+#![allow(missing_docs)]
+
+use crate::scene::{Bound, Limits, MOST_SENSOR_MODES, MOST_SENSORS, SceneError};
+use Bound::{Exclusive, Inclusive};
+use std::f64::consts::{PI, TAU};
+
+/// A quantity with limits that depend on nothing else.
+pub struct Quantity {
+    quantity: &'static str,
+    /// Its key in a scene file, with its table.
+    pub key: &'static str,
+    /// Key's unit per SI unit.
+    per_si: f64,
+    /// Limits in the key's unit.
+    low: Bound,
+    high: Bound,
+}
+
+/// Those of a ring.
+pub struct RingQuantities {
+    pub load: Quantity,
+    pub mass: Quantity,
+    pub damping: Quantity,
+    pub stiffness: Quantity,
+}
+
+impl Quantity {
+    /// Checks a value in SI units.
+    pub fn check(&self, si: f64) -> Result<(), SceneError> {
+        let limits = self.limits();
+        let value = si * self.per_si;
+        // Rounding to twelve digits matters close to a limit only, and takes its time.
+        if limits.hold(value) && limits.hold(value * (1.0 + 1e-11)) && limits.hold(value * (1.0 - 1e-11)) {
+            return Ok(());
+        }
+        let value = shown(value);
+        if limits.hold(value) {
+            return Ok(());
+        }
+        Err(SceneError::OutOfRange { quantity: self.quantity, key: self.key, value, limits })
+    }
+
+    /// What it may be, in the key's unit.
+    pub fn limits(&self) -> Limits {
+        Limits { low: self.low, high: self.high }
+    }
+
+    /// Checks a value of a key in the key's unit, as it stands in the file.
+    pub fn check_written(&self, key: &'static str, value: f64) -> Result<(), SceneError> {
+        let limits = self.limits();
+        if limits.hold(value) {
+            return Ok(());
+        }
+        Err(SceneError::OutOfRange { quantity: self.quantity, key, value, limits })
+    }
+
+    pub(super) fn check_all(&self, si: &[f64]) -> Result<(), SceneError> {
+        si.iter().try_for_each(|&value| self.check(value))
+    }
+}
+
+/// Twelve digits: takes back the rounding of the conversion, so that 90 degrees are 90 again.
+pub fn shown(value: f64) -> f64 {
+    format!("{value:.11e}").parse().unwrap_or(value)
+}
+
+/// Smallest conformity. Below it the contact ellipse is longer than a groove is wide, and at 0.5 it has no end.
+pub const SMALLEST_CONFORMITY: f64 = 0.5001;
+
+/// A quantity by its name, its key, the key's unit per SI unit, and its limits in the key's unit.
+pub const fn quantity(quantity: &'static str, key: &'static str, per_si: f64, low: Bound, high: Bound) -> Quantity {
+    Quantity { quantity, key, per_si, low, high }
+}
+
+const DEG: f64 = 180.0 / PI;
+const HZ: f64 = 1.0 / TAU;
+
+pub const GRAVITY: Quantity = quantity("gravity", "gravity_m_s2", 1.0, Inclusive(-1e6), Inclusive(1e6));
+pub const ELEMENT_COUNT: Quantity =
+    quantity("number of elements", "bearing.element_count", 1.0, Inclusive(1.0), Inclusive(1000.0));
+pub const ELEMENT_DIAMETER: Quantity =
+    quantity("element diameter", "bearing.element_diameter_mm", 1e3, Inclusive(0.01), Inclusive(2e3));
+pub const ROLLER_LENGTH: Quantity =
+    quantity("effective roller length", "bearing.roller_length_mm", 1e3, Inclusive(0.003), Inclusive(6e3));
+pub const ROLLER_LAMINAE: Quantity =
+    quantity("number of laminae of a roller", "bearing.roller_laminae", 1.0, Inclusive(10.0), Inclusive(1000.0));
+/// Of rolling bearing steels.
+pub const STEELS_MODULUS: Quantity =
+    quantity("Young's modulus", "bearing.youngs_modulus_gpa", 1e-9, Inclusive(200.0), Inclusive(212.0));
+pub const STEELS_RATIO: Quantity =
+    quantity("Poisson's ratio", "bearing.poissons_ratio", 1.0, Inclusive(0.3), Inclusive(0.3));
+pub const PITCH_DIAMETER: Quantity =
+    quantity("pitch diameter", "bearing.pitch_diameter_mm", 1e3, Inclusive(0.01), Inclusive(2e4));
+pub const CONFORMITY_INNER: Quantity = quantity(
+    "groove conformity of the inner ring",
+    "bearing.groove_diameter_mm or bearing.conformity_inner",
+    1.0,
+    Inclusive(SMALLEST_CONFORMITY),
+    Inclusive(1e3),
+);
+pub const CONFORMITY_OUTER: Quantity = quantity(
+    "groove conformity of the outer ring",
+    "bearing.groove_diameter_mm or bearing.conformity_outer",
+    1.0,
+    Inclusive(SMALLEST_CONFORMITY),
+    Inclusive(1e3),
+);
+pub const CLEARANCE: Quantity =
+    quantity("radial clearance", "bearing.radial_clearance_um", 1e6, Inclusive(-1e9), Inclusive(1e9));
+pub const YOUNGS_MODULUS: Quantity =
+    quantity("Young's modulus", "bearing.youngs_modulus_gpa", 1e-9, Inclusive(1e-3), Inclusive(1e4));
+pub const POISSONS_RATIO: Quantity =
+    quantity("Poisson's ratio", "bearing.poissons_ratio", 1.0, Exclusive(-1.0), Exclusive(0.5));
+pub const DENSITY: Quantity =
+    quantity("density of the elements", "bearing.density_kg_m3", 1.0, Exclusive(0.0), Inclusive(1e5));
+pub const DENSITY_BY_MASS: Quantity = quantity(
+    "density of the elements in kg/m3, by their mass",
+    "bearing.element_mass_g",
+    1.0,
+    Exclusive(0.0),
+    Inclusive(1e5),
+);
+pub const ELEMENT_MASS: Quantity =
+    quantity("mass of one element", "bearing.element_mass_g", 1e3, Inclusive(1e-9), Inclusive(1e9));
+pub const HERTZ_INNER: Quantity =
+    quantity("Hertz constant of the inner contact", "bearing.hertz_inner_n_m1_5", 1.0, Inclusive(1.0), Inclusive(1e15));
+pub const HERTZ_OUTER: Quantity =
+    quantity("Hertz constant of the outer contact", "bearing.hertz_outer_n_m1_5", 1.0, Inclusive(1.0), Inclusive(1e15));
+/// 1e-3 m/N are softer than a rubber mount: no ring seat is.
+pub const OUTER_COMPLIANCE: Quantity =
+    quantity("outer compliance", "bearing.outer_compliance_m_n", 1.0, Inclusive(0.0), Inclusive(1e-3));
+pub const DAMPING_CHI: Quantity =
+    quantity("contact damping", "contact.damping_chi_s_m", 1.0, Inclusive(0.0), Inclusive(1e3));
+pub const DAMPING_TAU: Quantity =
+    quantity("contact damping", "contact.damping_tau_s", 1.0, Inclusive(0.0), Inclusive(1.0));
+/// From fuel to grease's base oil in the cold.
+pub const VISCOSITY: Quantity =
+    quantity("viscosity of the film", "film.viscosity_pa_s", 1.0, Inclusive(1e-4), Inclusive(10.0));
+pub const PRESSURE_VISCOSITY: Quantity = quantity(
+    "pressure coefficient of the film's viscosity",
+    "film.pressure_viscosity_1_pa",
+    1.0,
+    Inclusive(0.5e-8),
+    Inclusive(4e-8),
+);
+pub const FILM_LAYER: Quantity =
+    quantity("height of the film's oil", "film.layer_um", 1e6, Inclusive(0.01), Inclusive(1e4));
+pub const LARGEST_FORCE: Quantity =
+    quantity("largest contact force", "contact.largest_force_n", 1.0, Inclusive(1e-3), Inclusive(1e9));
+/// Fewer are no grid, more take minutes.
+pub const CONTACT_CELLS: Quantity =
+    quantity("number of cells of the contact grid", "contact.cells", 1.0, Inclusive(8.0), Inclusive(256.0));
+/// Finer than the steps of any grid.
+pub const MAP_ACCURACY: Quantity =
+    quantity("accuracy of the contact map", "contact.map_accuracy", 1.0, Inclusive(1e-5), Inclusive(0.1));
+pub const CAGE_SLIP: Quantity = quantity("cage slip", "cage.slip", 1.0, Inclusive(0.0), Inclusive(1.0));
+pub const CAGE_SPACING: Quantity =
+    quantity("offset of an element in the cage", "cage.spacing_deg", DEG, Inclusive(-90.0), Inclusive(90.0));
+pub const CAGE_SPACING_RMS: Quantity =
+    quantity("offsets of elements in the cage", "cage.spacing_rms_deg", DEG, Inclusive(0.0), Inclusive(90.0));
+pub const CAGE_JITTER: Quantity =
+    quantity("jitter of the elements in the cage", "cage.jitter_rms_deg", DEG, Inclusive(0.0), Inclusive(90.0));
+pub const CAGE_WANDER: Quantity =
+    quantity("wander of the cage's speed", "cage.wander", 1.0, Inclusive(0.0), Inclusive(0.1));
+pub const INITIAL_ANGLE: Quantity =
+    quantity("initial cage angle", "cage.initial_angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3));
+pub const SPIN_SLIP: Quantity =
+    quantity("slip of the elements' spin", "element.spin_slip", 1.0, Inclusive(-1.0), Inclusive(1.0));
+pub const SHAFT_INITIAL_ANGLE: Quantity =
+    quantity("initial angle of the shaft", "shaft.initial_angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3));
+pub const HOUSING_INITIAL_ANGLE: Quantity =
+    quantity("initial angle of the housing", "housing.initial_angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3));
+/// Beyond it the track is nowhere near the pit of any ball.
+pub const TILT: Quantity =
+    quantity("tilt of the defect off the rolling track", "defect.tilt_deg", DEG, Inclusive(-90.0), Inclusive(90.0));
+pub const DEFECT_ANGLE: Quantity = quantity("defect angle", "defect.angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3));
+pub const SPALL_LENGTH: Quantity =
+    quantity("spall length, in mm", "defect.length_deg or defect.length_mm", 1e3, Exclusive(0.0), Inclusive(1e6));
+pub const SPALL_DEPTH: Quantity = quantity("spall depth", "defect.depth_um", 1e6, Exclusive(0.0), Inclusive(1e9));
+pub const EDGE_SLOPE: Quantity = quantity("edge slope", "defect.edge_slope_deg", DEG, Exclusive(0.0), Inclusive(90.0));
+/// Limits are those that a host finds in the model description: what a scene may say a host may set.
+pub const SHAFT: RingQuantities = RingQuantities {
+    load: quantity("load on the shaft", "shaft.load_n", 1.0, Inclusive(-1e9), Inclusive(1e9)),
+    mass: quantity("shaft mass", "shaft.mass_kg", 1.0, Inclusive(1e-6), Inclusive(1e9)),
+    damping: quantity("shaft damping", "shaft.damping_n_s_m", 1.0, Inclusive(0.0), Inclusive(1e12)),
+    stiffness: quantity("shaft stiffness", "shaft.stiffness_n_m", 1.0, Inclusive(0.0), Inclusive(1e15)),
+};
+pub const HOUSING: RingQuantities = RingQuantities {
+    load: quantity("load on the housing", "housing.load_n", 1.0, Inclusive(-1e9), Inclusive(1e9)),
+    mass: quantity("housing mass", "housing.mass_kg", 1.0, Inclusive(1e-6), Inclusive(1e9)),
+    damping: quantity("housing damping", "housing.damping_n_s_m", 1.0, Inclusive(0.0), Inclusive(1e12)),
+    stiffness: quantity("housing stiffness", "housing.stiffness_n_m", 1.0, Inclusive(0.0), Inclusive(1e15)),
+};
+/// 10 kHz are 600 000 rev/min: a steel ring of any size bursts before.
+pub const HOUSING_SPEED: Quantity =
+    quantity("speed of the housing", "housing.speed_hz", HZ, Inclusive(-1e4), Inclusive(1e4));
+pub const SPEED: Quantity = quantity("shaft speed", "shaft.speed_hz", HZ, Inclusive(-1e4), Inclusive(1e4));
+pub const SENSOR_COUNT: Quantity =
+    quantity("number of sensors", "[[sensor]]", 1.0, Inclusive(1.0), Inclusive(MOST_SENSORS as f64));
+pub const SENSOR_DIRECTION: Quantity =
+    quantity("sensor direction", "sensor.direction_deg", 180.0 / PI, Inclusive(-1e3), Inclusive(1e3));
+pub const SENSOR_MASS: Quantity = quantity("sensor mass", "sensor.mass_kg", 1.0, Inclusive(1e-9), Inclusive(1e9));
+pub const SENSOR_STIFFNESS: Quantity =
+    quantity("sensor stiffness", "sensor.stiffness_n_m", 1.0, Exclusive(0.0), Inclusive(1e15));
+pub const SENSOR_DAMPING: Quantity =
+    quantity("sensor damping", "sensor.damping_n_s_m", 1.0, Inclusive(0.0), Inclusive(1e12));
+pub const SENSOR_MODE_COUNT: Quantity =
+    quantity("number of a sensor's modes", "[[sensor.mode]]", 1.0, Inclusive(0.0), Inclusive(MOST_SENSOR_MODES as f64));
+pub const SENSOR_MODE_FREQUENCY: Quantity =
+    quantity("frequency of a sensor's mode", "sensor.mode.frequency_hz", 1.0, Inclusive(1.0), Inclusive(1e6));
+pub const SENSOR_MODE_DAMPING_RATIO: Quantity =
+    quantity("damping ratio of a sensor's mode", "sensor.mode.damping_ratio", 1.0, Exclusive(0.0), Inclusive(1.0));
+pub const SENSOR_MODE_QUADRATURE_GAIN: Quantity =
+    quantity("quadrature gain of a sensor's mode", "sensor.mode.quadrature_gain", 1.0, Inclusive(-1e3), Inclusive(1e3));
+pub const SENSOR_MODE_GAIN: Quantity =
+    quantity("gain of a sensor's mode", "sensor.mode.gain", 1.0, Inclusive(-1e3), Inclusive(1e3));
+pub const TOLERANCE: Quantity = quantity("tolerance", "solver.tolerance", 1.0, Inclusive(1e-12), Inclusive(0.1));
+pub const MAX_STEPS: Quantity =
+    quantity("most integration steps", "solver.max_steps", 1.0, Inclusive(1.0), Inclusive(1e15));
+pub const RECORDER_RATE: Quantity = quantity("recorder rate", "recorder.rate_hz", 1.0, Exclusive(0.0), Inclusive(1e7));
+/// Below it the filter would be megabytes long, and what it lets through is no vibration.
+pub const FILTERED_RATE: Quantity = quantity(
+    "rate of a recorder that filters",
+    "recorder.rate_hz with recorder.filter = \"linear-phase\"",
+    1.0,
+    Inclusive(100.0),
+    Inclusive(1e7),
+);
+pub const STOP: Quantity = quantity("stop time", "experiment.stop_s", 1.0, Exclusive(0.0), Inclusive(1e9));
+pub const STEP: Quantity = quantity("communication step", "experiment.step_s", 1.0, Exclusive(0.0), Inclusive(1e9));
