@@ -26,21 +26,22 @@ use crate::simulation::{Simulation, SimulationError, VariableError};
 
 /// How far a parameter is moved for the difference of two starts. Forces of a start are known to 1e-12 of the load, and
 /// this moves them by 1e-8 to 1e-3 of it; on the way to a defect's edge it is 20 nm. Contacts that are pressed in by
-/// `approach` (m) feel a clearance beside that.
-fn difference(parameter: Parameter, nominal: f64, approach: f64) -> f64 {
+/// `approach` (m) feel a clearance beside that, and a ring on a soft spring the spring's own share.
+fn difference(parameter: Parameter, at: f64, nominal: f64, approach: f64) -> f64 {
     match parameter {
         Parameter::RadialClearance if approach > 0.0 => (1e-4 * approach).clamp(1e-12, 1e-9),
         Parameter::RadialClearance => 1e-9,
         // A force changes by χ δ̇ = 1e-4 χ or by 1.5 τ δ̇/δ = 30/s τ of itself.
         Parameter::ContactDamping => 1e-2 * nominal,
         Parameter::CageSlip | Parameter::SpinSlip => 1e-3,
+        Parameter::RingStiffness(_) if at > 0.0 => (1e-2 * at).min(1e3),
         Parameter::RingStiffness(_) => 1e3,
         _ => 1e-6,
     }
 }
 
 /// Steps at which to look, and shares of the changes until there in the derivative times a step: on both sides, or
-/// where a limit is nearer than a step all on the other. The error is of second order.
+/// where a limit is nearer than a step all on the other. The error is of the step's second order.
 fn quotient(at: f64, step: f64, [min, max]: [Option<f64>; 2]) -> [(f64, f64); 2] {
     if min.is_some_and(|min| at - step < min) {
         [(1.0, 2.0), (2.0, -0.5)]
@@ -170,9 +171,13 @@ impl Simulation {
         let (mut start, mut here) = (self.clone(), vec![0.0; unknowns.len()]);
         start.reals(unknowns, &mut here)?;
         let approach = start.forces.contacts.inner_approach.iter().copied().fold(0.0, f64::max);
-        let (at, step) = (self.state.reals[known as usize], difference(parameter, nominal, approach));
+        let at = self.state.reals[known as usize];
+        let step = difference(parameter, at, nominal, approach);
         let mut there = here.clone();
-        for (steps, share) in quotient(at, step, [min, max]) {
+        // Half the step and the step, of whose errors the largest terms cancel.
+        let halves = quotient(at, step, [min, max]).map(|(steps, share)| (0.5 * steps, 8.0 / 3.0 * share));
+        let wholes = quotient(at, step, [min, max]).map(|(steps, share)| (steps, -1.0 / 3.0 * share));
+        for (steps, share) in halves.into_iter().chain(wholes) {
             start.state.reals[known as usize] = at + steps * step;
             start.outdate(Fresh::Nothing);
             // A start beside one that exists: where there is none, the limit of what exists has no derivative.

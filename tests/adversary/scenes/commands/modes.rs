@@ -8,6 +8,7 @@ use crate::oracle::linear::Freedom;
 use crate::oracle::run::{Pace, Run};
 use crate::oracle::signals::signals;
 use crate::subject::Subject;
+use crate::units::rounding;
 use brinell::simulation::SimulationError;
 use brinell_analysis::modes::{Assembly, Kind, Mode};
 use std::f64::consts::PI;
@@ -89,7 +90,8 @@ impl Linear {
         };
         let (matrix, coarse) = (weighted(h), weighted(2.0 * h));
         let apart = matrix.iter().flatten().zip(coarse.iter().flatten()).map(|(a, b)| (a - b).abs());
-        let own = apart.fold(0.0, f64::max);
+        // Elements stand where they stand to a rounding, beside which a roller is pressed in by next to nothing.
+        let own = apart.fold(rounding(oracle) / least, f64::max);
         let weight = oracle.mass * oracle.gravity[0].hypot(oracle.gravity[1]);
         let loose = run.acting.contacts.iter().map(|[inner, outer]| inner.force.max(outer.force) <= 1e-3 * weight);
         let loose = loose.collect();
