@@ -1,5 +1,5 @@
-//! The quantities of a scene: what each is called, its key in a scene file, its unit there and the limits that depend on
-//! nothing else.
+//! The quantities of a scene: what each is called, its key in a scene file, its unit there and the limits that depend
+//! on nothing else.
 #![allow(missing_docs)]
 
 use crate::scene::{Bound, Limits, MOST_SENSOR_MODES, MOST_SENSORS, SceneError};
