@@ -10,7 +10,7 @@ fn an_unknown_key_is_refused_with_its_line_and_name() {
     refused("depth_um = 100.0", "depth = 100.0", &["line 23: defect.depth is unknown: did you mean depth_um?"]);
     refused("speed_hz = 10.0", "speed_rpm = 600.0", &["shaft.speed_rpm is unknown: did you mean speed_hz?"]);
     refused("mass_kg = 1.0", "slip = 1.0", &["sensor.slip is unknown: it belongs to [cage]"]);
-    refused("slip = 0.0", "colour = 0.0", &["cage.colour is unknown: known here are slip, initial_angle_deg"]);
+    refused("slip = 0.0", "colour = 0.0", &["cage.colour is unknown: known here are initial_angle_deg, irregularity"]);
 }
 
 #[test]

@@ -103,7 +103,7 @@ impl<'a, 'f> Reading<'a, 'f> {
         let mut findings = Vec::new();
         for of in tables() {
             for found in all_of(of.name, self.file) {
-                findings.extend(of_table(&of, &found, &|at| self.line(at)));
+                findings.extend(of_table(of, &found, &|at| self.line(at)));
             }
         }
         for Finding { fault, excludes } in &mut findings {
