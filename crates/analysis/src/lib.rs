@@ -26,6 +26,7 @@ pub mod modes;
 pub mod modes_report;
 mod npy_header;
 pub mod order_spectrum;
+mod other_speed;
 pub mod passages;
 pub mod raceway;
 pub mod recording;
