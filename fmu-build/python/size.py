@@ -62,16 +62,15 @@ def draw(stem):
     for axis in axes:
         mark(axis, found, axis is top)
     if rows == 3:
-        axes[2].plot(angle, -1e6 * data["path"], color=BLUE, label="element's centre, rolling over the spall")
+        axes[2].plot(angle, -1e6 * data["path"], color=BLUE, label="element's centre, until free or on the floor")
         axes[2].set_ylabel("path (µm)")
     for axis in axes:
         low, high = axis.get_ylim()
         axis.set_ylim(low, high + 0.3 * (high - low))
         axis.legend(loc="upper right", ncols=6, columnspacing=1)
     raceway = "the inner raceway" if found["fault"] == "inner" else "the outer raceway"
-    origin = "leading edge" if "model" in data else "first impact"
     axes[-1].set_xlabel(
-        f"element travel from the {origin} (degrees of {raceway})"
+        f"element travel from the leading edge (degrees of {raceway})"
         if found["length_deg"]
         else f"element travel (degrees of {raceway}; 0: first impact, if there is one)"
     )

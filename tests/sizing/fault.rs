@@ -164,3 +164,46 @@ fn a_simulated_inner_spall_is_heard_as_one_in_the_load_zone_and_never_sized_wron
     let right = report.length_deg.is_none_or(|length| (length / 5.0 - 1.0).abs() < 0.15);
     assert!(right, "{:?}", report.length_deg);
 }
+
+#[test]
+fn a_wrong_speed_gives_no_length_and_the_refusal_says_which_one_would_suit() {
+    let outer = (signal(5.0, 10.0, 0.03), Fault::Outer);
+    let inside = (signal_of(inner(8.0), 10.0, 0.03), Fault::Inner);
+    for (signal, fault) in [outer, inside] {
+        assert_eq!(sized(signal.clone(), 10.0).fault, fault);
+        for share in [0.5, 0.667, 1.5, 2.0] {
+            let report = sized(signal.clone(), 10.0 * share);
+            let named = report.fault;
+            assert_eq!(report.verdict, Verdict::Unresolved, "{fault:?} at {share}: {named:?} {:?}", report.length_deg);
+            assert!(
+                ![Fault::Outer, Fault::Inner].contains(&named) || named == fault,
+                "{fault:?} at {share}: {named:?}"
+            );
+        }
+    }
+    // BPFI is 1.51 times BPFO: what is the outer raceway's at 10 Hz was named the inner one's at 6.67 Hz, with a length.
+    let refused = sized(signal(5.0, 10.0, 0.03), 6.667).reason;
+    // 0.4 % of slip were put in.
+    let suits = "it suits the outer raceway at a shaft speed of 9.96 Hz";
+    assert!(refused.contains("is the speed right?") && refused.contains(suits), "{refused}");
+    let refused = sized(signal_of(inner(8.0), 10.0, 0.03), 15.0).reason;
+    let suits = "it suits the inner raceway at a shaft speed of 10.03 Hz";
+    assert!(refused.contains("is the speed right?") && refused.contains(suits), "{refused}");
+}
+
+#[test]
+fn a_recording_reversed_in_time_gives_no_length() {
+    for (mut signal, speed) in [(signal(5.0, 10.0, 0.03), 10.0), (signal_of(inner(8.0), 15.0, 0.03), 15.0)] {
+        signal.reverse();
+        let report = sized(signal, speed);
+        assert_eq!(report.verdict, Verdict::Unresolved, "{:?}", report.length_deg);
+        assert!(report.reason.contains("is it reversed in time?"), "{}", report.reason);
+    }
+}
+
+#[test]
+fn a_recording_given_twice_is_refused_by_both_names() {
+    let made = |name: &str| Recording::new(name, signal(5.0, 10.0, 0.03), RATE, 10.0).unwrap();
+    let refused = size(&[made("one"), made("other")], &scene()).unwrap_err().to_string();
+    assert!(refused.contains("other and one have equal samples"), "{refused}");
+}

@@ -72,6 +72,54 @@ fn the_passage_of_a_recording_without_a_length_is_drawn_from_its_first_impact() 
     assert!(after > before + 10.0, "{before:.1} dB before, {after:.1} dB after");
 }
 
+/// Level (dB) that a report's figure shows within these degrees, in the mean.
+fn level(report: &Report, degrees: std::ops::Range<f64>) -> f64 {
+    let figure = &report.figures[0];
+    let within = figure.angle.iter().zip(&figure.level).filter(|(angle, _)| degrees.contains(angle));
+    let levels: Vec<f64> = within.map(|(_, &level)| level).collect();
+    levels.iter().sum::<f64>() / levels.len() as f64
+}
+
+/// Angles of a report, its figure and its path count from the leading edge.
+fn check_angles(report: &Report, floor: f64) {
+    let found = &report.recordings[0];
+    assert_eq!(found.edges_deg.unwrap(), [0.0, found.length_deg.unwrap()]);
+    for &impact in &found.impacts_deg {
+        // An impact is no later than the edge, and the figure's level rises where it is.
+        assert!((0.0..found.length_deg.unwrap() + 0.2).contains(&impact), "{:?}", found.impacts_deg);
+        let (before, after) = (level(report, impact - 0.5..impact - 0.2), level(report, impact..impact + 0.3));
+        assert!(after > before + 3.0, "{impact}: {before:.1} dB before, {after:.1} dB after");
+    }
+    let figure = &report.figures[0];
+    let path = figure.path.as_ref().unwrap();
+    let sunk = |i: &usize| path[*i] > 0.0;
+    let sunk: Vec<f64> = (0..path.len()).filter(sunk).map(|i| figure.angle[i]).collect();
+    let [first, last] = [sunk[0], sunk[sunk.len() - 1]];
+    let step = figure.angle[1] - figure.angle[0];
+    let length = found.length_deg.unwrap();
+    assert!((0.0..=step).contains(&first) && (length - step..=length).contains(&last), "{first} to {last}");
+    let deepest = path.iter().copied().fold(0.0, f64::max);
+    assert!(deepest <= floor, "{deepest} m deep, floor {floor} m");
+}
+
+#[test]
+fn angles_by_events_count_from_the_leading_edge_and_the_path_ends_where_an_element_is_free() {
+    let report = sized(signal(5.0, 10.0, 0.03), 10.0, &scene());
+    assert_eq!(report.recordings[0].onset_deg, Some(0.0));
+    // 27 N bring a ball's two contacts 2.05 µm together, and 5 µm are clearance; the rigid path is 100 µm deep.
+    check_angles(&report, 7.1e-6);
+}
+
+#[test]
+fn angles_by_similarity_count_from_the_leading_edge_and_the_path_stays_above_the_floor() {
+    let mut rig = rig(20.0);
+    rig.contact.law = ContactLaw::Hertz;
+    let report = sized(simulated_deep(&rig, 5.0, 15e-6, 0.3), 20.0, &rig);
+    assert_eq!(report.method, Some(Method::Waveform), "{}", report.reason);
+    // Trial depths are a ladder: within a tenth.
+    check_angles(&report, 16.5e-6);
+}
+
 #[test]
 fn equal_recordings_give_equal_bits() {
     let [a, b] = [(); 2].map(|()| sized(signal(5.0, 10.0, 0.1), 10.0, &scene()));
@@ -161,7 +209,7 @@ fn the_scenes_own_bearing_without_a_spall_is_healthy_although_its_elements_are_h
     rig.contact.law = ContactLaw::Hertz;
     let signal = recorded(Scene { defects: Vec::new(), ..rig.clone() }, 1.2);
     let report = sized(signal, 10.0, &rig);
-    assert_eq!((report.verdict, report.fault), (Verdict::Unresolved, Fault::None), "{:?}", report.length_deg);
+    assert_eq!((report.verdict, report.fault), (Verdict::Unresolved, Fault::None), "{}", report.reason);
     assert!(report.recordings[0].combs.outer.significance > 8.0, "nothing was heard");
     assert!(report.reason.contains("bearing without a spall"), "{}", report.reason);
 }
@@ -189,7 +237,7 @@ fn a_simulated_line_spall_is_sized_by_the_scenes_own_rig_within_three_per_cent()
     rig.contact.law = ContactLaw::Hertz;
     let mut signal = simulated(&rig, 5.0, 0.3);
     let clean = sized(signal.clone(), 20.0, &rig);
-    let length = clean.length_deg.unwrap();
+    let length = clean.length_deg.unwrap_or_else(|| panic!("{}", clean.reason));
     assert!((length / 5.0 - 1.0).abs() < 0.03, "{length}: {}", clean.reason);
     assert_eq!((clean.kind, clean.method), (Kind::Line, Some(Method::Waveform)));
     // Noise 20 dB below the signal: twice the error is allowed.

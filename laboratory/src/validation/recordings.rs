@@ -183,7 +183,8 @@ fn outer_beside(project: &Project, [case, with_flanks]: [&Case; 2], beside: &[Be
             writeln!(text, "{}", beside_row(*speed, label, report.recordings.first(), &own))?;
             // The figure shows the last, which is nearer.
             let stem = format!("beside-{speed:.0}hz");
-            write_beside(project, &stem, figure, report.figures.first(), comb, &own)?;
+            let simulated = report.figures.first().zip(report.recordings.first());
+            write_beside(project, &stem, [Some((figure, found)), simulated], [comb, &own])?;
         }
     }
     Ok(text)
@@ -217,11 +218,21 @@ fn inner_beside(project: &Project, recorded: &[Inside]) -> Result<String> {
 
 fn inner_row(speed: f64, label: &str, found: &RecordingReport, loud: &Loud) -> String {
     let impacts: Vec<String> = loud.impacts.iter().map(|impact| format!("{impact:.2}")).collect();
-    let onset = number(found.onset_deg.map(|onset| -onset));
+    let onset = number(before_impact(found).map(|onset| -onset));
     let length = number(found.length_deg);
     let (fault, strong) = (looks_like(found.fault), found.modulation);
     let (impacts, apart) = (impacts.join(", "), loud.apart);
     format!("| {speed} | {label} | {fault} | {apart:.2} | {impacts} | {onset} | {length} | {strong:.1} |")
+}
+
+/// Onset of the entry (degrees), the first impact at 0, as the page's tables have it.
+fn before_impact(found: &RecordingReport) -> Option<f64> {
+    Some(found.onset_deg? - found.impacts_deg.first()?)
+}
+
+/// Impacts (degrees), likewise.
+fn after_first(found: &RecordingReport) -> Vec<f64> {
+    found.impacts_deg.iter().map(|impact| impact - found.impacts_deg[0]).collect()
 }
 
 /// What is loud in an averaged passage (degrees).
@@ -261,8 +272,8 @@ fn looks_like(fault: Fault) -> &'static str {
 }
 
 fn beside_row(speed: f64, label: &str, found: Option<&RecordingReport>, comb: &[f64]) -> String {
-    let onset = number(found.and_then(|f| f.onset_deg).map(|onset| -onset));
-    let last = number(found.and_then(|f| f.impacts_deg.last().copied()));
+    let onset = number(found.and_then(before_impact).map(|onset| -onset));
+    let last = number(found.and_then(|f| after_first(f).last().copied()));
     let length = number(found.and_then(|f| f.length_deg));
     format!("| {speed} | {label} | {onset} | {last} | {length} | {} |", null(comb))
 }
@@ -272,7 +283,7 @@ fn row(found: &RecordingReport, known: &Known) -> Result<String> {
     let nominal = known.nominal;
     let error =
         found.length_deg.filter(|_| nominal > 0.0).map(|deg| format!("{:+.1} %", 100.0 * (deg / nominal - 1.0)));
-    let impacts: Vec<String> = found.impacts_deg.iter().map(|impact| format!("{impact:.2}")).collect();
+    let impacts: Vec<String> = after_first(found).iter().map(|impact| format!("{impact:.2}")).collect();
     let length = found.length_deg.map_or("unresolved".to_owned(), |deg| format!("{deg:.2}"));
     let nominal = match known.fault {
         Fault::Outer => format!("{nominal}"),
@@ -285,7 +296,7 @@ fn row(found: &RecordingReport, known: &Known) -> Result<String> {
         looks_like(found.fault),
         number(found.uncertainty_deg),
         error.unwrap_or("–".to_owned()),
-        number(found.onset_deg),
+        number(before_impact(found)),
         impacts.join(", ")
     ))
 }
@@ -318,15 +329,16 @@ fn null(comb: &[f64]) -> String {
 fn write_beside(
     project: &Project,
     stem: &str,
-    recorded: &Figure,
-    simulated: Option<&Figure>,
-    comb: &[f64],
-    own: &[f64],
+    sized: [Option<(&Figure, &RecordingReport)>; 2],
+    [comb, own]: [&[f64]; 2],
 ) -> Result<()> {
-    for (label, figure) in [("recording", Some(recorded)), ("scene", simulated)] {
-        let Some(figure) = figure else { continue };
+    for (label, sized) in ["recording", "scene"].into_iter().zip(sized) {
+        let Some((figure, found)) = sized else { continue };
+        // From the first impact, which both have.
+        let first = found.impacts_deg.first().copied().unwrap_or(0.0);
+        let angle = figure.angle.iter().map(|angle| angle - first).collect();
         let names = [("angle", "deg"), ("low", "1"), ("level", "dB")].map(|(name, unit)| (name.to_owned(), unit));
-        let columns = [figure.angle.clone(), figure.low.clone(), figure.level.clone()];
+        let columns = [angle, figure.low.clone(), figure.level.clone()];
         write_csv(project, &format!("{stem}-{label}"), &names, &columns)?;
     }
     let order = (1..=comb.len()).map(|k| k as f64).collect();

@@ -304,7 +304,11 @@ fn check_groove(ring: &'static str, conformity: f64, range: &Quantity) -> Result
 }
 
 impl SensorMode {
-    fn check(&self) -> Result<(), SceneError> {
+    /// Whether a scene may have it.
+    ///
+    /// # Errors
+    /// What is out of range.
+    pub fn check(&self) -> Result<(), SceneError> {
         let mut faults = Faults::default();
         faults.passes(SENSOR_MODE_FREQUENCY.check(self.frequency));
         faults.passes(SENSOR_MODE_DAMPING_RATIO.check(self.damping_ratio));

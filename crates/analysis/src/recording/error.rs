@@ -37,6 +37,14 @@ pub enum SizingError {
     /// No recordings were given.
     #[error("0 recordings: at least 1 is needed")]
     NoRecordings,
+    /// A recording was given twice.
+    #[error("{name} and {other} have equal samples: a recording counts once")]
+    Twice {
+        /// The recording.
+        name: String,
+        /// The one before it.
+        other: String,
+    },
     /// A quantity that must be positive and finite is not.
     #[error("{name}: {quantity} {value} {unit}: it must be finite and above 0")]
     NotPositive {

@@ -151,6 +151,12 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Result<EventLength, Unres
 
 /// Whether the recording looks like a fault that can be sized.
 fn check_fault(measured: &Measured) -> Result<(), Unresolved> {
+    if let Some(said) = &measured.other_speed {
+        return Err(Unresolved::OtherSpeed(said.clone()));
+    }
+    if let (Some([forwards, backwards]), Fault::Inner | Fault::Outer) = (measured.reversed, measured.fault) {
+        return Err(Unresolved::Reversed(forwards, backwards));
+    }
     let (combs, limit) = (&measured.combs, crate::spectra::SIGNIFICANT);
     match (measured.fault, &measured.elsewhere) {
         (Fault::None, Some(other)) => {
@@ -181,6 +187,11 @@ pub fn impacts(measured: &Measured) -> Vec<f64> {
 pub fn first_impact(measured: &Measured) -> Option<f64> {
     let grid = Grid::new(measured);
     grid.told_of(measured).impacts.first().map(|impact| impact.at / grid.degree)
+}
+
+/// A position (degrees) as it is seen in the period that [`averaged_passage`] shows.
+pub(super) fn shown(position: f64, spacing: f64) -> f64 {
+    (position + LEAD * spacing).rem_euclid(spacing) - LEAD * spacing
 }
 
 /// The averaged passage that a figure shows: degrees from `from`, signal, envelope level (dB). `from` is in degrees

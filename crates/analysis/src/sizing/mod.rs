@@ -3,6 +3,7 @@
 pub mod event_length;
 mod kind;
 mod measured;
+mod other_speed;
 pub mod passages;
 mod raceway;
 mod report;

@@ -113,11 +113,12 @@ pub struct RecordingReport {
     /// Strength of strong passages over that of weak ones, 90 against 10 % quantile of the root mean square above 5
     /// kHz: an inner raceway's load zone.
     pub modulation: f64,
-    /// Onset of the entry before the first impact (degrees), where there is one.
+    /// Onset of the entry (degrees), where there is one; as all angles from the leading edge: 0 by events, which take the
+    /// onset for the edge.
     pub onset_deg: Option<f64>,
-    /// Impacts, from the first on (degrees).
+    /// Impacts, likewise.
     pub impacts_deg: Vec<f64>,
-    /// Both edges as the length has them, from the first impact, or by similarity from the entry (degrees).
+    /// Both edges, likewise: 0 and the length.
     pub edges_deg: Option<[f64; 2]>,
     /// Similarity to the scene's rig, 0 to 1, where the scene describes one: with the best spall, or without a spall
     /// where that is as good. A length rests on it from 0.9 on.
@@ -130,8 +131,8 @@ pub struct RecordingReport {
     pub reason: Option<String>,
 }
 
-/// The averaged passage of one recording, for a figure. Angles in degrees of element travel from the first impact, or
-/// by similarity from the entry; where no impact is found from the start of a passage's period.
+/// The averaged passage of one recording, for a figure. Angles in degrees of element travel from the leading edge;
+/// where none is found from the first impact, or from the start of a passage's period.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
     /// Name of the recording.
@@ -146,7 +147,7 @@ pub struct Figure {
     pub low: Vec<f64>,
     /// The most alike simulated passage, scaled to `low`, where similarity gave the length.
     pub model: Option<Vec<f64>>,
-    /// Rigid path of an element's centre over a spall of the answer's length, deep enough that its floor is not reached
-    /// (m).
+    /// Rigid path of an element's centre over a spall of the answer's length (m), down to the floor of the most alike
+    /// spall or until it is free of its load; none where neither is known.
     pub path: Option<Vec<f64>>,
 }

@@ -22,7 +22,7 @@ use crate::sizing::waveform::{CUT, Maps, Rig, Unlike, WaveformLength, waveform_l
 use crate::spectra::Fault;
 use crate::spectrum::{Band, Spectrum};
 use crate::statistics;
-use brinell::scene::{Bearing, Scene};
+use brinell::scene::Scene;
 
 /// Coverage factor of the stated interval: 95 % of a normal distribution.
 const COVERAGE: f64 = 2.0;
@@ -81,6 +81,7 @@ pub fn size_with(
     maps: Maps<'_>,
     done: &mut dyn FnMut(&RecordingReport),
 ) -> Result<Report, SizingError> {
+    refuse_twins(recordings)?;
     let measured: Vec<Measured> =
         recordings.iter().map(|recording| Measured::new(recording, &scene.bearing)).collect::<Result<_, _>>()?;
     let sized: Vec<Sized> = measured
@@ -110,7 +111,7 @@ pub fn size_with(
         critical_load_reason: None,
         critical_depth_um: None,
         recordings: sized.iter().map(Sized::report).collect(),
-        figures: sized.iter().map(|s| s.figure(&scene.bearing)).collect(),
+        figures: sized.iter().map(|s| s.figure(scene)).collect(),
     };
     let lengths: Vec<&Length> = sized.iter().filter_map(|s| s.length.as_ref().ok()).collect();
     match of_one_fault(&sized).and_then(|()| combine(&lengths, sized.len())) {
@@ -163,7 +164,7 @@ struct Length {
 impl Sized {
     fn of(mut measured: Measured, scene: &Scene, maps: Maps<'_>) -> Self {
         let rig = Rig::new(scene, measured.bpfo, maps);
-        let once = measured.broken.is_none() && measured.times_a_period.is_none();
+        let whole = measured.broken.is_none() && measured.times_a_period.is_none() && measured.reversed.is_none();
         let combs = &measured.combs;
         let outer = match measured.fault {
             Fault::Outer => true,
@@ -171,7 +172,7 @@ impl Sized {
             _ => false,
         };
         let shaped = CUT >= HARMONICS * measured.bpfo;
-        let heard = rig.as_ref().filter(|_| outer && once && shaped);
+        let heard = rig.as_ref().filter(|_| outer && whole && shaped);
         let heard = heard.map(|rig| waveform_length::estimate(&measured, scene, rig));
         let similarity = heard.as_ref().map(|heard| match heard {
             Ok(waveform) => waveform.similarity,
@@ -226,9 +227,9 @@ impl Sized {
             bpfo_hz: self.measured.bpfo,
             significance: self.measured.combs.strongest().significance,
             modulation: self.measured.modulation,
-            onset_deg: self.events.as_ref().map(|e| e.onset),
-            impacts_deg: self.events.as_ref().map_or_else(Vec::new, |e| e.impacts.clone()),
-            edges_deg: self.edges(),
+            onset_deg: self.events.as_ref().map(|e| self.first_impact(e) + e.onset),
+            impacts_deg: self.events.as_ref().map_or_else(Vec::new, |e| self.impacts(e)),
+            edges_deg: self.length.as_ref().ok().map(|found| [0.0, found.length]),
             passages: self.measured.passages.starts.len(),
             similarity: self.similarity,
             ringing_hz: self.judged.ringing.map(Ringing::pair),
@@ -237,21 +238,36 @@ impl Sized {
         }
     }
 
-    /// Both edges (degrees), from where angles count.
-    fn edges(&self) -> Option<[f64; 2]> {
-        let length = self.length.as_ref().ok()?.length;
-        let onset = if self.waveform.is_some() { 0.0 } else { self.events.as_ref()?.onset };
-        Some([onset, onset + length])
+    /// The leading edge after the start of a passage's period (degrees): where all angles of a report count from.
+    fn leading_edge(&self) -> Option<f64> {
+        let of_waveform = self.waveform.as_ref().map(|w| w.entry * self.measured.spacing);
+        of_waveform.or_else(|| self.events.as_ref().map(|e| e.first + e.onset))
     }
 
-    fn figure(&self, bearing: &Bearing) -> Figure {
+    /// The first impact after the leading edge (degrees), by similarity within the period that a figure shows.
+    fn first_impact(&self, events: &EventLength) -> f64 {
+        match &self.waveform {
+            Some(w) => event_length::shown(events.first - w.entry * self.measured.spacing, self.measured.spacing),
+            None => -events.onset,
+        }
+    }
+
+    fn impacts(&self, events: &EventLength) -> Vec<f64> {
+        events.impacts.iter().map(|impact| self.first_impact(events) + impact).collect()
+    }
+
+    /// How deep an element sinks while it rolls (m): to the floor of the most alike spall, or until it is free of its
+    /// load; `None` where neither is known.
+    fn deepest(&self, scene: &Scene) -> Option<f64> {
+        let free = raceway::approach(scene).map(|approach| approach + scene.bearing.radial_clearance.max(0.0));
+        let floor = self.waveform.as_ref().map(|w| w.depth);
+        floor.into_iter().chain(free).reduce(f64::min)
+    }
+
+    fn figure(&self, scene: &Scene) -> Figure {
         let measured = &self.measured;
-        let from = match (&self.waveform, &self.events) {
-            (Some(w), _) => w.entry * measured.spacing,
-            (None, Some(e)) => e.first,
-            // Without a length, too, a passage is best seen from its first impact.
-            (None, None) => event_length::first_impact(measured).unwrap_or(0.0),
-        };
+        // Without a leading edge a passage is best seen from its first impact.
+        let from = self.leading_edge().or_else(|| event_length::first_impact(measured)).unwrap_or(0.0);
         let [angle, signal, level] = event_length::averaged_passage(measured, from);
         let rate = measured.pass_frequency * signal.len() as f64;
         let low = Spectrum::of(&signal, rate).filtered(Band { low: 0.5 * measured.pass_frequency, high: CUT });
@@ -262,13 +278,25 @@ impl Sized {
             let point = |degrees: f64| (share(degrees) * w.model.len() as f64) as usize % w.model.len();
             angle.iter().map(|&degrees| scale * w.model[point(degrees)]).collect()
         });
-        let path = self.edges().map(|[entry, exit]| {
-            let sunk =
-                |degrees: f64| measured.raceway.depth_at(bearing, (degrees - entry).min(exit - degrees).max(0.0));
+        let path = self.length.as_ref().ok().zip(self.deepest(scene)).map(|(found, deepest)| {
+            let sunk = |degrees: f64| {
+                let past = degrees.min(found.length - degrees).max(0.0);
+                measured.raceway.depth_at(&scene.bearing, past).min(deepest)
+            };
             angle.iter().map(|&degrees| sunk(degrees)).collect()
         });
         Figure { name: measured.name.clone(), angle, signal, level, low, model, path }
     }
+}
+
+/// Equal recordings are one: counted twice it would narrow the interval.
+fn refuse_twins(recordings: &[Recording]) -> Result<(), SizingError> {
+    for (k, one) in recordings.iter().enumerate() {
+        if let Some(other) = recordings[..k].iter().find(|other| other.samples() == one.samples()) {
+            return Err(SizingError::Twice { name: one.name().to_owned(), other: other.name().to_owned() });
+        }
+    }
+    Ok(())
 }
 
 /// The length by similarity, unless it is shorter than what can be resolved: a guessed load, clearance or edge would

@@ -20,6 +20,15 @@ pub enum Unresolved {
          outer raceway?"
     )]
     OtherPattern(f64, f64, f64, f64),
+    /// Another speed would suit it as well.
+    #[error("is the speed right? {0}")]
+    OtherSpeed(String),
+    /// Time runs backwards.
+    #[error(
+        "is it reversed in time? Its impacts are sharper backwards, and structures ring after an impact, not before it: \
+         kurtosis of what prediction leaves {0:.1} forwards, {1:.1} backwards"
+    )]
+    Reversed(f64, f64),
     /// A rolling element's fault.
     #[error(
         "it looks like a fault of a rolling element, whose length is not read from recordings: combs stand above \

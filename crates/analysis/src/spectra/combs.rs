@@ -21,12 +21,12 @@ const HARMONICS: usize = 10;
 const TALLEST: f64 = 1e4;
 /// Largest deviation of the ball pass frequency from pure rolling: 3 % slip behind, 2 % ahead by inexact dimensions or
 /// speed.
-const SLIP: std::ops::RangeInclusive<f64> = -0.02..=0.03;
+pub(crate) const SLIP: std::ops::RangeInclusive<f64> = -0.02..=0.03;
 /// Power below which nothing is heard, as a share of the mean: 30 dB down. Signals without noise, as simulations give
 /// them, hold all of a bearing's frequencies at some level; what counts is which of them is loud.
-const QUIET: f64 = 1e-3;
+pub(crate) const QUIET: f64 = 1e-3;
 /// Half the width of a line's main lobe, times the duration: so far from its middle a comb may look as strong.
-const LOBE: f64 = 2.5;
+pub(crate) const LOBE: f64 = 2.5;
 /// Standard deviations above the chance level at which a comb is taken to exist.
 pub const SIGNIFICANT: f64 = 8.0;
 
@@ -125,68 +125,102 @@ fn comb_within(
     band: Band,
 ) -> Comb {
     let nominal = pattern.frequency;
-    // The comb ends at HARMONICS·1.5 times it: means over blocks that keep that band lose nothing and save time.
-    let block = ((rate / (nominal * HARMONICS as f64 * 6.0)) as usize).max(1);
-    let (envelope, rate) = (log_blocks(squared_envelope, block), rate / block as f64);
-    let duration = envelope.len() as f64 / rate;
-    let (power, bin) = spectrum::power(&envelope, rate, 4 * envelope.len());
-    let strength =
-        |frequency: f64| comb_strength(&power, bin, Pattern { frequency, ..pattern }, speed, duration, TALLEST);
-    let step = 0.1 / (duration * HARMONICS as f64);
+    // The comb ends at HARMONICS·1.5 times it.
+    let lines = Lines::of(squared_envelope, rate, 1.5 * nominal, speed);
+    let strength = |frequency: f64| lines.strength(Pattern { frequency, ..pattern }, TALLEST);
+    let step = 0.1 / (lines.duration * HARMONICS as f64);
     // Near the outer ring's frequency the shaft's comb may pass; what is sought elsewhere must not be it.
     let far = within[1] - within[0] > 0.5;
-    let of_shaft = |f: f64| (f / speed - (f / speed).round()).abs() * speed < 0.01 * f;
     let best = steps(nominal * within[0], nominal * within[1], step)
-        .filter(|&f| !(far && of_shaft(f)))
+        .filter(|&f| !(far && lines.of_shaft(f)))
         .map(|f| (f, strength(f)))
         .max_by(|a, b| a.1.total_cmp(&b.1))
         .unwrap_or((nominal, 0.0));
     // Lines that all stand above the limit are as strong beside their middle as in it: there their height decides.
-    let height =
-        |f: f64| comb_strength(&power, bin, Pattern { frequency: f, ..pattern }, speed, duration, f64::INFINITY);
+    let height = |f: f64| lines.strength(Pattern { frequency: f, ..pattern }, f64::INFINITY);
     let frequency = steps(nominal * within[0], nominal * within[1], step)
-        .filter(|f| (f - best.0).abs() * duration < LOBE)
+        .filter(|f| (f - best.0).abs() * lines.duration < LOBE)
         .map(|f| (f, height(f)))
         .max_by(|a, b| a.1.total_cmp(&b.1))
         .map_or(best.0, |highest| highest.0);
     // Elsewhere: far enough not to see the comb itself through the window's main lobe.
-    let gap = (0.04 * nominal).max(2.5 / duration);
+    let gap = (0.04 * nominal).max(2.5 / lines.duration);
     let chance: Vec<f64> = steps(0.55 * nominal, 1.45 * nominal, (0.9 * nominal / 600.0).max(step))
         .filter(|f| (f - frequency).abs() > gap && (f - nominal).abs() > gap)
         .map(strength)
         .collect();
-    // Its upper half is widened by combs that share some harmonics with this one: take the lower half's spread.
-    let middle = statistics::median(&chance);
-    let spread = middle - statistics::quantile(&chance, 0.1587).unwrap_or(middle);
-    let alone = Pattern { frequency, sideband: 0.0 };
-    let strength = comb_strength(&power, bin, alone, speed, duration, f64::INFINITY);
-    Comb { frequency, significance: (best.1 - middle) / spread.max(0.05), strength, band }
+    let strength = lines.strength(Pattern { frequency, sideband: 0.0 }, f64::INFINITY);
+    Comb { frequency, significance: above(&chance, best.1), strength, band }
 }
 
-/// S of a pattern; a line counts as if it stood above the noise by at most `tallest`.
-fn comb_strength(power: &[f64], bin: f64, pattern: Pattern, speed: f64, duration: f64, tallest: f64) -> f64 {
-    let Pattern { frequency, sideband } = pattern;
-    let at = |f: f64| power.get((f / bin).round() as usize).copied().unwrap_or(0.0);
-    let mut sum = 0.0;
-    let mut count = 0.0;
-    for k in 1..=HARMONICS {
-        let f = k as f64 * frequency;
-        let turns = f / speed;
-        if (turns - turns.round()).abs() * speed < 2.0 / duration {
-            continue;
-        }
-        let (from, to) = (((f - 0.4 * frequency) / bin) as usize, ((f + 0.4 * frequency) / bin) as usize);
-        if to >= power.len() {
-            break;
-        }
-        // A tenth of the bins serve the median as well as all.
-        let around: Vec<f64> = power[from..to].iter().step_by(((to - from) / 60).max(1)).copied().collect();
-        let noise = statistics::median(&around);
-        let beside = if sideband > 0.0 { at(f - sideband) + at(f + sideband) } else { 0.0 };
-        sum += libm::log1p(if noise > 0.0 { ((at(f) + beside) / noise).min(tallest) } else { 0.0 });
-        count += 1.0;
+/// How far a value stands above chance, in standard deviations of the lower half of `chance`: its upper half is widened
+/// by combs that share some harmonics with the one that is judged.
+pub(crate) fn above(chance: &[f64], value: f64) -> f64 {
+    let middle = statistics::median(chance);
+    let spread = middle - statistics::quantile(chance, 0.1587).unwrap_or(middle);
+    (value - middle) / spread.max(0.05)
+}
+
+/// Lines of an envelope's logarithm.
+pub(crate) struct Lines {
+    power: Vec<f64>,
+    /// Hz.
+    bin: f64,
+    /// Of the recording (s).
+    pub(crate) duration: f64,
+    /// Of the shaft (Hz), whose harmonics are left out.
+    speed: f64,
+}
+
+impl Lines {
+    /// Those of combs up to a frequency (Hz).
+    pub(crate) fn of(squared_envelope: &[f64], rate: f64, highest: f64, speed: f64) -> Self {
+        // Means over blocks that keep the band of the comb lose nothing and save time.
+        let block = ((rate / (highest * HARMONICS as f64 * 4.0)) as usize).max(1);
+        let (envelope, rate) = (log_blocks(squared_envelope, block), rate / block as f64);
+        let (power, bin) = spectrum::power(&envelope, rate, 4 * envelope.len());
+        Self { power, bin, duration: envelope.len() as f64 / rate, speed }
     }
-    if count > 0.0 { sum / count } else { 0.0 }
+
+    /// Whether a comb at this frequency (Hz) is the shaft's.
+    pub(crate) fn of_shaft(&self, frequency: f64) -> bool {
+        let turns = frequency / self.speed;
+        (turns - turns.round()).abs() * self.speed < 0.01 * frequency
+    }
+
+    /// S of a pattern; a line counts as if it stood above the noise by at most `tallest`.
+    fn strength(&self, pattern: Pattern, tallest: f64) -> f64 {
+        let Pattern { frequency, sideband } = pattern;
+        let heights = self.heights(frequency, |f| {
+            self.at(f) + if sideband > 0.0 { self.at(f - sideband) + self.at(f + sideband) } else { 0.0 }
+        });
+        statistics::mean(&heights.map(|height| libm::log1p(height.1.min(tallest))).collect::<Vec<_>>())
+    }
+
+    /// Harmonics of a frequency that are not the shaft's (Hz), and how high `power` of each stands above the noise near
+    /// it.
+    pub(crate) fn heights(&self, frequency: f64, power: impl Fn(f64) -> f64) -> impl Iterator<Item = (f64, f64)> {
+        let harmonics = (1..=HARMONICS).map(move |k| k as f64 * frequency);
+        let near =
+            move |f: f64| ((f - 0.4 * frequency) / self.bin) as usize..((f + 0.4 * frequency) / self.bin) as usize;
+        harmonics
+            .filter(|f| {
+                let turns = f / self.speed;
+                (turns - turns.round()).abs() * self.speed >= 2.0 / self.duration
+            })
+            .take_while(move |&f| near(f).end < self.power.len())
+            .map(move |f| {
+                // A tenth of the bins serve the median as well as all.
+                let around = &self.power[near(f)];
+                let some: Vec<f64> = around.iter().step_by((around.len() / 60).max(1)).copied().collect();
+                let noise = statistics::median(&some);
+                (f, if noise > 0.0 { power(f) / noise } else { 0.0 })
+            })
+    }
+
+    pub(crate) fn at(&self, frequency: f64) -> f64 {
+        self.power.get((frequency / self.bin).round() as usize).copied().unwrap_or(0.0)
+    }
 }
 
 /// Logarithm of the mean over blocks, without its mean.
@@ -199,7 +233,7 @@ fn log_blocks(squared_envelope: &[f64], block: usize) -> Vec<f64> {
     logs
 }
 
-fn steps(from: f64, to: f64, step: f64) -> impl Iterator<Item = f64> {
+pub(crate) fn steps(from: f64, to: f64, step: f64) -> impl Iterator<Item = f64> {
     let count = ((to - from) / step).ceil().max(1.0) as usize;
     (0..=count).map(move |i| from + (to - from) * i as f64 / count as f64)
 }

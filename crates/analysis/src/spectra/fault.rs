@@ -100,6 +100,16 @@ impl Combs {
         if close { Fault::Undecided } else { fault }
     }
 
+    /// That of a kind of fault, where one is named.
+    pub fn of(&self, fault: Fault) -> Option<&Comb> {
+        match fault {
+            Fault::Outer => Some(&self.outer),
+            Fault::Inner => Some(&self.inner),
+            Fault::Element => Some(&self.element),
+            Fault::Undecided | Fault::None => None,
+        }
+    }
+
     /// Whether no other comb stands higher than the outer raceway's: what the scene's rig may be asked about.
     pub fn outer_leads(&self) -> bool {
         self.outer.significance >= self.inner.significance.max(self.element.significance)

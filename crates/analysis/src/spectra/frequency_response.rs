@@ -7,7 +7,16 @@
 //! ```text
 //! H(s) = 1 − Σ (Γ s² + Κ ω s) / (s² + 2 ζ ω s + ω²)
 //! ```
-//! which passes slow motion unchanged, as every structure does.
+//! which passes slow motion unchanged, as every structure does: whatever a table has at 0 Hz, where accelerometers hear
+//! nothing, H(0) = 1.
+//!
+//! **Modes lie within the band of the lines.** Poles outside of it are what the iteration makes of noise and of a sum
+//! that is not an integral; where a structure rings there, nobody has measured.
+//!
+//! **An impulse response's first sample** holds the impulse that passes directly, 1 − ΣΓ over the step, and of the
+//! smooth part h(0+) at the jump the half or the whole, as whoever sampled it decided. The difference, and what the sum
+//! over samples differs from the integral, (ω Δt)²/12 of a mode, are the same at all frequencies. So a constant is
+//! fitted beside the modes and left out of them.
 
 use crate::recording::csv;
 use brinell::scene::{MOST_SENSOR_MODES, SensorMode};
@@ -18,6 +27,11 @@ use std::f64::consts::TAU;
 pub(super) const LARGEST_MISFIT: f64 = 0.1;
 /// Misfit below which no further mode is tried.
 const GOOD_MISFIT: f64 = 0.005;
+/// Share of what distinguishes a response from 1 that modes may miss: most of a wide band is 1 whatever rings in it.
+const LEAST_EXPLAINED: f64 = 0.5;
+/// Largest constant that the sampling of an impulse response makes, as a share of slow motion: of a mode at a tenth of
+/// the rate it is 3 % of its gain.
+const LARGEST_CONSTANT: f64 = 0.1;
 /// Modes that do not bring the misfit down by this share of it are left out.
 const WORTH: f64 = 0.1;
 /// Counts of modes tried in vain after which no more are.
@@ -73,6 +87,30 @@ pub enum ResponseError {
         /// What they miss.
         misfit: f64,
     },
+    /// Modes explain little of what they are for.
+    #[error(
+        "{modes} modes miss {:.2} % of the response, and without any 1 misses {:.2} %: they must explain at least half \
+         of what distinguishes it from 1",
+        100.0 * misfit, 100.0 * without
+    )]
+    Unexplained {
+        /// Number of modes that come nearest.
+        modes: usize,
+        /// What they miss.
+        misfit: f64,
+        /// What no modes miss.
+        without: f64,
+    },
+    /// The response fits with a sign turned.
+    #[error("{turned} is turned: with the other sign {modes} modes miss {:.2} % of the response", 100.0 * misfit)]
+    Turned {
+        /// Which sign.
+        turned: &'static str,
+        /// Number of modes.
+        modes: usize,
+        /// What they miss.
+        misfit: f64,
+    },
 }
 
 /// A response: the acceleration at the sensor over that of the outer ring, line by line.
@@ -80,6 +118,8 @@ pub enum ResponseError {
 pub struct FrequencyResponse {
     /// By ascending frequency.
     lines: Vec<Line>,
+    /// Whether it was summed from samples of an impulse response, so that a constant may be added to it.
+    summed: bool,
 }
 
 /// The response at one frequency.
@@ -125,23 +165,40 @@ impl FrequencyResponse {
             ["time_s", "response_1_s"] => transformed(&columns)?,
             _ => return Err(ResponseError::Columns(names.into_iter().map(str::to_owned).collect())),
         };
-        let ascending = |value: f64, before: Option<f64>| value > before.unwrap_or(0.0);
+        let ascending = |value: f64, before: Option<f64>| before.map_or(value >= 0.0, |before| value > before);
         let frequencies: Vec<f64> = lines.iter().map(|line| line.frequency).collect();
-        check(names[0], &frequencies, "must be above 0 and grow from line to line", ascending)?;
+        check(names[0], &frequencies, "must be at least 0 and grow from line to line", ascending)?;
+        let lines: Vec<Line> = lines.into_iter().filter(|line| line.frequency > 0.0).collect();
         if lines.len() < FEWEST_LINES {
             return Err(ResponseError::Few(lines.len()));
         }
-        Ok(Self { lines })
+        Ok(Self { lines, summed: names[0] == "time_s" })
     }
 
-    /// The fewest modes that come as near to the response as more of them would.
+    /// The fewest modes within the band of the lines that come as near to the response as more of them would.
     ///
     /// # Errors
-    /// A response that none come near enough.
+    /// A response that none come near enough, and whether they would with a sign turned.
     pub fn fit(&self) -> Result<Fit, ResponseError> {
+        self.nearest().map_err(|error| self.turned().unwrap_or(error))
+    }
+
+    /// Which sign is turned, if modes come near with the other.
+    fn turned(&self) -> Option<ResponseError> {
+        let turns: [(&str, fn(c64) -> c64); 2] =
+            [("the response's sign", |value| -value), ("the sign of its phase", |value| value.conj())];
+        turns.into_iter().find_map(|(turned, turn)| {
+            let lines = self.lines.iter().map(|line| Line { value: turn(line.value), ..*line }).collect();
+            let Fit { modes, misfit } = Self { lines, ..*self }.nearest().ok()?;
+            Some(ResponseError::Turned { turned, modes: modes.len(), misfit })
+        })
+    }
+
+    fn nearest(&self) -> Result<Fit, ResponseError> {
         let every = self.lines.len().div_ceil(MOST_LINES);
         let lines: Vec<Line> = self.lines.iter().copied().step_by(every).collect();
-        let mut best = Fit { modes: Vec::new(), misfit: misfit(&[], &self.lines) };
+        let without = misfit(&[], &self.lines);
+        let mut best = Fit { modes: Vec::new(), misfit: without };
         // Each mode takes four numbers from the lines.
         let mut in_vain = 0;
         for count in 1..=MOST_MODES.min(lines.len() / 4) {
@@ -149,8 +206,12 @@ impl FrequencyResponse {
                 break;
             }
             in_vain += 1;
-            let Some(modes) = poles(&lines, count).and_then(|poles| gains(&lines, &poles)) else { continue };
-            let misfit = misfit(&modes, &self.lines);
+            let modes = poles(&lines, count).and_then(|poles| self.gains(&lines, &poles));
+            let possible = modes.filter(|(modes, _)| modes.iter().all(|mode| mode.check().is_ok()));
+            let Some((modes, constant)) = possible else { continue };
+            let rest = self.lines.iter().map(|line| Line { value: line.value - constant, ..*line });
+            let rest: Vec<Line> = rest.collect();
+            let misfit = misfit(&modes, &rest);
             if misfit < (1.0 - WORTH) * best.misfit {
                 (best, in_vain) = (Fit { modes, misfit }, 0);
             }
@@ -158,8 +219,18 @@ impl FrequencyResponse {
         if !(best.misfit <= LARGEST_MISFIT) {
             return Err(ResponseError::Misfit { modes: best.modes.len(), misfit: best.misfit });
         }
+        if without > GOOD_MISFIT && best.misfit > LEAST_EXPLAINED * without {
+            let Fit { modes, misfit } = best;
+            return Err(ResponseError::Unexplained { modes: modes.len(), misfit, without });
+        }
         best.modes.sort_by(|one, other| one.frequency.total_cmp(&other.frequency));
         Ok(best)
+    }
+
+    /// Modes of these ω and ζ, and a constant where the samples may have made it.
+    fn gains(&self, lines: &[Line], poles: &[[f64; 2]]) -> Option<(Vec<SensorMode>, f64)> {
+        let free = self.summed.then(|| gains(lines, poles, true)).flatten();
+        free.filter(|(_, constant)| constant.abs() <= LARGEST_CONSTANT).or_else(|| gains(lines, poles, false))
     }
 }
 
@@ -221,7 +292,7 @@ fn transformed(columns: &[Vec<f64>]) -> Result<Vec<Line>, ResponseError> {
     Ok((1..=times.len() / 4).map(line).collect())
 }
 
-/// ω and ζ of so many modes, where the iteration for them ends well. Frequencies are measured by the highest line's.
+/// ω and ζ of those of so many modes that lie within the lines, where the iteration for them ends well. Frequencies are measured by the highest line's.
 fn poles(lines: &[Line], count: usize) -> Option<Vec<[f64; 2]>> {
     let (lowest, highest) = (lines.first()?.frequency, lines.last()?.frequency);
     let unit = TAU * highest;
@@ -247,8 +318,8 @@ fn poles(lines: &[Line], count: usize) -> Option<Vec<[f64; 2]>> {
             break;
         }
     }
-    let modes = poles.iter().map(|pole| [unit * pole.norm(), (-pole.re / pole.norm()).clamp(1e-6, 1.0)]);
-    Some(modes.collect())
+    let within = poles.iter().filter(|pole| (lowest / highest..=1.0).contains(&pole.norm()));
+    Some(within.map(|pole| [unit * pole.norm(), (-pole.re / pole.norm()).clamp(1e-6, 1.0)]).collect())
 }
 
 /// The two real fractions of a pair of complex poles.
@@ -282,13 +353,15 @@ fn zeros(poles: &[c64], weights: &[f64]) -> Option<Vec<c64>> {
     (next.len() == poles.len() && next.iter().all(|pole| pole.norm().is_finite())).then_some(next)
 }
 
-/// Modes of these ω and ζ with the gains that come nearest.
-fn gains(lines: &[Line], poles: &[[f64; 2]]) -> Option<Vec<SensorMode>> {
+/// Modes of these ω and ζ with the gains that come nearest, and, `with_constant`, what the response has beside them at
+/// all frequencies.
+fn gains(lines: &[Line], poles: &[[f64; 2]], with_constant: bool) -> Option<(Vec<SensorMode>, f64)> {
     let mut rows = Vec::with_capacity(2 * lines.len());
     let mut known = Vec::with_capacity(2 * lines.len());
     for Line { frequency, value } in lines {
         let s = c64::new(0.0, TAU * frequency);
-        let columns: Vec<c64> = poles.iter().flat_map(|pole| columns_of(s, *pole)).collect();
+        let constant = with_constant.then_some(c64::new(1.0, 0.0));
+        let columns: Vec<c64> = poles.iter().flat_map(|pole| columns_of(s, *pole)).chain(constant).collect();
         rows.push(columns.iter().map(|of| of.re).collect());
         rows.push(columns.iter().map(|of| of.im).collect());
         known.extend([value.re - 1.0, value.im]);
@@ -301,7 +374,7 @@ fn gains(lines: &[Line], poles: &[[f64; 2]]) -> Option<Vec<SensorMode>> {
             gain: *gain,
             quadrature_gain: *quadrature,
         });
-    Some(modes.collect())
+    Some((modes.collect(), if with_constant { *found.last()? } else { 0.0 }))
 }
 
 #[cfg(test)]
