@@ -181,7 +181,8 @@ fn a_wrong_speed_gives_no_length_and_the_refusal_says_which_one_would_suit() {
             );
         }
     }
-    // BPFI is 1.51 times BPFO: what is the outer raceway's at 10 Hz was named the inner one's at 6.67 Hz, with a length.
+    // BPFI is 1.51 times BPFO: what is the outer raceway's at 10 Hz was named the inner one's at 6.67 Hz, with a
+    // length.
     let refused = sized(signal(5.0, 10.0, 0.03), 6.667).reason;
     // 0.4 % of slip were put in.
     let suits = "it suits the outer raceway at a shaft speed of 9.96 Hz";

@@ -1,6 +1,6 @@
 //! Spall length from the events of the passages: an estimate that needs no model of the machine.
 //!
-//! An element that is s past a sharp edge has sunk by P(s) = s²/(2 r_e) ([`Raceway`](crate::sizing::Raceway) has r_e of
+//! An element that is s past a sharp edge has sunk by P(s) = s²/(2 r_e) ([`Raceway`] has r_e of
 //! either raceway). It is free when P(s_u) equals the elastic approach δ of both its contacts:
 //! ```text
 //! s_u = √(2 r_e δ),   δ = (Q/K)^(2/3),   Q = 5F/Z

@@ -19,7 +19,8 @@ const FEWEST_SAMPLES: usize = 64;
 /// 2.5 kHz, and short against the way between impacts (0.7 ms over 5 degrees at 40 Hz).
 const PREDICTED: f64 = 4e-4;
 const FEWEST_PREDICTING: usize = 8;
-/// Ratio of kurtosis backwards in time to that forwards from which a recording is reversed: noise alone has 1.00 ± 0.02.
+/// Ratio of kurtosis backwards in time to that forwards from which a recording is reversed: noise alone has 1.00 ±
+/// 0.02.
 const REVERSED: f64 = 1.05;
 
 /// A recording whose elements' passages are found. Passages are rows; a row spans one element spacing.
@@ -160,10 +161,10 @@ impl Measured {
     }
 }
 
-/// Kurtosis of a prediction's residual in the band of impacts forwards and backwards in time, if the latter is larger. A
-/// structure rings after an impact and not before it: the causal prediction takes the ringing off and leaves the impact.
-/// Backwards it would have to know the impact in advance, and leaves more. Recorded and simulated faults have 1.1 to 3.5
-/// times as much kurtosis forwards, those that are lost in noise as much.
+/// Kurtosis of a prediction's residual in the band of impacts forwards and backwards in time, if the latter is larger.
+/// A structure rings after an impact and not before it: the causal prediction takes the ringing off and leaves the
+/// impact. Backwards it would have to know the impact in advance, and leaves more. Recorded and simulated faults have
+/// 1.1 to 3.5 times as much kurtosis forwards, those that are lost in noise as much.
 fn reversed(signal: &[f64], residual: &mut Spectrum, order: usize, (rate, band): (f64, Band)) -> Option<[f64; 2]> {
     let backwards: Vec<f64> = signal.iter().rev().copied().collect();
     let backwards = linear_prediction::residual(&backwards, order);

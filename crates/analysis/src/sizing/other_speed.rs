@@ -83,8 +83,8 @@ fn suiting(frequency: f64, kinds: &[Fault], nominal: Frequencies, speed: f64) ->
     all.collect::<Vec<_>>().join(" or ")
 }
 
-/// The strongest comb of lines that one at `named` (Hz) does not have, if it stands above chance: its frequency (Hz) and
-/// strength.
+/// The strongest comb of lines that one at `named` (Hz) does not have, if it stands above chance: its frequency (Hz)
+/// and strength.
 fn comb_beside(lines: &Lines, named: f64, nominal: Frequencies) -> Option<(f64, f64)> {
     let of_named = |f: f64| (f - (f / named).round() * named).abs() < (SAME_LINE * f).max(LOBE / lines.duration);
     let strength = |frequency: f64| {

@@ -113,8 +113,8 @@ pub struct RecordingReport {
     /// Strength of strong passages over that of weak ones, 90 against 10 % quantile of the root mean square above 5
     /// kHz: an inner raceway's load zone.
     pub modulation: f64,
-    /// Onset of the entry (degrees), where there is one; as all angles from the leading edge: 0 by events, which take the
-    /// onset for the edge.
+    /// Onset of the entry (degrees), where there is one; as all angles from the leading edge: 0 by events, which take
+    /// the onset for the edge.
     pub onset_deg: Option<f64>,
     /// Impacts, likewise.
     pub impacts_deg: Vec<f64>,

@@ -292,7 +292,8 @@ fn transformed(columns: &[Vec<f64>]) -> Result<Vec<Line>, ResponseError> {
     Ok((1..=times.len() / 4).map(line).collect())
 }
 
-/// ω and ζ of those of so many modes that lie within the lines, where the iteration for them ends well. Frequencies are measured by the highest line's.
+/// ω and ζ of those of so many modes that lie within the lines, where the iteration for them ends well. Frequencies are
+/// measured by the highest line's.
 fn poles(lines: &[Line], count: usize) -> Option<Vec<[f64; 2]>> {
     let (lowest, highest) = (lines.first()?.frequency, lines.last()?.frequency);
     let unit = TAU * highest;
