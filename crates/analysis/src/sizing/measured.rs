@@ -38,6 +38,7 @@ pub struct Measured {
     /// What speaks for another speed than the stated one, in words.
     pub(super) other_speed: Option<String>,
     /// Sharpness of the impacts forwards and backwards in time, where they are sharper backwards.
+    /// A bearing without a spall may be sharper so, too: it is recognised first.
     pub(super) reversed: Option<[f64; 2]>,
     /// A comb elsewhere, where there is none near the bearing's frequencies.
     pub elsewhere: Option<Comb>,

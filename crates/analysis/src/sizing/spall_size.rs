@@ -164,7 +164,7 @@ struct Length {
 impl Sized {
     fn of(mut measured: Measured, scene: &Scene, maps: Maps<'_>) -> Self {
         let rig = Rig::new(scene, measured.bpfo, maps);
-        let whole = measured.broken.is_none() && measured.times_a_period.is_none() && measured.reversed.is_none();
+        let whole = measured.broken.is_none() && measured.times_a_period.is_none();
         let combs = &measured.combs;
         let outer = match measured.fault {
             Fault::Outer => true,
@@ -187,7 +187,7 @@ impl Sized {
             }
             _ => event_length::estimate(&measured, scene),
         };
-        let waveform = heard.and_then(Result::ok);
+        let waveform = heard.and_then(Result::ok).filter(|_| measured.reversed.is_none());
         let spacing = measured.spacing;
         let crossing = match (&waveform, &events) {
             (Some(w), _) => Some(Crossing { entry: w.entry, way: w.length.rem_euclid(spacing) }),

@@ -26,8 +26,7 @@ pub enum Unresolved {
     /// Time runs backwards.
     #[error(
         "is it reversed in time? Its impacts are sharper backwards, and structures ring after an impact, not before \
-         it: \
-         kurtosis of what prediction leaves {0:.1} forwards, {1:.1} backwards"
+         it: kurtosis of what prediction leaves {0:.1} forwards, {1:.1} backwards"
     )]
     Reversed(f64, f64),
     /// A rolling element's fault.
