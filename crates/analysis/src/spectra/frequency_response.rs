@@ -185,13 +185,12 @@ impl FrequencyResponse {
 
     /// Which sign is turned, if modes come near with the other.
     fn turned(&self) -> Option<ResponseError> {
-        let turns: [(&str, fn(c64) -> c64); 2] =
-            [("the response's sign", |value| -value), ("the sign of its phase", |value| value.conj())];
-        turns.into_iter().find_map(|(turned, turn)| {
+        let with = |turned: &'static str, turn: fn(c64) -> c64| {
             let lines = self.lines.iter().map(|line| Line { value: turn(line.value), ..*line }).collect();
             let Fit { modes, misfit } = Self { lines, ..*self }.nearest().ok()?;
             Some(ResponseError::Turned { turned, modes: modes.len(), misfit })
-        })
+        };
+        with("the response's sign", |value| -value).or_else(|| with("the sign of its phase", |value| value.conj()))
     }
 
     fn nearest(&self) -> Result<Fit, ResponseError> {
