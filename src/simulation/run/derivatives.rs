@@ -175,8 +175,9 @@ impl Simulation {
         let step = difference(parameter, at, nominal, approach);
         let mut there = here.clone();
         // Half the step and the step, of whose errors the largest terms cancel.
-        let halves = quotient(at, step, [min, max]).map(|(steps, share)| (0.5 * steps, 8.0 / 3.0 * share));
-        let wholes = quotient(at, step, [min, max]).map(|(steps, share)| (steps, -1.0 / 3.0 * share));
+        let sides = quotient(at, step, [min, max]);
+        let halves = sides.map(|(steps, share)| (0.5 * steps, 8.0 / 3.0 * share));
+        let wholes = sides.map(|(steps, share)| (steps, -1.0 / 3.0 * share));
         for (steps, share) in halves.into_iter().chain(wholes) {
             start.state.reals[known as usize] = at + steps * step;
             start.outdate(Fresh::Nothing);
