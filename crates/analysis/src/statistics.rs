@@ -59,7 +59,7 @@ pub fn kurtosis(values: &[f64]) -> f64 {
 }
 
 /// Correlation of two series of equal length; 0 where one of them scatters by less than 0.05, for what is equal each
-/// time tells nothing.
+/// time shows nothing.
 pub fn correlation(a: &[f64], b: &[f64]) -> f64 {
     let (mean_a, mean_b) = (mean(a), mean(b));
     let (mut ab, mut aa, mut bb) = (0.0, 0.0, 0.0);

@@ -6,19 +6,19 @@
 //! s_u = √(2 r_e δ),   δ = (Q/K)^(2/3),   Q = 5F/Z
 //! ```
 //! **Entry.** The edge is where 15 % of the force is lost, if it is sharp; a rounded edge lets go earlier, by at most
-//! the way s_r from there to half the excursion. **Exit.** The last impact falls when the element, squeezed between
+//! the travel s_r from there to half the excursion. **Exit.** The last impact falls when the element, squeezed between
 //! trailing edge and inner ring, takes up its load again: not before L − s_u, not after L. With both taken at the
-//! middle of their ranges, and S the way from the entry's onset to the last impact,
+//! middle of their ranges, and S the travel from the entry's onset to the last impact,
 //! ```text
 //! L = S + (s_u − s_r)/2,   u² = (s_u² + s_r²)/12 + (v τ)² + (ε L)² + u_statistical²
 //! ```
-//! v τ is the way that an element goes while the housing answers (`ANSWER`), ε what machines differ by (`MACHINES`).
+//! v τ is the travel of an element while the housing answers (`ANSWER`), ε what machines differ by (`MACHINES`).
 //! **Limit.** An element never gets free, and there are no two separate events, unless it can sink by its approach and
 //! the clearance by which the inner ring can follow: P(L/2) > δ + G_r. Shorter is unresolved. Where Q is unknown, s_u
-//! is the way from the entry's onset to its extreme, an upper bound that holds in any case.
+//! is the travel from the entry's onset to its extreme, an upper bound that holds in any case.
 
 use crate::sizing::measured::Measured;
-use crate::sizing::passages::{Break, Entry, Impact, MODULATED, RESAMPLINGS, Told, entry, events, fold};
+use crate::sizing::passages::{Break, Classified, Entry, Impact, MODULATED, RESAMPLINGS, entry, events, fold};
 use crate::sizing::raceway;
 use crate::sizing::raceway::Raceway;
 use crate::sizing::unresolved::Unresolved;
@@ -29,8 +29,8 @@ use brinell::scene::Scene;
 
 /// Share of a period before the first impact.
 const LEAD: f64 = 0.3;
-/// The window of a jump: the way in which an impact's envelope rises (degrees), but not less than [`JUMP_TIME`].
-const JUMP_WAY: f64 = 0.25;
+/// The window of a jump: the travel in which an impact's envelope rises (degrees), but not less than [`JUMP_TIME`].
+const JUMP_TRAVEL: f64 = 0.25;
 /// Shortest window of a jump (s).
 const JUMP_TIME: f64 = 1.2e-4;
 /// Clearness of the entry's excursion below which it is not taken for one.
@@ -40,8 +40,8 @@ const CLEAR_FAR: f64 = 8.0;
 /// Sampling rate that events need (Hz): echoes fade faster the higher the band, and 5 to 11 kHz is just enough. Below,
 /// an echo is taken for the last impact, whatever the length that comes out.
 const ENOUGH_RATE: f64 = 24_000.0;
-/// Impacts that a spall makes at most: on its floor or where the element is caught, and at its end. With more, nobody
-/// can tell which is the last.
+/// Impacts that a spall makes at most: on its floor or where the element is caught, and at its end. With more, the
+/// last cannot be identified.
 const MOST_IMPACTS: usize = 2;
 /// Standard uncertainty of the time between a force and what a sensor shows of it (s): 64 µs are a radian of 2.5 kHz,
 /// up to which housings follow an entry, 35 µs an impact's window of 0.12 ms as a rectangle.
@@ -50,7 +50,7 @@ const ANSWER: f64 = 7.3e-5;
 const MACHINES: f64 = 0.05;
 /// Share of the length beyond which its 95 % interval says nothing.
 pub(super) const UNCERTAIN: f64 = 1.0 / 3.0;
-/// Share of the resamplings in which entry and impacts must be found again.
+/// Share of the resamplings in which entry and impacts must be detected again.
 const STABLE: f64 = 0.8;
 /// Consecutive stretches that are laid beside each other, and passages in one: each must be sized by itself.
 const STRETCHES: usize = 4;
@@ -92,7 +92,7 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Result<EventLength, Unres
         return Err(Unresolved::LowRate(measured.rate, ENOUGH_RATE));
     }
     let grid = Grid::new(measured);
-    let Told { impacts, doubtful } = grid.told_of(measured);
+    let Classified { impacts, doubtful } = grid.classified_in(measured);
     let Some(first) = impacts.first().copied() else { return Err(Unresolved::NoImpact(grid.smallest)) };
     let span = grid.span(&impacts);
     if span > 0.6 * measured.spacing {
@@ -118,19 +118,21 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Result<EventLength, Unres
         return Err(Unresolved::OneInside(measured.modulation));
     }
     let everything: Vec<usize> = (0..rows.signal.len()).collect();
-    let Some((entry, way)) = rows.way(&picked, &everything, &grid) else { return Err(unclear(&picked, span, 0.0)) };
+    let Some((entry, travel_deg)) = rows.travel(&picked, &everything, &grid) else {
+        return Err(unclear(&picked, span, 0.0));
+    };
     if entry.clearness < picked.clear() {
         return Err(unclear(&picked, span, entry.clearness));
     }
-    check_halves(&rows, &picked, &grid, way)?;
-    let statistical = rows.scatter(&grid, way)?.hypot(entry.uncertainty / grid.degree);
+    check_halves(&rows, &picked, &grid, travel_deg)?;
+    let statistical = rows.scatter(&grid, travel_deg)?.hypot(entry.uncertainty / grid.degree);
     let rounding = entry.half_way / grid.degree;
     let onset_to_extreme = (entry.extreme - entry.at) / grid.degree;
     let bearing = &scene.bearing;
     let raceway = measured.raceway;
     let unloading =
         raceway::approach(scene).map_or(onset_to_extreme, |d| raceway.sunk_after(bearing, d).min(onset_to_extreme));
-    let length = way + 0.5 * (unloading - rounding);
+    let length = travel_deg + 0.5 * (unloading - rounding);
     let meaning = ((unloading * unloading + rounding * rounding) / 12.0).sqrt();
     let systematic = meaning.hypot(ANSWER * measured.travel()).hypot(MACHINES * length);
     let approach = raceway.depth_at(bearing, unloading);
@@ -151,8 +153,8 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Result<EventLength, Unres
 
 /// Whether the recording looks like a fault that can be sized.
 fn check_fault(measured: &Measured) -> Result<(), Unresolved> {
-    if let Some(said) = &measured.other_speed {
-        return Err(Unresolved::OtherSpeed(said.clone()));
+    if let Some(text) = &measured.other_speed {
+        return Err(Unresolved::OtherSpeed(text.clone()));
     }
     if let (Some([forwards, backwards]), Fault::Inner | Fault::Outer) = (measured.reversed, measured.fault) {
         return Err(Unresolved::Reversed(forwards, backwards));
@@ -164,8 +166,8 @@ fn check_fault(measured: &Measured) -> Result<(), Unresolved> {
             Err(Unresolved::OtherPattern(found, limit, other.frequency, other.significance))
         }
         (Fault::None, None) => Err(Unresolved::NoPattern(combs.outer.significance, limit)),
-        (Fault::Element, _) => Err(Unresolved::OfElement(combs.said())),
-        (Fault::Undecided, _) => Err(Unresolved::TwoKinds(combs.said())),
+        (Fault::Element, _) => Err(Unresolved::OfElement(combs.described())),
+        (Fault::Undecided, _) => Err(Unresolved::TwoKinds(combs.described())),
         (Fault::Inner, _) if measured.modulation < MODULATED => {
             Err(Unresolved::NoLoadZone(measured.modulation, MODULATED))
         }
@@ -180,13 +182,13 @@ fn unclear(picked: &Picked, span: f64, clearness: f64) -> Unresolved {
 /// All impacts of the averaged passage without echoes [degrees after the first], however many there are.
 pub fn impacts(measured: &Measured) -> Vec<f64> {
     let grid = Grid::new(measured);
-    grid.after_first(&grid.told_of(measured).impacts)
+    grid.after_first(&grid.classified_in(measured).impacts)
 }
 
 /// The first impact of the averaged passage (degrees after the start of a passage's period), if there is one.
 pub fn first_impact(measured: &Measured) -> Option<f64> {
     let grid = Grid::new(measured);
-    grid.told_of(measured).impacts.first().map(|impact| impact.at / grid.degree)
+    grid.classified_in(measured).impacts.first().map(|impact| impact.at / grid.degree)
 }
 
 /// A position (degrees) as it is seen in the period that [`averaged_passage`] shows.
@@ -223,7 +225,7 @@ impl Grid {
     fn new(measured: &Measured) -> Self {
         let points = measured.points();
         let degree = points as f64 / measured.spacing;
-        let width = (JUMP_WAY.max(JUMP_TIME * measured.travel()) * degree).round().max(2.0) as usize;
+        let width = (JUMP_TRAVEL.max(JUMP_TIME * measured.travel()) * degree).round().max(2.0) as usize;
         // The level of noise scatters by 5.6 dB; a jump is the difference of two means over all passages. Six
         // deviations.
         let smallest = (6.0 * 5.6 / (measured.passages.starts.len() as f64).sqrt()).max(3.0);
@@ -231,17 +233,17 @@ impl Grid {
         Self { points, degree, width, smallest, rate, turns }
     }
 
-    /// Impacts in the mean of all passages, told from echoes.
-    fn told_of(&self, measured: &Measured) -> Told {
+    /// Impacts in the mean of all passages, without echoes.
+    fn classified_in(&self, measured: &Measured) -> Classified {
         let envelopes = measured.envelope_rows(0.0, self.points);
-        self.told(&envelopes, &(0..envelopes.len()).collect::<Vec<_>>())
+        self.classified(&envelopes, &(0..envelopes.len()).collect::<Vec<_>>())
     }
 
-    /// Impacts in the mean of the chosen rows, told from echoes.
-    fn told(&self, envelopes: &[Vec<f64>], chosen: &[usize]) -> Told {
+    /// Impacts in the mean of the chosen rows, without echoes.
+    fn classified(&self, envelopes: &[Vec<f64>], chosen: &[usize]) -> Classified {
         let level = decibels(statistics::average_of(envelopes, chosen));
         let impacts = events::impacts(&level, self.width, self.smallest, self.turns);
-        events::tell_echoes(impacts, envelopes, chosen, self.width, self.rate, self.turns)
+        events::classify_echoes(impacts, envelopes, chosen, self.width, self.rate, self.turns)
     }
 
     /// Where impacts are [degrees after the first].
@@ -264,7 +266,7 @@ struct Rows {
     envelope: Vec<Vec<f64>>,
 }
 
-/// The impacts between which a way is measured.
+/// The impacts between which a travel is measured.
 struct Picked {
     /// First and last impact (grid points).
     impact: f64,
@@ -280,8 +282,8 @@ impl Picked {
 }
 
 impl Rows {
-    /// Entry, and the way from it to the last impact (degrees), in the average over the chosen rows.
-    fn way(&self, picked: &Picked, chosen: &[usize], grid: &Grid) -> Option<(Entry, f64)> {
+    /// Entry, and the travel from it to the last impact (degrees), in the average over the chosen rows.
+    fn travel(&self, picked: &Picked, chosen: &[usize], grid: &Grid) -> Option<(Entry, f64)> {
         let signal = statistics::average_of(&self.signal, chosen);
         let level = decibels(statistics::average_of(&self.envelope, chosen));
         let reach = (0.4 * grid.degree) as usize;
@@ -296,39 +298,39 @@ impl Rows {
     }
 
     /// The same with impacts picked anew in these rows.
-    fn picked_way(&self, chosen: &[usize], grid: &Grid) -> Option<f64> {
-        let impacts = grid.told(&self.envelope, chosen).impacts;
+    fn picked_travel(&self, chosen: &[usize], grid: &Grid) -> Option<f64> {
+        let impacts = grid.classified(&self.envelope, chosen).impacts;
         let impact = impacts.first()?.at;
         let last = impact + grid.span(&impacts) * grid.degree;
         let picked = Picked { impact, last, far: impacts.len() == 1 };
-        self.way(&picked, chosen, grid).map(|(_, way)| way)
+        self.travel(&picked, chosen, grid).map(|(_, travel_deg)| travel_deg)
     }
 
-    /// Standard uncertainty of the way (degrees) with all that is picked anew in each resample of the passages: half of
+    /// Standard uncertainty of the travel (degrees) with all that is picked anew in each resample of the passages: half of
     /// the half-width that holds 95 % of them, and not less than consecutive stretches of the recording scatter.
-    fn scatter(&self, grid: &Grid, way: f64) -> Result<f64, Unresolved> {
+    fn scatter(&self, grid: &Grid, travel_deg: f64) -> Result<f64, Unresolved> {
         let count = self.signal.len();
         let mut random = Random::new(count as u64);
         let resample = |_| (0..count).map(|_| random.below(count)).collect::<Vec<_>>();
         let all: Vec<Vec<usize>> = (0..RESAMPLINGS).map(resample).collect();
-        let ways: Vec<f64> = all.iter().filter_map(|chosen| self.picked_way(chosen, grid)).collect();
-        if ways.len() < (STABLE * RESAMPLINGS as f64) as usize {
-            return Err(Unresolved::Unstable(RESAMPLINGS - ways.len(), RESAMPLINGS));
+        let travels: Vec<f64> = all.iter().filter_map(|chosen| self.picked_travel(chosen, grid)).collect();
+        if travels.len() < (STABLE * RESAMPLINGS as f64) as usize {
+            return Err(Unresolved::Unstable(RESAMPLINGS - travels.len(), RESAMPLINGS));
         }
-        let off: Vec<f64> = ways.iter().map(|picked| (picked - way).abs()).collect();
+        let off: Vec<f64> = travels.iter().map(|picked| (picked - travel_deg).abs()).collect();
         let resampled = 0.5 * statistics::quantile(&off, 0.95).unwrap_or(0.0);
         let stretches = (count / STRETCH).min(STRETCHES);
         let stretch = |k: usize| (k * count / stretches..(k + 1) * count / stretches).collect::<Vec<_>>();
-        let found: Vec<f64> = (0..stretches).filter_map(|k| self.picked_way(&stretch(k), grid)).collect();
+        let found: Vec<f64> = (0..stretches).filter_map(|k| self.picked_travel(&stretch(k), grid)).collect();
         Ok(resampled.max(statistics::deviation(&found) / (found.len().max(1) as f64).sqrt()))
     }
 }
 
-fn check_halves(rows: &Rows, picked: &Picked, grid: &Grid, way: f64) -> Result<(), Unresolved> {
+fn check_halves(rows: &Rows, picked: &Picked, grid: &Grid, travel_deg: f64) -> Result<(), Unresolved> {
     let half = |from: usize| -> Vec<usize> { (from..rows.signal.len()).step_by(2).collect() };
-    let ways = [0, 1].map(|from| rows.way(picked, &half(from), grid).map_or(0.0, |(_, way)| way));
-    if (ways[0] - ways[1]).abs() > 0.25 * way {
-        return Err(Unresolved::Halves(ways[0], ways[1]));
+    let travels = [0, 1].map(|from| rows.travel(picked, &half(from), grid).map_or(0.0, |(_, travel_deg)| travel_deg));
+    if (travels[0] - travels[1]).abs() > 0.25 * travel_deg {
+        return Err(Unresolved::Halves(travels[0], travels[1]));
     }
     Ok(())
 }

@@ -1,11 +1,11 @@
-//! Line or extended, and from which load on nobody can tell.
+//! Line or extended, and from which load on they cannot be distinguished.
 //!
 //! An extended spall, longer than the element spacing, makes the events of a line spall that is shorter by the spacing.
 //! What differs is stiffness: while one more element is out of the bearing, the rings ring lower ([`ringing`]), unless
 //! the load is above the **critical load** of the extended spall, at which elements inside it carry again. That load
 //! depends on the depth:
 //!
-//! - where the scene's own rig sounds like the recording, the depth that fits best says which side of it the recording
+//! - where the scene's own rig is similar to the recording, the depth that fits best says which side of it the recording
 //!   is on;
 //! - where it does not, the depth is unknown, and the answer names the **critical depth**: were the spall shallower,
 //!   the load would be above its critical load, and an extended spall would ring like a line spall.
@@ -33,12 +33,12 @@ pub(super) struct Crossing {
     /// Where an entry begins (share of a period).
     pub(crate) entry: f64,
     /// How far from it the next exit is (degrees).
-    pub(crate) way: f64,
+    pub(crate) travel_deg: f64,
 }
 
-/// What a recording says of the kind of its spall.
+/// The kind of spall that a recording shows.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Judged {
+pub(super) struct Classification {
     pub(crate) kind: Kind,
     /// Measured, where an entry is known and there is time to ring.
     pub(crate) ringing: Option<Ringing>,
@@ -53,7 +53,7 @@ pub(super) struct Judged {
     spacing: f64,
 }
 
-impl Judged {
+impl Classification {
     /// `crossing` where it is known.
     pub(crate) fn of(
         measured: &Measured,
@@ -64,26 +64,26 @@ impl Judged {
     ) -> Self {
         let spacing = measured.spacing;
         let trial = |length: f64, depth: f64| Trial { length, depth, law: ContactLaw::Hertz };
-        let ringing = crossing.and_then(|at| measured_ringing(measured, at.entry, at.way));
-        let expected = rig.zip(crossing).and_then(|(rig, Crossing { way, .. })| {
+        let ringing = crossing.and_then(|at| measured_ringing(measured, at.entry, at.travel_deg));
+        let expected = rig.zip(crossing).and_then(|(rig, Crossing { travel_deg, .. })| {
             let of = |length: f64| ringing::expected(rig, trial(length, FREE_DEPTH), spacing).ok();
-            Some([of(way)?, of(way + spacing)?])
+            Some([of(travel_deg)?, of(travel_deg + spacing)?])
         });
         let by_ringing = by_ringing(ringing, expected);
         let critical_load = waveform.and_then(|w| ringing::critical_load(scene, trial(w.length, w.depth)).ok());
-        // Above the critical load ringing is no witness.
+        // Above the critical load ringing shows nothing.
         let is_above = matches!(critical_load, Some(Ok(critical)) if load(scene) >= critical);
-        let heard = if is_above { Kind::Undecided } else { by_ringing };
-        let kind = waveform.map_or(by_ringing, |w| by_similarity(w, spacing, heard));
-        // With two elements in the spall, or heard to swing on fewer elements, it is no question.
+        let by_ringing_below = if is_above { Kind::Undecided } else { by_ringing };
+        let kind = waveform.map_or(by_ringing, |w| by_similarity(w, spacing, by_ringing_below));
+        // With two elements in the spall, or ringing as on fewer elements, it is no question.
         let critical_depth = crossing
             .filter(|_| waveform.is_none() && kind != Kind::Extended)
-            .and_then(|at| critical_depth(scene, at.way + spacing));
+            .and_then(|at| critical_depth(scene, at.travel_deg + spacing));
         Self { kind, ringing, expected, critical_load, depth: waveform.map(|w| w.depth), critical_depth, spacing }
     }
 
     /// In words, with warnings.
-    pub(crate) fn said(&self, scene: &Scene) -> String {
+    pub(crate) fn described(&self, scene: &Scene) -> String {
         let mut text = String::new();
         if let Some(Ringing { after_entry, after_exit }) = self.ringing {
             text += &format!("; rings at {after_entry:.0} Hz after entry and {after_exit:.0} Hz after exit");
@@ -105,7 +105,7 @@ impl Judged {
         {
             text += &format!(
                 "; WARNING: the load of {load:.0} N is above the critical load of {critical:.0} N (at the depth that \
-                 fits best, {:.0} um): elements inside the spall carry load, and stiffness does not tell an extended \
+                 fits best, {:.0} um): elements inside the spall carry load, and stiffness does not distinguish an extended \
                  from a line spall",
                 1e6 * depth
             );

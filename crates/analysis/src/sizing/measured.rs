@@ -16,14 +16,14 @@ const FEWEST_PASSAGES: usize = 8;
 /// Fewest samples per passage: with 64, at 40° spacing, one sample is 0.6° and a spall of a few degrees a handful.
 const FEWEST_SAMPLES: usize = 64;
 /// Span of the samples from which the structure's ringing is predicted (s), and fewest samples: a period of modes above
-/// 2.5 kHz, and short against the way between impacts (0.7 ms over 5 degrees at 40 Hz).
+/// 2.5 kHz, and short against the time between impacts (0.7 ms over 5 degrees at 40 Hz).
 const PREDICTED: f64 = 4e-4;
 const FEWEST_PREDICTING: usize = 8;
 /// Ratio of kurtosis backwards in time to that forwards from which a recording is reversed: noise alone has 1.00 ±
 /// 0.02.
 const REVERSED: f64 = 1.05;
 
-/// A recording whose elements' passages are found. Passages are rows; a row spans one element spacing.
+/// A recording whose elements' passages are known. Passages are rows; a row spans one element spacing.
 pub struct Measured {
     /// Name of the recording.
     pub name: String,

@@ -16,7 +16,7 @@ use brinell::geometry::curvature::{reach, relative_curvature};
 use brinell::geometry::hertz_constant::{HertzConstants, approach_under};
 use brinell::scene::{Bearing, Motion, Scene};
 
-/// The raceway that bears the spall.
+/// The raceway with the spall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Raceway {
     /// Of the outer ring.
@@ -53,7 +53,7 @@ impl Raceway {
         relative_curvature(bearing.element_radius(), if self == Self::Inner { own } else { -own })
     }
 
-    /// Way past an edge (degrees) after which an element has sunk by `depth` (m).
+    /// Travel past an edge (degrees) after which an element has sunk by `depth` (m).
     pub fn sunk_after(self, bearing: &Bearing, depth: f64) -> f64 {
         (reach(depth, self.relative_curvature(bearing)) / self.radius(bearing)).to_degrees()
     }

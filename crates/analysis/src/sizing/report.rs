@@ -9,7 +9,7 @@ use serde::Serialize;
 pub enum Verdict {
     /// There is.
     Resolved,
-    /// The recording does not say, and `reason` says why.
+    /// There is none, and `reason` says why.
     Unresolved,
 }
 
@@ -31,8 +31,8 @@ pub enum Kind {
     Line,
     /// Longer than the element spacing.
     Extended,
-    /// Either: an extended spall sounds like a line spall one spacing shorter, unless the rig's stiffness tells them
-    /// apart.
+    /// Either: an extended spall sounds like a line spall one spacing shorter, unless the rig's stiffness
+    /// differs.
     Undecided,
 }
 

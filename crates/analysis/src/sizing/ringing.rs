@@ -11,7 +11,7 @@
 //! is expected; k is the tangent stiffness along the load in static balance with an element halfway between the edges
 //! after an entry, and halfway between exit and next entry after an exit. Invalid for elements that carry load inside
 //! the spall: above the critical load, at which the element in the middle touches both rings again, stiffness cannot
-//! tell the two kinds.
+//! distinguish the two kinds.
 
 use crate::sizing::waveform::{Rig, Trial, synthesis};
 use crate::spectrum;

@@ -2,7 +2,7 @@
 //!
 //! Each recording is sized by similarity to the scene's own rig if the scene describes the rig ([`waveform_length`]),
 //! else by the events of its passages, which needs nothing but the bearing's dimensions ([`event_length`]). A rig that
-//! sounds like the recording also tells a line spall from an extended one; otherwise ringing does
+//! sounds like the recording also distinguishes a line spall from an extended one; otherwise ringing does
 //! ([`ringing`](super::ringing)), or nothing does.
 //!
 //! Several recordings are of one spall: their lengths are averaged with their statistical weights, and a scatter that
@@ -11,14 +11,14 @@
 
 use super::event_length;
 use super::event_length::EventLength;
-use super::kind::{Crossing, Judged};
+use super::kind::{Classification, Crossing};
 use super::measured::Measured;
 use super::raceway::{self, Raceway};
 use super::report::{Figure, Kind, Method, RecordingReport, Report, Standing, Verdict};
 use super::ringing::Ringing;
 use super::unresolved::Unresolved;
 use crate::recording::{Recording, SizingError};
-use crate::sizing::waveform::{CUT, Maps, Rig, Unlike, WaveformLength, waveform_length};
+use crate::sizing::waveform::{CUT, Maps, Mismatch, Rig, WaveformLength, waveform_length};
 use crate::spectra::Fault;
 use crate::spectrum::{Band, Spectrum};
 use crate::statistics;
@@ -28,13 +28,13 @@ use brinell::scene::Scene;
 const COVERAGE: f64 = 2.0;
 /// Significance of the comb from which similarity is asked: less than the events need, for to be alike is a proof of
 /// its own. Short recordings lose many harmonics to the shaft's.
-const HEARD: f64 = 5.0;
+const ENOUGH_FOR_SIMILARITY: f64 = 5.0;
 /// Harmonics of the passage frequency below the cut from which passages have a shape that can be compared: of one or
 /// two harmonics any passage is like any other.
 const HARMONICS: f64 = 5.0;
 /// Scatter between recordings of one spall, as a share of the length, from which they contradict each other.
 const CONTRADICTION: f64 = 0.2;
-/// Ratio of speeds from which they tell time from angle: with 10 % of agreement below, an event at a fixed time would
+/// Ratio of speeds from which they distinguish time from angle: with 10 % of agreement below, an event at a fixed time would
 /// lie 30 % off.
 const SPEEDS_APART: f64 = 1.3;
 /// Difference of lengths at two speeds up to which they agree, as a share.
@@ -51,7 +51,7 @@ const FLOOR: f64 = 0.02;
 /// use brinell_analysis::sizing::Verdict;
 /// use brinell_analysis::sizing::size;
 ///
-/// // A healthy bearing, as its sensor hears it for half a second at 25.6 kHz.
+/// // A healthy bearing, as its sensor records it for half a second at 25.6 kHz.
 /// let mut scene = brinell_scene_file::from_toml(include_str!("../../../../scenes/6205-spall-5deg.toml"))?;
 /// scene.contact.law = ContactLaw::Hertz;
 /// let mut simulation = Simulation::new(Scene { defects: Vec::new(), ..scene.clone() }, None)?;
@@ -71,7 +71,7 @@ pub fn size(recordings: &[Recording], scene: &Scene) -> Result<Report, SizingErr
     size_with(recordings, scene, &|_| None, &mut |_| ())
 }
 
-/// The same with contact maps from elsewhere, saying after each recording what it gave.
+/// The same with contact maps from elsewhere, reporting after each recording its result.
 ///
 /// # Errors
 /// As [`size`].
@@ -130,17 +130,18 @@ pub fn size_with(
             report.uncertainty_mm = Some(COVERAGE * uncertainty * mm_per_degree);
             report.kind = common_kind(&lengths);
             report.method = lengths.first().map(|l| l.method);
-            let critical = sized.iter().find_map(|s| s.judged.critical_load.as_ref());
+            let critical = sized.iter().find_map(|s| s.classification.critical_load.as_ref());
             report.critical_load_n = critical.and_then(|found| found.as_ref().ok().copied());
             report.critical_load_reason = critical.and_then(|found| found.as_ref().err().map(ToString::to_string));
-            report.critical_depth_um = sized.iter().find_map(|s| s.judged.critical_depth).map(|depth| 1e6 * depth);
+            report.critical_depth_um =
+                sized.iter().find_map(|s| s.classification.critical_depth).map(|depth| 1e6 * depth);
             report.reason = basis(&report, &sized, scene);
         }
     }
     Ok(report)
 }
 
-/// A recording with what was found in it.
+/// A recording with its results.
 struct Sized {
     measured: Measured,
     length: Result<Length, Unresolved>,
@@ -148,7 +149,7 @@ struct Sized {
     waveform: Option<WaveformLength>,
     /// To the scene's rig, whether that was taken for the recording's or not.
     similarity: Option<f64>,
-    judged: Judged,
+    classification: Classification,
 }
 
 /// Length of one recording (degrees).
@@ -168,18 +169,18 @@ impl Sized {
         let combs = &measured.combs;
         let outer = match measured.fault {
             Fault::Outer => true,
-            Fault::None => combs.outer_leads() && combs.outer.significance >= HEARD,
+            Fault::None => combs.outer_leads() && combs.outer.significance >= ENOUGH_FOR_SIMILARITY,
             _ => false,
         };
         let shaped = CUT >= HARMONICS * measured.bpfo;
-        let heard = rig.as_ref().filter(|_| outer && whole && shaped);
-        let heard = heard.map(|rig| waveform_length::estimate(&measured, scene, rig));
-        let similarity = heard.as_ref().map(|heard| match heard {
+        let trials = rig.as_ref().filter(|_| outer && whole && shaped);
+        let trials = trials.map(|rig| waveform_length::estimate(&measured, scene, rig));
+        let similarity = trials.as_ref().map(|trials| match trials {
             Ok(waveform) => waveform.similarity,
-            Err(Unlike::OtherRig(similarity) | Unlike::Healthy { similarity, .. }) => *similarity,
+            Err(Mismatch::OtherRig(similarity) | Mismatch::Healthy { similarity, .. }) => *similarity,
         });
-        let events = match heard {
-            Some(Err(Unlike::Healthy { similarity, surely })) => {
+        let events = match trials {
+            Some(Err(Mismatch::Healthy { similarity, surely })) => {
                 if surely {
                     measured.fault = Fault::None;
                 }
@@ -187,31 +188,31 @@ impl Sized {
             }
             _ => event_length::estimate(&measured, scene),
         };
-        let waveform = heard.and_then(Result::ok).filter(|_| measured.reversed.is_none());
+        let waveform = trials.and_then(Result::ok).filter(|_| measured.reversed.is_none());
         let spacing = measured.spacing;
         let crossing = match (&waveform, &events) {
-            (Some(w), _) => Some(Crossing { entry: w.entry, way: w.length.rem_euclid(spacing) }),
-            (None, Ok(e)) => Some(Crossing { entry: (e.first + e.onset) / spacing, way: e.length }),
+            (Some(w), _) => Some(Crossing { entry: w.entry, travel_deg: w.length.rem_euclid(spacing) }),
+            (None, Ok(e)) => Some(Crossing { entry: (e.first + e.onset) / spacing, travel_deg: e.length }),
             _ => None,
         };
         // Stiffness over the cage's angle tells kinds of spalls outside.
         let crossing = crossing.filter(|_| measured.raceway == Raceway::Outer);
-        let judged = Judged::of(&measured, scene, rig.as_ref(), waveform.as_ref(), crossing);
+        let classification = Classification::of(&measured, scene, rig.as_ref(), waveform.as_ref(), crossing);
         let length = match (&waveform, &events) {
-            (Some(w), _) => of_waveform(w, scene, judged.kind),
+            (Some(w), _) => of_waveform(w, scene, classification.kind),
             (None, Ok(e)) => {
-                let extended = if judged.kind == Kind::Extended { spacing } else { 0.0 };
+                let extended = if classification.kind == Kind::Extended { spacing } else { 0.0 };
                 Ok(Length {
                     length: e.length + extended,
                     statistical: e.statistical,
                     systematic: e.systematic,
                     method: Method::Events,
-                    kind: judged.kind,
+                    kind: classification.kind,
                 })
             }
             (None, Err(why)) => Err(why.clone()),
         };
-        Self { measured, length, events: events.ok(), waveform, similarity, judged }
+        Self { measured, length, events: events.ok(), waveform, similarity, classification }
     }
 
     fn report(&self) -> RecordingReport {
@@ -232,8 +233,8 @@ impl Sized {
             edges_deg: self.length.as_ref().ok().map(|found| [0.0, found.length]),
             passages: self.measured.passages.starts.len(),
             similarity: self.similarity,
-            ringing_hz: self.judged.ringing.map(Ringing::pair),
-            expected_ringing_hz: self.judged.expected.map(|e| e.map(Ringing::pair)),
+            ringing_hz: self.classification.ringing.map(Ringing::pair),
+            expected_ringing_hz: self.classification.expected.map(|e| e.map(Ringing::pair)),
             reason: self.length.as_ref().err().map(ToString::to_string),
         }
     }
@@ -308,14 +309,14 @@ fn of_waveform(waveform: &WaveformLength, scene: &Scene, kind: Kind) -> Result<L
     if limit.is_some_and(|limit| length - COVERAGE * uncertainty < limit) {
         return Err(Unresolved::TooShort(length, uncertainty, limit.unwrap_or_default()));
     }
-    // Wider than the length itself: short spalls all sound alike but for their loudness.
+    // Wider than the length itself: short spalls differ in loudness only.
     if 2.0 * COVERAGE * uncertainty > length {
         return Err(Unresolved::TooUncertain(length, COVERAGE * uncertainty));
     }
     Ok(Length { length, statistical, systematic, method: Method::Waveform, kind })
 }
 
-/// What several lengths of one spall say together.
+/// Several lengths of one spall, combined.
 struct Combined {
     /// Their mean (degrees).
     length: f64,
@@ -341,11 +342,11 @@ fn combine(lengths: &[&Length], of: usize) -> Result<Combined, String> {
     Ok(Combined { length: mean, uncertainty: statistical.hypot(systematic) })
 }
 
-/// The fault that all recordings in which one is heard look like.
+/// The fault that all recordings that show one look like.
 fn common_fault(sized: &[Sized]) -> Fault {
-    let mut heard = sized.iter().map(|s| s.measured.fault).filter(|&fault| fault != Fault::None);
-    let Some(first) = heard.next() else { return Fault::None };
-    if heard.all(|fault| fault == first) { first } else { Fault::Undecided }
+    let mut named = sized.iter().map(|s| s.measured.fault).filter(|&fault| fault != Fault::None);
+    let Some(first) = named.next() else { return Fault::None };
+    if named.all(|fault| fault == first) { first } else { Fault::Undecided }
 }
 
 /// Lengths of different raceways are not of one spall.
@@ -353,7 +354,7 @@ fn of_one_fault(sized: &[Sized]) -> Result<(), String> {
     let differ = sized.iter().any(|s| s.measured.fault != Fault::None) && common_fault(sized) == Fault::Undecided;
     if differ && sized.len() > 1 {
         let each: Vec<String> =
-            sized.iter().map(|s| format!("{}: {}", s.measured.name, s.measured.combs.said())).collect();
+            sized.iter().map(|s| format!("{}: {}", s.measured.name, s.measured.combs.described())).collect();
         return Err(format!("the recordings look like different faults: {}", each.join("; ")));
     }
     Ok(())
@@ -369,8 +370,8 @@ fn standing(sized: &[Sized]) -> Standing {
     let found: Vec<(f64, f64)> =
         sized.iter().filter_map(|s| s.length.as_ref().ok().map(|l| (s.measured.speed, l.length))).collect();
     let pairs = found.iter().flat_map(|a| found.iter().map(move |b| (a, b)));
-    let mut apart = pairs.filter(|(a, b)| b.0 >= SPEEDS_APART * a.0).peekable();
-    let firm = apart.peek().is_some() && apart.all(|(a, b)| (b.1 - a.1).abs() <= AGREEMENT * a.1);
+    let mut wide = pairs.filter(|(a, b)| b.0 >= SPEEDS_APART * a.0).peekable();
+    let firm = wide.peek().is_some() && wide.all(|(a, b)| (b.1 - a.1).abs() <= AGREEMENT * a.1);
     if firm { Standing::Firm } else { Standing::Provisional }
 }
 
@@ -378,14 +379,14 @@ fn standing(sized: &[Sized]) -> Standing {
 fn basis(report: &Report, sized: &[Sized], scene: &Scene) -> String {
     let mut text = match report.method {
         Some(Method::Waveform) => "similarity of the averaged passage to the scene's rig".to_owned(),
-        _ => "way from the entry's onset to the last impact".to_owned(),
+        _ => "travel from the entry's onset to the last impact".to_owned(),
     };
-    if let Some(said) = sized.iter().find(|s| s.length.is_ok()).map(|s| s.judged.said(scene)) {
-        text += &said;
+    if let Some(described) = sized.iter().find(|s| s.length.is_ok()).map(|s| s.classification.described(scene)) {
+        text += &described;
     }
     if report.standing == Some(Standing::Provisional) {
         text += &format!(
-            "; PROVISIONAL: an event that belongs to the structure, at the same time at any speed, is told from one of \
+            "; PROVISIONAL: an event that belongs to the structure, at the same time at any speed, is distinguished from one of \
              the spall by recordings at speeds {SPEEDS_APART} times apart that agree in degrees"
         );
     }

@@ -44,9 +44,9 @@ pub enum Unresolved {
          zone: strong ones are {0:.2} times as strong as weak ones, limit {1:.1}"
     )]
     NoLoadZone(f64, f64),
-    /// Impacts and echoes cannot be told apart in what the rate leaves.
+    /// Impacts and echoes cannot be distinguished at the rate.
     #[error(
-        "a sampling rate of {0:.0} Hz: below {1:.0} Hz the band above the rings' modes is too narrow to tell impacts \
+        "a sampling rate of {0:.0} Hz: below {1:.0} Hz the band above the rings' modes is too narrow to distinguish impacts \
          from their echoes"
     )]
     LowRate(f64, f64),
@@ -66,8 +66,8 @@ pub enum Unresolved {
     NoImpact(f64),
     /// More impacts than a spall makes.
     #[error(
-        "impacts at {0:.2?} degrees in each passage: a spall makes two at most, and which of these is the last is not \
-         told"
+        "impacts at {0:.2?} degrees in each passage: a spall makes two at most, and which of these is the last is \
+         unknown"
     )]
     ManyImpacts(Vec<f64>),
     /// What may be an echo or the last impact.
@@ -79,16 +79,16 @@ pub enum Unresolved {
     /// The picking does not hold.
     #[error("{0} of {1} resamples of the passages show no entry and impacts: what was picked in all of them is chance")]
     Unstable(usize, usize),
-    /// Onset and impacts cannot be told apart.
+    /// Onset and impacts cannot be distinguished.
     #[error(
         "one impact per passage and no clear entry before it (clearness {0:.1}, limit {1:.1}): entry and exit are not \
-         apart"
+         separate"
     )]
     OneImpact(f64, f64),
     /// One impact inside.
     #[error(
         "one impact per passage in the load zone (strong passages are {0:.1} times as strong as weak ones): entry and \
-         exit on the inner raceway are not apart"
+         exit on the inner raceway are not separate"
     )]
     OneInside(f64),
     /// No entry.
@@ -97,7 +97,7 @@ pub enum Unresolved {
     )]
     NoEntry(f64, f64, f64),
     /// Impacts fill the spacing.
-    #[error("impacts over {0:.1} of {1:.1} degrees of spacing: first and last cannot be told")]
+    #[error("impacts over {0:.1} of {1:.1} degrees of spacing: first and last are unknown")]
     NoSilence(f64, f64),
     /// The halves of the recording disagree.
     #[error("odd and even passages disagree: {0:.2} and {1:.2} degrees")]

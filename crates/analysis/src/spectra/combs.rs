@@ -22,7 +22,7 @@ const TALLEST: f64 = 1e4;
 /// Largest deviation of the ball pass frequency from pure rolling: 3 % slip behind, 2 % ahead by inexact dimensions or
 /// speed.
 pub(crate) const SLIP: std::ops::RangeInclusive<f64> = -0.02..=0.03;
-/// Power below which nothing is heard, as a share of the mean: 30 dB down. Signals without noise, as simulations give
+/// Power that counts as nothing, as a share of the mean: 30 dB down. Signals without noise, as simulations give
 /// them, hold all of a bearing's frequencies at some level; what counts is which of them is loud.
 pub(crate) const QUIET: f64 = 1e-3;
 /// Half the width of a line's main lobe, times the duration: so far from its middle a comb may look as strong.

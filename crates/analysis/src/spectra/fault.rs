@@ -36,7 +36,7 @@ pub struct CombReport {
     pub frequency_hz: f64,
     /// How far it stands above chance (standard deviations).
     pub significance: f64,
-    /// How far its harmonics stand above the noise near them (nepers of power): what kinds are told by.
+    /// How far its harmonics stand above the noise near them (nepers of power): what distinguishes kinds.
     pub strength: f64,
 }
 
@@ -132,7 +132,7 @@ impl Combs {
     }
 
     /// In words.
-    pub fn said(&self) -> String {
+    pub fn described(&self) -> String {
         let one = |name: &str, comb: &Comb| {
             format!("{name} {:.1} of strength {:.1} at {:.2} Hz", comb.significance, comb.strength, comb.frequency)
         };

@@ -1,7 +1,7 @@
 //! Whether the passages of a recording follow one another without a break, and at the ball pass frequency itself.
 //!
 //! A piece that is missing, where no column of times shows it, moves the passages after it by the rest of a period.
-//! Where as many lie before it as behind, their average shows each event twice, and the way from the first to the
+//! Where as many lie before it as behind, their average shows each event twice, and the travel from the first to the
 //! last means nothing. The averages of stretches of the recording are therefore laid beside each other: whole
 //! recordings agree best where they are. A cage that skids does the same, with the same consequence.
 //!

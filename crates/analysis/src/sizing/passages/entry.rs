@@ -18,14 +18,14 @@ use crate::statistics;
 const LOST_AT_EDGE: f64 = 0.15;
 /// Widest stretch before the first impact in which an entry is looked for (degrees).
 const REACH: f64 = 3.0;
-/// Way after the last impact that is left to what the impact itself forces (degrees).
+/// Travel after the last impact that is left to what the impact itself forces (degrees).
 const AFTER: f64 = 1.0;
 /// Points per degree on which ringing is predicted, and samples from which.
 const FINENESS: f64 = 10.0;
 const ORDER: usize = 24;
 /// An excursion counts from this share of the tallest, and from so many standard deviations of what is there before: a
 /// swing half as tall as any, or one that is surely there. Where an element needs longer to get free than the housing
-/// to answer, the force's fall makes a first swing, and its end a taller one the other way.
+/// to answer, the force's fall makes a first swing, and its end a taller one of the other sign.
 const COUNTS: [f64; 2] = [0.5, 0.2];
 const STANDS_OUT: [f64; 2] = [3.0, 4.0];
 /// The same far before a single impact.
@@ -180,7 +180,7 @@ mod tests {
     const IMPACT: f64 = 240.0;
 
     /// A passage of 40 degrees in which the housing swings from 1.8 degrees before the impact on: first by `first`,
-    /// 0.9 degrees long, then by 1 the other way.
+    /// 0.9 degrees long, then by 1 with the other sign.
     fn passage(first: f64, noise: f64) -> Vec<f64> {
         let mut random = Random::new(5);
         let swing = |s: f64| -> f64 {
@@ -213,7 +213,7 @@ mod tests {
 
     #[test]
     fn what_does_not_stand_out_of_the_noise_or_is_small_is_no_entry() {
-        // Either way the tall swing's beginning is left, 0.9 degrees later.
+        // In both cases the tall swing's beginning is left, 0.9 degrees later.
         for (first, noise) in [(0.1, 0.01), (0.25, 0.2)] {
             let onset = found(first, noise);
             assert!((onset - 0.9).abs() < 0.15, "{first}, {noise}: {onset}");

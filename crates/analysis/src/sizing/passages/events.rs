@@ -16,7 +16,7 @@ const LOWEST_JUMP: f64 = 0.3;
 /// A jump that no late echo makes (dB).
 const STEEP: f64 = 8.0;
 /// Correlation of loudness over the passages from which a rise is an echo of the impact before: two edges are hit each
-/// in its own way.
+/// by its own force.
 const SAME_CAUSE: f64 = 0.6;
 /// Time after which echoes have died down (s): 1 m of housing at the 1 km/s of slow bending waves. Later ones do not
 /// rise by [`STEEP`].
@@ -62,30 +62,30 @@ pub(crate) fn impacts(level: &[f64], width: usize, smallest: f64, turns: bool) -
     after_the_longest_silence(found, n)
 }
 
-/// Impacts told from echoes.
+/// Impacts and echoes.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Told {
+pub struct Classified {
     /// Those that are no echoes, that after the longest silence first.
     pub impacts: Vec<Impact>,
     /// Those that look like echoes, but come when all echoes have died down: they may be impacts too.
     pub doubtful: Vec<Impact>,
 }
 
-/// Tells impacts from echoes: rises that are loud whenever an earlier impact is loud, passage by passage, and that are
+/// Separates echoes: rises that are loud whenever an earlier impact is loud, passage by passage, and that are
 /// not both late and steep. Where the raceway turns with the shaft, all is loud under load, and steep is enough.
 ///
 /// `envelopes` is one row per passage on the grid of the impacts, of which those `chosen` count; `rate` its points per
 /// second.
-pub(crate) fn tell_echoes(
+pub(crate) fn classify_echoes(
     impacts: Vec<Impact>,
     envelopes: &[Vec<f64>],
     chosen: &[usize],
     width: usize,
     rate: f64,
     turns: bool,
-) -> Told {
+) -> Classified {
     let Some(n) = envelopes.first().map(Vec::len).filter(|_| chosen.len() >= FEWEST_TO_COMPARE) else {
-        return Told { impacts, doubtful: Vec::new() };
+        return Classified { impacts, doubtful: Vec::new() };
     };
     let loudness = |impact: &Impact| -> Vec<f64> {
         let from = n + impact.at.max(0.0) as usize - width / 2;
@@ -102,10 +102,10 @@ pub(crate) fn tell_echoes(
     let late = |i: usize, j: usize| (impacts[i].at - impacts[j].at).rem_euclid(n as f64) > DIED_DOWN * rate;
     let steep = |i: usize, j: usize| (turns || late(i, j)) && impacts[i].jump >= STEEP;
     let echo = |i: &usize| (0..*i).any(|j| loud_together(*i, j) && !steep(*i, j));
-    let (echoes, told): (Vec<usize>, Vec<usize>) = (0..impacts.len()).partition(echo);
+    let (echoes, others): (Vec<usize>, Vec<usize>) = (0..impacts.len()).partition(echo);
     let doubtful = echoes.into_iter().filter(|&i| (0..i).all(|j| late(i, j))).map(|i| impacts[i]).collect();
-    let impacts = told.into_iter().map(|i| impacts[i]).collect();
-    Told { impacts: after_the_longest_silence(impacts, n), doubtful }
+    let impacts = others.into_iter().map(|i| impacts[i]).collect();
+    Classified { impacts: after_the_longest_silence(impacts, n), doubtful }
 }
 
 /// Impacts around a circle of `n` points, that after the longest silence first.
@@ -165,9 +165,9 @@ mod tests {
     const RATE: f64 = 20_000.0;
     const WIDTH: usize = 6;
 
-    /// Impacts told in 60 passages: one at point 200, and one `later`, to which the level rises by 6 dB, that is as
+    /// Impacts classified in 60 passages: one at point 200, and one `later`, to which the level rises by 6 dB, that is as
     /// loud as the first passage by passage if they are `alike`.
-    fn told(later: usize, alike: bool) -> Told {
+    fn classified(later: usize, alike: bool) -> Classified {
         let mut random = Random::new(3);
         let mut row = || -> Vec<f64> {
             let loud = libm::exp(0.3 * random.normal());
@@ -185,16 +185,16 @@ mod tests {
         let impacts = impacts(&level, WIDTH, 3.0, false);
         assert_eq!(impacts.len(), 1);
         let second = Impact { at: (200 + later) as f64, jump: 6.0, energy: 0.7 };
-        tell_echoes([impacts, vec![second]].concat(), &rows, &chosen, WIDTH, RATE, false)
+        classify_echoes([impacts, vec![second]].concat(), &rows, &chosen, WIDTH, RATE, false)
     }
 
     #[test]
     fn a_rise_as_loud_as_the_impact_before_is_its_echo_up_to_a_millisecond_and_in_doubt_later() {
-        let count = |told: Told| (told.impacts.len(), told.doubtful.len());
+        let count = |classified: Classified| (classified.impacts.len(), classified.doubtful.len());
         // 0.6 ms, then 5 ms.
-        assert_eq!(count(told(12, true)), (1, 0));
-        assert_eq!(count(told(100, true)), (1, 1));
-        assert_eq!(count(told(12, false)), (2, 0));
-        assert_eq!(count(told(100, false)), (2, 0));
+        assert_eq!(count(classified(12, true)), (1, 0));
+        assert_eq!(count(classified(100, true)), (1, 1));
+        assert_eq!(count(classified(12, false)), (2, 0));
+        assert_eq!(count(classified(100, false)), (2, 0));
     }
 }

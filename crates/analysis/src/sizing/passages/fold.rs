@@ -81,7 +81,7 @@ impl Passages {
         }
         candidates.push(even);
         let best = if follow {
-            // What turns with the shaft turns its sign in the signal too: only the envelope can tell.
+            // What turns with the shaft turns its sign in the signal too: only the envelope shows it.
             let contrast = |starts: &[f64]| statistics::deviation(&template(&log, starts, period));
             let best = candidates.into_iter().max_by(|a, b| contrast(a).total_cmp(&contrast(b)));
             best.filter(|best| contrast(&aligned) < CLEARER * contrast(best)).or(Some(aligned))

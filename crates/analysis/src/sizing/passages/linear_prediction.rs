@@ -7,7 +7,7 @@
 //! ```
 //! The residual e holds what does not follow: the impacts themselves, and noise. The a(k) come from the recording's
 //! autocorrelation by the recursion of Levinson and Durbin, whose filter is always stable. The span of p samples must
-//! stay short against the way between two impacts, for the second would else be predicted from the first.
+//! stay short against the time between two impacts, for the second would else be predicted from the first.
 //!
 //! In a stretch in which nothing happens e is noise, and the prediction can be carried on ([`Ringing::ahead`]): what
 //! still rings of the last passage when the next element comes is known and can be taken off. Its a(k) are those of
@@ -54,7 +54,7 @@ impl Ringing {
         for (k, row) in normal.iter_mut().enumerate() {
             row[k] += RIDGE * power + f64::MIN_POSITIVE;
         }
-        // The normal equations, solved with orthogonal transformations: their matrix is nearly singular but for the
+        // The normal equations, solved with orthogonal transformations: their matrix is nearly singular except for the
         // ridge.
         Some(Self { weights: brinell_eigen::least_squares(&normal, &known).ok()? })
     }

@@ -42,7 +42,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_passages_under_load_are_told_from_the_others() {
+    fn the_passages_under_load_are_separated_from_the_others() {
         // Ten passages a turn of which four are five times as strong.
         let row = |k: usize| vec![if k % 10 < 4 { 25.0 } else { 1.0 }; 8];
         let zone = LoadZone::of(&(0..200).map(row).collect::<Vec<_>>());

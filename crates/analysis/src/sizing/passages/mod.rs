@@ -8,7 +8,7 @@ pub(crate) mod linear_prediction;
 mod load_zone;
 
 pub use entry::Entry;
-pub use events::{Impact, Told};
+pub use events::{Classified, Impact};
 pub use fold::Passages;
 
 pub(crate) use continuity::Break;

@@ -5,4 +5,4 @@ mod trial_search;
 pub(crate) mod waveform_length;
 
 pub use synthesis::{CUT, Maps, POINTS, Rig, Trial};
-pub use waveform_length::{Unlike, WaveformLength};
+pub use waveform_length::{Mismatch, WaveformLength};

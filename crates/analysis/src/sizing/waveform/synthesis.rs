@@ -30,7 +30,7 @@ const ROUGH: f64 = 1e-3;
 /// How long a trial runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Run {
-    /// One passage after the first have rung out: enough to find the way.
+    /// One passage after the first have rung out: enough to find the direction.
     Short,
     /// The mean of four passages, after twice the time: chatter differs from passage to passage.
     Long,

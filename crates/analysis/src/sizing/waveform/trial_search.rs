@@ -114,7 +114,7 @@ impl Search<'_> {
     }
 }
 
-/// Whether two trials of a climb are one, but for the rounding of the steps that led to them.
+/// Whether two trials of a climb are one, except for rounding of the steps that led to them.
 fn is_same(one: &Trial, other: &Trial) -> bool {
     (one.length - other.length).abs() < 1e-9 && (one.depth / other.depth - 1.0).abs() < 1e-9
 }

@@ -1,7 +1,7 @@
 //! Spall length as the trial spall whose simulated passage is most like the measured one; see [`synthesis`].
 //!
 //! The search goes from coarse to fine: lengths in steps of a degree up to two element spacings (an extended spall
-//! looks like a line spall one spacing shorter, but for the frequency of its ringing), deep and, if nothing deep is
+//! looks like a line spall one spacing shorter, except for the frequency of its ringing), deep and, if nothing deep is
 //! alike, with floors within the elements' reach, by the cheap contact law; from the best three a climb in length and
 //! depth; the best of these with other depths and the scene's own law. A parabola through the best three lengths gives
 //! the last digits.
@@ -57,14 +57,14 @@ pub struct WaveformLength {
     pub by_kind: [f64; 2],
     /// Where in a period an entry begins (share of it).
     pub entry: f64,
-    /// The most alike passage, moved over the measured one and turned its way: [`POINTS`] points from the period's
+    /// The most alike passage, moved over the measured one, with its sign: [`POINTS`] points from the period's
     /// start, norm 1.
     pub model: Vec<f64>,
 }
 
 /// Why the scene's rig gives no length.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Unlike {
+pub enum Mismatch {
     /// It is not the recording's: similarity of the best trial, 0 where none could be simulated.
     OtherRig(f64),
     /// The rig without a spall explains the recording as well as the best trial.
@@ -89,20 +89,20 @@ struct Tried {
 ///
 /// # Errors
 /// A rig that cannot be simulated, or sounds different, or without a spall as similar as with one.
-pub(crate) fn estimate(measured: &Measured, scene: &Scene, rig: &Rig<'_>) -> Result<WaveformLength, Unlike> {
+pub(crate) fn estimate(measured: &Measured, scene: &Scene, rig: &Rig<'_>) -> Result<WaveformLength, Mismatch> {
     let rows = measured.signal_rows(0.0, POINTS);
     let target = below_cut(&fold::average(&rows), measured.bpfo);
     let healthy = rig.healthy_passage().map_or(0.0, |passage| similarity(&target, &passage));
     // Whatever a trial leaves unexplained, this is within half of it.
     if healthy >= as_good_as(1.0) {
-        return Err(Unlike::Healthy { similarity: healthy, surely: true });
+        return Err(Mismatch::Healthy { similarity: healthy, surely: true });
     }
     let mut tried = Tried::default();
     let found = search(measured, scene, &Search { rig, target: &target }, &rows, &mut tried);
     if healthy >= as_good_as(tried.best).max(LIKE) {
-        return Err(Unlike::Healthy { similarity: healthy, surely: healthy >= tried.best });
+        return Err(Mismatch::Healthy { similarity: healthy, surely: healthy >= tried.best });
     }
-    found.ok_or(Unlike::OtherRig(tried.decisive.unwrap_or(tried.best)))
+    found.ok_or(Mismatch::OtherRig(tried.decisive.unwrap_or(tried.best)))
 }
 
 /// Similarity from which a passage is as good as the best: within half of what the best itself leaves unexplained.
@@ -110,7 +110,7 @@ fn as_good_as(best: f64) -> f64 {
     best - 0.5 * (1.0 - best).max(1e-3)
 }
 
-/// The length, if the rig is alike; `tried` is said in any case.
+/// The length, if the rig is alike; `tried` is set in any case.
 fn search(
     measured: &Measured,
     scene: &Scene,
@@ -180,19 +180,19 @@ fn search(
     })
 }
 
-/// Climbs from the best trials of a ladder that are apart, the best first; none where all are hopeless.
+/// Climbs from the best trials of a ladder that differ, the best first; none where all are hopeless.
 fn climbs(search: &Search<'_>, found: &[Fit]) -> Vec<Fit> {
     let mut climbed: Vec<Fit> = Vec::new();
     let mut beginnings: Vec<&Fit> = Vec::new();
     for fit in found.iter().filter(|fit| fit.similarity >= HOPELESS) {
-        let apart = |b: &&Fit| {
+        let differs = |b: &&Fit| {
             let ratio = libm::log(b.trial.depth / fit.trial.depth).abs();
             (b.trial.length - fit.trial.length).abs() > 0.8 || ratio > 0.2
         };
         if beginnings.len() == BEGINNINGS || climbed.last().is_some_and(|top| top.similarity > UNMISTAKABLE) {
             break;
         }
-        if beginnings.iter().all(apart) {
+        if beginnings.iter().all(differs) {
             beginnings.push(fit);
             climbed.push(search.climb(fit));
         }
