@@ -22,7 +22,7 @@ use crate::sizing::passages::{Break, Classified, Entry, Impact, MODULATED, RESAM
 use crate::sizing::raceway;
 use crate::sizing::raceway::Raceway;
 use crate::sizing::unresolved::Unresolved;
-use crate::spectra::Fault;
+use crate::spectra::{EXISTS, Fault};
 use crate::statistics;
 use crate::statistics::Random;
 use brinell::scene::Scene;
@@ -159,13 +159,12 @@ fn check_fault(measured: &Measured) -> Result<(), Unresolved> {
     if let (Some([forwards, backwards]), Fault::Inner | Fault::Outer) = (measured.reversed, measured.fault) {
         return Err(Unresolved::Reversed(forwards, backwards));
     }
-    let (combs, limit) = (&measured.combs, crate::spectra::SIGNIFICANT);
+    let combs = &measured.combs;
     match (measured.fault, &measured.elsewhere) {
-        (Fault::None, Some(other)) => {
-            let found = combs.outer.significance;
-            Err(Unresolved::OtherPattern(found, limit, other.frequency, other.significance))
+        (Fault::None, Some([frequency, share])) => {
+            Err(Unresolved::OtherPattern(combs.described(), *frequency, 100.0 * share))
         }
-        (Fault::None, None) => Err(Unresolved::NoPattern(combs.outer.significance, limit)),
+        (Fault::None, None) => Err(Unresolved::NoPattern(combs.described(), 100.0 * EXISTS)),
         (Fault::Element, _) => Err(Unresolved::OfElement(combs.described())),
         (Fault::Undecided, _) => Err(Unresolved::TwoKinds(combs.described())),
         (Fault::Inner, _) if measured.modulation < MODULATED => {

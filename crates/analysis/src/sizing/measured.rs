@@ -5,7 +5,7 @@ use super::raceway::Raceway;
 use crate::recording::{Recording, SizingError};
 use crate::sizing::passages::{Break, LoadZone, Passages, continuity, fold, linear_prediction};
 use crate::spectra::Fault;
-use crate::spectra::{Comb, Combs, combs};
+use crate::spectra::{Combs, EXISTS, Grade};
 use crate::spectrum::{Band, Spectrum};
 use crate::statistics;
 use brinell::geometry::kinematics;
@@ -35,13 +35,15 @@ pub struct Measured {
     pub fault: Fault,
     /// The raceway over which passages are taken to be: the outer one unless the fault is the inner's.
     pub raceway: Raceway,
+    /// How plainly they show it.
+    pub grade: Grade,
     /// What speaks for another speed than the stated one, in words.
     pub(super) other_speed: Option<String>,
     /// Sharpness of the impacts forwards and backwards in time, where they are sharper backwards.
     /// A bearing without a spall may be sharper so, too: it is recognised first.
     pub(super) reversed: Option<[f64; 2]>,
-    /// A comb elsewhere, where there is none near the bearing's frequencies.
-    pub elsewhere: Option<Comb>,
+    /// A comb elsewhere (Hz, share of the variance), where there is none near the bearing's frequencies.
+    pub(super) elsewhere: Option<[f64; 2]>,
     /// How often an element passes the defect, in the mean (Hz).
     pub pass_frequency: f64,
     /// Mean ball pass frequency of the outer ring (Hz).
@@ -85,12 +87,13 @@ impl Measured {
         }
         let mut spectrum = Spectrum::of(recording.samples(), rate);
         let combs = Combs::find(&mut spectrum, rate, frequencies, recording.speed());
-        let doubt = other_speed::doubt(&mut spectrum, rate, &combs, frequencies, recording.speed());
+        let doubt =
+            other_speed::doubt((recording.samples(), &mut spectrum), rate, &combs, frequencies, recording.speed());
         let fault = if doubt.is_some() { Fault::Undecided } else { combs.fault() };
         let raceway = Raceway::of(fault);
-        let elsewhere = (fault == Fault::None)
-            .then(|| combs::find_elsewhere(&mut spectrum, rate, nominal, recording.speed(), combs.outer.band))
-            .filter(Comb::is_significant);
+        let grade = if doubt.is_some() { Grade::Possible } else { combs.grade() };
+        let other = &combs.elsewhere;
+        let elsewhere = (fault == Fault::None && other.share >= EXISTS).then_some([other.frequency, other.share]);
         let comb = if raceway == Raceway::Inner { &combs.inner } else { &combs.outer };
         let band = Band { low: impact_band(rate), high: 0.45 * rate };
         let loud = spectrum.squared_envelope(band);
@@ -130,6 +133,7 @@ impl Measured {
             signal: recording.samples().to_vec(),
             combs,
             fault,
+            grade,
             raceway,
             other_speed: doubt,
             reversed,

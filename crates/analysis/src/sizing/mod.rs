@@ -12,7 +12,7 @@ mod spall_size;
 mod unresolved;
 pub mod waveform;
 
-pub use crate::spectra::Fault;
+pub use crate::spectra::{Fault, Grade};
 pub use measured::Measured;
 pub use raceway::Raceway;
 pub use report::{Figure, Kind, Method, RecordingReport, Report, Standing, Verdict};

@@ -1,6 +1,6 @@
 //! What sizing reports: the answer first, then what it rests on.
 
-use crate::spectra::{CombsReport, Fault};
+use crate::spectra::{CombsReport, Fault, Grade};
 use serde::Serialize;
 
 /// Whether there is a length.
@@ -96,7 +96,13 @@ pub struct RecordingReport {
     pub verdict: Verdict,
     /// What its combs look like.
     pub fault: Fault,
-    /// They, beside each other.
+    /// How plainly they show it.
+    pub grade: Grade,
+    /// What speaks for the kind that leads, in words.
+    pub speaks_for: Vec<String>,
+    /// What speaks against it, or for another speed.
+    pub speaks_against: Vec<String>,
+    /// The combs, beside each other.
     pub combs: CombsReport,
     /// Length [degrees of the raceway of that fault].
     pub length_deg: Option<f64>,
@@ -108,8 +114,6 @@ pub struct RecordingReport {
     pub bpfo_hz: f64,
     /// Passages used; on the inner raceway those in the load zone.
     pub passages: usize,
-    /// How far its strongest comb stands above chance (standard deviations).
-    pub significance: f64,
     /// Strength of strong passages over that of weak ones, 90 against 10 % quantile of the root mean square above 5
     /// kHz: an inner raceway's load zone.
     pub modulation: f64,

@@ -26,9 +26,9 @@ use brinell::scene::Scene;
 
 /// Coverage factor of the stated interval: 95 % of a normal distribution.
 const COVERAGE: f64 = 2.0;
-/// Significance of the comb from which similarity is asked: less than the events need, for to be alike is a proof of
-/// its own. Short recordings lose many harmonics to the shaft's.
-const ENOUGH_FOR_SIMILARITY: f64 = 5.0;
+/// Share of the variance at BPFO from which similarity is asked: less than the events need, for similarity is a proof
+/// of its own.
+const ENOUGH_FOR_SIMILARITY: f64 = 0.02;
 /// Harmonics of the passage frequency below the cut from which passages have a shape that can be compared: of one or
 /// two harmonics any passage is like any other.
 const HARMONICS: f64 = 5.0;
@@ -169,7 +169,7 @@ impl Sized {
         let combs = &measured.combs;
         let outer = match measured.fault {
             Fault::Outer => true,
-            Fault::None => combs.outer_leads() && combs.outer.significance >= ENOUGH_FOR_SIMILARITY,
+            Fault::None => combs.outer.share >= combs.inner.share.max(combs.element.share).max(ENOUGH_FOR_SIMILARITY),
             _ => false,
         };
         let shaped = CUT >= HARMONICS * measured.bpfo;
@@ -217,16 +217,20 @@ impl Sized {
 
     fn report(&self) -> RecordingReport {
         let length = self.length.as_ref().ok();
+        let [speaks_for, mut speaks_against] = self.measured.combs.evidence();
+        speaks_against.extend(self.measured.other_speed.clone());
         RecordingReport {
             name: self.measured.name.clone(),
             verdict: if length.is_some() { Verdict::Resolved } else { Verdict::Unresolved },
             fault: self.measured.fault,
+            grade: self.measured.grade,
+            speaks_for,
+            speaks_against,
             combs: self.measured.combs.report(),
             length_deg: length.map(|l| l.length),
             uncertainty_deg: length.map(|l| COVERAGE * l.statistical.hypot(l.systematic).hypot(FLOOR)),
             method: length.map(|l| l.method),
             bpfo_hz: self.measured.bpfo,
-            significance: self.measured.combs.strongest().significance,
             modulation: self.measured.modulation,
             onset_deg: self.events.as_ref().map(|e| self.first_impact(e) + e.onset),
             impacts_deg: self.events.as_ref().map_or_else(Vec::new, |e| self.impacts(e)),

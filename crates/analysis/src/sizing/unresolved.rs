@@ -4,22 +4,21 @@
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Unresolved {
-    /// Nothing repeats with the ball pass frequency.
+    /// Nothing repeats with the bearing's frequencies.
     #[error(
-        "nothing repeats with the ball pass frequency: its comb stands {0:.1} standard deviations above chance, limit \
-         {1:.1}"
+        "no fault found: nothing repeats with the bearing's frequencies; shares of the variance of the log envelope \
+         are {0}, limit {1:.0} %"
     )]
-    NoPattern(f64, f64),
+    NoPattern(String, f64),
     /// As a bearing without a spall.
     #[error("it sounds as much like the scene's bearing without a spall as like any with one: similarity {0:.3}")]
     Healthy(f64),
     /// Something else repeats.
     #[error(
-        "nothing repeats with the ball pass frequency: its comb stands {0:.1} standard deviations above chance, limit \
-         {1:.1}; but one at {2:.2} Hz stands {3:.1} above it: are speed, rate and bearing right, or is it not the \
-         outer raceway?"
+        "no fault found: nothing repeats with the bearing's frequencies; shares of the variance of the log envelope \
+         are {0}, but a comb at {1:.2} Hz has {2:.0} %: are speed, rate and bearing right?"
     )]
-    OtherPattern(f64, f64, f64, f64),
+    OtherPattern(String, f64, f64),
     /// Another speed would suit it as well.
     #[error("is the speed right? {0}")]
     OtherSpeed(String),
@@ -31,12 +30,12 @@ pub enum Unresolved {
     Reversed(f64, f64),
     /// A rolling element's fault.
     #[error(
-        "it looks like a fault of a rolling element, whose length is not read from recordings: combs stand above \
-         chance by, in standard deviations: {0}"
+        "it looks like a fault of a rolling element, whose length is not read from recordings: shares of the \
+         variance of the log envelope are {0}"
     )]
     OfElement(String),
     /// No kind of fault stands out.
-    #[error("two kinds of fault look alike: combs stand above chance by, in standard deviations: {0}")]
+    #[error("no kind of fault leads: shares of the variance of the log envelope are {0}")]
     TwoKinds(String),
     /// An inner raceway's comb without its load zone.
     #[error(

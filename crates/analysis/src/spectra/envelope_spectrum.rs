@@ -11,7 +11,7 @@
 //! BPFO, or too coarse, have none.
 
 use super::combs;
-use super::fault::Combs;
+use super::combs::Combs;
 use super::order_spectrum::EvenAngles;
 use crate::spectrum::{Band, Spectrum};
 use crate::{spectrum, statistics};

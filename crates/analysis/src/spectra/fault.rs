@@ -1,16 +1,6 @@
-//! Which part of the bearing is damaged: combs at BPFO, BPFI and twice the BSF beside each other.
-//!
-//! A comb near BPFO alone does not prove a fault of the outer raceway. As BPFO + BPFI = Z f_shaft, each of its
-//! harmonics is a sideband of the inner raceway's comb, three of its harmonics fall within 1 % on two of BPFI and four
-//! within 2 % on three of 2 BSF: most recordings of the others show one there too. So the three are sought beside each
-//! other, the inner raceway's with the sidebands of the shaft that carries it through the load zone, an element's with
-//! those of the cage that carries it. Of those that stand above chance the one whose harmonics stand highest above the
-//! noise is the fault's: sidebands are weaker than what they belong to, and a comb that shares some lines has not all
-//! of them.
+//! Which part of the bearing is damaged: the kind whose comb repeats most, if none beside it repeats nearly as much.
 
-use crate::spectra::{Comb, Pattern, find_combs};
-use crate::spectrum::{Band, Spectrum};
-use brinell::geometry::kinematics::Frequencies;
+use super::combs::{Comb, Combs};
 use serde::Serialize;
 
 /// Part of the bearing that seems to be damaged, by a recording's combs.
@@ -23,9 +13,37 @@ pub enum Fault {
     Inner,
     /// A rolling element.
     Element,
-    /// Two kinds stand out by about as much, or recordings of one bearing differ.
+    /// Two kinds repeat about as much, or recordings of one bearing differ.
     Undecided,
-    /// No comb stands out of chance, or nothing is more like the recording than the scene's bearing without a spall.
+    /// Nothing of the bearing repeats, or nothing is more similar to the recording than the scene's bearing without a
+    /// spall.
+    None,
+}
+
+impl Fault {
+    /// In words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Outer => "the outer raceway",
+            Self::Inner => "the inner raceway",
+            Self::Element => "a rolling element",
+            Self::Undecided => "undecided",
+            Self::None => "no fault found",
+        }
+    }
+}
+
+/// How plainly a recording shows the kind of its fault, as published grades of recordings do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Grade {
+    /// A tenth of the variance repeats at one kind's comb and less than a fifth of that at any other.
+    Clear,
+    /// One kind leads, but less plainly.
+    Likely,
+    /// Something of the bearing repeats, but no kind leads; or another speed would suit it as well.
+    Possible,
+    /// No fault found.
     None,
 }
 
@@ -34,10 +52,10 @@ pub enum Fault {
 pub struct CombReport {
     /// Its frequency (Hz).
     pub frequency_hz: f64,
-    /// How far it stands above chance (standard deviations).
-    pub significance: f64,
-    /// How far its harmonics stand above the noise near them (nepers of power): what distinguishes kinds.
-    pub strength: f64,
+    /// Share of the variance of the envelope's logarithm that repeats at it, mean of the two octaves with most.
+    pub share: f64,
+    /// The same without the lines of the strongest comb.
+    pub alone: f64,
 }
 
 /// The combs of the three kinds of fault.
@@ -45,97 +63,112 @@ pub struct CombReport {
 pub struct CombsReport {
     /// At BPFO.
     pub outer: CombReport,
-    /// At BPFI, with sidebands at the shaft's speed.
+    /// At BPFI.
     pub inner: CombReport,
-    /// At twice the BSF, with sidebands at the cage's speed.
+    /// At twice the BSF.
     pub element: CombReport,
 }
 
-/// How much stronger than any other that is significant a comb must be to be the fault's (nepers of power): twice the
-/// power. Recordings of outer and inner raceways show 2 to 5.
-const CLEARLY: f64 = 0.7;
-
-/// The strongest comb of each kind of fault.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Combs {
-    /// Near BPFO.
-    pub outer: Comb,
-    /// Near BPFI.
-    pub inner: Comb,
-    /// Near 2 BSF.
-    pub element: Comb,
-}
+/// Share of the variance from which a fault is there: of recorded healthy machines at most 0.036 repeats at a
+/// bearing's frequency, of named faults 0.04 to 0.9.
+pub const EXISTS: f64 = 0.04;
+/// Times what noise alone has in the comb's windows: short recordings have wide windows.
+const ABOVE_NOISE: f64 = 3.0;
+/// Times the share of any other kind's own lines by which a kind leads: recordings without a clear kind have at most
+/// 2.3 where enough repeats.
+const LEADS: f64 = 2.5;
+/// Share and lead of a [`Grade::Clear`] kind.
+const CLEAR: [f64; 2] = [0.1, 5.0];
 
 impl Combs {
-    /// Searches a recording of a shaft that turns at `speed` (Hz) near the nominal frequencies.
-    pub fn find(spectrum: &mut Spectrum, rate: f64, nominal: Frequencies, speed: f64) -> Self {
-        Self::find_of(&mut |band| (spectrum.squared_envelope(band), rate), rate, nominal, speed)
+    fn all(&self) -> [(Fault, &Comb); 3] {
+        [(Fault::Outer, &self.outer), (Fault::Inner, &self.inner), (Fault::Element, &self.element)]
     }
 
-    /// The same in the squared envelopes that `envelope` gives of a band, each with its own rate (Hz).
-    pub fn find_of(
-        envelope: &mut dyn FnMut(Band) -> (Vec<f64>, f64),
-        rate: f64,
-        nominal: Frequencies,
-        speed: f64,
-    ) -> Self {
-        let patterns = [(nominal.bpfo, 0.0), (nominal.bpfi, speed), (2.0 * nominal.bsf, nominal.ftf)];
-        let patterns = patterns.map(|(frequency, sideband)| Pattern { frequency, sideband });
-        let [outer, inner, element] = find_combs(envelope, rate, patterns, nominal.bpfo, speed);
-        Self { outer, inner, element }
+    /// The strongest comb, and the strongest of the others by what they have alone.
+    fn leader_and_rival(&self) -> [(Fault, &Comb); 2] {
+        let mut all = self.all();
+        all.sort_by(|(_, a), (_, b)| b.alone.total_cmp(&a.alone));
+        [all[0], all[1]]
     }
 
     /// The kind that the recording looks like.
     pub fn fault(&self) -> Fault {
-        let mut all = [(&self.outer, Fault::Outer), (&self.inner, Fault::Inner), (&self.element, Fault::Element)];
-        // Those above chance first, the strongest of them at the front.
-        all.sort_by(|(a, _), (b, _)| {
-            b.is_significant().cmp(&a.is_significant()).then(b.strength.total_cmp(&a.strength))
-        });
-        let [(first, fault), (second, _), _] = all;
-        if !first.is_significant() {
-            return Fault::None;
+        let [(fault, leader), (_, rival)] = self.leader_and_rival();
+        if leader.share < EXISTS.max(ABOVE_NOISE * leader.noise) {
+            Fault::None
+        } else if leader.share < LEADS * rival.alone {
+            Fault::Undecided
+        } else {
+            fault
         }
-        let close = second.is_significant() && first.strength < second.strength + CLEARLY;
-        if close { Fault::Undecided } else { fault }
+    }
+
+    /// How plainly.
+    pub fn grade(&self) -> Grade {
+        let [(_, leader), (_, rival)] = self.leader_and_rival();
+        match self.fault() {
+            Fault::None => Grade::None,
+            Fault::Undecided => Grade::Possible,
+            _ if leader.share >= CLEAR[0] && leader.share >= CLEAR[1] * rival.alone => Grade::Clear,
+            _ => Grade::Likely,
+        }
     }
 
     /// That of a kind of fault, where one is named.
     pub fn of(&self, fault: Fault) -> Option<&Comb> {
-        match fault {
-            Fault::Outer => Some(&self.outer),
-            Fault::Inner => Some(&self.inner),
-            Fault::Element => Some(&self.element),
-            Fault::Undecided | Fault::None => None,
-        }
-    }
-
-    /// Whether no other comb stands higher than the outer raceway's: what the scene's rig may be asked about.
-    pub fn outer_leads(&self) -> bool {
-        self.outer.significance >= self.inner.significance.max(self.element.significance)
-    }
-
-    /// As reported.
-    pub fn report(&self) -> CombsReport {
-        let of = |comb: &Comb| CombReport {
-            frequency_hz: comb.frequency,
-            significance: comb.significance,
-            strength: comb.strength,
-        };
-        CombsReport { outer: of(&self.outer), inner: of(&self.inner), element: of(&self.element) }
+        self.all().into_iter().find(|(kind, _)| *kind == fault).map(|(_, comb)| comb)
     }
 
     /// The strongest.
     pub fn strongest(&self) -> &Comb {
-        let inside = if self.inner.significance > self.element.significance { &self.inner } else { &self.element };
-        if self.outer_leads() { &self.outer } else { inside }
+        self.leader_and_rival()[0].1
+    }
+
+    /// As reported.
+    pub fn report(&self) -> CombsReport {
+        let of = |comb: &Comb| CombReport { frequency_hz: comb.frequency, share: comb.share, alone: comb.alone };
+        CombsReport { outer: of(&self.outer), inner: of(&self.inner), element: of(&self.element) }
     }
 
     /// In words.
     pub fn described(&self) -> String {
         let one = |name: &str, comb: &Comb| {
-            format!("{name} {:.1} of strength {:.1} at {:.2} Hz", comb.significance, comb.strength, comb.frequency)
+            format!(
+                "{name} {:.1} % ({:.1} % alone) at {:.2} Hz",
+                100.0 * comb.share,
+                100.0 * comb.alone,
+                comb.frequency
+            )
         };
         format!("{}, {}, {}", one("BPFO", &self.outer), one("BPFI", &self.inner), one("2 BSF", &self.element))
+    }
+
+    /// What speaks for the strongest kind, and what against it, in words.
+    pub fn evidence(&self) -> [Vec<String>; 2] {
+        let [(fault, leader), (other, rival)] = self.leader_and_rival();
+        let (name, percent) = (fault.name(), 100.0 * leader.share);
+        let [low, high] = [leader.band.low, leader.band.high].map(|f| 1e-3 * f);
+        let at = format!("the comb of {name} at {:.2} Hz", leader.frequency);
+        let of_variance =
+            format!("{percent:.1} % of the variance of the log envelope, most in {low:.1} to {high:.1} kHz");
+        let limit = 100.0 * EXISTS.max(ABOVE_NOISE * leader.noise);
+        let beside = format!(
+            "{} has {:.1} % at {:.2} Hz that is not explained by it, {:.1} times less",
+            other.name(),
+            100.0 * rival.alone,
+            rival.frequency,
+            leader.share / rival.alone.max(f64::MIN_POSITIVE)
+        );
+        let exists = format!("{at} holds {of_variance}, limit {limit:.1} %");
+        let pairs = [
+            (leader.share >= EXISTS.max(ABOVE_NOISE * leader.noise), exists),
+            (leader.share >= LEADS * rival.alone, format!("{beside}, limit {LEADS}")),
+        ];
+        let [mut speaks_for, mut against] = [Vec::new(), Vec::new()];
+        for (holds, text) in pairs {
+            if holds { speaks_for.push(text) } else { against.push(text) }
+        }
+        [speaks_for, against]
     }
 }

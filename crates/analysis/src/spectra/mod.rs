@@ -4,10 +4,11 @@ pub(crate) mod combs;
 pub mod envelope_spectrum;
 mod fault;
 mod frequency_response;
+pub(crate) mod lines;
 mod order_spectrum;
 
-pub use combs::{Comb, Pattern, SIGNIFICANT, find_combs};
+pub use combs::{Comb, Combs};
 pub use envelope_spectrum::EnvelopeSpectrum;
-pub use fault::{CombReport, Combs, CombsReport, Fault};
+pub use fault::{CombReport, CombsReport, EXISTS, Fault, Grade};
 pub use frequency_response::{Fit, FrequencyResponse, ResponseError, response};
 pub use order_spectrum::{EvenAngles, OrderSpectrum};
