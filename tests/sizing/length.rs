@@ -210,7 +210,7 @@ fn the_scenes_own_bearing_without_a_spall_is_healthy_although_its_elements_are_h
     let signal = recorded(Scene { defects: Vec::new(), ..rig.clone() }, 1.2);
     let report = sized(signal, 10.0, &rig);
     assert_eq!((report.verdict, report.fault), (Verdict::Unresolved, Fault::None), "{}", report.reason);
-    assert!(report.recordings[0].combs.outer.significance > 8.0, "nothing was heard");
+    assert!(report.recordings[0].combs.outer.share > 0.04, "nothing repeats");
     assert!(report.reason.contains("bearing without a spall"), "{}", report.reason);
 }
 

@@ -4,3 +4,4 @@ mod fault;
 mod length;
 #[path = "../support/machine.rs"]
 mod machine;
+mod recordings;

@@ -81,7 +81,7 @@ pub struct EventLength {
 /// The reason why it cannot be.
 pub fn estimate(measured: &Measured, scene: &Scene) -> Result<EventLength, Unresolved> {
     check_fault(measured)?;
-    if let Some(Break { passage, shift }) = measured.broken {
+    if let Some(Break { passage, shift, .. }) = measured.broken {
         let at = passage as f64 / measured.pass_frequency;
         return Err(Unresolved::Broken(at, shift * measured.spacing));
     }

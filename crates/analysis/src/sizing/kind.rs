@@ -12,7 +12,7 @@
 
 use super::measured::Measured;
 use super::report::Kind;
-use super::ringing::{self, Ringing};
+use super::waveform::ringing::{self, Ringing};
 use crate::sizing::passages::fold;
 use crate::sizing::waveform::{CUT, POINTS, Rig, Trial, WaveformLength};
 use crate::spectrum::{Band, Spectrum};

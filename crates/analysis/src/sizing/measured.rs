@@ -23,6 +23,9 @@ const FEWEST_PREDICTING: usize = 8;
 /// 0.02.
 const REVERSED: f64 = 1.05;
 
+/// Parts into which a recording is cut at most: an eighth and more is lost with each.
+const MOST_CUTS: usize = 3;
+
 /// A recording whose elements' passages are known. Passages are rows; a row spans one element spacing.
 pub struct Measured {
     /// Name of the recording.
@@ -60,6 +63,8 @@ pub struct Measured {
     pub rate: f64,
     /// Where passages are shifted against those before, as behind a missing piece.
     pub(crate) broken: Option<Break>,
+    /// What was cut off because of such a shift.
+    pub(super) cut: Option<Cut>,
     /// How many times the same passes within a period, if it is more than once.
     pub(super) times_a_period: Option<usize>,
     signal: Vec<f64>,
@@ -67,12 +72,63 @@ pub struct Measured {
     envelope: Vec<f64>,
 }
 
+/// The stretch that is used of a recording whose passages are shifted against each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Cut {
+    /// The stretch (s).
+    pub(super) used: [f64; 2],
+    /// About the end of what comes before the first shift (s), and the shift (degrees).
+    pub(super) at: f64,
+    pub(super) shift: f64,
+}
+
 impl Measured {
-    /// Prepares it.
+    /// Prepares it. Where passages are shifted against those before (the cage skidded, or a piece is missing), the
+    /// longer part is used if nothing is shifted in that, and if not, the longer part of that.
     ///
     /// # Errors
     /// A recording too short, or too coarse for the ball pass frequency that its speed and the bearing imply.
     pub fn new(recording: &Recording, bearing: &Bearing) -> Result<Self, SizingError> {
+        let whole = Self::uncut(recording, bearing)?;
+        let Some((at, shift)) = whole.broken.map(|b| (whole.time_of(b.passage), b.shift * whole.spacing)) else {
+            return Ok(whole);
+        };
+        let (rate, samples) = (recording.rate(), recording.samples());
+        let mut used = [0, samples.len()];
+        let mut broken = whole.broken.map(|found| whole.longer_part(found));
+        for _ in 0..MOST_CUTS {
+            let Some([from, to]) = broken else { break };
+            used = [used[0] + from, (used[0] + to).min(used[1])];
+            // What is left may be too short.
+            let piece = samples.get(used[0]..used[1]).map(<[f64]>::to_vec).unwrap_or_default();
+            let Ok(piece) = Recording::new(recording.name(), piece, rate, recording.speed()) else { break };
+            let Ok(part) = Self::uncut(&piece, bearing) else { break };
+            broken = part.broken.map(|found| part.longer_part(found));
+            if broken.is_none() && part.fault == whole.fault {
+                let used = used.map(|sample| sample as f64 / rate);
+                return Ok(Self { cut: Some(Cut { used, at, shift }), ..part });
+            }
+        }
+        Ok(whole)
+    }
+
+    /// Begin of a passage (s).
+    fn time_of(&self, passage: usize) -> f64 {
+        self.passages.starts.get(passage).map_or(0.0, |start| start / self.rate)
+    }
+
+    /// The longer part before or after a break, without what may lie on both sides of it (samples).
+    fn longer_part(&self, found: Break) -> [usize; 2] {
+        let starts = &self.passages.starts;
+        let start = |passage: usize| starts.get(passage).copied().unwrap_or(self.signal.len() as f64) as usize;
+        let parts = [
+            [0, start(found.passage.saturating_sub(found.within))],
+            [start(found.passage + found.within), self.signal.len()],
+        ];
+        if parts[0][1] > parts[1][1] - parts[1][0] { parts[0] } else { parts[1] }
+    }
+
+    fn uncut(recording: &Recording, bearing: &Bearing) -> Result<Self, SizingError> {
         let frequencies = kinematics::frequencies(bearing, 0.0, recording.speed());
         let nominal = frequencies.bpfo;
         let (rate, name) = (recording.rate(), recording.name().to_owned());
@@ -127,6 +183,7 @@ impl Measured {
             pass_frequency,
             bpfo,
             broken: continuity::find_break(&rows),
+            cut: None,
             times_a_period: continuity::times_a_period(&rows),
             slip: 1.0 - bpfo / nominal,
             spacing: 360.0 / bearing.element_count as f64,

@@ -1,5 +1,6 @@
 //! Which part of a bearing is damaged, and how long is its spall, from recordings.
 
+mod combined;
 pub mod event_length;
 mod kind;
 mod measured;
@@ -7,7 +8,6 @@ mod other_speed;
 pub mod passages;
 mod raceway;
 mod report;
-pub mod ringing;
 mod spall_size;
 mod unresolved;
 pub mod waveform;
@@ -16,6 +16,6 @@ pub use crate::spectra::{Fault, Grade};
 pub use measured::Measured;
 pub use raceway::Raceway;
 pub use report::{Figure, Kind, Method, RecordingReport, Report, Standing, Verdict};
-pub use ringing::Ringing;
 pub use spall_size::{size, size_with};
 pub use unresolved::Unresolved;
+pub use waveform::Ringing;

@@ -59,6 +59,8 @@ pub struct Report {
     pub length_mm: Option<f64>,
     /// The same (degrees).
     pub length_deg: Option<f64>,
+    /// Length that the spall has at least (degrees), where there is no length: see the recordings.
+    pub at_least_deg: Option<f64>,
     /// Half-width of the interval that holds the length with 95 % confidence (mm).
     pub uncertainty_mm: Option<f64>,
     /// Kind of spall.
@@ -127,6 +129,10 @@ pub struct RecordingReport {
     /// Similarity to the scene's rig, 0 to 1, where the scene describes one: with the best spall, or without a spall
     /// where that is as good. A length rests on it from 0.9 on.
     pub similarity: Option<f64>,
+    /// Length that the spall has at least (degrees): from first to last impact, where its entry is not seen.
+    pub at_least_deg: Option<f64>,
+    /// The stretch that was used (s), where passages after it or before it are shifted against it.
+    pub used_s: Option<[f64; 2]>,
     /// Frequencies of ringing after entry and after exit (Hz), where they could be measured.
     pub ringing_hz: Option<[f64; 2]>,
     /// Those expected of a line spall, and of an extended one, of the scene's rig (Hz).

@@ -3,20 +3,21 @@
 //! Each recording is sized by similarity to the scene's own rig if the scene describes the rig ([`waveform_length`]),
 //! else by the events of its passages, which needs nothing but the bearing's dimensions ([`event_length`]). A rig that
 //! sounds like the recording also distinguishes a line spall from an extended one; otherwise ringing does
-//! ([`ringing`](super::ringing)), or nothing does.
+//! ([`ringing`](super::waveform::ringing)), or nothing does.
 //!
 //! Several recordings are of one spall: their lengths are averaged with their statistical weights, and a scatter that
 //! is larger than these explain widens the interval. What all share (what the events mean, the contact's law) is not
 //! averaged away.
 
+use super::combined::{self, Combined};
 use super::event_length;
 use super::event_length::EventLength;
 use super::kind::{Classification, Crossing};
 use super::measured::Measured;
 use super::raceway::{self, Raceway};
-use super::report::{Figure, Kind, Method, RecordingReport, Report, Standing, Verdict};
-use super::ringing::Ringing;
+use super::report::{Figure, Kind, Method, RecordingReport, Report, Verdict};
 use super::unresolved::Unresolved;
+use super::waveform::Ringing;
 use crate::recording::{Recording, SizingError};
 use crate::sizing::waveform::{CUT, Maps, Mismatch, Rig, WaveformLength, waveform_length};
 use crate::spectra::Fault;
@@ -32,15 +33,8 @@ const ENOUGH_FOR_SIMILARITY: f64 = 0.02;
 /// Harmonics of the passage frequency below the cut from which passages have a shape that can be compared: of one or
 /// two harmonics any passage is like any other.
 const HARMONICS: f64 = 5.0;
-/// Scatter between recordings of one spall, as a share of the length, from which they contradict each other.
-const CONTRADICTION: f64 = 0.2;
-/// Ratio of speeds from which they distinguish time from angle: with 10 % of agreement below, an event at a fixed time would
-/// lie 30 % off.
-const SPEEDS_APART: f64 = 1.3;
-/// Difference of lengths at two speeds up to which they agree, as a share.
-const AGREEMENT: f64 = 0.1;
 /// Statistical uncertainty that is always granted (degrees): events are sought on a grid of samples.
-const FLOOR: f64 = 0.02;
+pub(super) const FLOOR: f64 = 0.02;
 
 /// Sizes the spall in recordings of one bearing. The scene gives bearing, load and rig; its defect is ignored.
 ///
@@ -97,9 +91,10 @@ pub fn size_with(
     let mut report = Report {
         verdict: Verdict::Unresolved,
         standing: None,
-        fault: common_fault(&sized),
+        fault: combined::common_fault(&sized),
         length_mm: None,
         length_deg: None,
+        at_least_deg: None,
         uncertainty_mm: None,
         kind: Kind::Undecided,
         bpfo_hz: first.measured.bpfo,
@@ -114,52 +109,57 @@ pub fn size_with(
         figures: sized.iter().map(|s| s.figure(scene)).collect(),
     };
     let lengths: Vec<&Length> = sized.iter().filter_map(|s| s.length.as_ref().ok()).collect();
-    match of_one_fault(&sized).and_then(|()| combine(&lengths, sized.len())) {
+    match combined::of_one_fault(&sized)
+        .and_then(|()| combined::steady_onset(&sized))
+        .and_then(|()| combined::combine(&lengths, sized.len()))
+    {
         Err(why) => {
             let each =
                 sized.iter().filter_map(|s| s.length.as_ref().err().map(|e| format!("{}: {e}", s.measured.name)));
-            report.reason = std::iter::once(why).chain(each).collect::<Vec<_>>().join("; ");
+            report.reason =
+                std::iter::once(why).chain(each).chain(combined::cuts(&sized)).collect::<Vec<_>>().join("; ");
+            report.at_least_deg = sized.iter().filter_map(Sized::at_least).reduce(f64::max);
         }
         Ok(Combined { length, uncertainty }) => {
             let radius = Raceway::of(report.fault).radius(&scene.bearing);
             let mm_per_degree = 1e3 * radius * 1f64.to_radians();
             report.verdict = Verdict::Resolved;
-            report.standing = Some(standing(&sized));
+            report.standing = Some(combined::standing(&sized));
             report.length_deg = Some(length);
             report.length_mm = Some(length * mm_per_degree);
             report.uncertainty_mm = Some(COVERAGE * uncertainty * mm_per_degree);
-            report.kind = common_kind(&lengths);
+            report.kind = combined::common_kind(&lengths);
             report.method = lengths.first().map(|l| l.method);
             let critical = sized.iter().find_map(|s| s.classification.critical_load.as_ref());
             report.critical_load_n = critical.and_then(|found| found.as_ref().ok().copied());
             report.critical_load_reason = critical.and_then(|found| found.as_ref().err().map(ToString::to_string));
             report.critical_depth_um =
                 sized.iter().find_map(|s| s.classification.critical_depth).map(|depth| 1e6 * depth);
-            report.reason = basis(&report, &sized, scene);
+            report.reason = combined::basis(&report, &sized, scene);
         }
     }
     Ok(report)
 }
 
 /// A recording with its results.
-struct Sized {
-    measured: Measured,
-    length: Result<Length, Unresolved>,
-    events: Option<EventLength>,
+pub(super) struct Sized {
+    pub(super) measured: Measured,
+    pub(super) length: Result<Length, Unresolved>,
+    pub(super) events: Option<EventLength>,
     waveform: Option<WaveformLength>,
     /// To the scene's rig, whether that was taken for the recording's or not.
     similarity: Option<f64>,
-    classification: Classification,
+    pub(super) classification: Classification,
 }
 
 /// Length of one recording (degrees).
 #[derive(Debug, Clone)]
-struct Length {
-    length: f64,
-    statistical: f64,
-    systematic: f64,
-    method: Method,
-    kind: Kind,
+pub(super) struct Length {
+    pub(super) length: f64,
+    pub(super) statistical: f64,
+    pub(super) systematic: f64,
+    pub(super) method: Method,
+    pub(super) kind: Kind,
 }
 
 impl Sized {
@@ -237,9 +237,19 @@ impl Sized {
             edges_deg: self.length.as_ref().ok().map(|found| [0.0, found.length]),
             passages: self.measured.passages.starts.len(),
             similarity: self.similarity,
+            at_least_deg: self.at_least(),
+            used_s: self.measured.cut.map(|cut| cut.used),
             ringing_hz: self.classification.ringing.map(Ringing::pair),
             expected_ringing_hz: self.classification.expected.map(|e| e.map(Ringing::pair)),
             reason: self.length.as_ref().err().map(ToString::to_string),
+        }
+    }
+
+    /// From first to last impact (degrees), where that is all that is known of the length.
+    fn at_least(&self) -> Option<f64> {
+        match &self.length {
+            Err(Unresolved::NoEntry(span, ..)) => Some(*span),
+            _ => None,
         }
     }
 
@@ -318,88 +328,4 @@ fn of_waveform(waveform: &WaveformLength, scene: &Scene, kind: Kind) -> Result<L
         return Err(Unresolved::TooUncertain(length, COVERAGE * uncertainty));
     }
     Ok(Length { length, statistical, systematic, method: Method::Waveform, kind })
-}
-
-/// Several lengths of one spall, combined.
-struct Combined {
-    /// Their mean (degrees).
-    length: f64,
-    /// Its standard uncertainty (degrees).
-    uncertainty: f64,
-}
-
-/// Combines lengths of one spall from so many recordings; or says why there is none.
-fn combine(lengths: &[&Length], of: usize) -> Result<Combined, String> {
-    if 2 * lengths.len() <= of {
-        return Err(format!("{} of {of} recordings give a length", lengths.len()));
-    }
-    let weight = |l: &Length| 1.0 / (l.statistical * l.statistical + FLOOR * FLOOR);
-    let total: f64 = lengths.iter().map(|l| weight(l)).sum();
-    let mean = lengths.iter().map(|l| weight(l) * l.length).sum::<f64>() / total;
-    let all: Vec<f64> = lengths.iter().map(|l| l.length).collect();
-    let scatter = statistics::deviation(&all);
-    if scatter > CONTRADICTION * mean {
-        return Err(format!("the recordings contradict each other: {all:.2?} degrees are not one spall"));
-    }
-    let systematic = lengths.iter().map(|l| l.systematic).fold(0.0, f64::max);
-    let statistical = (1.0 / total).sqrt().max(scatter / (all.len() as f64).sqrt());
-    Ok(Combined { length: mean, uncertainty: statistical.hypot(systematic) })
-}
-
-/// The fault that all recordings that show one look like.
-fn common_fault(sized: &[Sized]) -> Fault {
-    let mut named = sized.iter().map(|s| s.measured.fault).filter(|&fault| fault != Fault::None);
-    let Some(first) = named.next() else { return Fault::None };
-    if named.all(|fault| fault == first) { first } else { Fault::Undecided }
-}
-
-/// Lengths of different raceways are not of one spall.
-fn of_one_fault(sized: &[Sized]) -> Result<(), String> {
-    let differ = sized.iter().any(|s| s.measured.fault != Fault::None) && common_fault(sized) == Fault::Undecided;
-    if differ && sized.len() > 1 {
-        let each: Vec<String> =
-            sized.iter().map(|s| format!("{}: {}", s.measured.name, s.measured.combs.described())).collect();
-        return Err(format!("the recordings look like different faults: {}", each.join("; ")));
-    }
-    Ok(())
-}
-
-fn common_kind(lengths: &[&Length]) -> Kind {
-    let kind = lengths.first().map_or(Kind::Undecided, |l| l.kind);
-    if lengths.iter().all(|l| l.kind == kind) { kind } else { Kind::Undecided }
-}
-
-/// Firm where lengths at two speeds that are far enough apart agree in degrees.
-fn standing(sized: &[Sized]) -> Standing {
-    let found: Vec<(f64, f64)> =
-        sized.iter().filter_map(|s| s.length.as_ref().ok().map(|l| (s.measured.speed, l.length))).collect();
-    let pairs = found.iter().flat_map(|a| found.iter().map(move |b| (a, b)));
-    let mut wide = pairs.filter(|(a, b)| b.0 >= SPEEDS_APART * a.0).peekable();
-    let firm = wide.peek().is_some() && wide.all(|(a, b)| (b.1 - a.1).abs() <= AGREEMENT * a.1);
-    if firm { Standing::Firm } else { Standing::Provisional }
-}
-
-/// What a resolved answer rests on, and its warnings.
-fn basis(report: &Report, sized: &[Sized], scene: &Scene) -> String {
-    let mut text = match report.method {
-        Some(Method::Waveform) => "similarity of the averaged passage to the scene's rig".to_owned(),
-        _ => "travel from the entry's onset to the last impact".to_owned(),
-    };
-    if let Some(described) = sized.iter().find(|s| s.length.is_ok()).map(|s| s.classification.described(scene)) {
-        text += &described;
-    }
-    if report.standing == Some(Standing::Provisional) {
-        text += &format!(
-            "; PROVISIONAL: an event that belongs to the structure, at the same time at any speed, is distinguished from one of \
-             the spall by recordings at speeds {SPEEDS_APART} times apart that agree in degrees"
-        );
-    }
-    let lost = sized.iter().filter(|s| s.length.is_err()).count();
-    if lost > 0 {
-        text += &format!("; {lost} of {} recordings unresolved", sized.len());
-        for healthy in sized.iter().filter(|s| matches!(s.length, Err(Unresolved::Healthy(_)))) {
-            text += &format!("; WARNING: {} sounds like the scene's bearing without a spall", healthy.measured.name);
-        }
-    }
-    text
 }

@@ -52,7 +52,7 @@ pub enum Unresolved {
     /// A piece is missing.
     #[error(
         "the passages after about {0:.2} s are shifted by {1:.1} degrees against those before: is a piece of the \
-         recording missing, or did the cage skid? Cut the recording there"
+         recording missing, or did the cage skid? No long part of it is without such a shift"
     )]
     Broken(f64, f64),
     /// More than one passage in a period.

@@ -55,7 +55,7 @@ impl Ringing {
 ///
 /// # Errors
 /// Those of the static balance.
-pub fn expected(rig: &Rig<'_>, trial: Trial, spacing: f64) -> Result<Ringing, StaticError> {
+pub(crate) fn expected(rig: &Rig<'_>, trial: Trial, spacing: f64) -> Result<Ringing, StaticError> {
     let scene = rig.with_spall(trial);
     let bearing = StaticBearing::new(&scene, None)?;
     let centre = scene.defects.first().map_or(0.0, |d| d.angle);
@@ -80,13 +80,13 @@ fn upper_frequency(scene: &Scene, stiffness: f64) -> f64 {
 ///
 /// # Errors
 /// Those of the static balance.
-pub fn critical_load(scene: &Scene, trial: Trial) -> Result<Result<f64, NoCriticalLoad>, StaticError> {
+pub(crate) fn critical_load(scene: &Scene, trial: Trial) -> Result<Result<f64, NoCriticalLoad>, StaticError> {
     Ok(StaticBearing::new(&synthesis::with_spall(scene, trial), None)?.critical_load()?.map(|critical| critical.load))
 }
 
 /// Strongest frequency of a stretch of signal sampled at `rate` (Hz); `None` when it is shorter than two of its
 /// periods.
-pub fn strongest(signal: &[f64], rate: f64) -> Option<f64> {
+pub(crate) fn strongest(signal: &[f64], rate: f64) -> Option<f64> {
     if signal.len() < 16 {
         return None;
     }
