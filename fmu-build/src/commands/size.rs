@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use brinell::scene::Scene;
 use brinell_analysis::recording::{Recording, Source, Speed};
-use brinell_analysis::sizing::{Figure, Raceway, RecordingReport, Report, size_with};
+use brinell_analysis::sizing::{Figure, Grade, RecordingReport, Report, Standing, size_with};
 
 use crate::package::read_scene;
 use crate::shared::{Project, Python, contact_map, csv, digits, whole_file};
@@ -44,6 +44,9 @@ pub fn command(
     }
     let maps = |scene: &Scene| contact_map::of(scene, None, project).ok().flatten();
     let report = size_with(&recordings, &scene, &maps, &mut |done| eprintln!("{}", line(done)))?;
+    if recordings.len() > 1 {
+        eprintln!("{}", together(&report));
+    }
     println!("{}", serde_json::to_string_pretty(&report)?);
     std::io::stdout().flush()?;
     let stems = write(&report, folder)?;
@@ -66,14 +69,40 @@ fn read(paths: &[PathBuf], options: &Options) -> Result<Vec<Recording>> {
     recordings.collect()
 }
 
-/// What one recording gave, in a line.
+/// What one recording gave, in a line: kind, how plainly, length or why there is none.
 fn line(done: &RecordingReport) -> String {
-    match (done.length_deg, done.uncertainty_deg, &done.reason) {
+    let RecordingReport { name, fault, grade, .. } = done;
+    let kind = match grade {
+        Grade::None => fault.name().to_owned(),
+        grade => format!("{}, {}", fault.name(), grade.name()),
+    };
+    match (done.length_deg, done.uncertainty_deg, done.at_least_deg) {
         (Some(length), Some(uncertainty), _) => {
-            let raceway = Raceway::of(done.fault).name();
-            format!("{}: {length:.2} ± {uncertainty:.2} degrees of the {raceway} raceway", done.name)
+            format!("{name}: {kind}: {length:.2} ± {uncertainty:.2} degrees, provisional: one speed")
         }
-        (_, _, why) => format!("{}: unresolved: {}", done.name, why.as_deref().unwrap_or("no reason given")),
+        (.., at_least) => {
+            let least = at_least.map_or("no length".to_owned(), |least| format!("at least {least:.2} degrees"));
+            format!("{name}: {kind}; {least}: {}", done.reason.as_deref().unwrap_or("no reason given"))
+        }
+    }
+}
+
+/// What several recordings gave together, in a line.
+fn together(report: &Report) -> String {
+    let kind = report.fault.name();
+    match (report.length_deg, report.length_mm, report.uncertainty_mm, report.standing) {
+        (Some(degrees), Some(length), Some(uncertainty), Some(standing)) => {
+            let standing = match standing {
+                Standing::Firm => "firm: lengths at two speeds agree",
+                Standing::Provisional => "provisional: no two speeds that are far enough from each other agree",
+            };
+            let uncertainty = uncertainty * degrees / length;
+            format!("together: {kind}: {degrees:.2} ± {uncertainty:.2} degrees, {standing}")
+        }
+        _ => {
+            let least = report.at_least_deg.map_or(String::new(), |least| format!(", at least {least:.2} degrees"));
+            format!("together: {kind}; no length{least}")
+        }
     }
 }
 

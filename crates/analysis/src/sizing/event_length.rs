@@ -153,7 +153,7 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Result<EventLength, Unres
 
 /// Whether the recording looks like a fault that can be sized.
 fn check_fault(measured: &Measured) -> Result<(), Unresolved> {
-    if let Some(text) = &measured.other_speed {
+    if let Err(text) = &measured.speed_check {
         return Err(Unresolved::OtherSpeed(text.clone()));
     }
     if let (Some([forwards, backwards]), Fault::Inner | Fault::Outer) = (measured.reversed, measured.fault) {

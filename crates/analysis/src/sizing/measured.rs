@@ -40,8 +40,8 @@ pub struct Measured {
     pub raceway: Raceway,
     /// How plainly they show it.
     pub grade: Grade,
-    /// What speaks for another speed than the stated one, in words.
-    pub(super) other_speed: Option<String>,
+    /// What confirms the stated speed, in words, or as an error what speaks for another one.
+    pub(super) speed_check: Result<Option<String>, String>,
     /// Sharpness of the impacts forwards and backwards in time, where they are sharper backwards.
     /// A bearing without a spall may be sharper so, too: it is recognised first.
     pub(super) reversed: Option<[f64; 2]>,
@@ -143,11 +143,11 @@ impl Measured {
         }
         let mut spectrum = Spectrum::of(recording.samples(), rate);
         let combs = Combs::find(&mut spectrum, rate, frequencies, recording.speed());
-        let doubt =
-            other_speed::doubt((recording.samples(), &mut spectrum), rate, &combs, frequencies, recording.speed());
-        let fault = if doubt.is_some() { Fault::Undecided } else { combs.fault() };
+        let signal = (recording.samples(), &mut spectrum);
+        let speed_check = other_speed::check(signal, rate, &combs, frequencies, recording.speed());
+        let fault = if speed_check.is_err() { Fault::Undecided } else { combs.fault() };
         let raceway = Raceway::of(fault);
-        let grade = if doubt.is_some() { Grade::Possible } else { combs.grade() };
+        let grade = if speed_check.is_err() { Grade::Possible } else { combs.grade() };
         let other = &combs.elsewhere;
         let elsewhere = (fault == Fault::None && other.share >= EXISTS).then_some([other.frequency, other.share]);
         let comb = if raceway == Raceway::Inner { &combs.inner } else { &combs.outer };
@@ -192,7 +192,7 @@ impl Measured {
             fault,
             grade,
             raceway,
-            other_speed: doubt,
+            speed_check,
             reversed,
             elsewhere,
             passages,

@@ -217,8 +217,11 @@ impl Sized {
 
     fn report(&self) -> RecordingReport {
         let length = self.length.as_ref().ok();
-        let [speaks_for, mut speaks_against] = self.measured.combs.evidence();
-        speaks_against.extend(self.measured.other_speed.clone());
+        let [mut speaks_for, mut speaks_against] = self.measured.combs.evidence();
+        match &self.measured.speed_check {
+            Ok(confirmed) => speaks_for.extend(confirmed.clone()),
+            Err(other) => speaks_against.push(other.clone()),
+        }
         RecordingReport {
             name: self.measured.name.clone(),
             verdict: if length.is_some() { Verdict::Resolved } else { Verdict::Unresolved },

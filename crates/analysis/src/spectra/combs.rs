@@ -13,6 +13,8 @@ use brinell::geometry::kinematics::Frequencies;
 /// Largest deviation of the ball pass frequency from pure rolling: 3 % slip behind, 2 % ahead by inexact dimensions or
 /// speed.
 pub(crate) const SLIP: std::ops::RangeInclusive<f64> = -0.02..=0.03;
+/// Difference of frequencies, as a share, up to which they are of one comb.
+const SAME: f64 = 0.01;
 /// Octaves whose mean counts.
 const COUNTED: usize = 2;
 
@@ -54,6 +56,8 @@ pub struct Combs {
     pub element: Comb,
     /// The strongest comb at half to twice these frequencies of what is left without the strongest of the three.
     pub(crate) elsewhere: Comb,
+    /// The strongest at half or a third of that one's frequency, of what is left without it.
+    pub(crate) between: Comb,
 }
 
 impl Combs {
@@ -94,8 +98,14 @@ impl Combs {
             }
         }
         let elsewhere = strongest(&all, 0.5 * nominal.bpfo, 2.0 * nominal.bpfi, |f| !all[0].of_shaft(f));
+        let part = |parts: f64| {
+            let middle = three[leader].frequency / parts;
+            strongest(&all, middle * (1.0 - SAME), middle * (1.0 + SAME), |_| true)
+        };
+        let [half, third] = [2.0, 3.0].map(part);
+        let between = if half.share > third.share { half } else { third };
         let [outer, inner, element] = three;
-        Self { outer, inner, element, elsewhere }
+        Self { outer, inner, element, elsewhere, between }
     }
 }
 
@@ -106,12 +116,16 @@ fn strongest(all: &[Lines], low: f64, high: f64, asked: impl Fn(f64) -> bool) ->
     let step = (0.1 / duration).max(4e-4 * low);
     let tried = steps(low, high, step).filter(|&f| asked(f)).map(|f| (f, mean_of_best(all, |lines| lines.share(f))));
     let (rough, share) = tried.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((low, 0.0));
-    let best = all.iter().max_by(|a, b| a.share(rough).total_cmp(&b.share(rough))).unwrap_or(&all[0]);
-    // Within the windows all frequencies have the same share: there the lines' height decides.
+    // Within the windows all frequencies have the same share: there the lines' height decides, and which band shows them
+    // in most harmonics.
     let within = (0.004 * rough).max(LOBE / duration);
-    let fine = steps((rough - within).max(low), (rough + within).min(high), 0.02 / duration);
-    let sharpest = fine.map(|f| (f, best.sharpness(f))).max_by(|a, b| a.1.total_cmp(&b.1));
-    let frequency = sharpest.map_or(rough, |sharpest| sharpest.0);
+    let sharpest = |lines: &Lines, step: f64| {
+        let tried = steps((rough - within).max(low), (rough + within).min(high), step / duration);
+        tried.map(|f| (f, lines.sharpness(f))).max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((rough, 0.0))
+    };
+    let by_band = all.iter().map(|lines| (lines, sharpest(lines, 0.2).1));
+    let best = by_band.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(&all[0], |best| best.0);
+    let frequency = sharpest(best, 0.02).0;
     Comb { frequency, share, alone: share, noise: mean_of_best(all, |lines| lines.noise(rough)), band: best.band }
 }
 

@@ -47,6 +47,18 @@ pub enum Grade {
     None,
 }
 
+impl Grade {
+    /// In words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Clear => "clear",
+            Self::Likely => "likely",
+            Self::Possible => "possible",
+            Self::None => "no fault found",
+        }
+    }
+}
+
 /// A comb of harmonics in the envelope's spectrum.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct CombReport {
@@ -151,7 +163,7 @@ impl Combs {
         let [low, high] = [leader.band.low, leader.band.high].map(|f| 1e-3 * f);
         let at = format!("the comb of {name} at {:.2} Hz", leader.frequency);
         let of_variance =
-            format!("{percent:.1} % of the variance of the log envelope, most in {low:.1} to {high:.1} kHz");
+            format!("{percent:.1} % of the variance of the log envelope, best seen in {low:.1} to {high:.1} kHz");
         let limit = 100.0 * EXISTS.max(ABOVE_NOISE * leader.noise);
         let beside = format!(
             "{} has {:.1} % at {:.2} Hz that is not explained by it, {:.1} times less",
