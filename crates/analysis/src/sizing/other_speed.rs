@@ -62,14 +62,18 @@ pub(super) fn check(
             in_words(&suiting(between.frequency, Fault::None, nominal, speed))
         ));
     }
-    let others = suiting(comb.frequency, fault, nominal, speed);
+    let mut others = suiting(comb.frequency, fault, nominal, speed);
+    // What repeats more than what is named may be the fault at its own speed.
+    if combs.elsewhere.share >= comb.share {
+        others.extend(suiting(combs.elsewhere.frequency, Fault::None, nominal, speed));
+    }
     let shaft = ShaftLines::of(signal, rate);
     let stated = shaft.height(speed);
     let heights: Vec<f64> = others.iter().map(|&(_, other)| shaft.height(other)).collect();
     let highest = heights.iter().copied().fold(0.0, f64::max);
     let heights = format!(
         "the shaft's own lines are {stated:.1} nepers of power above the noise at the stated speed, {highest:.1} at \
-         another one, at which the comb would suit {}",
+         another one that is considered: {}",
         in_words(&others)
     );
     if highest >= stated + CONFIRMS {

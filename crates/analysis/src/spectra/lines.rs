@@ -16,6 +16,8 @@ use std::f64::consts::LN_2;
 
 /// Harmonics of a comb. The envelope of two impacts per passage has nulls: one harmonic proves nothing.
 pub(crate) const HARMONICS: usize = 6;
+/// Harmonics by which the frequency of a comb is placed: the higher, the finer.
+const FINE: usize = 10;
 /// Half the width of a line, as a share of its frequency: passages of recorded cages scatter by less.
 const WIDTH: f64 = 0.004;
 /// Half the width of a line's main lobe, times the duration: so far from its middle a comb may look as strong.
@@ -122,7 +124,7 @@ impl Lines {
     /// Harmonics of a frequency that are not the shaft's (Hz), and how high `power` of each stands above the noise near
     /// it.
     pub(crate) fn heights(&self, frequency: f64, power: impl Fn(f64) -> f64) -> impl Iterator<Item = (f64, f64)> {
-        let harmonics = (1..=HARMONICS).map(move |k| k as f64 * frequency);
+        let harmonics = (1..=FINE).map(move |k| k as f64 * frequency);
         let near =
             move |f: f64| ((f - 0.4 * frequency) / self.bin) as usize..((f + 0.4 * frequency) / self.bin) as usize;
         harmonics
