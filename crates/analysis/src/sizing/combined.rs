@@ -4,7 +4,7 @@ use super::event_length::EventLength;
 use super::measured::Cut;
 use super::raceway::Raceway;
 use super::report::{Kind, Method, Report, Standing};
-use super::spall_size::{FLOOR, Length, Sized};
+use super::sized::{FLOOR, Length, Sized};
 use super::unresolved::Unresolved;
 use crate::spectra::Fault;
 use crate::statistics;

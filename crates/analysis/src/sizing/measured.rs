@@ -1,11 +1,10 @@
 //! A recording prepared for sizing: what passes in it and how often, and its passages laid over each other.
 
-use super::other_speed;
 use super::raceway::Raceway;
 use crate::recording::{Recording, SizingError};
 use crate::sizing::passages::{Break, LoadZone, Passages, continuity, fold, linear_prediction};
 use crate::spectra::Fault;
-use crate::spectra::{Combs, EXISTS, Grade};
+use crate::spectra::{Combs, EXISTS, Grade, other_speed};
 use crate::spectrum::{Band, Spectrum};
 use crate::statistics;
 use brinell::geometry::kinematics;

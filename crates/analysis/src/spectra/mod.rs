@@ -4,8 +4,9 @@ pub(crate) mod combs;
 pub mod envelope_spectrum;
 mod fault;
 mod frequency_response;
-pub(crate) mod lines;
+mod lines;
 mod order_spectrum;
+pub(crate) mod other_speed;
 
 pub use combs::{Comb, Combs};
 pub use envelope_spectrum::EnvelopeSpectrum;

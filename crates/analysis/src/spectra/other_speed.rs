@@ -14,9 +14,9 @@
 //! load zone once a turn, and its lines have sidebands at the speed of the shaft that belongs to them, the comb's
 //! frequency over the order of BPFI. Lines of the outer raceway have none at that distance.
 
-use crate::spectra::combs::SLIP;
-use crate::spectra::lines::{Lines, QUIET, steps};
-use crate::spectra::{Combs, Fault};
+use super::combs::{Combs, SLIP};
+use super::fault::Fault;
+use super::lines::{Lines, QUIET, steps};
 use crate::spectrum;
 use crate::spectrum::Spectrum;
 use crate::statistics;
@@ -44,7 +44,7 @@ const NEAR: f64 = 0.015;
 ///
 /// # Errors
 /// What speaks for another one.
-pub(super) fn check(
+pub(crate) fn check(
     (signal, spectrum): (&[f64], &mut Spectrum),
     rate: f64,
     combs: &Combs,
