@@ -166,14 +166,16 @@ fn the_kind_of_recorded_faults_is_named_no_worse_than_by_a_squared_envelope_spec
         }
     }
     println!(
-        "| rig, stretch | right / wrong / unnamed | alarms | by script | alarms | given | held | ± | off 15 % | foreign |"
+        "| rig, stretch | right / wrong / unnamed | alarms | by script | alarms | given | held | ± | off 15 % \
+         | foreign |"
     );
     println!("|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|");
     for ((rig, stretch), (kinds, script, lengths)) in &tables {
         let Lengths { known, given, held, far_off, foreign, widths } = lengths;
         let width = 100.0 * median(widths);
         println!(
-            "| {rig}, {stretch} | {kinds} | {script} | {given} of {known} | {held} | {width:.1} % | {far_off} | {foreign} |"
+            "| {rig}, {stretch} | {kinds} | {script} | {given} of {known} | {held} | {width:.1} % | {far_off} \
+             | {foreign} |"
         );
         if stretch.starts_with("speed") {
             // BPFI is 1.5 times BPFO: what is named there would be wrong.

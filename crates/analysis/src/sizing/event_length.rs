@@ -308,8 +308,8 @@ impl Rows {
         self.travel(&picked, chosen, grid).map(|(_, travel_deg)| travel_deg)
     }
 
-    /// Standard uncertainty of the travel (degrees) with all that is picked anew in each resample of the passages: half of
-    /// the half-width that holds 95 % of them, and not less than consecutive stretches of the recording scatter.
+    /// Standard uncertainty of the travel (degrees) with all that is picked anew in each resample of the passages: half
+    /// of the half-width that holds 95 % of them, and not less than consecutive stretches of the recording scatter.
     fn scatter(&self, grid: &Grid, travel_deg: f64) -> Result<f64, Unresolved> {
         let count = self.signal.len();
         let mut random = Random::new(count as u64);

@@ -105,8 +105,8 @@ impl Classification {
         {
             text += &format!(
                 "; WARNING: the load of {load:.0} N is above the critical load of {critical:.0} N (at the depth that \
-                 fits best, {:.0} um): elements inside the spall carry load, and stiffness does not distinguish an extended \
-                 from a line spall",
+                 fits best, {:.0} um): elements inside the spall carry load, and stiffness does not distinguish an \
+                 extended from a line spall",
                 1e6 * depth
             );
         }

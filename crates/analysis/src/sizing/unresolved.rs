@@ -45,8 +45,8 @@ pub enum Unresolved {
     NoLoadZone(f64, f64),
     /// Impacts and echoes cannot be distinguished at the rate.
     #[error(
-        "a sampling rate of {0:.0} Hz: below {1:.0} Hz the band above the rings' modes is too narrow to distinguish impacts \
-         from their echoes"
+        "a sampling rate of {0:.0} Hz: below {1:.0} Hz the band above the rings' modes is too narrow to distinguish \
+         impacts from their echoes"
     )]
     LowRate(f64, f64),
     /// A piece is missing.
