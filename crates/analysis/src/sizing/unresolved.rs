@@ -6,8 +6,8 @@
 pub enum Unresolved {
     /// Nothing repeats with the bearing's frequencies.
     #[error(
-        "no fault found: nothing repeats with the bearing's frequencies; shares of the variance of the log envelope \
-         are {0}, limit {1:.0} %"
+        "no fault found: nothing repeats with a ball pass frequency of the bearing; shares of the variance of the log \
+         envelope are {0}, limit {1:.0} %"
     )]
     NoPattern(String, f64),
     /// As a bearing without a spall.
@@ -15,8 +15,8 @@ pub enum Unresolved {
     Healthy(f64),
     /// Something else repeats.
     #[error(
-        "no fault found: nothing repeats with the bearing's frequencies; shares of the variance of the log envelope \
-         are {0}, but a comb at {1:.2} Hz has {2:.0} %: are speed, rate and bearing right?"
+        "no fault found: nothing repeats with a ball pass frequency of the bearing; shares of the variance of the log \
+         envelope are {0}, but a comb at {1:.2} Hz has {2:.0} %: are speed, rate and bearing right?"
     )]
     OtherPattern(String, f64, f64),
     /// Another speed would suit it as well.
