@@ -129,8 +129,8 @@ pub(super) fn basis(report: &Report, sized: &[Sized], scene: &Scene) -> String {
     }
     if report.standing == Some(Standing::Provisional) {
         text += &format!(
-            "; PROVISIONAL: an event that belongs to the structure, at the same time at any speed, is distinguished from \
-             one of the spall by recordings at speeds {SPEEDS_APART} times apart that agree in degrees"
+            "; PROVISIONAL: an event that belongs to the structure, at the same time at any speed, is distinguished \
+             from one of the spall by recordings at speeds {SPEEDS_APART} times apart that agree in degrees"
         );
     }
     for cut in cuts(sized) {

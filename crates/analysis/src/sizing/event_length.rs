@@ -47,8 +47,8 @@ const MOST_IMPACTS: usize = 2;
 /// up to which housings follow an entry, 35 µs an impact's window of 0.12 ms as a rectangle.
 const ANSWER: f64 = 7.3e-5;
 /// Standard uncertainty of a length, as a share, between one machine and another, outside and inside: with 3 % the
-/// intervals of synthetic machines outside hold as many lengths as with 5 %; inside, entries of recorded machines wander
-/// by a tenth of the length.
+/// intervals of synthetic machines outside hold as many lengths as with 5 %; inside, entries of recorded machines
+/// wander by a tenth of the length.
 const MACHINES: [f64; 2] = [0.03, 0.05];
 /// Share of the length beyond which its 95 % interval says nothing.
 pub(super) const UNCERTAIN: f64 = 1.0 / 3.0;
@@ -120,9 +120,8 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Result<EventLength, Unres
         return Err(Unresolved::OneInside(measured.modulation));
     }
     let everything: Vec<usize> = (0..rows.signal.len()).collect();
-    let Some((entry, travel_deg)) = rows.travel(&picked, &everything, &grid) else {
-        return Err(unclear(&picked, span, 0.0));
-    };
+    let travel = rows.travel(&picked, &everything, &grid);
+    let (entry, travel_deg) = travel.ok_or_else(|| unclear(&picked, span, 0.0))?;
     if entry.clearness < picked.clear() {
         return Err(unclear(&picked, span, entry.clearness));
     }
@@ -130,8 +129,7 @@ pub fn estimate(measured: &Measured, scene: &Scene) -> Result<EventLength, Unres
     let statistical = rows.scatter(&grid, travel_deg)?.hypot(entry.uncertainty / grid.degree);
     let rounding = entry.half_way / grid.degree;
     let onset_to_extreme = (entry.extreme - entry.at) / grid.degree;
-    let bearing = &scene.bearing;
-    let raceway = measured.raceway;
+    let (bearing, raceway) = (&scene.bearing, measured.raceway);
     let unloading =
         raceway::approach(scene).map_or(onset_to_extreme, |d| raceway.sunk_after(bearing, d).min(onset_to_extreme));
     let length = travel_deg + 0.5 * (unloading - rounding);

@@ -5,8 +5,8 @@
 //! the load is above the **critical load** of the extended spall, at which elements inside it carry again. That load
 //! depends on the depth:
 //!
-//! - where the scene's own rig is similar to the recording, the depth that fits best says which side of it the recording
-//!   is on;
+//! - where the scene's own rig is similar to the recording, the depth that fits best says which side of it the
+//!   recording is on;
 //! - where it does not, the depth is unknown, and the answer names the **critical depth**: were the spall shallower,
 //!   the load would be above its critical load, and an extended spall would ring like a line spall.
 

@@ -130,16 +130,8 @@ impl Measured {
     fn uncut(recording: &Recording, bearing: &Bearing) -> Result<Self, SizingError> {
         let frequencies = kinematics::frequencies(bearing, 0.0, recording.speed());
         let nominal = frequencies.bpfo;
+        check_size(recording, nominal)?;
         let (rate, name) = (recording.rate(), recording.name().to_owned());
-        if rate / nominal < FEWEST_SAMPLES as f64 {
-            let (samples, limit, speed) = (rate / nominal, FEWEST_SAMPLES, recording.speed());
-            return Err(SizingError::TooCoarse { name, samples, rate, bpfo: nominal, speed, limit });
-        }
-        let count = recording.duration() * nominal;
-        if count < FEWEST_PASSAGES as f64 {
-            let (duration, limit) = (recording.duration(), FEWEST_PASSAGES);
-            return Err(SizingError::TooShort { name, duration, passages: count, bpfo: nominal, limit });
-        }
         let mut spectrum = Spectrum::of(recording.samples(), rate);
         let combs = Combs::find(&mut spectrum, rate, frequencies, recording.speed());
         let signal = (recording.samples(), &mut spectrum);
@@ -220,6 +212,21 @@ impl Measured {
     pub fn envelope_rows(&self, share: f64, points: usize) -> Vec<Vec<f64>> {
         fold::cut(&self.envelope, &self.passages.later(share).starts, self.passages.period, points)
     }
+}
+
+/// Whether a recording has enough samples in a passage and enough passages over the outer raceway, `nominal` a second.
+fn check_size(recording: &Recording, nominal: f64) -> Result<(), SizingError> {
+    let (rate, name) = (recording.rate(), recording.name().to_owned());
+    if rate / nominal < FEWEST_SAMPLES as f64 {
+        let (samples, limit, speed) = (rate / nominal, FEWEST_SAMPLES, recording.speed());
+        return Err(SizingError::TooCoarse { name, samples, rate, bpfo: nominal, speed, limit });
+    }
+    let count = recording.duration() * nominal;
+    if count < FEWEST_PASSAGES as f64 {
+        let (duration, limit) = (recording.duration(), FEWEST_PASSAGES);
+        return Err(SizingError::TooShort { name, duration, passages: count, bpfo: nominal, limit });
+    }
+    Ok(())
 }
 
 /// Kurtosis of a prediction's residual in the band of impacts forwards and backwards in time, if the latter is larger.

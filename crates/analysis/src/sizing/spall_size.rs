@@ -1,11 +1,9 @@
 //! Length of a spall of a raceway from vibration recordings, with its uncertainty, or why there is none.
 //!
 //! Each recording is sized by similarity to the scene's own rig if the scene describes the rig
-//! ([`waveform`](super::waveform)), else by the events of its passages, which needs nothing but the bearing's dimensions
-//! ([`event_length`](super::event_length)). A rig that is similar to the recording also distinguishes a line spall from
-//! an extended one; otherwise ringing does ([`ringing`](super::waveform::ringing)), or nothing does.
-//!
-//! Several recordings are of one spall: their lengths are averaged with their statistical weights, and a scatter that
+//! ([`waveform`](super::waveform)), else by the events of its passages, which needs nothing but the bearing's
+//! dimensions ([`event_length`](super::event_length)). A rig that is similar to the recording also distinguishes a
+//! line spall from an extended one; otherwise ringing does ([`ringing`](super::waveform::ringing)), or nothing does.
 //! is larger than these explain widens the interval. What all share (what the events mean, the contact's law) is not
 //! averaged away.
 
@@ -104,8 +102,7 @@ pub fn size_with(
             report.at_least_deg = sized.iter().filter_map(Sized::at_least).reduce(f64::max);
         }
         Ok(Combined { length, uncertainty }) => {
-            let radius = Raceway::of(report.fault).radius(&scene.bearing);
-            let mm_per_degree = 1e3 * radius * 1f64.to_radians();
+            let mm_per_degree = 1e3 * Raceway::of(report.fault).radius(&scene.bearing) * 1f64.to_radians();
             report.verdict = Verdict::Resolved;
             report.standing = Some(combined::standing(&sized));
             report.length_deg = Some(length);
@@ -114,7 +111,7 @@ pub fn size_with(
             report.kind = combined::common_kind(&lengths);
             report.method = lengths.first().map(|l| l.method);
             let critical = sized.iter().find_map(|s| s.classification.critical_load.as_ref());
-            report.critical_load_n = critical.and_then(|found| found.as_ref().ok().copied());
+            report.critical_load_n = critical.and_then(|load| load.as_ref().ok().copied());
             report.critical_load_reason = critical.and_then(|found| found.as_ref().err().map(ToString::to_string));
             report.critical_depth_um =
                 sized.iter().find_map(|s| s.classification.critical_depth).map(|depth| 1e6 * depth);

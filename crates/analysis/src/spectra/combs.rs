@@ -1,4 +1,4 @@
-//! Combs of the three kinds of fault beside each other, each by the share of the envelope's variance that repeats at it.
+//! Combs of the three kinds of fault beside each other, each by the share of the envelope's variance that repeats.
 //!
 //! A recording is cut into octaves. A comb counts by the mean of the two octaves in which its share is largest, at one
 //! frequency for both: impacts excite more than one, while a healthy raceway hums in one. Of the strongest comb all
@@ -116,8 +116,8 @@ fn strongest(all: &[Lines], low: f64, high: f64, asked: impl Fn(f64) -> bool) ->
     let step = (0.1 / duration).max(4e-4 * low);
     let tried = steps(low, high, step).filter(|&f| asked(f)).map(|f| (f, mean_of_best(all, |lines| lines.share(f))));
     let (rough, share) = tried.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((low, 0.0));
-    // Within the windows all frequencies have the same share: there the lines' height decides, and which band shows them
-    // in most harmonics.
+    // Within the windows all frequencies have the same share: there the lines' height decides, and which band shows
+    // them in most harmonics.
     let within = (0.004 * rough).max(LOBE / duration);
     let sharpest = |lines: &Lines, step: f64| {
         let tried = steps((rough - within).max(low), (rough + within).min(high), step / duration);

@@ -67,11 +67,11 @@ impl Lines {
 
     /// Whether a comb at this frequency (Hz) is the shaft's.
     pub(crate) fn of_shaft(&self, frequency: f64) -> bool {
-        self.from_shaft(frequency) < 0.01 * frequency
+        self.off_shaft(frequency) < 0.01 * frequency
     }
 
     /// Distance from the nearest harmonic of the shaft (Hz).
-    fn from_shaft(&self, frequency: f64) -> f64 {
+    fn off_shaft(&self, frequency: f64) -> f64 {
         let turns = frequency / self.speed;
         (turns - turns.round()).abs() * self.speed
     }
@@ -88,7 +88,7 @@ impl Lines {
 
     fn in_windows(&self, frequency: f64, sums: &[f64]) -> f64 {
         let harmonics = (1..=HARMONICS).map(|k| k as f64 * frequency);
-        let own = harmonics.map(|f| (f, self.half_width(f))).filter(|&(f, width)| self.from_shaft(f) >= width);
+        let own = harmonics.map(|f| (f, self.half_width(f))).filter(|&(f, width)| self.off_shaft(f) >= width);
         own.map(|(f, width)| {
             let sum = |f: f64| sums[((f / self.bin).round().max(0.0) as usize).min(sums.len() - 1)];
             sum(f + width + self.bin) - sum(f - width)
@@ -128,7 +128,7 @@ impl Lines {
         let near =
             move |f: f64| ((f - 0.4 * frequency) / self.bin) as usize..((f + 0.4 * frequency) / self.bin) as usize;
         harmonics
-            .filter(|&f| self.from_shaft(f) >= 2.0 / self.duration)
+            .filter(|&f| self.off_shaft(f) >= 2.0 / self.duration)
             .take_while(move |&f| near(f).end < self.power.len())
             .map(move |f| {
                 let noise = some_median(&self.power[near(f)]);

@@ -30,8 +30,8 @@ const AS_STRONG: f64 = 0.5;
 /// Standard deviations above those at other distances from which sidebands exist: recordings of inner raceways have 6
 /// to 34, of outer ones −1 to 2.7 and one 7.
 const SIDEBANDS: f64 = 4.0;
-/// Harmonics of the shaft that are sought in the signal, and by how much those at one speed must be higher than those at
-/// another one to decide (nepers of power).
+/// Harmonics of the shaft that are sought in the signal, and by how much those at one speed must be higher than those
+/// at another one to decide (nepers of power).
 const SHAFT: usize = 5;
 const CONFIRMS: f64 = 1.0;
 /// Height from which lines are a shaft's own (nepers of power): those of recorded machines have 3.4 and more, what

@@ -165,8 +165,8 @@ mod tests {
     const RATE: f64 = 20_000.0;
     const WIDTH: usize = 6;
 
-    /// Impacts classified in 60 passages: one at point 200, and one `later`, to which the level rises by 6 dB, that is as
-    /// loud as the first passage by passage if they are `alike`.
+    /// Impacts classified in 60 passages: one at point 200, and one `later`, to which the level rises by 6 dB, that is
+    /// as loud as the first passage by passage if they are `alike`.
     fn classified(later: usize, alike: bool) -> Classified {
         let mut random = Random::new(3);
         let mut row = || -> Vec<f64> {
