@@ -4,6 +4,8 @@
 //! ([`waveform`](super::waveform)), else by the events of its passages, which needs nothing but the bearing's
 //! dimensions ([`event_length`](super::event_length)). A rig that is similar to the recording also distinguishes a
 //! line spall from an extended one; otherwise ringing does ([`ringing`](super::waveform::ringing)), or nothing does.
+//!
+//! Several recordings are of one spall: their lengths are averaged with their statistical weights, and a scatter that
 //! is larger than these explain widens the interval. What all share (what the events mean, the contact's law) is not
 //! averaged away.
 
