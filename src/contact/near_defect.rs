@@ -48,7 +48,7 @@ impl Approach {
         }
     }
 
-    /// No number at all: an integration that meets it takes the step back.
+    /// NaN: an integration that meets it takes the step back.
     pub fn unsolved() -> Self {
         Self { value: f64::NAN, radial: f64::NAN, tangential: f64::NAN, ..Self::smooth(f64::NAN) }
     }

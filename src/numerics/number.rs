@@ -7,7 +7,7 @@ use std::ops::{Add, Mul, Sub};
 pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
     /// √x
     fn sqrt(self) -> Self;
-    /// 0 for a negative value. What is no number stays so: a force of zero would hide it.
+    /// 0 for a negative value. NaN stays NaN: a force of zero would hide it.
     fn or_zero(self) -> Self;
     /// The smaller of two.
     fn at_most(self, limit: Self) -> Self;

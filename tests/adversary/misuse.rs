@@ -7,7 +7,7 @@
 //!
 //! - the status is one that a model of the standard allows, which knows nothing of Brinell's code;
 //! - an error has one line in the log that begins with the function, what is switched off is silent;
-//! - no number that is not finite is given under OK;
+//! - nothing that is not finite is given under OK;
 //! - a twin that takes only the calls which succeeded gives equal bits, in variables, states and recordings;
 //! - so does a new instance that takes only the calls which were not taken back, in variables;
 //! - after an error reading, restoring, resetting and freeing go on, and a reset gives a usable instance.

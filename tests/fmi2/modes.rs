@@ -188,6 +188,6 @@ fn the_functions_of_model_exchange_are_errors_that_name_the_right_one() {
         assert!(line.message.starts_with(name) && line.message.contains("fmi2DoStep"), "{line:?}");
         assert_eq!(host.restore(state), Status::Ok);
     }
-    // SAFETY: a handle that is none.
+    // SAFETY: a handle that is not one.
     assert_eq!(unsafe { fmi2SetTime(ptr::null_mut(), 0.0) }, Status::Error);
 }

@@ -47,7 +47,7 @@ pub struct Carrying {
     /// Of δ Q′.
     pub slope: f64,
     /// Of δ² Q″.
-    pub bend: f64,
+    pub second: f64,
 }
 
 impl Crown {
@@ -98,7 +98,7 @@ impl Crown {
         let square = delta / (delta + self.mean_depth);
         let s = square.sqrt();
         let steps = s * NODES as f64;
-        // What is no number has piece 0 and stays none.
+        // NaN has piece 0 and stays NaN.
         let piece = (steps as usize).min(NODES - 1);
         let t = steps - piece as f64;
         let [a, b, c, d] = self.cubics[piece];
@@ -108,8 +108,8 @@ impl Crown {
         // δ ds/dδ = s (1 − s²)/2, and its derivative by s.
         let (pace, pace_by_s) = (0.5 * s * (1.0 - square), 0.5 - 1.5 * square);
         let slope = 10.0 / 9.0 * part + pace * by_s;
-        let bend = slope / 9.0 + pace * ((10.0 / 9.0 + pace_by_s) * by_s + pace * by_s_twice);
-        Carrying { part, slope, bend }
+        let second = slope / 9.0 + pace * ((10.0 / 9.0 + pace_by_s) * by_s + pace * by_s_twice);
+        Carrying { part, slope, second }
     }
 }
 

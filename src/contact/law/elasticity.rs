@@ -90,7 +90,7 @@ impl Elasticity {
         match self {
             Self::Point => 0.75 * stiffness / delta.sqrt(),
             Self::Line => 10.0 / 81.0 * straight(),
-            Self::Crowned(crown) => straight() * crown.carrying(delta).bend,
+            Self::Crowned(crown) => straight() * crown.carrying(delta).second,
         }
     }
 }

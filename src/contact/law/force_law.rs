@@ -287,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn an_approach_that_is_no_number_gives_no_force_that_is_one() {
+    fn an_approach_that_is_nan_gives_a_force_that_is_nan() {
         for law in &*LAWS {
             assert!(law.force(f64::NAN, 0.0).is_nan() && law.force(1e-6, f64::NAN).is_nan());
             assert!(law.elastic(f64::NAN).is_nan() && law.elastic_stiffness(f64::NAN).is_nan());

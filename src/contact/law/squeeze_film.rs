@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_gives_no_force_that_is_one() {
+    fn nan_gives_no_force_that_is_one() {
         for film in &FILMS {
             assert!(force(film, f64::NAN, 0.1).is_nan() && force(film, -1e-7, f64::NAN).is_nan());
         }

@@ -52,10 +52,10 @@ impl SmoothScale {
         let v = pow(e.w, self.power);
         // V as a function of u and s.
         let per_w = self.power * v / e.w;
-        let bend = (self.power - 1.0) * per_w / e.w;
+        let second = (self.power - 1.0) * per_w / e.w;
         let (v_u, v_s) = (per_w * e.u, per_w * e.s);
-        let v_uu = per_w * e.uu + bend * e.u * e.u;
-        let v_us = per_w * e.us + bend * e.u * e.s;
+        let v_uu = per_w * e.uu + second * e.u * e.u;
+        let v_us = per_w * e.us + second * e.u * e.s;
         let [value, slope, curvature] = self.at(v);
         EquivalentApproach {
             value,

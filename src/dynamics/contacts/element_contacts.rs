@@ -4,7 +4,7 @@ use crate::contact::error::ContactError;
 use crate::contact::near_defect::{Approach, Lever};
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::parameters::{
-    CageState, Cells, Defects, Drive, Frame, FramedKinematics, Frames, Kinematics, Model, Near, Raceway, SMOOTH,
+    CageState, Cells, Defects, Excitation, Frame, FramedKinematics, Frames, Kinematics, Model, Near, Raceway, SMOOTH,
 };
 use crate::numerics::plane::{Vector, turned};
 
@@ -186,9 +186,9 @@ impl Model {
     }
 
     /// Cells of all contacts at `tau` for a state.
-    pub fn cells_at(&self, drive: &Drive, tau: f64, state: &[f64]) -> Cells {
+    pub fn cells_at(&self, excitation: &Excitation, tau: f64, state: &[f64]) -> Cells {
         let (now, mut cells) =
-            (self.kinematics(drive, tau, state), Cells::smooth(self.element_count, self.defective.len()));
+            (self.kinematics(excitation, tau, state), Cells::smooth(self.element_count, self.defective.len()));
         for j in 0..self.element_count {
             let theta = self.element_angle(j, &now.cage);
             let directions = [self.inner_direction_of(j, state[j], &now), theta];

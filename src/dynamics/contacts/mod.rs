@@ -6,7 +6,7 @@ mod element_variation;
 mod forces;
 mod gap_lanes;
 mod linearized;
-mod other_contacts;
+mod non_smooth_contacts;
 
 pub use contact_lanes::Record;
 pub use forces::{Forces, UnsolvedContact};
@@ -16,4 +16,4 @@ pub(in crate::dynamics) use element_contacts::{DIFFERENCE, InnerGap, Meeting};
 pub(in crate::dynamics) use element_variation::ElementVariation;
 pub(in crate::dynamics) use gap_lanes::{Distance, dot, radial};
 pub(in crate::dynamics) use linearized::{Bends, ElementChange, Linearized};
-pub(in crate::dynamics) use other_contacts::OtherOuter;
+pub(in crate::dynamics) use non_smooth_contacts::NonSmoothOuter;

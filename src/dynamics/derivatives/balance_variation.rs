@@ -7,7 +7,7 @@
 
 use crate::dynamics::contacts::Linearized;
 use crate::dynamics::derivatives::variation::{ForceChange, Variation};
-use crate::dynamics::parameters::{CageState, Cells, Drive, Frame, FramedKinematics, Model};
+use crate::dynamics::parameters::{CageState, Cells, Excitation, Frame, FramedKinematics, Model};
 use crate::dynamics::quasi_static::{BodyTorque, InBalance, RingJacobian, Rings, stacked};
 use crate::numerics::plane::{Vector, turned};
 
@@ -29,14 +29,14 @@ impl Model {
     /// As [`Model::vary`] of elements in balance; puts the change of their paths into `by`.
     pub fn vary_in_balance(
         &self,
-        drive: &Drive,
+        excitation: &Excitation,
         cells: &Cells,
         state: &[f64],
         acceleration: Vector,
         by: &mut Variation,
         change: &mut ForceChange,
     ) {
-        let now = self.kinematics(drive, 0.0, state);
+        let now = self.kinematics(excitation, 0.0, state);
         let found = self.difference(cells, state, &now, acceleration, by);
         change.shaft = Vector::new(found.rings[0], found.rings[1]);
         change.housing = Vector::new(found.rings[2], found.rings[3]);
@@ -54,13 +54,13 @@ impl Model {
     /// As [`Model::vary_equilibrium`] of elements in balance, whose paths follow in [`Model::vary_in_balance`].
     pub(in crate::dynamics) fn vary_equilibrium_in_balance(
         &self,
-        drive: &Drive,
+        excitation: &Excitation,
         cells: &Cells,
         state: &[f64],
         loads: Rings,
         by: &mut Variation,
     ) -> Option<()> {
-        let now = self.kinematics(drive, 0.0, state);
+        let now = self.kinematics(excitation, 0.0, state);
         let none = Vector::zeros();
         let force = loads + self.difference(cells, state, &now, none, by).rings;
         let mut jacobian = RingJacobian::zeros();

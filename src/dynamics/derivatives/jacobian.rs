@@ -9,13 +9,14 @@
 //! The outer contact's force depends on u and u' alone, and on time through the cage angle.
 //!
 //! By time, at constant state: ė_r = ω e_t, ė_t = −ω e_r, ω' the cage's acceleration, and prescribed rings and loads as
-//! the drive says.
+//! the excitation says.
 //!
 //! The derivatives are those of the branch that the state is in; at the onset of a contact there are two.
 
 use crate::dynamics::contacts::{Bends, ElementVariation, Linearized};
 use crate::dynamics::parameters::{
-    BODIES, Bodies, BodyMatrix, Cells, Drive, FramedKinematics, Kinematics, Layout, Model, RingState, prescribed_rate,
+    BODIES, Bodies, BodyMatrix, Cells, Excitation, FramedKinematics, Kinematics, Layout, Model, RingState,
+    prescribed_rate,
 };
 use crate::dynamics::quasi_static::{RingJacobian, Rings, stacked};
 use crate::numerics::plane::Vector;
@@ -205,7 +206,7 @@ impl Model {
     /// The Jacobian at `tau`, and the derivative of the right-hand side by time at constant state.
     pub fn linearize(
         &self,
-        drive: &Drive,
+        excitation: &Excitation,
         tau: f64,
         cells: &Cells,
         state: &[f64],
@@ -217,13 +218,13 @@ impl Model {
             if motion == Motion::Host { prescribed_rate(prescribed, tau) } else { RingState::default() }
         };
         let shared = Shared {
-            now: self.kinematics(drive, tau, state),
-            prescribed: [host(self.shaft.motion, &drive.shaft), host(self.housing.motion, &drive.housing)],
+            now: self.kinematics(excitation, tau, state),
+            prescribed: [host(self.shaft.motion, &excitation.shaft), host(self.housing.motion, &excitation.housing)],
             inverse_masses: self.supports.inverse_masses().fixed_rows::<4>(0).into(),
-            frames: drive.frame_rates(tau),
-            film_rate: drive.relative_speed.rate_at(tau),
+            frames: excitation.frame_rates(tau),
+            film_rate: excitation.relative_speed.rate_at(tau),
         };
-        self.add_supports(drive, tau, &shared, jacobian, by_time);
+        self.add_supports(excitation, tau, &shared, jacobian, by_time);
         if self.elements_in_balance() {
             return self.add_elements_in_balance(cells, state, &shared, jacobian);
         }
@@ -333,7 +334,14 @@ impl Model {
     }
 
     /// Starts `jacobian` and `by_time` with what does not come from contacts: supports, sensor, loads.
-    fn add_supports(&self, drive: &Drive, tau: f64, shared: &Shared, jacobian: &mut Jacobian, by_time: &mut [f64]) {
+    fn add_supports(
+        &self,
+        excitation: &Excitation,
+        tau: f64,
+        shared: &Shared,
+        jacobian: &mut Jacobian,
+        by_time: &mut [f64],
+    ) {
         let [by_position, by_velocity] = self.supports.accelerations_by_motion();
         jacobian.by_position.copy_from(by_position);
         jacobian.by_velocity.copy_from(by_velocity);
@@ -342,7 +350,7 @@ impl Model {
         let [shaft, housing] = &shared.prescribed;
         let moves = Kinematics { shaft: *shaft, housing: *housing, ..*shared.now };
         let [velocity, acceleration] = moves.bodies();
-        let loads = drive.shaft_load.iter().chain(&drive.housing_load).map(|load| load.rate_at(tau));
+        let loads = excitation.shaft_load.iter().chain(&excitation.housing_load).map(|load| load.rate_at(tau));
         let loads = Bodies::from_iterator(loads.chain([0.0; MOST_SENSORS]));
         let forces = self.supports.forces(&velocity, &acceleration) + loads;
         let rates = forces.component_mul(&self.supports.inverse_masses());

@@ -12,7 +12,7 @@ use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::{Bends, DIFFERENCE, ElementChange, ElementVariation, Linearized};
 use crate::dynamics::parameters::FilmsNow;
 use crate::dynamics::parameters::{
-    CageState, Cells, Drive, Frame, FramedKinematics, Lead, Model, PathMotion, RingState, SMOOTH,
+    CageState, Cells, Excitation, Frame, FramedKinematics, Lead, Model, PathMotion, RingState, SMOOTH,
 };
 use crate::dynamics::quasi_static::Rings;
 use crate::numerics::plane::{Matrix, Vector, turned};
@@ -112,28 +112,28 @@ pub(in crate::dynamics) struct Going {
 impl Model {
     /// How element `j` goes round as the nominal cage's angle and speed change.
     pub(in crate::dynamics) fn going(&self, j: usize, cage: &CageState, by: &Variation) -> Going {
-        let Lead { rate, bend, twist, .. } = self.lead(j, cage);
+        let Lead { rate, second, third, .. } = self.lead(j, cage);
         let (omega, share) = (cage.speed, 1.0 + rate);
         Going {
             turn: share * by.cage_angle,
-            speed: share * by.cage_speed + bend * omega * by.cage_angle,
+            speed: share * by.cage_speed + second * omega * by.cage_angle,
             alpha: self.element_speed(j, cage)[1],
-            alpha_change: (cage.acceleration * bend + omega * omega * twist) * by.cage_angle
-                + 2.0 * omega * bend * by.cage_speed,
+            alpha_change: (cage.acceleration * second + omega * omega * third) * by.cage_angle
+                + 2.0 * omega * second * by.cage_speed,
         }
     }
 
-    /// Change of the contact forces under `drive` at τ = 0 for a small change. `acceleration` is the outer ring's.
+    /// Change of the contact forces under `excitation` at τ = 0 for a small change. `acceleration` is the outer ring's.
     pub fn vary(
         &self,
-        drive: &Drive,
+        excitation: &Excitation,
         cells: &Cells,
         state: &[f64],
         acceleration: Vector,
         by: &Variation,
         change: &mut ForceChange,
     ) {
-        let now = self.kinematics(drive, 0.0, state);
+        let now = self.kinematics(excitation, 0.0, state);
         let none = Vector::zeros();
         (change.shaft, change.housing, change.torque_by_acceleration) = (none, none, none);
         (change.cage_torque, change.shaft_torque) = (0.0, 0.0);
@@ -199,9 +199,9 @@ impl Model {
     }
 
     /// Change of the inner ring's elastic force by its own position, [`Model::ring_jacobian`]'s first block (N/m), for
-    /// a small change at the instant τ = 0 of `drive`.
-    pub fn vary_stiffness(&self, drive: &Drive, cells: &Cells, state: &[f64], by: &Variation) -> Matrix {
-        let now = self.kinematics(drive, 0.0, state);
+    /// a small change at the instant τ = 0 of `excitation`.
+    pub fn vary_stiffness(&self, excitation: &Excitation, cells: &Cells, state: &[f64], by: &Variation) -> Matrix {
+        let now = self.kinematics(excitation, 0.0, state);
         let still = now.standing();
         // What films gain a gap loses.
         let narrower = still.films.as_ref().map_or(0.0, FilmsNow::together_by_speed) * by.film_speed;

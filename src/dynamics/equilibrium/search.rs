@@ -23,7 +23,7 @@ use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::Meeting;
 use crate::dynamics::contacts::{Bends, Linearized};
 use crate::dynamics::parameters::{
-    Cells, Drive, Frame, FramedKinematics, Kinematics, Model, PathMotion, Quadratic, SMOOTH,
+    Cells, Excitation, Frame, FramedKinematics, Kinematics, Model, PathMotion, Quadratic, SMOOTH,
 };
 use crate::dynamics::quasi_static::RadialForce;
 use crate::dynamics::quasi_static::{PathSearch, Rings, stacked};
@@ -49,12 +49,17 @@ const ITERATIONS: i32 = 500;
 const CELLS: u32 = 8;
 
 impl Model {
-    /// Writes the static equilibrium under `drive` at τ = 0 into `state`; velocities are those of rings at rest, or of
+    /// Writes the static equilibrium under `excitation` at τ = 0 into `state`; velocities are those of rings at rest, or of
     /// prescribed rings that carry the elements along.
-    pub fn equilibrium(&self, drive: &Drive, cells: &Cells, state: &mut [f64]) -> Result<(), EquilibriumError> {
+    pub fn equilibrium(
+        &self,
+        excitation: &Excitation,
+        cells: &Cells,
+        state: &mut [f64],
+    ) -> Result<(), EquilibriumError> {
         state.fill(0.0);
         let mut u = vec![0.0; self.element_count];
-        let given = Given { drive, cells, still: self.kinematics(drive, 0.0, state) };
+        let given = Given { excitation, cells, still: self.kinematics(excitation, 0.0, state) };
         let mut rings = stacked(given.still.shaft.position, given.still.housing.position);
         let mut balance = self.balance(&given, rings, &mut u);
         let mut iteration = 0;
@@ -79,7 +84,7 @@ impl Model {
         }
         self.check_contacts(&given, rings, &u)?;
         self.check_elements(&given, rings, &mut u)?;
-        self.write(drive, rings, &u, state);
+        self.write(excitation, rings, &u, state);
         Ok(())
     }
 
@@ -88,12 +93,16 @@ impl Model {
     ///
     /// # Errors
     /// As there.
-    pub fn equilibrium_with_cells(&self, drive: &Drive, state: &mut [f64]) -> Result<Cells, EquilibriumError> {
+    pub fn equilibrium_with_cells(
+        &self,
+        excitation: &Excitation,
+        state: &mut [f64],
+    ) -> Result<Cells, EquilibriumError> {
         state.fill(0.0);
-        let mut cells = self.cells_at(drive, 0.0, state);
+        let mut cells = self.cells_at(excitation, 0.0, state);
         for _ in 0..CELLS {
-            self.equilibrium(drive, &cells, state)?;
-            let there = self.cells_at(drive, 0.0, state);
+            self.equilibrium(excitation, &cells, state)?;
+            let there = self.cells_at(excitation, 0.0, state);
             // A contact on a knot may be in either cell.
             if there == cells || !self.has_inner_defects() {
                 break;
@@ -197,7 +206,7 @@ impl Model {
                     continue;
                 }
                 let (Err(cause), _) = self.near_defect(side, &at, &now.frames) else { continue };
-                // The search may have ended on the far side, where all is no number.
+                // The search may have ended on the far side, where all is NaN.
                 let element = self.linearized_at(j, cells, PathMotion::at_rest(u - FURTHER), &now, Bends::LeftOut);
                 let residual = self.radial_balance(&element).force;
                 if !(residual.abs() <= UNBALANCED * element.inner.norm()) {
@@ -230,7 +239,7 @@ impl Model {
 
     /// Balances all elements for given rings and sums the forces on the rings.
     fn balance(&self, given: &Given, rings: Rings, u: &mut [f64]) -> Balance {
-        let Given { drive, cells, .. } = given;
+        let Given { excitation, cells, .. } = given;
         let now = given.with_rings(rings);
         let (mut force, mut largest, mut contact_sum, mut rounding) = (Rings::zeros(), 0.0f64, 0.0, 0.0);
         let play = now.offset().norm() + self.clearance(now.films.as_ref()).abs();
@@ -254,7 +263,7 @@ impl Model {
             largest = largest.max(element.inner.amax()).max(element.outer.amax());
         }
         let load = |axis: &Quadratic| axis.at(0.0);
-        let loads = Rings::from_iterator(drive.shaft_load.iter().chain(&drive.housing_load).map(load));
+        let loads = Rings::from_iterator(excitation.shaft_load.iter().chain(&excitation.housing_load).map(load));
         let supports = Rings::from(self.supports.ring_stiffnesses()).component_mul(&rings);
         force += loads - supports;
         largest = largest.max(loads.amax()).max(supports.amax());
@@ -323,7 +332,7 @@ impl Model {
         None
     }
 
-    fn write(&self, drive: &Drive, rings: Rings, u: &[f64], state: &mut [f64]) {
+    fn write(&self, excitation: &Excitation, rings: Rings, u: &[f64], state: &mut [f64]) {
         let w = self.layout.radial_velocity;
         state[..self.element_count].copy_from_slice(u);
         for (index, first) in [(self.layout.shaft, 0), (self.layout.housing, 2)] {
@@ -332,7 +341,7 @@ impl Model {
             }
         }
         // At rest against the outer ring: u' = 0.
-        let Kinematics { cage, housing, .. } = self.kinematics(drive, 0.0, state).motion;
+        let Kinematics { cage, housing, .. } = self.kinematics(excitation, 0.0, state).motion;
         for j in 0..self.element_count {
             state[w + j] = housing.velocity.dot(&self.direction(j, &cage));
         }
@@ -360,7 +369,7 @@ struct ElementAtRest {
 
 /// What the search is given. Velocities in `still` stay; where the rings are follows in each iteration.
 struct Given<'a> {
-    drive: &'a Drive,
+    excitation: &'a Excitation,
     cells: &'a Cells,
     still: FramedKinematics,
 }
@@ -385,7 +394,7 @@ struct Balance {
 }
 
 impl Balance {
-    /// Infinite where an element found no balance: nalgebra's largest passes over what is no number.
+    /// Infinite where an element found no balance: nalgebra's largest passes over NaN.
     fn residual(&self) -> f64 {
         if self.force.iter().all(|force| force.is_finite()) { self.force.amax() } else { f64::INFINITY }
     }

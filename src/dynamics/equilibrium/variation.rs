@@ -9,7 +9,7 @@
 
 use crate::dynamics::contacts::{Bends, ElementVariation, Linearized};
 use crate::dynamics::derivatives::Variation;
-use crate::dynamics::parameters::{Cells, Drive, FramedKinematics, Model};
+use crate::dynamics::parameters::{Cells, Excitation, FramedKinematics, Model};
 use crate::dynamics::quasi_static::{RingJacobian, Rings};
 
 impl Model {
@@ -18,16 +18,16 @@ impl Model {
     /// (N). `None` if the rings have no stiffness against them.
     pub fn vary_equilibrium(
         &self,
-        drive: &Drive,
+        excitation: &Excitation,
         cells: &Cells,
         state: &[f64],
         loads: Rings,
         by: &mut Variation,
     ) -> Option<()> {
         if self.elements_in_balance() {
-            return self.vary_equilibrium_in_balance(drive, cells, state, loads, by);
+            return self.vary_equilibrium_in_balance(excitation, cells, state, loads, by);
         }
-        let now = self.kinematics(drive, 0.0, state);
+        let now = self.kinematics(excitation, 0.0, state);
         let given = ElementVariation {
             offset: by.offset(),
             drift: by.drift(),

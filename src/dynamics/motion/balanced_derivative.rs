@@ -22,16 +22,16 @@ impl Model {
         derivative: &mut [f64],
         forces: &mut Forces,
     ) {
-        let Stage { drive, cage, .. } = *stage;
-        self.begin(drive);
-        self.update_uneven(drive, cage, &mut forces.elements);
+        let Stage { excitation, cage, .. } = *stage;
+        self.begin(excitation);
+        self.update_uneven(excitation, cage, &mut forces.elements);
         let now = self.kinematics_of(stage);
         derivative[self.layout.radial_velocity..2 * self.layout.radial_velocity].fill(0.0);
         let mut rings =
             simd.outlined(SmoothElements::<RECORD> { model: self, now: &{ now }, stage, derivative, forces });
         if !forces.searched.is_empty() {
             if self.has_frames {
-                forces.frames = drive.frames_at(cage.tau);
+                forces.frames = excitation.frames_at(cage.tau);
             }
             let found = self.searched_elements::<RECORD>(&now, stage, derivative, forces);
             rings.iter_mut().zip(found).for_each(|(sum, force)| *sum += force);

@@ -1,7 +1,7 @@
 //! What a bearing is made of, as numbers of the equations, and what acts on it.
 
-mod drive;
 mod element_block;
+mod excitation;
 pub mod film;
 mod irregularity;
 mod kinematics;
@@ -12,7 +12,7 @@ mod ring_motion;
 mod sensor_modes;
 mod supports;
 
-pub use drive::{Cubic, Drive, Frame, Frames, Quadratic, Turn, Turning, WholeAngle};
+pub use excitation::{Cubic, Excitation, Frame, Frames, Quadratic, Turn, Turning, WholeAngle};
 pub use irregularity::{Irregularity, Lead};
 pub use kinematics::{CageState, FramedKinematics, Kinematics, RingState};
 pub use layout::Layout;

@@ -1,7 +1,7 @@
 //! The parameters of the equations of motion, worked out once from a scene.
 
-use super::drive::{Drive, Frame};
 use super::element_block::{ElementBlock, blocks};
+use super::excitation::{Excitation, Frame};
 use super::film::{Films, FilmsNow};
 use super::irregularity::{Irregularity, Lead};
 use super::kinematics::CageState;
@@ -187,7 +187,7 @@ impl Model {
 
     /// Whether each element needs what the plain bearing of dry contacts in an even cage does not.
     #[inline(always)]
-    pub(in crate::dynamics) fn is_special(&self) -> bool {
+    pub(in crate::dynamics) fn is_uneven_or_oiled(&self) -> bool {
         self.irregularity.is_some() || self.films.is_some() || self.dampers.is_some()
     }
 
@@ -197,18 +197,18 @@ impl Model {
         self.dampers.is_some()
     }
 
-    /// Tells an uneven cage after how many turns the communication step of this drive begins.
+    /// Tells an uneven cage after how many turns the communication step of this excitation begins.
     #[inline(always)]
-    pub fn begin(&self, drive: &Drive) {
+    pub fn begin(&self, excitation: &Excitation) {
         if let Some(uneven) = &self.irregularity {
-            uneven.begin(drive.cage_turns);
+            uneven.begin(excitation.cage_turns);
         }
     }
 
     /// The oil films at `tau`; `None` of dry contacts.
     #[inline(always)]
-    pub fn films_at(&self, drive: &Drive, tau: f64) -> Option<FilmsNow> {
-        self.films.as_ref().map(|films| films.at(drive.relative_speed.at(tau)))
+    pub fn films_at(&self, excitation: &Excitation, tau: f64) -> Option<FilmsNow> {
+        self.films.as_ref().map(|films| films.at(excitation.relative_speed.at(tau)))
     }
 
     /// What separates a raceway from an element pressed to the other (m), films included.
@@ -275,9 +275,14 @@ impl Model {
     /// Puts where all elements of an uneven cage are at an instant, and how fast they go, into `elements`; nothing in
     /// an even one.
     #[inline(always)]
-    pub(in crate::dynamics) fn update_uneven(&self, drive: &Drive, cage: &CageState, elements: &mut [ElementBlock]) {
+    pub(in crate::dynamics) fn update_uneven(
+        &self,
+        excitation: &Excitation,
+        cage: &CageState,
+        elements: &mut [ElementBlock],
+    ) {
         let Some(uneven) = &self.irregularity else { return };
-        uneven.begin(drive.cage_turns);
+        uneven.begin(excitation.cage_turns);
         uneven.update_all(cage, elements);
         for (block, offsets) in elements.iter_mut().zip(self.offsets.chunks(WIDEST)) {
             for (i, &offset) in offsets.iter().enumerate() {

@@ -6,7 +6,7 @@
 //! together stands here and nowhere else. Angles are in radians, counter-clockwise; those from a defect's centre within
 //! half a turn.
 
-use super::drive::{Frame, Frames};
+use super::excitation::{Frame, Frames};
 use crate::contact::error::ContactError;
 use crate::contact::law::CompliantContact;
 use crate::contact::near_defect::{Approach, Lever, NearDefect};
@@ -108,7 +108,7 @@ impl Near {
         Self { approach: Approach::smooth(u), frame_speed: 0.0, frame: Frame::Housing }
     }
 
-    /// No number at all: an integration that meets it takes the step back.
+    /// NaN: an integration that meets it takes the step back.
     pub fn unsolved() -> Self {
         Self { approach: Approach::unsolved(), frame_speed: 0.0, frame: Frame::Housing }
     }

@@ -160,7 +160,7 @@ impl<'a, E: Elastic> Shared<'a, E> {
         let speed = of(&block.pace) * number(now.cage.speed);
         let (mass, radius) = (number(model.element_mass), number(model.outer_centre_radius));
         let nominal = number(now.cage.speed);
-        let alpha = of(&block.pace) * number(now.cage.acceleration) + of(&block.bend) * (nominal * nominal);
+        let alpha = of(&block.pace) * number(now.cage.acceleration) + of(&block.pace_by_angle) * (nominal * nominal);
         ElementLanes {
             simd,
             e_r,

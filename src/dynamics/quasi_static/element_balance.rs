@@ -102,7 +102,7 @@ impl InBalance {
         }
     }
 
-    /// Whether it is one: a search that found none, or a contact without an answer, leaves numbers that are none.
+    /// Whether it is one: a search that found none, or a contact without an answer, leaves NaN.
     pub(in crate::dynamics) fn is_found(&self) -> bool {
         (self.inner.x + self.inner.y + self.outer.x + self.outer.y + self.path_rate).is_finite()
     }
@@ -110,7 +110,7 @@ impl InBalance {
 
 impl Model {
     /// Element `j` in balance, looked for from path `guess` (m) on. Where there is no balance, or a contact has no
-    /// answer, forces are no numbers.
+    /// answer, forces are NaN.
     pub(in crate::dynamics) fn in_balance(
         &self,
         j: usize,

@@ -59,7 +59,7 @@ impl PathSearch {
 
 impl Model {
     /// As [`Model::radial_balance`], where contacts need not have an answer: an inner contact too deep for its law
-    /// pushes outwards, whatever its force. One outside is taken for one that pushes inwards: no number is not above 0.
+    /// pushes outwards, whatever its force. One outside is taken for one that pushes inwards: NaN is not above 0.
     pub(in crate::dynamics) fn radial_push(&self, element: &Linearized) -> RadialForce {
         let RadialForce { force, slope } = self.radial_balance(element);
         let too_deep = element.inner.x.is_nan() && !element.outer.x.is_nan();

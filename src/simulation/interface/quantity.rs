@@ -130,7 +130,7 @@ impl Quantity {
 impl Input {
     /// Highest order of the derivatives by time that act, and how the input's description says so.
     ///
-    /// What would make a higher polynomial than [`Drive`](crate::dynamics::parameters::Drive) has is refused: the
+    /// What would make a higher polynomial than [`Excitation`](crate::dynamics::parameters::Excitation) has is refused: the
     /// cage's angle is a quadratic, so that the instants at which elements pass knots are roots of one.
     pub(in crate::simulation) fn derivatives(self) -> (i32, &'static str) {
         match self {

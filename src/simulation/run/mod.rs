@@ -2,7 +2,7 @@
 
 mod arrays;
 mod derivatives;
-mod driving;
+mod excitation;
 mod life;
 mod refresh;
 mod samples;

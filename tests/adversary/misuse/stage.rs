@@ -93,7 +93,7 @@ impl Stage {
         &self.table[reference as usize]
     }
 
-    /// A reference that is none.
+    /// A reference that is not one.
     pub(super) fn unknown(&self, chance: &mut Chance) -> u32 {
         *chance.pick(&[self.table.len() as u32, self.table.len() as u32 + 7, 1 << 20, i32::MAX as u32, u32::MAX])
     }

@@ -3,7 +3,7 @@
 use crate::dynamics::contacts::Forces;
 use crate::dynamics::derivatives::Jacobian;
 use crate::dynamics::derivatives::jacobian::tests::{Bearer, DAMPINGS, MOTIONS, lively_with, moving};
-use crate::dynamics::parameters::{CageState, Cells, Drive, Stage};
+use crate::dynamics::parameters::{CageState, Cells, Excitation, Stage};
 use crate::dynamics::quasi_static::balance_lanes::SmoothElements;
 use crate::dynamics::quasi_static::element_balance::*;
 use crate::numerics::lanes::{Kernel, dispatch};
@@ -13,22 +13,22 @@ use pulp::Scalar256b;
 /// A bearing in motion, at one instant.
 struct Moving {
     model: Model,
-    drive: Drive,
+    excitation: Excitation,
     state: Vec<f64>,
     cells: Cells,
 }
 
 impl Moving {
     fn new(element: &RollingElement, bearer: Bearer, motions: [Motion; 2], damping: Damping, angle: f64) -> Self {
-        let (model, drive) = lively_with((element, ElementInertia::None), bearer, motions, damping, angle);
-        let (state, cells) = moving(&model, &drive, 3);
-        Self { model, drive, state, cells }
+        let (model, excitation) = lively_with((element, ElementInertia::None), bearer, motions, damping, angle);
+        let (state, cells) = moving(&model, &excitation, 3);
+        Self { model, excitation, state, cells }
     }
 
     /// Derivative and forces with the state moved on.
     fn at(&self, tau: f64, state: &[f64]) -> (Vec<f64>, Forces) {
         let (mut rates, mut forces) = (vec![0.0; state.len()], Forces::of(&self.model));
-        self.model.derivative(&self.drive, tau, &self.cells, state, &mut rates, &mut forces);
+        self.model.derivative(&self.excitation, tau, &self.cells, state, &mut rates, &mut forces);
         (rates, forces)
     }
 
@@ -65,9 +65,9 @@ fn cases() -> Vec<Moving> {
 fn elements_found_side_by_side_are_those_found_alone_and_each_is_in_balance() {
     let (mut pressed, mut near_defect) = (0, 0);
     for case in cases() {
-        let Moving { model, drive, state, cells } = &case;
+        let Moving { model, excitation, state, cells } = &case;
         let (rates, forces) = case.at(0.0, state);
-        let now = model.kinematics(drive, 0.0, state);
+        let now = model.kinematics(excitation, 0.0, state);
         let contacts = &forces.contacts;
         let mut rings = Rings::zeros();
         for j in 0..model.element_count {
@@ -106,9 +106,9 @@ fn elements_found_side_by_side_are_those_found_alone_and_each_is_in_balance() {
 #[test]
 fn the_balance_does_not_depend_on_where_its_search_begins() {
     for case in cases().into_iter().step_by(5) {
-        let Moving { model, drive, state, cells } = &case;
+        let Moving { model, excitation, state, cells } = &case;
         let (_, forces) = case.at(0.0, state);
-        let now = model.kinematics(drive, 0.0, state);
+        let now = model.kinematics(excitation, 0.0, state);
         for guess in [-90e-6, -1e-6, 2e-9, 40e-6] {
             let mut from = state.clone();
             from[..model.element_count].fill(guess);
@@ -130,7 +130,7 @@ fn the_rate_of_a_path_is_what_the_balance_moves_by() {
     for case in cases() {
         let Moving { model, state, .. } = &case;
         let (rates, forces) = case.at(0.0, state);
-        // A light contact's path bends within a nanometre of its way.
+        // A light contact's path seconds within a nanometre of its way.
         let h = 2e-10;
         let moved = |sign: f64| {
             let mut state = state.clone();
@@ -161,10 +161,10 @@ fn tangent_and_dampers_of_the_rings_equal_difference_quotients() {
         for element in [RollingElement::Ball, roller()] {
             for bearer in [RacewaySide::Outer, RacewaySide::Inner].map(Bearer::Ring) {
                 let case = Moving::new(&element, bearer, [Motion::Internal; 2], damping, -1.58);
-                let Moving { model, drive, state, cells } = &case;
+                let Moving { model, excitation, state, cells } = &case;
                 let len = model.layout.len;
                 let mut jacobian = Jacobian::new(model);
-                model.linearize(drive, 0.0, cells, state, &mut jacobian, &mut vec![0.0; len]);
+                model.linearize(excitation, 0.0, cells, state, &mut jacobian, &mut vec![0.0; len]);
                 let matrix = jacobian.matrix(len);
                 let (here, forces) = case.at(0.0, state);
                 let largest = here.iter().fold(0.0f64, |most, rate| most.max(rate.abs()));
@@ -206,14 +206,14 @@ fn tangent_and_dampers_of_the_rings_equal_difference_quotients() {
 #[test]
 fn registers_of_every_width_give_the_same_bits() {
     for case in cases().into_iter().step_by(7) {
-        let Moving { model, drive, state, cells } = &case;
-        let cage: CageState = drive.cage_at(0.0);
-        let stage = Stage { drive, cage: &cage, state, ahead: Some(1e-6) };
-        let now = model.kinematics(drive, 0.0, state).motion;
+        let Moving { model, excitation, state, cells } = &case;
+        let cage: CageState = excitation.cage_at(0.0);
+        let stage = Stage { excitation, cage: &cage, state, ahead: Some(1e-6) };
+        let now = model.kinematics(excitation, 0.0, state).motion;
         let mut found = [false, true].map(|widest| {
             let (mut rates, mut forces) = (vec![0.0; state.len()], Forces::of(model));
             forces.enter(model, cells);
-            model.update_uneven(drive, &cage, &mut forces.elements);
+            model.update_uneven(excitation, &cage, &mut forces.elements);
             let kernel =
                 SmoothElements::<true> { model, now: &now, stage: &stage, derivative: &mut rates, forces: &mut forces };
             let rings = if widest { dispatch(kernel) } else { kernel.run(Scalar256b) };

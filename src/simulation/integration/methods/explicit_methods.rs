@@ -1,13 +1,13 @@
 //! The two explicit pairs of methods, and what a step asks of whichever one takes it.
 
 use super::explicit::{ErrorParts, LAST, RightHandSide};
-use super::room::Room;
+use super::stage_buffers::StageBuffers;
 use super::{dormand_prince, phase_fitted};
 use crate::numerics::lanes::Wide;
 
 /// The explicit methods.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Pair {
+pub enum ExplicitMethod {
     /// `dormand_prince`: order 5(4), for any tolerance.
     #[default]
     DormandPrince,
@@ -15,7 +15,7 @@ pub enum Pair {
     PhaseFitted,
 }
 
-impl Pair {
+impl ExplicitMethod {
     /// Nodes c up to the end of the step; where one method has a stage less, its last is the end.
     pub fn nodes(self) -> [f64; LAST] {
         match self {
@@ -46,14 +46,14 @@ impl Pair {
     pub fn try_step<S: Wide>(
         self,
         simd: S,
-        room: &mut Room,
+        buffers: &mut StageBuffers,
         state: &[f64],
         h: f64,
         right_hand_side: &mut impl RightHandSide,
     ) {
         match self {
-            Self::DormandPrince => dormand_prince::try_step(simd, room, state, h, right_hand_side),
-            Self::PhaseFitted => phase_fitted::try_step(simd, room, state, h, right_hand_side),
+            Self::DormandPrince => dormand_prince::try_step(simd, buffers, state, h, right_hand_side),
+            Self::PhaseFitted => phase_fitted::try_step(simd, buffers, state, h, right_hand_side),
         }
     }
 }

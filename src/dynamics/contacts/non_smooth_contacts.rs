@@ -2,7 +2,7 @@
 //! time, before the others.
 
 use super::element_contacts::{InnerGap, Meeting};
-use super::forces::{Forces, Other, OtherContact, UnsolvedContact};
+use super::forces::{Forces, NonSmooth, NonSmoothContact, UnsolvedContact};
 use crate::contact::error::ContactError;
 use crate::contact::near_defect::Approach;
 use crate::contact::rolling::RacewaySide;
@@ -16,21 +16,21 @@ impl Model {
     ///
     /// They come first, so that what they add to an element's acceleration is long written when all elements' are read.
     #[inline(always)]
-    fn other_outer_contacts<const RECORD: bool>(
+    fn non_smooth_outer_contacts<const RECORD: bool>(
         &self,
         now: &Kinematics,
         state: &[f64],
         ahead: Option<f64>,
         forces: &mut Forces,
     ) -> Vector {
-        let Forces { other_outer, other_contacts: [_, contacts], elements, torques, .. } = forces;
+        let Forces { non_smooth_outer, non_smooth_contacts: [_, contacts], elements, torques, .. } = forces;
         let (frames, films) = (&forces.frames, forces.films.as_ref());
         let (defect_lookups, unsolved) = (&mut forces.defect_lookups, &mut forces.unsolved);
         if RECORD {
             contacts.clear();
         }
         let mut sum = OuterSum { on_housing: Vector::zeros(), elements, torques, contacts };
-        for &Other { element: j, cells } in other_outer.iter() {
+        for &NonSmooth { element: j, cells } in non_smooth_outer.iter() {
             let at @ OnPath { u, path_rate, .. } = self.on_path(j, now, state, ahead, sum.elements);
             // Each way to the end with its own numbers: what is one or another is written to memory and read late.
             match cells {
@@ -85,7 +85,7 @@ impl Model {
     /// The inner contacts near defects; gives their force on the inner ring. After the outer ones, to whose part of an
     /// element's acceleration they add.
     #[inline(never)]
-    pub(in crate::dynamics) fn other_inner_contacts<const RECORD: bool>(
+    pub(in crate::dynamics) fn non_smooth_inner_contacts<const RECORD: bool>(
         &self,
         now: &Kinematics,
         state: &[f64],
@@ -93,14 +93,14 @@ impl Model {
         forces: &mut Forces,
     ) -> Vector {
         let mut on_shaft = Vector::zeros();
-        let Forces { other_inner, other_outer, other_contacts: [contacts, _], elements, .. } = forces;
+        let Forces { non_smooth_inner, non_smooth_outer, non_smooth_contacts: [contacts, _], elements, .. } = forces;
         let (torques, lookups, unsolved) = (&mut forces.torques, &mut forces.defect_lookups, &mut forces.unsolved);
         let (frames, films) = (&forces.frames, forces.films.as_ref());
         let clearance = self.clearance(films);
         if RECORD {
             contacts.clear();
         }
-        for &Other { element: j, cells } in other_inner.iter() {
+        for &NonSmooth { element: j, cells } in non_smooth_inner.iter() {
             let OnPath { e_r, u, path_rate, .. } = self.on_path(j, now, state, ahead, elements);
             let [angle, speed] = self.turning(j, now, elements);
             *lookups += 1;
@@ -115,12 +115,12 @@ impl Model {
             let found = self.inner_contact(&near, &gap, q_rate, films);
             let [_, f_r, f_t] = found.force;
             let acceleration = &mut elements[j / WIDEST].other[j % WIDEST];
-            let of_outer = if other_outer.iter().any(|other| other.element == j) { *acceleration } else { 0.0 };
+            let of_outer = if non_smooth_outer.iter().any(|other| other.element == j) { *acceleration } else { 0.0 };
             *acceleration = of_outer + f_r * self.inverse_element_mass;
             on_shaft -= e_r * f_r + turned(e_r) * f_t;
             if RECORD {
                 torques[found.frame as usize] += found.torque;
-                contacts.push(OtherContact { element: j, ..found });
+                contacts.push(NonSmoothContact { element: j, ..found });
             }
         }
         on_shaft
@@ -137,7 +137,7 @@ impl Model {
         cause: ContactError,
         unsolved: &mut Option<UnsolvedContact>,
     ) -> Approach {
-        // What is no number here has its cause elsewhere.
+        // NaN here has its cause elsewhere.
         if (at.u + now.cage.angle).is_finite() {
             let angle = self.angle_from_defect(side, at, frames);
             *unsolved = Some(UnsolvedContact { element: at.element, angle, offset: now.offset().into(), cause });
@@ -147,12 +147,12 @@ impl Model {
 
     /// The outer contact of an element on a smooth raceway that yields.
     #[inline(always)]
-    fn yielding_contact(&self, u: f64, path_rate: f64, films: Option<&FilmsNow>) -> OtherContact {
+    fn yielding_contact(&self, u: f64, path_rate: f64, films: Option<&FilmsNow>) -> NonSmoothContact {
         let law = &self.outer.contact;
         let (part, part_rate) = law.of_contact(u, path_rate);
         let force = law.law.force(part, part_rate) + film_force(films, RacewaySide::Outer, u, path_rate);
         let (force, pushing) = ([force, force, 0.0], law.law.pushing(part, part_rate));
-        OtherContact { element: 0, approach: u, pushing, force, torque: 0.0, frame: Frame::Housing }
+        NonSmoothContact { element: 0, approach: u, pushing, force, torque: 0.0, frame: Frame::Housing }
     }
 
     /// The outer contact of an element with its own defect.
@@ -164,7 +164,7 @@ impl Model {
         now: &Kinematics,
         (frames, films): (&Frames, Option<&FilmsNow>),
         unsolved: &mut Option<UnsolvedContact>,
-    ) -> OtherContact {
+    ) -> NonSmoothContact {
         let (near, frame) = self.near_defect(RacewaySide::Outer, at, frames);
         let near =
             near.unwrap_or_else(|cause| self.without_answer(RacewaySide::Outer, at, now, frames, cause, unsolved));
@@ -182,7 +182,7 @@ impl Model {
         rates: [f64; 2],
         distance: f64,
         films: Option<&FilmsNow>,
-    ) -> OtherContact {
+    ) -> NonSmoothContact {
         let [path_rate, turning] = rates;
         let compliant = self.outer.contact.compliance != 0.0;
         let rate = near.by_path * path_rate + near.by_angle * turning;
@@ -194,11 +194,17 @@ impl Model {
         let magnitude = outer * (near.radial * near.radial + near.tangential * near.tangential).sqrt();
         let pushing = self.outer.contact.law.pushing(part, part_rate);
         let force = [magnitude, f_r, f_t];
-        OtherContact { element: 0, approach: near.value, pushing, force, torque: -f_t * distance, frame }
+        NonSmoothContact { element: 0, approach: near.value, pushing, force, torque: -f_t * distance, frame }
     }
 
     /// An inner contact at this approach, q changing at `q_rate` (radial and tangential as seen from the outer ring).
-    fn inner_contact(&self, near: &Near, gap: &InnerGap, q_rate: [f64; 2], films: Option<&FilmsNow>) -> OtherContact {
+    fn inner_contact(
+        &self,
+        near: &Near,
+        gap: &InnerGap,
+        q_rate: [f64; 2],
+        films: Option<&FilmsNow>,
+    ) -> NonSmoothContact {
         let Near { approach: near, frame_speed, frame } = near;
         let (n, [radial, tangential]) = (gap.n, q_rate);
         let opening = n.x * radial + n.y * tangential;
@@ -209,7 +215,7 @@ impl Model {
         let (along, across) = (amount * near.radial, amount * near.tangential);
         let (f_r, f_t) = (along * n.x - across * n.y, along * n.y + across * n.x);
         let magnitude = amount * (near.radial * near.radial + near.tangential * near.tangential).sqrt();
-        OtherContact {
+        NonSmoothContact {
             element: 0,
             approach: near.value,
             pushing: law.pushing(near.value, rate),
@@ -225,7 +231,7 @@ struct OuterSum<'a> {
     on_housing: Vector,
     elements: &'a mut [ElementBlock],
     torques: &'a mut [f64; 3],
-    contacts: &'a mut Vec<OtherContact>,
+    contacts: &'a mut Vec<NonSmoothContact>,
 }
 
 impl OuterSum<'_> {
@@ -234,14 +240,14 @@ impl OuterSum<'_> {
         &mut self,
         model: &Model,
         &OnPath { element: j, e_r, .. }: &OnPath,
-        found: OtherContact,
+        found: NonSmoothContact,
     ) {
         let [_, f_r, f_t] = found.force;
         self.elements[j / WIDEST].other[j % WIDEST] = -f_r * model.inverse_element_mass;
         self.on_housing += e_r * f_r - turned(e_r) * f_t;
         if RECORD {
             self.torques[found.frame as usize] += found.torque;
-            self.contacts.push(OtherContact { element: j, ..found });
+            self.contacts.push(NonSmoothContact { element: j, ..found });
         }
     }
 }
@@ -256,7 +262,7 @@ struct OnPath {
 
 /// The outer contacts that are not those of the smooth rigid raceway, as a function of its own for the machine's
 /// instructions: what mixes with wide registers and is made for others waits for them.
-pub(in crate::dynamics) struct OtherOuter<'a, const RECORD: bool> {
+pub(in crate::dynamics) struct NonSmoothOuter<'a, const RECORD: bool> {
     pub(in crate::dynamics) model: &'a Model,
     pub(in crate::dynamics) now: &'a Kinematics,
     pub(in crate::dynamics) state: &'a [f64],
@@ -265,11 +271,11 @@ pub(in crate::dynamics) struct OtherOuter<'a, const RECORD: bool> {
     pub(in crate::dynamics) forces: &'a mut Forces,
 }
 
-impl<const RECORD: bool> Kernel for OtherOuter<'_, RECORD> {
+impl<const RECORD: bool> Kernel for NonSmoothOuter<'_, RECORD> {
     type Output = Vector;
 
     #[inline(always)]
     fn run<S: Wide>(self, _: S) -> Vector {
-        self.model.other_outer_contacts::<RECORD>(self.now, self.state, self.ahead, self.forces)
+        self.model.non_smooth_outer_contacts::<RECORD>(self.now, self.state, self.ahead, self.forces)
     }
 }

@@ -5,7 +5,7 @@ use crate::numerics::lanes::row::Row;
 
 /// Room for the stages of a step. States are parted as [`Partition`] says.
 #[derive(Debug, Clone)]
-pub struct Room {
+pub struct StageBuffers {
     /// Derivative at the start of the step.
     pub first: Row,
     /// Derivative at its end, which is that at the start of the next.
@@ -21,7 +21,7 @@ pub struct Room {
     pub(super) partition: Partition,
 }
 
-impl Room {
+impl StageBuffers {
     /// Room for states that are cut in this way; 1 in `positions` where a state is a position.
     pub fn new(partition: Partition, positions: Row) -> Self {
         let zeros = || Row::zeros(partition.len());

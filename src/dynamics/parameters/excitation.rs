@@ -128,7 +128,7 @@ impl WholeAngle {
 
 /// What acts from outside during one communication step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Drive {
+pub struct Excitation {
     /// Cage angle at the start (rad), within one turn.
     pub cage_start: f64,
     /// Whole turns of the cage at the start.
@@ -149,7 +149,7 @@ pub struct Drive {
     pub relative_speed: Quadratic,
 }
 
-impl Drive {
+impl Excitation {
     /// Nothing moves: element 1 is at `cage_angle` and the frames of defects are at `frames` (rad).
     pub fn standing(cage_angle: f64, frames: [f64; 3]) -> Self {
         let frames = frames.map(|start| Turning { start, ..Turning::default() });

@@ -1,7 +1,7 @@
 //! What acts on the bearing from outside: from input variables and their derivatives to polynomials of time, and back.
 
 use super::state::{Ended, State};
-use crate::dynamics::parameters::{Cubic, Drive, Quadratic, Turning};
+use crate::dynamics::parameters::{Cubic, Excitation, Quadratic, Turning};
 use crate::geometry::kinematics::Ratios;
 use crate::simulation::interface::{Inputs, RingInputs};
 
@@ -10,7 +10,7 @@ use crate::simulation::interface::{Inputs, RingInputs};
 ///
 /// Each coefficient of a ring's motion comes from the derivative of the lowest variable that gives it: the velocity
 /// from the position's, or else from the input; the acceleration from the position's, the velocity's, or the input.
-pub(in crate::simulation) fn drive(state: &State, inputs: &Inputs, ratios: &Ratios, stepping: bool) -> Drive {
+pub(in crate::simulation) fn excitation(state: &State, inputs: &Inputs, ratios: &Ratios, stepping: bool) -> Excitation {
     let value = |index: Option<usize>| index.map_or(0.0, |i| state.reals[i]);
     let given =
         |index: Option<usize>, order: usize| index.filter(|_| stepping).and_then(|i| state.input_rates[i][order - 1]);
@@ -37,7 +37,7 @@ pub(in crate::simulation) fn drive(state: &State, inputs: &Inputs, ratios: &Rati
     let cage = turning(state.cage.rest, ratios.cage);
     let Quadratic([_, speed, acceleration]) = turning(0.0, [1.0, -1.0]).since;
     let [shaft_frame, housing_frame, spin] = state.frames.map(|frame| frame.rest);
-    let mut drive = Drive {
+    let mut excitation = Excitation {
         cage_start: cage.start,
         cage_turns: state.cage.turns,
         cage: cage.since,
@@ -53,17 +53,23 @@ pub(in crate::simulation) fn drive(state: &State, inputs: &Inputs, ratios: &Rati
         relative_speed: Quadratic([speed, acceleration, 0.0]),
     };
     if !stepping {
-        drive.cage.0[2] += state.ended.cage;
-        for (motion, acceleration) in drive.housing.iter_mut().zip(state.ended.housing) {
+        excitation.cage.0[2] += state.ended.cage;
+        for (motion, acceleration) in excitation.housing.iter_mut().zip(state.ended.housing) {
             motion.0[2] += acceleration;
         }
     }
-    drive
+    excitation
 }
 
 /// After a step the inputs stand where they were extrapolated to, so that outputs belong to the end of the step
 /// until the host sets them anew.
-pub(in crate::simulation) fn follow(state: &mut State, inputs: &Inputs, ratios: &Ratios, ended: &Drive, step: f64) {
+pub(in crate::simulation) fn follow(
+    state: &mut State,
+    inputs: &Inputs,
+    ratios: &Ratios,
+    ended: &Excitation,
+    step: f64,
+) {
     let rings = [(inputs.shaft, ended.shaft, ended.shaft_load), (inputs.housing, ended.housing, ended.housing_load)];
     for (ring, motion, load) in rings {
         for axis in 0..2 {
@@ -87,7 +93,7 @@ pub(in crate::simulation) fn follow(state: &mut State, inputs: &Inputs, ratios: 
     state.input_rates.fill([None; 2]);
     state.ended = Ended::default();
     if given {
-        let now = drive(state, inputs, ratios, false);
+        let now = excitation(state, inputs, ratios, false);
         let left = |axis: usize| ended.housing[axis].second_at(step) - now.housing[axis].second_at(0.0);
         state.ended = Ended { cage: ended.cage.0[2] - now.cage.0[2], housing: [left(0), left(1)] };
     }
