@@ -1,7 +1,7 @@
 //! Second derivatives of the equivalent approach near a defect: against differences of its exact first derivatives.
 //!
-//! Slopes are continuous and their derivatives step: of a map from cell to cell, of a grid where a cell comes to carry or
-//! ceases to. A point is left out where such a step lies between the points of its differences, which shows in them
+//! Slopes are continuous and their derivatives step: of a map from cell to cell, of a grid where a cell comes to carry
+//! or ceases to. A point is left out where such a step lies between the points of its differences, which shows in them
 //! alone: differences over h, h/2 and h/4, extrapolated two by two (Richardson), do not agree then. Below its smallest
 //! contact law `love` leaps by some per cent of the slope itself, whichever side of that contact rounding finds; such a
 //! point is left out where its slope is not between its neighbours'. How many points may be left out is limited.
@@ -15,14 +15,15 @@ use brinell::contact::element_on_raceway::{Across, ElementOnRaceway};
 use brinell::contact::equivalent::SecondDerivatives;
 use brinell::contact::love::{EdgeSoftness, LoveContact, Resolution};
 use brinell::contact::map::{ContactMap, MapPlan, MapSpecification, Sequential};
-use brinell::contact::near_defect::{Lever, NearDefect, NearLove, NearMap};
+use brinell::contact::near_defect::{NearDefect, NearLove, NearMap};
 use brinell::contact::rolled_path::RigidPath;
 use brinell::contact::rolling::{RacewaySide, Rolling};
+use brinell::numerics::dual::Dual;
 use brinell::scene::Bearing;
 use brinell::surface::{Profile, Surface};
 
 const LARGEST: f64 = 10e-6;
-const LEVER: Lever = Lever { distance: 19.7e-3, by_approach: 1.0 };
+const DISTANCE: f64 = 19.7e-3;
 /// Steps of differences along the path and along the raceway (m): a change of the pressed cells is some 1e-8 m of path
 /// and 1e-7 m of raceway away from the next.
 const STEPS: [f64; 2] = [1e-9, 1e-8];
@@ -40,14 +41,16 @@ impl Near {
 
     /// Δ, ∂Δ/∂u and ∂Δ/∂s in a cell.
     fn first(&self, cell: usize, u: f64, s: f64) -> Option<[f64; 3]> {
-        let found = self.law.approach(cell, u, s / self.radius, LEVER).ok()?;
+        let found = self.law.approach(cell, u, s / self.radius, DISTANCE, true).ok()?;
         Some([found.value, found.by_path, found.by_angle / self.radius])
     }
 
     fn second(&self, cell: usize, u: f64, s: f64) -> Option<SecondDerivatives> {
-        let found = self.law.second_derivatives(cell, u, s / self.radius).ok()?;
-        let by_angle = if matches!(self.law, NearDefect::Hertz(_)) { self.radius * self.radius } else { 1.0 };
-        Some(SecondDerivatives { ss: found.ss / by_angle, ..found })
+        let dual = Dual::<f64, 2>::variable;
+        let (u, angle) = (dual(u, 0), dual(s / self.radius, 1));
+        let found = self.law.approach(cell, u, angle, Dual::from(DISTANCE), true).ok()?;
+        let ([uu, us], [_, ss]) = (found.by_path.by, found.by_angle.by);
+        Some(SecondDerivatives { uu, us: us / self.radius, ss: ss / (self.radius * self.radius) })
     }
 }
 
@@ -285,8 +288,8 @@ fn second_derivatives_of_the_path_over_a_sharp_edge_are_those_of_the_closed_form
                 let expected = second_over_an_edge(&rolling, past);
                 for (piece, angle) in [(0, past - half), (1, half - past)] {
                     let found = path.second_derivative(piece, angle);
-                    // width² P⁗/12 with P⁗ = 3/r³ at the edge, where intervals are 1.25e-3 r wide: 4e-7; 1.2 mm past it,
-                    // κ being 18°, twice as much.
+                    // width² P⁗/12 with P⁗ = 3/r³ at the edge, where intervals are 1.25e-3 r wide: 4e-7; 1.2 mm past
+                    // it, κ being 18°, twice as much.
                     assert!((found / expected - 1.0).abs() < 1e-6, "{rolling:?} {past}: {found:e} {expected:e}");
                 }
             }

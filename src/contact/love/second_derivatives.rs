@@ -1,6 +1,6 @@
 //! Second derivatives of law `love`: one or two more solutions with the factor of the last contact.
 //!
-//! On the pressed cells K p = g, with g = u − h(x − s) and W = ½ Σ p g. Their set does not change to first order, so that
+//! On the pressed cells K p = g, with g = u − h(x − s) and W = ½ Σ p g. While their set stays as it is,
 //!
 //! ```text
 //! W_uu = 1ᵀ K⁻¹ 1    W_us = g_sᵀ K⁻¹ 1    W_ss = g_sᵀ K⁻¹ g_s + Σ p g_ss,    g_s = h′, g_ss = −h″
@@ -16,10 +16,12 @@ use crate::contact::equivalent::SecondDerivatives;
 use crate::contact::error::ContactError;
 
 impl LoveContact {
-    /// Second derivatives where [`LoveContact::solve`] has value and slopes, exact for the pressed cells of that contact:
-    /// they step where a cell joins or leaves these, at the nodes of the smooth raceway's energy, and where Δ is
-    /// continued below the smallest contact. There ∂²Δ/∂u² is 0, and ∂²Δ/∂s² lacks (u − u₀) ∂³Δ/∂u∂s², u₀ being the path
-    /// from which Δ is continued, as ∂Δ/∂s lacks (u − u₀) ∂²Δ/∂u∂s.
+    /// Second derivatives where [`LoveContact::solve`] has value and slopes, exact for the pressed cells of that
+    /// contact: they step where a cell joins or leaves these and at the nodes of the smooth raceway's energy.
+    ///
+    /// Below the smallest contact, from whose path u₀ Δ is continued, ∂²Δ/∂u² = 0 and ∂²Δ/∂u∂s is that of Δ and of
+    /// ∂Δ/∂u. What `solve` has as ∂Δ/∂s lacks (u − u₀) ∂²Δ/∂u∂s there, and ∂²Δ/∂s² lacks (u − u₀) ∂³Δ/∂u∂s². At u₀
+    /// the slopes themselves step by some per cent, and rounding decides which of them is continued.
     ///
     /// # Errors
     /// As [`LoveContact::solve`].

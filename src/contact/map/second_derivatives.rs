@@ -5,8 +5,8 @@ use crate::contact::equivalent::SecondDerivatives;
 use crate::contact::error::ContactError;
 
 impl ContactMap {
-    /// Second derivatives where [`ContactMap::lookup_in`] has value and slopes: theirs, exactly. Δ is C¹ only: they step
-    /// from one cell to the next, and at the lowest and highest nodes, beyond which ∂²Δ/∂u² is 0.
+    /// Second derivatives where [`ContactMap::lookup_in`] has value and slopes: theirs, exactly. Δ is C¹ only: they
+    /// step from one cell to the next, and at the lowest and highest nodes, beyond which ∂²Δ/∂u² is 0.
     ///
     /// # Errors
     /// As [`ContactMap::lookup`].
@@ -56,8 +56,8 @@ mod tests {
     const SIZE: [f64; 2] = [80e-6, 2e-6];
     const START: f64 = -3e-3;
 
-    /// Two strips two cells high: whole ones, one cut in four and one of which a quarter is cut once more. Neither cells
-    /// nor references continue each other, which shows which of them is read.
+    /// Two strips two cells high: whole ones, one cut in four, and one of which a quarter is cut once more. Neither
+    /// cells nor references continue each other, which shows which of them is read.
     fn patch() -> ContactMap {
         let mut seed = 5u64;
         let mut random = || {
@@ -96,8 +96,8 @@ mod tests {
     #[test]
     fn second_derivatives_are_those_of_the_slopes_in_every_kind_of_cell() {
         let map = patch();
-        // Arc in coarse cells from the start and height in them above the lowest nodes: in whole cells, beyond both ends,
-        // below and above the nodes, in quarters, in sixteenths, and below and above of these.
+        // Arc in coarse cells from the start and height in them above the lowest nodes: in whole cells, beyond both
+        // ends, below and above the nodes, in quarters, in sixteenths, and below and above of these.
         let whole = [[0.3, 0.6], [1.7, 1.2], [-0.01, 0.4], [2.01, 1.3], [0.3, -0.8], [0.6, -0.2], [1.4, 2.7]];
         let parts = [[0.2, 1.3], [0.8, 1.4], [0.3, 1.9], [0.7, 1.6], [0.2, 2.3], [0.8, 3.1], [1.2, 0.3], [1.6, 0.1]];
         let quarters = [[1.9, 0.1], [1.6, 0.4], [1.9, 0.4], [1.6, -0.3], [1.9, -1.2], [1.2, 0.8], [1.1, -0.6]];

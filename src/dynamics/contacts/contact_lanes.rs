@@ -5,7 +5,8 @@
 //!
 //! A lane without an element has stiffness 0 and no derivative.
 
-use super::gap_lanes::{Distance, dot, radial};
+use super::directions::{dot, radial};
+use super::kernel::InnerGap;
 use crate::contact::law::{DampedLaw, Elastic, Line, Point, SqueezeFilm};
 use crate::dynamics::parameters::FilmsNow;
 use crate::dynamics::parameters::{ElementBlock, Kinematics, Model, Stage};
@@ -242,23 +243,23 @@ impl<E: Elastic> Smooth<'_, E> {
         let u = self.ahead.map_or(u, |ahead| u + Lanes::splat(simd, ahead) * path_rate);
         let rho = Lanes::splat(simd, model.outer_centre_radius) + u;
 
-        let (p, t) = (dot(simd, self.offset, e_r), dot(simd, -turned(self.offset), e_r));
         let number = |number: f64| Lanes::splat(simd, number);
-        let Distance { longer, n: [n_r, n_t] } = Distance::of(simd, rho + p, t, self.series);
-        let delta = number(-self.clearance) - u - p - longer;
+        let offset = [dot(simd, self.offset, e_r), dot(simd, -turned(self.offset), e_r)];
+        let gap = InnerGap::of(rho, u, offset, number(self.clearance), self.series);
+        let (delta, [n_r, n_t]) = (gap.approach, gap.n);
         let pace = number(now.cage.speed);
         let speed = if UNEVEN_OR_OILED { of(&block.pace) * pace } else { pace };
         let along = dot(simd, -turned(self.drift), e_r) + rho * speed;
-        let opening = n_r * (dot(simd, self.drift, e_r) + path_rate) + n_t * along;
+        let closing = gap.closing([dot(simd, self.drift, e_r) + path_rate, along]);
 
         let law = DampedLaw::new(model.inner.contact.law.damping, self.elastic, number);
-        let mut inner = law.force(of(&block.inner), delta, -opening);
+        let mut inner = law.force(of(&block.inner), delta, closing);
         let mut outer = law.force(of(&block.outer), u, path_rate);
         if UNEVEN_OR_OILED && let Some([inside, outside]) = &self.films {
             // Constants of contacts are far above 1, or 0 for what is no smooth contact.
             let [on_inner, on_outer] = [&block.inner, &block.outer].map(|constant| of(constant).at_most(number(1.0)));
-            inner = inner + on_inner * inside.force(number, delta, -opening);
-            outer = outer + on_outer * outside.force(number, u, path_rate);
+            inner = inner + on_inner * inside.to(number).force(delta, closing);
+            outer = outer + on_outer * outside.to(number).force(u, path_rate);
         }
         let mut turning = rho * (speed * speed);
         if UNEVEN_OR_OILED {
@@ -282,7 +283,7 @@ impl<E: Elastic> Smooth<'_, E> {
             normal: [n_r, n_t],
             outer,
             approach: delta * present,
-            pushing: [law.pushing(delta, -opening) * present, law.pushing(u, path_rate) * present],
+            pushing: [law.pushing(delta, closing) * present, law.pushing(u, path_rate) * present],
         }
     }
 }

@@ -259,10 +259,6 @@ pub(super) struct NonSmoothContact {
     /// Magnitude (N); then the parts on the element: of an inner contact outwards and counter-clockwise, as seen from
     /// the outer ring's centre, of an outer contact inwards and counter-clockwise.
     pub(in crate::dynamics) force: [f64; 3],
-    /// Torque (N m) on the body that bears the defect, about its own centre.
-    pub(in crate::dynamics) torque: f64,
-    /// The frame of that body.
-    pub(in crate::dynamics) frame: Frame,
 }
 
 /// How far the contact that has changed most is beyond its change.

@@ -1,13 +1,13 @@
 //! Contacts that are not those of smooth rigid raceways: near defects, and on an outer raceway that yields. One at a
 //! time, before the others.
 
-use super::element_contacts::{InnerGap, Meeting};
 use super::forces::{Forces, NonSmooth, NonSmoothContact, UnsolvedContact};
+use super::kernel::{ContactForce, Meeting, Near};
 use crate::contact::error::ContactError;
+use crate::contact::law::CompliantContact;
 use crate::contact::near_defect::Approach;
 use crate::contact::rolling::RacewaySide;
-use crate::dynamics::parameters::{ElementBlock, Frame, Frames, Kinematics, Model, Near, SMOOTH, moved};
-use crate::dynamics::parameters::{FilmsNow, film_force};
+use crate::dynamics::parameters::{ElementBlock, Frame, Frames, Kinematics, Model, SMOOTH, moved};
 use crate::numerics::lanes::{Kernel, WIDEST, Wide};
 use crate::numerics::plane::{Vector, turned, turned_by};
 
@@ -30,29 +30,23 @@ impl Model {
             contacts.clear();
         }
         let mut sum = OuterSum { on_housing: Vector::zeros(), elements, torques, contacts };
+        let (law, film) = (&self.outer.contact, films.map(|films| &films.squeeze[RacewaySide::Outer as usize]));
         for &NonSmooth { element: j, cells } in non_smooth_outer.iter() {
             let at @ OnPath { u, path_rate, .. } = self.on_path(j, now, state, ahead, sum.elements);
+            let [angle, speed] = self.turning(j, now, sum.elements);
+            let meeting = self.outer_meeting_at(angle, j, cells, u);
             // Each way to the end with its own numbers: what is one or another is written to memory and read late.
-            match cells {
-                [SMOOTH, SMOOTH] => sum.add::<RECORD>(self, &at, self.yielding_contact(u, path_rate, films)),
-                [_, SMOOTH] => {
-                    *defect_lookups += 1;
-                    let [angle, speed] = self.turning(j, now, sum.elements);
-                    let (meeting, frame) = (self.outer_meeting_at(angle, j, cells, u), self.outer.defects.frame);
-                    let near = self.near_ring_defect(RacewaySide::Outer, &meeting, frames).unwrap_or_else(|cause| {
-                        self.without_answer(RacewaySide::Outer, &meeting, now, frames, cause, unsolved)
-                    });
-                    let turning = speed - frames.of(frame).speed;
-                    let found = self.outer_contact(&near, frame, [path_rate, turning], meeting.distance, films);
-                    sum.add::<RECORD>(self, &at, found);
-                }
-                _ => {
-                    *defect_lookups += 1;
-                    let [angle, speed] = self.turning(j, now, sum.elements);
-                    let meeting = self.outer_meeting_at(angle, j, cells, u);
-                    let found = self.own_outer_contact(&meeting, [path_rate, speed], now, (frames, films), unsolved);
-                    sum.add::<RECORD>(self, &at, found);
-                }
+            if cells == [SMOOTH; 2] {
+                let near = Near::smooth(u);
+                let found = near.force(law, film, [path_rate, speed], frames);
+                sum.add::<RECORD>(law, &at, &found, (near.frame, meeting.distance));
+            } else {
+                *defect_lookups += 1;
+                let near = self.near(RacewaySide::Outer, &meeting, frames).unwrap_or_else(|cause| {
+                    self.without_answer(RacewaySide::Outer, &meeting, now, frames, cause, unsolved)
+                });
+                let found = near.force(law, film, [path_rate, speed], frames);
+                sum.add::<RECORD>(law, &at, &found, (near.frame, meeting.distance));
             }
         }
         sum.on_housing
@@ -72,7 +66,8 @@ impl Model {
         let (sin, cos) = (block.sin[i], block.cos[i]);
         let e_r = turned_by(cage.direction, sin, cos);
         let path_rate = state[self.layout.radial_velocity + j] - now.housing.velocity.dot(&e_r);
-        OnPath { element: j, e_r, u: moved(state[j], path_rate, ahead), path_rate }
+        let u = moved(state[j], path_rate, ahead);
+        OnPath { element: j, e_r, u, path_rate, inverse_mass: self.inverse_element_mass }
     }
 
     /// Angle (rad) of element `j` about the outer ring's centre, and its speed (rad/s).
@@ -97,6 +92,7 @@ impl Model {
         let (torques, lookups, unsolved) = (&mut forces.torques, &mut forces.defect_lookups, &mut forces.unsolved);
         let (frames, films) = (&forces.frames, forces.films.as_ref());
         let clearance = self.clearance(films);
+        let (law, film) = (&self.inner.contact, films.map(|films| &films.squeeze[RacewaySide::Inner as usize]));
         if RECORD {
             contacts.clear();
         }
@@ -106,21 +102,20 @@ impl Model {
             *lookups += 1;
             let gap = self.inner_gap(u, now.offset(), e_r, clearance);
             let at = self.inner_meeting(j, cells, &gap, angle);
-            let (near, frame) = self.near_defect(RacewaySide::Inner, &at, frames);
-            let near =
-                near.unwrap_or_else(|cause| self.without_answer(RacewaySide::Inner, &at, now, frames, cause, unsolved));
-            let near = Near::new(near, frame, frames);
+            let near = self
+                .near(RacewaySide::Inner, &at, frames)
+                .unwrap_or_else(|cause| self.without_answer(RacewaySide::Inner, &at, now, frames, cause, unsolved));
             let around = (self.outer_centre_radius + u) * speed;
             let q_rate = [now.drift().dot(&e_r) + path_rate, now.drift().dot(&turned(e_r)) + around];
-            let found = self.inner_contact(&near, &gap, q_rate, films);
-            let [_, f_r, f_t] = found.force;
+            let found = near.force(law, film, [gap.closing(q_rate), gap.turning(q_rate)], frames);
+            let [f_r, f_t] = gap.turned(found.force);
             let acceleration = &mut elements[j / WIDEST].other[j % WIDEST];
             let of_outer = if non_smooth_outer.iter().any(|other| other.element == j) { *acceleration } else { 0.0 };
             *acceleration = of_outer + f_r * self.inverse_element_mass;
             on_shaft -= e_r * f_r + turned(e_r) * f_t;
             if RECORD {
-                torques[found.frame as usize] += found.torque;
-                contacts.push(NonSmoothContact { element: j, ..found });
+                torques[near.frame as usize] -= found.force[1] * gap.distance;
+                contacts.push(NonSmoothContact::new(j, law, &found, [f_r, f_t]));
             }
         }
         on_shaft
@@ -136,93 +131,21 @@ impl Model {
         frames: &Frames,
         cause: ContactError,
         unsolved: &mut Option<UnsolvedContact>,
-    ) -> Approach {
+    ) -> Near<f64> {
         // NaN here has its cause elsewhere.
         if (at.u + now.cage.angle).is_finite() {
             let angle = self.angle_from_defect(side, at, frames);
             *unsolved = Some(UnsolvedContact { element: at.element, angle, offset: now.offset().into(), cause });
         }
-        Approach::unsolved()
+        Near { approach: Approach::unsolved(), frame: Frame::Housing }
     }
+}
 
-    /// The outer contact of an element on a smooth raceway that yields.
+impl NonSmoothContact {
     #[inline(always)]
-    fn yielding_contact(&self, u: f64, path_rate: f64, films: Option<&FilmsNow>) -> NonSmoothContact {
-        let law = &self.outer.contact;
-        let (part, part_rate) = law.of_contact(u, path_rate);
-        let force = law.law.force(part, part_rate) + film_force(films, RacewaySide::Outer, u, path_rate);
-        let (force, pushing) = ([force, force, 0.0], law.law.pushing(part, part_rate));
-        NonSmoothContact { element: 0, approach: u, pushing, force, torque: 0.0, frame: Frame::Housing }
-    }
-
-    /// The outer contact of an element with its own defect.
-    #[inline(never)]
-    fn own_outer_contact(
-        &self,
-        at: &Meeting,
-        [path_rate, speed]: [f64; 2],
-        now: &Kinematics,
-        (frames, films): (&Frames, Option<&FilmsNow>),
-        unsolved: &mut Option<UnsolvedContact>,
-    ) -> NonSmoothContact {
-        let (near, frame) = self.near_defect(RacewaySide::Outer, at, frames);
-        let near =
-            near.unwrap_or_else(|cause| self.without_answer(RacewaySide::Outer, at, now, frames, cause, unsolved));
-        let turning = speed - frames.of(frame).speed;
-        self.outer_contact(&near, frame, [path_rate, turning], at.distance, films)
-    }
-
-    /// An outer contact at this approach and distance from the ring's centre; the path, and the angle against the body
-    /// that bears the defect, change at `rates`.
-    #[inline(always)]
-    fn outer_contact(
-        &self,
-        near: &Approach,
-        frame: Frame,
-        rates: [f64; 2],
-        distance: f64,
-        films: Option<&FilmsNow>,
-    ) -> NonSmoothContact {
-        let [path_rate, turning] = rates;
-        let compliant = self.outer.contact.compliance != 0.0;
-        let rate = near.by_path * path_rate + near.by_angle * turning;
-        let (part, part_rate) =
-            if compliant { self.outer.contact.of_contact(near.value, rate) } else { (near.value, rate) };
-        let film = film_force(films, RacewaySide::Outer, near.value, rate);
-        let outer = self.outer.contact.law.force(part, part_rate) + film;
-        let (f_r, f_t) = (outer * near.radial, outer * near.tangential);
-        let magnitude = outer * (near.radial * near.radial + near.tangential * near.tangential).sqrt();
-        let pushing = self.outer.contact.law.pushing(part, part_rate);
-        let force = [magnitude, f_r, f_t];
-        NonSmoothContact { element: 0, approach: near.value, pushing, force, torque: -f_t * distance, frame }
-    }
-
-    /// An inner contact at this approach, q changing at `q_rate` (radial and tangential as seen from the outer ring).
-    fn inner_contact(
-        &self,
-        near: &Near,
-        gap: &InnerGap,
-        q_rate: [f64; 2],
-        films: Option<&FilmsNow>,
-    ) -> NonSmoothContact {
-        let Near { approach: near, frame_speed, frame } = near;
-        let (n, [radial, tangential]) = (gap.n, q_rate);
-        let opening = n.x * radial + n.y * tangential;
-        let turning = (n.x * tangential - n.y * radial) / gap.distance;
-        let rate = -near.by_path * opening + near.by_angle * (turning - frame_speed);
-        let law = &self.inner.contact.law;
-        let amount = law.force(near.value, rate) + film_force(films, RacewaySide::Inner, near.value, rate);
-        let (along, across) = (amount * near.radial, amount * near.tangential);
-        let (f_r, f_t) = (along * n.x - across * n.y, along * n.y + across * n.x);
-        let magnitude = amount * (near.radial * near.radial + near.tangential * near.tangential).sqrt();
-        NonSmoothContact {
-            element: 0,
-            approach: near.value,
-            pushing: law.pushing(near.value, rate),
-            force: [magnitude, f_r, f_t],
-            torque: -across * gap.distance,
-            frame: *frame,
-        }
+    fn new(element: usize, law: &CompliantContact, found: &ContactForce<f64>, [radial, tangential]: [f64; 2]) -> Self {
+        let ContactForce { approach, part, magnitude, .. } = *found;
+        Self { element, approach, pushing: law.law.pushing(part[0], part[1]), force: [magnitude, radial, tangential] }
     }
 }
 
@@ -238,16 +161,17 @@ impl OuterSum<'_> {
     #[inline(always)]
     fn add<const RECORD: bool>(
         &mut self,
-        model: &Model,
-        &OnPath { element: j, e_r, .. }: &OnPath,
-        found: NonSmoothContact,
+        law: &CompliantContact,
+        &OnPath { element: j, e_r, inverse_mass, .. }: &OnPath,
+        found: &ContactForce<f64>,
+        (frame, distance): (Frame, f64),
     ) {
-        let [_, f_r, f_t] = found.force;
-        self.elements[j / WIDEST].other[j % WIDEST] = -f_r * model.inverse_element_mass;
+        let [f_r, f_t] = found.force;
+        self.elements[j / WIDEST].other[j % WIDEST] = -f_r * inverse_mass;
         self.on_housing += e_r * f_r - turned(e_r) * f_t;
         if RECORD {
-            self.torques[found.frame as usize] += found.torque;
-            self.contacts.push(NonSmoothContact { element: j, ..found });
+            self.torques[frame as usize] -= f_t * distance;
+            self.contacts.push(NonSmoothContact::new(j, law, found, [f_r, f_t]));
         }
     }
 }
@@ -258,6 +182,7 @@ struct OnPath {
     e_r: Vector,
     u: f64,
     path_rate: f64,
+    inverse_mass: f64,
 }
 
 /// The outer contacts that are not those of the smooth rigid raceway, as a function of its own for the machine's

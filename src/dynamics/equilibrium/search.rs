@@ -20,8 +20,8 @@
 
 pub use super::error::EquilibriumError;
 use crate::contact::rolling::RacewaySide;
+use crate::dynamics::contacts::Linearized;
 use crate::dynamics::contacts::Meeting;
-use crate::dynamics::contacts::{Bends, Linearized};
 use crate::dynamics::parameters::{
     Cells, Excitation, Frame, FramedKinematics, Kinematics, Model, PathMotion, Quadratic, SMOOTH,
 };
@@ -117,7 +117,7 @@ impl Model {
     pub fn resting_path(&self, j: usize, cage_angle: f64) -> f64 {
         let now = FramedKinematics::at_rest(cage_angle, Vector::zeros());
         let cell = self.outer.defects.cell_at(self.element_angle(j, &now.cage));
-        self.touching_path(j, [cell, SMOOTH], &now)
+        self.touching_path(j, [cell, SMOOTH], self.element_angle(j, &now.cage), &now.frames)
     }
 
     /// How much farther (m) element `j` (from 0) comes inwards than on the smooth inner raceway before it touches a
@@ -131,9 +131,9 @@ impl Model {
             return 0.0;
         }
         let distance = self.outer_centre_radius - self.radial_clearance;
-        let mut at = Meeting { element: j, cells: [cell, SMOOTH], u: 0.0, direction, distance };
+        let mut at = Meeting { element: j, cells: [cell, SMOOTH], u: 0.0, direction, distance, curved: true };
         for _ in 0..20 {
-            let near = self.approach(RacewaySide::Inner, &at, &now.frames).approach;
+            let near = self.near_or_unsolved(RacewaySide::Inner, &at, &now.frames).approach;
             let step = near.value / near.by_path;
             (at.u, at.distance) = (at.u - step, at.distance + step);
             if step.abs() < 1e-15 {
@@ -144,14 +144,19 @@ impl Model {
     }
 
     /// Element `j` in radial balance, looked for from path `guess` on.
-    fn balanced_element(&self, j: usize, cells: [[u32; 2]; 2], guess: f64, now: &FramedKinematics) -> ElementAtRest {
-        // u' = 0. Without second derivatives of the approach the slope is that of another damping, which Newton's
-        // method bears.
+    pub(super) fn balanced_element(
+        &self,
+        j: usize,
+        cells: [[u32; 2]; 2],
+        guess: f64,
+        now: &FramedKinematics,
+    ) -> ElementAtRest {
+        let at = self.element_motion(j, PathMotion::at_rest(guess), now).searched();
         let element = |u: f64| {
-            let element = self.linearized_at(j, cells, PathMotion::at_rest(u), now, Bends::LeftOut);
+            let element = self.linearized_at(cells, &at.on_path(u, 0.0));
             (self.radial_push(&element), element)
         };
-        let touch = if cells[1] == [SMOOTH; 2] { 0.0 } else { self.touching_path(j, cells[1], now) };
+        let touch = if cells[1] == [SMOOTH; 2] { 0.0 } else { self.touching_path(j, cells[1], at.angle, &at.frames) };
         let (RadialForce { force: at_touch, .. }, touching) = element(touch);
         if at_touch == 0.0 {
             return ElementAtRest { path: touch, element: touching, nearer: None };
@@ -180,8 +185,8 @@ impl Model {
             Some((path, (other, there))) if force * other.force < 0.0 && other.force.is_finite() => {
                 let share = force / (force - other.force);
                 let mut between = here;
-                between.inner += (there.inner - here.inner) * share;
-                between.outer += (there.outer - here.outer) * share;
+                between.inner.force += (there.inner.force - here.inner.force) * share;
+                between.outer.force += (there.outer.force - here.outer.force) * share;
                 let nearer = if force.abs() <= other.force.abs() { u } else { path };
                 // Where it pushes its tangent is that of what it does between the two.
                 let path = if slope.abs() >= other.slope.abs() { u } else { path };
@@ -205,11 +210,11 @@ impl Model {
                 if at.cells == [SMOOTH; 2] {
                     continue;
                 }
-                let (Err(cause), _) = self.near_defect(side, &at, &now.frames) else { continue };
+                let Err(cause) = self.near(side, &at, &now.frames) else { continue };
                 // The search may have ended on the far side, where all is NaN.
-                let element = self.linearized_at(j, cells, PathMotion::at_rest(u - FURTHER), &now, Bends::LeftOut);
+                let element = self.at_rest(j, cells, u - FURTHER, &now);
                 let residual = self.radial_balance(&element).force;
-                if !(residual.abs() <= UNBALANCED * element.inner.norm()) {
+                if !(residual.abs() <= UNBALANCED * element.inner.force.norm()) {
                     let angle_deg = self.angle_from_defect(side, &at, &now.frames).to_degrees();
                     return Err(EquilibriumError::Contact { element: j + 1, angle_deg, residual, cause });
                 }
@@ -224,7 +229,7 @@ impl Model {
         let now = given.with_rings(rings);
         for (j, path) in u.iter_mut().enumerate() {
             let cells = self.cells_of(given.cells, j);
-            let element = self.linearized_at(j, cells, PathMotion::at_rest(*path), &now, Bends::LeftOut);
+            let element = self.at_rest(j, cells, *path, &now);
             let RadialForce { force, slope } = self.radial_balance(&element);
             let is_steep = !self.elements_in_balance() && !(force.abs() <= self.no_force(&element));
             let nearer = is_steep.then(|| self.balanced_element(j, cells, *path, &now).nearer).flatten();
@@ -246,21 +251,24 @@ impl Model {
         for j in 0..self.element_count {
             let in_cells = self.cells_of(cells, j);
             let ElementAtRest { path, element, nearer } = if self.elements_in_balance() {
-                let found = self.in_balance(j, in_cells, u[j], &now);
-                let [shaft, housing] = found.exerted().rings;
+                let found = self.in_balance(in_cells, u[j], &self.element_motion(j, PathMotion::at_rest(u[j]), &now));
+                let [shaft, housing] = found.forces().on_rings();
                 force += stacked(shaft, housing);
                 ElementAtRest { path: found.path, element: found.elastic, nearer: None }
             } else {
                 let found = self.balanced_element(j, in_cells, u[j], &now);
-                force += stacked(-found.element.inner, found.element.on_housing());
+                let element = &found.element;
+                let (inner, outer) = (element.inner.force, element.outer.force);
+                force += stacked(element.at.on_shaft(inner), element.at.on_housing(outer));
                 found
             };
             u[j] = path;
             if nearer.is_none() {
                 rounding += self.radial_balance(&element).slope.abs() * (path.abs() + play) * 4.0 * f64::EPSILON;
             }
-            contact_sum += element.inner.norm();
-            largest = largest.max(element.inner.amax()).max(element.outer.amax());
+            let (inner, outer) = (element.inner.force, element.outer.force);
+            contact_sum += inner.norm();
+            largest = largest.max(inner.amax()).max(outer.amax());
         }
         let load = |axis: &Quadratic| axis.at(0.0);
         let loads = Rings::from_iterator(excitation.shaft_load.iter().chain(&excitation.housing_load).map(load));
@@ -358,13 +366,13 @@ fn longest_step(iteration: i32) -> f64 {
 }
 
 /// An element in radial balance.
-struct ElementAtRest {
+pub(super) struct ElementAtRest {
     /// Its path (m).
-    path: f64,
+    pub(super) path: f64,
     /// Its contacts, with the forces of the balance.
     element: Linearized,
     /// Where the balance lies between this path and the next number: that of the two at which less force is left.
-    nearer: Option<f64>,
+    pub(super) nearer: Option<f64>,
 }
 
 /// What the search is given. Velocities in `still` stay; where the rings are follows in each iteration.

@@ -16,9 +16,9 @@
 //! What it takes is the cage torque.
 
 use crate::dynamics::contacts::{Forces, NonSmoothOuter};
-use crate::dynamics::parameters::{Cells, Excitation, Frame, Model, Stage};
+use crate::dynamics::parameters::{Cells, Excitation, Frame, Model, PathMotion, Stage};
 use crate::numerics::lanes::{Kernel, Lanes, Wide, dispatch};
-use crate::numerics::plane::{Vector, turned};
+use crate::numerics::plane::Vector;
 
 impl Model {
     /// Derivative of `state` at `tau`, and each contact; `cells` says in which cell each contact is.
@@ -119,9 +119,8 @@ impl Model {
 
     /// Torque of the elements on the cage about the outer ring's centre (N m), counter-clockwise.
     ///
-    /// The kinematic cage forces each element to the tangential acceleration a_o·e_t + 2 u' ω + ρ ω'; what contacts and
-    /// gravity do not supply, it does. It also takes up the torque of an element's defect on that element, whose spin
-    /// is forced as well. `acceleration` is the outer ring's (m/s²).
+    /// It also takes up the torque of an element's defect on that element, whose spin is forced as well. `acceleration`
+    /// is the outer ring's (m/s²).
     pub fn cage_torque(
         &self,
         excitation: &Excitation,
@@ -130,17 +129,13 @@ impl Model {
         acceleration: Vector,
         forces: &Forces,
     ) -> f64 {
-        self.begin(excitation);
-        let cage = excitation.cage_at(tau);
+        let (now, contacts) = (self.kinematics(excitation, tau, state), &forces.contacts);
+        let paths = forces.paths(self, state);
         let of_paths: f64 = (0..self.element_count)
             .map(|j| {
-                let e_t = turned(self.direction(j, &cage));
-                let [speed, alpha] = self.element_speed(j, &cage);
-                let rho = self.outer_centre_radius + forces.paths(self, state)[j];
-                let contacts = &forces.contacts;
-                let inertia = acceleration.dot(&e_t) + 2.0 * contacts.path_rate[j] * speed + rho * alpha;
-                let contacts = contacts.inner[j] * contacts.normal_tangential[j] + contacts.outer_tangential[j];
-                rho * (contacts + self.element_mass * (self.gravity.dot(&e_t) - inertia))
+                let at = self.element_motion(j, PathMotion { path: paths[j], rate: contacts.path_rate[j] }, &now);
+                let around = contacts.inner[j] * contacts.normal_tangential[j] + contacts.outer_tangential[j];
+                self.torque_on_cage(&at, around, acceleration)
             })
             .sum();
         of_paths + forces.torque_on(Frame::Spin)

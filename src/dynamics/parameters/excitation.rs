@@ -65,24 +65,26 @@ pub enum Frame {
 
 /// Angle and speed of a frame at one instant.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Turn {
+pub struct Turn<T = f64> {
     /// Angle (rad).
-    pub angle: f64,
+    pub angle: T,
     /// Speed (rad/s).
-    pub speed: f64,
+    pub speed: T,
 }
 
 /// All frames at one instant, in the order of [`Frame`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Frames(pub [Turn; 3]);
+pub struct Frames<T = f64>(pub [Turn<T>; 3]);
 
-impl Frames {
+impl<T: Copy> Frames<T> {
     /// One of them.
     #[inline]
-    pub fn of(&self, frame: Frame) -> Turn {
+    pub fn of(&self, frame: Frame) -> Turn<T> {
         self.0[frame as usize]
     }
+}
 
+impl Frames {
     /// Frames that stand still at these angles.
     pub fn at_rest(&self) -> Self {
         Self(self.0.map(|turn| Turn { speed: 0.0, ..turn }))

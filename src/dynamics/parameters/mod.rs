@@ -17,7 +17,7 @@ pub use irregularity::{Irregularity, Lead};
 pub use kinematics::{CageState, FramedKinematics, Kinematics, RingState};
 pub use layout::Layout;
 pub use model::Model;
-pub use raceway::{Ahead, Cells, Centred, DefectiveElement, Defects, Near, Raceway, SMOOTH, SurfaceDefect};
+pub use raceway::{Ahead, Cells, Centred, DefectiveElement, Defects, Raceway, SMOOTH, SurfaceDefect};
 pub use sensor_modes::SensorModes;
 pub use supports::{BODIES, Bodies, BodyMatrix, FEW_BODIES, SensorSupport, Support, Supports};
 
@@ -25,5 +25,5 @@ pub(crate) use kinematics::Stage;
 pub(crate) use sensor_modes::StepEnds;
 
 pub(in crate::dynamics) use element_block::ElementBlock;
-pub(in crate::dynamics) use film::{FilmsNow, Resistance, film_force, resistance};
+pub(in crate::dynamics) use film::{FilmsNow, OilFilms};
 pub(in crate::dynamics) use kinematics::{PathMotion, moved, prescribed_rate};

@@ -2,7 +2,7 @@
 
 use super::element_block::{ElementBlock, blocks};
 use super::excitation::{Excitation, Frame};
-use super::film::{Films, FilmsNow};
+use super::film::{Films, FilmsNow, OilFilms};
 use super::irregularity::{Irregularity, Lead};
 use super::kinematics::CageState;
 use super::layout::Layout;
@@ -13,6 +13,7 @@ use crate::contact::law::{CompliantContact, smooth_laws};
 use crate::geometry::kinematics::Ratios;
 use crate::numerics::lanes::WIDEST;
 use crate::numerics::plane::{Vector, turned_by};
+use crate::numerics::scalar::Scalar;
 use crate::numerics::sin_cos;
 use crate::scene::{Damping, ElementInertia, Ring, Scene};
 use std::f64::consts::TAU;
@@ -215,6 +216,12 @@ impl Model {
     #[inline(always)]
     pub fn clearance(&self, films: Option<&FilmsNow>) -> f64 {
         films.map_or(self.radial_clearance, |films| self.radial_clearance - films.together())
+    }
+
+    /// As [`Self::clearance`], for films with derivatives.
+    pub(in crate::dynamics) fn clearance_between<T: Scalar>(&self, films: Option<&OilFilms<T>>) -> T {
+        let clearance = T::from(self.radial_clearance);
+        films.map_or(clearance, |films| clearance - films.together)
     }
 
     /// What element `j` is ahead of its position in a cage that turns evenly.

@@ -5,7 +5,8 @@
 use std::sync::Arc;
 
 use brinell::contact::map::ContactMap;
-use brinell::contact::near_defect::{Lever, NearDefect, NearMap};
+use brinell::contact::near_defect::{NearDefect, NearMap};
+use brinell::numerics::dual::Dual;
 use libfuzzer_sys::fuzz_target;
 
 const RACEWAY: f64 = 23.6e-3;
@@ -29,9 +30,10 @@ fn check(bytes: &[u8]) {
         for share in [0.0, 0.3, 1.0] {
             let angle = knots[cell] + share * (knots[cell + 1] - knots[cell]);
             for path in [-1e-5, 0.0, 1e-7, 1e-5, 2e-4] {
-                for by_approach in [1.0, -1.0] {
-                    let _ = near.approach(cell, path, angle, Lever { distance: RACEWAY, by_approach });
-                }
+                // With derivatives it is asked for more.
+                let dual = Dual::<Dual<f64, 1>, 1>::variable;
+                let [path, angle] = [path, angle].map(|value| dual(Dual::variable(value, 0), 0));
+                let _ = near.approach(cell, path, angle, Dual::from(RACEWAY), true);
             }
         }
     }

@@ -131,7 +131,8 @@ pub(crate) fn moving(model: &Model, excitation: &Excitation, seed: u64) -> (Vec<
         let cage = excitation.cage_at(0.0);
         let outer = model.outer.defects.cell_at(model.element_angle(j, &cage));
         let at = model.outer_meeting(j, [outer, SMOOTH], 0.0, &cage);
-        let floor = -model.approach(RacewaySide::Outer, &at, &excitation.frames_at(0.0)).approach.value;
+        let frames = excitation.frames_at(0.0);
+        let floor = -model.near_or_unsolved(RacewaySide::Outer, &at, &frames).approach.value;
         state[j] += floor + 6e-6;
     }
     let cells = model.cells_at(excitation, 0.0, &state);

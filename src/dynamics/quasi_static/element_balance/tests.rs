@@ -1,9 +1,10 @@
 //! Elements in balance: those found side by side against those found alone, rates and tangents against differences.
 
+use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::Forces;
 use crate::dynamics::derivatives::Jacobian;
 use crate::dynamics::derivatives::jacobian::tests::{Bearer, DAMPINGS, MOTIONS, lively_with, moving};
-use crate::dynamics::parameters::{CageState, Cells, Excitation, Stage};
+use crate::dynamics::parameters::{CageState, Cells, Excitation, PathMotion, Stage};
 use crate::dynamics::quasi_static::balance_lanes::SmoothElements;
 use crate::dynamics::quasi_static::element_balance::*;
 use crate::numerics::lanes::{Kernel, dispatch};
@@ -72,22 +73,24 @@ fn elements_found_side_by_side_are_those_found_alone_and_each_is_in_balance() {
         let mut rings = Rings::zeros();
         for j in 0..model.element_count {
             let in_cells = model.cells_of(cells, j);
-            let found = model.in_balance(j, in_cells, 0.0, &now);
-            let Linearized { e_r, omega, .. } = found.elastic;
+            let found = model.in_balance(in_cells, 0.0, &model.element_motion(j, PathMotion::at_rest(0.0), &now));
+            let ElementMotion { e_r, omega, .. } = found.elastic.at;
             let body = model.element_mass * (model.gravity.dot(&e_r) + model.outer_centre_radius * omega * omega);
             let scale = found.inner.norm() + found.outer.norm() + body.abs();
-            let left = found.inner.dot(&e_r) - found.outer.x + body;
+            let left = found.inner.x - found.outer.x + body;
             // The search ends a thousandth below what it is asked for; rounding of 30 µm on the contact's stiffness.
             assert!(left.abs() < 1e-11 * scale + 1e-11, "{left:e} N is left of element {j}'s {scale} N");
             pressed += usize::from(found.inner.norm() > 1.0);
             near_defect += usize::from(in_cells != [[SMOOTH; 2]; 2]);
-            let [shaft, housing] = found.exerted().rings;
+            let [shaft, housing] = found.forces().on_rings();
             rings += stacked(shaft, housing);
             // Both end their search where 1e-12 m is left of a step; side by side stiffnesses are those before it.
             let path = forces.paths(model, state)[j];
             assert!((path - found.path).abs() < 1e-15, "element {j}: {path:e} against {:e} alone", found.path);
             let rate = rates[j] - found.path_rate;
-            let pushing = found.elastic.approaches.into_iter().filter(|&approach| approach > 0.0);
+            let pushing = [found.elastic.inner.approach, found.elastic.outer.approach]
+                .into_iter()
+                .filter(|&approach| approach > 0.0);
             let share = 2e-12 / pushing.fold(1.0, f64::min);
             let limit = share * found.path_rate.abs() + 1e-11;
             assert!(rate.abs() < limit, "element {j}: {rate:e} of {:e}", found.path_rate);
@@ -117,7 +120,8 @@ fn the_balance_does_not_depend_on_where_its_search_begins() {
                 let [one, other] = [&forces, &again].map(|forces| forces.paths(model, state)[j]);
                 // A loose element's path is known to the rounding of its contact's approach.
                 assert!((one - other).abs() < 1e-15, "{one:e} and {other:e} from {guess:e}");
-                let alone = model.in_balance(j, model.cells_of(cells, j), guess, &now).path;
+                let at = model.element_motion(j, PathMotion::at_rest(guess), &now);
+                let alone = model.in_balance(model.cells_of(cells, j), guess, &at).path;
                 assert!((one - alone).abs() < 1e-15, "{one:e} and {alone:e} alone from {guess:e}");
             }
         }
