@@ -1,7 +1,7 @@
 //! The forces of both contacts of one element, and what they exert on the rest of the bearing.
 
 use super::element_motion::ElementMotion;
-use super::kernel::{InnerGap, Meeting, film_on};
+use super::kernel::{InnerGap, Meeting, film_on, normal_force};
 use crate::contact::law::CompliantContact;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::parameters::{Frame, Frames, Model, OilFilms, SMOOTH};
@@ -135,18 +135,20 @@ impl Model {
         }
     }
 
-    /// Torque on the cage about the outer ring's centre (N m) of an element that its contacts push `around` with a force
-    /// (N) counter-clockwise; that about its own axis is left out.
+    /// Torque on the cage about the outer ring's centre (N m) of an element with this tangential direction, speed and
+    /// acceleration (rad/s, rad/s²), path and rate of it (m, m/s), that its contacts push `around` with a force (N)
+    /// counter-clockwise; that about its own axis is left out.
     ///
     /// The kinematic cage forces each element to the tangential acceleration a_o·e_t + 2 u' ω + ρ ω'; what contacts and
     /// gravity do not supply, it does. `acceleration` is the outer ring's (m/s²).
     pub(in crate::dynamics) fn torque_on_cage<T: Scalar>(
         &self,
-        at: &ElementMotion<T>,
+        e_t: Vector<T>,
+        [omega, alpha]: [T; 2],
+        [path, path_rate]: [T; 2],
         around: T,
         acceleration: Vector,
     ) -> T {
-        let ElementMotion { e_t, omega, alpha, path, path_rate, .. } = *at;
         let rho = path + T::from(self.outer_centre_radius);
         let inertia = acceleration.map(T::from).dot(&e_t) + (path_rate + path_rate) * omega + rho * alpha;
         rho * (around + (self.gravity.map(T::from).dot(&e_t) - inertia) * T::Plain::from(self.element_mass))
@@ -193,14 +195,18 @@ impl Model {
         let InnerPlace { element, cells, q_rate, frames, films, .. } = place;
         let clearance = self.clearance_between(films.as_ref());
         let gap = InnerGap::of(place.rho, place.u, place.offset, clearance, false);
-        // Smooth raceways look the same everywhere.
-        let direction = if *cells == [SMOOTH; 2] { place.angle } else { place.angle + gap.lead() };
-        let (element, cells) = (*element, *cells);
+        let film = film_on(films.as_ref(), RacewaySide::Inner);
+        if *cells == [SMOOTH; 2] {
+            let (force, _) = normal_force(contact, film, gap.approach, gap.closing(*q_rate));
+            let force = [force * gap.n[0], force * gap.n[1]];
+            return (OnElement { force, approach: gap.approach, frame: Frame::Housing }, gap);
+        }
+        let (element, cells, direction) = (*element, *cells, place.angle + gap.lead());
         let (u, distance, curved) = (gap.approach, gap.distance, place.curved);
         let at = Meeting { element, cells, u, direction, distance, curved };
         let near = self.near_or_unsolved(RacewaySide::Inner, &at, frames);
         let rates = [gap.closing(*q_rate), gap.turning(*q_rate)];
-        let found = near.force(contact, film_on(films.as_ref(), RacewaySide::Inner), rates, frames);
+        let found = near.force(contact, film, rates, frames);
         (OnElement { force: gap.turned(found.force), approach: found.approach, frame: near.frame }, gap)
     }
 
@@ -208,12 +214,17 @@ impl Model {
     #[inline(always)]
     pub(super) fn outer_contact<T: Scalar>(&self, contact: &CompliantContact, place: &OuterPlace<T>) -> OnElement<T> {
         let OuterPlace { element, cells, u, angle, frames, films, .. } = place;
+        let film = film_on(films.as_ref(), RacewaySide::Outer);
+        if *cells == [SMOOTH; 2] {
+            let (force, _) = normal_force(contact, film, *u, place.path_rate);
+            return OnElement { force: [force, T::from(0.0)], approach: *u, frame: Frame::Housing };
+        }
         let distance = *u + T::from(self.outer_centre_radius);
         let (element, cells, curved) = (*element, *cells, place.curved);
         let at = Meeting { element, cells, u: *u, direction: *angle, distance, curved };
         let near = self.near_or_unsolved(RacewaySide::Outer, &at, frames);
         let rates = [place.path_rate, place.omega];
-        let found = near.force(contact, film_on(films.as_ref(), RacewaySide::Outer), rates, frames);
+        let found = near.force(contact, film, rates, frames);
         OnElement { force: found.force, approach: found.approach, frame: near.frame }
     }
 }

@@ -76,9 +76,9 @@ impl<T: Number> InnerGap<T> {
         let q_r = rho + p;
         let (longer, n, distance) = if series {
             let slope = t / q_r;
-            let (x, [one, half, eighth]) = (slope * slope, [1.0, 0.5, 0.125].map(|number| p.all(number)));
-            let n_r = one - x * (half - x * p.plain(0.375));
-            let longer = t * slope * (half - x * (eighth - x * p.plain(0.0625)));
+            let (x, number) = (slope * slope, |number| p.all(number));
+            let n_r = number(1.0) - x * (number(0.5) - x * p.plain(0.375));
+            let longer = t * slope * (number(0.5) - x * (number(0.125) - x * p.plain(0.0625)));
             (longer, [n_r, slope * n_r], q_r + longer)
         } else {
             let square = t * t;
@@ -137,12 +137,10 @@ impl<T: Scalar> Near<T> {
     ) -> ContactForce<T> {
         let Approach { value, by_path, by_angle, radial, tangential } = self.approach;
         let rate = by_path * closing + by_angle * (turning - frames.of(self.frame).speed);
-        let (part, part_rate) = law.of_contact(value, rate);
-        let force = law.law.force(part, part_rate);
-        let force = film.map_or(force, |film| force + film.force(value, rate));
+        let (force, part) = normal_force(law, film, value, rate);
         ContactForce {
             approach: value,
-            part: [part, part_rate],
+            part,
             force: [force * radial, force * tangential],
             magnitude: force * (radial * radial + tangential * tangential).sqrt(),
         }
@@ -213,6 +211,19 @@ impl Model {
             RacewaySide::Outer => &self.outer,
         }
     }
+}
+
+/// Q(Δ, Δ̇) of a contact with the film between its surfaces (N), and the contact's own part of approach and rate.
+#[inline(always)]
+pub(super) fn normal_force<T: Scalar>(
+    law: &CompliantContact,
+    film: Option<&SqueezeFilm<T>>,
+    approach: T,
+    rate: T,
+) -> (T, [T; 2]) {
+    let (part, part_rate) = law.of_contact(approach, rate);
+    let force = law.law.force(part, part_rate);
+    (film.map_or(force, |film| force + film.force(approach, rate)), [part, part_rate])
 }
 
 /// The film of one raceway.

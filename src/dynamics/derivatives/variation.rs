@@ -176,7 +176,9 @@ impl Model {
             rings += on_rings(&forces);
             (change.inner[j], change.outer[j]) = (magnitude(&forces.inner), magnitude(&forces.outer));
             let around = forces.inner.y + forces.outer.y;
-            change.cage_torque += self.torque_on_cage(&forces.at, around, acceleration).by[0];
+            let ElementMotion { e_t, omega, alpha, path, path_rate, .. } = forces.at;
+            let torque = self.torque_on_cage(e_t, [omega, alpha], [path, path_rate], around, acceleration);
+            change.cage_torque += torque.by[0];
             change.torque_by_acceleration -=
                 forces.at.e_t.map(|part| part.value * forces.rho.value * self.element_mass);
             for BodyTorque { frame, torque } in forces.torques() {

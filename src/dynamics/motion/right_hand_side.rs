@@ -16,9 +16,9 @@
 //! What it takes is the cage torque.
 
 use crate::dynamics::contacts::{Forces, NonSmoothOuter};
-use crate::dynamics::parameters::{Cells, Excitation, Frame, Model, PathMotion, Stage};
+use crate::dynamics::parameters::{Cells, Excitation, Frame, Model, Stage};
 use crate::numerics::lanes::{Kernel, Lanes, Wide, dispatch};
-use crate::numerics::plane::Vector;
+use crate::numerics::plane::{Vector, turned};
 
 impl Model {
     /// Derivative of `state` at `tau`, and each contact; `cells` says in which cell each contact is.
@@ -129,13 +129,13 @@ impl Model {
         acceleration: Vector,
         forces: &Forces,
     ) -> f64 {
-        let (now, contacts) = (self.kinematics(excitation, tau, state), &forces.contacts);
-        let paths = forces.paths(self, state);
+        self.begin(excitation);
+        let (cage, contacts, paths) = (excitation.cage_at(tau), &forces.contacts, forces.paths(self, state));
         let of_paths: f64 = (0..self.element_count)
             .map(|j| {
-                let at = self.element_motion(j, PathMotion { path: paths[j], rate: contacts.path_rate[j] }, &now);
+                let (e_t, turning) = (turned(self.direction(j, &cage)), self.element_speed(j, &cage));
                 let around = contacts.inner[j] * contacts.normal_tangential[j] + contacts.outer_tangential[j];
-                self.torque_on_cage(&at, around, acceleration)
+                self.torque_on_cage(e_t, turning, [paths[j], contacts.path_rate[j]], around, acceleration)
             })
             .sum();
         of_paths + forces.torque_on(Frame::Spin)
