@@ -14,7 +14,7 @@ use super::error::ContactError;
 use crate::contact::love::LoveContact;
 use crate::contact::map::{ContactMap, Unmapped};
 use crate::contact::rolled_path::RigidPath;
-use crate::numerics::scalar::Scalar;
+use crate::numerics::number::Scalar;
 
 /// Equivalent approach of one element to a raceway, and the direction of the contact force on the element.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,14 +5,12 @@
 
 pub mod bytes;
 pub mod checksum;
-pub mod dual;
 pub mod elementary;
 pub mod lanes;
 pub mod low_pass;
 pub mod number;
 pub mod plane;
 pub mod polynomials;
-pub mod scalar;
 #[cfg(test)]
 pub(crate) mod trees;
 

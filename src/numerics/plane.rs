@@ -3,7 +3,7 @@
 //! They are nalgebra's of fixed size, whose sums and products are ordinary IEEE operations one by one, in an order that
 //! the size fixes: equal bits on every machine.
 
-use super::scalar::Scalar;
+use super::number::Scalar;
 
 /// A vector of the plane.
 pub type Vector<T = f64> = nalgebra::Vector2<T>;

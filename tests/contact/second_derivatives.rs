@@ -18,7 +18,7 @@ use brinell::contact::map::{ContactMap, MapPlan, MapSpecification, Sequential};
 use brinell::contact::near_defect::{NearDefect, NearLove, NearMap};
 use brinell::contact::rolled_path::RigidPath;
 use brinell::contact::rolling::{RacewaySide, Rolling};
-use brinell::numerics::dual::Dual;
+use brinell::numerics::number::Dual;
 use brinell::scene::Bearing;
 use brinell::surface::{Profile, Surface};
 

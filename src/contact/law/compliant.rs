@@ -22,7 +22,7 @@
 
 use super::elasticity::Elasticity;
 use super::force_law::ForceLaw;
-use crate::numerics::scalar::Scalar;
+use crate::numerics::number::Scalar;
 
 /// Most of Newton's steps. Where the compliance takes nearly all, each leaves a tenth of the approach; then they double
 /// the digits.
@@ -160,7 +160,7 @@ fn root(beta: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::contact::law::crown::Crown;
-    use crate::numerics::dual::Dual;
+    use crate::numerics::number::Dual;
     use crate::scene::Damping;
     use proptest::prelude::*;
     use std::sync::{Arc, LazyLock};

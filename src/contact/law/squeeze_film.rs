@@ -76,7 +76,7 @@ impl<T: Number> SqueezeFilm<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::dual::Dual;
+    use crate::numerics::number::Dual;
     use proptest::prelude::*;
 
     const FILMS: [SqueezeFilm; 3] =

@@ -5,8 +5,8 @@ use super::kernel::{InnerGap, Meeting, film_on, normal_force};
 use crate::contact::law::CompliantContact;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::parameters::{Frame, Frames, Model, OilFilms, SMOOTH};
+use crate::numerics::number::Scalar;
 use crate::numerics::plane::Vector;
-use crate::numerics::scalar::Scalar;
 
 /// What the inner contact of an element follows from.
 #[derive(Debug, Clone, Copy)]

@@ -2,8 +2,8 @@
 //! kind, so that a change of any of it is followed through the contacts by the one text there is of them.
 
 use crate::dynamics::parameters::{FilmsNow, FramedKinematics, Frames, Model, OilFilms, PathMotion, Turn};
+use crate::numerics::number::Scalar;
 use crate::numerics::plane::{Vector, turned};
-use crate::numerics::scalar::Scalar;
 
 /// One element and what it meets.
 #[derive(Debug, Clone, Copy)]

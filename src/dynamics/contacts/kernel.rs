@@ -15,7 +15,7 @@ use crate::contact::near_defect::Approach;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::parameters::{Frame, Frames, Model, OilFilms, Raceway, SMOOTH};
 use crate::numerics::number::Number;
-use crate::numerics::scalar::Scalar;
+use crate::numerics::number::Scalar;
 
 /// An element seen from the inner ring's centre.
 #[derive(Debug, Clone, Copy)]

@@ -19,9 +19,9 @@ use super::element_forces::{InnerPlace, OnElement, OuterPlace};
 use super::element_motion::{ElementMotion, ElementVariation};
 use crate::contact::law::CompliantContact;
 use crate::dynamics::parameters::{Frame, FramedKinematics, Frames, Model, PathMotion, SMOOTH, Turn};
-use crate::numerics::dual::Dual;
+use crate::numerics::number::Dual;
+use crate::numerics::number::Scalar;
 use crate::numerics::plane::{Matrix, Vector};
-use crate::numerics::scalar::Scalar;
 
 /// Directions of the inner contact's derivatives: q and q̇ along e_r and e_t, angle and speed of the frame, film speed.
 const INNER: usize = 7;

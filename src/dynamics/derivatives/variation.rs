@@ -13,7 +13,7 @@ use crate::dynamics::parameters::{
     CageState, Cells, Excitation, Frame, FramedKinematics, Frames, Lead, Model, PathMotion, RingState, Turn,
 };
 use crate::dynamics::quasi_static::{RingJacobian, Rings, stacked};
-use crate::numerics::dual::Dual;
+use crate::numerics::number::Dual;
 use crate::numerics::plane::{Matrix, Vector};
 
 /// A small change of state and inputs.

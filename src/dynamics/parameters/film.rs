@@ -12,7 +12,7 @@
 use crate::contact::law::SqueezeFilm;
 use crate::geometry::film_thickness::speed_factor;
 use crate::geometry::film_thickness::{LubricatedContact, SPEED_EXPONENT, rolling_speed_ratio};
-use crate::numerics::scalar::Scalar;
+use crate::numerics::number::Scalar;
 use crate::scene::{Remark, Scene};
 
 /// Force on the most loaded of Z elements over the whole load, times Z: Stribeck's 5.

@@ -10,7 +10,7 @@ use super::excitation::{Frame, Frames};
 use crate::contact::error::ContactError;
 use crate::contact::law::CompliantContact;
 use crate::contact::near_defect::{Approach, NearDefect};
-use crate::numerics::scalar::Scalar;
+use crate::numerics::number::Scalar;
 use crate::numerics::wrap;
 use std::f64::consts::TAU;
 

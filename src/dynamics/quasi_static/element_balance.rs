@@ -29,8 +29,8 @@ use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::{ElementChange, ElementForces, ElementMotion, ElementVariation, Linearized};
 use crate::dynamics::contacts::{Meeting, UnsolvedContact};
 use crate::dynamics::parameters::{FramedKinematics, Model, SMOOTH};
+use crate::numerics::number::Scalar;
 use crate::numerics::plane::Vector;
-use crate::numerics::scalar::Scalar;
 
 /// Change of a path below which Newton's next step is exact to rounding (m): what is left is 0.25 (this)²/δ, with the
 /// lightest contact's δ of 1e-9 m below 1e-21 m.

@@ -8,8 +8,8 @@
 
 use crate::dynamics::contacts::{ElementVariation, Linearized};
 use crate::dynamics::parameters::{Cells, FramedKinematics, Model, PathMotion};
+use crate::numerics::number::Scalar;
 use crate::numerics::plane::Vector;
-use crate::numerics::scalar::Scalar;
 use crate::scene::Motion;
 
 /// ∂(force on inner ring, force on outer ring)/∂(position of inner ring, position of outer ring) (N/m).

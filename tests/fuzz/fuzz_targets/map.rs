@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use brinell::contact::map::ContactMap;
 use brinell::contact::near_defect::{NearDefect, NearMap};
-use brinell::numerics::dual::Dual;
+use brinell::numerics::number::Dual;
 use libfuzzer_sys::fuzz_target;
 
 const RACEWAY: f64 = 23.6e-3;

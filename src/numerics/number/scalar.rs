@@ -1,8 +1,7 @@
 //! One number at a time, by itself or with derivatives: what tables, searches and jumps between branches can be asked
 //! with.
 
-use super::dual::Dual;
-use super::number::Number;
+use super::{Dual, Number};
 use num_traits::{One, Zero};
 use std::ops::{AddAssign, MulAssign, SubAssign};
 

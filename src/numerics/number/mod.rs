@@ -1,7 +1,13 @@
-//! What a formula needs to be written once: for one number, for several side by side, and for [dual numbers](super::dual)
-//! that carry derivatives along.
+//! What a formula needs to be written once: for one number, for several side by side, and for [dual numbers](Dual) that
+//! carry derivatives along.
 //!
 //! Selection is free of branches, so that lanes can do it, and takes the derivatives of the branch that holds.
+
+mod dual;
+mod scalar;
+
+pub use dual::Dual;
+pub use scalar::Scalar;
 
 use super::lanes::{Lanes, WIDEST, Wide};
 use super::ninth_root;

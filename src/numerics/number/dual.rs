@@ -3,7 +3,7 @@
 //! They nest: of a dual number of dual numbers the derivatives have derivatives. Where a function has a kink the
 //! derivatives are those of the branch that holds; at the kink itself those of the side on which it is constant.
 
-use super::number::Number;
+use super::Number;
 use std::array::from_fn;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -213,7 +213,7 @@ impl<N: Number + num_traits::Zero + num_traits::One, const K: usize> num_traits:
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::scalar::Scalar;
+    use crate::numerics::number::Scalar;
     use proptest::prelude::*;
 
     /// Every operation in one formula.
