@@ -65,7 +65,7 @@ impl Command {
         match self {
             Command::Build(options) => build(project, options),
             Command::Run(options) => {
-                let model = Model::read(&options.scene)?;
+                let model = options.model()?;
                 let wanted = options.options(&model.scene.experiment)?;
                 let folder = options.output.unwrap_or_else(|| project.results("run"));
                 run::command(project, model, &wanted, &folder)
@@ -108,11 +108,13 @@ impl Command {
                 let wanted = size::Options {
                     rate: options.rate,
                     speeds: options.speeds(),
-                    column: options.column.clone(),
+                    channel: options.channel.clone(),
+                    text: options.text(),
                     figure: !options.no_figure,
                 };
+                let bearing = options.bearing();
                 let folder = options.output.unwrap_or_else(|| project.results("size"));
-                size::command(project, &options.scene, &options.recordings, &wanted, &folder)
+                size::command(project, &bearing, &options.recordings, &wanted, &folder)
             }
             Command::Demo(options) => {
                 let folder = options.output.unwrap_or_else(|| project.results("demo"));

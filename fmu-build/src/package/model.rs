@@ -100,8 +100,18 @@ pub fn read_all(path: &Path) -> Result<SceneFiles> {
 impl Model {
     /// Reads a scene file, or a shipped scene by its name, and the profile beside it. An error names the file.
     pub fn read(path: &Path) -> Result<Self> {
-        let about = || path.display().to_string();
-        let SceneFiles { text: scene_text, scene, profiles } = read_all(path)?;
+        Self::of_files(read_all(path)?, &path.display().to_string())
+    }
+
+    /// A scene of this text, which names no other files; `about` names it in messages.
+    pub fn of_text(text: String, about: &str) -> Result<Self> {
+        let scene = brinell_scene_file::from_toml(&text).with_context(|| about.to_owned())?;
+        Self::of_files(SceneFiles { text, scene, profiles: Vec::new() }, about)
+    }
+
+    fn of_files(files: SceneFiles, about: &str) -> Result<Self> {
+        let about = || about.to_owned();
+        let SceneFiles { text: scene_text, scene, profiles } = files;
         let texts = || profiles.iter().map(|profile| profile.text.as_str());
         let map = contact_map::of(&scene, texts(), &Project::find()).with_context(about)?;
         let simulation = Simulation::with_map(scene.clone(), texts(), map.as_deref()).with_context(about)?;
