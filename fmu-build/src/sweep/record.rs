@@ -10,8 +10,8 @@ use brinell::numerics::checksum::checksum;
 use clap::ValueEnum;
 use toml::{Table, Value};
 
-use super::bench::Written;
 use super::file::Sweep;
+use super::runner::Written;
 use super::scenes::Base;
 use crate::shared::shipped;
 use crate::shared::whole_file;

@@ -7,14 +7,14 @@ use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use anyhow::{Context, Result, bail};
-use brinell::geometry::kinematics::passage_frequency;
-use brinell::scene::{DefectOn, DefectShape, Motion, Scene};
+use brinell::geometry::kinematics::{Frequencies, passage_frequency};
+use brinell::scene::{Defect, DefectOn, DefectShape, Motion, Scene};
 use brinell::simulation::Simulation;
 use brinell_analysis::statistics::mean;
 use clap::ValueEnum;
 use toml::Value;
 
-use super::design::{Run, RunNoise};
+use super::design::Run;
 use super::file::{Kind as Fault, Sweep};
 use super::maps::Maps;
 use super::rows::{Cell, Column, Kind, Row};
@@ -23,8 +23,7 @@ use super::statistics::{HARMONICS, OneElement, Passage, Statistics, passages};
 use crate::interrupt::Interrupted;
 use crate::package::model::tell_depths;
 use crate::run::columns::Columns;
-use crate::run::course::{Course, Done};
-use crate::run::noise::Noise;
+use crate::run::run_loop::{Done, RunLoop};
 use crate::run::signals::{Growing, Signals};
 use crate::run::speed_profile::SpeedProfile;
 use crate::run::table::{self, Format};
@@ -55,7 +54,7 @@ impl Written {
 }
 
 /// All that runs share.
-pub(super) struct Bench<'a> {
+pub(super) struct SweepRunner<'a> {
     pub(super) sweep: &'a Sweep,
     pub(super) base: &'a Base,
     pub(super) columns: &'a [Column],
@@ -76,7 +75,7 @@ pub(super) struct Ready {
     pub(super) texts: Vec<Arc<str>>,
 }
 
-impl Bench<'_> {
+impl SweepRunner<'_> {
     /// Whether the signals of a run that did not fail are wanted and not there.
     pub(super) fn lacks_signals(&self, run: u64) -> bool {
         self.written.is_some_and(|written| !self.signals.join(written.file(&run_name(run))).exists())
@@ -141,7 +140,10 @@ impl Bench<'_> {
             put("speed_profile", Cell::Text(self.sweep.speed_profiles[profile].clone()))?;
         }
         if let Some(noise) = run.noise {
-            put("noise_db", Cell::Number(noise.ratio))?;
+            let drawn = [("noise_db", noise.ratio), ("noise_rms_m_s2", noise.floor)];
+            for (name, value) in drawn.into_iter().filter_map(|(name, value)| Some((name, value?))) {
+                put(name, Cell::Number(value))?;
+            }
         }
         Ok(())
     }
@@ -156,12 +158,12 @@ impl Bench<'_> {
         let own = self.running.join(&name);
         std::fs::create_dir_all(&own).map_err(|error| NotWritten::new(&own, error))?;
         let columns = self.wanted(&scene, &simulation)?;
-        let course = Course { grid: self.grid, profile };
-        let done = course.simulate(&scene, &mut simulation, columns, &own, &own)?;
+        let run_loop = RunLoop { grid: self.grid, profile };
+        let done = run_loop.simulate(&scene, &mut simulation, columns, &own, &own)?;
         let kept = self.kept(&scene, &done, &own.join(format!("{name}.kept")))?;
-        if let Some(RunNoise { ratio, seed }) = run.noise {
+        if let Some(noise) = run.noise {
             let sensors: Vec<usize> = (1..kept.names().len()).collect();
-            Noise::new(ratio, seed)?.add(&kept, &sensors, 0)?;
+            noise.add(&kept, &sensors, 0)?;
         }
         self.measure(row, &scene, &done, &kept)?;
         if let Some(written) = self.written {
@@ -231,7 +233,9 @@ impl Bench<'_> {
             put("label_angle_deg", Cell::Number(angle.unwrap_or(rounded(defect.angle.to_degrees()))))?;
         }
         if carries_shaft_load(scene) {
-            put("label_load_n", Cell::Number(rounded(scene.shaft.load[0].hypot(scene.shaft.load[1]))))?;
+            let load = rounded(scene.shaft.load[0].hypot(scene.shaft.load[1]));
+            put("label_load_n", Cell::Number(load))?;
+            put("load", Cell::Number(load))?;
         }
         let speed = match run.profile.map(|profile| &self.speeds[profile]) {
             None => rounded(scene.shaft_speed / TAU),
@@ -241,7 +245,33 @@ impl Bench<'_> {
                 sum / count
             }
         };
-        put("label_speed_hz", Cell::Number(speed))
+        put("label_speed_hz", Cell::Number(speed))?;
+        self.field_labels(row, scene, speed)
+    }
+
+    /// The same in the words of public collections of recordings.
+    fn field_labels(&self, row: &mut Row, scene: &Scene, speed: f64) -> Result<()> {
+        let mut put = |name: &str, cell: Cell| row.put(self.columns, name, cell);
+        let faults: Vec<&str> = scene.defects.iter().map(|defect| field_word(defect.on)).collect();
+        let healthy = faults.is_empty();
+        put("fault_type", Cell::Text(if healthy { "normal".to_owned() } else { faults.join("+") }))?;
+        put("fault_location", Cell::Text(if healthy { "none" } else { "test_bearing" }.to_owned()))?;
+        let lengths: Vec<f64> = scene.defects.iter().filter_map(length).collect();
+        // A profile's length is in its file.
+        if healthy || lengths.len() == scene.defects.len() {
+            put("fault_size_mm", Cell::Number(rounded(1e3 * lengths.into_iter().fold(0.0, f64::max))))?;
+        }
+        put("speed_rpm", Cell::Number(rounded(60.0 * speed)))?;
+        put("load_unit", Cell::Text("N".to_owned()))?;
+        put("fs", Cell::Number(self.sweep.rate))?;
+        // Without slip, as they are computed from a data sheet.
+        let mut nominal = scene.clone();
+        (nominal.cage.slip, nominal.cage.spin_slip) = (0.0, 0.0);
+        let Frequencies { bpfo, bpfi, bsf, ftf } = Frequencies::of(&nominal);
+        for (name, hertz) in [("bpfo", bpfo), ("bpfi", bpfi), ("bsf", bsf), ("ftf", ftf)] {
+            put(name, Cell::Number(rounded(hertz / (scene.shaft_speed / TAU).abs())))?;
+        }
+        Ok(())
     }
 
     /// Statistics of the first sensor, passage of the defect, and steps.
@@ -267,6 +297,7 @@ impl Bench<'_> {
         if !carries_shaft_load(scene) {
             let [x, y] = [column("shaft.force.x")?, column("shaft.force.y")?].map(|force| force[0]);
             number("label_load_n", x.hypot(y))?;
+            number("load", x.hypot(y))?;
         }
         for (k, line) in found.envelope.into_iter().flatten().enumerate() {
             number(&envelope_name(k + 1), line)?;
@@ -336,12 +367,17 @@ pub(super) fn columns(sweep: &Sweep, is_whole: &dyn Fn(&str) -> bool) -> Vec<Col
     for entry in &sweep.random {
         add(&entry.key, if is_whole(&entry.key) { Kind::Whole } else { Kind::Number });
     }
-    if sweep.noise.is_some() {
-        add("noise_db", Kind::Number);
+    for (name, limits) in [("noise_db", sweep.noise.ratio), ("noise_rms_m_s2", sweep.noise.floor)] {
+        if limits.is_some() {
+            add(name, Kind::Number);
+        }
     }
     add("label_kind", Kind::Text);
     for label in ["length_mm", "depth_um", "angle_deg", "load_n", "speed_hz"] {
         add(&format!("label_{label}"), Kind::Number);
+    }
+    for (name, kind) in FIELD_LABELS {
+        add(name, kind);
     }
     for name in ["bpfo_hz", "rms_m_s2", "peak_m_s2", "kurtosis"] {
         add(name, Kind::Number);
@@ -355,6 +391,37 @@ pub(super) fn columns(sweep: &Sweep, is_whole: &dyn Fn(&str) -> bool) -> Vec<Col
     }
     add("error", Kind::Text);
     columns
+}
+
+/// Labels by the names and words of the package bearing-datasets, so that its recordings and runs stand in one table.
+const FIELD_LABELS: [(&str, Kind); 11] = [
+    ("fault_type", Kind::Text),
+    ("fault_location", Kind::Text),
+    ("fault_size_mm", Kind::Number),
+    ("speed_rpm", Kind::Number),
+    ("load", Kind::Number),
+    ("load_unit", Kind::Text),
+    ("fs", Kind::Number),
+    ("bpfo", Kind::Number),
+    ("bpfi", Kind::Number),
+    ("bsf", Kind::Number),
+    ("ftf", Kind::Number),
+];
+
+fn field_word(on: DefectOn) -> &'static str {
+    match on {
+        DefectOn::Outer => "outer",
+        DefectOn::Inner => "inner",
+        DefectOn::Element { .. } => "rolling_element",
+    }
+}
+
+/// Length of a spall (m).
+fn length(defect: &Defect) -> Option<f64> {
+    match defect.shape {
+        DefectShape::Spall { length, .. } => Some(length),
+        DefectShape::Profile(_) => None,
+    }
 }
 
 fn envelope_name(k: usize) -> String {

@@ -15,7 +15,7 @@ use crate::shared::{Grid, NotWritten};
 
 /// When a run communicates, and how fast its shaft turns.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Course<'a> {
+pub(crate) struct RunLoop<'a> {
     /// Communication points.
     pub(crate) grid: Grid,
     /// The shaft's speed over time, where it changes.
@@ -32,7 +32,7 @@ pub(crate) struct Done {
     pub(crate) recording: Option<Signals>,
 }
 
-impl Course<'_> {
+impl RunLoop<'_> {
     /// Runs the simulation of a scene; its signals go into `growing`. A disk that is full is told of the table at
     /// `about`.
     pub(crate) fn simulate(
