@@ -110,6 +110,7 @@ impl Command {
                     speeds: options.speeds(),
                     channel: options.channel.clone(),
                     text: options.text(),
+                    report: options.report.clone(),
                     figure: !options.no_figure,
                 };
                 let bearing = options.bearing();
@@ -162,7 +163,7 @@ fn build(project: &Project, options: Build) -> Result<()> {
     Ok(())
 }
 
-/// What the commands that sweep the cage angle are told.
+/// Options of the commands that sweep the cage angle.
 fn swept(load: Option<f64>, points: Option<u32>, no_figure: bool) -> stiffness::Options {
     stiffness::Options { load, points: points.map(|count| count as usize), figure: !no_figure }
 }

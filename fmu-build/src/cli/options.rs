@@ -1,4 +1,4 @@
-//! What each command can be told.
+//! Options of each command.
 
 use std::env;
 use std::path::PathBuf;
@@ -152,7 +152,7 @@ pub struct Sweep {
     pub(super) jobs: Option<u32>,
     /// Write the signals of each run as well [default format: npy]
     #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, default_missing_value = "npy")]
-    pub(super) signals: Option<sweep::Written>,
+    pub(super) signals: Option<sweep::SignalFormat>,
     /// Make part K of N only, on any machine; the same command without it joins all parts in the folder
     #[arg(long, value_name = "K/N")]
     pub(super) part: Option<sweep::Part>,
@@ -302,6 +302,9 @@ pub struct Size {
     /// Decimal sign of a text, a point or a comma [default: .]
     #[arg(long, value_name = "SIGN")]
     pub(super) decimal: Option<char>,
+    /// Write an HTML page with what the answer rests on: spectra, combs, averaged passage
+    #[arg(long, value_name = "FILE.html")]
+    pub(super) report: Option<PathBuf>,
     /// Folder for averaged passages and figures [default: the current one]
     #[arg(short, long, value_name = "DIR")]
     pub(super) output: Option<PathBuf>,

@@ -12,7 +12,7 @@ use brinell_analysis::recording::{Recording, Source, Speed, TextFormat};
 use brinell_analysis::sizing::{Figure, RecordingReport, Report, Standing, size_with};
 use brinell_analysis::spectra::Fault;
 
-use super::new_scene;
+use super::{new_scene, size_report};
 use crate::package::read_scene;
 use crate::shared::{Project, Python, contact_map, csv, digits, whole_file};
 
@@ -47,6 +47,8 @@ pub struct Options {
     pub text: TextFormat,
     /// Whether to draw.
     pub figure: bool,
+    /// File of a page that shows what the answer rests on.
+    pub report: Option<PathBuf>,
 }
 
 /// The command: prints the report, and writes `<folder>/<recording>-size.csv`, `.json` and, if wanted, figures.
@@ -75,6 +77,10 @@ pub fn command(
     println!("{}", serde_json::to_string_pretty(&report)?);
     std::io::stdout().flush()?;
     let stems = write(&report, folder)?;
+    if let Some(path) = &options.report {
+        whole_file::write(path, size_report::page(&report, &recordings, &scene, &answer(&report))?)?;
+        eprintln!("{}", path.display());
+    }
     if options.figure {
         Python::draw(project, "size.py", &stems);
     }
@@ -126,7 +132,7 @@ fn part(fault: Fault) -> &'static str {
     }
 }
 
-/// Averaged passages as CSV and what was found in them as JSON, each named when it is there; gives the files' stems.
+/// Averaged passages as CSV and what they show as JSON, each named when it is there; gives the files' stems.
 fn write(report: &Report, folder: &Path) -> Result<Vec<PathBuf>> {
     let mut stems: Vec<PathBuf> = Vec::new();
     for (figure, recording) in report.figures.iter().zip(&report.recordings) {

@@ -1,4 +1,4 @@
-//! A run without a host: the simulation is stepped directly, its inputs at their start values but for the shaft's
+//! A run without a host: the simulation is stepped directly, its inputs at their start values except for the shaft's
 //! speed, where that has a profile.
 
 pub mod columns;

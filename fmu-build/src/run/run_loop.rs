@@ -33,7 +33,7 @@ pub(crate) struct Done {
 }
 
 impl RunLoop<'_> {
-    /// Runs the simulation of a scene; its signals go into `growing`. A disk that is full is told of the table at
+    /// Runs the simulation of a scene; its signals go into `growing`. A disk that is full is an error about the table at
     /// `about`.
     pub(crate) fn simulate(
         &self,
@@ -96,7 +96,7 @@ impl RunLoop<'_> {
             simulation.set_reals(&[shaft_speed], &[from])?;
             simulation.set_input_derivatives(&[shaft_speed], &[1], &[(to - from) / step])?;
         }
-        // What goes wrong in a step is told with its time.
+        // An error of a step has its time.
         Ok(simulation.step(step)?)
     }
 }

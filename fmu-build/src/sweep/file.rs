@@ -73,7 +73,7 @@ pub(super) struct NoiseLimits {
 pub(super) struct Sweep {
     /// Scene file, relative to this one, or the name of a shipped scene.
     pub(super) scene: String,
-    /// How many runs; each point of the grid once where nothing is said.
+    /// How many runs; each point of the grid once where nothing is given.
     pub(super) runs: u64,
     pub(super) seed: u64,
     /// End of each run, and what is left out of signals and statistics at its beginning (s).

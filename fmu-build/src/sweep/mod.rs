@@ -34,8 +34,8 @@ use file::Sweep;
 use maps::Maps;
 use record::Record;
 use rows::{Journal, Row};
+pub(crate) use runner::SignalFormat;
 use runner::SweepRunner;
-pub(crate) use runner::Written;
 use scenes::Base;
 
 /// The table of a sweep.
@@ -47,7 +47,7 @@ pub(crate) struct Options {
     /// Runs at once.
     pub(crate) jobs: usize,
     /// What each run's signals are written as; `None` for not at all.
-    pub(crate) signals: Option<Written>,
+    pub(crate) signals: Option<SignalFormat>,
     /// The part of the runs that is made here; `None` for all.
     pub(crate) part: Option<Part>,
 }
@@ -142,7 +142,7 @@ struct Table<'a> {
 }
 
 impl Table<'_> {
-    /// Writes it beside the runs under way, whence it is moved when it is whole.
+    /// Writes it beside the runs under way, and moves it from there when it is whole.
     fn write(&self, rows: &mut [Row]) -> Result<()> {
         rows.sort_by_key(Row::run);
         let whole = self.running.join(TABLE);

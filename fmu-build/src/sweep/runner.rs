@@ -32,7 +32,7 @@ use crate::shared::{Grid, NotWritten, shipped, whole_file};
 
 /// What each run's signals are written as.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Written {
+pub(crate) enum SignalFormat {
     /// NumPy's file, a field for the time and for each sensor
     Npy,
     /// Apache Parquet, packed
@@ -41,7 +41,7 @@ pub(crate) enum Written {
     Wav,
 }
 
-impl Written {
+impl SignalFormat {
     /// Name of the file of a run.
     fn file(self, name: &str) -> String {
         let ending = match self {
@@ -60,7 +60,7 @@ pub(super) struct SweepRunner<'a> {
     pub(super) columns: &'a [Column],
     pub(super) speeds: &'a [SpeedProfile],
     pub(super) grid: Grid,
-    pub(super) written: Option<Written>,
+    pub(super) written: Option<SignalFormat>,
     /// Where signals go, and where they grow.
     pub(super) signals: &'a Path,
     pub(super) running: &'a Path,
@@ -320,17 +320,19 @@ impl SweepRunner<'_> {
         Ok(())
     }
 
-    /// Writes the signals beside where they grew, whence they are moved when they are whole: a program that is ended
+    /// Writes the signals beside where they grew, and moves them from there when they are whole: a program that is ended
     /// leaves nothing in their folder.
-    fn write(&self, written: Written, kept: &Signals, name: &str) -> Result<()> {
+    fn write(&self, written: SignalFormat, kept: &Signals, name: &str) -> Result<()> {
         let unit = |k: usize| if k == 0 { "s" } else { "m/s2" };
         let column = |index: usize| table::Column { index, unit: unit(index) };
         let columns: Vec<_> = (0..kept.names().len()).map(column).collect();
         let whole = kept.path().with_file_name(written.file(name));
         match written {
-            Written::Npy => std::fs::rename(kept.path(), &whole).map_err(|error| NotWritten::new(&whole, error))?,
-            Written::Parquet => Format::Parquet.write(kept, &columns, &whole)?,
-            Written::Wav => {
+            SignalFormat::Npy => {
+                std::fs::rename(kept.path(), &whole).map_err(|error| NotWritten::new(&whole, error))?
+            }
+            SignalFormat::Parquet => Format::Parquet.write(kept, &columns, &whole)?,
+            SignalFormat::Wav => {
                 let sensors: Vec<usize> = (1..kept.names().len()).collect();
                 let wav = Wav { rate: Some(self.sweep.rate), scale: 1.0 };
                 wav.write(kept, &sensors, self.sweep.rate, &whole)?;

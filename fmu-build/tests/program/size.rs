@@ -94,6 +94,13 @@ fn a_bearing_of_the_catalogue_and_rpm_are_enough_and_the_answer_is_a_line() {
     let (done, said, _) = with(&["--bearing", "6205"]);
     assert!(!done && said.contains("columns left, right") && said.contains("--channel"), "{said}");
     let (done, said, answer) = with(&["--bearing", "6205", "--channel", "right"]);
+    let page = folder.path().join("page.html");
+    let (paged, _, _) = with(&["--bearing", "6205", "--channel", "right", "--report", page.to_str().unwrap()]);
+    let text = std::fs::read_to_string(&page).unwrap();
+    // The answer, the combs of three kinds, and four curves with the lines of the bearing.
+    assert!(paged && text.contains("<h1>no fault found, no length: ") && text.contains("two.csv"), "{text:.400}");
+    assert_eq!(text.matches("<polyline points=\"0.0,").count(), 4);
+    assert!(["rolling element (2 BSF)", ">1 × BPFO<", ">2 × BPFI<", ">shaft<"].iter().all(|part| text.contains(part)));
     assert!(done && said.contains("shaft 10.0000 Hz") && said.contains("a load of 350 N is assumed"), "{said}");
     assert!(said.contains("\nno fault found, no length: "), "{said}");
     let report: Value = serde_json::from_slice(&answer).unwrap();

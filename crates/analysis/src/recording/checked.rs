@@ -326,7 +326,7 @@ mod tests {
         let recording = Recording::with_tachometer("made", &signal, &pulses, 1, rate).unwrap();
         // Ends at the last pulse: the mean speed differs from 10 Hz by what of the wander is left over.
         assert!((recording.speed() - 10.0).abs() < 0.05, "{}", recording.speed());
-        // Every turn has 20 periods now: the signal is the same one turn later but for the speed's change within a
+        // Every turn has 20 periods now: the signal is the same one turn later except for the speed's change within a
         // turn.
         let turn = recording.rate() / recording.speed();
         let x = recording.samples();
@@ -369,7 +369,7 @@ mod tests {
     fn the_cubic_passes_through_samples_and_follows_a_parabola() {
         let samples: Vec<f64> = (0..10).map(|i| f64::from(i * i)).collect();
         assert_eq!(value_at(&samples, 4.0), 16.0);
-        // Exact for parabolas but for rounding.
+        // Exact for parabolas, except for rounding.
         assert!((value_at(&samples, 4.5) - 20.25).abs() < 1e-12);
         assert_eq!(value_at(&samples, -0.1), 0.0);
         assert_eq!(value_at(&samples, 9.1), 0.0);
