@@ -108,13 +108,11 @@ pub struct Run {
 
 impl Run {
     pub(super) fn model(&self) -> Result<Model> {
-        match (&self.scene, &self.bearing) {
-            (Some(scene), _) => Model::read(scene),
-            (None, bearing) => {
-                let bearing = bearing.as_deref().unwrap_or_default();
-                Model::of_text(new_scene::unwritten(bearing, self.defect.as_ref())?, bearing)
-            }
-        }
+        let Some(scene) = &self.scene else {
+            let bearing = self.bearing.as_deref().unwrap_or_default();
+            return Model::of_text(new_scene::unwritten(bearing, self.defect.as_ref())?, bearing);
+        };
+        Model::read(scene)
     }
 
     pub(super) fn options(&self, experiment: &Experiment) -> Result<run::Options> {

@@ -7,6 +7,7 @@ use brinell_scene_file::toml_fault;
 use toml::de::{DeTable, DeValue};
 use toml::{Table, Value};
 
+use super::design::NoiseLimits;
 use super::faults::Fault;
 use crate::run::noise::{Color, FLOORS, RATIOS};
 
@@ -56,16 +57,6 @@ pub(super) struct Entry<T> {
     pub(super) key: String,
     pub(super) of: T,
     pub(super) line: usize,
-}
-
-/// Noise that runs draw.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct NoiseLimits {
-    /// Limits of the signal-to-noise ratio (dB).
-    pub(super) ratio: Option<[f64; 2]>,
-    /// Limits of the floor's root mean square (m/s²).
-    pub(super) floor: Option<[f64; 2]>,
-    pub(super) color: Color,
 }
 
 /// What a file asks for.

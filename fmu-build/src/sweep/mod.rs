@@ -12,7 +12,6 @@ mod record;
 mod rows;
 mod runner;
 mod scenes;
-mod statistics;
 mod workers;
 
 use std::collections::{BTreeSet, HashMap};
@@ -73,7 +72,7 @@ pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder:
     fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
     let _lock = lock(folder)?;
     record.claim(folder)?;
-    let columns = runner::columns(sweep, &|key| planned.is_whole(key));
+    let columns = rows::labels::columns(sweep, &|key| planned.is_whole(key));
     let Folders { running, signals, _temporary } = Folders::make(folder, options)?;
     take_parts(folder, &record, &signals)?;
     let (mut journal, mut rows) = Journal::open(folder, &running, &columns)?;
