@@ -104,19 +104,7 @@ impl Command {
                 let folder = options.output.unwrap_or_else(|| project.results("contact"));
                 contact::command(project, &options.scene, &wanted, &folder)
             }
-            Command::Size(options) => {
-                let wanted = size::Options {
-                    rate: options.rate,
-                    speeds: options.speeds(),
-                    channel: options.channel.clone(),
-                    text: options.text(),
-                    report: options.report.clone(),
-                    figure: !options.no_figure,
-                };
-                let bearing = options.bearing();
-                let folder = options.output.unwrap_or_else(|| project.results("size"));
-                size::command(project, &bearing, &options.recordings, &wanted, &folder)
-            }
+            Command::Size(options) => size(project, options),
             Command::Demo(options) => {
                 let folder = options.output.unwrap_or_else(|| project.results("demo"));
                 demo::command(project, &options.library.into(), &folder)
@@ -161,6 +149,20 @@ fn build(project: &Project, options: Build) -> Result<()> {
         println!("{}", path.display());
     }
     Ok(())
+}
+
+fn size(project: &Project, options: Size) -> Result<()> {
+    let wanted = size::Options {
+        rate: options.rate,
+        speeds: options.speeds(),
+        channel: options.channel.clone(),
+        text: options.text(),
+        report: options.report.clone(),
+        figure: !options.no_figure,
+    };
+    let bearing = options.bearing();
+    let folder = options.output.unwrap_or_else(|| project.results("size"));
+    size::command(project, &bearing, &options.recordings, &wanted, &folder)
 }
 
 /// Options of the commands that sweep the cage angle.

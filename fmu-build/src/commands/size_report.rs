@@ -62,7 +62,12 @@ fn part(one: &RecordingReport, figure: &Figure, recording: &Recording, scene: &S
         "fault": one.fault,
         "combs": combs,
         "reason": one.reason.as_deref().unwrap_or(reason),
-        "charts": [signal_spectrum(recording), envelope_spectrum(recording, scene), passage(one, figure), level(one, figure)],
+        "charts": [
+            signal_spectrum(recording),
+            envelope_spectrum(recording, scene),
+            passage(one, figure),
+            level(one, figure),
+        ],
     })
 }
 
@@ -121,7 +126,8 @@ fn chart(title: &str, unit: &str, x: &[f64], y: &[f64], marks: &[(f64, String)])
     let marks: Vec<Value> =
         marks.map(|(at, name)| json!({ "x": format!("{:.1}", across(*at)), "name": name })).collect();
     let axis = format!("{left:.4} to {right:.4} {unit}");
-    json!({ "title": title, "axis": axis, "low": format!("{low:.3e}"), "high": format!("{high:.3e}"), "points": points, "marks": marks })
+    let [low, high] = [low, high].map(|value| format!("{value:.3e}"));
+    json!({ "title": title, "axis": axis, "low": low, "high": high, "points": points, "marks": marks })
 }
 
 #[cfg(test)]

@@ -57,7 +57,7 @@ pub fn remarks(text: &str, scene: &Scene) -> impl Iterator<Item = String> {
     of_units.chain(scene.remarks().into_iter().chain(film::remark(scene)).map(|remark| remark.to_string()))
 }
 
-/// Asks about the depths of a profile that were probably meant in another unit. What is wrong with it is reported where it
+/// Asks about the depths of a profile that were probably meant in another unit. Errors in it are reported where it
 /// is read.
 pub(crate) fn tell_depths(scene: &Scene, name: &str, text: &str) {
     let names = |defect: &&Defect| matches!(&defect.shape, DefectShape::Profile(named) if named == name);

@@ -57,6 +57,16 @@ pub struct Noise {
     pub(crate) seed: u64,
 }
 
+/// Limits between which the runs of a sweep draw their noise.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct NoiseLimits {
+    /// Limits of the signal-to-noise ratio (dB).
+    pub(crate) ratio: Option<[f64; 2]>,
+    /// Limits of the floor's root mean square (m/s²).
+    pub(crate) floor: Option<[f64; 2]>,
+    pub(crate) color: Color,
+}
+
 impl fmt::Display for Noise {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ratio = self.ratio.unwrap_or(f64::INFINITY);
@@ -186,7 +196,7 @@ mod tests {
             assert!((allan(m) / middle - 1.0).abs() < 0.25, "{m}: {} {middle}", allan(m));
         }
         let square = pink.iter().map(|x| x * x).sum::<f64>() / pink.len() as f64;
-        // The slowest of 16 octaves has 8 independent values only, all slower than 2^12 together a quarter of the power.
+        // The slowest of 16 octaves has 8 independent values only: two standard errors of all together.
         assert!((square - 1.0).abs() < 0.15, "{square}");
     }
 

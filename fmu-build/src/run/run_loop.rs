@@ -33,7 +33,7 @@ pub(crate) struct Done {
 }
 
 impl RunLoop<'_> {
-    /// Runs the simulation of a scene; its signals go into `growing`. A disk that is full is an error about the table at
+    /// Runs the simulation of a scene; its signals go into `growing`. A full disk is an error about the table at
     /// `about`.
     pub(crate) fn simulate(
         &self,

@@ -10,7 +10,7 @@ use brinell::numerics::counter_noise::{bits, uniform};
 use toml::Value;
 
 use super::file::{Kind, Sweep};
-use crate::run::noise::{Color, Noise};
+use crate::run::noise::Noise;
 
 /// Random numbers of a sweep that are no key's.
 const NOISE_RATIO: &str = "noise_db";
@@ -18,16 +18,6 @@ const NOISE_FLOOR: &str = "noise_rms_m_s2";
 const NOISE: &str = "noise";
 /// What names of parts' folders begin with.
 pub(super) const PART: &str = "part-";
-
-/// Noise that runs draw.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct NoiseLimits {
-    /// Limits of the signal-to-noise ratio (dB).
-    pub(super) ratio: Option<[f64; 2]>,
-    /// Limits of the floor's root mean square (m/s²).
-    pub(super) floor: Option<[f64; 2]>,
-    pub(super) color: Color,
-}
 
 /// What one run is.
 #[derive(Debug, Clone, PartialEq)]

@@ -7,9 +7,8 @@ use brinell_scene_file::toml_fault;
 use toml::de::{DeTable, DeValue};
 use toml::{Table, Value};
 
-use super::design::NoiseLimits;
 use super::faults::Fault;
-use crate::run::noise::{Color, FLOORS, RATIOS};
+use crate::run::noise::{Color, FLOORS, NoiseLimits, RATIOS};
 
 /// Keys of the file itself, and its three tables of keys of a scene.
 const KEYS: [&str; 12] = [

@@ -274,7 +274,7 @@ impl SweepRunner<'_> {
         Ok(())
     }
 
-    /// Writes the signals beside where they grew, and moves them from there when they are whole: a program that is ended
+    /// Writes the signals beside where they grew, and moves them when they are whole: a program that is ended
     /// leaves nothing in their folder.
     fn write(&self, written: SignalFormat, kept: &Signals, name: &str) -> Result<()> {
         let unit = |k: usize| if k == 0 { "s" } else { "m/s2" };

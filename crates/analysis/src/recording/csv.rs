@@ -1,5 +1,5 @@
-//! Recordings as text: numbers in columns, parted and with decimals as a [`TextFormat`] says. Nothing is guessed: a text
-//! that does not read so is refused with the line and the options that would say how it is written.
+//! Recordings as text: numbers in columns, parted and with decimals as a [`TextFormat`] says. Nothing is guessed: a
+//! text that does not read so is refused with the line and the options that would say how it is written.
 //!
 //! Lines before the first that consists of numbers are a preamble, and the last of them with as many cells is the
 //! heading. Lines that begin with # are comments.
@@ -32,7 +32,8 @@ impl TextFormat {
                 Ok((byte, decimal))
             }
             _ => Err(format!(
-                "delimiter '{delimiter}': it is a comma, a semicolon, a tab, a blank or another sign that no number has (decimal sign '{decimal}')"
+                "delimiter '{delimiter}': it is a comma, a semicolon, a tab, a blank or another sign that no number \
+                 has (decimal sign '{decimal}')"
             )),
         }
     }

@@ -158,7 +158,8 @@ fn time_column<'a>(names: &'a [String], columns: &[Vec<f64>]) -> Option<(usize, 
     }
     let called: Vec<(usize, &str)> =
         names.iter().enumerate().filter_map(|(i, name)| Some((i, unit_of_time(name)?))).collect();
-    // A clock that goes back is refused, and no signal; accelerations of a well-known collection are called X097_DE_time.
+    // A clock that goes back is refused, and no signal. Accelerations of a well-known collection are called
+    // X097_DE_time.
     let signal = |i: usize| names[i].to_lowercase().ends_with("_time");
     let clock = called.iter().find(|&&(i, _)| rises(i)).or(called.iter().find(|&&(i, _)| !signal(i)));
     let by_name = clock.copied();

@@ -216,7 +216,8 @@ mod tests {
         let (names, read) = columns(&npy_bytes(header, &data)).unwrap();
         assert_eq!(names, ["t", "element[1].path", "element[2].path"]);
         assert_eq!(read, [[0.0, 0.5], [1.0, 3.0], [2.0, 4.0]]);
-        let header = r#"{"shape": (1,), 'descr': [('it\'s (m, [1])', '|i1'), ('', '|V2'), ("b, c", '>u2')], 'fortran_order': False}"#;
+        let header = r#"{"shape": (1,), 'fortran_order': False,
+            'descr': [('it\'s (m, [1])', '|i1'), ('', '|V2'), ("b, c", '>u2')]}"#;
         let (names, read) = columns(&npy_bytes(header, &[0xff, 9, 9, 1, 2])).unwrap();
         assert_eq!((names, read), (vec!["it's (m, [1])".to_owned(), "b, c".to_owned()], vec![vec![-1.0], vec![258.0]]));
     }
