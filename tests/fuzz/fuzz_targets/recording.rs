@@ -1,10 +1,10 @@
-//! Bytes as a recording of a machine: text, NumPy or WAV as they come, and numbers under a sound NumPy header, so
-//! that times and signals are tried too. Refused with a reason, or sized: what is resolved is a length.
+//! Bytes as a recording of a machine: text, NumPy, MATLAB or WAV as they come, and numbers under a sound NumPy header,
+//! so that times and signals are tried too. Refused with a reason, or sized: what is resolved is a length.
 #![no_main]
 
 use std::path::Path;
 
-use brinell_analysis::recording::{Recording, Source, Speed};
+use brinell_analysis::recording::{Recording, Source, Speed, TextFormat};
 use brinell_analysis::sizing::{Verdict, size};
 use libfuzzer_sys::fuzz_target;
 
@@ -22,11 +22,12 @@ fuzz_target!(|data: &[u8]| {
             _ => Speed::Column("2".to_owned()),
         },
         signal: [None, Some("1".to_owned())][choice >> 5 & 1].clone(),
+        text: TextFormat { delimiter: [None, Some(';')][choice >> 6 & 1], decimal: [None, Some(',')][choice >> 7] },
     };
     let (ending, content) = match choice & 3 {
         0 => ("csv", content.to_vec()),
-        1 => ("npy", content.to_vec()),
-        2 => ("wav", content.to_vec()),
+        1 => (["npy", "npz"][choice >> 7], content.to_vec()),
+        2 => (["wav", "mat"][choice >> 7], content.to_vec()),
         _ => ("npy", under_a_header(choice >> 6, content)),
     };
     let path = Path::new("recording").with_extension(ending);

@@ -8,25 +8,25 @@ use brinell_analysis::spectrum::{Band, Spectrum};
 use brinell_analysis::statistics::{mean, median, rms};
 
 /// Multiples of the passage frequency at which the envelope is evaluated.
-pub(super) const HARMONICS: usize = 5;
+pub(in crate::sweep) const HARMONICS: usize = 5;
 
 /// Figures of a signal.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Statistics {
+pub(in crate::sweep) struct Statistics {
     /// Root mean square without the mean, and largest deviation from it (m/s²).
-    pub(super) rms: f64,
-    pub(super) peak: f64,
+    pub(in crate::sweep) rms: f64,
+    pub(in crate::sweep) peak: f64,
     /// Fourth moment over the squared second one: 3 for normal noise.
-    pub(super) kurtosis: f64,
+    pub(in crate::sweep) kurtosis: f64,
     /// Amplitudes of the envelope at multiples of the passage frequency (m/s²); none of a signal shorter than a
     /// passage.
-    pub(super) envelope: Option<[f64; HARMONICS]>,
+    pub(in crate::sweep) envelope: Option<[f64; HARMONICS]>,
 }
 
 impl Statistics {
     /// Those of a signal at even times; `passages` is how many elements have passed a point of the outer raceway at
     /// each sample ([`passages`]), so that with a speed that changes the lines stay where they are.
-    pub(super) fn of(signal: &[f64], passages: &[f64]) -> Self {
+    pub(in crate::sweep) fn of(signal: &[f64], passages: &[f64]) -> Self {
         let middle = mean(signal);
         let signal: Vec<f64> = signal.iter().map(|value| value - middle).collect();
         let rms = rms(&signal);
@@ -56,7 +56,7 @@ impl Statistics {
 
 /// How many of `count` elements have passed a point of the outer raceway at these `times` (s), by the cage's speed
 /// against that ring (rad/s) at the instants `at` (s), between which it changes evenly.
-pub(super) fn passages(at: &[f64], speed: &[f64], count: usize, times: &[f64]) -> Vec<f64> {
+pub(in crate::sweep) fn passages(at: &[f64], speed: &[f64], count: usize, times: &[f64]) -> Vec<f64> {
     let mut passed = vec![0.0];
     for (at, speed) in at.windows(2).zip(speed.windows(2)) {
         let turned = 0.5 * (speed[0] + speed[1]) * (at[1] - at[0]);
@@ -71,25 +71,25 @@ pub(super) fn passages(at: &[f64], speed: &[f64], count: usize, times: &[f64]) -
 }
 
 /// What one element does at each sample.
-pub(super) struct OneElement<'a> {
+pub(in crate::sweep) struct OneElement<'a> {
     /// Its angle (rad), and its force on the outer raceway (N).
-    pub(super) angle: &'a [f64],
-    pub(super) force: &'a [f64],
+    pub(in crate::sweep) angle: &'a [f64],
+    pub(in crate::sweep) force: &'a [f64],
 }
 
 /// The first passage of a defect of the outer raceway.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Passage {
+pub(in crate::sweep) struct Passage {
     /// When an element loses half its force over the defect, and when it has regained it (s).
-    pub(super) unloaded: f64,
-    pub(super) loaded_again: f64,
+    pub(in crate::sweep) unloaded: f64,
+    pub(in crate::sweep) loaded_again: f64,
     /// How far it turns in between (rad): a lower bound of a line spall's length.
-    pub(super) turned: f64,
+    pub(in crate::sweep) turned: f64,
 }
 
 impl Passage {
     /// The first after `settle` (s) of a defect at an angle (rad), among so many elements.
-    pub(super) fn first(time: &[f64], elements: &[OneElement<'_>], defect: f64, settle: f64) -> Option<Self> {
+    pub(in crate::sweep) fn first(time: &[f64], elements: &[OneElement<'_>], defect: f64, settle: f64) -> Option<Self> {
         let reach = 0.75 * PI / elements.len() as f64 + 0.3;
         let end = *time.last()?;
         for OneElement { angle, force } in elements {

@@ -15,7 +15,7 @@ use crate::shared::{Grid, NotWritten};
 
 /// When a run communicates, and how fast its shaft turns.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Course<'a> {
+pub(crate) struct RunLoop<'a> {
     /// Communication points.
     pub(crate) grid: Grid,
     /// The shaft's speed over time, where it changes.
@@ -32,8 +32,8 @@ pub(crate) struct Done {
     pub(crate) recording: Option<Signals>,
 }
 
-impl Course<'_> {
-    /// Runs the simulation of a scene; its signals go into `growing`. A disk that is full is told of the table at
+impl RunLoop<'_> {
+    /// Runs the simulation of a scene; its signals go into `growing`. A full disk is an error about the table at
     /// `about`.
     pub(crate) fn simulate(
         &self,
@@ -96,7 +96,7 @@ impl Course<'_> {
             simulation.set_reals(&[shaft_speed], &[from])?;
             simulation.set_input_derivatives(&[shaft_speed], &[1], &[(to - from) / step])?;
         }
-        // What goes wrong in a step is told with its time.
+        // An error of a step has its time.
         Ok(simulation.step(step)?)
     }
 }

@@ -8,23 +8,23 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use anyhow::{Context, Result, bail};
 use brinell::geometry::kinematics::passage_frequency;
-use brinell::scene::{DefectOn, DefectShape, Motion, Scene};
+use brinell::scene::{DefectOn, Scene};
 use brinell::simulation::Simulation;
 use brinell_analysis::statistics::mean;
 use clap::ValueEnum;
 use toml::Value;
 
-use super::design::{Run, RunNoise};
-use super::file::{Kind as Fault, Sweep};
+use super::design::Run;
+use super::file::Sweep;
 use super::maps::Maps;
+use super::rows::labels::{self, carries_shaft_load, envelope_name, rounded};
+use super::rows::statistics::{OneElement, Passage, Statistics, passages};
 use super::rows::{Cell, Column, Kind, Row};
 use super::scenes::{Base, run_name};
-use super::statistics::{HARMONICS, OneElement, Passage, Statistics, passages};
 use crate::interrupt::Interrupted;
 use crate::package::model::tell_depths;
 use crate::run::columns::Columns;
-use crate::run::course::{Course, Done};
-use crate::run::noise::Noise;
+use crate::run::run_loop::{Done, RunLoop};
 use crate::run::signals::{Growing, Signals};
 use crate::run::speed_profile::SpeedProfile;
 use crate::run::table::{self, Format};
@@ -33,7 +33,7 @@ use crate::shared::{Grid, NotWritten, shipped, whole_file};
 
 /// What each run's signals are written as.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Written {
+pub(crate) enum SignalFormat {
     /// NumPy's file, a field for the time and for each sensor
     Npy,
     /// Apache Parquet, packed
@@ -42,7 +42,7 @@ pub(crate) enum Written {
     Wav,
 }
 
-impl Written {
+impl SignalFormat {
     /// Name of the file of a run.
     fn file(self, name: &str) -> String {
         let ending = match self {
@@ -55,13 +55,13 @@ impl Written {
 }
 
 /// All that runs share.
-pub(super) struct Bench<'a> {
+pub(super) struct SweepRunner<'a> {
     pub(super) sweep: &'a Sweep,
     pub(super) base: &'a Base,
     pub(super) columns: &'a [Column],
     pub(super) speeds: &'a [SpeedProfile],
     pub(super) grid: Grid,
-    pub(super) written: Option<Written>,
+    pub(super) written: Option<SignalFormat>,
     /// Where signals go, and where they grow.
     pub(super) signals: &'a Path,
     pub(super) running: &'a Path,
@@ -76,7 +76,7 @@ pub(super) struct Ready {
     pub(super) texts: Vec<Arc<str>>,
 }
 
-impl Bench<'_> {
+impl SweepRunner<'_> {
     /// Whether the signals of a run that did not fail are wanted and not there.
     pub(super) fn lacks_signals(&self, run: u64) -> bool {
         self.written.is_some_and(|written| !self.signals.join(written.file(&run_name(run))).exists())
@@ -141,7 +141,10 @@ impl Bench<'_> {
             put("speed_profile", Cell::Text(self.sweep.speed_profiles[profile].clone()))?;
         }
         if let Some(noise) = run.noise {
-            put("noise_db", Cell::Number(noise.ratio))?;
+            let drawn = [("noise_db", noise.ratio), ("noise_rms_m_s2", noise.floor)];
+            for (name, value) in drawn.into_iter().filter_map(|(name, value)| Some((name, value?))) {
+                put(name, Cell::Number(value))?;
+            }
         }
         Ok(())
     }
@@ -156,12 +159,12 @@ impl Bench<'_> {
         let own = self.running.join(&name);
         std::fs::create_dir_all(&own).map_err(|error| NotWritten::new(&own, error))?;
         let columns = self.wanted(&scene, &simulation)?;
-        let course = Course { grid: self.grid, profile };
-        let done = course.simulate(&scene, &mut simulation, columns, &own, &own)?;
+        let run_loop = RunLoop { grid: self.grid, profile };
+        let done = run_loop.simulate(&scene, &mut simulation, columns, &own, &own)?;
         let kept = self.kept(&scene, &done, &own.join(format!("{name}.kept")))?;
-        if let Some(RunNoise { ratio, seed }) = run.noise {
+        if let Some(noise) = run.noise {
             let sensors: Vec<usize> = (1..kept.names().len()).collect();
-            Noise::new(ratio, seed)?.add(&kept, &sensors, 0)?;
+            noise.add(&kept, &sensors, 0)?;
         }
         self.measure(row, &scene, &done, &kept)?;
         if let Some(written) = self.written {
@@ -214,25 +217,6 @@ impl Bench<'_> {
 
     /// What the run is a run of.
     fn label(&self, row: &mut Row, scene: &Scene, table: &toml::Table, run: &Run) -> Result<()> {
-        let mut put = |name: &str, cell: Cell| row.put(self.columns, name, cell);
-        let (kind, shape) = match &scene.defects[..] {
-            [] => (Fault::Healthy.word(), None),
-            [defect] => (kind_of(defect.on).word(), Some(defect)),
-            _ => ("several", None),
-        };
-        put("label_kind", Cell::Text(kind.to_owned()))?;
-        if let Some(defect) = shape {
-            if let DefectShape::Spall { length, depth, .. } = defect.shape {
-                put("label_length_mm", Cell::Number(rounded(length * 1e3)))?;
-                put("label_depth_um", Cell::Number(rounded(depth * 1e6)))?;
-            }
-            // As the file has it, in degrees.
-            let angle = Base::value(table, "defect.angle_deg").and_then(super::file::number);
-            put("label_angle_deg", Cell::Number(angle.unwrap_or(rounded(defect.angle.to_degrees()))))?;
-        }
-        if carries_shaft_load(scene) {
-            put("label_load_n", Cell::Number(rounded(scene.shaft.load[0].hypot(scene.shaft.load[1]))))?;
-        }
         let speed = match run.profile.map(|profile| &self.speeds[profile]) {
             None => rounded(scene.shaft_speed / TAU),
             Some(profile) => {
@@ -241,7 +225,7 @@ impl Bench<'_> {
                 sum / count
             }
         };
-        put("label_speed_hz", Cell::Number(speed))
+        labels::put(&mut |name, cell| row.put(self.columns, name, cell), scene, table, speed, self.sweep.rate)
     }
 
     /// Statistics of the first sensor, passage of the defect, and steps.
@@ -267,6 +251,7 @@ impl Bench<'_> {
         if !carries_shaft_load(scene) {
             let [x, y] = [column("shaft.force.x")?, column("shaft.force.y")?].map(|force| force[0]);
             number("label_load_n", x.hypot(y))?;
+            number("load", x.hypot(y))?;
         }
         for (k, line) in found.envelope.into_iter().flatten().enumerate() {
             number(&envelope_name(k + 1), line)?;
@@ -289,17 +274,19 @@ impl Bench<'_> {
         Ok(())
     }
 
-    /// Writes the signals beside where they grew, whence they are moved when they are whole: a program that is ended
+    /// Writes the signals beside where they grew, and moves them when they are whole: a program that is ended
     /// leaves nothing in their folder.
-    fn write(&self, written: Written, kept: &Signals, name: &str) -> Result<()> {
+    fn write(&self, written: SignalFormat, kept: &Signals, name: &str) -> Result<()> {
         let unit = |k: usize| if k == 0 { "s" } else { "m/s2" };
         let column = |index: usize| table::Column { index, unit: unit(index) };
         let columns: Vec<_> = (0..kept.names().len()).map(column).collect();
         let whole = kept.path().with_file_name(written.file(name));
         match written {
-            Written::Npy => std::fs::rename(kept.path(), &whole).map_err(|error| NotWritten::new(&whole, error))?,
-            Written::Parquet => Format::Parquet.write(kept, &columns, &whole)?,
-            Written::Wav => {
+            SignalFormat::Npy => {
+                std::fs::rename(kept.path(), &whole).map_err(|error| NotWritten::new(&whole, error))?
+            }
+            SignalFormat::Parquet => Format::Parquet.write(kept, &columns, &whole)?,
+            SignalFormat::Wav => {
                 let sensors: Vec<usize> = (1..kept.names().len()).collect();
                 let wav = Wav { rate: Some(self.sweep.rate), scale: 1.0 };
                 wav.write(kept, &sensors, self.sweep.rate, &whole)?;
@@ -309,81 +296,10 @@ impl Bench<'_> {
     }
 }
 
-/// Columns of the table of a sweep.
-pub(super) fn columns(sweep: &Sweep, is_whole: &dyn Fn(&str) -> bool) -> Vec<Column> {
-    let mut columns = vec![Column { name: "run".to_owned(), kind: Kind::Whole }];
-    let mut add = |name: &str, kind: Kind| columns.push(Column { name: name.to_owned(), kind });
-    if !sweep.kinds.is_empty() {
-        add("kind", Kind::Text);
-    }
-    if !sweep.speed_profiles.is_empty() {
-        add("speed_profile", Kind::Text);
-    }
-    for entry in &sweep.grid {
-        let whole = entry.of.iter().all(Value::is_integer) && is_whole(&entry.key);
-        let numbers = entry.of.iter().all(|value| super::file::number(value).is_some());
-        add(
-            &entry.key,
-            if whole {
-                Kind::Whole
-            } else if numbers {
-                Kind::Number
-            } else {
-                Kind::Text
-            },
-        );
-    }
-    for entry in &sweep.random {
-        add(&entry.key, if is_whole(&entry.key) { Kind::Whole } else { Kind::Number });
-    }
-    if sweep.noise.is_some() {
-        add("noise_db", Kind::Number);
-    }
-    add("label_kind", Kind::Text);
-    for label in ["length_mm", "depth_um", "angle_deg", "load_n", "speed_hz"] {
-        add(&format!("label_{label}"), Kind::Number);
-    }
-    for name in ["bpfo_hz", "rms_m_s2", "peak_m_s2", "kurtosis"] {
-        add(name, Kind::Number);
-    }
-    (1..=HARMONICS).for_each(|k| add(&envelope_name(k), Kind::Number));
-    for name in ["unloaded_s", "loaded_again_s", "unloaded_deg"] {
-        add(name, Kind::Number);
-    }
-    for name in ["steps", "rejected_steps"] {
-        add(name, Kind::Whole);
-    }
-    add("error", Kind::Text);
-    columns
-}
-
-fn envelope_name(k: usize) -> String {
-    format!("envelope_{k}_bpfo_m_s2")
-}
-
-fn kind_of(on: DefectOn) -> Fault {
-    match on {
-        DefectOn::Outer => Fault::Outer,
-        DefectOn::Inner => Fault::Inner,
-        DefectOn::Element { .. } => Fault::Element,
-    }
-}
-
 /// Angle of the one defect on an outer ring that stands (rad): elements pass it where their angles say.
 fn passes_outer_defect(scene: &Scene) -> Option<f64> {
     match &scene.defects[..] {
         [defect] if defect.on == DefectOn::Outer && scene.housing_speed.is_none() => Some(defect.angle),
         _ => None,
     }
-}
-
-/// Whether the bearing carries the shaft's load and nothing else: of a shaft that only the bearing holds. Otherwise its
-/// load is its force on the shaft at the start, where rings and elements are in balance.
-fn carries_shaft_load(scene: &Scene) -> bool {
-    scene.shaft.motion == Motion::Internal && scene.shaft.stiffness == 0.0
-}
-
-/// Without the last digits, which a change of units leaves.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.12e}").parse().unwrap_or(value)
 }

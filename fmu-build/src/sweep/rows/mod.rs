@@ -3,6 +3,9 @@
 //! A line of the journal is a row with a checksum before it. A program that is ended while it writes leaves at most a
 //! line that its checksum does not fit; that run is made again.
 
+pub(super) mod labels;
+pub(super) mod statistics;
+
 use crate::run::table::{GROUP, PACKING};
 use parquet::basic::{Compression, GzipLevel, LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
