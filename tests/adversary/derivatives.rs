@@ -6,10 +6,10 @@
 
 use crate::case::{Case, Motion, Shape};
 use crate::draw::{Draw, for_seeds};
-use crate::host::Resources;
 use crate::random_case::random;
 use crate::three::{Host, reals};
 use crate::two;
+use crate::two::Resources;
 use brinell::simulation::Simulation;
 use brinell::simulation::interface::table::{Causality, Dependencies, Kind};
 use brinell_fmi::fmi2::fmi2GetDirectionalDerivative;

@@ -1,6 +1,6 @@
 //! Derivatives of inputs by time: each order is used or refused.
 
-use crate::host::{Host, bits};
+use crate::two::{Host, bits};
 use brinell::simulation::interface::table::{Causality, Variable};
 use brinell_fmi::fmi2::*;
 
