@@ -29,3 +29,32 @@ pub fn compare(file: &Path, answer: impl Fn(&str) -> String) {
         fs::write(file, written.join("\n\n") + "\n").expect("the file can be written");
     }
 }
+
+/// A text whose `-` lines are replaced by the `+` lines that follow them; `+` lines alone are put at its end.
+///
+/// # Panics
+/// Where a line has neither sign, and where the lines to replace do not stand once.
+pub fn changed(text: &str, changes: &str) -> String {
+    let mut text = text.to_owned();
+    let lines: Vec<&str> = changes.lines().collect();
+    let run = |lines: &[&str], sign: char| lines.iter().take_while(|line| line.starts_with(sign)).count();
+    let join = |lines: &[&str]| -> String {
+        lines.iter().map(|line| format!("{}\n", line[1..].strip_prefix(' ').unwrap_or_default())).collect()
+    };
+    let mut rest = &lines[..];
+    while !rest.is_empty() {
+        let old = run(rest, '-');
+        let new = run(&rest[old..], '+');
+        assert!(old + new > 0, "neither - nor + begins: {}", rest[0]);
+        let (from, to) = (join(&rest[..old]), join(&rest[old..old + new]));
+        let whole = |at: &usize| *at == 0 || text.as_bytes()[at - 1] == b'\n';
+        let places: Vec<usize> = text.match_indices(&from).map(|(at, _)| at).filter(whole).collect();
+        match places[..] {
+            _ if old == 0 => text += &to,
+            [at] => text.replace_range(at..at + from.len(), &to),
+            _ => panic!("stands {} times: {from}", places.len()),
+        }
+        rest = &rest[old + new..];
+    }
+    text
+}

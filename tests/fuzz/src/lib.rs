@@ -14,6 +14,6 @@ mod two;
 pub fn run(target: &str, data: &[u8]) {
     match target {
         "calls" => misuse::walk_of_bytes(data),
-        _ => targets::run(target, data),
+        _ => drop(targets::run(target, data)),
     }
 }

@@ -8,7 +8,7 @@ use brinell::contact::near_defect::{Lever, NearDefect, NearMap};
 
 const RACEWAY: f64 = 23.6e-3;
 
-pub(super) fn run(data: &[u8]) {
+pub(super) fn run(data: &[u8]) -> bool {
     if ContactMap::from_bytes(data, 0).is_ok() {
         check(data);
     }
@@ -16,11 +16,11 @@ pub(super) fn run(data: &[u8]) {
     bytes.extend_from_slice(&[0; 8]);
     bytes.extend_from_slice(data);
     bytes.extend_from_slice(&brinell::numerics::checksum::checksum(&bytes).to_le_bytes());
-    check(&bytes);
+    check(&bytes)
 }
 
-fn check(bytes: &[u8]) {
-    let Ok(map) = ContactMap::from_bytes(bytes, 0) else { return };
+fn check(bytes: &[u8]) -> bool {
+    let Ok(map) = ContactMap::from_bytes(bytes, 0) else { return false };
     let near = NearDefect::Map(NearMap::new(Arc::new(map), RACEWAY));
     let knots = near.knots().to_vec();
     for cell in 0..knots.len().saturating_sub(1) {
@@ -33,4 +33,5 @@ fn check(bytes: &[u8]) {
             }
         }
     }
+    true
 }

@@ -21,8 +21,8 @@ const SCENES: [&str; 4] = [
 /// Most integration steps in one communication step: a fuzzer finds the slowest inputs first.
 const MAX_STEPS: u64 = 2000;
 
-/// Makes of bytes what the target of this name makes of them.
-pub(crate) fn run(target: &str, data: &[u8]) {
+/// Makes of bytes what the target of this name makes of them. True if they are accepted.
+pub(crate) fn run(target: &str, data: &[u8]) -> bool {
     match target {
         "map" => map::run(data),
         "recording" => recording::run(data),

@@ -9,8 +9,8 @@ use brinell_analysis::sizing::{Verdict, size};
 /// 67 samples a passage at 10 Hz: 8 passages, the fewest that are sized, fit into a short input.
 const RATE: f64 = 2400.0;
 
-pub(super) fn run(data: &[u8]) {
-    let [choice, content @ ..] = data else { return };
+pub(super) fn run(data: &[u8]) -> bool {
+    let [choice, content @ ..] = data else { return false };
     let choice = usize::from(*choice);
     let source = Source {
         rate: [None, Some(RATE)][choice >> 2 & 1],
@@ -28,17 +28,18 @@ pub(super) fn run(data: &[u8]) {
         _ => ("npy", under_a_header(choice >> 6, content)),
     };
     let path = Path::new("recording").with_extension(ending);
-    let Ok(recording) = Recording::of_file(&path, &content, &source) else { return };
+    let Ok(recording) = Recording::of_file(&path, &content, &source) else { return false };
     assert!(recording.rate() > 0.0 && recording.speed() > 0.0 && !recording.samples().is_empty());
     assert!(recording.samples().iter().all(|x| x.is_finite()));
     // A scene of a hosted bearing: no rig to simulate.
     let scene = brinell_scene_file::from_toml(super::SCENES[2]).unwrap();
-    let Ok(report) = size(&[recording], &scene) else { return };
+    let Ok(report) = size(&[recording], &scene) else { return false };
     let found = [report.length_mm, report.uncertainty_mm];
     match report.verdict {
         Verdict::Resolved => assert!(found.iter().all(|x| x.is_some_and(|x| x.is_finite() && x > 0.0)), "{found:?}"),
         Verdict::Unresolved => assert!(found == [None; 2] && !report.reason.is_empty()),
     }
+    true
 }
 
 /// A `.npy` file of these numbers, with or without named fields.

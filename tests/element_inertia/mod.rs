@@ -2,17 +2,14 @@
 //! the model with inertia beside it.
 #![allow(clippy::unwrap_used)]
 
-#[path = "../support/counting.rs"]
-mod counting;
 mod derivatives;
 mod measured;
-#[path = "../support/mod.rs"]
-mod support;
 
+use crate::counting;
+use crate::support::{Named, shipped, shipped_as_it_is};
 use brinell::scene::{ContactLaw, ElementInertia, Ring, Scene};
 use brinell::simulation::Method;
 use brinell_analysis::modes::{Assembly, Mode};
-use support::{Named, shipped, shipped_as_it_is};
 
 fn without_inertia(mut scene: Scene) -> Scene {
     scene.bearing.element_inertia = ElementInertia::None;
