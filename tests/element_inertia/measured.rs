@@ -1,7 +1,7 @@
 //! What is measured of elements without inertia beside the full model: spectra by band, and events.
 
 use super::without_inertia;
-use crate::support::{Named, shipped};
+use crate::support::Named;
 use brinell::scene::Scene;
 use brinell_analysis::spectrum::{Band, Spectrum};
 

@@ -13,7 +13,7 @@ impl Chance {
 
     /// Takes these bytes before it goes on by itself.
     pub(crate) fn of_bytes(seed: u64, bytes: &[u8]) -> Self {
-        Self { seed, bytes: bytes.to_vec().into_iter() }
+        Self { seed, bytes: Vec::from(bytes).into_iter() }
     }
 
     pub(crate) fn has_bytes(&self) -> bool {
