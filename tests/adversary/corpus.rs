@@ -5,8 +5,8 @@ use crate::misuse::Chance;
 use crate::targets;
 use std::fs;
 
-/// Damaged copies of each input.
-const COPIES: usize = 40;
+/// Damaged copies of all inputs of a target together, about.
+const COPIES: usize = 800;
 
 /// Bytes that mean something in text or in numbers.
 const ODD: &[u8] = b"\0\x01\x7f\x80\xff09-.,eE\n\"[]=#nN";
@@ -31,18 +31,19 @@ fn try_all(target: &str) {
         .collect();
     files.sort();
     assert!(!files.is_empty());
-    let (mut chance, mut accepted) = (Chance::new(1), [0; 2]);
+    let (mut chance, mut accepted) = (Chance::new(1), 0);
+    let copies = COPIES / files.len();
     for file in files {
         let bytes = fs::read(&file).unwrap();
-        accepted[0] += usize::from(targets::run(target, &bytes));
-        for _ in 0..COPIES {
+        accepted += usize::from(targets::run(target, &bytes));
+        for _ in 0..copies {
             let mut bytes = bytes.clone();
             damage(&mut bytes, &mut chance);
-            accepted[1] += usize::from(targets::run(target, &bytes));
+            accepted += usize::from(targets::run(target, &bytes));
         }
     }
-    // Behind each gate something is tried.
-    assert!(accepted[0] > 0 && accepted[1] > 0, "{target}: {accepted:?} accepted");
+    // Seeds of an earlier format would all be refused, and nothing be tried behind that.
+    assert!(accepted > 0, "{target}: nothing is accepted");
 }
 
 #[test]

@@ -12,7 +12,7 @@ pub(super) fn run(data: &[u8]) -> bool {
     if ContactMap::from_bytes(data, 0).is_ok() {
         check(data);
     }
-    let mut bytes = b"BRNL-MAP\x01\0\0\0".to_vec();
+    let mut bytes = b"BRNL-MAP\x02\0\0\0".to_vec();
     bytes.extend_from_slice(&[0; 8]);
     bytes.extend_from_slice(data);
     bytes.extend_from_slice(&brinell::numerics::checksum::checksum(&bytes).to_le_bytes());
