@@ -7,16 +7,17 @@
 
 use crate::case::{Case, Motion, Shape};
 use crate::draw::{Draw, for_seeds};
-use crate::host::Resources;
 use crate::random_case::random;
 use crate::three::{Host, reals};
 use crate::two;
+use crate::two::Resources;
 use crate::units::position_error;
 use brinell::simulation::Simulation;
 use brinell::simulation::interface::table::{Causality, Dependencies, Kind, Unit};
 use brinell_fmi::fmi2::fmi2GetDirectionalDerivative;
 use brinell_fmi::fmi3::{Status, fmi3GetDirectionalDerivative, fmi3GetOutputDerivatives};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Steps of differences, as parts of what is changed.
 const PARTS: [f64; 9] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11];
@@ -356,30 +357,38 @@ fn derivatives_by_all_that_a_shipped_scene_lists_are_differences() {
 
 #[test]
 fn derivatives_by_all_that_a_random_scene_lists_are_differences() {
-    for_seeds(10, |_, draw| listed_by_a_random_scene(draw));
+    let all = AtomicUsize::new(0);
+    for_seeds(10, |_, draw| {
+        all.fetch_add(listed_by_a_random_scene(draw)?, Ordering::Relaxed);
+        Ok(())
+    });
+    // Of ten, half can be set up and started.
+    let all = all.into_inner();
+    assert!(all > 100, "{all} compared");
 }
 
 /// Balls of which a housing on a spring of 38 N/m is held: the difference of two starts was one of 1000 N/m.
 #[test]
 fn a_soft_spring_is_moved_by_its_own_share() {
-    listed_by_a_random_scene(&mut Draw::new(136)).unwrap();
+    assert!(listed_by_a_random_scene(&mut Draw::new(136)).unwrap() > 0);
 }
 
-fn listed_by_a_random_scene(draw: &mut Draw) -> Result<(), String> {
+/// How many derivatives were compared.
+fn listed_by_a_random_scene(draw: &mut Draw) -> Result<usize, String> {
     let (_, case) = random(draw);
     let profiles = case.profiles();
     let topography = case.defects.iter().any(|defect| matches!(defect.shape, Shape::Topography(_)));
     // Resources of tests hold one profile.
     if topography || profiles.len() > 1 {
-        return Ok(());
+        return Ok(0);
     }
     let text = case.toml();
-    let Ok(scene) = brinell_scene_file::from_toml(&text) else { return Ok(()) };
+    let Ok(scene) = brinell_scene_file::from_toml(&text) else { return Ok(0) };
     // What is refused, at once or at the start, is another test's.
     let started = Simulation::new(scene.clone(), profiles.iter().map(String::as_str))
         .and_then(|mut simulation| simulation.initialize(0.0).map(|()| simulation));
     if started.is_err() {
-        return Ok(());
+        return Ok(0);
     }
     let profile = scene.profile_names().into_iter().next().zip(profiles.first());
     let resources = Resources::new(&text, profile.map(|(name, text)| (name, text.as_str())), "resources");
@@ -388,5 +397,5 @@ fn listed_by_a_random_scene(draw: &mut Draw) -> Result<(), String> {
     let both = Both { shortest: 1e3 * position_error(&case), radius, ..Both::new(resources)? };
     let Count { compared, untold } = both.agree(&hosted(&case), case.steps[0].length)?;
     println!("{compared} compared, {untold} untold");
-    Ok(())
+    Ok(compared)
 }

@@ -1,6 +1,6 @@
 //! In which mode each function may be called.
 
-use crate::host::Host;
+use crate::two::Host;
 use brinell_fmi::fmi2::*;
 use std::ptr;
 
@@ -140,7 +140,7 @@ fn a_reset_instance_runs_like_a_new_one_to_the_bit() {
         for n in 0..20 {
             assert_eq!(host.step(f64::from(n) * 1e-4, 1e-4), Status::Ok);
         }
-        crate::host::bits(&host.get(&host.reals()).unwrap())
+        crate::two::bits(&host.get(&host.reals()).unwrap())
     };
     let host = Host::of("er16k-tb1");
     let first = run(&host);

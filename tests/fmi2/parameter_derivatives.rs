@@ -1,7 +1,7 @@
 //! Derivatives by parameters, which are knowns in initialization mode.
 
-use crate::derivatives::{SCENES, is_real, outputs, references};
-use crate::host::Host;
+use super::derivatives::{SCENES, is_real, outputs, references};
+use crate::two::Host;
 use brinell::simulation::interface::table::{Causality, Kind, Variable};
 use brinell_fmi::fmi2::*;
 

@@ -3,7 +3,7 @@
 use super::chance::Chance;
 use super::standard::{DISCARD, ERROR, OK, WARNING};
 use super::walker::{ALL_CATEGORIES, State, Strangers, Walker};
-use crate::host::{Call, logger};
+use crate::two::{Call, logger};
 use brinell_fmi::fmi2::*;
 use std::ffi::{CStr, CString, c_void};
 use std::ptr;
