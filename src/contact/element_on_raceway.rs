@@ -7,10 +7,9 @@
 
 use super::error::ContactError;
 use super::rolling::RacewaySide;
-use crate::contact::law::LINE_ORDER;
 use crate::geometry::curvature::relative_curvature;
 use crate::geometry::hertz_constant::squared_eccentricity;
-use crate::geometry::line_contact::{half_width_under, logarithmic_depth};
+use crate::geometry::line_contact::{LINE_ORDER, half_width_under, logarithmic_depth};
 use crate::numerics::elementary::elliptic;
 use crate::scene::{Bearing, RollerProfile};
 

@@ -16,7 +16,7 @@
 //! at (δ, s² Δ̇). Work lost per time is the damper's own, c_d (s Δ̇)². This holds to first order in the damping force;
 //! a massless node between damper and compliance would need a state of its own.
 //!
-//! The compliance is local: a contact does not move its neighbours. A real ring seconds between its elements as well, so
+//! The compliance is local: a contact does not move its neighbours. A real ring bends between its elements as well, so
 //! c is a measure of an assembly's softness and not a ring's flexibility. Near a defect Δ is the equivalent approach of
 //! the contact law, and the raceway yields along the contact's direction.
 

@@ -13,7 +13,7 @@
 //! itself above the mean depth and by 5e-5 above a tenth of it, in those steps alone, where the stiffness is wrong by 2
 //! and by 6 %; 40 laminae and 640 differ by 2e-4. The force is one of one variable, so its energy is its integral.
 
-use super::elasticity::LINE_ORDER;
+use crate::geometry::line_contact::LINE_ORDER;
 use crate::numerics::ninth_root;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 

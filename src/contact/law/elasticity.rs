@@ -9,11 +9,9 @@
 //! it.
 
 use super::crown::Crown;
+use crate::geometry::line_contact::LINE_ORDER;
 use crate::numerics::number::Number;
 use std::sync::Arc;
-
-/// Order of a line contact.
-pub const LINE_ORDER: f64 = 10.0 / 9.0;
 
 /// Growth of a contact's force, chosen where code is compiled.
 pub trait Elastic: Copy {

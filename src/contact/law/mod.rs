@@ -10,7 +10,7 @@ mod squeeze_film;
 
 pub use compliant::CompliantContact;
 pub use crown::{Carrying, Crown};
-pub use elasticity::{Elastic, Elasticity, LINE_ORDER, Line, Point};
+pub use elasticity::{Elastic, Elasticity, Line, Point};
 pub use force_law::{DampedLaw, ForceLaw};
 pub use smooth_laws::{elastic_law, smooth_laws};
 pub use squeeze_film::SqueezeFilm;

@@ -121,8 +121,8 @@ impl Record {
 
 impl Model {
     /// Smooth contacts of all elements: their part of the derivative, and, if `RECORD`, each of them. Gives their force
-    /// on the inner ring and on the outer. If `UNEVEN_OR_OILED`, each element has a speed of its own and contacts may have
-    /// films.
+    /// on the inner ring and on the outer. If `UNEVEN_OR_OILED`, each element has a speed of its own and contacts may
+    /// have films.
     #[inline(always)]
     pub(in crate::dynamics) fn smooth_contacts<S: Wide, const RECORD: bool, const UNEVEN_OR_OILED: bool>(
         &self,

@@ -28,8 +28,8 @@ pub(in crate::dynamics) struct ElementMotion<T: Scalar = f64> {
     /// Oil films, `None` of dry contacts, and the speed that they follow (rad/s).
     pub(in crate::dynamics) films: Option<FilmsNow>,
     pub(in crate::dynamics) film_speed: T,
-    /// Whether derivatives are to know of curvatures along surfaces. Searches of a balance go better without, as an edge
-    /// is softer the farther an element has rolled over it.
+    /// Whether derivatives are to know of curvatures along surfaces. Searches of a balance go better without, as an
+    /// edge is softer the farther an element has rolled over it.
     pub(in crate::dynamics) curved: bool,
 }
 

@@ -3,8 +3,8 @@
 //! From it are assembled the [Jacobian](crate::dynamics::derivatives::jacobian) of stiff steps, the elements' and
 //! rings' balance of the [start](crate::dynamics::equilibrium::search) and how that moves, and the tangent stiffness.
 //!
-//! The forces are those of the [kernel](super::kernel) over dual numbers: of the inner contact by q, q̇, frame and film,
-//! of the outer by u, u′, angle, speed and film. What an element sees leads to these by a linear chain,
+//! The forces are those of the [kernel](super::kernel) over dual numbers: of the inner contact by q, q̇, frame and
+//! film, of the outer by u, u′, angle, speed and film. What an element sees leads to these by a linear chain,
 //! ```text
 //! dq  = dx_o − dx_i + e_r du + ρ e_t dθ
 //! dq̇  = dv_o − dv_i + e_r du' + (u' e_t − ρ ω e_r) dθ + e_t (ω du + ρ dω)

@@ -20,13 +20,11 @@
 
 pub use super::error::EquilibriumError;
 use crate::contact::rolling::RacewaySide;
-use crate::dynamics::contacts::Linearized;
-use crate::dynamics::contacts::Meeting;
+use crate::dynamics::contacts::{Linearized, Meeting};
 use crate::dynamics::parameters::{
-    Cells, Excitation, Frame, FramedKinematics, Kinematics, Model, PathMotion, Quadratic, SMOOTH,
+    Cells, Excitation, FramedKinematics, Kinematics, Model, PathMotion, Quadratic, SMOOTH,
 };
-use crate::dynamics::quasi_static::RadialForce;
-use crate::dynamics::quasi_static::{PathSearch, Rings, stacked};
+use crate::dynamics::quasi_static::{PathSearch, RadialForce, Rings, stacked};
 use crate::numerics::plane::Vector;
 
 /// Share of the largest force in play that may remain as residual: a few roundings of a sum of Z forces.
@@ -49,8 +47,8 @@ const ITERATIONS: i32 = 500;
 const CELLS: u32 = 8;
 
 impl Model {
-    /// Writes the static equilibrium under `excitation` at τ = 0 into `state`; velocities are those of rings at rest, or of
-    /// prescribed rings that carry the elements along.
+    /// Writes the static equilibrium under `excitation` at τ = 0 into `state`; velocities are those of rings at rest,
+    /// or of prescribed rings that carry the elements along.
     pub fn equilibrium(
         &self,
         excitation: &Excitation,
@@ -110,37 +108,6 @@ impl Model {
             cells = there;
         }
         Ok(cells)
-    }
-
-    /// The path (m) of element `j` (from 0) where it rests against the outer raceway without force, with element 1 at
-    /// `cage_angle` (rad) and all else as at the start.
-    pub fn resting_path(&self, j: usize, cage_angle: f64) -> f64 {
-        let now = FramedKinematics::at_rest(cage_angle, Vector::zeros());
-        let cell = self.outer.defects.cell_at(self.element_angle(j, &now.cage));
-        self.touching_path(j, [cell, SMOOTH], self.element_angle(j, &now.cage), &now.frames)
-    }
-
-    /// How much farther (m) element `j` (from 0) comes inwards than on the smooth inner raceway before it touches a
-    /// defect of that, with element 1 at `cage_angle` and the inner ring at `shaft_angle` (rad), rings concentric.
-    pub fn resting_opening(&self, j: usize, cage_angle: f64, shaft_angle: f64) -> f64 {
-        let mut now = FramedKinematics::at_rest(cage_angle, Vector::zeros());
-        now.frames.0[Frame::Shaft as usize].angle = shaft_angle;
-        let direction = self.element_angle(j, &now.cage);
-        let cell = self.inner.defects.cell_at(direction - shaft_angle);
-        if cell == SMOOTH {
-            return 0.0;
-        }
-        let distance = self.outer_centre_radius - self.radial_clearance;
-        let mut at = Meeting { element: j, cells: [cell, SMOOTH], u: 0.0, direction, distance, curved: true };
-        for _ in 0..20 {
-            let near = self.near_or_unsolved(RacewaySide::Inner, &at, &now.frames).approach;
-            let step = near.value / near.by_path;
-            (at.u, at.distance) = (at.u - step, at.distance + step);
-            if step.abs() < 1e-15 {
-                break;
-            }
-        }
-        at.u
     }
 
     /// Element `j` in radial balance, looked for from path `guess` on.

@@ -40,8 +40,8 @@ pub struct Irregularity {
     /// That of the wander's (rad); 0 for none.
     wander: f64,
     count: usize,
-    /// Whole turns of the cage at the communication point. Kept here beside the excitation, which has them: with one number
-    /// more in the cage's state at an instant, bearings whose outer raceway yields took a fifth longer.
+    /// Whole turns of the cage at the communication point. Kept here beside the excitation, which has them: with one
+    /// number more in the cage's state at an instant, bearings whose outer raceway yields took a fifth longer.
     turns: Cell<i64>,
     /// The polynomials of the intervals evaluated last: nothing but a shortcut.
     pieces: RefCell<Pieces>,

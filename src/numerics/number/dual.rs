@@ -272,7 +272,7 @@ mod tests {
         }
 
         #[test]
-        fn a_surface_carries_its_slopes_and_one_difference_of_its_second_derivatives(x in -1.0..1.0f64, y in -1.0..1.0f64) {
+        fn a_surface_carries_slopes_and_differences_of_second_derivatives(x in -1.0..1.0f64, y in -1.0..1.0f64) {
             // f = x³ y²: third derivatives by differences are exact but for rounding.
             let second = |[x, y]: [f64; 2]| Ok::<_, ()>([6.0 * x * y * y, 6.0 * x * x * y, 2.0 * x * x * x]);
             let of = |x: Twice, y: Twice| {

@@ -111,8 +111,8 @@ impl Kernel for Probe<'_> {
 
     #[inline(always)]
     fn run<S: Wide>(self, simd: S) {
-        let Self { workspace, problem: Problem { model, excitation }, span: Span { from, length: h }, share, progress } =
-            self;
+        let Self { workspace, problem, span: Span { from, length: h }, share, progress } = self;
+        let Problem { model, excitation } = problem;
         let Workspace { buffers, forces, dense, scratch, pair, .. } = workspace;
         let cage = excitation.cage_at(from + share * h);
         match pair {

@@ -4,6 +4,7 @@ mod arrays;
 mod derivatives;
 mod excitation;
 mod life;
+mod parameter_derivatives;
 mod refresh;
 mod samples;
 mod state;

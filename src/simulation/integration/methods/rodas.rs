@@ -112,7 +112,8 @@ fn lists<'a, const N: usize>(first: &[&'a [f64]], stages: &'a [Row]) -> [&'a [f6
     std::array::from_fn(|i| if i < first.len() { first[i] } else { &*stages[i - first.len()] })
 }
 
-/// Tries a step of length `h` from `state`, whose derivative is [`StageBuffers::first`] and its derivative by time `by_time`.
+/// Tries a step of length `h` from `state`, whose derivative is [`StageBuffers::first`] and its derivative by time
+/// `by_time`.
 #[inline(always)]
 pub(crate) fn try_step<S: Wide>(
     simd: S,

@@ -1,5 +1,5 @@
-//! Bytes as a recording of a machine: text, NumPy, MATLAB or WAV as they come, and numbers under a sound NumPy header, so
-//! that times and signals are tried too. Refused with a reason, or sized: what is resolved is a length.
+//! Bytes as a recording of a machine: text, NumPy, MATLAB or WAV as they come, and numbers under a sound NumPy header,
+//! so that times and signals are tried too. Refused with a reason, or sized: what is resolved is a length.
 
 use std::path::Path;
 
